@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "assembly/assembly.hpp"
+
+namespace cupola {
+
+/// Writes assembly.vtu: one cell per convex part, blocks in the field data. FORMAT.md tells the arrays.
+void write_assembly(const std::string& path, const Assembly& assembly);
+
+/// Reads and checks it: closed index ranges, finite coordinates, known format version, content hash.
+/// Throws InputError with the path.
+Assembly read_assembly(const std::string& path);
+
+}  // namespace cupola

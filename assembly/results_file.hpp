@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assembly/results.hpp"
+
+namespace cupola {
+
+/// Writes the frames of a results folder as they come: contacts_NNNN.vtp, blocks_NNNN.vtp and the two .pvd
+/// collections, rewritten after each frame.
+class ResultsWriter {
+ public:
+  /// Creates the folder. `assembly_hash` goes into every file.
+  ResultsWriter(std::string folder, std::string assembly_hash);
+  void write_frame(const Frame& frame);
+  void write_summary(const Summary& summary);
+  void write_text(const std::string& name, const std::string& text);  ///< run.yaml, history.csv
+
+  const std::string& folder() const { return folder_; }
+
+ private:
+  std::string folder_;
+  std::string assembly_hash_;
+  std::vector<double> times_;
+};
+
+/// A results folder, read frame by frame. Throws InputError naming the file when something is missing,
+/// truncated, or belongs to another assembly.
+class ResultsReader {
+ public:
+  ResultsReader(std::string folder, const std::string& assembly_hash);
+  const Summary& summary() const { return summary_; }
+  const std::vector<double>& times() const { return times_; }  ///< s, one per frame
+  Frame read_frame(int index) const;
+
+ private:
+  std::string folder_;
+  std::string assembly_hash_;
+  Summary summary_;
+  std::vector<double> times_;
+};
+
+}  // namespace cupola

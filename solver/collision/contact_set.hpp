@@ -1,0 +1,55 @@
+#pragma once
+
+#include <compare>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "assembly/assembly.hpp"
+#include "assembly/results.hpp"
+
+namespace cupola {
+
+/// Position of a block's centroid and its rotation since the assembly was made.
+struct Pose {
+  Vec3 p_WB = Vec3::Zero();  ///< m
+  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
+};
+
+/// Names a contact point from step to step: which features of which parts, and which corner of their overlap.
+struct ContactId {
+  int part_a = -1, part_b = -1;
+  int face_a = -1, face_b = -1;  ///< face of the assembly; -1 for an edge or vertex feature
+  int corner = 0;                ///< index of the point within the patch
+  auto operator<=>(const ContactId&) const = default;
+};
+
+/// One contact point between two blocks, a < b. The two surface points move with their blocks, so that gap
+/// and lever arms are right until the contact is detected anew.
+struct Contact {
+  ContactId id;
+  int block_a = 0, block_b = 0;
+  int patch = 0;               ///< index into ContactSet::patches
+  Vec3 point_a = Vec3::Zero(); ///< m, world, on a's surface
+  Vec3 point_b = Vec3::Zero(); ///< m, world, on b's surface
+  Vec3 normal = Vec3::UnitZ(); ///< unit, from a to b
+  double gap = 0.0;            ///< m, (point_b - point_a) . normal, positive when apart
+  double area = 0.0;           ///< m2 that the point stands for
+};
+
+/// Overlap polygon of two faces.
+struct Patch {
+  int block_a = 0, block_b = 0;
+  JointKind kind = JointKind::other;
+  int ring = 0;                ///< course of the upper part
+  std::vector<Vec3> polygon;   ///< m, world, counter-clockwise about the normal from a to b
+  double area = 0.0;           ///< m2
+};
+
+/// All contacts of one configuration, sorted by block pair and identity.
+struct ContactSet {
+  std::vector<Contact> contacts;
+  std::vector<Patch> patches;
+};
+
+}  // namespace cupola

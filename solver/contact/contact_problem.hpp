@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace cupola {
+
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+using Mat63 = Eigen::Matrix<double, 6, 3>;
+using VecX = Eigen::VectorXd;
+
+/// The frictional contact problem of one time step, the same for every method (SPD M, E >= 0):
+///
+///     M (v - v_star) = D gamma,     gamma in Y  _|_  D^T v + b + E gamma in Y*          (paper eq. 9-13)
+///
+/// Y is the product of the cones |gamma_t| <= mu gamma_n. The paper writes N = D^T M^-1 D - E with
+/// E = -K^-1/h^2; here E is positive and added. This is the convex, associated law; under the Coulomb law
+/// the dual-cone variable carries mu |u_t| in its normal component (De Saxce), see friction_law.hpp.
+///
+/// Conventions: six unknowns per free block, linear velocity then angular velocity, world axes, about the
+/// centroid. Three rows per contact, normal first, then two tangents. The normal points from block a to
+/// block b, so that u_n = (D^T v)_n > 0 opens the contact, and a positive gamma_n pushes them apart.
+struct ContactProblem {
+  static constexpr int kFixed = -1;  ///< block index of a body without unknowns
+
+  std::vector<Mat6> M;       ///< kg, kg m2: mass matrix per block (nb)
+  VecX v_star;               ///< m/s, rad/s: velocity without contact impulses (6 nb)
+  std::vector<int> block_a;  ///< row block of D_a, or kFixed (nc)
+  std::vector<int> block_b;  ///< row block of D_b, or kFixed (nc)
+  std::vector<Mat63> D_a;    ///< contribution to block a; ignored when it is fixed (nc)
+  std::vector<Mat63> D_b;    ///< contribution to block b; ignored when it is fixed (nc)
+  VecX b;                    ///< m/s: gap and elastic slip over (h + alpha) (3 nc)
+  VecX E;                    ///< 1/kg: diag c / (h (h + alpha)); both tangents equal (3 nc)
+  VecX mu;                   ///< friction coefficient (nc)
+  double h = 0.0;            ///< s, step; only scales residuals (force = gamma / h)
+
+  int num_blocks() const { return static_cast<int>(M.size()); }
+  int num_contacts() const { return static_cast<int>(block_a.size()); }
+
+  /// Checks sizes, finiteness, M positive definite, E >= 0, mu >= 0, equal tangential E. Throws
+  /// std::invalid_argument naming the first offender.
+  void validate() const;
+};
+
+/// D^T v, relative velocities in the contact frames (3 nc).
+VecX relative_velocity(const ContactProblem& problem, const VecX& v);
+/// D gamma, generalised impulses on the blocks (6 nb).
+VecX generalized_impulse(const ContactProblem& problem, const VecX& gamma);
+
+/// What a method works on: a guess on entry, the answer on exit.
+struct ContactSolution {
+  VecX v;      ///< (6 nb)
+  VecX gamma;  ///< N s (3 nc)
+};
+
+}  // namespace cupola
