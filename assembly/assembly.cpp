@@ -23,8 +23,7 @@ struct Moments {
     const Vec3 sum = a + b + c;
     volume += v;
     first += v / 4.0 * sum;
-    second += v / 20.0 *
-              (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
+    second += v / 20.0 * (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
   }
 
   SolidProperties about_centroid(const Vec3& origin) const {
@@ -137,8 +136,8 @@ void compute_mass_properties(Assembly* assembly) {
     if (!first_part[b]) throw InputError(fmt::format("block {}: has no parts", b));
     const SolidProperties solid = moments[b].about_centroid(first_vertex(*assembly, *first_part[b]));
     if (!(solid.volume > 0.0))
-      throw InputError(fmt::format("block {}: volume {} m3, must be > 0 (inside out or degenerate)", b,
-                                   solid.volume));
+      throw InputError(
+          fmt::format("block {}: volume {} m3, must be > 0 (inside out or degenerate)", b, solid.volume));
     block.volume = solid.volume;
     block.centroid = solid.centroid;
     block.mass = block.density * solid.volume;

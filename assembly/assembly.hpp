@@ -24,18 +24,18 @@ std::string to_string(FaceKind kind);
 /// One rigid block. Mass properties come from its convex parts, never from a hull.
 struct Block {
   BlockKind kind = BlockKind::standard;
-  bool fixed = false;          ///< carries no unknowns
-  bool rib = false;            ///< spans a corner of an octagonal vault
-  bool truncated = false;      ///< herringbone vertical cut off by the base or the crown
-  int ring = 0;                ///< first ring it occupies; -1 for a support
-  int num_rings = 1;           ///< rings it spans
-  int slot = 0;                ///< position within the ring, counted along the azimuth
-  int sail = 0;                ///< sail of its centroid; 0 where the surface has none
-  double sail_position = 0.0;  ///< u in [-1, 1] across the sail, 0 at mid-sail
-  int spiral = -1;             ///< herringbone spiral it belongs to; -1 for none
-  double density = 0.0;        ///< kg/m3
-  double volume = 0.0;         ///< m3
-  double mass = 0.0;           ///< kg
+  bool fixed = false;            ///< carries no unknowns
+  bool rib = false;              ///< spans a corner of an octagonal vault
+  bool truncated = false;        ///< herringbone vertical cut off by the base or the crown
+  int ring = 0;                  ///< first ring it occupies; -1 for a support
+  int num_rings = 1;             ///< rings it spans
+  int slot = 0;                  ///< position within the ring, counted along the azimuth
+  int sail = 0;                  ///< sail of its centroid; 0 where the surface has none
+  double sail_position = 0.0;    ///< u in [-1, 1] across the sail, 0 at mid-sail
+  int spiral = -1;               ///< herringbone spiral it belongs to; -1 for none
+  double density = 0.0;          ///< kg/m3
+  double volume = 0.0;           ///< m3
+  double mass = 0.0;             ///< kg
   Vec3 centroid = Vec3::Zero();  ///< m, world axes
   Mat3 inertia = Mat3::Zero();   ///< kg m2, about the centroid, world axes
 };

@@ -34,10 +34,9 @@ void flush_to_disk(const std::string& path) {
 void write_atomically(const std::string& path, const std::function<bool(const std::string&)>& write) {
   // VTK picks its format by the ending, so the mark goes before it.
   const std::filesystem::path target(path);
-  const std::string side =
-      (target.parent_path() / fmt::format(".{}.{}.part{}", target.stem().string(), ::getpid(),
-                                          target.extension().string()))
-          .string();
+  const std::string side = (target.parent_path() / fmt::format(".{}.{}.part{}", target.stem().string(),
+                                                               ::getpid(), target.extension().string()))
+                               .string();
   try {
     errno = 0;
     if (!write(side)) fail(path, "cannot be written");

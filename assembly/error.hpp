@@ -12,7 +12,8 @@ struct FileLocation {
   int column = 0;
 };
 
-/// The user gave bad input: what is wrong, where, and which rule it breaks. Programs print it and exit with 2.
+/// The user gave bad input: what is wrong, where, and which rule it breaks. Programs print it and exit
+/// with 2.
 ///
 ///     cases/arch.yaml:14:7: error: joints.friction = -0.4: must be >= 0
 class InputError : public std::runtime_error {

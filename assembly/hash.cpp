@@ -17,7 +17,9 @@ Hash::Hash() : state_(XXH3_createState()) {
   XXH3_128bits_reset(state_);
 }
 
-Hash::~Hash() { XXH3_freeState(state_); }
+Hash::~Hash() {
+  XXH3_freeState(state_);
+}
 
 Hash& Hash::add_bytes(const void* data, std::size_t size) {
   if (size > 0) XXH3_128bits_update(state_, data, size);
@@ -29,7 +31,9 @@ std::string Hash::hex() const {
   return fmt::format("{:016x}{:016x}", digest.high64, digest.low64);
 }
 
-std::string hash_text(std::string_view text) { return Hash().add(text).hex(); }
+std::string hash_text(std::string_view text) {
+  return Hash().add(text).hex();
+}
 
 std::string hash_file(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);

@@ -24,8 +24,7 @@ class Hash {
     return add_bytes(values.data(), values.size_bytes());
   }
   template <class T>
-    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
-  Hash& add(T value) {
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) Hash& add(T value) {
     return add_bytes(&value, sizeof value);
   }
 

@@ -15,7 +15,9 @@
 
 namespace cupola {
 
-std::string program_version() { return CUPOLA_VERSION " (" CUPOLA_REVISION ")"; }
+std::string program_version() {
+  return CUPOLA_VERSION " (" CUPOLA_REVISION ")";
+}
 
 int run_program(std::string_view name, const std::function<ExitCode()>& body) {
   const auto report = [&name](const char* message) {

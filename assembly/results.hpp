@@ -16,7 +16,8 @@ namespace cupola {
 enum class JointKind : std::uint8_t { bed, head, base, other };
 std::string to_string(JointKind kind);
 
-/// All contact points of one block pair on one face patch. `block_a < block_b`; the normal points from a to b.
+/// All contact points of one block pair on one face patch. `block_a < block_b`; the normal points from a to
+/// b.
 struct Joint {
   int block_a = 0;
   int block_b = 0;
@@ -44,11 +45,11 @@ struct ContactTable {
 
 /// Blocks of one instant, one row per block, at its centroid (blocks_*.vtp).
 struct BlockTable {
-  std::vector<Vec3> position;                      ///< m
-  std::vector<Eigen::Vector4d> quaternion_wxyz;    ///< from the assembly's orientation
-  std::vector<Vec3> velocity;                      ///< m/s
-  std::vector<Vec3> angular_velocity;              ///< rad/s, world
-  std::vector<Vec3> displacement;                  ///< m, of the centroid
+  std::vector<Vec3> position;                    ///< m
+  std::vector<Eigen::Vector4d> quaternion_wxyz;  ///< from the assembly's orientation
+  std::vector<Vec3> velocity;                    ///< m/s
+  std::vector<Vec3> angular_velocity;            ///< rad/s, world
+  std::vector<Vec3> displacement;                ///< m, of the centroid
 
   int size() const { return static_cast<int>(position.size()); }
 };
@@ -69,7 +70,7 @@ std::string to_string(Status status);
 /// results/summary.json: what was solved, how it ended, how good it is. Definitions: assembly/FORMAT.md.
 struct Summary {
   Status status = Status::unconverged;
-  std::string message;   ///< the reason for the status, with the numbers
+  std::string message;  ///< the reason for the status, with the numbers
   std::string analysis, method, friction_law, tangential;
   std::string program_version, case_hash, geometry_hash, assembly_hash;
   int blocks = 0, free_blocks = 0, joints = 0, contacts = 0, unknowns = 0;

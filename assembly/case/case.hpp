@@ -59,14 +59,14 @@ struct Analysis {
   /// Static: largest equilibrium residual accepted, inertia share included; h follows from it. Dynamic: the
   /// relative momentum residual of each step.
   double tolerance = 1e-9;
-  double time_step = 0.01;  ///< h, s, dynamic only
-  double duration = 4.0;    ///< s, dynamic only
-  double damping = 0.0;     ///< alpha, s: contact damping proportional to stiffness, >= 0
+  double time_step = 0.01;      ///< h, s, dynamic only
+  double duration = 4.0;        ///< s, dynamic only
+  double damping = 0.0;         ///< alpha, s: contact damping proportional to stiffness, >= 0
   double recovery_speed = 0.6;  ///< eps_u, m/s: fastest recovery of unexplained penetration, > 0
   TangentialSpring tangential = TangentialSpring::memory;
   struct Thresholds {
-    double speed = 1e-3;         ///< m/s: faster is `moving`
-    double displacement = 0.5;   ///< m: further is `collapsed`
+    double speed = 1e-3;        ///< m/s: faster is `moving`
+    double displacement = 0.5;  ///< m: further is `collapsed`
   } thresholds;
 };
 
@@ -97,10 +97,10 @@ struct Case {
   Output output;
   Postproc postproc;
 
-  std::string file;           ///< path as given on the command line
-  std::string hash;           ///< of the whole effective case
-  std::string geometry_hash;  ///< of the sections the generator reads: geometry, material
-  std::string effective_yaml; ///< every key with the value in force
+  std::string file;            ///< path as given on the command line
+  std::string hash;            ///< of the whole effective case
+  std::string geometry_hash;   ///< of the sections the generator reads: geometry, material
+  std::string effective_yaml;  ///< every key with the value in force
 };
 
 }  // namespace cupola

@@ -8,9 +8,9 @@ namespace cupola {
 /// Dome of revolution with the pointed-fifth profile: two arcs of radius `radius_ratio * span`, centred
 /// beyond the axis so that the springing lies `span / 2` from it.
 struct DomeSurface {
-  double span = 45.0;          ///< m, > 0, clear diameter at the springing
-  double radius_ratio = 0.8;   ///< intrados radius over span, >= 0.5 (0.5: hemisphere, 0.8: pointed fifth)
-  double thickness = 2.2;      ///< m, > 0
+  double span = 45.0;             ///< m, > 0, clear diameter at the springing
+  double radius_ratio = 0.8;      ///< intrados radius over span, >= 0.5 (0.5: hemisphere, 0.8: pointed fifth)
+  double thickness = 2.2;         ///< m, > 0
   double crown_angle_deg = 60.0;  ///< angle t of the last bed, in (0, 90)
 
   double radius() const { return radius_ratio * span; }         ///< R, m
