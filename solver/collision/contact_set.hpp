@@ -29,21 +29,21 @@ struct ContactId {
 struct Contact {
   ContactId id;
   int block_a = 0, block_b = 0;
-  int patch = 0;               ///< index into ContactSet::patches
-  Vec3 point_a = Vec3::Zero(); ///< m, world, on a's surface
-  Vec3 point_b = Vec3::Zero(); ///< m, world, on b's surface
-  Vec3 normal = Vec3::UnitZ(); ///< unit, from a to b
-  double gap = 0.0;            ///< m, (point_b - point_a) . normal, positive when apart
-  double area = 0.0;           ///< m2 that the point stands for
+  int patch = 0;                ///< index into ContactSet::patches
+  Vec3 point_a = Vec3::Zero();  ///< m, world, on a's surface
+  Vec3 point_b = Vec3::Zero();  ///< m, world, on b's surface
+  Vec3 normal = Vec3::UnitZ();  ///< unit, from a to b
+  double gap = 0.0;             ///< m, (point_b - point_a) . normal, positive when apart
+  double area = 0.0;            ///< m2 that the point stands for
 };
 
 /// Overlap polygon of two faces.
 struct Patch {
   int block_a = 0, block_b = 0;
   JointKind kind = JointKind::other;
-  int ring = 0;                ///< course of the upper part
-  std::vector<Vec3> polygon;   ///< m, world, counter-clockwise about the normal from a to b
-  double area = 0.0;           ///< m2
+  int ring = 0;               ///< course of the upper part
+  std::vector<Vec3> polygon;  ///< m, world, counter-clockwise about the normal from a to b
+  double area = 0.0;          ///< m2
 };
 
 /// All contacts of one configuration, sorted by block pair and identity.

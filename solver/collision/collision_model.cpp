@@ -1,0 +1,85 @@
+#include "solver/collision/collision_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "assembly/error.hpp"
+
+namespace cupola {
+namespace {
+
+void add_face(const Assembly& assembly, int f, const Vec3& origin, int block, CollisionModel* model) {
+  CollisionFace face;
+  face.id = f;
+  face.kind = assembly.face_kinds[f];
+  face.corner_start = static_cast<int>(model->corners.size());
+  for (int v : assembly.face(f)) model->corners.push_back(assembly.vertices[v] - origin);
+  face.num_corners = static_cast<int>(model->corners.size()) - face.corner_start;
+  const auto corners = model->face_corners(face);
+  if (!(polygon_area(corners) > 0.0))
+    throw InputError(fmt::format("block {}: face {} has no area", block, f));
+  face.normal = polygon_plane(corners).normal;
+  face.centroid = polygon_centroid(corners);
+  for (const Vec3& corner : corners) face.radius = std::max(face.radius, (corner - face.centroid).norm());
+  model->faces.push_back(face);
+}
+
+std::vector<int> vertices_of_part(const Assembly& assembly, const Part& part) {
+  std::vector<int> ids;
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+    for (int v : assembly.face(f)) ids.push_back(v);
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+void add_part(const Assembly& assembly, const Part& part, CollisionModel* model) {
+  const Block& block = assembly.blocks[part.block];
+  CollisionPart shape;
+  shape.block = part.block;
+  shape.ring = part.ring;
+  shape.fixed = block.fixed;
+  shape.face_start = static_cast<int>(model->faces.size());
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+    if (assembly.face_kinds[f] != FaceKind::internal)
+      add_face(assembly, f, block.centroid, part.block, model);
+  shape.num_faces = static_cast<int>(model->faces.size()) - shape.face_start;
+  shape.vertex_start = static_cast<int>(model->vertices.size());
+  double& radius = model->block_radius[part.block];
+  for (int v : vertices_of_part(assembly, part)) {
+    const Vec3 r = assembly.vertices[v] - block.centroid;
+    model->vertices.push_back(r);
+    radius = std::max(radius, r.norm());
+  }
+  shape.num_vertices = static_cast<int>(model->vertices.size()) - shape.vertex_start;
+  model->parts.push_back(shape);
+}
+
+}  // namespace
+
+CollisionModel make_collision_model(const Assembly& assembly) {
+  CollisionModel model;
+  model.block_radius.resize(assembly.blocks.size(), 0.0);
+  for (const Part& part : assembly.parts) add_part(assembly, part, &model);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Block& block : assembly.blocks)
+    if (!block.fixed) smallest = std::min(smallest, block.volume);
+  model.smallest_block = std::isfinite(smallest) ? std::cbrt(smallest) : 1.0;
+  double largest_coordinate = 0.0;
+  for (const Vec3& x : assembly.vertices)
+    largest_coordinate = std::max(largest_coordinate, x.cwiseAbs().maxCoeff());
+  model.rounding = std::numeric_limits<double>::epsilon() * largest_coordinate;
+  return model;
+}
+
+std::vector<Pose> initial_poses(const Assembly& assembly) {
+  std::vector<Pose> poses;
+  for (const Block& block : assembly.blocks)
+    poses.push_back({block.centroid, Eigen::Quaterniond::Identity()});
+  return poses;
+}
+
+}  // namespace cupola

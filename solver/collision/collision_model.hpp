@@ -1,0 +1,61 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "solver/collision/contact_set.hpp"
+
+namespace cupola {
+
+/// Face of a convex part in the axes of its block, relative to the block's centroid.
+struct CollisionFace {
+  int id = 0;  ///< face of the assembly
+  FaceKind kind = FaceKind::free;
+  Vec3 normal = Vec3::UnitZ();   ///< unit, outward
+  Vec3 centroid = Vec3::Zero();  ///< m
+  double radius = 0.0;           ///< m, largest distance of a corner from the centroid
+  int corner_start = 0;          ///< into CollisionModel::corners
+  int num_corners = 0;
+};
+
+/// Convex part: faces that can make contact, and all vertices.
+struct CollisionPart {
+  int block = 0;
+  int ring = 0;
+  bool fixed = false;
+  int face_start = 0;  ///< into CollisionModel::faces
+  int num_faces = 0;
+  int vertex_start = 0;  ///< into CollisionModel::vertices
+  int num_vertices = 0;
+};
+
+/// The assembly as contact detection sees it: every block in its own axes, so that neither a motion nor a
+/// place far from the origin costs digits. Faces of kind `internal` are left out.
+struct CollisionModel {
+  std::vector<CollisionPart> parts;  ///< same order as the assembly's
+  std::vector<CollisionFace> faces;
+  std::vector<Vec3> corners;         ///< m, of the faces, counter-clockwise seen from outside
+  std::vector<Vec3> vertices;        ///< m, of the parts, each once
+  std::vector<double> block_radius;  ///< m, largest distance of a vertex from the centroid
+  double smallest_block = 0.0;       ///< m, cube root of the smallest volume of a free block
+  double rounding = 0.0;             ///< m, rounding of the assembly's coordinates
+
+  std::span<const Vec3> face_corners(const CollisionFace& face) const {
+    return {corners.data() + face.corner_start, static_cast<std::size_t>(face.num_corners)};
+  }
+  std::span<const CollisionFace> faces_of(const CollisionPart& part) const {
+    return {faces.data() + part.face_start, static_cast<std::size_t>(part.num_faces)};
+  }
+  std::span<const Vec3> vertices_of(const CollisionPart& part) const {
+    return {vertices.data() + part.vertex_start, static_cast<std::size_t>(part.num_vertices)};
+  }
+};
+
+/// Throws InputError naming block and face when a face has no area.
+CollisionModel make_collision_model(const Assembly& assembly);
+
+/// Poses of all blocks as the assembly was made.
+std::vector<Pose> initial_poses(const Assembly& assembly);
+
+}  // namespace cupola

@@ -1,0 +1,174 @@
+#include "solver/collision/patch_contacts.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+#include <tuple>
+
+namespace cupola {
+namespace {
+
+ContactAnchor anchor_of(const FacePatchPoint& point, const CornerNormal& corner,
+                        const Eigen::Isometry3d& pose_ab) {
+  const Eigen::Isometry3d pose_ba = pose_ab.inverse(Eigen::Isometry);
+  return {point.on_a, pose_ba * point.on_b, corner.normal, pose_ba.linear() * corner.normal, corner.weight_a};
+}
+
+bool same_patch(const ContactId& p, const ContactId& q) {
+  return std::tie(p.part_a, p.part_b, p.face_a, p.face_b) == std::tie(q.part_a, q.part_b, q.face_a, q.face_b);
+}
+
+/// Contacts [start, end) of one patch, in the order of the set.
+struct Range {
+  std::size_t start = 0, end = 0;
+};
+
+Range patch_range(const std::vector<Contact>& contacts, std::size_t start) {
+  std::size_t end = start;
+  while (end < contacts.size() && same_patch(contacts[end].id, contacts[start].id)) ++end;
+  return {start, end};
+}
+
+/// Smallest number >= 0 (corner) or largest <= -1 (inner point) that is not taken yet.
+int free_number(bool corner, const std::set<int>& taken) {
+  int number = corner ? 0 : -1;
+  while (taken.contains(number)) number += corner ? 1 : -1;
+  return number;
+}
+
+void match_patch(const AnchoredContacts& old_contacts, Range old_range, Range range,
+                 AnchoredContacts* fresh) {
+  struct Candidate {
+    double distance;
+    std::size_t old_index, index;
+  };
+  std::vector<Candidate> candidates;
+  for (std::size_t i = range.start; i < range.end; ++i)
+    for (std::size_t k = old_range.start; k < old_range.end; ++k)
+      if ((fresh->set.contacts[i].id.corner < 0) == (old_contacts.set.contacts[k].id.corner < 0))
+        candidates.push_back({(fresh->anchors[i].r_a - old_contacts.anchors[k].r_a).norm(), k, i});
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& p, const Candidate& q) { return p.distance < q.distance; });
+  std::set<int> taken;
+  std::vector<std::optional<int>> numbers(range.end - range.start);
+  for (const Candidate& c : candidates) {
+    const int number = old_contacts.set.contacts[c.old_index].id.corner;
+    if (numbers[c.index - range.start] || taken.contains(number)) continue;
+    numbers[c.index - range.start] = number;
+    taken.insert(number);
+  }
+  for (std::size_t i = range.start; i < range.end; ++i) {
+    int& corner = fresh->set.contacts[i].id.corner;
+    corner = numbers[i - range.start].value_or(free_number(corner >= 0, taken));
+    taken.insert(corner);
+  }
+}
+
+void sort_patch(Range range, AnchoredContacts* contacts) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = range.start; i < range.end; ++i) order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
+    return contacts->set.contacts[i].id.corner < contacts->set.contacts[k].id.corner;
+  });
+  std::vector<Contact> sorted;
+  std::vector<ContactAnchor> anchors;
+  for (std::size_t i : order) {
+    sorted.push_back(contacts->set.contacts[i]);
+    anchors.push_back(contacts->anchors[i]);
+  }
+  std::copy(sorted.begin(), sorted.end(), contacts->set.contacts.begin() + static_cast<long>(range.start));
+  std::copy(anchors.begin(), anchors.end(), contacts->anchors.begin() + static_cast<long>(range.start));
+}
+
+}  // namespace
+
+JointKind joint_kind(const CollisionModel& model, const CollisionPart& part_a, const CollisionPart& part_b,
+                     const FacePatch& patch) {
+  if (part_a.fixed || part_b.fixed) return JointKind::base;
+  const FaceKind kind_a = model.faces[patch.face_a].kind;
+  const FaceKind kind_b = model.faces[patch.face_b].kind;
+  const auto is_bed = [](FaceKind kind) { return kind == FaceKind::bed || kind == FaceKind::top; };
+  if (is_bed(kind_a) && is_bed(kind_b)) return JointKind::bed;
+  if (kind_a == FaceKind::head && kind_b == FaceKind::head) return JointKind::head;
+  return JointKind::other;
+}
+
+void append_patch(const CollisionModel& model, int part_a, int part_b, const FacePatch& patch,
+                  const Eigen::Isometry3d& pose_ab, const ClippingOptions& options, PatchPoints points,
+                  AnchoredContacts* contacts) {
+  const CollisionPart& a = model.parts[part_a];
+  const CollisionPart& b = model.parts[part_b];
+  std::vector<Vec2> outline;
+  std::vector<Vec3> polygon;
+  for (const ClipCorner& corner : patch.corners) {
+    outline.push_back(corner.position);
+    polygon.push_back(lift_to_faces(patch, corner.position).on_a);
+  }
+  const int patch_index = static_cast<int>(contacts->set.patches.size());
+  const JointKind kind = joint_kind(model, a, b, patch);
+  const int ring = kind == JointKind::base ? 0 : std::max(a.ring, b.ring);
+  contacts->set.patches.push_back({a.block, b.block, kind, ring, {}, polygon_area(outline)});
+  contacts->patch_polygons.push_back(std::move(polygon));
+
+  for (const PatchPoint& point : patch_points(outline, points)) {
+    const FacePatchPoint lifted = lift_to_faces(patch, point.position);
+    if (lifted.gap > options.margin) continue;
+    const CornerNormal normal =
+        point.corner < 0
+            ? CornerNormal{patch.normal, 0.5}
+            : corner_normal(model, patch, pose_ab, patch.corners[point.corner], options.max_angle);
+    Contact contact;
+    contact.id = {part_a, part_b, model.faces[patch.face_a].id, model.faces[patch.face_b].id, point.corner};
+    contact.block_a = a.block;
+    contact.block_b = b.block;
+    contact.patch = patch_index;
+    contact.area = point.area;
+    contacts->set.contacts.push_back(contact);
+    contacts->anchors.push_back(anchor_of(lifted, normal, pose_ab));
+  }
+}
+
+void move_contacts(std::span<const Pose> poses, AnchoredContacts* contacts) {
+  std::vector<Mat3> R_WB;
+  R_WB.reserve(poses.size());
+  for (const Pose& pose : poses) R_WB.push_back(pose.q_WB.toRotationMatrix());
+  for (std::size_t i = 0; i < contacts->anchors.size(); ++i) {
+    const ContactAnchor& anchor = contacts->anchors[i];
+    Contact& contact = contacts->set.contacts[i];
+    const int a = contact.block_a;
+    const int b = contact.block_b;
+    const Vec3 r_a = R_WB[a] * anchor.r_a;
+    const Vec3 r_b = R_WB[b] * anchor.r_b;
+    contact.point_a = poses[a].p_WB + r_a;
+    contact.point_b = poses[b].p_WB + r_b;
+    contact.normal = (anchor.weight_a * (R_WB[a] * anchor.normal_a) +
+                      (1.0 - anchor.weight_a) * (R_WB[b] * anchor.normal_b))
+                         .normalized();
+    // The centroids are subtracted first: far from the origin the points themselves have lost digits.
+    contact.gap = contact.normal.dot((poses[b].p_WB - poses[a].p_WB) + (r_b - r_a));
+  }
+  for (std::size_t p = 0; p < contacts->patch_polygons.size(); ++p) {
+    Patch& patch = contacts->set.patches[p];
+    patch.polygon.clear();
+    for (const Vec3& r_a : contacts->patch_polygons[p])
+      patch.polygon.push_back(poses[patch.block_a].p_WB + R_WB[patch.block_a] * r_a);
+  }
+}
+
+void keep_identities(const AnchoredContacts& old_contacts, AnchoredContacts* contacts) {
+  const std::vector<Contact>& old_set = old_contacts.set.contacts;
+  std::size_t old_start = 0;
+  for (std::size_t start = 0; start < contacts->set.contacts.size();) {
+    const Range range = patch_range(contacts->set.contacts, start);
+    ContactId lowest = contacts->set.contacts[start].id;
+    lowest.corner = std::numeric_limits<int>::min();
+    while (old_start < old_set.size() && old_set[old_start].id < lowest) ++old_start;
+    if (old_start < old_set.size() && same_patch(old_set[old_start].id, lowest))
+      match_patch(old_contacts, patch_range(old_set, old_start), range, contacts);
+    sort_patch(range, contacts);
+    start = range.end;
+  }
+}
+
+}  // namespace cupola

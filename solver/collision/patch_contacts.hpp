@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/collision/contact_set.hpp"
+#include "solver/collision/face_clipping.hpp"
+
+namespace cupola {
+
+/// Where a contact sits on its blocks, each vector in the axes of its block, relative to its centroid.
+struct ContactAnchor {
+  Vec3 r_a = Vec3::Zero(), r_b = Vec3::Zero();              ///< m
+  Vec3 normal_a = Vec3::UnitZ(), normal_b = Vec3::UnitZ();  ///< the normal, from a to b
+  double weight_a = 0.5;  ///< 1: the normal turns with a, 0: with b, 1/2: with both
+};
+
+/// Contacts with what is needed to move them along with their blocks.
+struct AnchoredContacts {
+  ContactSet set;
+  std::vector<ContactAnchor> anchors;             ///< one per contact
+  std::vector<std::vector<Vec3>> patch_polygons;  ///< m, one per patch, axes of block a
+};
+
+/// `base` when a block is fixed, else `bed` or `head` by the faces' kinds, else `other`.
+JointKind joint_kind(const CollisionModel& model, const CollisionPart& part_a, const CollisionPart& part_b,
+                     const FacePatch& patch);
+
+/// Appends a patch and its contact points. Positions in the world are left to move_contacts().
+void append_patch(const CollisionModel& model, int part_a, int part_b, const FacePatch& patch,
+                  const Eigen::Isometry3d& pose_ab, const ClippingOptions& options, PatchPoints points,
+                  AnchoredContacts* contacts);
+
+/// Places points, normals, gaps and patch polygons for the given poses of the blocks.
+void move_contacts(std::span<const Pose> poses, AnchoredContacts* contacts);
+
+/// Gives every new contact the corner number of the nearest old one of the same sort (corner or inner point)
+/// in the same patch, nearest pairs first; those left over get free numbers. Both sides are expected in the
+/// same poses. Contacts are sorted by identity again.
+void keep_identities(const AnchoredContacts& old_contacts, AnchoredContacts* contacts);
+
+}  // namespace cupola

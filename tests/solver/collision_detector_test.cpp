@@ -1,0 +1,246 @@
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "assembly/error.hpp"
+#include "solver/collision/contact_detector.hpp"
+#include "tests/solver/scenes.hpp"
+
+namespace cupola {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Quaterniond;
+
+ContactSet contacts_at_rest(const Assembly& assembly, PatchPoints points = PatchPoints::corners) {
+  DetectionOptions options;
+  options.points = points;
+  return ContactDetector(assembly, options).update(initial_poses(assembly));
+}
+
+double total_area(const ContactSet& set, JointKind kind) {
+  double area = 0.0;
+  for (const Patch& patch : set.patches)
+    if (patch.kind == kind) area += patch.area;
+  return area;
+}
+
+Eigen::Isometry3d some_motion(const Vec3& shift) {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  motion.translation() = shift;
+  return motion;
+}
+
+TEST(ContactDetector, BoxOnSlab) {
+  const Assembly scene = scenes::box_on_slab(Vec3(1, 2, 3));
+  const ContactSet set = contacts_at_rest(scene);
+  ASSERT_EQ(set.patches.size(), 1u);
+  EXPECT_EQ(set.patches[0].kind, JointKind::base);
+  EXPECT_NEAR(set.patches[0].area, 2.0, 1e-14);
+  ASSERT_EQ(set.contacts.size(), 4u);
+  for (const Contact& contact : set.contacts) {
+    EXPECT_EQ(contact.block_a, 0);
+    EXPECT_EQ(contact.block_b, 1);
+    EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-15);  // from the slab to the box
+    EXPECT_NEAR(contact.gap, 0.0, 1e-15);
+    EXPECT_NEAR(std::abs(contact.point_b.x()), 0.5, 1e-15);
+    EXPECT_NEAR(std::abs(contact.point_b.y()), 1.0, 1e-15);
+  }
+}
+
+TEST(ContactDetector, AreaPointsSumToTheArea) {
+  const ContactSet set = contacts_at_rest(scenes::box_on_slab(Vec3(1, 2, 3)), PatchPoints::quadrature);
+  ASSERT_EQ(set.contacts.size(), 5u);
+  double area = 0.0;
+  for (const Contact& contact : set.contacts) area += contact.area;
+  EXPECT_NEAR(area, 2.0, 1e-14);
+}
+
+TEST(ContactDetector, WallHasEveryJoint) {
+  const int nb = 4, courses = 5;
+  const Assembly scene = scenes::wall(Vec3(1.2, 1.0, 0.3), nb, courses);
+  const ContactSet set = contacts_at_rest(scene);
+  // Running bond: each bed is cut in 2 nb rectangles; odd courses have one head joint more.
+  const int beds = nb + (courses - 1) * 2 * nb;
+  const int heads = 3 * (nb - 1) + 2 * nb;
+  EXPECT_EQ(set.patches.size(), static_cast<std::size_t>(beds + heads));
+  EXPECT_EQ(set.contacts.size(), 4 * set.patches.size());
+  EXPECT_NEAR(total_area(set, JointKind::base), nb * 1.2, 1e-12);
+  EXPECT_NEAR(total_area(set, JointKind::bed), (courses - 1) * nb * 1.2, 1e-12);
+  EXPECT_NEAR(total_area(set, JointKind::head), heads * 0.3, 1e-12);
+  for (const Patch& patch : set.patches) {
+    EXPECT_LT(patch.block_a, patch.block_b);
+    if (patch.kind == JointKind::base) EXPECT_EQ(patch.ring, 0);
+    if (patch.kind == JointKind::bed) EXPECT_EQ(patch.ring, scene.blocks[patch.block_b].ring);
+  }
+  EXPECT_TRUE(std::is_sorted(set.contacts.begin(), set.contacts.end(),
+                             [](const Contact& p, const Contact& q) { return p.id < q.id; }));
+}
+
+TEST(ContactDetector, MovedScaledAndFarScenesHaveTheSameContacts) {
+  const Assembly reference = scenes::wall(Vec3(1.2, 1.0, 0.3), 3, 4, 2);
+  const ContactSet expected = contacts_at_rest(reference);
+  for (const double scale : {1e-3, 1.0, 1e3}) {
+    for (const double distance : {0.0, 1e6 * scale}) {
+      Assembly scene = scenes::wall(Vec3(1.2, 1.0, 0.3), 3, 4, 2);
+      const Eigen::Isometry3d motion = some_motion(distance * Vec3(1, -1, 0.5));
+      scenes::transform(&scene, motion, scale);
+      const ContactSet set = contacts_at_rest(scene);
+      ASSERT_EQ(set.contacts.size(), expected.contacts.size()) << "scale " << scale << ", at " << distance;
+      // Corners are stored with eps * distance; a few of these add up in a gap or a lever arm.
+      const double rounding = 2.2e-16 * (20 * scale + 8 * distance);
+      for (std::size_t i = 0; i < set.contacts.size(); ++i) {
+        const Contact& contact = set.contacts[i];
+        EXPECT_EQ(contact.block_a, expected.contacts[i].block_a);
+        EXPECT_NEAR(contact.gap, 0.0, rounding);
+        EXPECT_NEAR(contact.area, expected.contacts[i].area * scale * scale, 4 * scale * rounding);
+        EXPECT_LT((contact.normal - motion.linear() * expected.contacts[i].normal).norm(),
+                  20 * rounding / scale);
+      }
+    }
+  }
+}
+
+TEST(ContactDetector, FixedPairsAndInternalFacesMakeNoContact) {
+  Assembly scene;
+  scenes::add_box_block(&scene, Vec3(0, 0, 0), Vec3(1, 1, 1), true);
+  scenes::add_box_block(&scene, Vec3(1, 0, 0), Vec3(2, 1, 1), true);
+  compute_mass_properties(&scene);
+  EXPECT_TRUE(contacts_at_rest(scene).contacts.empty());
+
+  Assembly internal;
+  scenes::add_box_block(&internal, Vec3(0, 0, 0), Vec3(1, 1, 1), true);
+  scenes::add_block(&internal);
+  scenes::add_box(&internal, Vec3(1, 0, 0), Vec3(2, 1, 1), true, false);
+  compute_mass_properties(&internal);
+  EXPECT_TRUE(contacts_at_rest(internal).contacts.empty());
+}
+
+TEST(ContactDetector, GapWithinTheMarginOnly) {
+  DetectionOptions options;
+  options.margin = 1e-3;
+  const Assembly scene = scenes::box_on_slab(Vec3(1, 1, 1));
+  for (const double gap : {-5e-4, 0.0, 5e-4, 1e-3 - 1e-9, 1e-3 + 1e-9}) {
+    auto poses = initial_poses(scene);
+    poses[1].p_WB.z() += gap;
+    const ContactSet set = ContactDetector(scene, options).update(poses);
+    if (gap <= options.margin) {
+      ASSERT_EQ(set.contacts.size(), 4u) << gap;
+      for (const Contact& contact : set.contacts) EXPECT_NEAR(contact.gap, gap, 1e-15);
+    } else {
+      EXPECT_TRUE(set.contacts.empty()) << gap;
+    }
+  }
+}
+
+TEST(ContactDetector, SlidingOffAnEdge) {
+  // Lower box [0, 1], upper box slides along x; below the sliver width of 1e-3 there is no face contact.
+  const Assembly scene = scenes::stack(1, Vec3(1, 1, 1));
+  for (const double overlap : {0.5, 0.1, 1e-2, 1e-3 + 1e-9}) {
+    auto poses = initial_poses(scene);
+    poses[1].p_WB.x() += 1.0 - overlap;
+    const ContactSet set = contacts_at_rest(scene);
+    const ContactSet moved = ContactDetector(scene, {}).update(poses);
+    ASSERT_EQ(moved.contacts.size(), 4u) << overlap;
+    EXPECT_NEAR(moved.patches[0].area, overlap, 1e-12);
+    EXPECT_EQ(moved.patches[0].kind, JointKind::base);
+  }
+}
+
+// A box that rocks on its edge stands on two points, whose normal is the slab's and whose gap is exact.
+TEST(ContactDetector, RockingBoxStandsOnItsEdge) {
+  const Assembly scene = scenes::box_on_slab(Vec3(0.4, 1, 2));
+  ContactDetector detector(scene, {});
+  for (int step = 0; step <= 100; ++step) {
+    const double angle = 0.002 * step;  // to 0.2 rad, the slenderness of this block
+    auto poses = initial_poses(scene);
+    const Vec3 hinge(0.2, 0, 0);
+    poses[1].q_WB = AngleAxisd(angle, Vec3::UnitY());
+    poses[1].p_WB = hinge + poses[1].q_WB * (poses[1].p_WB - hinge);
+    const ContactSet& set = detector.update(poses);
+    int touching = 0;
+    for (const Contact& contact : set.contacts) {
+      EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-12) << angle;
+      const double height = contact.point_b.x() < 0 ? 0.4 * std::sin(angle) : 0.0;
+      EXPECT_NEAR(contact.gap, height, 1e-12) << angle;
+      touching += std::abs(contact.gap) < 1e-12;
+    }
+    EXPECT_EQ(touching, step == 0 ? 4 : 2) << angle;
+  }
+}
+
+TEST(ContactDetector, CarriesContactsAlongAndDetectsOnlyAfterMotion) {
+  const Assembly scene = scenes::box_on_slab(Vec3(1, 1, 1));
+  ContactDetector detector(scene, {});
+  auto poses = initial_poses(scene);
+  detector.update(poses);
+  detector.update(poses);
+  EXPECT_EQ(detector.num_detections(), 1);
+  const double small = 0.2 * detector.margin();
+  poses[1].p_WB += Vec3(0, 0, small);
+  for (const Contact& contact : detector.update(poses).contacts) EXPECT_NEAR(contact.gap, small, 1e-15);
+  EXPECT_EQ(detector.num_detections(), 1);
+  poses[1].p_WB += Vec3(small, 0, 0);
+  EXPECT_EQ(detector.update(poses).contacts.size(), 4u);
+  EXPECT_EQ(detector.num_detections(), 2);
+}
+
+TEST(ContactDetector, IdentitiesSurviveDetection) {
+  const Assembly scene = scenes::stack(1, Vec3(1, 1, 1));
+  ContactDetector detector(scene, {});
+  auto poses = initial_poses(scene);
+  ContactSet before = detector.update(poses);
+  for (int step = 1; step <= 40; ++step) {
+    poses[1].p_WB.x() += 0.01;
+    poses[1].q_WB = AngleAxisd(0.01 * step, Vec3::UnitZ()) * Quaterniond::Identity();
+    const ContactSet& after = detector.update(poses);
+    // Points of one identity move no further than their blocks did, overlap growing by a corner included.
+    for (const Contact& p : before.contacts)
+      for (const Contact& q : after.contacts)
+        if (p.id == q.id) EXPECT_LT((p.point_a - q.point_a).norm(), 0.05) << step;
+    std::set<ContactId> ids;
+    for (const Contact& q : after.contacts) ids.insert(q.id);
+    EXPECT_EQ(ids.size(), after.contacts.size());
+    for (const Contact& p : before.contacts)
+      if (before.contacts.size() == after.contacts.size()) EXPECT_TRUE(ids.contains(p.id)) << step;
+    before = after;
+  }
+  EXPECT_GT(detector.num_detections(), 30);
+}
+
+TEST(ContactDetector, FollowedContactsAgreeWithFreshOnes) {
+  const Assembly scene = scenes::wall(Vec3(1.2, 1.0, 0.3), 3, 4);
+  ContactDetector detector(scene, {});
+  auto poses = initial_poses(scene);
+  detector.update(poses);
+  for (int step = 1; step <= 5; ++step) {
+    for (std::size_t b = 1; b < poses.size(); ++b) {
+      const double t = 0.3 * step * detector.margin();
+      poses[b].p_WB.z() = scene.blocks[b].centroid.z() + t * scene.blocks[b].ring;
+    }
+    const ContactSet followed = detector.update(poses);
+    const ContactSet fresh = ContactDetector(scene, {}).update(poses);
+    ASSERT_EQ(followed.contacts.size(), fresh.contacts.size());
+    for (std::size_t i = 0; i < fresh.contacts.size(); ++i) {
+      EXPECT_EQ(followed.contacts[i].id, fresh.contacts[i].id);
+      EXPECT_NEAR(followed.contacts[i].gap, fresh.contacts[i].gap, 1e-14);
+    }
+  }
+}
+
+TEST(ContactDetector, RejectsBadOptions) {
+  const Assembly scene = scenes::box_on_slab(Vec3(1, 1, 1));
+  DetectionOptions options;
+  options.margin = -1.0;
+  EXPECT_THROW(ContactDetector(scene, options), InputError);
+  options.margin = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(ContactDetector(scene, options), InputError);
+  options.margin = 0.0;
+  options.moved_fraction = 0.5;
+  EXPECT_THROW(ContactDetector(scene, options), InputError);
+}
+
+}  // namespace
+}  // namespace cupola
