@@ -1,0 +1,159 @@
+#include "generators/stereotomy/model_checks.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "assembly/error.hpp"
+#include "generators/mesh_checks.hpp"
+#include "generators/stereotomy/separation.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kOpposedCosine = 1.0 - 1e-12;  // faces within 1.4e-6 rad of opposed can be one joint
+
+double model_size(const Assembly& assembly) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Vec3& v : assembly.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  return (high - low).maxCoeff();
+}
+
+void check_boundaries(const Assembly& assembly) {
+  const std::vector<BoundaryDefect> defects = find_boundary_defects(assembly);
+  if (defects.empty()) return;
+  const BoundaryDefect& d = defects.front();
+  using enum BoundaryDefect::Kind;
+  const std::string what = d.kind == open ? fmt::format("not closed, {} boundary edges", d.boundary_edges)
+                           : d.kind == inside_out ? "inside out"
+                                                  : "its surface crosses itself";
+  throw InputError(fmt::format("block {}: {}{}", d.block, what,
+                               defects.size() > 1 ? fmt::format(" ({} bad blocks)", defects.size()) : ""));
+}
+
+void measure_shape(const Assembly& assembly, const ConvexShape& shape, double bound, int block,
+                   ModelReport* report) {
+  for (size_t i = 0; i < shape.planes.size(); ++i) {
+    const Plane& plane = shape.planes[i];
+    double above = 0.0, off = 0.0;
+    for (const Vec3& v : shape.vertices) above = std::max(above, plane.normal.dot(v) - plane.offset);
+    const std::vector<Vec3> corners = face_points(assembly, shape.faces[i]);
+    for (size_t j = 0; j < corners.size(); ++j) {
+      off = std::max(off, std::abs(plane.normal.dot(corners[j]) - plane.offset));
+      report->shortest_edge =
+          std::min(report->shortest_edge, (corners[(j + 1) % corners.size()] - corners[j]).norm());
+    }
+    report->max_convexity_error = std::max(report->max_convexity_error, above);
+    report->max_planarity_error = std::max(report->max_planarity_error, off);
+    if (off > bound) throw InputError(fmt::format("block {}: a face is {:.3g} m off its plane", block, off));
+    if (above > bound)
+      throw InputError(fmt::format("block {}: a part is not convex by {:.3g} m", block, above));
+  }
+}
+
+bool share_a_face(const Assembly& assembly, const ConvexShape& a, const ConvexShape& b, double tolerance) {
+  for (size_t i = 0; i < a.planes.size(); ++i)
+    for (size_t j = 0; j < b.planes.size(); ++j) {
+      const Plane& p = a.planes[i];
+      const Plane& q = b.planes[j];
+      if (p.normal.dot(q.normal) > -kOpposedCosine || std::abs(p.offset + q.offset) > tolerance) continue;
+      if (polygons_overlap(face_points(assembly, a.faces[i]), face_points(assembly, b.faces[j]), p.normal,
+                           tolerance))
+        return true;
+    }
+  return false;
+}
+
+/// Joins the blocks that share a face into islands.
+struct Islands {
+  explicit Islands(size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
+  int root(int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  }
+  void join(int i, int j) { parent[root(i)] = root(j); }
+  std::vector<int> parent;
+};
+
+void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shapes, double tolerance,
+                 ModelReport* report) {
+  std::set<std::pair<int, int>> joints;
+  Islands islands(assembly.blocks.size());
+  report->max_overlap = -std::numeric_limits<double>::infinity();
+  for (const auto& [p, q] : touching_boxes(assembly, tolerance)) {
+    const int a = assembly.parts[p].block;
+    const int b = assembly.parts[q].block;
+    if (a == b) continue;
+    const double depth = overlap_depth(shapes[p], shapes[q], tolerance);
+    report->max_overlap = std::max(report->max_overlap, depth);
+    if (depth > tolerance) throw InputError(fmt::format("blocks {} and {} overlap by {:.3g} m", a, b, depth));
+    const std::pair pair(std::min(a, b), std::max(a, b));
+    if (joints.contains(pair) || !share_a_face(assembly, shapes[p], shapes[q], tolerance)) continue;
+    joints.insert(pair);
+    islands.join(a, b);
+  }
+  report->num_joints = static_cast<int>(joints.size());
+  std::vector<char> has_joint(assembly.blocks.size(), 0);
+  for (const auto& [a, b] : joints) has_joint[a] = has_joint[b] = 1;
+  for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b) {
+    if (islands.root(b) == b) ++report->islands;
+    if (!has_joint[b]) report->blocks_without_joint.push_back(b);
+  }
+}
+
+}  // namespace
+
+ModelReport check_model(const Assembly& assembly, const ModelTolerances& tolerances) {
+  const double size = model_size(assembly);
+  ModelReport report;
+  report.smallest_block = std::numeric_limits<double>::infinity();
+  report.shortest_edge = std::numeric_limits<double>::infinity();
+  for (const Block& block : assembly.blocks) {
+    if (block.kind == BlockKind::support) {
+      ++report.num_supports;
+      continue;
+    }
+    ++report.num_blocks;
+    report.volume += block.volume;
+    report.smallest_block = std::min(report.smallest_block, block.volume);
+    report.largest_block = std::max(report.largest_block, block.volume);
+  }
+  check_boundaries(assembly);
+  std::vector<ConvexShape> shapes;
+  for (const Part& part : assembly.parts) {
+    shapes.push_back(convex_shape(assembly, part));
+    measure_shape(assembly, shapes.back(), tolerances.plane * size, part.block, &report);
+    if (assembly.blocks[part.block].kind == BlockKind::support) continue;
+    ++report.num_parts;
+    report.parts_volume += part.volume;
+  }
+  check_pairs(assembly, shapes, tolerances.overlap * size, &report);
+  return report;
+}
+
+std::string to_text(const ModelReport& r) {
+  std::string text = fmt::format(
+      "{} blocks in {} convex parts, {} support block(s), {} joints, {} island(s)\n"
+      "volume {:.6f} m3, blocks {:.4g} to {:.4g} m3\n",
+      r.num_blocks, r.num_parts, r.num_supports, r.num_joints, r.islands, r.volume, r.smallest_block,
+      r.largest_block);
+  if (r.shell_volume)
+    text += fmt::format("smooth shell {:.6f} m3, facets leave out {:.3e} of it\n", *r.shell_volume,
+                        1.0 - r.volume / *r.shell_volume);
+  text += fmt::format(
+      "largest errors: convexity {:.1e} m, planarity {:.1e} m, overlap of blocks {:.1e} m; shortest edge "
+      "{:.4g} m\n",
+      r.max_convexity_error, r.max_planarity_error, r.max_overlap, r.shortest_edge);
+  if (!r.blocks_without_joint.empty())
+    text += fmt::format("{} blocks touch nothing, the first is {}\n", r.blocks_without_joint.size(),
+                        r.blocks_without_joint.front());
+  return text;
+}
+
+}  // namespace cupola

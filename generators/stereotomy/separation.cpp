@@ -1,0 +1,86 @@
+#include "generators/stereotomy/separation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+namespace cupola {
+namespace {
+
+constexpr double kParallel = 1e-9;  // sine below which two directions count as one axis
+
+double highest(std::span<const Vec3> points, const Vec3& axis) {
+  double value = -std::numeric_limits<double>::infinity();
+  for (const Vec3& p : points) value = std::max(value, axis.dot(p));
+  return value;
+}
+
+/// How far B reaches below a face plane of A.
+double depth_below(const Plane& plane, const ConvexShape& b) {
+  return plane.offset + highest(b.vertices, -plane.normal);
+}
+
+/// Overlap of the projections on an axis, whichever side B lies on.
+double depth_on_axis(const ConvexShape& a, const ConvexShape& b, const Vec3& axis) {
+  return std::min(highest(a.vertices, axis) + highest(b.vertices, -axis),
+                  highest(b.vertices, axis) + highest(a.vertices, -axis));
+}
+
+}  // namespace
+
+ConvexShape convex_shape(const Assembly& assembly, const Part& part) {
+  ConvexShape shape;
+  std::vector<int> vertex_ids;
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+    const std::vector<Vec3> corners = face_points(assembly, f);
+    shape.planes.push_back(polygon_plane(corners));
+    shape.faces.push_back(f);
+    const auto ids = assembly.face(f);
+    vertex_ids.insert(vertex_ids.end(), ids.begin(), ids.end());
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const Vec3 edge = (corners[(i + 1) % corners.size()] - corners[i]).normalized();
+      const bool known = std::ranges::any_of(shape.edge_directions,
+                                             [&](const Vec3& d) { return d.cross(edge).norm() < kParallel; });
+      if (!known) shape.edge_directions.push_back(edge);
+    }
+  }
+  std::ranges::sort(vertex_ids);
+  vertex_ids.erase(std::ranges::unique(vertex_ids).begin(), vertex_ids.end());
+  for (int v : vertex_ids) shape.vertices.push_back(assembly.vertices[v]);
+  return shape;
+}
+
+double overlap_depth(const ConvexShape& a, const ConvexShape& b, double good_enough) {
+  double depth = std::numeric_limits<double>::infinity();
+  for (const auto& [shape, other] : {std::pair(&a, &b), std::pair(&b, &a)})
+    for (const Plane& plane : shape->planes) {
+      depth = std::min(depth, depth_below(plane, *other));
+      if (depth <= good_enough) return depth;
+    }
+  for (const Vec3& edge_a : a.edge_directions)
+    for (const Vec3& edge_b : b.edge_directions) {
+      const Vec3 axis = edge_a.cross(edge_b);
+      const double length = axis.norm();
+      if (length < kParallel) continue;
+      depth = std::min(depth, depth_on_axis(a, b, axis / length));
+      if (depth <= good_enough) return depth;
+    }
+  return depth;
+}
+
+bool polygons_overlap(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& normal, double width) {
+  for (const auto& [polygon, other] : {std::pair(a, b), std::pair(b, a)})
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const Vec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+      Vec3 outward = edge.cross(normal).normalized();
+      if (outward.dot(polygon[(i + 2) % polygon.size()] - polygon[i]) > 0.0) outward = -outward;
+      double reach = -std::numeric_limits<double>::infinity();
+      for (const Vec3& p : other) reach = std::max(reach, -outward.dot(p - polygon[i]));
+      if (reach <= width) return false;
+    }
+  return true;
+}
+
+}  // namespace cupola

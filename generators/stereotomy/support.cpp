@@ -1,0 +1,102 @@
+#include "generators/stereotomy/support.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace cupola {
+namespace {
+
+int start_support_block(double density, Assembly* assembly) {
+  Block block;
+  block.kind = BlockKind::support;
+  block.fixed = true;
+  block.ring = -1;
+  block.density = density;
+  assembly->blocks.push_back(block);
+  return static_cast<int>(assembly->blocks.size()) - 1;
+}
+
+void start_part(int block, int slice, Assembly* assembly) {
+  Part part;
+  part.block = block;
+  part.ring = -1;
+  part.slice = slice;
+  part.face_start = assembly->num_faces();
+  assembly->parts.push_back(part);
+}
+
+/// Adds a hexahedron: `top` counter-clockwise seen from outside, `bottom` below it in the same order.
+/// `sides[i]` is the kind of the face on the edge top[i] - top[i + 1].
+void add_hexahedron(const std::array<int, 4>& top, const std::array<int, 4>& bottom,
+                    const std::array<FaceKind, 4>& sides, Assembly* assembly) {
+  assembly->add_face(top, FaceKind::bed);
+  assembly->add_face(std::array{bottom[3], bottom[2], bottom[1], bottom[0]}, FaceKind::free);
+  for (int i = 0; i < 4; ++i) {
+    const int j = (i + 1) % 4;
+    assembly->add_face(std::array{top[j], top[i], bottom[i], bottom[j]}, sides[i]);
+  }
+}
+
+int add_vertex(const Vec3& point, Assembly* assembly) {
+  assembly->vertices.push_back(point);
+  return static_cast<int>(assembly->vertices.size()) - 1;
+}
+
+void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double width, Assembly* assembly) {
+  const int num_slices = static_cast<int>(cuts.size()) - 1;
+  const int block = static_cast<int>(assembly->blocks.size()) - 1;
+  std::vector<std::array<int, 4>> corners;  // inner top, outer top, outer bottom, inner bottom
+  for (int s = 0; s < num_slices; ++s) {
+    const Vec3 radial(std::cos(cuts[s]), std::sin(cuts[s]), 0.0);
+    const double inner = surface.point(0, cuts[s], Skin::intrados).dot(radial);
+    const double outer = surface.point(0, cuts[s], Skin::extrados).dot(radial) + width;
+    const double inside = std::max(inner - width, inner / 2.0);
+    const Vec3 down(0.0, 0.0, -width);
+    corners.push_back({add_vertex(inside * radial, assembly), add_vertex(outer * radial, assembly),
+                       add_vertex(outer * radial + down, assembly),
+                       add_vertex(inside * radial + down, assembly)});
+  }
+  for (int s = 0; s < num_slices; ++s) {
+    const auto& a = corners[s];
+    const auto& b = corners[(s + 1) % num_slices];
+    start_part(block, s, assembly);
+    using enum FaceKind;
+    add_hexahedron({a[0], a[1], b[1], b[0]}, {a[3], a[2], b[2], b[3]}, {internal, free, internal, free},
+                   assembly);
+  }
+}
+
+void add_plate(const SurfaceMap& surface, const std::vector<double>& cuts, double width, Assembly* assembly) {
+  // The bed's corners, and its outward normal as seen from the shell above it.
+  const Vec3 a = surface.point(0, cuts.front(), Skin::intrados);
+  const Vec3 b = surface.point(0, cuts.back(), Skin::intrados);
+  const Vec3 c = surface.point(0, cuts.back(), Skin::extrados);
+  const Vec3 d = surface.point(0, cuts.front(), Skin::extrados);
+  const Vec3 along = (b - a).normalized();
+  const Vec3 across = (d - a).normalized();
+  const Vec3 down = -width * across.cross(along).normalized();
+  const std::array<Vec3, 4> corners{a - width * (along + across), d + width * (across - along),
+                                    c + width * (along + across), b + width * (along - across)};
+  std::array<int, 4> top_ids{}, bottom_ids{};
+  for (int i = 0; i < 4; ++i) top_ids[i] = add_vertex(corners[i], assembly);
+  for (int i = 0; i < 4; ++i) bottom_ids[i] = add_vertex(corners[i] + down, assembly);
+  start_part(static_cast<int>(assembly->blocks.size()) - 1, 0, assembly);
+  using enum FaceKind;
+  add_hexahedron(top_ids, bottom_ids, {free, free, free, free}, assembly);
+}
+
+}  // namespace
+
+void add_base_support(const SurfaceMap& surface, const std::vector<double>& cuts, double width,
+                      double density, Assembly* assembly) {
+  start_support_block(density, assembly);
+  if (surface.footing == Footing::ring)
+    add_ring(surface, cuts, width, assembly);
+  else
+    add_plate(surface, cuts, width, assembly);
+}
+
+}  // namespace cupola

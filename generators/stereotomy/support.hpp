@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "generators/surface/surface_map.hpp"
+
+namespace cupola {
+
+/// Appends the fixed block that carries the first bed.
+///
+/// Ring: one cell per slice between the same radial half-planes as the shell's slices, top face z = 0,
+/// reaching `width` beyond both skins (inside at most half-way to the axis) and as deep.
+/// Plate: one box under the whole first bed, top face in its plane, reaching `width` beyond it all around.
+void add_base_support(const SurfaceMap& surface, const std::vector<double>& cuts, double width,
+                      double density, Assembly* assembly);
+
+}  // namespace cupola
