@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -9,6 +10,8 @@ namespace cupola {
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Mat63 = Eigen::Matrix<double, 6, 3>;
 using VecX = Eigen::VectorXd;
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
 
 /// The frictional contact problem of one time step, the same for every method (SPD M, E >= 0):
 ///
@@ -38,9 +41,11 @@ struct ContactProblem {
   int num_blocks() const { return static_cast<int>(M.size()); }
   int num_contacts() const { return static_cast<int>(block_a.size()); }
 
-  /// Checks sizes, finiteness, M positive definite, E >= 0, mu >= 0, equal tangential E. Throws
-  /// std::invalid_argument naming the first offender.
+  /// Checks sizes, finiteness, M symmetric positive definite, E >= 0, mu >= 0, equal tangential E, two
+  /// different blocks per contact, h > 0. Throws std::invalid_argument naming the first offender.
   void validate() const;
+  /// The same check as a sentence; empty when the problem is sound.
+  std::string defect() const;
 };
 
 /// D^T v, relative velocities in the contact frames (3 nc).
@@ -48,7 +53,7 @@ VecX relative_velocity(const ContactProblem& problem, const VecX& v);
 /// D gamma, generalised impulses on the blocks (6 nb).
 VecX generalized_impulse(const ContactProblem& problem, const VecX& gamma);
 
-/// What a method works on: a guess on entry, the answer on exit.
+/// What a method works on: a guess on entry (warm start; empty vectors for a cold one), the answer on exit.
 struct ContactSolution {
   VecX v;      ///< (6 nb)
   VecX gamma;  ///< N s (3 nc)

@@ -8,16 +8,39 @@ namespace cupola {
 
 /// How good a pair (v, gamma) is, computed from the problem alone: no solver's own hope enters.
 struct Residuals {
-  double momentum = 0.0;  ///< max over blocks of |M (v - v_star) - D gamma| in the M^-1 norm over the mean
-                          ///< block's |h g| (m/s): relative unbalanced impulse
-  double contact_law = 0.0;  ///< ||gamma - P(gamma - rho (y + s n))|| / ||gamma||, rho_i = 1/E_i in the norm
-                             ///< of E_i; 1/trace(N_ii) only where E = 0
-  double cone_violation = 0.0;  ///< max (|gamma_t| - mu gamma_n)+ and (-gamma_n)+, over the largest gamma_n
-  std::optional<double> certified_force_error;  ///< sqrt(2 gap / min E) / |gamma|; none when E = 0
+  /// max over blocks k of |M_k (v - v_star)_k - (D gamma)_k| in the norm of M_k^-1, over
+  /// sqrt(mean mass) * reference_speed: the unbalanced impulse relative to that of the mean block's weight.
+  double momentum = 0.0;
+  /// |gamma - P(gamma - rho (y + s n))| / |gamma|, with y = D^T v + b + E gamma and P the projection on the
+  /// cone; rho_i = 1/E_i and P in the norm of E_i, and rho_i = 1/trace(N_ii) with the Euclidean norm only
+  /// where E_i = 0. s = 0 (associated) or mu |y_t| (coulomb). 0 when gamma = 0 is right, 1 when it should not
+  /// be.
+  double contact_law = 0.0;
+  /// max over contacts of (|gamma_t| - mu gamma_n)+ and (-gamma_n)+, over the largest |gamma_n|.
+  double cone_violation = 0.0;
+  /// Upper bound of |gamma - exact| / |gamma| from the duality gap; none where the dual is not strongly
+  /// convex (some E = 0), where gamma leaves the cone, or under the Coulomb law, which is no minimisation.
+  std::optional<double> certified_force_error;
 };
 
-/// `reference_speed`: h |g|, the speed a free block picks up in a step; makes the momentum residual relative.
+enum class ContactLawKind { associated, coulomb };
+
+/// `reference_speed`: h |g|, m/s, > 0, the speed a free block picks up in a step.
 Residuals compute_residuals(const ContactProblem& problem, const ContactSolution& solution,
-                            double reference_speed);
+                            double reference_speed, ContactLawKind law = ContactLawKind::associated);
+
+/// Largest M_k^-1 norm of the blocks' share of r = M (v - v_star) - D gamma, N s / sqrt(kg).
+double largest_unbalanced_impulse(const ContactProblem& problem, const ContactSolution& solution);
+
+/// sqrt of the mean of the blocks' masses (a third of the trace of the linear part), sqrt(kg); 1 without
+/// blocks.
+double root_mean_mass(const ContactProblem& problem);
+
+/// Duality gap of (v, gamma in Y), J, without the difference of two large objectives:
+///
+///     1/2 r^T M^-1 r + sum_i [ 1/2 |gamma - gamma(v)|_E^2 + gamma . z ],  z = D^T v + b + E gamma(v) in Y*
+///
+/// The dual objective is strongly convex with modulus min E, so |gamma - exact|^2 <= 2 gap / min E.
+double duality_gap(const ContactProblem& problem, const ContactSolution& solution);
 
 }  // namespace cupola

@@ -16,7 +16,7 @@ std::string to_string(SolveEnding ending);
 
 struct SolveSummary {
   SolveEnding ending = SolveEnding::failed;
-  std::string message;             ///< the inequality that fired, with its numbers
+  std::string message;  ///< the inequality that fired, with its numbers
   int iterations = 0;
   int factorizations = 0;
   int line_search_evaluations = 0;

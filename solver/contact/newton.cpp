@@ -1,0 +1,179 @@
+#include "solver/contact/newton.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "assembly/program.hpp"
+#include "solver/contact/cone.hpp"
+#include "solver/contact/primal_cost.hpp"
+#include "solver/contact/residuals.hpp"
+#include "solver/contact/whitening.hpp"
+
+namespace cupola {
+
+void NewtonOptions::validate() const {
+  const auto require = [](bool rule, std::string_view name, double value, std::string_view text) {
+    if (!rule) throw std::invalid_argument(fmt::format("newton: {} = {}: must be {}", name, value, text));
+  };
+  require(tolerance > 0.0 && tolerance < 1.0, "tolerance", tolerance, "in (0, 1)");
+  require(reference_speed > 0.0 && std::isfinite(reference_speed), "reference_speed", reference_speed, "> 0");
+  require(max_iterations >= 1, "max_iterations", max_iterations, ">= 1");
+}
+
+namespace {
+
+std::string rigid_contact(const ContactProblem& p) {
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    if (p.E[3 * i] > 0.0 && (p.mu[i] == 0.0 || p.E[3 * i + 1] > 0.0)) continue;
+    return fmt::format("contact {} has zero compliance, which Newton's method cannot take: use `proximal`",
+                       i);
+  }
+  return {};
+}
+
+std::vector<Mat3> stiffnesses(const ContactProblem& p, const VecX& y) {
+  std::vector<Mat3> G(p.num_contacts());
+  for (int i = 0; i < p.num_contacts(); ++i) G[i] = contact_stiffness(contact_law(p, i), y.segment<3>(3 * i));
+  return G;
+}
+
+/// State of one solve: what the numbered stages of the loop share.
+struct NewtonLoop {
+  const ContactProblem& p;  ///< whitened
+  const NewtonOptions& options;
+  ContactGraph graph;
+  double residual_scale;  ///< momentum residual of one unit of block gradient
+  BlockCholesky& factor;
+  SolveSummary& summary;
+
+  double residual(const PrimalPoint& point) const { return point.largest_block_gradient * residual_scale; }
+
+  bool factorize(const std::vector<Mat3>& G) {
+    ++summary.factorizations;
+    return factor.factorize(graph.pattern, assemble_hessian(p, graph, G));
+  }
+  bool all_stick_start(VecX* w);
+  PrimalPoint run(PrimalPoint point);
+  bool should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain);
+};
+
+/// Solves as if every contact that is closed at rest stuck and the others were not there.
+bool NewtonLoop::all_stick_start(VecX* w) {
+  VecX closing = p.b;  // a contact under this relative velocity and no tangential one sticks
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    closing.segment<2>(3 * i + 1).setZero();
+    closing[3 * i] = p.b[3 * i] <= 0.0 ? -1.0 : 1.0;
+  }
+  const std::vector<Mat3> G = stiffnesses(p, closing);
+  if (!factorize(G)) return false;
+  VecX impulse(p.b.size());
+  for (int i = 0; i < p.num_contacts(); ++i) impulse.segment<3>(3 * i) = -G[i] * p.b.segment<3>(3 * i);
+  *w = factor.solve(p.v_star + generalized_impulse(p, impulse));
+  return w->allFinite();
+}
+
+bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain) {
+  constexpr int kPatience =
+      12;  // residuals of a sound run may rise while the cost falls, but not this long at rounding
+  if (residual(point) <= options.tolerance) {
+    summary.ending = SolveEnding::converged;
+    summary.message = fmt::format("momentum residual {:.2e} <= tolerance {:.2e} after {} iterations",
+                                  residual(point), options.tolerance, summary.iterations);
+    return true;
+  }
+  if (!std::isfinite(residual(point)) || !std::isfinite(point.cost)) {
+    summary.ending = SolveEnding::failed;
+    summary.message = fmt::format("the cost became {} in iteration {}", point.cost, summary.iterations);
+    return true;
+  }
+  if (iterations_without_gain >= kPatience) {
+    summary.ending = SolveEnding::stalled;
+    summary.message =
+        fmt::format("cost and momentum residual {:.2e} no longer fall; tolerance {:.2e} is not met",
+                    best_residual, options.tolerance);
+    return true;
+  }
+  if (summary.iterations >= options.max_iterations) {
+    summary.ending = SolveEnding::max_iterations;
+    summary.message = fmt::format("momentum residual {:.2e} > tolerance {:.2e} after {} iterations",
+                                  best_residual, options.tolerance, summary.iterations);
+    return true;
+  }
+  return false;
+}
+
+PrimalPoint NewtonLoop::run(PrimalPoint point) {
+  constexpr double kCostRounding = 4e-16;
+  PrimalPoint best = point;
+  int iterations_without_gain = 0;
+  while (true) {
+    summary.residual_history.push_back(residual(point));
+    if (should_stop(point, residual(best), iterations_without_gain)) break;
+
+    // 1. Newton direction, or steepest descent should rounding have spoiled it
+    ++summary.iterations;
+    if (!factorize(stiffnesses(p, point.y))) {
+      summary.ending = SolveEnding::failed;
+      summary.message = fmt::format("the Hessian is not positive definite in double precision (iteration {})",
+                                    summary.iterations);
+      return best;
+    }
+    VecX d = -factor.solve(point.gradient);
+    if (!(d.dot(point.gradient) < 0.0)) d = -point.gradient;
+
+    // 2. Step
+    const LineSearchResult search = exact_line_search(p, point, d);
+    summary.line_search_evaluations += search.evaluations;
+    PrimalPoint next = primal_point(p, point.w + search.t * d);
+
+    // 3. Progress
+    const bool cost_fell = next.cost < point.cost * (1.0 - kCostRounding);
+    const bool residual_fell = residual(next) < 0.9 * residual(best);
+    iterations_without_gain = cost_fell || residual_fell ? 0 : iterations_without_gain + 1;
+    point = std::move(next);
+    if (point.largest_block_gradient < best.largest_block_gradient) best = point;
+  }
+  return summary.ending == SolveEnding::converged ? point : best;
+}
+
+SolveSummary failed(const std::string& message) {
+  SolveSummary summary;
+  summary.message = message;
+  return summary;
+}
+
+}  // namespace
+
+SolveSummary NewtonSolver::solve(const ContactProblem& problem, const NewtonOptions& options,
+                                 ContactSolution* solution) {
+  const double start = wall_seconds();
+  options.validate();
+  if (const std::string defect = problem.defect(); !defect.empty()) return failed(defect);
+  if (const std::string rigid = rigid_contact(problem); !rigid.empty()) return failed(rigid);
+
+  const WhitenedProblem white = whiten(problem);
+  SolveSummary summary;
+  NewtonLoop loop{white.problem,
+                  options,
+                  contact_graph(problem),
+                  1.0 / (root_mean_mass(problem) * options.reference_speed),
+                  factor_,
+                  summary};
+  VecX w;
+  if (solution->v.size() == problem.v_star.size()) {
+    w = white.to_w(solution->v);
+  } else if (problem.num_contacts() == 0) {
+    w = white.problem.v_star;
+  } else if (!loop.all_stick_start(&w)) {
+    return failed("the Hessian of the sticking contacts is not positive definite in double precision");
+  }
+  const PrimalPoint point = loop.run(primal_point(white.problem, std::move(w)));
+  solution->v = white.to_v(point.w);
+  solution->gamma = point.gamma;
+  summary.time_seconds = wall_seconds() - start;
+  return summary;
+}
+
+}  // namespace cupola

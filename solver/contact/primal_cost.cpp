@@ -1,0 +1,93 @@
+#include "solver/contact/primal_cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/contact/cone.hpp"
+
+namespace cupola {
+
+PrimalPoint primal_point(const ContactProblem& p, VecX w) {
+  PrimalPoint point;
+  point.w = std::move(w);
+  point.y = relative_velocity(p, point.w) + p.b;
+  point.gamma = contact_impulses(p, point.y);
+  const VecX momentum = point.w - p.v_star;
+  point.gradient = momentum - generalized_impulse(p, point.gamma);
+  point.cost = 0.5 * momentum.squaredNorm();
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const Vec3 gamma = point.gamma.segment<3>(3 * i);
+    point.cost += 0.5 * p.E[3 * i] * gamma[0] * gamma[0];
+    if (p.mu[i] > 0.0) point.cost += 0.5 * p.E[3 * i + 1] * gamma.tail<2>().squaredNorm();
+  }
+  for (int k = 0; k < p.num_blocks(); ++k) {
+    const double norm = point.gradient.segment<6>(6 * k).norm();
+    if (!(norm <= point.largest_block_gradient)) point.largest_block_gradient = norm;  // lets NaN through
+  }
+  return point;
+}
+
+namespace {
+
+/// Slope and curvature of the cost along the line. The slope is taken as a change from t = 0, so that the
+/// large terms which balance each other at the start do not cancel in every evaluation.
+class Line {
+ public:
+  Line(const ContactProblem& p, const PrimalPoint& point, const VecX& d)
+      : p_(p),
+        point_(point),
+        dy_(relative_velocity(p, d)),
+        slope0_(d.dot(point.gradient)),
+        dd_(d.squaredNorm()) {}
+
+  double slope0() const { return slope0_; }
+
+  std::pair<double, double> slope_and_curvature(double t) const {
+    double slope = slope0_ + t * dd_;
+    double curvature = dd_;
+    for (int i = 0; i < p_.num_contacts(); ++i) {
+      const Vec3 dy = dy_.segment<3>(3 * i);
+      const Vec3 y = point_.y.segment<3>(3 * i) + t * dy;
+      const ContactLaw law = contact_law(p_, i);
+      slope -= (contact_impulse(law, y) - point_.gamma.segment<3>(3 * i)).dot(dy);
+      curvature += dy.dot(contact_stiffness(law, y) * dy);
+    }
+    return {slope, curvature};
+  }
+
+ private:
+  const ContactProblem& p_;
+  const PrimalPoint& point_;
+  VecX dy_;
+  double slope0_;
+  double dd_;
+};
+
+}  // namespace
+
+LineSearchResult exact_line_search(const ContactProblem& p, const PrimalPoint& point, const VecX& d) {
+  constexpr double kSlopeReduction =
+      1e-6;  // the Newton step of the next iteration gains more than further digits here
+  constexpr int kMaxEvaluations = 60;  // bisection alone resolves a bracket to double precision within this
+  const Line line(p, point, d);
+  double low = 0.0, high = std::numeric_limits<double>::infinity();
+  LineSearchResult result{1.0, 0};
+  while (result.evaluations < kMaxEvaluations) {
+    const auto [slope, curvature] = line.slope_and_curvature(result.t);
+    ++result.evaluations;
+    if (!(std::abs(slope) > kSlopeReduction * std::abs(line.slope0()))) break;
+    (slope > 0.0 ? high : low) = result.t;
+    double next = result.t - slope / curvature;
+    if (std::isinf(high)) {
+      next = std::clamp(next, 1.5 * result.t, 10.0 * result.t);
+    } else if (!(next > low + 0.01 * (high - low) && next < high - 0.01 * (high - low))) {
+      next = 0.5 * (low + high);
+    }
+    if (next == result.t || high - low <= 1e-14 * high) break;
+    result.t = next;
+  }
+  return result;
+}
+
+}  // namespace cupola

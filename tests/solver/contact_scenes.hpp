@@ -1,0 +1,202 @@
+#pragma once
+
+// Small contact problems built by hand, for the tests of solver/contact. Mass 6x6 blocks, contact frames and
+// signs as contact_problem.hpp states them; nothing of the project's own problem builder is used.
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "solver/contact/contact_problem.hpp"
+
+namespace cupola::scenes {
+
+constexpr double kGravity = 9.81;
+constexpr int kGround = ContactProblem::kFixed;
+
+/// What a contact is made of in a scene.
+struct Joint {
+  double mu = 0.4;
+  double c_n = 1e-8;  ///< m/N
+  double c_t = 1e-8;  ///< m/N
+};
+
+/// Adds blocks and contacts to a problem one by one.
+class Scene {
+ public:
+  Scene(double h, const Vec3& gravity) : gravity_(gravity) { problem_.h = h; }
+
+  int add_block(const Vec3& centroid, double mass, const Mat3& inertia, const Vec3& velocity = Vec3::Zero()) {
+    Mat6 M = Mat6::Zero();
+    M.topLeftCorner<3, 3>() = mass * Mat3::Identity();
+    M.bottomRightCorner<3, 3>() = inertia;
+    problem_.M.push_back(M);
+    centroids_.push_back(centroid);
+    v_star_.push_back(velocity + problem_.h * gravity_);
+    return problem_.num_blocks() - 1;
+  }
+
+  int add_box(const Vec3& centroid, const Vec3& size, double density, const Mat3& R_WB = Mat3::Identity()) {
+    const double mass = density * size.prod();
+    const Vec3 s = size.cwiseAbs2();
+    const Vec3 inertia = mass / 12.0 * Vec3(s[1] + s[2], s[0] + s[2], s[0] + s[1]);
+    return add_block(centroid, mass, R_WB * inertia.asDiagonal() * R_WB.transpose());
+  }
+
+  /// Contact at a point, normal from a to b; `first_tangent` fixes the frame when given.
+  void add_contact(int a, int b, const Vec3& point, const Vec3& normal, const Joint& joint, double gap = 0.0,
+                   const Vec3& first_tangent = Vec3::Zero()) {
+    Mat3 frame;
+    frame.col(0) = normal.normalized();
+    frame.col(1) = first_tangent.isZero() ? frame.col(0).unitOrthogonal() : first_tangent.normalized();
+    frame.col(2) = frame.col(0).cross(frame.col(1));
+    problem_.block_a.push_back(a);
+    problem_.block_b.push_back(b);
+    problem_.D_a.push_back(a == kGround ? Mat63(Mat63::Zero()) : Mat63(-lever(centroids_[a], point, frame)));
+    problem_.D_b.push_back(b == kGround ? Mat63(Mat63::Zero()) : lever(centroids_[b], point, frame));
+    const double h = problem_.h;
+    b_.push_back({gap / h, 0.0, 0.0});
+    E_.push_back(Vec3(joint.c_n, joint.c_t, joint.c_t) / (h * h));
+    mu_.push_back(joint.mu);
+  }
+
+  /// Four contacts at the corners of the rectangle centre +- half_u +- half_v.
+  void add_patch(int a, int b, const Vec3& centre, const Vec3& half_u, const Vec3& half_v, const Vec3& normal,
+                 const Joint& joint) {
+    for (const auto& [s, t] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}) {
+      add_contact(a, b, centre + s * half_u + t * half_v, normal, joint);
+    }
+  }
+
+  ContactProblem problem() const {
+    ContactProblem p = problem_;
+    p.v_star = VecX::Zero(6 * p.num_blocks());
+    for (int k = 0; k < p.num_blocks(); ++k) p.v_star.segment<3>(6 * k) = v_star_[k];
+    p.b.resize(3 * p.num_contacts());
+    p.E.resize(3 * p.num_contacts());
+    p.mu.resize(p.num_contacts());
+    for (int i = 0; i < p.num_contacts(); ++i) {
+      p.b.segment<3>(3 * i) = b_[i];
+      p.E.segment<3>(3 * i) = E_[i];
+      p.mu[i] = mu_[i];
+    }
+    return p;
+  }
+
+  const Vec3& centroid(int block) const { return centroids_[block]; }
+
+ private:
+  static Mat63 lever(const Vec3& centroid, const Vec3& point, const Mat3& frame) {
+    Mat63 D;
+    D.topRows<3>() = frame;
+    for (int c = 0; c < 3; ++c) D.col(c).tail<3>() = (point - centroid).cross(frame.col(c));
+    return D;
+  }
+
+  Vec3 gravity_;
+  ContactProblem problem_;
+  std::vector<Vec3> centroids_, b_, E_, v_star_;
+  std::vector<double> mu_;
+};
+
+/// Unit cubes on top of each other on the ground, one density per cube.
+inline ContactProblem stack(const std::vector<double>& densities, double h, const Joint& joint) {
+  Scene scene(h, {0, 0, -kGravity});
+  int below = kGround;
+  for (std::size_t k = 0; k < densities.size(); ++k) {
+    const int block = scene.add_box({0, 0, k + 0.5}, {1, 1, 1}, densities[k]);
+    scene.add_patch(below, block, {0, 0, double(k)}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 1}, joint);
+    below = block;
+  }
+  return scene.problem();
+}
+
+/// Block 1 x 1 x 0.2 m on a plane inclined by tan(angle) = slope (VERIFICATION 1.1); axes of the plane, x
+/// down the slope, z its normal.
+inline ContactProblem incline(double slope, double h, const Joint& joint, double speed = 0.0,
+                              double gap = 0.0) {
+  const double angle = std::atan(slope);
+  Scene scene(h, kGravity * Vec3(std::sin(angle), 0, -std::cos(angle)));
+  const Vec3 size(1.0, 1.0, 0.2);
+  const double mass = 2000.0 * size.prod();
+  const Mat3 inertia = (mass / 12.0 * Vec3(1.04, 1.04, 2.0)).asDiagonal();
+  const int block = scene.add_block({0, 0, 0.1 + gap}, mass, inertia, {speed, 0, 0});
+  for (const auto& [s, t] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}) {
+    scene.add_contact(kGround, block, {0.5 * s, 0.5 * t, gap}, {0, 0, 1}, joint, gap);
+  }
+  return scene.problem();
+}
+
+/// Rigid plate on four legs at (+-1, +-1), weight W at (x, y) of the centroid (VERIFICATION 1.7). Order of
+/// the contacts: (++), (+-), (-+), (--).
+inline ContactProblem table(double weight, double x, double y, double h, const Joint& joint) {
+  Scene scene(h, {0, 0, -kGravity});
+  const double mass = weight / kGravity;
+  const int plate = scene.add_block({x, y, 0.5}, mass, mass * Vec3(0.5, 0.5, 0.8).asDiagonal());
+  for (const auto& [s, t] : {std::pair{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}) {
+    scene.add_contact(kGround, plate, {double(s), double(t), 0.0}, {0, 0, 1}, joint);
+  }
+  return scene.problem();
+}
+
+/// Spherical dome of centreline radius `radius`: rings of equal angle, running bond, corner contacts on beds
+/// and heads, base on the ground. Blocks have the mass and inertia of boxes of their mean sizes.
+struct DomeShape {
+  int rings = 40, blocks_per_ring = 32;
+  double radius = 25.0, thickness = 2.2, top_angle = std::numbers::pi / 3;  ///< m, m, rad from the springing
+  double gap = 0.0;  ///< m: largest random gap, uniform in [0, gap] per contact
+  unsigned seed = 1;
+};
+
+inline ContactProblem dome(const DomeShape& shape, double h, const Joint& joint) {
+  using std::cos, std::sin;
+  Scene scene(h, {0, 0, -kGravity});
+  std::mt19937 random(shape.seed);
+  const double dt = shape.top_angle / shape.rings, dp = 2 * std::numbers::pi / shape.blocks_per_ring;
+  const auto radial = [](double t, double p) { return Vec3(cos(t) * cos(p), cos(t) * sin(p), sin(t)); };
+  const auto up = [](double t, double p) { return Vec3(-sin(t) * cos(p), -sin(t) * sin(p), cos(t)); };
+  const auto around = [](double p) { return Vec3(-sin(p), cos(p), 0); };
+  const auto random_gap = [&] { return shape.gap * (random() / 4294967296.0); };
+  const std::array radii{shape.radius - shape.thickness / 2, shape.radius + shape.thickness / 2};
+  const auto index = [&](int ring, int slot) {
+    return ring * shape.blocks_per_ring + slot % shape.blocks_per_ring;
+  };
+
+  for (int i = 0; i < shape.rings; ++i) {
+    const double t = (i + 0.5) * dt;
+    for (int j = 0; j < shape.blocks_per_ring; ++j) {
+      const double p = (j + 0.5 + 0.5 * (i % 2)) * dp;
+      Mat3 R_WB;
+      R_WB << radial(t, p), around(p), up(t, p);
+      scene.add_box(shape.radius * radial(t, p),
+                    {shape.thickness, shape.radius * cos(t) * dp, shape.radius * dt}, 1835.0, R_WB);
+    }
+  }
+  for (int i = 0; i < shape.rings; ++i) {
+    for (int j = 0; j < shape.blocks_per_ring; ++j) {
+      const double p = (j + 0.5 * (i % 2)) * dp;  // first head of the block
+      for (const double half : {0.0, 0.5}) {      // bed below: two half blocks
+        const int below =
+            i == 0 ? kGround : index(i - 1, j + (i % 2) + (half == 0.0 ? shape.blocks_per_ring - 1 : 0));
+        for (const double q : {p + half * dp, p + (half + 0.5) * dp}) {
+          for (const double r : radii) {
+            scene.add_contact(below, index(i, j), r * radial(i * dt, q), up(i * dt, q), joint, random_gap());
+          }
+        }
+      }
+      for (const double t : {i * dt, (i + 1) * dt}) {  // head towards the next block
+        for (const double r : radii) {
+          const double q = p + dp;
+          scene.add_contact(index(i, j), index(i, j + 1), r * radial(t, q), around(q), joint, random_gap());
+        }
+      }
+    }
+  }
+  return scene.problem();
+}
+
+}  // namespace cupola::scenes
