@@ -1,0 +1,94 @@
+#include "solver/analysis/record.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace cupola {
+namespace {
+
+constexpr double kSlipping = 1.0 - 1e-6;  // friction use from which a contact counts as slipping
+
+}  // namespace
+
+JointNumbers number_joints(const ContactSet& contacts) {
+  JointNumbers numbers;
+  numbers.of_contact.resize(contacts.contacts.size());
+  std::map<JointKind, int> of_pair;  // joints of the current block pair
+  for (size_t i = 0; i < contacts.contacts.size(); ++i) {
+    const Contact& contact = contacts.contacts[i];
+    const bool new_pair = i == 0 || contacts.contacts[i - 1].block_a != contact.block_a ||
+                          contacts.contacts[i - 1].block_b != contact.block_b;
+    if (new_pair) of_pair.clear();
+    const auto [entry, inserted] = of_pair.try_emplace(contacts.patches[contact.patch].kind, numbers.count);
+    if (inserted) ++numbers.count;
+    numbers.of_contact[i] = entry->second;
+  }
+  return numbers;
+}
+
+Frame make_frame(const Model& model, const State& state, const ContactSet& contacts,
+                 const std::vector<Vec3>& contact_forces, const ContactMemories& memories,
+                 const std::vector<Vec3>& displacement) {
+  Frame frame;
+  frame.time = state.time;
+  ContactTable& table = frame.contacts;
+  table.joint = number_joints(contacts).of_contact;
+  for (size_t i = 0; i < contacts.contacts.size(); ++i) {
+    const Contact& contact = contacts.contacts[i];
+    const Patch& patch = contacts.patches[contact.patch];
+    const Vec3& force = contact_forces[i];
+    const double normal_force = contact.normal.dot(force);
+    const double tangential_force = (force - normal_force * contact.normal).norm();
+    const double limit = joint_law(model, contact).mu * normal_force;
+    table.block_a.push_back(contact.block_a);
+    table.block_b.push_back(contact.block_b);
+    table.kind.push_back(patch.kind);
+    table.ring.push_back(patch.ring);
+    table.point.push_back(0.5 * (contact.point_a + contact.point_b));
+    table.normal.push_back(contact.normal);
+    table.gap.push_back(contact.gap);
+    table.force.push_back(force);
+    table.normal_force.push_back(normal_force);
+    table.friction_use.push_back(limit > 0.0 ? tangential_force / limit : 0.0);
+    table.area.push_back(contact.area);
+    table.slip.push_back(memories.values[i].plastic_slip);
+  }
+
+  BlockTable& blocks = frame.blocks;
+  for (size_t block = 0; block < state.poses.size(); ++block) {
+    const Pose& pose = state.poses[block];
+    const int i = model.free_index[block];
+    const bool is_free = i != ContactProblem::kFixed;
+    blocks.position.push_back(pose.p_WB);
+    blocks.quaternion_wxyz.emplace_back(pose.q_WB.w(), pose.q_WB.x(), pose.q_WB.y(), pose.q_WB.z());
+    blocks.velocity.push_back(is_free ? Vec3(state.v.segment<3>(6 * i)) : Vec3::Zero());
+    blocks.angular_velocity.push_back(is_free ? Vec3(state.v.segment<3>(6 * i + 3)) : Vec3::Zero());
+    blocks.displacement.push_back(displacement[block]);
+  }
+  return frame;
+}
+
+void summarize_frame(const Frame& frame, const Model& model, Summary* summary) {
+  const ContactTable& contacts = frame.contacts;
+  summary->blocks = frame.blocks.size();
+  summary->free_blocks = model.num_free();
+  summary->unknowns = 6 * model.num_free();
+  summary->contacts = contacts.size();
+  summary->joints = 0;
+  summary->slipping_contacts = 0;
+  summary->max_penetration_m = 0.0;
+  for (int i = 0; i < contacts.size(); ++i) {
+    summary->joints = std::max(summary->joints, contacts.joint[i] + 1);
+    summary->max_penetration_m = std::max(summary->max_penetration_m, -contacts.gap[i]);
+    if (contacts.friction_use[i] >= kSlipping) ++summary->slipping_contacts;
+  }
+  summary->max_displacement_m = 0.0;
+  summary->max_speed_m_per_s = 0.0;
+  for (const Vec3& d : frame.blocks.displacement)
+    summary->max_displacement_m = std::max(summary->max_displacement_m, d.norm());
+  for (const Vec3& v : frame.blocks.velocity)
+    summary->max_speed_m_per_s = std::max(summary->max_speed_m_per_s, v.norm());
+  summary->weight_N = model.free_weight;
+}
+
+}  // namespace cupola

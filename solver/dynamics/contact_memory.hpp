@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/collision/contact_set.hpp"
+
+namespace cupola {
+
+/// What a contact remembers from the last step.
+struct ContactMemory {
+  Vec3 impulse = Vec3::Zero();         ///< N s, gamma of the last step in the contact frame: warm start
+  double elastic_gap = 0.0;            ///< m, <= 0: penetration that the compliance explains
+  Vec3 elastic_slip_A = Vec3::Zero();  ///< m, tangential spring, in the axes of block a
+  double plastic_slip = 0.0;           ///< m, accumulated sliding
+};
+
+/// Memories of the contacts of one step, in their order.
+struct ContactMemories {
+  std::vector<ContactId> ids;  ///< as the contacts, sorted by block pair, then id
+  std::vector<std::pair<int, int>> blocks;
+  std::vector<ContactMemory> values;
+};
+
+/// Carries memories over to a new set of contacts: a contact keeps its own by block pair and identity, a new
+/// one starts with none. Both sets are in detection order.
+ContactMemories match_memories(const ContactMemories& old, const std::vector<Contact>& contacts);
+
+}  // namespace cupola
