@@ -7,6 +7,7 @@
 #include "assembly/program.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record.hpp"
+#include "solver/contact/newton.hpp"
 #include "solver/contact/residuals.hpp"
 #include "solver/dynamics/equilibrium.hpp"
 #include "solver/dynamics/scene_options.hpp"

@@ -38,6 +38,9 @@ class ContactDetector {
   /// Contacts at the given poses, one per block. The reference stays valid until the next call.
   const ContactSet& update(std::span<const Pose> poses);
 
+  /// Contacts at the poses of the last update.
+  const ContactSet& contacts() const { return contacts_.set; }
+
   int num_detections() const { return num_detections_; }
   double margin() const { return options_.margin; }  ///< m, in force
 
