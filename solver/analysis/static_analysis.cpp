@@ -38,15 +38,26 @@ double fastest(const VecX& v) {
   return speed;
 }
 
-/// First guess of h: the inertia of a displacement c F reached in one step, m c F / h^2, over the weight.
-double first_step(const Model& model, const ContactSet& contacts, double acceleration, double tolerance) {
+/// First guess of h. A displacement d reached in one step costs the inertia m d / h^2, so h^2 >= d / (g tol).
+/// The crown sinks by about c F at the support's contacts, once per course.
+double first_step(const Model& model, const State& rest, const ContactSet& contacts, double acceleration,
+                  double tolerance) {
   double compliance = 0.0;
-  for (const Contact& contact : contacts.contacts)
+  int at_supports = 0;
+  for (const Contact& contact : contacts.contacts) {
     compliance = std::max(compliance, joint_law(model, contact).compliance_normal);
-  const double force = model.block_weight * std::max(1, model.assembly->num_rings);
-  const double displacement = compliance * force;
+    if (model.free_index[contact.block_a] == ContactProblem::kFixed ||
+        model.free_index[contact.block_b] == ContactProblem::kFixed)
+      ++at_supports;
+  }
+  double load = 0.0;
+  const VecX f = applied_forces(model, rest);
+  for (Eigen::Index i = 0; i < f.size(); i += 6) load += f.segment<3>(i).norm();
+  const double courses =
+      model.assembly->num_rings > 0 ? model.assembly->num_rings : std::cbrt(model.num_free());
+  const double displacement = courses * compliance * load / std::max(1, at_supports);
   if (displacement == 0.0) return 1.0;
-  return std::max(1e-3, std::sqrt(displacement / (acceleration * tolerance)));
+  return 2.0 * std::sqrt(displacement / (acceleration * tolerance));
 }
 
 Trial solve_trial(const Model& model, const State& rest, const ContactSet& contacts,
@@ -120,7 +131,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   Summary summary;
   NewtonSolver solver;
   const double started = wall_seconds();
-  double h = first_step(model, contacts, acceleration, scene.analysis.tolerance);
+  double h = first_step(model, rest, contacts, acceleration, scene.analysis.tolerance);
   Trial trial;
   int fast_trials = 0;
   for (int k = 0; k < kMaxSolves; ++k) {
