@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -34,7 +36,10 @@ struct Mesh {
   int num_points() const { return static_cast<int>(points.size() / 3); }
   int num_cells() const { return static_cast<int>(cell_types.size()); }
   int add_point(double x, double y, double z);
-  void add_cell(CellType type, const std::vector<int>& ids);
+  void add_cell(CellType type, std::span<const int> ids);
+  void add_cell(CellType type, std::initializer_list<int> ids) {
+    add_cell(type, std::span(ids.begin(), ids.size()));
+  }
 
   /// The array of that name and value type, or an InputError that names the file, the array and what is
   /// there instead.
