@@ -20,10 +20,17 @@ std::string escaped_attribute(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -49,7 +56,8 @@ const std::vector<T>& Mesh::array(const std::vector<MeshArray>& arrays, const st
     if (array.name != name) continue;
     const auto* values = std::get_if<std::vector<T>>(&array.values);
     if (!values)
-      throw InputError(FileLocation{file}, fmt::format("array `{}` must be of type {}", name, type_name<T>()));
+      throw InputError(FileLocation{file},
+                       fmt::format("array `{}` must be of type {}", name, type_name<T>()));
     if (array.components != components)
       throw InputError(FileLocation{file}, fmt::format("array `{}` has {} components, must have {}", name,
                                                        array.components, components));
@@ -58,13 +66,23 @@ const std::vector<T>& Mesh::array(const std::vector<MeshArray>& arrays, const st
   throw InputError(FileLocation{file}, fmt::format("array `{}` is missing", name));
 }
 
-template const std::vector<double>& Mesh::array(const std::vector<MeshArray>&, const std::string&, int) const;
-template const std::vector<std::int32_t>& Mesh::array(const std::vector<MeshArray>&, const std::string&,
-                                                      int) const;
-template const std::vector<std::uint8_t>& Mesh::array(const std::vector<MeshArray>&, const std::string&,
-                                                      int) const;
-template const std::vector<std::string>& Mesh::array(const std::vector<MeshArray>&, const std::string&,
-                                                     int) const;
+template <class T>
+const T& Mesh::field(const std::string& name) const {
+  const std::vector<T>& values = array<T>(field_data, name, 1);
+  if (values.size() != 1)
+    throw InputError(FileLocation{file},
+                     fmt::format("field `{}` has {} values, must have 1", name, values.size()));
+  return values[0];
+}
+
+#define CUPOLA_INSTANTIATE(T)                                                                               \
+  template const std::vector<T>& Mesh::array(const std::vector<MeshArray>&, const std::string&, int) const; \
+  template const T& Mesh::field(const std::string&) const;
+CUPOLA_INSTANTIATE(double)
+CUPOLA_INSTANTIATE(std::int32_t)
+CUPOLA_INSTANTIATE(std::uint8_t)
+CUPOLA_INSTANTIATE(std::string)
+#undef CUPOLA_INSTANTIATE
 
 bool Mesh::has(const std::vector<MeshArray>& arrays, const std::string& name) const {
   for (const MeshArray& array : arrays)

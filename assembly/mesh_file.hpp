@@ -46,6 +46,9 @@ struct Mesh {
   template <class T>
   const std::vector<T>& array(const std::vector<MeshArray>& arrays, const std::string& name,
                               int components) const;
+  /// The only value of a field data array.
+  template <class T>
+  const T& field(const std::string& name) const;
   bool has(const std::vector<MeshArray>& arrays, const std::string& name) const;
   std::string file;  ///< where it was read from, for messages
 };
@@ -54,8 +57,8 @@ struct Mesh {
 /// polygons), by the ending of `path`, doubles in full, aside and renamed. Throws SystemError.
 void write_mesh(const std::string& path, const Mesh& mesh);
 
-/// Reads what write_mesh wrote (or ParaView saved). Throws InputError for a missing, truncated or foreign
-/// file, with the path.
+/// Reads what write_mesh wrote, and nothing else: the last line of the file is a checksum of all before it.
+/// Throws InputError for a missing, truncated, damaged or foreign file, with the path.
 Mesh read_mesh(const std::string& path);
 
 /// Time series of mesh files as ParaView's collection; file names are relative to the .pvd.

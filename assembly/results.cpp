@@ -1,0 +1,144 @@
+#include "assembly/results.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "assembly/error.hpp"
+
+namespace cupola {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kFormatVersion = 1;
+constexpr std::array kStatusNames{"stable", "moving", "collapsed", "unconverged"};
+constexpr const char* kNotCertified = "not certified";
+
+/// The one list of the keys of summary.json, for writing and for reading.
+template <class SummaryType, class Visit>
+void for_each_field(SummaryType& s, Visit visit) {
+  visit("status", s.status);
+  visit("message", s.message);
+  visit("analysis", s.analysis);
+  visit("method", s.method);
+  visit("friction_law", s.friction_law);
+  visit("tangential", s.tangential);
+  visit("program_version", s.program_version);
+  visit("case_hash", s.case_hash);
+  visit("geometry_hash", s.geometry_hash);
+  visit("assembly_hash", s.assembly_hash);
+  visit("blocks", s.blocks);
+  visit("free_blocks", s.free_blocks);
+  visit("joints", s.joints);
+  visit("contacts", s.contacts);
+  visit("unknowns", s.unknowns);
+  visit("weight_N", s.weight_N);
+  visit("applied_load_N", s.applied_load_N);
+  visit("support_reaction_N", s.support_reaction_N);
+  visit("time_step_s", s.time_step_s);
+  visit("momentum_residual", s.momentum_residual);
+  visit("equilibrium_residual", s.equilibrium_residual);
+  visit("inertia_share", s.inertia_share);
+  visit("contact_law_residual", s.contact_law_residual);
+  visit("certified_force_error", s.certified_force_error);
+  visit("friction_cone_violation", s.friction_cone_violation);
+  visit("max_penetration_m", s.max_penetration_m);
+  visit("max_displacement_m", s.max_displacement_m);
+  visit("max_speed_m_per_s", s.max_speed_m_per_s);
+  visit("slipping_contacts", s.slipping_contacts);
+  visit("steps", s.steps);
+  visit("iterations", s.iterations);
+  visit("solve_time_seconds", s.solve_time_seconds);
+  visit("wall_time_seconds", s.wall_time_seconds);
+  visit("peak_memory_bytes", s.peak_memory_bytes);
+  visit("threads", s.threads);
+  visit("accuracy_asked", s.accuracy_asked);
+  visit("accuracy_reached", s.accuracy_reached);
+}
+
+template <class T>
+Json to_value(const T& value) {
+  return value;
+}
+Json to_value(Status status) {
+  return to_string(status);
+}
+Json to_value(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+Json to_value(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(kNotCertified);
+}
+
+/// JSON has no infinities: what is not finite is written as null and read back as NaN.
+void from_value(const Json& json, double* value) {
+  *value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+void from_value(const Json& json, Vec3* v) {
+  for (int i = 0; i < 3; ++i) from_value(json.at(static_cast<size_t>(i)), &(*v)[i]);
+}
+void from_value(const Json& json, std::optional<double>* value) {
+  value->reset();
+  if (json == kNotCertified) return;
+  from_value(json, &value->emplace());
+}
+void from_value(const Json& json, Status* status) {
+  const auto at = std::find(kStatusNames.begin(), kStatusNames.end(), json.get<std::string>());
+  if (at == kStatusNames.end()) throw InputError("unknown status");
+  *status = static_cast<Status>(at - kStatusNames.begin());
+}
+template <class T>
+void from_value(const Json& json, T* value) {
+  json.get_to(*value);
+}
+
+}  // namespace
+
+std::string to_string(JointKind kind) {
+  static constexpr std::array names{"bed", "head", "base", "other"};
+  return names[static_cast<size_t>(kind)];
+}
+
+std::string to_string(Status status) {
+  return kStatusNames[static_cast<size_t>(status)];
+}
+
+std::vector<Joint> joints_of(const ContactTable& contacts) {
+  const int num_joints =
+      contacts.joint.empty() ? 0 : 1 + *std::max_element(contacts.joint.begin(), contacts.joint.end());
+  std::vector<Joint> joints(static_cast<size_t>(num_joints));
+  for (int i = 0; i < contacts.size(); ++i)
+    joints[contacts.joint[i]] = {contacts.block_a[i], contacts.block_b[i], contacts.kind[i],
+                                 contacts.ring[i]};
+  return joints;
+}
+
+std::string to_json(const Summary& summary) {
+  Json json;
+  json["format_version"] = kFormatVersion;
+  for_each_field(summary, [&json](const char* key, const auto& value) { json[key] = to_value(value); });
+  return json.dump(2) + "\n";
+}
+
+Summary summary_from_json(const std::string& text, const std::string& file) {
+  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) throw InputError(FileLocation{file}, "is not a complete JSON object");
+  if (const Json version = json.value("format_version", Json()); version != kFormatVersion)
+    throw InputError(FileLocation{file}, fmt::format("has format_version {}, this program reads {}",
+                                                     version.dump(), kFormatVersion));
+  Summary summary;
+  for_each_field(summary, [&](const char* key, auto& value) {
+    if (!json.contains(key)) throw InputError(FileLocation{file}, fmt::format("key `{}` is missing", key));
+    try {
+      from_value(json[key], &value);
+    } catch (const std::exception&) {
+      throw InputError(FileLocation{file}, fmt::format("{} = {}: has the wrong type", key, json[key].dump()));
+    }
+  });
+  return summary;
+}
+
+}  // namespace cupola
