@@ -1,0 +1,110 @@
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "generators/generate.hpp"
+#include "solver/analysis/analysis.hpp"
+
+namespace cupola {
+namespace {
+
+struct Answer {
+  Assembly assembly;
+  Frame frame;
+  Summary summary;
+};
+
+Answer solve(const Case& scene) {
+  Answer answer{generate(scene), {}, {}};
+  answer.summary = run_static(scene, answer.assembly,
+                              {[&answer](const Frame& frame) { answer.frame = frame; },
+                               [](const std::string&) {}, [](const std::string&) {}});
+  return answer;
+}
+
+struct WallSize {
+  const char* name;
+  int rows, blocks_per_row, num_blocks;
+  double top_displacement_over_compliance;  // closed form: c sum F_bed / n_bed, N
+};
+
+class Wall : public ::testing::TestWithParam<std::tuple<WallSize, double>> {};
+
+// 12 x 6 x 1 m, 1800 kg/m3, top load of ten weights: uniform pressure, so that every contact of a bed carries
+// the same force and the top sinks by c sum over the beds of F_bed / n_bed.
+TEST_P(Wall, SinksAsTheLinearSpringAssembly) {
+  const auto& [size, compliance] = GetParam();
+  Case scene;
+  RunningBond bond;
+  bond.rings = size.rows;
+  bond.blocks_per_ring = size.blocks_per_row;
+  bond.slices_per_block = 2;
+  scene.geometry = {WallSurface{12.0, 6.0, 1.0}, bond, {}, 1.0};
+  scene.material.unit_weight = 1800.0 * 9.81;
+  scene.joints.compliance = {compliance, compliance, Compliance::Per::point};
+  scene.loads.top_load = TopLoad{10.0};
+  const Answer answer = solve(scene);
+  const double weight = 1271376.0;
+
+  EXPECT_EQ(answer.summary.status, Status::stable) << answer.summary.message;
+  EXPECT_EQ(answer.summary.free_blocks, size.num_blocks);
+  EXPECT_NEAR(answer.summary.weight_N / weight, 1.0, 1e-12);
+  EXPECT_NEAR(answer.summary.support_reaction_N.z() / (11.0 * weight), 1.0, 1e-9);
+  for (size_t i = 0; i < answer.assembly.blocks.size(); ++i) {
+    if (answer.assembly.blocks[i].ring != size.rows - 1) continue;
+    const double sunk = -answer.frame.blocks.displacement[i].z();
+    // 1e-6: the reference has seven digits.
+    EXPECT_NEAR(sunk / (compliance * size.top_displacement_over_compliance), 1.0, 1e-6) << "block " << i;
+  }
+  for (int i = 0; i < answer.frame.contacts.size(); ++i) {
+    if (answer.frame.contacts.kind[i] != JointKind::head) continue;
+    EXPECT_LT(answer.frame.contacts.force[i].norm(), 1e-6 * weight);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(PublishedSizes, Wall,
+                         ::testing::Combine(::testing::Values(WallSize{"large", 4, 2, 10, 4.251164e6},
+                                                              WallSize{"medium", 20, 10, 210, 3.520122e6},
+                                                              WallSize{"small", 100, 50, 5050, 3.373914e6}),
+                                            ::testing::Values(1e-8, 1e-10, 1e-12)),
+                         [](const auto& test) {
+                           return std::string(std::get<0>(test.param).name) + "_1em" +
+                                  std::to_string(
+                                      static_cast<int>(std::lround(-std::log10(std::get<1>(test.param)))));
+                         });
+
+TEST(DomeCircular, IsSymmetricAndCarriesTheWeightAboveInEveryRing) {
+  const Answer answer = solve(Case{});  // 40 x 32 blocks, mu 0.4, 1e-8 m/N per point
+  const Summary& summary = answer.summary;
+  EXPECT_EQ(summary.status, Status::stable) << summary.message;
+  EXPECT_EQ(summary.free_blocks, 1280);
+  EXPECT_LE(summary.equilibrium_residual, 1e-8);
+  EXPECT_LE(summary.contact_law_residual, 1e-8);
+  EXPECT_LE(summary.friction_cone_violation, 1e-12);
+
+  const std::vector<Block>& blocks = answer.assembly.blocks;
+  const ContactTable& contacts = answer.frame.contacts;
+  std::vector<double> weight_above(40, 0.0), carried(40, 0.0);
+  std::map<int, Vec3> base;  // force on each block of the first ring
+  for (const Block& block : blocks)
+    for (int ring = 0; ring <= block.ring; ++ring) weight_above[ring] += 9.81 * block.mass;
+  for (int i = 0; i < contacts.size(); ++i) {
+    const int lower = blocks[contacts.block_a[i]].ring, upper = blocks[contacts.block_b[i]].ring;
+    if (lower < upper) carried[upper] += contacts.force[i].z();
+    if (lower > upper) carried[lower] -= contacts.force[i].z();
+    if (contacts.kind[i] != JointKind::base) continue;
+    const bool below_is_a = blocks[contacts.block_a[i]].fixed;
+    const int block = below_is_a ? contacts.block_b[i] : contacts.block_a[i];
+    base.try_emplace(block, Vec3::Zero()).first->second += (below_is_a ? 1.0 : -1.0) * contacts.force[i];
+  }
+  for (int ring = 0; ring < 40; ++ring)
+    EXPECT_NEAR(carried[ring] / weight_above[ring], 1.0, 1e-7) << "ring " << ring;
+
+  ASSERT_EQ(base.size(), 32u);
+  const double mean = base.begin()->second.norm();
+  for (const auto& [block, force] : base) EXPECT_NEAR(force.norm() / mean, 1.0, 1e-8) << "block " << block;
+}
+
+}  // namespace
+}  // namespace cupola
