@@ -14,12 +14,20 @@ namespace cupola {
 
 namespace {
 
-/// Several threads would sum in an order that depends on their number. Reference BLAS has no such call.
-void use_one_blas_thread() {
-  using SetThreads = void (*)(int);
-  static const auto set_threads =
-      reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
-  if (set_threads != nullptr) set_threads(1);
+/// OpenBLAS with several threads sums in an order that depends on their number. CHOLMOD's own OpenMP threads
+/// copy only, but they spin while they wait: on two cores they doubled the time. Looked up at run time
+/// because both libraries are CHOLMOD's choice, not ours; where one is absent there is nothing to set.
+void use_one_thread() {
+  static const bool done = [] {
+    using SetInt = void (*)(int);
+    const auto call = [](const char* name, int value) {
+      if (const auto function = reinterpret_cast<SetInt>(dlsym(RTLD_DEFAULT, name))) function(value);
+    };
+    call("openblas_set_num_threads", 1);
+    call("omp_set_max_active_levels", 0);
+    return true;
+  }();
+  static_cast<void>(done);
 }
 
 using Index = SuiteSparse_long;
@@ -35,7 +43,7 @@ struct BlockCholesky::Implementation {
   bool valid = false;
 
   Implementation() {
-    use_one_blas_thread();
+    use_one_thread();
     cholmod_l_start(&common);
     common.print = 0;
     common.supernodal = CHOLMOD_SUPERNODAL;
