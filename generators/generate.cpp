@@ -1,38 +1,28 @@
 #include "generators/generate.hpp"
 
-#include "generators/bond/running.hpp"
+#include "assembly/variant.hpp"
+#include "generators/bond/courses.hpp"
+#include "generators/bond/fill.hpp"
+#include "generators/bond/herringbone.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
-#include "generators/surface/dome.hpp"
-#include "generators/surface/wall.hpp"
+#include "generators/surface/make_surface.hpp"
 
 namespace cupola {
 namespace {
 
-template <class... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-
-int rings_of(const Bond& bond) {
-  return std::visit([](const auto& b) { return b.rings; }, bond);
-}
-
-SurfaceMap make_surface(const Geometry& geometry) {
-  const int rings = rings_of(geometry.bond);
-  return std::visit(Overloaded{[&](const DomeSurface& dome) { return dome_surface(dome, rings); },
-                               [&](const WallSurface& wall) { return wall_surface(wall, rings); }},
-                    geometry.surface);
-}
-
-BondPattern make_bond(const Geometry& geometry, const BondGrid& grid) {
-  return std::visit(Overloaded{[&](const RunningBond& bond) { return running_bond(bond, grid); }},
-                    geometry.bond);
+BondPattern make_bond(const Bond& bond, const BondGrid& grid) {
+  return std::visit(Overloaded{[&](const RunningBond& b) { return running_bond(b, grid); },
+                               [&](const StackBond& b) { return stack_bond(b, grid); },
+                               [&](const HerringboneBond& b) { return herringbone_bond(b, grid); },
+                               [&](const FillBond& b) { return fill_bond(b, grid); }},
+                    bond);
 }
 
 CutOptions cut_options(const Case& input) {
   CutOptions options;
   options.density = input.material.density();
   options.support_width = input.geometry.support_width;
+  options.imperfections = input.geometry.imperfections;
   if (input.geometry.stage) options.stage_rings = input.geometry.stage->rings;
   return options;
 }
@@ -40,8 +30,9 @@ CutOptions cut_options(const Case& input) {
 }  // namespace
 
 Assembly cut_assembly(const Case& input) {
-  const SurfaceMap surface = make_surface(input.geometry);
-  const BondPattern bond = make_bond(input.geometry, bond_grid(surface));
+  const int rings = std::visit([](const auto& bond) { return bond.rings; }, input.geometry.bond);
+  const SurfaceMap surface = make_surface(input.geometry.surface, rings);
+  const BondPattern bond = make_bond(input.geometry.bond, bond_grid(surface));
   Assembly assembly = cut_blocks(surface, bond, cut_options(input));
   assembly.title = input.title;
   assembly.geometry_hash = input.geometry_hash;
@@ -51,7 +42,10 @@ Assembly cut_assembly(const Case& input) {
 Assembly generate(const Case& input, ModelReport* report) {
   Assembly assembly = cut_assembly(input);
   ModelReport measured = check_model(assembly);
-  if (!input.geometry.stage) measured.shell_volume = make_surface(input.geometry).shell_volume;
+  if (!input.geometry.stage) {
+    measured.shell_volume = make_surface(input.geometry.surface, 2).shell_volume;
+    if (!measured.shell_volume) measured.shell_volume = extrapolated_shell_volume(input.geometry.surface);
+  }
   if (report) *report = measured;
   return assembly;
 }

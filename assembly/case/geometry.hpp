@@ -1,7 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <variant>
+#include <vector>
+
+#include <Eigen/Core>
 
 namespace cupola {
 
@@ -24,7 +29,44 @@ struct WallSurface {
   double thickness = 1.0;  ///< m, > 0
 };
 
-using Surface = std::variant<DomeSurface, WallSurface>;
+/// Cluster vault over a regular polygon (an octagon by default): each sail is a cylinder, and the section
+/// through two opposite corners is the pointed-fifth profile of the dome.
+struct OctagonalVault {
+  /// How the beds lie: on cones about the axis, as Brunelleschi's; in planes normal to each sail; level.
+  enum class Construction : std::uint8_t { circular, planar_radial, planar_horizontal };
+  /// Where the extrados is: `thickness` measured normal to the sail; on the corner section, as a second arc;
+  /// on the mid-sail section, as a second arc; along level beds.
+  enum class Extrados : std::uint8_t { normal, corner, midsail, bed };
+
+  int sails = 8;                  ///< >= 3
+  double span = 45.0;             ///< m, > 0, clear distance of opposite corners at the springing
+  double radius_ratio = 0.8;      ///< radius of the corner arc over span, >= 0.5
+  double thickness = 2.2;         ///< m, > 0
+  double crown_angle_deg = 60.0;  ///< angle of the last bed at the corner, in (0, 90)
+  Construction construction = Construction::circular;
+  Extrados extrados = Extrados::normal;
+
+  double radius() const { return radius_ratio * span; }         ///< R, m
+  double center_offset() const { return radius() - span / 2; }  ///< e, m
+};
+
+/// Barrel arch of two arcs with radial joints, from one springing over the crown (x = 0) to the other; its
+/// axis is y. A pointed arch (radius_ratio > 0.5) has a joint in the crown plane.
+struct ArchSurface {
+  double span = 10.0;              ///< m, > 0, clear span of the full arc at z = 0: 2 R when semicircular
+  double radius_ratio = 0.5;       ///< intrados radius over span, >= 0.5 (0.5: one circle)
+  double thickness = 1.0;          ///< m, > 0
+  double width = 1.0;              ///< m, > 0, along the axis
+  double half_embrace_deg = 90.0;  ///< angle from the crown side, at the arc's centre, to the springing
+  /// Straight pieces of each voussoir's curved faces: 1 makes polygonal voussoirs, 16 sectors whose volume
+  /// is right to (angle/16)^2 / 6.
+  int voussoir_segments = 1;
+
+  double radius() const { return radius_ratio * span; }         ///< R, m
+  double center_offset() const { return radius() - span / 2; }  ///< e, m
+};
+
+using Surface = std::variant<DomeSurface, OctagonalVault, ArchSurface, WallSurface>;
 
 /// Running bond: every ring has the same number of blocks, odd rings are shifted by half a block. On a wall
 /// the odd courses end in half blocks.
@@ -32,19 +74,66 @@ struct RunningBond {
   int rings = 40;            ///< courses, >= 1
   int blocks_per_ring = 32;  ///< >= 1 on a wall, >= 3 on a dome
   int slices_per_block = 4;  ///< azimuthal cells per block, even
+  std::optional<double> phase =
+      {};  ///< block widths from the first corner to the first head joint; none: 1/4 on
+           ///< a vault with corners, so that no joint lies on a corner, else 0
 };
 
-using Bond = std::variant<RunningBond>;
+/// Stack bond: all head joints aligned.
+struct StackBond {
+  int rings = 40;
+  int blocks_per_ring = 32;
+  int slices_per_block = 4;
+  std::optional<double> phase = {};  ///< as in RunningBond
+};
+
+/// Narrow upright blocks ("verticals") that climb through whole blocks laid flat. On closed surfaces they
+/// form spirals that move one vertical's width per ring; on a wall one diagonal from corner to corner.
+struct HerringboneBond {
+  enum class Chirality : std::uint8_t { right, left };
+  enum class Path : std::uint8_t { spiral, meridian };
+
+  int rings = 40;
+  int blocks_per_ring = 32;                ///< whole blocks that would fill a ring
+  int spirals = 8;                         ///< also the number of meridian strips
+  int rings_per_vertical = 3;              ///< height of a vertical
+  int verticals_per_block = 3;             ///< a vertical is a whole block's width over this
+  Path path = Path::spiral;                ///< `meridian`: strips that climb straight up
+  Chirality chirality = Chirality::right;  ///< right: climbs counter-clockwise seen from above
+  std::optional<double> phase = {};  ///< block widths from the first corner to the first spiral's start;
+                                     ///< none: 1/6 on a vault with corners, else 0
+  int refine = 1;  ///< slices per vertical's width
+};
+
+/// Whole blocks of unequal width, chosen ring by ring (dynamic programming) so that head joints avoid the
+/// joints of the ring below and the corners of the vault.
+struct FillBond {
+  int rings = 40;
+  int blocks_per_ring = 32;  ///< sets the mean width
+  int slices_per_block = 8;  ///< cuts are possible at multiples of the mean width over this
+  double narrowest = 0.75;   ///< of the mean width, in (0, 1]
+  double widest = 1.25;      ///< of the mean width, >= 1
+};
+
+using Bond = std::variant<RunningBond, StackBond, HerringboneBond, FillBond>;
 
 struct Stage {
   int rings = 0;  ///< rings built so far, >= 1
+};
+
+/// Seeded deviations from the drawing. All faces stay plane.
+struct Imperfections {
+  double gap = 0.0;    ///< m: every bed and head of every block recedes by up to half of this, >= 0
+  double noise = 0.0;  ///< m: beds, head planes and skin corners move by up to this, >= 0; joints stay closed
+  int seed = 1;        ///< >= 0
 };
 
 struct Geometry {
   Surface surface = DomeSurface{};
   Bond bond = RunningBond{};
   std::optional<Stage> stage;
-  double support_width = 1.0;  ///< m, how far the fixed base reaches beyond the shell, > 0
+  std::optional<Imperfections> imperfections;  ///< from the case's section of that name
+  double support_width = 1.0;                  ///< m, how far the fixed base reaches beyond the shell, > 0
 };
 
 }  // namespace cupola

@@ -34,4 +34,13 @@ struct BondPattern {
   int at(int ring, int slice) const { return block_of[static_cast<size_t>(ring) * num_slices() + slice]; }
 };
 
+/// `count` equal slices from `start` on (count + 1).
+std::vector<double> lattice_cuts(double extent, double start, int count);
+
+/// Splits every slice that a corner of the surface lies in, so that corners are cuts.
+void split_at_corners(const BondGrid& grid, BondPattern* pattern);
+
+/// Turns the abscissa round: a becomes extent - a.
+void mirror(double extent, BondPattern* pattern);
+
 }  // namespace cupola

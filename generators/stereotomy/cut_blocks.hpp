@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "assembly/assembly.hpp"
+#include "assembly/case/geometry.hpp"
 #include "generators/bond/bond_pattern.hpp"
 #include "generators/surface/surface_map.hpp"
 
@@ -10,6 +13,7 @@ struct CutOptions {
   double density = 0.0;        ///< kg/m3
   double support_width = 1.0;  ///< m, how far the fixed base reaches beyond the shell
   int stage_rings = 0;         ///< only blocks that begin below this ring; 0 means all
+  std::optional<Imperfections> imperfections;
 };
 
 /// Cuts a surface along a bond: one shared vertex table, one convex part per cell, cells merged where that

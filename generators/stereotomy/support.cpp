@@ -69,20 +69,29 @@ void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double
   }
 }
 
-void add_plate(const SurfaceMap& surface, const std::vector<double>& cuts, double width, Assembly* assembly) {
-  // The bed's corners, and its outward normal as seen from the shell above it.
-  const Vec3 a = surface.point(0, cuts.front(), Skin::intrados);
-  const Vec3 b = surface.point(0, cuts.back(), Skin::intrados);
-  const Vec3 c = surface.point(0, cuts.back(), Skin::extrados);
-  const Vec3 d = surface.point(0, cuts.front(), Skin::extrados);
+/// Box behind bed `bed`, whose far side is that of the neighbouring bed `inside`.
+void add_plate(const SurfaceMap& surface, const std::vector<double>& cuts, int bed, int inside, double width,
+               Assembly* assembly) {
+  const Vec3 a = surface.point(bed, cuts.front(), Skin::intrados);
+  const Vec3 b = surface.point(bed, cuts.back(), Skin::intrados);
+  const Vec3 c = surface.point(bed, cuts.back(), Skin::extrados);
+  const Vec3 d = surface.point(bed, cuts.front(), Skin::extrados);
   const Vec3 along = (b - a).normalized();
   const Vec3 across = (d - a).normalized();
-  const Vec3 down = -width * across.cross(along).normalized();
-  const std::array<Vec3, 4> corners{a - width * (along + across), d + width * (across - along),
-                                    c + width * (along + across), b + width * (along - across)};
+  Vec3 up = across.cross(along).normalized();
+  const bool flipped = up.dot(surface.point(inside, cuts.front(), Skin::intrados) - a) < 0.0;
+  if (flipped) up = -up;
+  // Two supports that face each other leave half of the clear span between them.
+  const int other_end = bed == 0 ? surface.num_rows : 0;
+  const double clear = (surface.point(other_end, cuts.front(), Skin::intrados) - a).norm();
+  const double inner = surface.footing == Footing::both_springings ? std::min(width, clear / 4.0) : width;
+
+  std::array<Vec3, 4> corners{a - width * along - inner * across, d + width * (across - along),
+                              c + width * (along + across), b + width * along - inner * across};
+  if (flipped) std::swap(corners[1], corners[3]);  // counter-clockwise seen from the shell
   std::array<int, 4> top_ids{}, bottom_ids{};
   for (int i = 0; i < 4; ++i) top_ids[i] = add_vertex(corners[i], assembly);
-  for (int i = 0; i < 4; ++i) bottom_ids[i] = add_vertex(corners[i] + down, assembly);
+  for (int i = 0; i < 4; ++i) bottom_ids[i] = add_vertex(corners[i] - width * up, assembly);
   start_part(static_cast<int>(assembly->blocks.size()) - 1, 0, assembly);
   using enum FaceKind;
   add_hexahedron(top_ids, bottom_ids, {free, free, free, free}, assembly);
@@ -96,7 +105,13 @@ void add_base_support(const SurfaceMap& surface, const std::vector<double>& cuts
   if (surface.footing == Footing::ring)
     add_ring(surface, cuts, width, assembly);
   else
-    add_plate(surface, cuts, width, assembly);
+    add_plate(surface, cuts, 0, 1, width, assembly);
+}
+
+void add_far_support(const SurfaceMap& surface, const std::vector<double>& cuts, double width, double density,
+                     Assembly* assembly) {
+  start_support_block(density, assembly);
+  add_plate(surface, cuts, surface.num_rows, surface.num_rows - 1, width, assembly);
 }
 
 }  // namespace cupola

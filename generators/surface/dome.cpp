@@ -29,12 +29,12 @@ SurfaceMap dome_surface(const DomeSurface& dome, int rings) {
                     dome.crown_angle_deg, std::acos(e / R) * 180.0 / pi));
 
   SurfaceMap surface;
-  surface.num_rings = rings;
+  surface.num_rows = rings;
   surface.closed = true;
   surface.extent = 2.0 * pi;
   surface.footing = Footing::ring;
   surface.shell_volume = smooth_volume(R, R + dome.thickness, e, crown);
-  surface.point = [=, thickness = dome.thickness](int bed, double azimuth, Skin skin) {
+  surface.point = [=, thickness = dome.thickness](double bed, double azimuth, Skin skin) {
     const double t = crown * bed / rings;
     const double r = skin == Skin::intrados ? R : R + thickness;
     const double rho = r * std::cos(t) - e;

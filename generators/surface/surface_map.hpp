@@ -22,16 +22,19 @@ enum class Footing {
 /// radians on closed surfaces, a length in metres on the others. The directions (outwards, along, up) are
 /// right-handed. It knows nothing of blocks.
 struct SurfaceMap {
-  std::function<Vec3(int bed, double abscissa, Skin skin)> point;  ///< m
-  int num_rings = 0;                                               ///< K; beds count 0 .. K
-  bool closed = false;                                             ///< the last slice meets the first one
-  double extent = 0.0;          ///< range of the abscissa: 2 pi, or the length in m
+  std::function<Vec3(double bed, double abscissa, Skin skin)> point;  ///< m
+  int num_rows = 0;       ///< rows of cells; beds count 0 .. num_rows, positions between them are defined
+  int rows_per_ring = 1;  ///< more than 1 where the cells follow curved faces within a course
+  bool closed = false;    ///< the last slice meets the first one
+  double extent = 0.0;    ///< range of the abscissa: 2 pi, or the length in m
   std::vector<double> corners;  ///< ascending abscissae where facets meet, in [0, extent)
   bool flat_slices = false;     ///< cells of one ring and one facet form one convex solid exactly
   bool flat_rings = false;      ///< so do cells of one facet in successive rings
   bool flat_skins = true;       ///< four corners of a cell on one skin are coplanar
   Footing footing = Footing::ring;
   std::optional<double> shell_volume;  ///< m3, of the curved shell, where a closed form is known
+
+  int num_rings() const { return num_rows / rows_per_ring; }
 };
 
 }  // namespace cupola

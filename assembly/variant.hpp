@@ -1,0 +1,11 @@
+#pragma once
+
+namespace cupola {
+
+/// One function object out of several lambdas, for std::visit.
+template <class... Ts>
+struct Overloaded : Ts... {
+  using Ts::operator()...;
+};
+
+}  // namespace cupola

@@ -1,0 +1,138 @@
+#include "generators/bond/fill.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "assembly/error.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Possible joints in units of the lattice, 0 .. num_units (open) or 0 .. num_units - 1 (closed).
+struct Lattice {
+  int num_units, mean, narrowest, widest;
+  bool closed;
+  std::vector<double> corners;  // in units
+
+  /// Distance of two positions, the short way round.
+  double distance(double a, double b) const {
+    return closed ? std::abs(std::remainder(a - b, num_units)) : std::abs(a - b);
+  }
+};
+
+/// Cost of a joint at each position, given the joints of the ring below.
+std::vector<double> joint_costs(const Lattice& lattice, const std::vector<int>& below) {
+  const double quarter = 0.25 * lattice.mean;
+  std::vector<double> cost(lattice.num_units + 1, 0.0);
+  for (int position = 0; position <= lattice.num_units; ++position) {
+    double nearest = kInfinity;
+    for (int joint : below) nearest = std::min(nearest, lattice.distance(position, joint));
+    cost[position] = std::max(0.0, 1.0 - nearest / quarter);
+    for (double corner : lattice.corners)
+      if (lattice.distance(position, corner) < quarter - 1e-9) cost[position] = kInfinity;
+  }
+  return cost;
+}
+
+struct RingFill {
+  double cost = kInfinity;
+  std::vector<int> joints;  // ascending; closed: in [0, num_units); open: 0 and the end left out
+};
+
+/// Cheapest fill that begins with a joint at `start` and ends at start + num_units.
+RingFill fill_from(const Lattice& lattice, const std::vector<double>& joint_cost, int start) {
+  const int N = lattice.num_units;
+  std::vector<double> best{lattice.closed ? joint_cost[start] : 0.0};
+  best.resize(static_cast<size_t>(N) + 1, kInfinity);
+  std::vector<int> previous(best.size(), -1);
+  for (int end = 1; end <= N; ++end) {
+    const double here = end == N ? 0.0 : joint_cost[(start + end) % N];
+    for (int width = lattice.narrowest; width <= std::min(lattice.widest, end); ++width) {
+      const double deviation = 1.0 * width / lattice.mean - 1.0;
+      const double cost = best[end - width] + deviation * deviation + here;
+      if (cost < best[end]) {
+        best[end] = cost;
+        previous[end] = end - width;
+      }
+    }
+  }
+  RingFill fill{best[N], {}};
+  if (fill.cost == kInfinity) return fill;
+  for (int end = previous[N]; end > 0; end = previous[end]) fill.joints.push_back((start + end) % N);
+  if (lattice.closed) fill.joints.push_back(start);
+  std::ranges::sort(fill.joints);
+  return fill;
+}
+
+RingFill fill_ring(const Lattice& lattice, const std::vector<int>& below) {
+  const std::vector<double> cost = joint_costs(lattice, below);
+  RingFill best;
+  const int num_starts = lattice.closed ? lattice.widest : 1;  // some joint lies within the widest block
+  for (int start = 0; start < num_starts; ++start) {
+    RingFill fill = fill_from(lattice, cost, start);
+    if (fill.cost < best.cost) best = std::move(fill);
+  }
+  return best;
+}
+
+Lattice make_lattice(const FillBond& bond, const BondGrid& grid) {
+  const int m = bond.slices_per_block;
+  Lattice lattice{bond.blocks_per_ring * m,
+                  m,
+                  static_cast<int>(std::ceil(bond.narrowest * m - 1e-9)),
+                  static_cast<int>(std::floor(bond.widest * m + 1e-9)),
+                  grid.closed,
+                  {}};
+  for (double corner : grid.corners) lattice.corners.push_back(corner / grid.extent * lattice.num_units);
+  return lattice;
+}
+
+/// Cuts that some ring uses, and the blocks between them.
+BondPattern pattern_of(const std::vector<std::vector<int>>& joints, const Lattice& lattice,
+                       const BondGrid& grid) {
+  std::vector<int> used;
+  for (const auto& ring : joints) used.insert(used.end(), ring.begin(), ring.end());
+  if (!lattice.closed) used.push_back(0);
+  std::ranges::sort(used);
+  used.erase(std::ranges::unique(used).begin(), used.end());
+  used.push_back(lattice.closed ? used.front() + lattice.num_units : lattice.num_units);
+
+  BondPattern pattern;
+  pattern.num_rings = grid.num_rings;
+  for (int position : used) pattern.cuts.push_back(grid.extent * position / lattice.num_units);
+  for (const auto& ring : joints) {
+    const int first_block = static_cast<int>(pattern.blocks.size());
+    const int num_blocks = static_cast<int>(ring.size()) + (lattice.closed ? 0 : 1);
+    for (size_t s = 0; s + 1 < used.size(); ++s) {
+      const auto passed = static_cast<int>(std::ranges::upper_bound(ring, used[s]) - ring.begin());
+      pattern.block_of.push_back(first_block + passed % num_blocks);
+    }
+    pattern.blocks.resize(pattern.blocks.size() + num_blocks);
+  }
+  return pattern;
+}
+
+}  // namespace
+
+BondPattern fill_bond(const FillBond& bond, const BondGrid& grid) {
+  const Lattice lattice = make_lattice(bond, grid);
+  std::vector<std::vector<int>> joints;
+  for (int ring = 0; ring < grid.num_rings; ++ring) {
+    const RingFill fill = fill_ring(lattice, joints.empty() ? std::vector<int>{} : joints.back());
+    if (fill.cost == kInfinity)
+      throw InputError(
+          fmt::format("geometry.bond: blocks of {} to {} slices cannot fill ring {}, which has {}",
+                      lattice.narrowest, lattice.widest, ring, lattice.num_units));
+    joints.push_back(fill.joints);
+  }
+  BondPattern pattern = pattern_of(joints, lattice, grid);
+  split_at_corners(grid, &pattern);
+  return pattern;
+}
+
+}  // namespace cupola

@@ -1,0 +1,95 @@
+#include "generators/stereotomy/grid_points.hpp"
+
+#include <cmath>
+
+namespace cupola {
+
+double Random::uniform() {  // splitmix64 (Steele, Lea, Flood 2014)
+  std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ULL);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  z ^= z >> 31;
+  return static_cast<double>(z >> 11) * 0x1.0p-53;
+}
+
+GridPoints::GridPoints(const CellGrid& grid, const std::optional<Imperfections>& imperfections)
+    : grid_(grid),
+      gap_(imperfections ? imperfections->gap : 0.0),
+      noise_(imperfections ? imperfections->noise : 0.0),
+      random_(imperfections ? imperfections->seed : 0),
+      num_columns_(grid.surface.closed ? grid.num_slices : grid.num_slices + 1) {
+  bed_noise_.assign(grid.num_rows + 1, 0.0);
+  cut_noise_.assign(num_columns_, 0.0);
+  skin_noise_.assign(static_cast<size_t>(grid.num_rows + 1) * num_columns_ * 2, 0.0);
+  if (noise_ == 0.0) return;
+  const bool last_is_fixed = grid.surface.footing == Footing::both_springings;
+  for (int bed = 1; bed <= grid.num_rows - (last_is_fixed ? 1 : 0); ++bed)
+    bed_noise_[bed] = noise_ * random_.symmetric() / metres_per_bed(bed, 0);
+  for (int cut = 0; cut < num_columns_; ++cut)
+    if (!grid.is_corner(cut)) cut_noise_[cut] = noise_ * random_.symmetric() / metres_per_abscissa(0, cut);
+  for (double& shift : skin_noise_) shift = noise_ * random_.symmetric();
+}
+
+double GridPoints::metres_per_bed(int bed, int cut) const {
+  const int below = bed > 0 ? bed - 1 : 0;
+  const double a = grid_.abscissa(cut);
+  return (grid_.surface.point(below + 1, a, Skin::intrados) - grid_.surface.point(below, a, Skin::intrados))
+      .norm();
+}
+
+double GridPoints::metres_per_abscissa(int bed, int cut) const {
+  const int left = cut + 1 < num_columns_ || grid_.surface.closed ? cut : cut - 1;
+  const double a = grid_.abscissa(left), b = grid_.abscissa(left + 1);
+  return (grid_.surface.point(bed, b, Skin::intrados) - grid_.surface.point(bed, a, Skin::intrados)).norm() /
+         (b - a);
+}
+
+Vec3 GridPoints::point(double bed_shift, double cut_shift, int bed, int cut, Skin skin) const {
+  const int column = grid_.wrap(cut);
+  const double b = bed + bed_noise_[bed] + bed_shift;
+  const double a = grid_.bond.cuts[column] + cut_noise_[column] + cut_shift;
+  const Vec3 p = grid_.surface.point(b, a, skin);
+  if (noise_ == 0.0) return p;
+  const Vec3 across = grid_.surface.point(b, a, Skin::extrados) - grid_.surface.point(b, a, Skin::intrados);
+  const size_t corner = (static_cast<size_t>(bed) * num_columns_ + column) * 2 + static_cast<size_t>(skin);
+  return p + skin_noise_[corner] * across.normalized();
+}
+
+void GridPoints::make_shared(std::vector<Vec3>* vertices) {
+  if (gap_ > 0.0) return;
+  first_vertex_ = static_cast<int>(vertices->size());
+  for (int bed = 0; bed <= grid_.num_rows; ++bed)
+    for (int column = 0; column < num_columns_; ++column)
+      for (Skin skin : {Skin::intrados, Skin::extrados})
+        vertices->push_back(point(0.0, 0.0, bed, column, skin));
+}
+
+void GridPoints::start_block(int bond_block) {
+  if (gap_ == 0.0) return;
+  own_.clear();
+  const int row = grid_.first_row(bond_block);
+  const auto [left, right] = slices_in_row(grid_, bond_block, row);
+  const auto part_of_gap = [&] { return 0.5 * gap_ * random_.uniform(); };
+  sides_ = {row, grid_.last_row(bond_block) + 1, left, right, 0, 0, 0, 0};
+  sides_.lower_gap = part_of_gap() / metres_per_bed(sides_.lower + 1, left);
+  sides_.upper_gap = part_of_gap() / metres_per_bed(sides_.upper, left);
+  sides_.left_gap = part_of_gap() / metres_per_abscissa(row, left);
+  sides_.right_gap = part_of_gap() / metres_per_abscissa(row, right - 1);
+}
+
+int GridPoints::vertex(int bed, int cut, Skin skin, std::vector<Vec3>* vertices) {
+  if (gap_ == 0.0) return first_vertex_ + (bed * num_columns_ + grid_.wrap(cut)) * 2 + static_cast<int>(skin);
+  const auto [it, is_new] =
+      own_.try_emplace({bed, cut, static_cast<int>(skin)}, static_cast<int>(vertices->size()));
+  if (!is_new) return it->second;
+  const double bed_shift = bed == sides_.lower   ? sides_.lower_gap
+                           : bed == sides_.upper ? -sides_.upper_gap
+                                                 : 0.0;
+  const double cut_shift = cut == sides_.left    ? sides_.left_gap
+                           : cut == sides_.right ? -sides_.right_gap
+                                                 : 0.0;
+  vertices->push_back(point(bed_shift, cut_shift, bed, cut, skin));
+  return it->second;
+}
+
+}  // namespace cupola

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "generators/stereotomy/cell_grid.hpp"
+
+namespace cupola {
+
+/// Seeded numbers in [0, 1), the same on every machine.
+class Random {
+ public:
+  explicit Random(int seed) : state_(static_cast<std::uint64_t>(seed)) {}
+  double uniform();
+  double symmetric() { return 2.0 * uniform() - 1.0; }  ///< [-1, 1)
+
+ private:
+  std::uint64_t state_;
+};
+
+/// Corner points of the grid as built.
+///
+/// Without imperfections there is one vertex per bed, cut and skin, shared by all cells around it. Noise
+/// moves beds and head planes as wholes, and each corner along the line that joins intrados and extrados
+/// there: that line lies in the bed and in the head plane, so both stay plane and joints stay closed; the
+/// first bed (and an arch's last) stays on its support. Gaps give every block corners of its own, its beds
+/// and heads moved inwards by random parts of gap / 2, measured on the intrados.
+class GridPoints {
+ public:
+  GridPoints(const CellGrid& grid, const std::optional<Imperfections>& imperfections);
+
+  bool flat_skins() const { return grid_.surface.flat_skins && noise_ == 0.0; }
+  /// Appends the shared vertices to the table.
+  void make_shared(std::vector<Vec3>* vertices);
+  /// Call before the vertices of each block.
+  void start_block(int bond_block);
+  int vertex(int bed, int cut, Skin skin, std::vector<Vec3>* vertices);
+
+ private:
+  Vec3 point(double bed_shift, double cut_shift, int bed, int cut, Skin skin) const;
+  double metres_per_bed(int bed, int cut) const;
+  double metres_per_abscissa(int bed, int cut) const;
+
+  const CellGrid& grid_;
+  double gap_ = 0.0, noise_ = 0.0;  // m
+  Random random_;
+  int num_columns_ = 0, first_vertex_ = 0;
+  std::vector<double> bed_noise_, cut_noise_, skin_noise_;  // bed units, abscissa units, m
+
+  struct Sides {
+    int lower, upper, left, right;                     // beds and cuts of the block
+    double lower_gap, upper_gap, left_gap, right_gap;  // bed units, abscissa units
+  } sides_{};
+  std::map<std::tuple<int, int, int>, int> own_;  // of the block: (bed, cut, skin) -> vertex
+};
+
+}  // namespace cupola

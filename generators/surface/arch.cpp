@@ -1,0 +1,63 @@
+#include "generators/surface/arch.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "assembly/error.hpp"
+
+namespace cupola {
+namespace {
+
+using std::numbers::pi;
+
+/// Angle from the horizontal at which the arc of radius r, centred e beyond the crown plane, reaches it.
+double crown_angle(double r, double e) {
+  return std::acos(e / r);
+}
+
+/// Area between the two arcs of one half, from angle t0 to the crown plane.
+double half_area(double r0, double r1, double e, double t0) {
+  const auto under = [&](double r) {  // area of the sector from t0 to the crown, plus the triangle beside it
+    const double t = crown_angle(r, e);
+    return 0.5 * r * r * (t - t0) - 0.5 * e * r * std::sin(t);
+  };
+  return under(r1) - under(r0);
+}
+
+}  // namespace
+
+SurfaceMap arch_surface(const ArchSurface& arch, int rings) {
+  const double R = arch.radius();
+  const double e = arch.center_offset();
+  const double springing = pi / 2 - arch.half_embrace_deg * pi / 180.0;
+  if (e > 0.0 && rings % 2 != 0)
+    throw InputError(fmt::format(
+        "geometry.bond.rings = {}: a pointed arch has a joint at the crown, so the number must be even",
+        rings));
+  if (springing >= crown_angle(R, e))
+    throw InputError(
+        fmt::format("geometry.surface.half_embrace_deg = {}: the springing lies beyond the crown",
+                    arch.half_embrace_deg));
+
+  SurfaceMap surface;
+  surface.rows_per_ring = arch.voussoir_segments;
+  surface.num_rows = rings * arch.voussoir_segments;
+  surface.extent = arch.width;
+  surface.flat_slices = true;
+  surface.footing = Footing::both_springings;
+  surface.shell_volume = 2.0 * arch.width * half_area(R, R + arch.thickness, e, springing);
+  surface.point = [=, num_beds = surface.num_rows](double bed, double y, Skin skin) {
+    const double r = skin == Skin::intrados ? R : R + arch.thickness;
+    const bool mirrored = 2.0 * bed > num_beds;
+    const double fraction = 2.0 * (mirrored ? num_beds - bed : bed) / num_beds;  // 0 springing, 1 crown
+    if (fraction == 1.0) return Vec3(0.0, y, r * std::sin(crown_angle(r, e)));
+    const double t = springing + (crown_angle(R, e) - springing) * fraction;
+    const double x = -e + r * std::cos(t);
+    return Vec3(mirrored ? -x : x, y, r * std::sin(t));
+  };
+  return surface;
+}
+
+}  // namespace cupola

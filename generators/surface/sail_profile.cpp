@@ -1,0 +1,49 @@
+#include "generators/surface/sail_profile.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "assembly/error.hpp"
+#include "generators/surface/surface_map.hpp"
+
+namespace cupola {
+
+using std::numbers::pi;
+
+Eigen::Vector2d SailProfile::intrados(double tau) const {
+  return {c * (-e + R * std::cos(tau)), R * std::sin(tau)};
+}
+
+Eigen::Vector2d SailProfile::extrados(double tau) const {
+  const double m = std::hypot(std::cos(tau), c * std::sin(tau));
+  return intrados(tau) + thickness / m * Eigen::Vector2d(std::cos(tau), c * std::sin(tau));
+}
+
+SailProfile sail_profile(const OctagonalVault& vault) {
+  return {vault.radius(), vault.center_offset(), std::cos(pi / vault.sails), vault.thickness};
+}
+
+double azimuth_from_midsail(double azimuth, int sails) {
+  const double sail = 2.0 * pi / sails;
+  return azimuth - (std::floor(azimuth / sail) + 0.5) * sail;
+}
+
+SurfaceMap empty_vault(const OctagonalVault& vault, int rings) {
+  const double last = std::acos(vault.center_offset() / vault.radius()) * 180.0 / pi;
+  if (vault.crown_angle_deg >= last)
+    throw InputError(
+        fmt::format("geometry.surface.crown_angle_deg = {}: the intrados meets the axis at {:.6g} deg, must "
+                    "stop before it",
+                    vault.crown_angle_deg, last));
+  SurfaceMap surface;
+  surface.num_rows = rings;
+  surface.closed = true;
+  surface.extent = 2.0 * pi;
+  surface.footing = Footing::ring;
+  for (int i = 0; i < vault.sails; ++i) surface.corners.push_back(2.0 * pi * i / vault.sails);
+  return surface;
+}
+
+}  // namespace cupola

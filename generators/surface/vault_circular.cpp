@@ -1,0 +1,59 @@
+#include "generators/surface/vault_circular.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "assembly/error.hpp"
+#include "generators/surface/sail_profile.hpp"
+#include "generators/surface/secant.hpp"
+
+namespace cupola {
+namespace {
+
+/// rho where the bed T = tan t meets the sail of the arc of radius R, at q = c / cos psi.
+double sail_rho(double R, double e, double q, double T) {
+  const double tau = std::atan(q * T) + std::asin(e / R * T * (1.0 - q) / std::sqrt(1.0 + q * q * T * T));
+  return q * (-e + R * std::cos(tau));
+}
+
+/// rho where the bed at angle t meets the surface parallel to the sail.
+double parallel_rho(const SailProfile& profile, double cos_psi, double t) {
+  const double T = std::tan(t);
+  const auto miss = [&](double tau) {
+    const Eigen::Vector2d p = profile.extrados(tau);
+    return (p.y() - profile.e * T) * std::cos(t) - p.x() / cos_psi * std::sin(t);
+  };
+  const double guess = std::atan(profile.c / cos_psi * T);
+  const double tau = t == 0.0 ? 0.0 : secant_root(miss, guess, guess + 1e-3);
+  return profile.extrados(tau).x() / cos_psi;
+}
+
+double extrados_rho(const OctagonalVault& vault, const SailProfile& profile, double cos_psi, double t) {
+  const double q = profile.c / cos_psi;
+  using enum OctagonalVault::Extrados;
+  if (vault.extrados == normal) return parallel_rho(profile, cos_psi, t);
+  const double th = vault.extrados == corner ? vault.thickness : vault.thickness / profile.c;
+  return sail_rho(profile.R + th, profile.e, q, std::tan(t));
+}
+
+}  // namespace
+
+SurfaceMap circular_vault_surface(const OctagonalVault& vault, int rings) {
+  if (vault.extrados == OctagonalVault::Extrados::bed)
+    throw InputError("geometry.surface.extrados = bed: only level beds (planar_horizontal) can measure it");
+  SurfaceMap surface = empty_vault(vault, rings);
+  surface.flat_skins = false;
+  const SailProfile profile = sail_profile(vault);
+  const double crown = vault.crown_angle_deg * std::numbers::pi / 180.0;
+  surface.point = [=](double bed, double azimuth, Skin skin) {
+    const double t = crown * bed / rings;
+    const double cos_psi = std::cos(azimuth_from_midsail(azimuth, vault.sails));
+    const double rho = skin == Skin::intrados
+                           ? sail_rho(profile.R, profile.e, profile.c / cos_psi, std::tan(t))
+                           : extrados_rho(vault, profile, cos_psi, t);
+    return Vec3(rho * std::cos(azimuth), rho * std::sin(azimuth), (profile.e + rho) * std::tan(t));
+  };
+  return surface;
+}
+
+}  // namespace cupola

@@ -1,0 +1,61 @@
+#include "generators/surface/vault_planar.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "assembly/error.hpp"
+#include "generators/surface/sail_profile.hpp"
+#include "generators/surface/secant.hpp"
+
+namespace cupola {
+namespace {
+
+using Eigen::Vector2d;
+using enum OctagonalVault::Extrados;
+
+/// Radius of the second arc that a `corner` or `midsail` extrados lies on.
+double outer_radius(const OctagonalVault& vault, const SailProfile& profile) {
+  return profile.R + (vault.extrados == midsail ? vault.thickness / profile.c : vault.thickness);
+}
+
+/// (X, z) on the mid-sail section of the bed normal to the sail at arc parameter t.
+Vector2d radial_point(const OctagonalVault& vault, const SailProfile& profile, double t, Skin skin) {
+  if (skin == Skin::intrados) return profile.intrados(t);
+  if (vault.extrados == normal) return profile.extrados(t);
+  const double r = outer_radius(vault, profile);
+  return {profile.c * (-profile.e + r * std::cos(t)), r * std::sin(t)};
+}
+
+/// (X, z) on the mid-sail section of the level bed at height z.
+Vector2d level_point(const OctagonalVault& vault, const SailProfile& profile, double z, Skin skin) {
+  const auto arc = [&](double r) { return profile.c * (-profile.e + std::sqrt(r * r - z * z)); };
+  if (skin == Skin::intrados) return {arc(profile.R), z};
+  if (vault.extrados == bed) return {arc(profile.R) + vault.thickness, z};
+  if (vault.extrados != normal) return {arc(outer_radius(vault, profile)), z};
+  const auto miss = [&](double tau) { return profile.extrados(tau).y() - z; };
+  const double guess = std::asin(z / (profile.R + profile.thickness));
+  const double tau = z == 0.0 ? 0.0 : secant_root(miss, guess, guess + 1e-3);
+  return {profile.extrados(tau).x(), z};
+}
+
+}  // namespace
+
+SurfaceMap planar_vault_surface(const OctagonalVault& vault, int rings) {
+  const bool level = vault.construction == OctagonalVault::Construction::planar_horizontal;
+  if (vault.extrados == bed && !level)
+    throw InputError("geometry.surface.extrados = bed: only level beds (planar_horizontal) can measure it");
+  SurfaceMap surface = empty_vault(vault, rings);
+  surface.flat_slices = true;
+  const SailProfile profile = sail_profile(vault);
+  const double crown = vault.crown_angle_deg * std::numbers::pi / 180.0;
+  const double crown_height = profile.R * std::sin(crown);
+  surface.point = [=](double bed_position, double azimuth, Skin skin) {
+    const Vector2d section = level ? level_point(vault, profile, crown_height * bed_position / rings, skin)
+                                   : radial_point(vault, profile, crown * bed_position / rings, skin);
+    const double rho = section.x() / std::cos(azimuth_from_midsail(azimuth, vault.sails));
+    return Vec3(rho * std::cos(azimuth), rho * std::sin(azimuth), section.y());
+  };
+  return surface;
+}
+
+}  // namespace cupola
