@@ -2,39 +2,9 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
-#include "assembly/error.hpp"
+#include "assembly/applied_loads.hpp"
 
 namespace cupola {
-namespace {
-
-/// Spreads a weight over the top faces by area, as vertical forces at the face centroids. `down` is unit.
-void add_top_load(const Assembly& assembly, double weight, const Vec3& down, const char* key,
-                  std::vector<PointLoad>* loads) {
-  struct TopFace {
-    int block;
-    Vec3 centroid;
-    double area;
-  };
-  std::vector<TopFace> faces;
-  double total_area = 0.0;
-  for (const Part& part : assembly.parts) {
-    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-      if (assembly.face_kinds[f] != FaceKind::top) continue;
-      const std::vector<Vec3> polygon = face_points(assembly, f);
-      faces.push_back({part.block, polygon_centroid(polygon), polygon_area(polygon)});
-      total_area += faces.back().area;
-    }
-  }
-  if (faces.empty())
-    throw InputError(fmt::format("loads.{}: the assembly has no top faces to carry it", key));
-  for (const TopFace& face : faces)
-    loads->push_back({face.block, face.centroid - assembly.blocks[face.block].centroid,
-                      weight * face.area / total_area * down});
-}
-
-}  // namespace
 
 Model make_model(const Case& scene, const Assembly& assembly) {
   Model model;
@@ -47,17 +17,11 @@ Model make_model(const Case& scene, const Assembly& assembly) {
     model.free_index[block] = model.num_free();
     model.free_blocks.push_back(static_cast<int>(block));
   }
-  const double g = model.gravity.norm();
-  model.free_weight = free_weight(assembly, g);
+  model.free_weight = free_weight(assembly, model.gravity.norm());
   model.block_weight = model.num_free() > 0 ? model.free_weight / model.num_free() : 0.0;
 
-  const Vec3 down = g > 0.0 ? Vec3(model.gravity / g) : Vec3(-Vec3::UnitZ());
-  const auto add = [&](const std::optional<TopLoad>& load, const char* key) {
-    if (load && load->weight_fraction > 0.0)
-      add_top_load(assembly, load->weight_fraction * model.free_weight, down, key, &model.loads);
-  };
-  add(scene.loads.lantern, "lantern");
-  add(scene.loads.top_load, "top_load");
+  for (const PointForce& load : applied_loads(scene.loads, assembly))
+    model.loads.push_back({load.block, load.point - assembly.blocks[load.block].centroid, load.force});
   return model;
 }
 
