@@ -50,11 +50,13 @@ struct Loads {
 };
 
 enum class AnalysisType { static_, dynamic };
+enum class ContactMethod { newton };
 enum class FrictionLaw { associated };
 enum class TangentialSpring { memory, literal };
 
 struct Analysis {
   AnalysisType type = AnalysisType::static_;
+  ContactMethod method = ContactMethod::newton;
   FrictionLaw friction_law = FrictionLaw::associated;
   /// Static: largest equilibrium residual accepted, inertia share included; h follows from it. Dynamic: the
   /// relative momentum residual of each step.

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assembly/error.hpp"
+
+namespace cupola {
+
+/// A piece of a case file: a scalar, a list or a map, with the place where it was written. What YAML offers
+/// beyond that (anchors, tags, merge keys, several documents) is refused by the reader, so that a case
+/// means what it shows.
+struct CaseNode {
+  enum class Kind { empty, scalar, list, map };
+  struct Entry;
+
+  Kind kind = Kind::empty;
+  std::string text;             ///< scalar
+  bool quoted = false;          ///< scalar written in quotes: never a number
+  std::vector<CaseNode> items;  ///< list
+  std::vector<Entry> entries;   ///< map, in the order of the file
+  FileLocation where;
+
+  const CaseNode* find(std::string_view key) const;  ///< nullptr when the map has no such key
+  const Entry* find_entry(std::string_view key) const;
+};
+
+struct CaseNode::Entry {
+  std::string key;
+  FileLocation where;  ///< of the key
+  CaseNode value;
+};
+
+/// Text in one line for a message: control characters shown as `?`, long text cut.
+std::string shown(std::string_view text);
+/// The same for any node: `[...]` for a list, `{...}` for a map.
+std::string shown(const CaseNode& node);
+
+/// YAML that reads back to the same tree.
+std::string to_yaml(const CaseNode& map);
+
+}  // namespace cupola

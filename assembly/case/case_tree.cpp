@@ -1,0 +1,131 @@
+#include "assembly/case/case_tree.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "assembly/atomic_file.hpp"
+#include "assembly/case/yaml_text.hpp"
+
+namespace cupola {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kLongestChain = 16;  // files that extend one another
+
+/// Maps whose other keys belong to their `type`. `analysis` is not one: its keys serve every type.
+bool type_owns_keys(const std::string& path) {
+  return path == "geometry.surface" || path == "geometry.bond";
+}
+
+/// Lays `over` on `base`: maps merge key by key, everything else replaces, `null` takes a key out. Where
+/// the type owns the keys, another type replaces the map whole.
+void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "") {
+  if (base->kind != CaseNode::Kind::map || over.kind != CaseNode::Kind::map) {
+    *base = over;
+    return;
+  }
+  const CaseNode* old_type = base->find("type");
+  const CaseNode* new_type = over.find("type");
+  if (type_owns_keys(path) && old_type && new_type && old_type->text != new_type->text) base->entries.clear();
+  for (const CaseNode::Entry& entry : over.entries) {
+    const auto present = std::find_if(base->entries.begin(), base->entries.end(),
+                                      [&](const CaseNode::Entry& e) { return e.key == entry.key; });
+    if (present == base->entries.end()) {
+      base->entries.push_back(entry);
+    } else if (entry.value.kind == CaseNode::Kind::empty) {
+      base->entries.erase(present);
+    } else {
+      overlay(&present->value, entry.value, path.empty() ? entry.key : path + "." + entry.key);
+    }
+  }
+}
+
+CaseNode load_file(const std::string& path, const std::string& root_folder, std::vector<fs::path>* chain) {
+  const fs::path identity = fs::weakly_canonical(path);
+  CaseNode tree = parse_yaml(read_text(path), path);
+  if (tree.kind != CaseNode::Kind::map)
+    throw InputError(tree.where, "a case file is a map of sections, `key: value`");
+
+  const CaseNode::Entry* extends = tree.find_entry("extends");
+  if (!extends) return tree;
+  const CaseNode& name = extends->value;
+  if (name.kind != CaseNode::Kind::scalar || name.text.empty())
+    throw InputError(name.where, fmt::format("extends = {}: must be the name of a case file", shown(name)));
+  const std::string base_path = path_inside(root_folder, path, name.text, name.where);
+  chain->push_back(identity);
+  if (std::find(chain->begin(), chain->end(), fs::weakly_canonical(base_path)) != chain->end())
+    throw InputError(name.where,
+                     fmt::format("extends = {}: the files extend one another in a circle", shown(name)));
+  if (chain->size() >= kLongestChain)
+    throw InputError(name.where, fmt::format("extends = {}: more than {} files extend one another",
+                                             shown(name), kLongestChain));
+  if (!fs::is_regular_file(base_path))
+    throw InputError(name.where, fmt::format("extends = {}: no such file", shown(name)));
+
+  tree.entries.erase(tree.entries.begin() + (extends - tree.entries.data()));
+  CaseNode merged = load_file(base_path, root_folder, chain);
+  overlay(&merged, tree);
+  return merged;
+}
+
+/// `joints.friction=0.3` as the tree {joints: {friction: 0.3}}, every node located at the option itself.
+CaseNode parse_set_option(const std::string& option) {
+  const std::string file = "--set " + shown(option);
+  const size_t equals = option.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(FileLocation{file}, "must be key.path=value, for example joints.friction=0.3");
+  const std::string value = option.substr(equals + 1);
+  CaseNode tree = value.empty() ? CaseNode{} : parse_yaml(value, file);
+  const auto locate = [&file](auto& self, CaseNode& node) -> void {
+    node.where = {file};
+    for (CaseNode& item : node.items) self(self, item);
+    for (CaseNode::Entry& entry : node.entries) {
+      entry.where = {file};
+      self(self, entry.value);
+    }
+  };
+  locate(locate, tree);
+  const std::string path = option.substr(0, equals);
+  for (size_t end = path.size();;) {
+    const size_t dot = path.rfind('.', end - 1);
+    const size_t start = dot == std::string::npos ? 0 : dot + 1;
+    if (start >= end) throw InputError(FileLocation{file}, "the key path has an empty part");
+    CaseNode parent;
+    parent.kind = CaseNode::Kind::map;
+    parent.where = {file};
+    parent.entries.push_back({path.substr(start, end - start), {file}, std::move(tree)});
+    tree = std::move(parent);
+    if (start == 0) return tree;
+    end = dot;
+    if (end == 0) throw InputError(FileLocation{file}, "the key path has an empty part");
+  }
+}
+
+}  // namespace
+
+std::string path_inside(const std::string& root_folder, const std::string& from_file, const std::string& name,
+                        const FileLocation& where) {
+  const fs::path path = fs::path(from_file).parent_path() / name;
+  const fs::path root = fs::weakly_canonical(root_folder.empty() ? "." : root_folder);
+  const fs::path relative = fs::weakly_canonical(path).lexically_relative(root);
+  if (fs::path(name).is_absolute() || relative.empty() || *relative.begin() == "..")
+    throw InputError(where, fmt::format("{}: an input may only name files in or below the folder of the case",
+                                        shown(name)));
+  return path.string();
+}
+
+CaseNode load_case_tree(const std::string& path, const std::vector<std::string>& set_options) {
+  std::vector<fs::path> chain;
+  CaseNode tree = load_file(path, fs::path(path).parent_path().string(), &chain);
+  // All options first become one tree: their order does not matter when one of them changes a type.
+  CaseNode options;
+  options.kind = CaseNode::Kind::map;
+  for (const std::string& option : set_options) overlay(&options, parse_set_option(option));
+  overlay(&tree, options);
+  return tree;
+}
+
+}  // namespace cupola

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "assembly/case/case.hpp"
+#include "assembly/case/section.hpp"
+
+namespace cupola {
+
+// The keys of each section of the case file, one line per key; see Section. A new key is a member of the
+// struct with its default, a line in the declaration, and nothing else.
+
+void declare_case(Section& s, Case& the_case);
+void declare_geometry(Section& s, Geometry& geometry);
+void declare_material(Section& s, Material& material);
+void declare_joints(Section& s, Joints& joints);
+void declare_contact(Section& s, ContactDetection& contact);
+void declare_loads(Section& s, Loads& loads);
+void declare_analysis(Section& s, Analysis& analysis);
+void declare_output(Section& s, Output& output);
+void declare_postproc(Section& s, Postproc& postproc);
+
+}  // namespace cupola

@@ -1,0 +1,18 @@
+#include "assembly/case/declare.hpp"
+
+namespace cupola {
+
+void declare_case(Section& s, Case& the_case) {
+  s.text("title", the_case.title, "one line for reports and pictures");
+  s.section("geometry", the_case.geometry, "what is built", declare_geometry);
+  s.section("material", the_case.material, "the blocks", declare_material);
+  s.section("joints", the_case.joints, "what happens between blocks", declare_joints);
+  s.section("contact", the_case.contact, "how contacts are found", declare_contact);
+  s.section("loads", the_case.loads, "what acts on the blocks", declare_loads);
+  s.section("analysis", the_case.analysis, "what is computed", declare_analysis);
+  s.section("output", the_case.output, "what is written while solving", declare_output);
+  s.section("postproc", the_case.postproc, "what is drawn and tabulated", declare_postproc);
+  s.later({"imperfections"});
+}
+
+}  // namespace cupola

@@ -1,0 +1,305 @@
+#include "assembly/case/section.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace cupola {
+namespace {
+
+constexpr const char* kLater = "this version does not serve it yet";
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+CaseNode scalar(const std::string& text, bool quoted = false) {
+  CaseNode node;
+  node.kind = CaseNode::Kind::scalar;
+  node.text = text;
+  node.quoted = quoted;
+  return node;
+}
+
+CaseNode list_of_numbers(const double* values, size_t size) {
+  CaseNode node;
+  node.kind = CaseNode::Kind::list;
+  for (size_t i = 0; i < size; ++i) node.items.push_back(scalar(format_number(values[i])));
+  return node;
+}
+
+std::string format_list(const double* values, size_t size) {
+  std::vector<std::string> texts;
+  for (size_t i = 0; i < size; ++i) texts.push_back(format_number(values[i]));
+  return fmt::format("[{}]", joined(texts));
+}
+
+}  // namespace
+
+Section::Section(const CaseNode* node, std::string path, FileLocation where)
+    : node_(node), path_(std::move(path)), where_(std::move(where)) {
+  effective_.kind = CaseNode::Kind::map;
+  if (node_ && node_->kind != CaseNode::Kind::map)
+    throw InputError(node_->where, fmt::format("{} = {}: must be a map of keys", path_, shown(*node_)));
+}
+
+Section::Section(SchemaTable* schema, std::string path) : schema_(schema), path_(std::move(path)) {
+  effective_.kind = CaseNode::Kind::map;
+}
+
+std::string Section::path_of(const std::string& key) const {
+  return path_.empty() ? key : path_ + "." + key;
+}
+
+void Section::fail(const std::string& key, const CaseNode& node, const std::string& rule) const {
+  throw InputError(node.where, fmt::format("{} = {}: {}", path_of(key), shown(node), rule));
+}
+
+const CaseNode* Section::look_up(const std::string& key) {
+  if (!contains(known_, key)) known_.push_back(key);
+  const CaseNode* node = node_ ? node_->find(key) : nullptr;
+  if (node && node->kind == CaseNode::Kind::empty)
+    throw InputError(node->where,
+                     fmt::format("{} is empty: give a value or leave the key out", path_of(key)));
+  return node;
+}
+
+const CaseNode* Section::look_up_scalar(const std::string& key) {
+  const CaseNode* node = look_up(key);
+  if (node && node->kind != CaseNode::Kind::scalar) fail(key, *node, "must be a single value");
+  return node;
+}
+
+void Section::document(const std::string& key, const std::string& type, const NumberRule& rule,
+                       const std::string& default_value, const std::string& meaning) {
+  if (!describing()) return;
+  const bool is_number = type == "number" || type == "integer" || type == "numbers" || type == "3 numbers";
+  schema_->rows.push_back({path_of(key), schema_->condition, type, is_number ? std::string(rule.unit) : "",
+                           is_number ? describe_range(rule) : "", default_value, meaning});
+}
+
+void Section::record(const std::string& key, const std::string& text, bool quoted) {
+  record(key, scalar(text, quoted));
+}
+
+void Section::record(const std::string& key, CaseNode value) {
+  effective_.entries.push_back({key, {}, std::move(value)});
+}
+
+void Section::require(const std::string& key, const std::string& hint) {
+  if (!describing())
+    missing_.push_back(fmt::format("{} is missing: it has no default{}", path_of(key), hint));
+}
+
+void Section::check_given(const std::string& key) const {
+  if (missing_.empty()) return;
+  std::vector<std::string> given;
+  if (node_)
+    for (const CaseNode::Entry& entry : node_->entries) given.push_back(entry.key);
+  const std::string near = nearest_name(key, given);
+  throw InputError(where_,
+                   missing_.front() + (near.empty() ? "" : fmt::format("; {} is misspelt", shown(near))));
+}
+
+void Section::text(const std::string& key, std::string& value, const std::string& meaning) {
+  document(key, "text", {}, fmt::format("\"{}\"", value), meaning);
+  if (const CaseNode* node = look_up_scalar(key)) value = node->text;
+  record(key, value, true);
+}
+
+void Section::read_one_number(const std::string& key, const CaseNode& node, const NumberRule& rule,
+                              double* value) const {
+  if (node.kind != CaseNode::Kind::scalar || node.quoted) fail(key, node, "must be a number");
+  const std::string broken = read_number(node.text, value);
+  if (!broken.empty()) fail(key, node, broken);
+  if (!admits(rule, *value)) fail(key, node, "must be " + describe_range(rule));
+}
+
+bool Section::read_number_key(const std::string& key, double& value, const NumberRule& rule) {
+  const CaseNode* node = look_up_scalar(key);
+  if (node) read_one_number(key, *node, rule, &value);
+  record(key, format_number(value));
+  return node;
+}
+
+bool Section::read_integer_key(const std::string& key, int& value, const NumberRule& rule) {
+  const CaseNode* node = look_up_scalar(key);
+  if (node) {
+    const std::string broken = node->quoted ? "must be a whole number" : read_integer(node->text, &value);
+    if (!broken.empty()) fail(key, *node, broken);
+    if (!admits(rule, value)) fail(key, *node, "must be " + describe_range(rule));
+  }
+  record(key, std::to_string(value));
+  return node;
+}
+
+void Section::number(const std::string& key, double& value, const NumberRule& rule,
+                     const std::string& meaning) {
+  document(key, "number", rule, format_number(value), meaning);
+  read_number_key(key, value, rule);
+}
+
+void Section::required_number(const std::string& key, double& value, const NumberRule& rule,
+                              const std::string& meaning) {
+  document(key, "number", rule, "required", meaning);
+  if (!read_number_key(key, value, rule)) require(key);
+}
+
+void Section::integer(const std::string& key, int& value, const NumberRule& rule,
+                      const std::string& meaning) {
+  document(key, "integer", rule, std::to_string(value), meaning);
+  read_integer_key(key, value, rule);
+}
+
+void Section::required_integer(const std::string& key, int& value, const NumberRule& rule,
+                               const std::string& meaning) {
+  document(key, "integer", rule, "required", meaning);
+  if (!read_integer_key(key, value, rule)) require(key);
+}
+
+void Section::flag(const std::string& key, bool& value, const std::string& meaning) {
+  document(key, "true, false", {}, value ? "true" : "false", meaning);
+  if (const CaseNode* node = look_up_scalar(key)) {
+    const std::string broken = node->quoted ? "must be true or false" : read_flag(node->text, &value);
+    if (!broken.empty()) fail(key, *node, broken);
+  }
+  record(key, value ? "true" : "false");
+}
+
+void Section::vector3(const std::string& key, Eigen::Vector3d& value, const NumberRule& rule,
+                      const std::string& meaning) {
+  document(key, "3 numbers", rule, format_list(value.data(), 3), meaning);
+  if (const CaseNode* node = look_up(key)) {
+    if (node->kind != CaseNode::Kind::list || node->items.size() != 3)
+      fail(key, *node, "must be a list of three numbers, [x, y, z]");
+    for (int i = 0; i < 3; ++i) read_one_number(key, node->items[static_cast<size_t>(i)], rule, &value[i]);
+  }
+  record(key, list_of_numbers(value.data(), 3));
+}
+
+void Section::numbers(const std::string& key, std::vector<double>& values, const NumberRule& rule,
+                      const std::string& meaning) {
+  document(key, "numbers", rule, format_list(values.data(), values.size()), meaning);
+  if (const CaseNode* node = look_up(key)) {
+    if (node->kind != CaseNode::Kind::list) fail(key, *node, "must be a list of numbers, [a, b]");
+    values.assign(node->items.size(), 0.0);
+    for (size_t i = 0; i < values.size(); ++i) read_one_number(key, node->items[i], rule, &values[i]);
+  }
+  record(key, list_of_numbers(values.data(), values.size()));
+}
+
+void Section::quantity(double& value, const std::vector<UnitName>& names) {
+  const UnitName* given = nullptr;
+  for (const UnitName& name : names) {
+    document(name.key, "number", name.rule,
+             &name == &names.front() ? format_number(value) : "instead of " + names.front().key,
+             name.meaning);
+    const CaseNode* node = look_up_scalar(name.key);
+    if (!node) continue;
+    if (given) fail(name.key, *node, fmt::format("give {} or {}, not both", given->key, name.key));
+    given = &name;
+    double number = 0.0;
+    read_one_number(name.key, *node, name.rule, &number);
+    value = name.factor * number;
+  }
+  record(names.front().key, format_number(value));
+}
+
+int Section::choose(const std::string& key, const std::vector<std::string>& names, int current,
+                    const std::string& meaning, const ChoiceRule& rule) {
+  document(key, joined(names), {}, rule.required ? "required" : names[static_cast<size_t>(current)], meaning);
+  int chosen = current;
+  if (const CaseNode* node = look_up_scalar(key)) {
+    const auto found = std::find(names.begin(), names.end(), node->text);
+    if (found == names.end()) {
+      if (contains(rule.later, node->text))
+        fail(key, *node, fmt::format("{}; now: {}", kLater, joined(names)));
+      const std::string near = nearest_name(node->text, names);
+      fail(key, *node,
+           (near.empty() ? "" : fmt::format("did you mean {}? ", near)) + "must be one of " + joined(names));
+    }
+    chosen = static_cast<int>(found - names.begin());
+  } else if (rule.required) {
+    require(key, "; one of " + joined(names));
+  }
+  if (chosen >= 0) record(key, names[static_cast<size_t>(chosen)]);
+  return chosen;
+}
+
+void Section::open(const std::string& key, const std::string& meaning, const DeclareKeys& declare) {
+  document(key, "map", {}, "", meaning);
+  const CaseNode* node = look_up(key);
+  Section child(node, path_of(key), node ? node->where : where_);
+  child.schema_ = schema_;
+  declare(child);
+  child.finish();
+  record(key, child.effective());
+}
+
+bool Section::open_optional(const std::string& key, const std::string& meaning, const DeclareKeys& declare) {
+  if (!describing() && !look_up(key)) return false;
+  open(key, meaning, declare);
+  return !describing();
+}
+
+void Section::open_list(const std::string& key, const std::string& meaning, const DeclareKeys& declare_item) {
+  document(key, "list of maps", {}, "[]", meaning);
+  if (describing()) {
+    Section item(schema_, path_of(key) + "[]");
+    declare_item(item);
+    return;
+  }
+  CaseNode values;
+  values.kind = CaseNode::Kind::list;
+  if (const CaseNode* node = look_up(key)) {
+    if (node->kind != CaseNode::Kind::list) fail(key, *node, "must be a list of maps");
+    for (size_t i = 0; i < node->items.size(); ++i) {
+      Section item(&node->items[i], fmt::format("{}[{}]", path_of(key), i), node->items[i].where);
+      declare_item(item);
+      item.finish();
+      values.items.push_back(item.effective());
+    }
+  }
+  record(key, std::move(values));
+}
+
+void Section::describe_alternative(const std::string& key, const std::string& name,
+                                   const std::string& meaning, const DeclareKeys& declare) {
+  schema_->condition = fmt::format("{}: {}", key, name);
+  schema_->rows.push_back({path_, schema_->condition, "map", "", "", "", meaning});
+  declare(*this);
+  schema_->condition.clear();
+}
+
+void Section::later(std::initializer_list<std::string> keys) {
+  later_.insert(later_.end(), keys);
+}
+
+void Section::rule(bool holds, const std::string& key, const std::string& text) const {
+  if (holds || describing()) return;
+  const CaseNode* node = node_ ? node_->find(key) : nullptr;
+  if (node) fail(key, *node, text);
+  throw InputError(where_, fmt::format("{}: {}", path_of(key), text));
+}
+
+void Section::finish() const {
+  if (node_) {
+    for (const auto& [key, where, value] : node_->entries) {
+      if (contains(known_, key)) continue;
+      if (contains(later_, key)) throw InputError(where, fmt::format("{}: {}", path_of(key), kLater));
+      const std::string near = nearest_name(key, known_);
+      throw InputError(
+          where, fmt::format("{}: unknown key{}; valid here: {}", shown(path_of(key)),
+                             near.empty() ? "" : fmt::format(", did you mean {}?", near), joined(known_)));
+    }
+  }
+  if (!missing_.empty()) throw InputError(where_, missing_.front());
+}
+
+}  // namespace cupola
