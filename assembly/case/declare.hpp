@@ -10,6 +10,7 @@ namespace cupola {
 
 void declare_case(Section& s, Case& the_case);
 void declare_geometry(Section& s, Geometry& geometry);
+void declare_imperfections(Section& s, Imperfections& imperfections);
 void declare_material(Section& s, Material& material);
 void declare_joints(Section& s, Joints& joints);
 void declare_contact(Section& s, ContactDetection& contact);

@@ -5,6 +5,8 @@ namespace cupola {
 void declare_case(Section& s, Case& the_case) {
   s.text("title", the_case.title, "one line for reports and pictures");
   s.section("geometry", the_case.geometry, "what is built", declare_geometry);
+  s.optional_section("imperfections", the_case.geometry.imperfections, "seeded deviations from the drawing",
+                     declare_imperfections);
   s.section("material", the_case.material, "the blocks", declare_material);
   s.section("joints", the_case.joints, "what happens between blocks", declare_joints);
   s.section("contact", the_case.contact, "how contacts are found", declare_contact);
@@ -12,7 +14,6 @@ void declare_case(Section& s, Case& the_case) {
   s.section("analysis", the_case.analysis, "what is computed", declare_analysis);
   s.section("output", the_case.output, "what is written while solving", declare_output);
   s.section("postproc", the_case.postproc, "what is drawn and tabulated", declare_postproc);
-  s.later({"imperfections"});
 }
 
 }  // namespace cupola

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "assembly/case/declare.hpp"
 
 namespace cupola {
@@ -17,34 +19,124 @@ void declare_dome(Section& s, DomeSurface& dome) {
            "angle of the last bed above the springing");
 }
 
+void declare_octagonal_vault(Section& s, OctagonalVault& vault) {
+  using enum OctagonalVault::Construction;
+  using enum OctagonalVault::Extrados;
+  s.integer("sails", vault.sails, {.min = 3, .max = 1000}, "sides of the plan");
+  s.number("span", vault.span, {.unit = "m", .above = 0},
+           "clear distance of opposite corners at the springing");
+  s.number("radius_ratio", vault.radius_ratio, {.min = 0.5, .max = 1e3},
+           "radius of the corner arc over span: 0.8 pointed fifth");
+  s.number("thickness", vault.thickness, {.unit = "m", .above = 0}, "thickness of the shell; see extrados");
+  s.number("crown_angle_deg", vault.crown_angle_deg, {.unit = "deg", .above = 0, .below = 90},
+           "angle of the last bed at the corner");
+  s.choice(
+      "construction", vault.construction,
+      {{"circular", circular}, {"planar_radial", planar_radial}, {"planar_horizontal", planar_horizontal}},
+      "beds on cones about the axis, in planes normal to each sail, or level");
+  s.choice("extrados", vault.extrados,
+           {{"normal", normal}, {"corner", corner}, {"midsail", midsail}, {"bed", bed}},
+           "where the thickness is measured: normal to the sail, on the corner or mid-sail section, along "
+           "level beds");
+}
+
+void declare_arch(Section& s, ArchSurface& arch) {
+  s.number("span", arch.span, {.unit = "m", .above = 0}, "clear span of the full arc at z = 0");
+  s.number("radius_ratio", arch.radius_ratio, {.min = 0.5, .max = 1e3},
+           "intrados radius over span: 0.5 one circle");
+  s.number("thickness", arch.thickness, {.unit = "m", .above = 0}, "radial");
+  s.number("width", arch.width, {.unit = "m", .above = 0}, "along y");
+  s.number("half_embrace_deg", arch.half_embrace_deg, {.unit = "deg", .above = 0, .below = 180},
+           "angle from the crown to the springing");
+  s.integer("voussoir_segments", arch.voussoir_segments, {.min = 1, .max = 1000},
+            "straight pieces of a voussoir's curved faces");
+}
+
 void declare_wall(Section& s, WallSurface& wall) {
   s.number("length", wall.length, {.unit = "m", .above = 0}, "along x");
   s.number("height", wall.height, {.unit = "m", .above = 0}, "along z");
   s.number("thickness", wall.thickness, {.unit = "m", .above = 0}, "along y");
 }
 
-void declare_running_bond(Section& s, RunningBond& bond) {
-  s.integer("rings", bond.rings, {.min = 1, .max = kMostRings}, "rings of a dome, courses of a wall");
-  s.integer("blocks_per_ring", bond.blocks_per_ring, {.min = 1, .max = kMostCells},
-            "whole blocks in each ring; at least 3 on a dome");
-  s.integer("slices_per_block", bond.slices_per_block, {.min = 2, .max = 64},
-            "convex cells per block along the ring, even");
-  s.rule(bond.slices_per_block % 2 == 0, "slices_per_block",
-         "must be even: odd rings are shifted by half a block");
-  s.rule(1.0 * bond.rings * bond.blocks_per_ring * bond.slices_per_block <= kMostCells, "blocks_per_ring",
-         "rings x blocks_per_ring x slices_per_block must be <= 2e7 cells");
+void declare_surface(Section& s, Surface& surface) {
+  s.variant<Surface>(
+      "type", surface,
+      {alternative<Surface>("dome", "dome of revolution, two arcs", declare_dome),
+       alternative<Surface>("octagonal_vault", "cluster vault of cylindrical sails over a polygon",
+                            declare_octagonal_vault),
+       alternative<Surface>("arch", "barrel arch of two arcs", declare_arch),
+       alternative<Surface>("wall", "plane wall", declare_wall)},
+      "shape of the shell");
 }
 
-void declare_surface(Section& s, Surface& surface) {
-  s.variant<Surface>("type", surface,
-                     {alternative<Surface>("dome", "dome of revolution, two arcs", declare_dome),
-                      alternative<Surface>("wall", "plane wall", declare_wall)},
-                     "shape of the shell", {"octagonal_vault"});
+void declare_grid(Section& s, int& rings, int& blocks_per_ring) {
+  s.integer("rings", rings, {.min = 1, .max = kMostRings},
+            "rings of a dome, courses of a wall, voussoirs of an arch");
+  s.integer("blocks_per_ring", blocks_per_ring, {.min = 1, .max = kMostCells},
+            "whole blocks in each ring; at least 3 on a closed ring");
+}
+
+void check_cells(const Section& s, double rings, double blocks_per_ring, double slices) {
+  s.rule(rings * blocks_per_ring * slices <= kMostCells, "blocks_per_ring",
+         "rings x blocks_per_ring x slices must be <= 2e7 cells");
+}
+
+constexpr const char* kPhase = "block widths from the first corner to the first joint or spiral";
+constexpr const char* kNoPhase = "off the corners";
+
+void declare_running_bond(Section& s, RunningBond& bond) {
+  declare_grid(s, bond.rings, bond.blocks_per_ring);
+  s.integer("slices_per_block", bond.slices_per_block, {.min = 2, .max = 64},
+            "convex cells per block along the ring, even");
+  s.optional_number("phase", bond.phase, {.min = 0, .below = 1}, kNoPhase, kPhase);
+  s.rule(bond.slices_per_block % 2 == 0, "slices_per_block",
+         "must be even: odd rings are shifted by half a block");
+  check_cells(s, bond.rings, bond.blocks_per_ring, bond.slices_per_block);
+}
+
+void declare_stack_bond(Section& s, StackBond& bond) {
+  declare_grid(s, bond.rings, bond.blocks_per_ring);
+  s.integer("slices_per_block", bond.slices_per_block, {.min = 1, .max = 64},
+            "convex cells per block along the ring");
+  s.optional_number("phase", bond.phase, {.min = 0, .below = 1}, kNoPhase, kPhase);
+  check_cells(s, bond.rings, bond.blocks_per_ring, bond.slices_per_block);
+}
+
+void declare_herringbone_bond(Section& s, HerringboneBond& bond) {
+  declare_grid(s, bond.rings, bond.blocks_per_ring);
+  s.integer("spirals", bond.spirals, {.min = 1, .max = kMostRings}, "number of spirals or meridian strips");
+  s.integer("rings_per_vertical", bond.rings_per_vertical, {.min = 1, .max = 1000},
+            "height of an upright block");
+  s.integer("verticals_per_block", bond.verticals_per_block, {.min = 1, .max = 1000},
+            "whole block's width over an upright block's");
+  s.choice("path", bond.path,
+           {{"spiral", HerringboneBond::Path::spiral}, {"meridian", HerringboneBond::Path::meridian}},
+           "uprights climb in spirals or straight up");
+  s.choice("chirality", bond.chirality,
+           {{"right", HerringboneBond::Chirality::right}, {"left", HerringboneBond::Chirality::left}},
+           "right climbs counter-clockwise seen from above");
+  s.optional_number("phase", bond.phase, {.min = 0, .below = 1}, kNoPhase, kPhase);
+  s.integer("refine", bond.refine, {.min = 1, .max = 64}, "slices per upright block's width");
+  check_cells(s, bond.rings, bond.blocks_per_ring, 1.0 * bond.verticals_per_block * bond.refine);
+}
+
+void declare_fill_bond(Section& s, FillBond& bond) {
+  declare_grid(s, bond.rings, bond.blocks_per_ring);
+  s.integer("slices_per_block", bond.slices_per_block, {.min = 1, .max = 64},
+            "possible cuts per mean block width");
+  s.number("narrowest", bond.narrowest, {.above = 0, .max = 1}, "narrowest block over the mean width");
+  s.number("widest", bond.widest, {.min = 1, .max = 10}, "widest block over the mean width");
+  check_cells(s, bond.rings, bond.blocks_per_ring, bond.slices_per_block);
 }
 
 void declare_bond(Section& s, Bond& bond) {
-  s.variant<Bond>("type", bond, {alternative<Bond>("running", "running bond", declare_running_bond)},
-                  "how the shell is cut into blocks", {"herringbone", "fill"});
+  s.variant<Bond>(
+      "type", bond,
+      {alternative<Bond>("running", "odd rings shifted by half a block", declare_running_bond),
+       alternative<Bond>("stack", "head joints aligned", declare_stack_bond),
+       alternative<Bond>("herringbone", "upright blocks climb through whole ones", declare_herringbone_bond),
+       alternative<Bond>("fill", "unequal blocks that avoid the joints below", declare_fill_bond)},
+      "how the shell is cut into blocks");
 }
 
 void declare_stage(Section& s, Stage& stage) {
@@ -60,12 +152,19 @@ void declare_geometry(Section& s, Geometry& geometry) {
   s.number("support_width", geometry.support_width, {.unit = "m", .above = 0},
            "how far the fixed base reaches beyond the shell");
 
-  const auto* running = std::get_if<RunningBond>(&geometry.bond);
-  if (!running) return;
-  s.rule(!geometry.stage || geometry.stage->rings <= running->rings, "stage",
-         "stage.rings must be <= bond.rings");
-  s.rule(!std::holds_alternative<DomeSurface>(geometry.surface) || running->blocks_per_ring >= 3, "bond",
-         "bond.blocks_per_ring must be >= 3 on a dome");
+  const auto [rings, blocks_per_ring] =
+      std::visit([](const auto& bond) { return std::pair(bond.rings, bond.blocks_per_ring); }, geometry.bond);
+  const bool closed_ring = std::holds_alternative<DomeSurface>(geometry.surface) ||
+                           std::holds_alternative<OctagonalVault>(geometry.surface);
+  s.rule(!geometry.stage || geometry.stage->rings <= rings, "stage", "stage.rings must be <= bond.rings");
+  s.rule(!closed_ring || blocks_per_ring >= 3, "bond", "bond.blocks_per_ring must be >= 3 on a closed ring");
+}
+
+void declare_imperfections(Section& s, Imperfections& imperfections) {
+  s.number("gap", imperfections.gap, {.unit = "m", .min = 0}, "joints open by random amounts up to this");
+  s.number("noise", imperfections.noise, {.unit = "m", .min = 0},
+           "faces and corners move by random amounts up to this; joints stay closed");
+  s.integer("seed", imperfections.seed, {.min = 0}, "of the random numbers");
 }
 
 }  // namespace cupola

@@ -102,7 +102,7 @@ struct HerringboneBond {
   Chirality chirality = Chirality::right;  ///< right: climbs counter-clockwise seen from above
   std::optional<double> phase = {};  ///< block widths from the first corner to the first spiral's start;
                                      ///< none: 1/6 on a vault with corners, else 0
-  int refine = 1;  ///< slices per vertical's width
+  int refine = 1;                    ///< slices per vertical's width
 };
 
 /// Whole blocks of unequal width, chosen ring by ring (dynamic programming) so that head joints avoid the

@@ -151,6 +151,15 @@ void Section::required_number(const std::string& key, double& value, const Numbe
   if (!read_number_key(key, value, rule)) require(key);
 }
 
+void Section::optional_number(const std::string& key, std::optional<double>& value, const NumberRule& rule,
+                              const std::string& without, const std::string& meaning) {
+  document(key, "number", rule, without, meaning);
+  const CaseNode* node = look_up_scalar(key);
+  if (!node) return;
+  read_one_number(key, *node, rule, &value.emplace());
+  record(key, format_number(*value));
+}
+
 void Section::integer(const std::string& key, int& value, const NumberRule& rule,
                       const std::string& meaning) {
   document(key, "integer", rule, std::to_string(value), meaning);

@@ -51,6 +51,9 @@ class Section {
   /// They must be given: `value` on entry means nothing.
   void required_number(const std::string& key, double& value, const NumberRule& rule,
                        const std::string& meaning);
+  /// Left out, it stays empty; `without` tells in `--schema` what happens then.
+  void optional_number(const std::string& key, std::optional<double>& value, const NumberRule& rule,
+                       const std::string& without, const std::string& meaning);
   void integer(const std::string& key, int& value, const NumberRule& rule, const std::string& meaning);
   void required_integer(const std::string& key, int& value, const NumberRule& rule,
                         const std::string& meaning);

@@ -32,13 +32,20 @@ const std::string kGood =
 struct BadCase {
   std::string name;
   std::string text;
-  std::string expected;  ///< the whole message
+  std::string expected;  ///< how the message begins: lists of valid names after it grow with the program
 };
 
 class BadCaseFile : public ::testing::TestWithParam<BadCase> {};
 
+/// Names the case in test listings.
+void PrintTo(const BadCase& bad, std::ostream* out) {
+  *out << bad.name;
+}
+
 TEST_P(BadCaseFile, GetsOneClearLine) {
-  EXPECT_EQ(message_for(GetParam().text), GetParam().expected);
+  const std::string message = message_for(GetParam().text);
+  EXPECT_EQ(message.substr(0, GetParam().expected.size()), GetParam().expected) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
 const BadCase kBadCases[] = {
@@ -64,9 +71,7 @@ const BadCase kBadCases[] = {
      "bad.yaml:6:3: error: joints.frictoin: unknown key, did you mean friction?; valid here: friction, "
      "compliance"},
     {"UnknownSection", kGood + "walls: 3\n",
-     "bad.yaml:6:1: error: walls: unknown key; valid here: title, geometry, material, "
-     "joints, "
-     "contact, loads, analysis, output, postproc"},
+     "bad.yaml:6:1: error: walls: unknown key; valid here: title, geometry, "},
     {"LaterKey", kGood + "analysis: {accuracy: draft}\n",
      "bad.yaml:6:12: error: analysis.accuracy: this version does not serve it yet"},
     {"LaterChoice", kGood + "analysis: {type: limit}\n",
@@ -84,10 +89,11 @@ const BadCase kBadCases[] = {
     {"MissingPer", "geometry: {surface: {type: dome}, bond: {type: running}}\n",
      "bad.yaml:1:1: error: joints.compliance.per is missing: it has no default; one of point, area"},
     {"MissingSurfaceType", "geometry: {surface: {span: 3}}\n",
-     "bad.yaml:1:21: error: geometry.surface.type is missing: it has no default; one of dome, wall"},
+     "bad.yaml:1:21: error: geometry.surface.type is missing: it has no default; one of dome, "},
     {"MisspeltType", "geometry: {surface: {typ: dome}}\n",
-     "bad.yaml:1:21: error: geometry.surface.type is missing: it has no default; one of dome, wall; typ is "
-     "misspelt"},
+     "bad.yaml:1:21: error: geometry.surface.type is missing: it has no default; one of dome, "
+     "octagonal_vault, arch, "
+     "wall; typ is misspelt"},
     {"MissingRequiredNumber", kGood + "loads: {lantern: {}}\n",
      "bad.yaml:6:18: error: loads.lantern.weight_fraction is missing: it has no default"},
     {"KeyOfAnotherType", "geometry: {surface: {type: wall, span: 3}}\n",
@@ -101,11 +107,10 @@ const BadCase kBadCases[] = {
      "a block"},
     {"TooManyCells",
      "geometry: {surface: {type: dome}, bond: {type: running, rings: 100000, blocks_per_ring: 9999}}\n",
-     "bad.yaml:1:89: error: geometry.bond.blocks_per_ring = 9999: rings x blocks_per_ring x slices_per_block "
-     "must be "
+     "bad.yaml:1:89: error: geometry.bond.blocks_per_ring = 9999: rings x blocks_per_ring x slices must be "
      "<= 2e7 cells"},
     {"TooFewAround", "geometry: {surface: {type: dome}, bond: {type: running, blocks_per_ring: 2}}\n",
-     "bad.yaml:1:41: error: geometry.bond = {...}: bond.blocks_per_ring must be >= 3 on a dome"},
+     "bad.yaml:1:41: error: geometry.bond = {...}: bond.blocks_per_ring must be >= 3 on a closed ring"},
     {"MeridianNotAMap", kGood + "postproc: {meridians: [mid_sail]}\n",
      "bad.yaml:6:24: error: postproc.meridians[0] = mid_sail: must be a map of keys"},
     {"NotAMap", "- a\n- b\n", "bad.yaml:1:1: error: a case file is a map of sections, `key: value`"},
@@ -145,10 +150,9 @@ TEST(SetOption, ErrorsNameTheOption) {
   EXPECT_EQ(message_for(kGood, {"joints..friction=1"}),
             "--set joints..friction=1: error: the key path has an empty part");
   EXPECT_EQ(message_for(kGood, {".joints=1"}), "--set .joints=1: error: the key path has an empty part");
-  EXPECT_EQ(
-      message_for(kGood, {"joint.friction=1"}),
-      "--set joint.friction=1: error: joint: unknown key, did you mean joints?; valid here: title, geometry, "
-      "material, joints, contact, loads, analysis, output, postproc");
+  EXPECT_EQ(message_for(kGood, {"joint.friction=1"})
+                .find("--set joint.friction=1: error: joint: unknown key, did you mean joints?"),
+            0u);
 }
 
 TEST(ExtendsChain, AFolderLinkCannotLeadOutside) {
