@@ -21,7 +21,7 @@ std::string hash_sections(const CaseNode& effective, std::initializer_list<std::
 Case read_case(const std::string& path, const std::vector<std::string>& set_options) {
   const CaseNode tree = load_case_tree(path, set_options);
   Case the_case;
-  Section root(&tree, "", tree.where);
+  Section root(&tree, "", tree.where, path);
   declare_case(root, the_case);
   root.finish();
 

@@ -1,8 +1,11 @@
 #include "assembly/case/section.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
+
+#include "assembly/case/case_tree.hpp"
 
 namespace cupola {
 namespace {
@@ -42,8 +45,8 @@ std::string format_list(const double* values, size_t size) {
 
 }  // namespace
 
-Section::Section(const CaseNode* node, std::string path, FileLocation where)
-    : node_(node), path_(std::move(path)), where_(std::move(where)) {
+Section::Section(const CaseNode* node, std::string path, FileLocation where, std::string case_file)
+    : node_(node), path_(std::move(path)), where_(std::move(where)), case_file_(std::move(case_file)) {
   effective_.kind = CaseNode::Kind::map;
   if (node_ && node_->kind != CaseNode::Kind::map)
     throw InputError(node_->where, fmt::format("{} = {}: must be a map of keys", path_, shown(*node_)));
@@ -119,6 +122,16 @@ void Section::read_one_number(const std::string& key, const CaseNode& node, cons
   const std::string broken = read_number(node.text, value);
   if (!broken.empty()) fail(key, node, broken);
   if (!admits(rule, *value)) fail(key, node, "must be " + describe_range(rule));
+}
+
+void Section::file(const std::string& key, std::string& path, const std::string& meaning) {
+  document(key, "file", {}, "none", meaning);
+  const CaseNode* node = look_up_scalar(key);
+  if (!node) return;
+  const std::string folder = std::filesystem::path(case_file_).parent_path().string();
+  path = path_inside(folder, case_file_, node->text, node->where);
+  if (!std::filesystem::is_regular_file(path)) fail(key, *node, "no such file beside the case");
+  record(key, node->text, true);
 }
 
 bool Section::read_number_key(const std::string& key, double& value, const NumberRule& rule) {
@@ -244,7 +257,7 @@ int Section::choose(const std::string& key, const std::vector<std::string>& name
 void Section::open(const std::string& key, const std::string& meaning, const DeclareKeys& declare) {
   document(key, "map", {}, "", meaning);
   const CaseNode* node = look_up(key);
-  Section child(node, path_of(key), node ? node->where : where_);
+  Section child(node, path_of(key), node ? node->where : where_, case_file_);
   child.schema_ = schema_;
   declare(child);
   child.finish();
@@ -269,7 +282,7 @@ void Section::open_list(const std::string& key, const std::string& meaning, cons
   if (const CaseNode* node = look_up(key)) {
     if (node->kind != CaseNode::Kind::list) fail(key, *node, "must be a list of maps");
     for (size_t i = 0; i < node->items.size(); ++i) {
-      Section item(&node->items[i], fmt::format("{}[{}]", path_of(key), i), node->items[i].where);
+      Section item(&node->items[i], fmt::format("{}[{}]", path_of(key), i), node->items[i].where, case_file_);
       declare_item(item);
       item.finish();
       values.items.push_back(item.effective());

@@ -41,12 +41,16 @@ struct ChoiceRule {
 /// names is an error.
 class Section {
  public:
-  /// Reads `node`; nullptr when the file leaves the section out, which `where` then locates.
-  Section(const CaseNode* node, std::string path, FileLocation where);
+  /// Reads `node`; nullptr when the file leaves the section out, which `where` then locates. `case_file` is
+  /// the path given on the command line.
+  Section(const CaseNode* node, std::string path, FileLocation where, std::string case_file);
   /// Reads nothing and adds one row per key to `schema`.
   Section(SchemaTable* schema, std::string path);
 
   void text(const std::string& key, std::string& value, const std::string& meaning);
+  /// A file that the case names, relative to the case file's folder and inside it (path_inside); `path` gets
+  /// what a program opens. Left out, it stays empty.
+  void file(const std::string& key, std::string& path, const std::string& meaning);
   void number(const std::string& key, double& value, const NumberRule& rule, const std::string& meaning);
   /// They must be given: `value` on entry means nothing.
   void required_number(const std::string& key, double& value, const NumberRule& rule,
@@ -144,6 +148,7 @@ class Section {
   SchemaTable* schema_ = nullptr;
   std::string path_;
   FileLocation where_;
+  std::string case_file_;
   CaseNode effective_;
   std::vector<std::string> known_;
   std::vector<std::string> later_;
