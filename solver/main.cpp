@@ -1,0 +1,49 @@
+// cupola-solve: contact forces and motion of an assembly of rigid blocks.
+//
+// Sample runs:
+//   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --output results/
+//   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --output low/ --set joints.friction=0.2
+//   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --explain
+
+#include <fmt/format.h>
+
+#include "assembly/command_line.hpp"
+#include "assembly/error.hpp"
+#include "solver/solve_case.hpp"
+
+namespace {
+
+using namespace cupola;
+
+ExitCode solve(int argc, char** argv) {
+  // 1. What is asked
+  SolveRequest request;
+  bool explain = false;
+  CommandLine line("cupola-solve", "Finds the contact forces and the motion of an assembly of rigid blocks.",
+                   "  cupola-solve dome.yaml --assembly assembly.vtu --output results/\n"
+                   "  cupola-solve dome.yaml --assembly assembly.vtu --explain");
+  line.required("--assembly", &request.assembly_path, "FILE",
+                "assembly that cupola-generate made from the case");
+  line.optional("--output", &request.output_folder, "FOLDER", "results folder to write");
+  line.flag("--explain", &explain, "print the model that would be solved, and stop");
+  if (const auto ended = line.parse(argc, argv)) return *ended;
+
+  // 2. The case
+  request.scene = line.read_case();
+  request.quiet = line.quiet();
+  if (line.check_only()) return ExitCode::done;
+
+  // 3. The model, or its solution
+  if (explain) {
+    fmt::print("{}", explain_case(request.scene, request.assembly_path));
+    return ExitCode::done;
+  }
+  if (request.output_folder.empty()) throw InputError("--output is missing; see cupola-solve --help");
+  return solve_case(request);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program("cupola-solve", [&] { return solve(argc, argv); });
+}

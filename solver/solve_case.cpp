@@ -1,0 +1,119 @@
+#include "solver/solve_case.hpp"
+
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "assembly/assembly_file.hpp"
+#include "assembly/error.hpp"
+#include "assembly/results_file.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "solver/analysis/record.hpp"
+#include "solver/dynamics/scene_options.hpp"
+
+namespace cupola {
+namespace {
+
+Assembly read_matching_assembly(const Case& scene, const std::string& path) {
+  Assembly assembly = read_assembly(path);
+  if (assembly.geometry_hash != scene.geometry_hash)
+    throw InputError(FileLocation{path}, fmt::format("was not made from {}: its geometry or material differ; "
+                                                     "run cupola-generate again",
+                                                     scene.file));
+  return assembly;
+}
+
+std::string provenance(const Summary& summary) {
+  return fmt::format(
+      "# Effective options of one run of cupola-solve.\n"
+      "# program_version: {}\n# case_hash: {}\n# geometry_hash: {}\n# assembly_hash: {}\n"
+      "# threads: {}\n",
+      summary.program_version, summary.case_hash, summary.geometry_hash, summary.assembly_hash,
+      summary.threads);
+}
+
+void print_summary(const Summary& summary) {
+  fmt::print("{}: {}\n", to_string(summary.status), summary.message);
+  fmt::print("  {} free blocks, {} joints, {} contacts, {} unknowns\n", summary.free_blocks, summary.joints,
+             summary.contacts, summary.unknowns);
+  fmt::print("  weight {:.6e} N, support reaction {:.6e} N along z\n", summary.weight_N,
+             summary.support_reaction_N.z());
+  fmt::print(
+      "  equilibrium residual {:.2e}, contact law {:.2e}, friction cone {:.2e}, certified force error {}\n",
+      summary.equilibrium_residual, summary.contact_law_residual, summary.friction_cone_violation,
+      summary.certified_force_error ? fmt::format("{:.2e}", *summary.certified_force_error)
+                                    : std::string("not certified"));
+  fmt::print("  law: {}, tangential spring: {}; {} of {} contacts slip\n", summary.friction_law,
+             summary.tangential, summary.slipping_contacts, summary.contacts);
+  fmt::print("  solve {:.3f} s, total {:.3f} s, peak memory {:.0f} MB\n", summary.solve_time_seconds,
+             summary.wall_time_seconds, static_cast<double>(summary.peak_memory_bytes) / 1e6);
+}
+
+}  // namespace
+
+ExitCode solve_case(const SolveRequest& request) {
+  const double started = wall_seconds();
+  const Assembly assembly = read_matching_assembly(request.scene, request.assembly_path);
+  const std::string assembly_hash = content_hash(assembly);
+
+  ResultsWriter writer(request.output_folder, assembly_hash);
+  // A summary says that a folder is complete: the old one goes before the first frame is replaced.
+  std::filesystem::remove(std::filesystem::path(request.output_folder) / "summary.json");
+
+  std::string history;
+  AnalysisSinks sinks;
+  sinks.log = [&request](const std::string& line) {
+    if (!request.quiet) fmt::print("{}\n", line), std::fflush(stdout);
+  };
+  sinks.history = [&history](const std::string& row) { history += row + "\n"; };
+  sinks.frame = [&writer, &history](const Frame& frame) {
+    writer.write_frame(frame);
+    if (!history.empty()) writer.write_text("history.csv", history);
+  };
+
+  Summary summary = run_analysis(request.scene, assembly, sinks);
+  summary.program_version = program_version();
+  summary.case_hash = request.scene.hash;
+  summary.geometry_hash = request.scene.geometry_hash;
+  summary.assembly_hash = assembly_hash;
+  summary.wall_time_seconds = wall_seconds() - started;
+  summary.peak_memory_bytes = peak_memory_bytes();
+  writer.write_text("run.yaml", provenance(summary) + request.scene.effective_yaml);
+  writer.write_summary(summary);
+  if (!request.quiet) print_summary(summary);
+  return summary.status == Status::unconverged ? ExitCode::accuracy_not_reached : ExitCode::done;
+}
+
+std::string explain_case(const Case& scene, const std::string& assembly_path) {
+  const Assembly assembly = read_matching_assembly(scene, assembly_path);
+  const Model model = make_model(scene, assembly);
+  ContactDetector detector(assembly, detection_options(scene));
+  const ContactSet& contacts = detector.update(state_at_rest(model).poses);
+  const size_t fixed = assembly.blocks.size() - static_cast<size_t>(model.num_free());
+
+  std::string text = fmt::format("{} ({})\n", scene.title.empty() ? "untitled" : scene.title, scene.file);
+  text += fmt::format("  blocks      {} free, {} fixed (no unknowns), {} convex parts\n", model.num_free(),
+                      fixed, assembly.parts.size());
+  text += fmt::format("  unknowns    {} velocities; contacts {} in {} joints ({} rows{})\n",
+                      6 * model.num_free(), contacts.contacts.size(), number_joints(contacts).count,
+                      (scene.joints.friction > 0.0 ? 3 : 1) * contacts.contacts.size(),
+                      scene.joints.friction > 0.0 ? "" : ", frictionless: normal rows only");
+  text += fmt::format("  weight      {:.6e} N; {} point loads besides gravity\n", model.free_weight,
+                      model.loads.size());
+  if (scene.analysis.type == AnalysisType::static_) {
+    text += fmt::format(
+        "  analysis    static: nothing is integrated, contacts are found once; equilibrium residual "
+        "asked {:.1e}\n",
+        scene.analysis.tolerance);
+  } else {
+    text += fmt::format(
+        "  analysis    dynamic: {:.0f} steps of {:g} s, contacts found again when something moved; "
+        "tangential spring {}\n",
+        scene.analysis.duration / scene.analysis.time_step, scene.analysis.time_step,
+        scene.analysis.tangential == TangentialSpring::memory ? "with memory" : "literal");
+  }
+  return text;
+}
+
+}  // namespace cupola

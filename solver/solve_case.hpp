@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "assembly/case/case.hpp"
+#include "assembly/program.hpp"
+
+namespace cupola {
+
+/// What the user asks of one run of cupola-solve.
+struct SolveRequest {
+  Case scene;
+  std::string assembly_path;
+  std::string output_folder;
+  bool quiet = false;
+};
+
+/// Reads the assembly, checks that it was made from this case, runs the analysis and writes the results
+/// folder: frames as they come, history.csv, run.yaml, and summary.json last, so that a folder with a summary
+/// is complete. Returns `accuracy_not_reached` when the analysis did not converge. Throws InputError and
+/// SystemError.
+ExitCode solve_case(const SolveRequest& request);
+
+/// The model that would be solved: bodies, unknowns, contacts, active features and why (`--explain`).
+std::string explain_case(const Case& scene, const std::string& assembly_path);
+
+}  // namespace cupola
