@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 namespace cupola {
 namespace {
@@ -13,13 +14,11 @@ constexpr double kSlipping = 1.0 - 1e-6;  // friction use from which a contact c
 JointNumbers number_joints(const ContactSet& contacts) {
   JointNumbers numbers;
   numbers.of_contact.resize(contacts.contacts.size());
-  std::map<JointKind, int> of_pair;  // joints of the current block pair
+  std::map<std::tuple<int, int, JointKind>, int> known;
   for (size_t i = 0; i < contacts.contacts.size(); ++i) {
     const Contact& contact = contacts.contacts[i];
-    const bool new_pair = i == 0 || contacts.contacts[i - 1].block_a != contact.block_a ||
-                          contacts.contacts[i - 1].block_b != contact.block_b;
-    if (new_pair) of_pair.clear();
-    const auto [entry, inserted] = of_pair.try_emplace(contacts.patches[contact.patch].kind, numbers.count);
+    const auto [entry, inserted] = known.try_emplace(
+        {contact.block_a, contact.block_b, contacts.patches[contact.patch].kind}, numbers.count);
     if (inserted) ++numbers.count;
     numbers.of_contact[i] = entry->second;
   }

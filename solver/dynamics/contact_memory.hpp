@@ -16,13 +16,12 @@ struct ContactMemory {
 
 /// Memories of the contacts of one step, in their order.
 struct ContactMemories {
-  std::vector<ContactId> ids;  ///< as the contacts, sorted by block pair, then id
-  std::vector<std::pair<int, int>> blocks;
+  std::vector<ContactId> ids;  ///< each names one pair of parts, and so one pair of blocks
   std::vector<ContactMemory> values;
 };
 
-/// Carries memories over to a new set of contacts: a contact keeps its own by block pair and identity, a new
-/// one starts with none. Both sets are in detection order.
+/// Carries memories over to a new set of contacts: a contact keeps its own by its identity, a new one
+/// starts with none.
 ContactMemories match_memories(const ContactMemories& old, const std::vector<Contact>& contacts);
 
 }  // namespace cupola

@@ -40,7 +40,8 @@ TEST_P(Wall, SinksAsTheLinearSpringAssembly) {
   bond.rings = size.rows;
   bond.blocks_per_ring = size.blocks_per_row;
   bond.slices_per_block = 2;
-  scene.geometry = {WallSurface{12.0, 6.0, 1.0}, bond, {}, 1.0};
+  scene.geometry.surface = WallSurface{12.0, 6.0, 1.0};
+  scene.geometry.bond = bond;
   scene.material.unit_weight = 1800.0 * 9.81;
   scene.joints.compliance = {compliance, compliance, Compliance::Per::point};
   scene.loads.top_load = TopLoad{10.0};
