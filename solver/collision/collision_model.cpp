@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -36,6 +37,23 @@ std::vector<int> vertices_of_part(const Assembly& assembly, const Part& part) {
   return ids;
 }
 
+/// Each edge once, as positions of its ends in the sorted vertex ids.
+std::vector<std::pair<int, int>> edges_of_part(const Assembly& assembly, const Part& part,
+                                               const std::vector<int>& vertex_ids) {
+  const auto position = [&](int v) {
+    return static_cast<int>(std::lower_bound(vertex_ids.begin(), vertex_ids.end(), v) - vertex_ids.begin());
+  };
+  std::vector<std::pair<int, int>> edges;
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+    const auto ids = assembly.face(f);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      edges.push_back(std::minmax(position(ids[i]), position(ids[(i + 1) % ids.size()])));
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
 void add_part(const Assembly& assembly, const Part& part, CollisionModel* model) {
   const Block& block = assembly.blocks[part.block];
   CollisionPart shape;
@@ -44,17 +62,22 @@ void add_part(const Assembly& assembly, const Part& part, CollisionModel* model)
   shape.fixed = block.fixed;
   shape.face_start = static_cast<int>(model->faces.size());
   for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
-    if (assembly.face_kinds[f] != FaceKind::internal)
-      add_face(assembly, f, block.centroid, part.block, model);
+    add_face(assembly, f, block.centroid, part.block, model);
   shape.num_faces = static_cast<int>(model->faces.size()) - shape.face_start;
   shape.vertex_start = static_cast<int>(model->vertices.size());
+  const std::vector<int> ids = vertices_of_part(assembly, part);
+  shape.num_vertices = static_cast<int>(ids.size());
   double& radius = model->block_radius[part.block];
-  for (int v : vertices_of_part(assembly, part)) {
+  for (int v : ids) {
     const Vec3 r = assembly.vertices[v] - block.centroid;
     model->vertices.push_back(r);
+    shape.center += r / static_cast<double>(ids.size());
     radius = std::max(radius, r.norm());
   }
-  shape.num_vertices = static_cast<int>(model->vertices.size()) - shape.vertex_start;
+  shape.edge_start = static_cast<int>(model->edges.size());
+  for (const auto& [i, k] : edges_of_part(assembly, part, ids))
+    model->edges.push_back({shape.vertex_start + i, shape.vertex_start + k});
+  shape.num_edges = static_cast<int>(model->edges.size()) - shape.edge_start;
   model->parts.push_back(shape);
 }
 

@@ -19,7 +19,12 @@ struct CollisionFace {
   int num_corners = 0;
 };
 
-/// Convex part: faces that can make contact, and all vertices.
+/// Straight edge of a convex part, between two of its vertices.
+struct CollisionEdge {
+  int start = 0, end = 0;  ///< into CollisionModel::vertices
+};
+
+/// Convex part: a range of faces, of vertices and of edges.
 struct CollisionPart {
   int block = 0;
   int ring = 0;
@@ -28,14 +33,18 @@ struct CollisionPart {
   int num_faces = 0;
   int vertex_start = 0;  ///< into CollisionModel::vertices
   int num_vertices = 0;
+  int edge_start = 0;  ///< into CollisionModel::edges
+  int num_edges = 0;
+  Vec3 center = Vec3::Zero();  ///< m, mean of the vertices, axes of the block
 };
 
 /// The assembly as contact detection sees it: every block in its own axes, so that neither a motion nor a
-/// place far from the origin costs digits. Faces of kind `internal` are left out.
+/// place far from the origin costs digits.
 struct CollisionModel {
   std::vector<CollisionPart> parts;  ///< same order as the assembly's
   std::vector<CollisionFace> faces;
-  std::vector<Vec3> corners;         ///< m, of the faces, counter-clockwise seen from outside
+  std::vector<Vec3> corners;  ///< m, of the faces, counter-clockwise seen from outside
+  std::vector<CollisionEdge> edges;
   std::vector<Vec3> vertices;        ///< m, of the parts, each once
   std::vector<double> block_radius;  ///< m, largest distance of a vertex from the centroid
   double smallest_block = 0.0;       ///< m, cube root of the smallest volume of a free block
@@ -49,6 +58,9 @@ struct CollisionModel {
   }
   std::span<const Vec3> vertices_of(const CollisionPart& part) const {
     return {vertices.data() + part.vertex_start, static_cast<std::size_t>(part.num_vertices)};
+  }
+  std::span<const CollisionEdge> edges_of(const CollisionPart& part) const {
+    return {edges.data() + part.edge_start, static_cast<std::size_t>(part.num_edges)};
   }
 };
 

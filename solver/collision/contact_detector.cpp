@@ -1,11 +1,14 @@
 #include "solver/collision/contact_detector.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "assembly/error.hpp"
+#include "solver/collision/edge_contact.hpp"
+#include "solver/collision/face_clipping.hpp"
 
 namespace cupola {
 namespace {
@@ -50,6 +53,37 @@ Box part_box(const CollisionModel& model, const CollisionPart& part, const Pose&
   return box;
 }
 
+using PartPairs = std::vector<std::pair<int, int>>;
+
+/// Pairs of parts grouped by pair of blocks, both levels sorted.
+std::vector<PartPairs> pairs_by_block(const CollisionModel& model, PartPairs pairs) {
+  const auto blocks = [&](const std::pair<int, int>& pair) {
+    return std::pair(model.parts[pair.first].block, model.parts[pair.second].block);
+  };
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [&](const auto& p, const auto& q) { return blocks(p) < blocks(q); });
+  std::vector<PartPairs> groups;
+  for (const auto& pair : pairs) {
+    if (groups.empty() || blocks(groups.back().front()) != blocks(pair)) groups.emplace_back();
+    groups.back().push_back(pair);
+  }
+  return groups;
+}
+
+/// All patches between two blocks.
+std::vector<JointPatch> find_patches(const CollisionModel& model, const PartPairs& pairs,
+                                     const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& options) {
+  std::vector<JointPatch> patches;
+  for (const auto& [a, b] : pairs) {
+    const std::vector<JointPatch> faces = clip_opposed_faces(model, a, b, pose_ab, options);
+    patches.insert(patches.end(), faces.begin(), faces.end());
+    if (!faces.empty()) continue;
+    if (const auto edge = find_edge_contact(model, a, b, pose_ab, options)) patches.push_back(*edge);
+  }
+  merge_coplanar(&patches, 10.0 * options.tolerance);
+  return patches;
+}
+
 }  // namespace
 
 void DetectionOptions::validate() const {
@@ -63,6 +97,9 @@ ContactDetector::ContactDetector(const Assembly& assembly, const DetectionOption
     : options_(options), model_(make_collision_model(assembly)) {
   options_.validate();
   if (options_.margin == 0.0) options_.margin = kDefaultMargin * model_.smallest_block;
+  narrow_.margin = options_.margin;
+  narrow_.min_width = kSliverWidth * model_.smallest_block;
+  narrow_.tolerance = std::max(kCornerTolerance * model_.smallest_block, 16.0 * model_.rounding);
 }
 
 const ContactSet& ContactDetector::update(std::span<const Pose> poses) {
@@ -116,18 +153,14 @@ void ContactDetector::update_broad_phase(std::span<const Pose> poses) {
 
 void ContactDetector::detect(std::span<const Pose> poses) {
   update_broad_phase(poses);
-  ClippingOptions clipping;
-  clipping.margin = options_.margin;
-  clipping.min_width = kSliverWidth * model_.smallest_block;
-  clipping.tolerance = std::max(kCornerTolerance * model_.smallest_block, 16.0 * model_.rounding);
-
   AnchoredContacts fresh;
-  for (const auto& [a, b] : broad_phase_->overlapping_pairs()) {
-    const CollisionPart& part_a = model_.parts[a];
-    const CollisionPart& part_b = model_.parts[b];
-    const Eigen::Isometry3d pose_ab = relative_pose(poses[part_a.block], poses[part_b.block]);
-    for (const FacePatch& patch : clip_opposed_faces(model_, part_a, part_b, pose_ab, clipping))
-      append_patch(model_, a, b, patch, pose_ab, clipping, options_.points, &fresh);
+  const double nominal_area = model_.smallest_block * model_.smallest_block / 12.0;
+  for (const auto& pairs : pairs_by_block(model_, broad_phase_->overlapping_pairs())) {
+    const Pose& pose_a = poses[model_.parts[pairs.front().first].block];
+    const Pose& pose_b = poses[model_.parts[pairs.front().second].block];
+    const Eigen::Isometry3d pose_ab = relative_pose(pose_a, pose_b);
+    for (const JointPatch& patch : find_patches(model_, pairs, pose_ab, narrow_))
+      append_patch(model_, patch, pose_ab, options_.margin, options_.points, nominal_area, &fresh);
   }
   keep_identities(contacts_, &fresh);
   contacts_ = std::move(fresh);

@@ -52,6 +52,7 @@ class ContactDetector {
 
   DetectionOptions options_;
   CollisionModel model_;
+  NarrowPhaseOptions narrow_;
   std::optional<BroadPhase> broad_phase_;
   std::vector<Pose> box_poses_;  ///< of the boxes in the broad phase
   std::vector<Pose> detection_poses_;

@@ -1,7 +1,6 @@
 #include "solver/collision/patch_contacts.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -9,14 +8,16 @@
 namespace cupola {
 namespace {
 
-ContactAnchor anchor_of(const FacePatchPoint& point, const CornerNormal& corner,
+ContactAnchor anchor_of(const LiftedPoint& point, const CornerNormal& corner,
                         const Eigen::Isometry3d& pose_ab) {
   const Eigen::Isometry3d pose_ba = pose_ab.inverse(Eigen::Isometry);
   return {point.on_a, pose_ba * point.on_b, corner.normal, pose_ba.linear() * corner.normal, corner.weight_a};
 }
 
-bool same_patch(const ContactId& p, const ContactId& q) {
-  return std::tie(p.part_a, p.part_b, p.face_a, p.face_b) == std::tie(q.part_a, q.part_b, q.face_a, q.face_b);
+/// What orders patches: block pair, part pair, face pair.
+auto patch_name(const Contact& contact) {
+  const ContactId& id = contact.id;
+  return std::tuple(contact.block_a, contact.block_b, id.part_a, id.part_b, id.face_a, id.face_b);
 }
 
 /// Contacts [start, end) of one patch, in the order of the set.
@@ -26,7 +27,7 @@ struct Range {
 
 Range patch_range(const std::vector<Contact>& contacts, std::size_t start) {
   std::size_t end = start;
-  while (end < contacts.size() && same_patch(contacts[end].id, contacts[start].id)) ++end;
+  while (end < contacts.size() && patch_name(contacts[end]) == patch_name(contacts[start])) ++end;
   return {start, end};
 }
 
@@ -83,50 +84,41 @@ void sort_patch(Range range, AnchoredContacts* contacts) {
 
 }  // namespace
 
-JointKind joint_kind(const CollisionModel& model, const CollisionPart& part_a, const CollisionPart& part_b,
-                     const FacePatch& patch) {
-  if (part_a.fixed || part_b.fixed) return JointKind::base;
-  const FaceKind kind_a = model.faces[patch.face_a].kind;
-  const FaceKind kind_b = model.faces[patch.face_b].kind;
-  const auto is_bed = [](FaceKind kind) { return kind == FaceKind::bed || kind == FaceKind::top; };
-  if (is_bed(kind_a) && is_bed(kind_b)) return JointKind::bed;
-  if (kind_a == FaceKind::head && kind_b == FaceKind::head) return JointKind::head;
-  return JointKind::other;
-}
-
-void append_patch(const CollisionModel& model, int part_a, int part_b, const FacePatch& patch,
-                  const Eigen::Isometry3d& pose_ab, const ClippingOptions& options, PatchPoints points,
-                  AnchoredContacts* contacts) {
-  const CollisionPart& a = model.parts[part_a];
-  const CollisionPart& b = model.parts[part_b];
-  std::vector<Vec2> outline;
-  std::vector<Vec3> polygon;
-  for (const ClipCorner& corner : patch.corners) {
-    outline.push_back(corner.position);
-    polygon.push_back(lift_to_faces(patch, corner.position).on_a);
-  }
+void append_patch(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
+                  double margin, PatchPoints points, double nominal_area, AnchoredContacts* contacts) {
+  const int block_a = model.parts[patch.part_a].block;
+  const int block_b = model.parts[patch.part_b].block;
   const int patch_index = static_cast<int>(contacts->set.patches.size());
-  const JointKind kind = joint_kind(model, a, b, patch);
-  const int ring = kind == JointKind::base ? 0 : std::max(a.ring, b.ring);
-  contacts->set.patches.push_back({a.block, b.block, kind, ring, {}, polygon_area(outline)});
-  contacts->patch_polygons.push_back(std::move(polygon));
-
-  for (const PatchPoint& point : patch_points(outline, points)) {
-    const FacePatchPoint lifted = lift_to_faces(patch, point.position);
-    if (lifted.gap > options.margin) continue;
-    const CornerNormal normal =
-        point.corner < 0
-            ? CornerNormal{patch.normal, 0.5}
-            : corner_normal(model, patch, pose_ab, patch.corners[point.corner], options.max_angle);
+  const auto append = [&](const LiftedPoint& point, const CornerNormal& normal, double area, int corner) {
+    if (point.gap > margin) return;
     Contact contact;
-    contact.id = {part_a, part_b, model.faces[patch.face_a].id, model.faces[patch.face_b].id, point.corner};
-    contact.block_a = a.block;
-    contact.block_b = b.block;
+    contact.id = {patch.part_a, patch.part_b, patch.face_a, patch.face_b, corner};
+    contact.block_a = block_a;
+    contact.block_b = block_b;
     contact.patch = patch_index;
-    contact.area = point.area;
+    contact.area = area;
     contacts->set.contacts.push_back(contact);
-    contacts->anchors.push_back(anchor_of(lifted, normal, pose_ab));
+    contacts->anchors.push_back(anchor_of(point, normal, pose_ab));
+  };
+
+  Patch shape{block_a, block_b, patch.kind, patch.ring, {}, 0.0};
+  std::vector<Vec3> polygon;
+  if (patch.has_area()) {
+    const std::vector<Vec2> outline = patch.outline();
+    shape.area = polygon_area(outline);
+    for (const Vec2& x : outline) polygon.push_back(lift_to_faces(patch, x).on_a);
+    for (const PatchPoint& point : patch_points(outline, points))
+      append(lift_to_faces(patch, point.position),
+             point.corner < 0 ? CornerNormal{patch.normal, 0.5} : patch.corners[point.corner].normal,
+             point.area, point.corner);
+  } else {
+    for (std::size_t i = 0; i < patch.corners.size(); ++i) {
+      polygon.push_back(patch.touching[i].on_a);
+      append(patch.touching[i], patch.corners[i].normal, nominal_area, static_cast<int>(i));
+    }
   }
+  contacts->set.patches.push_back(shape);
+  contacts->patch_polygons.push_back(std::move(polygon));
 }
 
 void move_contacts(std::span<const Pose> poses, AnchoredContacts* contacts) {
@@ -161,10 +153,9 @@ void keep_identities(const AnchoredContacts& old_contacts, AnchoredContacts* con
   std::size_t old_start = 0;
   for (std::size_t start = 0; start < contacts->set.contacts.size();) {
     const Range range = patch_range(contacts->set.contacts, start);
-    ContactId lowest = contacts->set.contacts[start].id;
-    lowest.corner = std::numeric_limits<int>::min();
-    while (old_start < old_set.size() && old_set[old_start].id < lowest) ++old_start;
-    if (old_start < old_set.size() && same_patch(old_set[old_start].id, lowest))
+    const Contact& first = contacts->set.contacts[start];
+    while (old_start < old_set.size() && patch_name(old_set[old_start]) < patch_name(first)) ++old_start;
+    if (old_start < old_set.size() && patch_name(old_set[old_start]) == patch_name(first))
       match_patch(old_contacts, patch_range(old_set, old_start), range, contacts);
     sort_patch(range, contacts);
     start = range.end;

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "solver/collision/contact_set.hpp"
-#include "solver/collision/face_clipping.hpp"
+#include "solver/collision/joint_patch.hpp"
+#include "solver/collision/patch_quadrature.hpp"
 
 namespace cupola {
 
@@ -22,14 +23,11 @@ struct AnchoredContacts {
   std::vector<std::vector<Vec3>> patch_polygons;  ///< m, one per patch, axes of block a
 };
 
-/// `base` when a block is fixed, else `bed` or `head` by the faces' kinds, else `other`.
-JointKind joint_kind(const CollisionModel& model, const CollisionPart& part_a, const CollisionPart& part_b,
-                     const FacePatch& patch);
-
-/// Appends a patch and its contact points. Positions in the world are left to move_contacts().
-void append_patch(const CollisionModel& model, int part_a, int part_b, const FacePatch& patch,
-                  const Eigen::Isometry3d& pose_ab, const ClippingOptions& options, PatchPoints points,
-                  AnchoredContacts* contacts);
+/// Appends a patch and its contact points within the margin; `pose_ab` as for the patch. An edge or a vertex
+/// has no area: each of its points stands for `nominal_area` (m2). Positions in the world are left to
+/// move_contacts().
+void append_patch(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
+                  double margin, PatchPoints points, double nominal_area, AnchoredContacts* contacts);
 
 /// Places points, normals, gaps and patch polygons for the given poses of the blocks.
 void move_contacts(std::span<const Pose> poses, AnchoredContacts* contacts);

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/collision/polygon_clipping.hpp"
+#include "solver/collision/convex_polygon.hpp"
 
 namespace cupola {
 

@@ -77,8 +77,10 @@ TEST(ContactDetector, WallHasEveryJoint) {
     const bool base = patch.kind == JointKind::base;
     EXPECT_EQ(patch.ring, base ? 0 : scene.blocks[patch.block_b].ring);
   }
-  EXPECT_TRUE(std::is_sorted(set.contacts.begin(), set.contacts.end(),
-                             [](const Contact& p, const Contact& q) { return p.id < q.id; }));
+  EXPECT_TRUE(
+      std::is_sorted(set.contacts.begin(), set.contacts.end(), [](const Contact& p, const Contact& q) {
+        return std::tuple(p.block_a, p.block_b, p.id) < std::tuple(q.block_a, q.block_b, q.id);
+      }));
 }
 
 TEST(ContactDetector, MovedScaledAndFarScenesHaveTheSameContacts) {
@@ -230,6 +232,31 @@ TEST(ContactDetector, FollowedContactsAgreeWithFreshOnes) {
       EXPECT_NEAR(followed.contacts[i].gap, fresh.contacts[i].gap, 1e-14);
     }
   }
+}
+
+// Slices of a block are coplanar in a wall: however many, the joints are the same polygons.
+TEST(ContactDetector, SlicesDoNotChangeTheJoints) {
+  const ContactSet whole = contacts_at_rest(running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4, 1));
+  for (const int slices : {2, 4, 8}) {
+    const ContactSet sliced = contacts_at_rest(running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4, slices));
+    ASSERT_EQ(sliced.patches.size(), whole.patches.size()) << slices;
+    ASSERT_EQ(sliced.contacts.size(), whole.contacts.size()) << slices;
+    for (std::size_t i = 0; i < whole.patches.size(); ++i) {
+      EXPECT_EQ(sliced.patches[i].block_a, whole.patches[i].block_a);
+      EXPECT_EQ(sliced.patches[i].block_b, whole.patches[i].block_b);
+      EXPECT_NEAR(sliced.patches[i].area, whole.patches[i].area, 1e-12);
+    }
+  }
+}
+
+// Two feet of one block on the slab do not touch each other: they stay two patches.
+TEST(ContactDetector, SeparateFeetStaySeparatePatches) {
+  Assembly scene = box_on_floor(Vec3(1, 1, 1));
+  add_block({}, &scene);
+  add_box_part({.center = {3.0, 0, 0.5}}, false, false, &scene);
+  add_box_part({.center = {5.0, 0, 0.5}}, false, false, &scene);
+  compute_mass_properties(&scene);
+  EXPECT_EQ(contacts_at_rest(scene).patches.size(), 3u);
 }
 
 TEST(ContactDetector, RejectsBadOptions) {

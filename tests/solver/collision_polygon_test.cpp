@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/collision/convex_polygon.hpp"
 #include "solver/collision/patch_quadrature.hpp"
-#include "solver/collision/polygon_clipping.hpp"
 
 namespace cupola {
 namespace {
@@ -116,6 +116,20 @@ TEST(ClipConvexPolygon, LabelsTellWhichEdgesMeet) {
       EXPECT_NE(c.edge_in < 4, c.edge_out < 4);  // crossing of one edge of each
     }
   }
+}
+
+TEST(ConvexHull, DropsInnerRepeatedAndCollinearPoints) {
+  const std::vector<Vec2> points = {{1, 1}, {0, 0}, {2, 0},     {1, 0}, {2, 2},
+                                    {0, 2}, {2, 2}, {0.5, 0.7}, {0, 1}};
+  std::vector<Vec2> hull;
+  for (int i : convex_hull(points, kTolerance)) hull.push_back(points[i]);
+  EXPECT_EQ(hull.size(), 4u);
+  EXPECT_DOUBLE_EQ(polygon_area(hull), 4.0);
+}
+
+TEST(ConvexHull, PointsOnALineHaveNone) {
+  const std::vector<Vec2> points = {{0, 0}, {1, 1}, {2, 2}, {3, 3}};
+  EXPECT_TRUE(convex_hull(points, kTolerance).empty());
 }
 
 TEST(PolygonWidth, RectangleAndTriangle) {

@@ -1,7 +1,9 @@
-#include "solver/collision/polygon_clipping.hpp"
+#include "solver/collision/convex_polygon.hpp"
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace cupola {
 namespace {
@@ -35,27 +37,16 @@ std::vector<ClipCorner> clip_by_line(const std::vector<ClipCorner>& polygon, con
   return kept;
 }
 
-/// Drops corners that coincide with the next one or lie on the chord of their neighbours, then tells each
-/// corner which edge ends there.
+/// Drops needless corners, then tells each corner which edge ends there.
 void simplify(std::vector<ClipCorner>* polygon, double tolerance) {
-  for (std::size_t i = 0; i < polygon->size() && polygon->size() >= 3;) {
-    const std::size_t n = polygon->size();
-    const Vec2& previous = (*polygon)[(i + n - 1) % n].position;
-    const Vec2& here = (*polygon)[i].position;
-    const Vec2& next = (*polygon)[(i + 1) % n].position;
-    const Vec2 chord = next - previous;
-    const bool repeated = (next - here).norm() <= tolerance;
-    const bool straight = std::abs(cross(chord, here - previous)) <= tolerance * chord.norm();
-    if (repeated || straight) {
-      polygon->erase(polygon->begin() + static_cast<std::ptrdiff_t>(i));
-      i = i > 0 ? i - 1 : 0;  // the neighbour before may lie straight now
-    } else {
-      ++i;
-    }
-  }
-  if (polygon->size() < 3) polygon->clear();
-  for (std::size_t i = 0; i < polygon->size(); ++i)
-    (*polygon)[i].edge_in = (*polygon)[(i + polygon->size() - 1) % polygon->size()].edge_out;
+  std::vector<Vec2> positions;
+  positions.reserve(polygon->size());
+  for (const ClipCorner& corner : *polygon) positions.push_back(corner.position);
+  std::vector<ClipCorner> kept;
+  for (int i : essential_corners(positions, tolerance)) kept.push_back((*polygon)[i]);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    kept[i].edge_in = kept[(i + kept.size() - 1) % kept.size()].edge_out;
+  *polygon = std::move(kept);
 }
 
 }  // namespace
@@ -71,6 +62,55 @@ std::vector<ClipCorner> clip_convex_polygon(std::span<const Vec2> subject, std::
                            tolerance);
   simplify(&polygon, tolerance);
   return polygon;
+}
+
+std::vector<int> essential_corners(std::span<const Vec2> polygon, double tolerance) {
+  std::vector<int> kept(polygon.size());
+  std::iota(kept.begin(), kept.end(), 0);
+  for (std::size_t i = 0; i < kept.size() && kept.size() >= 3;) {
+    const std::size_t n = kept.size();
+    const Vec2& previous = polygon[kept[(i + n - 1) % n]];
+    const Vec2& here = polygon[kept[i]];
+    const Vec2& next = polygon[kept[(i + 1) % n]];
+    const Vec2 chord = next - previous;
+    const bool repeated = (next - here).norm() <= tolerance;
+    const bool straight = std::abs(cross(chord, here - previous)) <= tolerance * chord.norm();
+    if (repeated || straight) {
+      kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
+      i = i > 0 ? i - 1 : 0;  // the neighbour before may lie straight now
+    } else {
+      ++i;
+    }
+  }
+  if (kept.size() < 3) kept.clear();
+  return kept;
+}
+
+std::vector<int> convex_hull(std::span<const Vec2> points, double tolerance) {
+  std::vector<int> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int i, int k) {
+    return std::pair(points[i].x(), points[i].y()) < std::pair(points[k].x(), points[k].y());
+  });
+  // Andrew's monotone chain: the lower side from left to right, the upper one back.
+  std::vector<int> hull;
+  const auto add_side = [&](auto first, auto last) {
+    const std::size_t start = hull.size();
+    for (auto it = first; it != last; ++it) {
+      while (hull.size() >= start + 2 && cross(points[hull.back()] - points[hull[hull.size() - 2]],
+                                               points[*it] - points[hull.back()]) <= 0.0)
+        hull.pop_back();
+      hull.push_back(*it);
+    }
+    if (!hull.empty()) hull.pop_back();
+  };
+  add_side(order.begin(), order.end());
+  add_side(order.rbegin(), order.rend());
+  std::vector<Vec2> outline;
+  for (int i : hull) outline.push_back(points[i]);
+  std::vector<int> corners;
+  for (int i : essential_corners(outline, tolerance)) corners.push_back(hull[i]);
+  return corners;
 }
 
 double polygon_area(std::span<const Vec2> polygon) {

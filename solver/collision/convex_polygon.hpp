@@ -28,6 +28,14 @@ std::vector<ClipCorner> clip_convex_polygon(std::span<const Vec2> subject, std::
 double polygon_area(std::span<const Vec2> polygon);
 Vec2 polygon_centroid(std::span<const Vec2> polygon);
 
+/// Indices of the corners that a polygon needs, in order: of corners nearer than `tolerance` (m) to each
+/// other one, and none that lies so near to the chord of its neighbours. Empty when fewer than three are
+/// left.
+std::vector<int> essential_corners(std::span<const Vec2> polygon, double tolerance);
+
+/// Indices of the corners of the convex hull, counter-clockwise, without corners on its edges.
+std::vector<int> convex_hull(std::span<const Vec2> points, double tolerance);
+
 /// Smallest distance between two parallel lines that hold the convex polygon between them, m.
 double polygon_width(std::span<const Vec2> polygon);
 

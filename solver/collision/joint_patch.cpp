@@ -1,0 +1,109 @@
+#include "solver/collision/joint_patch.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace cupola {
+namespace {
+
+bool lies_on(const Plane& plane, const Vec3& x, double tolerance) {
+  return std::abs(plane.normal.dot(x) - plane.offset) <= tolerance;
+}
+
+bool coplanar(const JointPatch& p, const JointPatch& q, double tolerance) {
+  if (!p.has_area() || !q.has_area() || p.kind != q.kind || p.ring != q.ring) return false;
+  if (p.normal.dot(q.normal) < 0.5) return false;
+  return std::all_of(q.corners.begin(), q.corners.end(), [&](const PatchCorner& corner) {
+    const LiftedPoint x = lift_to_faces(q, corner.position);
+    return lies_on(p.plane_a, x.on_a, tolerance) && lies_on(p.plane_b, x.on_b, tolerance);
+  });
+}
+
+double perimeter(const std::vector<Vec2>& polygon) {
+  double length = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    length += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  return length;
+}
+
+/// The union of p and q, seen in p's plane, when it is convex.
+std::optional<JointPatch> convex_union(const JointPatch& p, const JointPatch& q, double tolerance) {
+  std::vector<PatchCorner> corners = p.corners;
+  for (const PatchCorner& corner : q.corners)
+    corners.push_back({p.project(lift_to_faces(q, corner.position).on_a), corner.normal});
+  std::vector<Vec2> points;
+  for (const PatchCorner& corner : corners) points.push_back(corner.position);
+
+  JointPatch joined = p;
+  joined.corners.clear();
+  for (int i : convex_hull(points, tolerance)) joined.corners.push_back(corners[i]);
+  joined.min_gap = std::min(p.min_gap, q.min_gap);
+  // Pieces that touch along a common edge fill their hull, but for borders moved by the tolerance.
+  const double missing =
+      polygon_area(joined.outline()) - polygon_area(p.outline()) - polygon_area(q.outline());
+  if (missing > 4.0 * tolerance * perimeter(joined.outline())) return std::nullopt;
+  return joined;
+}
+
+}  // namespace
+
+void JointPatch::set_normal(const Vec3& unit_normal) {
+  normal = unit_normal;
+  int smallest = 0;
+  normal.cwiseAbs().minCoeff(&smallest);
+  u = normal.cross(Vec3::Unit(smallest)).normalized();
+  v = normal.cross(u);
+}
+
+std::vector<Vec2> JointPatch::outline() const {
+  std::vector<Vec2> positions;
+  positions.reserve(corners.size());
+  for (const PatchCorner& corner : corners) positions.push_back(corner.position);
+  return positions;
+}
+
+LiftedPoint lift_to_faces(const JointPatch& patch, const Vec2& x) {
+  const Vec3 on_plane = patch.origin + x.x() * patch.u + x.y() * patch.v;
+  const auto height = [&](const Plane& plane) {
+    return (plane.offset - plane.normal.dot(on_plane)) / plane.normal.dot(patch.normal);
+  };
+  const double height_a = height(patch.plane_a);
+  const double height_b = height(patch.plane_b);
+  return {on_plane + height_a * patch.normal, on_plane + height_b * patch.normal, height_b - height_a};
+}
+
+void classify(const CollisionPart& part_a, FaceKind face_a, const CollisionPart& part_b, FaceKind face_b,
+              JointPatch* patch) {
+  const auto is_bed = [](FaceKind kind) { return kind == FaceKind::bed || kind == FaceKind::top; };
+  patch->ring = std::max(part_a.ring, part_b.ring);
+  if (part_a.fixed || part_b.fixed) {
+    patch->kind = JointKind::base;
+    patch->ring = 0;
+  } else if (is_bed(face_a) && is_bed(face_b)) {
+    patch->kind = JointKind::bed;
+  } else if (face_a == FaceKind::head && face_b == FaceKind::head) {
+    patch->kind = JointKind::head;
+  } else {
+    patch->kind = JointKind::other;
+  }
+}
+
+void merge_coplanar(std::vector<JointPatch>* patches, double tolerance) {
+  for (std::size_t i = 0; i < patches->size(); ++i) {
+    for (std::size_t k = i + 1; k < patches->size();) {
+      const JointPatch& p = (*patches)[i];
+      const JointPatch& q = (*patches)[k];
+      std::optional<JointPatch> joined;
+      if (coplanar(p, q, tolerance)) joined = convex_union(p, q, tolerance);
+      if (!joined) {
+        ++k;
+        continue;
+      }
+      (*patches)[i] = std::move(*joined);
+      patches->erase(patches->begin() + static_cast<std::ptrdiff_t>(k));
+      k = i + 1;  // what did not fit before may fit the larger patch
+    }
+  }
+}
+
+}  // namespace cupola

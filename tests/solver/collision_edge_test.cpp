@@ -1,0 +1,164 @@
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "solver/collision/contact_detector.hpp"
+#include "tests/solver/scenes.hpp"
+
+namespace cupola {
+namespace {
+
+using namespace testing;  // the scenes
+using Eigen::AngleAxisd;
+using Eigen::Quaterniond;
+
+constexpr double kPi = std::numbers::pi;
+
+double lowest_corner(const Assembly& scene, const Pose& pose) {
+  double z = 1e300;
+  for (std::size_t v = 8; v < 16; ++v)  // the box's; the floor has the first eight
+    z = std::min(z, (pose.p_WB + pose.q_WB * (scene.vertices[v] - scene.blocks[1].centroid)).z());
+  return z;
+}
+
+/// The box turned by q, its lowest corner `gap` above the floor.
+std::vector<Pose> turned_box(const Assembly& scene, const Quaterniond& q, double gap) {
+  auto poses = initial_poses(scene);
+  poses[1].q_WB = q;
+  poses[1].p_WB.z() += gap - lowest_corner(scene, poses[1]);
+  return poses;
+}
+
+TEST(EdgeContact, EdgeOnAFloorHasTwoPoints) {
+  const Assembly scene = box_on_floor(Vec3(1, 2, 1));
+  for (const double angle : {0.36, kPi / 6, kPi / 4, 1.2}) {
+    for (const double gap : {-1e-3, 0.0, 1e-3}) {
+      const auto poses = turned_box(scene, Quaterniond(AngleAxisd(angle, Vec3::UnitY())), gap);
+      const ContactSet set = ContactDetector(scene, {}).update(poses);
+      ASSERT_EQ(set.contacts.size(), 2u) << angle << " " << gap;
+      for (const Contact& contact : set.contacts) {
+        EXPECT_NEAR(contact.gap, gap, 1e-13);
+        EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-13);
+        EXPECT_NEAR(std::abs(contact.point_b.y()), 1.0, 1e-13);
+        EXPECT_NEAR(contact.point_b.z(), gap, 1e-13);
+      }
+    }
+  }
+}
+
+TEST(EdgeContact, VertexOnAFloorHasOnePoint) {
+  const Assembly scene = box_on_floor(Vec3(1, 1, 1));
+  const Quaterniond on_corner = Quaterniond::FromTwoVectors(Vec3(1, 1, 1), Vec3(0.02, -0.03, -1));
+  for (const double gap : {-2e-3, 0.0, 2e-3}) {
+    const ContactSet set = ContactDetector(scene, {}).update(turned_box(scene, on_corner, gap));
+    ASSERT_EQ(set.contacts.size(), 1u);
+    EXPECT_NEAR(set.contacts[0].gap, gap, 1e-13);
+    EXPECT_LT((set.contacts[0].normal - Vec3::UnitZ()).norm(), 1e-13);
+  }
+}
+
+// Two roof ridges, crossing at right angles: one point, normal perpendicular to both.
+TEST(EdgeContact, CrossingEdges) {
+  const double half_diagonal = std::sqrt(0.5);
+  for (const double gap : {-3e-3, 0.0, 3e-3}) {
+    const Assembly scene =
+        make_boxes({{.fixed = true, .rotation = Quaterniond(AngleAxisd(kPi / 4, Vec3::UnitX()))},
+                    {.center = {0.1, 0.05, 2 * half_diagonal + gap},
+                     .rotation = Quaterniond(AngleAxisd(kPi / 4, Vec3::UnitY()))}});
+    const ContactSet set = ContactDetector(scene, {}).update(initial_poses(scene));
+    ASSERT_EQ(set.contacts.size(), 1u) << gap;
+    EXPECT_NEAR(set.contacts[0].gap, gap, 1e-13);
+    EXPECT_LT((set.contacts[0].normal - Vec3::UnitZ()).norm(), 1e-13);
+    // The lower ridge runs along x at y = 0, the upper one along y at x = 0.1.
+    EXPECT_LT((set.contacts[0].point_a - Vec3(0.1, 0, half_diagonal)).norm(), 1e-13);
+  }
+}
+
+// Diagonal neighbours touch along an edge, or in a corner, and carry nothing there.
+TEST(EdgeContact, NeighboursAcrossAnEdgeOrACornerMakeNone) {
+  const auto pair = [](const Vec3& center) { return make_boxes({{.fixed = true}, {.center = center}}); };
+  for (const double hair : {-1e-9, 0.0, 1e-9}) {
+    const ContactSet edge =
+        ContactDetector(pair({1, 0, 1 + hair}), {}).update(initial_poses(pair({1, 0, 1 + hair})));
+    EXPECT_TRUE(edge.contacts.empty()) << hair;
+    const ContactSet corner =
+        ContactDetector(pair({1, 1, 1 + hair}), {}).update(initial_poses(pair({1, 1, 1 + hair})));
+    EXPECT_TRUE(corner.contacts.empty()) << hair;
+  }
+}
+
+// From face to edge contact through the largest tilt of a face contact: lowest gap and hinge stay.
+TEST(EdgeContact, TurnsFromFaceToEdgeWithoutAJump) {
+  const Assembly scene = box_on_floor(Vec3(1, 1, 1));
+  ContactDetector detector(scene, {});
+  for (int step = 0; step <= 157; ++step) {
+    const double angle = 0.01 * step;
+    const ContactSet& set =
+        detector.update(turned_box(scene, Quaterniond(AngleAxisd(angle, Vec3::UnitX())), 0.0));
+    int touching = 0;
+    for (const Contact& contact : set.contacts) {
+      EXPECT_GT(contact.gap, -1e-12) << angle;
+      EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-12) << angle;
+      touching += std::abs(contact.gap) < 1e-12;
+    }
+    EXPECT_EQ(touching, step == 0 ? 4 : 2) << angle;
+  }
+}
+
+/// Nearest distance of two boxes apart, by sampling the faces of each and projecting on the other: slow, and
+/// shares nothing with the separating axes.
+double sampled_distance(const Pose& a, const Pose& b, int n) {
+  double best = 1e300;
+  const auto to_box = [](const Pose& box, const Vec3& x) {
+    const Vec3 local = box.q_WB.conjugate() * (x - box.p_WB);
+    return (local - local.cwiseMax(-0.5).cwiseMin(0.5)).norm();
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-0.5, 0.5})
+      for (int i = 0; i <= n; ++i)
+        for (int k = 0; k <= n; ++k) {
+          Vec3 x;
+          x[axis] = side;
+          x[(axis + 1) % 3] = -0.5 + static_cast<double>(i) / n;
+          x[(axis + 2) % 3] = -0.5 + static_cast<double>(k) / n;
+          best = std::min(best, to_box(b, a.p_WB + a.q_WB * x));
+          best = std::min(best, to_box(a, b.p_WB + b.q_WB * x));
+        }
+  return best;
+}
+
+// Random boxes near each other: whenever they are nearer than the margin there is a contact, of that gap.
+TEST(EdgeContact, RandomBoxesAgreeWithSampledDistance) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> distance(1.2, 1.6);
+  const Assembly scene = make_boxes({{.fixed = true}, {}});
+  DetectionOptions options;
+  options.margin = 0.05;
+  int near = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    auto poses = initial_poses(scene);
+    poses[1].p_WB = Vec3(normal(random), normal(random), normal(random)).normalized() * distance(random);
+    poses[1].q_WB = Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
+    const double expected = sampled_distance(poses[0], poses[1], 60);
+    const ContactSet set = ContactDetector(scene, options).update(poses);
+    double gap = 1e300;
+    for (const Contact& contact : set.contacts) gap = std::min(gap, contact.gap);
+    const double sampling = 1.0 / 60;  // the grid misses the nearest point by at most its spacing
+    if (expected > sampling && expected < options.margin) {
+      ++near;
+      // Along a face or edge normal the gap of two rounded-off neighbours (vertex to vertex) reads smaller.
+      ASSERT_FALSE(set.contacts.empty()) << trial << " at " << expected;
+      EXPECT_LT(gap, expected + 1e-12) << trial;
+    }
+    if (expected > 2 * options.margin) {
+      EXPECT_TRUE(set.contacts.empty()) << trial << " at " << expected;
+    }
+  }
+  EXPECT_GT(near, 10);
+}
+
+}  // namespace
+}  // namespace cupola
