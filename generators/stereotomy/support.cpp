@@ -50,9 +50,10 @@ void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double
   const int block = static_cast<int>(assembly->blocks.size()) - 1;
   std::vector<std::array<int, 4>> corners;  // inner top, outer top, outer bottom, inner bottom
   for (int s = 0; s < num_slices; ++s) {
-    const Vec3 radial(std::cos(cuts[s]), std::sin(cuts[s]), 0.0);
-    const double inner = surface.point(0, cuts[s], Skin::intrados).dot(radial);
-    const double outer = surface.point(0, cuts[s], Skin::extrados).dot(radial) + width;
+    const Vec3 base = surface.point(0, cuts[s], Skin::intrados);
+    const double inner = base.norm();  // the base lies in the plane z = 0
+    const double outer = surface.point(0, cuts[s], Skin::extrados).norm() + width;
+    const Vec3 radial = base / inner;
     const double inside = std::max(inner - width, inner / 2.0);
     const Vec3 down(0.0, 0.0, -width);
     corners.push_back({add_vertex(inside * radial, assembly), add_vertex(outer * radial, assembly),

@@ -18,8 +18,9 @@ enum class Footing {
   both_springings,  ///< one box behind the first and one behind the last bed, for arches
 };
 
-/// A masonry surface: where the corner of bed k, abscissa a and skin w lies. The abscissa is the azimuth in
-/// radians on closed surfaces, a length in metres on the others. The directions (outwards, along, up) are
+/// A masonry surface: where the corner of bed k, abscissa a and skin w lies. On closed surfaces the abscissa
+/// runs from 0 to 2 pi with the azimuth (equal to it at the corners of a vault), on the others it is a length
+/// in metres. The directions (outwards, along, up) are
 /// right-handed. It knows nothing of blocks.
 struct SurfaceMap {
   std::function<Vec3(double bed, double abscissa, Skin skin)> point;  ///< m

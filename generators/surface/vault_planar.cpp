@@ -38,6 +38,13 @@ Vector2d level_point(const OctagonalVault& vault, const SailProfile& profile, do
   return {profile.extrados(tau).x(), z};
 }
 
+/// Azimuth at an abscissa in [0, 2 pi) that counts equal widths along each sail.
+double azimuth_of(double abscissa, int sails) {
+  const double half = std::numbers::pi / sails;
+  const double from_midsail = azimuth_from_midsail(abscissa, sails);
+  return abscissa - from_midsail + std::atan(from_midsail / half * std::tan(half));
+}
+
 }  // namespace
 
 SurfaceMap planar_vault_surface(const OctagonalVault& vault, int rings) {
@@ -49,7 +56,8 @@ SurfaceMap planar_vault_surface(const OctagonalVault& vault, int rings) {
   const SailProfile profile = sail_profile(vault);
   const double crown = vault.crown_angle_deg * std::numbers::pi / 180.0;
   const double crown_height = profile.R * std::sin(crown);
-  surface.point = [=](double bed_position, double azimuth, Skin skin) {
+  surface.point = [=](double bed_position, double abscissa, Skin skin) {
+    const double azimuth = azimuth_of(abscissa, vault.sails);
     const Vector2d section = level ? level_point(vault, profile, crown_height * bed_position / rings, skin)
                                    : radial_point(vault, profile, crown * bed_position / rings, skin);
     const double rho = section.x() / std::cos(azimuth_from_midsail(azimuth, vault.sails));

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -8,6 +9,7 @@
 #include "generators/generate.hpp"
 #include "generators/surface/make_surface.hpp"
 #include "tests/generators/models.hpp"
+#include "tests/generators/section.hpp"
 
 namespace cupola {
 namespace {
@@ -120,6 +122,92 @@ INSTANTIATE_TEST_SUITE_P(
                                4992, 1280, 128},
                     VaultCount{vault_of(Construction::circular), HerringboneBond{}, 1296, 4160, 0.751, 10.21,
                                3376, 1920, 104}));
+
+// Cells of one ring and sail merge exactly: one part per block, two where it spans a corner.
+TEST(Vault, PlanarRibBlocksAreOpenBooksOfTwoParts) {
+  ModelReport report;
+  const Assembly model =
+      generate(vault_case(Construction::planar_radial, Extrados::normal, RunningBond{}), &report);
+  EXPECT_EQ(report.num_parts, 1280 + 320);
+  EXPECT_NEAR(report.smallest_block, 2.151, 5.5e-4);
+  EXPECT_NEAR(report.largest_block, 9.665, 5.5e-4);
+  std::vector<int> parts(model.blocks.size(), 0), ribs_in_ring(40, 0);
+  for (const Part& part : model.parts) ++parts[part.block];
+  for (size_t b = 1; b < model.blocks.size(); ++b) {
+    EXPECT_EQ(parts[b], model.blocks[b].rib ? 2 : 1);
+    if (model.blocks[b].rib) ++ribs_in_ring[model.blocks[b].ring];
+  }
+  for (int ribs : ribs_in_ring) EXPECT_EQ(ribs, 8);
+}
+
+TEST(Vault, SailPositionsFollowTheAzimuth) {
+  const Assembly model =
+      cut_assembly(vault_case(Construction::circular, Extrados::normal, RunningBond{4, 32, 4, {}}));
+  for (const Block& block : model.blocks) {
+    if (block.fixed) continue;
+    EXPECT_GE(block.sail_position, -1.0);
+    EXPECT_LT(block.sail_position, 1.0);
+    const double azimuth = std::atan2(block.centroid.y(), block.centroid.x());
+    const double expected = (block.sail + 0.5 * (1.0 + block.sail_position)) * std::numbers::pi / 4;
+    // The centroid of a rib block's two legs lies off its middle by their tilt; the others are at theirs
+    // within the sail's taper over one block.
+    EXPECT_NEAR(std::remainder(azimuth - expected, 2 * std::numbers::pi), 0.0, 0.02);
+  }
+}
+
+std::pair<size_t, size_t> blocks_met(const Assembly& model, double z) {
+  std::pair<size_t, size_t> range{1000, 0};
+  for (int i = 0; i < 720; ++i) {
+    // Off the cuts, which lie at multiples of 1/1536 of a turn; a grazed block counts from 1 mm on.
+    const double azimuth = (i + 0.37) * std::numbers::pi / 360;
+    const size_t count = blocks_on_radial_line(model, z, azimuth, 1e-3).size();
+    range = {std::min(range.first, count), std::max(range.second, count)};
+  }
+  return range;
+}
+
+using Range = std::pair<size_t, size_t>;
+
+TEST(Vault, HorizontalRadialLinesMeetTheTabulatedNumbersOfBlocks) {
+  const Assembly circular = cut_assembly(vault_case(Construction::circular, Extrados::normal, RunningBond{}));
+  const auto within = [](Range met, Range bounds) {
+    return met.first >= bounds.first && met.second <= bounds.second;
+  };
+  EXPECT_TRUE(within(blocks_met(circular, 14.5), {1, 3}));
+  EXPECT_EQ(blocks_met(circular, 22.5), Range(2, 3));
+  EXPECT_TRUE(within(blocks_met(cut_assembly(Case{}), 14.5), {1, 2}));
+  const Assembly level =
+      cut_assembly(vault_case(Construction::planar_horizontal, Extrados::normal, RunningBond{31, 32, 4, {}}));
+  EXPECT_EQ(blocks_met(level, 14.5), Range(1, 1));
+  EXPECT_EQ(blocks_met(level, 22.5), Range(1, 1));
+}
+
+// A level cut meets the cone of bed k in the circle rho = z / tan t_k - e. At 22.5 m some bed crosses the
+// whole way round inside the masonry: the circular ring hidden in the octagon.
+TEST(Vault, SectionOfTheCircularVaultHidesACircularRing) {
+  const Assembly model = cut_assembly(vault_case(Construction::circular, Extrados::normal, RunningBond{}));
+  const double z = 22.5;
+  std::map<int, std::set<int>> slices_crossed;  // bed -> slices where the cut plane crosses it
+  for (const Part& part : model.parts) {
+    if (part.ring < 1) continue;
+    const double T = std::tan(part.ring * 1.5 * std::numbers::pi / 180);
+    const std::vector<Vec3> quad = face_points(model, part.face_start);  // the lower bed
+    for (const auto& [inner, outer] : {std::pair(quad[0], quad[3]), std::pair(quad[1], quad[2])}) {
+      if ((inner.z() - z) * (outer.z() - z) >= 0.0) continue;
+      const Vec3 crossing = inner + (z - inner.z()) / (outer.z() - inner.z()) * (outer - inner);
+      EXPECT_NEAR(std::hypot(crossing.x(), crossing.y()), z / T - 13.5, 1e-12);
+      slices_crossed[part.ring].insert(part.slice);
+    }
+  }
+  size_t most = 0;
+  for (const auto& [bed, slices] : slices_crossed) most = std::max(most, slices.size());
+  EXPECT_EQ(most, 128u);
+}
+
+TEST(Vault, RefusesExtradosRulesThatDoNotApply) {
+  EXPECT_THROW(generate(vault_case(Construction::circular, Extrados::bed, RunningBond{})), InputError);
+  EXPECT_THROW(generate(vault_case(Construction::planar_radial, Extrados::bed, RunningBond{})), InputError);
+}
 
 }  // namespace
 }  // namespace cupola

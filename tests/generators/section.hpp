@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cmath>
+#include <set>
+
+#include "assembly/assembly.hpp"
+
+namespace cupola {
+
+/// Blocks (supports left out) whose parts hold more than `shortest` (m) of the half-line from the z axis
+/// outwards at height z and the given azimuth (rad). Each convex part clips the line by its face planes.
+inline std::set<int> blocks_on_radial_line(const Assembly& assembly, double z, double azimuth,
+                                           double shortest) {
+  const Vec3 origin(0.0, 0.0, z), direction(std::cos(azimuth), std::sin(azimuth), 0.0);
+  std::set<int> blocks;
+  for (const Part& part : assembly.parts) {
+    if (part.ring < 0) continue;
+    double from = 0.0, to = INFINITY;
+    for (int f = part.face_start; f < part.face_start + part.num_faces && from < to; ++f) {
+      const Plane plane = polygon_plane(face_points(assembly, f));
+      const double rate = plane.normal.dot(direction);
+      const double height = plane.normal.dot(origin) - plane.offset;
+      if (std::abs(rate) < 1e-12)
+        to = height > 0.0 ? from : to;
+      else if (rate > 0.0)
+        to = std::min(to, -height / rate);
+      else
+        from = std::max(from, -height / rate);
+    }
+    if (to - from > shortest) blocks.insert(part.block);
+  }
+  return blocks;
+}
+
+}  // namespace cupola
