@@ -8,6 +8,7 @@ namespace cupola {
 namespace {
 
 constexpr double kSlipping = 1.0 - 1e-6;  // friction use from which a contact counts as slipping
+constexpr double kLoaded = 1e-9;          // of the largest normal force; less is rounding, and slips nowhere
 
 }  // namespace
 
@@ -76,10 +77,13 @@ void summarize_frame(const Frame& frame, const Model& model, Summary* summary) {
   summary->joints = 0;
   summary->slipping_contacts = 0;
   summary->max_penetration_m = 0.0;
+  double largest_force = 0.0;
+  for (const double force : contacts.normal_force) largest_force = std::max(largest_force, force);
   for (int i = 0; i < contacts.size(); ++i) {
     summary->joints = std::max(summary->joints, contacts.joint[i] + 1);
     summary->max_penetration_m = std::max(summary->max_penetration_m, -contacts.gap[i]);
-    if (contacts.friction_use[i] >= kSlipping) ++summary->slipping_contacts;
+    if (contacts.friction_use[i] >= kSlipping && contacts.normal_force[i] > kLoaded * largest_force)
+      ++summary->slipping_contacts;
   }
   summary->max_displacement_m = 0.0;
   summary->max_speed_m_per_s = 0.0;
