@@ -53,25 +53,14 @@ Box part_box(const CollisionModel& model, const CollisionPart& part, const Pose&
   return box;
 }
 
-using PartPairs = std::vector<std::pair<int, int>>;
+using PartPair = std::pair<int, int>;
 
-/// Pairs of parts grouped by pair of blocks, both levels sorted.
-std::vector<PartPairs> pairs_by_block(const CollisionModel& model, PartPairs pairs) {
-  const auto blocks = [&](const std::pair<int, int>& pair) {
-    return std::pair(model.parts[pair.first].block, model.parts[pair.second].block);
-  };
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [&](const auto& p, const auto& q) { return blocks(p) < blocks(q); });
-  std::vector<PartPairs> groups;
-  for (const auto& pair : pairs) {
-    if (groups.empty() || blocks(groups.back().front()) != blocks(pair)) groups.emplace_back();
-    groups.back().push_back(pair);
-  }
-  return groups;
+std::pair<int, int> blocks_of(const CollisionModel& model, const PartPair& pair) {
+  return {model.parts[pair.first].block, model.parts[pair.second].block};
 }
 
 /// All patches between two blocks.
-std::vector<JointPatch> find_patches(const CollisionModel& model, const PartPairs& pairs,
+std::vector<JointPatch> find_patches(const CollisionModel& model, std::span<const PartPair> pairs,
                                      const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& options) {
   std::vector<JointPatch> patches;
   for (const auto& [a, b] : pairs) {
@@ -154,13 +143,21 @@ void ContactDetector::update_broad_phase(std::span<const Pose> poses) {
 void ContactDetector::detect(std::span<const Pose> poses) {
   update_broad_phase(poses);
   AnchoredContacts fresh;
+  fresh.set.contacts.reserve(contacts_.set.contacts.size());
+  fresh.anchors.reserve(contacts_.anchors.size());
   const double nominal_area = model_.smallest_block * model_.smallest_block / 12.0;
-  for (const auto& pairs : pairs_by_block(model_, broad_phase_->overlapping_pairs())) {
-    const Pose& pose_a = poses[model_.parts[pairs.front().first].block];
-    const Pose& pose_b = poses[model_.parts[pairs.front().second].block];
-    const Eigen::Isometry3d pose_ab = relative_pose(pose_a, pose_b);
-    for (const JointPatch& patch : find_patches(model_, pairs, pose_ab, narrow_))
+  std::vector<PartPair> pairs = broad_phase_->overlapping_pairs();
+  const auto by_blocks = [&](const PartPair& p, const PartPair& q) {
+    return blocks_of(model_, p) < blocks_of(model_, q);
+  };
+  std::stable_sort(pairs.begin(), pairs.end(), by_blocks);
+  for (auto first = pairs.begin(); first != pairs.end();) {
+    const auto last = std::upper_bound(first, pairs.end(), *first, by_blocks);
+    const auto [block_a, block_b] = blocks_of(model_, *first);
+    const Eigen::Isometry3d pose_ab = relative_pose(poses[block_a], poses[block_b]);
+    for (const JointPatch& patch : find_patches(model_, {first, last}, pose_ab, narrow_))
       append_patch(model_, patch, pose_ab, options_.margin, options_.points, nominal_area, &fresh);
+    first = last;
   }
   keep_identities(contacts_, &fresh);
   contacts_ = std::move(fresh);

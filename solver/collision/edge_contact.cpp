@@ -59,8 +59,10 @@ Axis best_face_axis(const PartPair& pair, double margin) {
   return best;
 }
 
-/// Nearest points of the lines p + s d and q + t e, not parallel, when they lie within the two edges.
-bool nearest_on_edges(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3& e, Vec3* on_p, Vec3* on_q) {
+/// Nearest points of the edges p + s d and q + t e, not parallel; false when those of their lines lie beyond
+/// the edges or within `border` of their ends.
+bool nearest_on_edges(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3& e, double border, Vec3* on_p,
+                      Vec3* on_q) {
   const Vec3 r = q - p;
   const double dd = d.dot(d), de = d.dot(e), ee = e.dot(e);
   const double determinant = dd * ee - de * de;
@@ -68,11 +70,13 @@ bool nearest_on_edges(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3& e
   const double t = (r.dot(d) * de - r.dot(e) * dd) / determinant;
   *on_p = p + s * d;
   *on_q = q + t * e;
-  return s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0;
+  const double s_border = border / d.norm();
+  const double t_border = border / e.norm();
+  return s >= s_border && s <= 1.0 - s_border && t >= t_border && t <= 1.0 - t_border;
 }
 
 /// Best of the common normals of two edges that both lie on the outside along it.
-Axis best_edge_axis(const PartPair& pair, double tolerance) {
+Axis best_edge_axis(const PartPair& pair, const NarrowPhaseOptions& options) {
   Axis best;
   for (const CollisionEdge& i : pair.model.edges_of(pair.a)) {
     const Vec3& p = pair.vertices_a[i.start - pair.a.vertex_start];
@@ -86,10 +90,10 @@ Axis best_edge_axis(const PartPair& pair, double tolerance) {
       if (normal.dot(p - pair.a.center) < 0.0) normal = -normal;
       const double gap = normal.dot(q - p);
       if (gap <= best.gap) continue;
-      if (-lowest(pair.vertices_a, -normal) > normal.dot(p) + tolerance) continue;
-      if (lowest(pair.vertices_b, normal) < normal.dot(q) - tolerance) continue;
+      if (-lowest(pair.vertices_a, -normal) > normal.dot(p) + options.tolerance) continue;
+      if (lowest(pair.vertices_b, normal) < normal.dot(q) - options.tolerance) continue;
       Axis axis = axis_along(normal, gap, nullptr, nullptr);
-      if (nearest_on_edges(p, d, q, e, &axis.point_a, &axis.point_b)) best = axis;
+      if (nearest_on_edges(p, d, q, e, options.min_width, &axis.point_a, &axis.point_b)) best = axis;
     }
   }
   return best;
@@ -139,6 +143,29 @@ JointPatch points_on_face(const PartPair& pair, const Axis& axis, const NarrowPh
   return points;
 }
 
+/// Do all points lie within min_width of one border of the axis's face? Such parts meet along their borders,
+/// as blocks on either side of a mitre do, and carry nothing there.
+bool along_border(const PartPair& pair, const Axis& axis, const JointPatch& points, double min_width) {
+  std::vector<Vec3> outline;
+  if (axis.face_a) {
+    const auto corners = pair.model.face_corners(*axis.face_a);
+    outline.assign(corners.begin(), corners.end());
+  } else {
+    for (const Vec3& x : pair.model.face_corners(*axis.face_b)) outline.push_back(pair.pose_ab * x);
+    std::reverse(outline.begin(), outline.end());  // counter-clockwise about the normal, as a's
+  }
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 start = points.project(outline[i]);
+    const Vec2 edge = points.project(outline[(i + 1) % outline.size()]) - start;
+    const bool all_near = std::ranges::all_of(points.corners, [&](const PatchCorner& corner) {
+      const Vec2 r = corner.position - start;
+      return edge.x() * r.y() - edge.y() * r.x() < min_width * edge.norm();
+    });
+    if (all_near) return true;
+  }
+  return false;
+}
+
 JointPatch crossing_edges(const Axis& axis) {
   JointPatch crossing;
   crossing.origin = axis.point_a;
@@ -163,7 +190,7 @@ std::optional<JointPatch> find_edge_contact(const CollisionModel& model, int par
   if (face_axis.gap > options.margin) return std::nullopt;
   const bool opposed = has_opposed_face(pair, face_axis, options.max_angle);
   if (opposed && face_axis.gap > -options.margin) return std::nullopt;  // spares the edges of most neighbours
-  const Axis edge_axis = best_edge_axis(pair, options.tolerance);
+  const Axis edge_axis = best_edge_axis(pair, options);
   if (edge_axis.gap > options.margin) return std::nullopt;
 
   JointPatch contact;
@@ -174,7 +201,8 @@ std::optional<JointPatch> find_edge_contact(const CollisionModel& model, int par
     kind = (face_axis.face_a ? face_axis.face_a : face_axis.face_b)->kind;
     if (opposed || kind == FaceKind::internal) return std::nullopt;
     contact = points_on_face(pair, face_axis, options);
-    if (contact.corners.empty()) return std::nullopt;
+    if (contact.corners.empty() || along_border(pair, face_axis, contact, options.min_width))
+      return std::nullopt;
     contact.face_a = face_axis.face_a ? face_axis.face_a->id : -1;
     contact.face_b = face_axis.face_b ? face_axis.face_b->id : -1;
   }

@@ -12,9 +12,9 @@ namespace cupola {
 /// the largest gap, exact also where the parts overlap (GJK would need to shrink them first). On a face, the
 /// faces of the other part that look at it are clipped to its outline and the corners within the margin are
 /// kept: two points where an edge lies on a face, one for a vertex. Two edges touch in the points nearest to
-/// each other. A face within max_angle of a face of the other part is left to clip_opposed_faces(): there
-/// parts that merely meet along a border carry nothing. Nothing is returned beyond the margin, nor where the
-/// face is `internal`.
+/// each other. A face within max_angle of a face of the other part is left to clip_opposed_faces(). Nothing
+/// is returned beyond the margin, where the face is `internal`, or where the parts merely meet along their
+/// borders (all points within min_width of one).
 std::optional<JointPatch> find_edge_contact(const CollisionModel& model, int part_a, int part_b,
                                             const Eigen::Isometry3d& pose_ab,
                                             const NarrowPhaseOptions& options);

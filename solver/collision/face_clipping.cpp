@@ -12,15 +12,32 @@ struct MovedFace {
   Vec3 normal, centroid;
 };
 
-/// Cheap bounds: can the two faces be within the margin of each other, and overlap less deeply than wide?
-bool may_touch(const CollisionFace& a, const CollisionFace& b, const MovedFace& moved_b, const Vec3& normal,
-               double margin) {
+/// Cheap bounds: can the two faces be within the margin of each other, overlap less deeply than wide, and
+/// overlap by more than min_width across every edge of face a?
+bool may_touch(const CollisionModel& model, const CollisionFace& a, const CollisionFace& b,
+               const MovedFace& moved_b, const Eigen::Isometry3d& pose_ab, const Vec3& normal,
+               const NarrowPhaseOptions& options) {
   const Vec3 offset = moved_b.centroid - a.centroid;
   const double gap = normal.dot(offset);
-  const double tilt_reach = (a.radius + b.radius) * (a.normal + moved_b.normal).norm();
-  if (gap - tilt_reach > margin) return false;
+  const double tilt = (a.normal + moved_b.normal).norm();
+  const double tilt_reach = (a.radius + b.radius) * tilt;
+  if (gap - tilt_reach > options.margin) return false;
   if (gap + tilt_reach < -2.0 * std::min(a.radius, b.radius)) return false;
-  return (offset - gap * normal).norm() <= a.radius + b.radius;
+  if ((offset - gap * normal).norm() > a.radius + b.radius) return false;
+
+  const double slant = (std::abs(gap) + tilt_reach) * tilt;  // projecting along the normal, not along a's
+  const auto corners_a = model.face_corners(a);
+  const auto corners_b = model.face_corners(b);
+  for (std::size_t i = 0; i < corners_a.size(); ++i) {
+    const Vec3 edge = corners_a[(i + 1) % corners_a.size()] - corners_a[i];
+    const Vec3 inward = a.normal.cross(edge);
+    const Vec3 inward_b = pose_ab.linear().transpose() * inward;
+    const double origin = inward.dot(corners_a[i] - pose_ab.translation());
+    double height = -std::numeric_limits<double>::infinity();
+    for (const Vec3& x : corners_b) height = std::max(height, inward_b.dot(x) - origin);
+    if (height < (options.min_width - slant) * edge.norm()) return false;
+  }
+  return true;
 }
 
 std::vector<Vec2> project(const std::vector<Vec3>& corners, const JointPatch& patch) {
@@ -105,7 +122,7 @@ std::vector<JointPatch> clip_opposed_faces(const CollisionModel& model, int part
       const MovedFace& moved_b = moved_faces[i];
       if (b.kind == FaceKind::internal || a.normal.dot(moved_b.normal) > opposed) continue;
       const Vec3 normal = (a.normal - moved_b.normal).normalized();
-      if (!may_touch(a, b, moved_b, normal, options.margin)) continue;
+      if (!may_touch(model, a, b, moved_b, pose_ab, normal, options)) continue;
       JointPatch patch = clip_faces(model, a, b, pose_ab, normal, options);
       const double width = polygon_width(patch.outline());
       if (patch.min_gap > options.margin || width < options.min_width || -patch.min_gap > width) continue;

@@ -67,19 +67,13 @@ void match_patch(const AnchoredContacts& old_contacts, Range old_range, Range ra
 }
 
 void sort_patch(Range range, AnchoredContacts* contacts) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = range.start; i < range.end; ++i) order.push_back(i);
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
-    return contacts->set.contacts[i].id.corner < contacts->set.contacts[k].id.corner;
-  });
-  std::vector<Contact> sorted;
-  std::vector<ContactAnchor> anchors;
-  for (std::size_t i : order) {
-    sorted.push_back(contacts->set.contacts[i]);
-    anchors.push_back(contacts->anchors[i]);
-  }
-  std::copy(sorted.begin(), sorted.end(), contacts->set.contacts.begin() + static_cast<long>(range.start));
-  std::copy(anchors.begin(), anchors.end(), contacts->anchors.begin() + static_cast<long>(range.start));
+  const auto number = [&](std::size_t i) { return contacts->set.contacts[i].id.corner; };
+  // Patches have few points: insertion keeps contacts and anchors side by side without copies.
+  for (std::size_t i = range.start + 1; i < range.end; ++i)
+    for (std::size_t k = i; k > range.start && number(k) < number(k - 1); --k) {
+      std::swap(contacts->set.contacts[k], contacts->set.contacts[k - 1]);
+      std::swap(contacts->anchors[k], contacts->anchors[k - 1]);
+    }
 }
 
 }  // namespace
