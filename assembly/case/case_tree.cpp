@@ -15,6 +15,11 @@ namespace fs = std::filesystem;
 
 constexpr size_t kLongestChain = 16;  // files that extend one another
 
+/// The one name of a file, whether it exists or not; weakly_canonical alone leaves some names relative.
+fs::path identity_of(const fs::path& path) {
+  return fs::weakly_canonical(fs::absolute(path));
+}
+
 /// Maps whose other keys belong to their `type`. `analysis` is not one: its keys serve every type.
 bool type_owns_keys(const std::string& path) {
   return path == "geometry.surface" || path == "geometry.bond";
@@ -44,7 +49,7 @@ void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "")
 }
 
 CaseNode load_file(const std::string& path, const std::string& root_folder, std::vector<fs::path>* chain) {
-  const fs::path identity = fs::weakly_canonical(path);
+  const fs::path identity = identity_of(path);
   CaseNode tree = parse_yaml(read_text(path), path);
   if (tree.kind != CaseNode::Kind::map)
     throw InputError(tree.where, "a case file is a map of sections, `key: value`");
@@ -56,7 +61,7 @@ CaseNode load_file(const std::string& path, const std::string& root_folder, std:
     throw InputError(name.where, fmt::format("extends = {}: must be the name of a case file", shown(name)));
   const std::string base_path = path_inside(root_folder, path, name.text, name.where);
   chain->push_back(identity);
-  if (std::find(chain->begin(), chain->end(), fs::weakly_canonical(base_path)) != chain->end())
+  if (std::find(chain->begin(), chain->end(), identity_of(base_path)) != chain->end())
     throw InputError(name.where,
                      fmt::format("extends = {}: the files extend one another in a circle", shown(name)));
   if (chain->size() >= kLongestChain)
@@ -109,8 +114,8 @@ CaseNode parse_set_option(const std::string& option) {
 std::string path_inside(const std::string& root_folder, const std::string& from_file, const std::string& name,
                         const FileLocation& where) {
   const fs::path path = fs::path(from_file).parent_path() / name;
-  const fs::path root = fs::weakly_canonical(root_folder.empty() ? "." : root_folder);
-  const fs::path relative = fs::weakly_canonical(path).lexically_relative(root);
+  const fs::path root = identity_of(root_folder.empty() ? "." : root_folder);
+  const fs::path relative = identity_of(path).lexically_relative(root);
   if (fs::path(name).is_absolute() || relative.empty() || *relative.begin() == "..")
     throw InputError(where, fmt::format("{}: an input may only name files in or below the folder of the case",
                                         shown(name)));

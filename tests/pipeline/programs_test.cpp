@@ -1,0 +1,133 @@
+// The built programs, run as a user runs them: what they say, what they return, what they leave on the disk.
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "assembly/results.hpp"
+#include "tests/pipeline/program_run.hpp"
+
+namespace cupola {
+namespace {
+
+const std::string kCases = CUPOLA_SOURCE_DIR "/cases/";
+const std::string kWall = kCases + "wall_large.yaml";
+
+void expect_one_line(const ProgramRun& run, const std::string& phrase) {
+  EXPECT_EQ(run.code, 2) << run.out << run.err;
+  EXPECT_NE(run.err.find(phrase), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+void solve_wall(const ProgramFolder& folder, const std::string& set = "") {
+  ASSERT_EQ(folder.run("cupola-generate " + kWall + " --output assembly.vtu --quiet" + set).code, 0);
+  ASSERT_EQ(
+      folder.run("cupola-solve " + kWall + " --assembly assembly.vtu --output results --quiet" + set).code,
+      0);
+}
+
+TEST(Programs, AnswerHelpVersionSchemaAndCheck) {
+  const ProgramFolder folder;
+  for (const std::string program : {"cupola-generate", "cupola-solve"}) {
+    EXPECT_NE(folder.run(program + " --help").out.find("Sample runs:"), std::string::npos);
+    EXPECT_EQ(folder.run(program + " --version").out.find(program + " "), 0u);
+    EXPECT_NE(folder.run(program + " --schema").out.find("joints.friction"), std::string::npos);
+    const ProgramRun check = folder.run(program + " " + kWall + " --check");
+    EXPECT_EQ(check.code, 0) << check.err;
+  }
+  EXPECT_TRUE(folder.contents().empty());
+}
+
+TEST(Programs, BadUsageEndsWithTwoAndOneLine) {
+  const ProgramFolder folder;
+  expect_one_line(folder.run("cupola-generate"), "CASE.yaml is missing");
+  expect_one_line(folder.run("cupola-generate " + kWall), "--output is missing");
+  expect_one_line(folder.run("cupola-generate " + kWall + " --outptu a.vtu"), "--outptu");
+  expect_one_line(folder.run("cupola-solve " + kWall + " --output results"), "--assembly is missing");
+  expect_one_line(folder.run("cupola-solve " + kWall + " --check --set"), "--set");
+  expect_one_line(folder.run("cupola-solve " + kWall + " --check --set joints.friction=-1"), "must be >= 0");
+  EXPECT_TRUE(folder.contents().empty());
+}
+
+TEST(Programs, SolveTheSmallestCase) {
+  const ProgramFolder folder;
+  solve_wall(folder);
+  const Summary summary = summary_from_json(slurp(folder.file("results/summary.json")), "summary.json");
+  EXPECT_EQ(summary.status, Status::stable);
+  EXPECT_EQ(summary.free_blocks, 10);
+  EXPECT_EQ(summary.accuracy_asked, 1e-8);
+  EXPECT_LE(summary.accuracy_reached, 1e-8);
+  // Closed form of a column of springs: compliance times the bed forces over their contacts, 42.511635 mm.
+  EXPECT_NEAR(summary.max_displacement_m, 42.511635e-3, 1e-4 * 42.5e-3);
+}
+
+TEST(Programs, WriteTheSameBytesEveryTime) {
+  const ProgramFolder first, second;
+  solve_wall(first);
+  solve_wall(second);
+  auto a = first.contents(), b = second.contents();
+  for (auto* files : {&a, &b}) files->erase("work/results/summary.json");  // holds wall time and memory
+  EXPECT_EQ(a, b);
+}
+
+TEST(Programs, RunYamlIsACaseThatGivesTheSameModel) {
+  const ProgramFolder folder;
+  solve_wall(folder, " --set joints.friction=0.3 --set geometry.bond.rings=3");
+  const ProgramRun again =
+      folder.run("cupola-solve results/run.yaml --assembly assembly.vtu --output again --quiet");
+  ASSERT_EQ(again.code, 0) << again.err;
+  const auto hash = [&](const std::string& name) {
+    return summary_from_json(slurp(folder.file(name + "/summary.json")), name).case_hash;
+  };
+  EXPECT_EQ(hash("results"), hash("again"));
+}
+
+TEST(Programs, RefuseADamagedAssemblyAndTouchNothing) {
+  const ProgramFolder folder;
+  solve_wall(folder);
+  const std::string assembly = slurp(folder.file("assembly.vtu"));
+  std::ofstream(folder.file("truncated.vtu")) << assembly.substr(0, assembly.size() / 2);
+  std::string edited = assembly;
+  edited[edited.size() / 2] = edited[edited.size() / 2] == 'A' ? 'B' : 'A';
+  std::ofstream(folder.file("edited.vtu")) << edited;
+  std::ofstream(folder.file("empty.vtu"));
+  std::ofstream(folder.file("text.vtu")) << "not an assembly\n";
+
+  const auto before = folder.contents();
+  const auto solve = [&](const std::string& file) {
+    return folder.run("cupola-solve " + kWall + " --assembly " + file + " --output results");
+  };
+  expect_one_line(solve("truncated.vtu"), "truncated.vtu: error: ");
+  expect_one_line(solve("edited.vtu"), "edited.vtu: error: is damaged or was edited");
+  expect_one_line(solve("empty.vtu"), "empty.vtu: error: ");
+  expect_one_line(solve("text.vtu"), "text.vtu: error: ");
+  expect_one_line(solve("none.vtu"), "none.vtu: error: does not exist");
+  expect_one_line(solve("results"), "results: error: ");
+  expect_one_line(folder.run("cupola-solve " + kWall +
+                             " --assembly assembly.vtu --output results "
+                             "--set geometry.bond.rings=3"),
+                  "was not made from");
+  EXPECT_EQ(folder.contents(), before);
+}
+
+TEST(Programs, AFailedRunLeavesTheOldAssembly) {
+  const ProgramFolder folder;
+  solve_wall(folder);
+  const auto before = folder.contents();
+  expect_one_line(
+      folder.run("cupola-generate " + kWall + " --output assembly.vtu --set geometry.surface.length=-1"),
+      "geometry.surface.length = -1: must be > 0");
+  EXPECT_EQ(folder.contents(), before);
+}
+
+TEST(Programs, SayWhichFileCannotBeWritten) {
+  const ProgramFolder folder;
+  const ProgramRun run =
+      folder.run("cupola-generate " + kWall + " --quiet --output /proc/nowhere/assembly.vtu");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.err.find("/proc/nowhere"), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+}  // namespace
+}  // namespace cupola
