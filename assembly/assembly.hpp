@@ -50,6 +50,15 @@ struct Part {
   double volume = 0.0;  ///< m3
 };
 
+/// A spring or a rod between points of two blocks that came with an imported model.
+struct ImportedTie {
+  int block_a = 0, block_b = 0;
+  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< m, world, as built
+  double stiffness = 0.0;                               ///< N/m; infinity for a rigid rod
+  double length = 0.0;                                  ///< m, at which it carries no force
+  bool pushes = false;                                  ///< carries compression too
+};
+
 /// What the generator makes and everybody reads: convex parts on one shared vertex table.
 ///
 /// Faces are stored flat: face f has the vertices
@@ -62,6 +71,7 @@ struct Assembly {
   std::vector<FaceKind> face_kinds;    ///< (num_faces)
   std::vector<Part> parts;             ///< sorted by block
   std::vector<Block> blocks;
+  std::vector<ImportedTie> ties;
 
   std::string title;
   std::string geometry_hash;  ///< hash of the case's sections that the generator read

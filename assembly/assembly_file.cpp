@@ -140,6 +140,21 @@ std::vector<MeshArray> field_arrays(const Assembly& assembly) {
           column<B>("face_kind", assembly.face_kinds, [](FaceKind kind) { return kind; })};
 }
 
+/// Only a model with ties has these.
+void add_tie_arrays(const std::vector<ImportedTie>& ties, std::vector<MeshArray>* arrays) {
+  if (ties.empty()) return;
+  using I = std::int32_t;
+  arrays->push_back(column<I>("tie_block_a", ties, [](const ImportedTie& t) { return t.block_a; }));
+  arrays->push_back(column<I>("tie_block_b", ties, [](const ImportedTie& t) { return t.block_b; }));
+  arrays->push_back(column<double>(
+      "tie_point_a", ties, [](const ImportedTie& t) { return t.point_a; }, 3));
+  arrays->push_back(column<double>(
+      "tie_point_b", ties, [](const ImportedTie& t) { return t.point_b; }, 3));
+  arrays->push_back(column<double>("tie_stiffness", ties, [](const ImportedTie& t) { return t.stiffness; }));
+  arrays->push_back(column<double>("tie_length", ties, [](const ImportedTie& t) { return t.length; }));
+  arrays->push_back(column<std::uint8_t>("tie_pushes", ties, [](const ImportedTie& t) { return t.pushes; }));
+}
+
 /// The arrays of a mesh file by name, with a check that each has the rows it must have.
 class Columns {
  public:
@@ -214,6 +229,21 @@ void read_parts(const Mesh& mesh, Assembly* assembly) {
     assembly->parts[i] = {block[i], ring[i], slice[i], face_start[i], num_faces[i], volume[i]};
 }
 
+void read_ties(const Mesh& mesh, const Columns& fields, Assembly* assembly) {
+  if (!mesh.has(mesh.field_data, "tie_block_a")) return;
+  const auto& block_a = fields.get_any_size<std::int32_t>("tie_block_a");
+  const size_t n = block_a.size();
+  const auto& block_b = fields.get<std::int32_t>("tie_block_b", n);
+  const auto& point_a = fields.get<double>("tie_point_a", n, 3);
+  const auto& point_b = fields.get<double>("tie_point_b", n, 3);
+  const auto& stiffness = fields.get<double>("tie_stiffness", n);
+  const auto& length = fields.get<double>("tie_length", n);
+  const auto& pushes = fields.get<std::uint8_t>("tie_pushes", n);
+  for (size_t k = 0; k < n; ++k)
+    assembly->ties.push_back({block_a[k], block_b[k], Vec3(point_a.data() + 3 * k),
+                              Vec3(point_b.data() + 3 * k), stiffness[k], length[k], pushes[k] != 0});
+}
+
 /// Everything that a later stage relies on without asking again.
 void check(const Assembly& assembly, const std::string& path) {
   const auto require = [&path](bool holds, const char* what, size_t index) {
@@ -248,6 +278,12 @@ void check(const Assembly& assembly, const std::string& path) {
                 block.mass > 0.0 && block.centroid.allFinite() && block.inertia.allFinite(),
             "block", b);
   }
+  for (size_t k = 0; k < assembly.ties.size(); ++k) {
+    const ImportedTie& tie = assembly.ties[k];
+    require(tie.block_a >= 0 && tie.block_a < num_blocks && tie.block_b >= 0 && tie.block_b < num_blocks &&
+                tie.point_a.allFinite() && tie.point_b.allFinite() && tie.stiffness > 0.0 && tie.length > 0.0,
+            "tie", k);
+  }
 }
 
 }  // namespace
@@ -259,6 +295,7 @@ void write_assembly(const std::string& path, const Assembly& assembly) {
   add_cells(assembly, &mesh);
   mesh.cell_data = part_arrays(assembly);
   mesh.field_data = field_arrays(assembly);
+  add_tie_arrays(assembly.ties, &mesh.field_data);
   write_mesh(path, mesh);
 }
 
@@ -281,6 +318,7 @@ Assembly read_assembly(const std::string& path) {
   assembly.num_rings = mesh.field<std::int32_t>("num_rings");
   read_parts(mesh, &assembly);
   read_blocks(fields, &assembly);
+  read_ties(mesh, fields, &assembly);
   check(assembly, path);
   if (content_hash(assembly) != mesh.field<std::string>("content_hash"))
     throw InputError(FileLocation{path}, "its content does not match its content_hash: edited or damaged");

@@ -1,6 +1,7 @@
 #include "assembly/assembly_file.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -66,6 +67,31 @@ TEST(AssemblyFile, RoundTripsExactly) {
 
 // VTK's hexahedron: four points of one face, then the four across from them. Its edges 0-4, 1-5, 2-6, 3-7 and
 // a positive determinant at point 0 say that the order is right.
+TEST(AssemblyFile, TiesRoundTripExactly) {
+  Assembly a = test::two_block_assembly();
+  const std::string without = content_hash(a);
+  const double infinity = std::numeric_limits<double>::infinity();
+  a.ties = {{0, 1, Vec3(0.1, 1.0 / 3.0, 1e-17), Vec3(1, 2, 3), 57265199.0, 1.57998, false},
+            {1, 0, Vec3(3, 2, 1), Vec3(0, 0, 0), infinity, 0.7625, true}};
+  EXPECT_NE(content_hash(a), without);
+  const std::string path = test::fresh_folder("a") + "/assembly.vtu";
+  write_assembly(path, a);
+  const Assembly b = read_assembly(path);
+  ASSERT_EQ(b.ties.size(), 2u);
+  for (size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(a.ties[k].block_a, b.ties[k].block_a);
+    EXPECT_EQ(a.ties[k].block_b, b.ties[k].block_b);
+    EXPECT_EQ(a.ties[k].point_a, b.ties[k].point_a);
+    EXPECT_EQ(a.ties[k].point_b, b.ties[k].point_b);
+    EXPECT_EQ(a.ties[k].stiffness, b.ties[k].stiffness);
+    EXPECT_EQ(a.ties[k].length, b.ties[k].length);
+    EXPECT_EQ(a.ties[k].pushes, b.ties[k].pushes);
+  }
+  a.ties[0].block_b = 7;
+  write_assembly(path, a);
+  EXPECT_NE(read_error(path).find("tie 0 is invalid"), std::string::npos) << read_error(path);
+}
+
 TEST(AssemblyFile, BoxesBecomeHexahedraInVtkOrder) {
   const std::string path = test::fresh_folder("a") + "/assembly.vtu";
   write_assembly(path, test::two_block_assembly());
