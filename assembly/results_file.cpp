@@ -155,8 +155,8 @@ void check_frame(const Frame& frame, const std::string& path) {
 
 }  // namespace
 
-ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash)
-    : folder_(std::move(folder)), assembly_hash_(std::move(assembly_hash)) {
+ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times)
+    : folder_(std::move(folder)), assembly_hash_(std::move(assembly_hash)), times_(std::move(times)) {
   make_folder(folder_);
 }
 

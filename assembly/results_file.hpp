@@ -11,8 +11,9 @@ namespace cupola {
 /// collections, rewritten after each frame.
 class ResultsWriter {
  public:
-  /// Creates the folder. `assembly_hash` goes into every file.
-  ResultsWriter(std::string folder, std::string assembly_hash);
+  /// Creates the folder. `assembly_hash` goes into every file. `times` (s) of the frames that are there
+  /// already when a run is resumed.
+  ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times = {});
   void write_frame(const Frame& frame);
   void write_summary(const Summary& summary);
   void write_text(const std::string& name, const std::string& text);  ///< run.yaml, history.csv

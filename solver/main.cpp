@@ -4,6 +4,7 @@
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --output results/
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --output low/ --set joints.friction=0.2
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --explain
+//   cupola-solve cases/collapse.yaml --assembly assembly.vtu --output results/ --resume
 
 #include <fmt/format.h>
 
@@ -26,6 +27,7 @@ ExitCode solve(int argc, char** argv) {
                 "assembly that cupola-generate made from the case");
   line.optional("--output", &request.output_folder, "FOLDER", "results folder to write");
   line.flag("--explain", &explain, "print the model that would be solved, and stop");
+  line.flag("--resume", &request.resume, "go on from the checkpoint in the output folder, if there is one");
   if (const auto ended = line.parse(argc, argv)) return *ended;
 
   // 2. The case

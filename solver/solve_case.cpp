@@ -10,7 +10,9 @@
 #include "assembly/results_file.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record.hpp"
+#include "solver/checkpoint.hpp"
 #include "solver/dynamics/scene_options.hpp"
+#include "solver/run_control.hpp"
 
 namespace cupola {
 namespace {
@@ -50,39 +52,90 @@ void print_summary(const Summary& summary) {
              summary.wall_time_seconds, static_cast<double>(summary.peak_memory_bytes) / 1e6);
 }
 
+/// The checkpoint that a run asked to resume can go on from; none: from the beginning.
+std::optional<Checkpoint> find_checkpoint(const SolveRequest& request, const std::string& path,
+                                          const std::string& assembly_hash) {
+  if (!request.resume) return std::nullopt;
+  std::optional<Checkpoint> checkpoint = read_checkpoint(path);
+  if (!checkpoint) return std::nullopt;
+  const char* other = checkpoint->case_hash != request.scene.hash        ? "case"
+                      : checkpoint->assembly_hash != assembly_hash       ? "assembly"
+                      : checkpoint->program_version != program_version() ? "program version"
+                                                                         : nullptr;
+  if (other == nullptr) return checkpoint;
+  fmt::print(stderr, "{}: of another {}; starting from the beginning\n", path, other);
+  return std::nullopt;
+}
+
+/// Connects an analysis with the results folder and the terminal.
+AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpoint_path,
+                         const StopRequest& stop, ResultsWriter* writer, Checkpoint* run,
+                         ProgressBar* progress) {
+  AnalysisSinks sinks;
+  const bool bar = !request.quiet && stdout_is_terminal();
+  sinks.log = [&request, bar](const std::string& line) {
+    if (!request.quiet && !bar) fmt::print("{}\n", line), std::fflush(stdout);
+  };
+  if (bar) sinks.progress = [progress](double share) { progress->show(share); };
+  sinks.history = [run](const std::string& row) { run->history += row + "\n"; };
+  sinks.frame = [writer, run](const Frame& frame) {
+    writer->write_frame(frame);
+    run->frame_times.push_back(frame.time);
+    if (!run->history.empty()) writer->write_text("history.csv", run->history);
+  };
+  sinks.table = [writer](const std::string& name, const std::string& text) {
+    writer->write_text(name, text);
+  };
+  sinks.checkpoint = [run, checkpoint_path](const std::string& bytes) {
+    run->analysis = bytes;
+    write_checkpoint(checkpoint_path, *run);
+  };
+  sinks.interrupted = [&stop] { return stop.made(); };
+  sinks.resume_from = run->analysis;
+  return sinks;
+}
+
 }  // namespace
 
 ExitCode solve_case(const SolveRequest& request) {
   const double started = wall_seconds();
   const Assembly assembly = read_matching_assembly(request.scene, request.assembly_path);
   const std::string assembly_hash = content_hash(assembly);
+  const std::string checkpoint_path = (std::filesystem::path(request.output_folder) / "checkpoint").string();
 
-  ResultsWriter writer(request.output_folder, assembly_hash);
+  // 1. Where the run stands
+  Checkpoint run = find_checkpoint(request, checkpoint_path, assembly_hash).value_or(Checkpoint{});
+  if (!run.analysis.empty() && !request.quiet)
+    fmt::print("resuming after frame {} at {:g} s\n", run.frame_times.size(), run.frame_times.back());
+  run.program_version = program_version();
+  run.case_hash = request.scene.hash;
+  run.assembly_hash = assembly_hash;
+  ResultsWriter writer(request.output_folder, assembly_hash, run.frame_times);
   // A summary says that a folder is complete: the old one goes before the first frame is replaced.
   std::filesystem::remove(std::filesystem::path(request.output_folder) / "summary.json");
 
-  std::string history;
-  AnalysisSinks sinks;
-  sinks.log = [&request](const std::string& line) {
-    if (!request.quiet) fmt::print("{}\n", line), std::fflush(stdout);
-  };
-  sinks.history = [&history](const std::string& row) { history += row + "\n"; };
-  sinks.frame = [&writer, &history](const Frame& frame) {
-    writer.write_frame(frame);
-    if (!history.empty()) writer.write_text("history.csv", history);
-  };
+  // 2. The analysis
+  const StopRequest stop;
+  ProgressBar progress;
+  std::optional<Summary> summary = run_analysis(
+      request.scene, assembly, make_sinks(request, checkpoint_path, stop, &writer, &run, &progress));
+  progress.finish();
+  if (!summary) {
+    fmt::print(stderr, "interrupted; go on with --resume\n");
+    return ExitCode::interrupted;
+  }
 
-  Summary summary = run_analysis(request.scene, assembly, sinks);
-  summary.program_version = program_version();
-  summary.case_hash = request.scene.hash;
-  summary.geometry_hash = request.scene.geometry_hash;
-  summary.assembly_hash = assembly_hash;
-  summary.wall_time_seconds = wall_seconds() - started;
-  summary.peak_memory_bytes = peak_memory_bytes();
-  writer.write_text("run.yaml", provenance(summary) + request.scene.effective_yaml);
-  writer.write_summary(summary);
-  if (!request.quiet) print_summary(summary);
-  return summary.status == Status::unconverged ? ExitCode::accuracy_not_reached : ExitCode::done;
+  // 3. What it gave
+  summary->program_version = program_version();
+  summary->case_hash = request.scene.hash;
+  summary->geometry_hash = request.scene.geometry_hash;
+  summary->assembly_hash = assembly_hash;
+  summary->wall_time_seconds = wall_seconds() - started;
+  summary->peak_memory_bytes = peak_memory_bytes();
+  writer.write_text("run.yaml", provenance(*summary) + request.scene.effective_yaml);
+  writer.write_summary(*summary);
+  if (!request.quiet) print_summary(*summary);
+  return summary->status == Status::unconverged ? ExitCode::accuracy_not_reached : ExitCode::done;
 }
 
 std::string explain_case(const Case& scene, const std::string& assembly_path) {
@@ -100,7 +153,7 @@ std::string explain_case(const Case& scene, const std::string& assembly_path) {
                       (scene.joints.friction > 0.0 ? 3 : 1) * contacts.contacts.size(),
                       scene.joints.friction > 0.0 ? "" : ", frictionless: normal rows only");
   text += fmt::format("  weight      {:.6e} N; {} point loads besides gravity\n", model.free_weight,
-                      model.loads.size());
+                      model.loads.points.size());
   if (scene.analysis.type == AnalysisType::static_) {
     text += fmt::format(
         "  analysis    static: nothing is integrated, contacts are found once; equilibrium residual "

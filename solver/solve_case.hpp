@@ -13,6 +13,7 @@ struct SolveRequest {
   std::string assembly_path;
   std::string output_folder;
   bool quiet = false;
+  bool resume = false;  ///< go on from the checkpoint in the output folder, if there is one
 };
 
 /// Reads the assembly, checks that it was made from this case, runs the analysis and writes the results

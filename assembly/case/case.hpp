@@ -1,13 +1,12 @@
 #pragma once
 
-#include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "assembly/case/analysis.hpp"
 #include "assembly/case/geometry.hpp"
+#include "assembly/case/joints.hpp"
+#include "assembly/case/loads.hpp"
 
 namespace cupola {
 
@@ -17,59 +16,11 @@ struct Material {
   double density() const { return unit_weight / 9.81; }
 };
 
-/// What one contact (or one square metre of joint) yields per newton.
-struct Compliance {
-  enum class Per { point, area };
-  double normal = 1e-8;      ///< m/N per contact point, or m3/N per area, >= 0
-  double tangential = 1e-8;  ///< same unit, >= 0
-  Per per = Per::point;      ///< the case must say which
-};
-
-struct Joints {
-  double friction = 0.4;  ///< mu, >= 0
-  Compliance compliance;
-};
-
 struct FaceClipping {};
 
 struct ContactDetection {
   enum class Method { face_clipping };
   Method method = Method::face_clipping;
-};
-
-/// Weight spread over the top faces by their area, as vertical forces at the face centroids. The lantern of
-/// a dome and the load on a wall are the same thing under two names.
-struct TopLoad {
-  double weight_fraction = 0.0;  ///< of the weight of the free blocks, >= 0
-};
-
-struct Loads {
-  Eigen::Vector3d gravity{0.0, 0.0, -9.81};  ///< m/s2
-  std::optional<TopLoad> lantern;
-  std::optional<TopLoad> top_load;
-};
-
-enum class AnalysisType { static_, dynamic };
-enum class ContactMethod { newton };
-enum class FrictionLaw { associated };
-enum class TangentialSpring { memory, literal };
-
-struct Analysis {
-  AnalysisType type = AnalysisType::static_;
-  ContactMethod method = ContactMethod::newton;
-  FrictionLaw friction_law = FrictionLaw::associated;
-  /// Static: largest equilibrium residual accepted, inertia share included; h follows from it. Dynamic: the
-  /// relative momentum residual of each step.
-  double tolerance = 1e-9;
-  double time_step = 0.01;      ///< h, s, dynamic only
-  double duration = 4.0;        ///< s, dynamic only
-  double damping = 0.0;         ///< alpha, s: contact damping proportional to stiffness, >= 0
-  double recovery_speed = 0.6;  ///< eps_u, m/s: fastest recovery of unexplained penetration, > 0
-  TangentialSpring tangential = TangentialSpring::memory;
-  struct Thresholds {
-    double speed = 1e-3;        ///< m/s: faster is `moving`
-    double displacement = 0.5;  ///< m: further is `collapsed`
-  } thresholds;
 };
 
 struct Output {
@@ -95,6 +46,8 @@ struct Case {
   Joints joints;
   ContactDetection contact;
   Loads loads;
+  Ties ties;
+  Supports supports;
   Analysis analysis;
   Output output;
   Postproc postproc;

@@ -13,10 +13,17 @@ void declare_geometry(Section& s, Geometry& geometry);
 void declare_imperfections(Section& s, Imperfections& imperfections);
 void declare_material(Section& s, Material& material);
 void declare_joints(Section& s, Joints& joints);
+/// Which joints: `from`, `to`, `kind`.
+void declare_joint_group(Section& s, RingJoints& joints);
 void declare_contact(Section& s, ContactDetection& contact);
 void declare_loads(Section& s, Loads& loads);
+void declare_ties(Section& s, Ties& ties);
+void declare_supports(Section& s, Supports& supports);
 void declare_analysis(Section& s, Analysis& analysis);
 void declare_output(Section& s, Output& output);
 void declare_postproc(Section& s, Postproc& postproc);
+
+/// Optional map of a variation in time; left out, the factor is 1.
+void declare_time(Section& s, const std::string& key, TimeFunction& time, const std::string& meaning);
 
 }  // namespace cupola

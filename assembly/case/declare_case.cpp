@@ -11,6 +11,8 @@ void declare_case(Section& s, Case& the_case) {
   s.section("joints", the_case.joints, "what happens between blocks", declare_joints);
   s.section("contact", the_case.contact, "how contacts are found", declare_contact);
   s.section("loads", the_case.loads, "what acts on the blocks", declare_loads);
+  s.section("ties", the_case.ties, "ties and chains that pull between blocks", declare_ties);
+  s.section("supports", the_case.supports, "motion imposed on fixed blocks", declare_supports);
   s.section("analysis", the_case.analysis, "what is computed", declare_analysis);
   s.section("output", the_case.output, "what is written while solving", declare_output);
   s.section("postproc", the_case.postproc, "what is drawn and tabulated", declare_postproc);

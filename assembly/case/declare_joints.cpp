@@ -13,7 +13,34 @@ void declare_compliance(Section& s, Compliance& compliance) {
   s.number("tangential", compliance.tangential, {.unit = "m/N, m3/N", .min = 0}, "yield along the joint");
 }
 
+void declare_law_change(Section& s, JointLawChange& law) {
+  s.optional_number("friction", law.friction, {.min = 0}, "as elsewhere", "their own friction coefficient");
+  s.optional_number("normal", law.normal, {.unit = "m/N, m3/N", .min = 0}, "as elsewhere",
+                    "their own normal compliance");
+  s.optional_number("tangential", law.tangential, {.unit = "m/N, m3/N", .min = 0}, "as elsewhere",
+                    "their own tangential compliance");
+}
+
+void declare_ring_joints(Section& s, RingJoints& joints) {
+  declare_joint_group(s, joints);
+  declare_law_change(s, joints.law);
+}
+
 }  // namespace
+
+void declare_joint_group(Section& s, RingJoints& joints) {
+  s.required_integer("from", joints.from, {.min = 0}, "lowest ring, by the upper part of the joint");
+  joints.to = joints.from;
+  s.integer("to", joints.to, {.min = 0}, "highest ring");
+  s.choice("kind", joints.sort,
+           {{"all", RingJoints::Sort::all},
+            {"bed", RingJoints::Sort::bed},
+            {"head", RingJoints::Sort::head},
+            {"herringbone", RingJoints::Sort::herringbone},
+            {"base", RingJoints::Sort::base}},
+           "which joints of these rings");
+  s.rule(joints.from <= joints.to, "to", "must be >= from");
+}
 
 void declare_material(Section& s, Material& material) {
   s.quantity(
@@ -25,7 +52,14 @@ void declare_material(Section& s, Material& material) {
 void declare_joints(Section& s, Joints& joints) {
   s.number("friction", joints.friction, {.min = 0}, "Coulomb friction coefficient mu");
   s.section("compliance", joints.compliance, "how far joints yield under force", declare_compliance);
-  s.later({"bed", "head", "herringbone", "base", "rings"});
+  s.optional_section("bed", joints.bed, "joints between rings", declare_law_change);
+  s.optional_section("head", joints.head, "joints within a ring", declare_law_change);
+  s.optional_section("herringbone", joints.herringbone, "joints that touch a herringbone block",
+                     declare_law_change);
+  s.optional_section("base", joints.base, "joints with a fixed support", declare_law_change);
+  s.list("rings", joints.rings, "joints of some rings; the last entry that fits a joint counts",
+         declare_ring_joints);
+  declare_time(s, "friction_time", joints.friction_time, "factor on every friction coefficient");
 }
 
 }  // namespace cupola

@@ -8,6 +8,27 @@ void declare_top_load(Section& s, TopLoad& load) {
                     "load over the weight of the free blocks");
 }
 
+void declare_block_force(Section& s, BlockForce& load) {
+  s.required_integer("block", load.block, {.min = 0}, "loaded block");
+  s.optional_vector3("point", load.point, {.unit = "m"}, "centroid", "where it acts, as built");
+  s.vector3("force", load.force, {.unit = "N"}, "force of constant direction");
+  declare_time(s, "time", load.time, "factor on the force");
+}
+
+void declare_face_load(Section& s, FaceLoad& load) {
+  s.choice("kind", load.faces,
+           {{"extrados", FaceKind::extrados},
+            {"intrados", FaceKind::intrados},
+            {"top", FaceKind::top},
+            {"free", FaceKind::free}},
+           "loaded faces");
+  s.integer("from_ring", load.from_ring, {.min = 0}, "lowest ring");
+  s.integer("to_ring", load.to_ring, {.min = 0}, "highest ring");
+  s.vector3("traction", load.traction, {.unit = "N/m2"}, "force per area, of constant direction");
+  s.number("pressure", load.pressure, {.unit = "N/m2"}, "against the faces as built");
+  declare_time(s, "time", load.time, "factor on the load");
+}
+
 }  // namespace
 
 void declare_loads(Section& s, Loads& loads) {
@@ -16,6 +37,9 @@ void declare_loads(Section& s, Loads& loads) {
                      declare_top_load);
   s.optional_section("top_load", loads.top_load, "vertical load on the top of a wall, spread by area",
                      declare_top_load);
+  declare_time(s, "dead_load_time", loads.dead_load_time, "factor on gravity, lantern and top load");
+  s.list("forces", loads.forces, "forces on single blocks", declare_block_force);
+  s.list("faces", loads.faces, "loads on all faces of a kind", declare_face_load);
 }
 
 }  // namespace cupola

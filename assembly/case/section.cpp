@@ -82,7 +82,8 @@ const CaseNode* Section::look_up_scalar(const std::string& key) {
 void Section::document(const std::string& key, const std::string& type, const NumberRule& rule,
                        const std::string& default_value, const std::string& meaning) {
   if (!describing()) return;
-  const bool is_number = type == "number" || type == "integer" || type == "numbers" || type == "3 numbers";
+  const bool is_number =
+      type == "number" || type == "integer" || type == "numbers" || type == "integers" || type == "3 numbers";
   schema_->rows.push_back({path_of(key), schema_->condition, type, is_number ? std::string(rule.unit) : "",
                            is_number ? describe_range(rule) : "", default_value, meaning});
 }
@@ -141,13 +142,17 @@ bool Section::read_number_key(const std::string& key, double& value, const Numbe
   return node;
 }
 
+void Section::read_one_integer(const std::string& key, const CaseNode& node, const NumberRule& rule,
+                               int* value) const {
+  if (node.kind != CaseNode::Kind::scalar || node.quoted) fail(key, node, "must be a whole number");
+  const std::string broken = read_integer(node.text, value);
+  if (!broken.empty()) fail(key, node, broken);
+  if (!admits(rule, *value)) fail(key, node, "must be " + describe_range(rule));
+}
+
 bool Section::read_integer_key(const std::string& key, int& value, const NumberRule& rule) {
   const CaseNode* node = look_up_scalar(key);
-  if (node) {
-    const std::string broken = node->quoted ? "must be a whole number" : read_integer(node->text, &value);
-    if (!broken.empty()) fail(key, *node, broken);
-    if (!admits(rule, value)) fail(key, *node, "must be " + describe_range(rule));
-  }
+  if (node) read_one_integer(key, *node, rule, &value);
   record(key, std::to_string(value));
   return node;
 }
@@ -194,15 +199,43 @@ void Section::flag(const std::string& key, bool& value, const std::string& meani
   record(key, value ? "true" : "false");
 }
 
+bool Section::read_vector3_key(const std::string& key, Eigen::Vector3d& value, const NumberRule& rule) {
+  const CaseNode* node = look_up(key);
+  if (!node) return false;
+  if (node->kind != CaseNode::Kind::list || node->items.size() != 3)
+    fail(key, *node, "must be a list of three numbers, [x, y, z]");
+  for (int i = 0; i < 3; ++i) read_one_number(key, node->items[static_cast<size_t>(i)], rule, &value[i]);
+  return true;
+}
+
 void Section::vector3(const std::string& key, Eigen::Vector3d& value, const NumberRule& rule,
                       const std::string& meaning) {
   document(key, "3 numbers", rule, format_list(value.data(), 3), meaning);
-  if (const CaseNode* node = look_up(key)) {
-    if (node->kind != CaseNode::Kind::list || node->items.size() != 3)
-      fail(key, *node, "must be a list of three numbers, [x, y, z]");
-    for (int i = 0; i < 3; ++i) read_one_number(key, node->items[static_cast<size_t>(i)], rule, &value[i]);
-  }
+  read_vector3_key(key, value, rule);
   record(key, list_of_numbers(value.data(), 3));
+}
+
+void Section::optional_vector3(const std::string& key, std::optional<Eigen::Vector3d>& value,
+                               const NumberRule& rule, const std::string& without,
+                               const std::string& meaning) {
+  document(key, "3 numbers", rule, without, meaning);
+  Eigen::Vector3d given = Eigen::Vector3d::Zero();
+  if (!read_vector3_key(key, given, rule)) return;
+  value = given;
+  record(key, list_of_numbers(given.data(), 3));
+}
+
+void Section::integers(const std::string& key, std::vector<int>& values, const NumberRule& rule,
+                       const std::string& meaning) {
+  std::vector<double> shown_values(values.begin(), values.end());
+  document(key, "integers", rule, format_list(shown_values.data(), shown_values.size()), meaning);
+  if (const CaseNode* node = look_up(key)) {
+    if (node->kind != CaseNode::Kind::list) fail(key, *node, "must be a list of whole numbers, [1, 2]");
+    values.assign(node->items.size(), 0);
+    for (size_t i = 0; i < values.size(); ++i) read_one_integer(key, node->items[i], rule, &values[i]);
+  }
+  shown_values.assign(values.begin(), values.end());
+  record(key, list_of_numbers(shown_values.data(), shown_values.size()));
 }
 
 void Section::numbers(const std::string& key, std::vector<double>& values, const NumberRule& rule,

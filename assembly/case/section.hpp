@@ -64,8 +64,12 @@ class Section {
   void flag(const std::string& key, bool& value, const std::string& meaning);
   void vector3(const std::string& key, Eigen::Vector3d& value, const NumberRule& rule,
                const std::string& meaning);
+  void optional_vector3(const std::string& key, std::optional<Eigen::Vector3d>& value, const NumberRule& rule,
+                        const std::string& without, const std::string& meaning);
   void numbers(const std::string& key, std::vector<double>& values, const NumberRule& rule,
                const std::string& meaning);
+  void integers(const std::string& key, std::vector<int>& values, const NumberRule& rule,
+                const std::string& meaning);
 
   /// One quantity under several names, of which the case gives at most one: value = factor * number.
   struct UnitName {
@@ -124,6 +128,9 @@ class Section {
   void read_one_number(const std::string& key, const CaseNode& node, const NumberRule& rule,
                        double* value) const;
   bool read_number_key(const std::string& key, double& value, const NumberRule& rule);
+  void read_one_integer(const std::string& key, const CaseNode& node, const NumberRule& rule,
+                        int* value) const;
+  bool read_vector3_key(const std::string& key, Eigen::Vector3d& value, const NumberRule& rule);
   bool read_integer_key(const std::string& key, int& value, const NumberRule& rule);
   [[noreturn]] void fail(const std::string& key, const CaseNode& node, const std::string& rule) const;
   std::string path_of(const std::string& key) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "assembly/assembly.hpp"
@@ -11,21 +12,31 @@ namespace cupola {
 
 /// Where an analysis hands its frames and lines of log; it writes no files itself.
 struct AnalysisSinks {
-  std::function<void(const Frame&)> frame;
-  std::function<void(const std::string&)> log;      ///< one line per step, fixed columns
-  std::function<void(const std::string&)> history;  ///< one CSV row per step, header first
+  std::function<void(const Frame&)> frame = [](const Frame&) {};
+  /// One line per step, fixed columns.
+  std::function<void(const std::string&)> log = [](const std::string&) {};
+  /// One CSV row per step, header first.
+  std::function<void(const std::string&)> history = [](const std::string&) {};
+  /// A table of the analysis' own, whole: file name (ending .csv) and text.
+  std::function<void(const std::string& name, const std::string& text)> table = [](const std::string&,
+                                                                                   const std::string&) {};
+  /// How much is done, in [0, 1].
+  std::function<void(double share)> progress = [](double) {};
+  /// Everything needed to go on with the same bits after the last frame and row handed over.
+  std::function<void(const std::string& bytes)> checkpoint = [](const std::string&) {};
+  /// True when the user wants to stop: the analysis finishes its step, hands over a checkpoint and returns.
+  std::function<bool()> interrupted = [] { return false; };
+  std::string resume_from = {};  ///< bytes of a checkpoint; empty: from the start
 };
 
-/// Runs the analysis that the case asks for and returns its summary, times and provenance left to the caller.
-Summary run_analysis(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
+/// Runs the analysis that the case asks for and returns its summary, times and provenance left to the caller;
+/// none when it was interrupted.
+std::optional<Summary> run_analysis(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
-/// Equilibrium under dead load in one contact problem with v = 0 and a large step (paper 2.1). The inertia
-/// term carries a share of the load that falls with h^2: h is raised until the equilibrium residual, share
-/// included, is below `analysis.tolerance`. A structure without equilibrium keeps speeding up: its
-/// |v| / (g h) does not fall as h grows, and the status is `moving`.
+/// Equilibrium under dead load: solve_static() on the assembly as built.
 Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
-/// Time stepping from rest under the full dead load (paper eq. 8-15).
-Summary run_dynamic(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
+/// Time stepping (paper eq. 8-15) from the unloaded assembly, or from its static equilibrium.
+std::optional<Summary> run_dynamic(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
 }  // namespace cupola

@@ -1,81 +1,213 @@
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "assembly/byte_archive.hpp"
+#include "assembly/error.hpp"
 #include "assembly/program.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "solver/analysis/dynamic_history.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/simulation.hpp"
 
 namespace cupola {
-namespace {
 
-const char* const kHistoryHeader =
-    "time_s,contacts,iterations,momentum_residual,contact_law_residual,kinetic_energy_J,potential_energy_J,"
-    "elastic_energy_J,friction_work_J,support_reaction_x_N,support_reaction_y_N,support_reaction_z_N,"
-    "momentum_x_Ns,momentum_y_Ns,momentum_z_Ns,max_speed_m_per_s,max_displacement_m";
-
-/// Speeds, energies and sums at the end of a step, for the log and the history.
-struct Snapshot {
-  Energy energy;
-  Vec3 momentum = Vec3::Zero();  // N s
-  double speed = 0.0, displacement = 0.0;
+/// How far a run has come, apart from the simulation itself.
+struct RunProgress {
+  int steps = 0;
+  int frames = 0;
+  int iterations = 0;
+  int unconverged_steps = 0;
+  double worst_momentum = 0.0;
+  double friction_work = 0.0;  // J
+  double calm_since = 0.0;     // s, time since which no block is faster than the settled speed
 };
 
-Snapshot take_snapshot(const Simulation& simulation) {
-  Snapshot snapshot;
-  snapshot.energy = simulation.energy();
-  snapshot.momentum = simulation.linear_momentum();
-  const State& state = simulation.state();
-  for (Eigen::Index i = 0; i < state.v.size(); i += 6)
-    snapshot.speed = std::max(snapshot.speed, state.v.segment<3>(i).norm());
-  for (const Vec3& d : simulation.displacements())
-    snapshot.displacement = std::max(snapshot.displacement, d.norm());
-  return snapshot;
+template <class Archive>
+void visit(Archive& archive, RunProgress& x) {
+  archive(x.steps, x.frames, x.iterations, x.unconverged_steps, x.worst_momentum, x.friction_work,
+          x.calm_since);
 }
 
-std::string history_row(double time, const StepReport& report, const Snapshot& now, double friction_work) {
-  const Vec3& R = report.balance.support_reaction;
-  const Vec3& p = now.momentum;
-  return fmt::format(
-      "{:.17g},{},{},{:.6e},{:.6e},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},"
-      "{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}",
-      time, report.forces.size(), report.solve.iterations, report.residuals.momentum,
-      report.residuals.contact_law, now.energy.kinetic, now.energy.potential, now.energy.elastic,
-      friction_work, R.x(), R.y(), R.z(), p.x(), p.y(), p.z(), now.speed, now.displacement);
+namespace {
+
+enum class Stop { no, time_over, collapsed, settled, solver_failed };
+
+/// One dynamic analysis: the simulation, its progress, and where its results go.
+class DynamicRun {
+ public:
+  DynamicRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
+
+  /// Takes over the static equilibrium under the loads at time 0; false (and a summary) when there is none.
+  bool start_static(Summary* summary);
+  void resume(const std::string& bytes);
+  /// Steps until a stop rule fires; none when interrupted.
+  std::optional<Summary> run();
+
+ private:
+  double step_limit() const;
+  void step();
+  Stop stop_reason() const;
+  bool frame_is_due(Stop stop) const;
+  void write_frame();
+  std::string checkpoint() const;
+  Summary summarize(Stop stop, double seconds) const;
+
+  const Case& scene_;
+  const Analysis& analysis_;
+  const AnalysisSinks& sinks_;
+  Simulation simulation_;
+  RunProgress progress_;
+  StepReport report_;
+  Snapshot now_;
+};
+
+SimulationOptions simulation_options(const Case& scene) {
+  const Analysis& analysis = scene.analysis;
+  SimulationOptions options;
+  options.step.h = analysis.time_step;
+  options.step.damping = analysis.damping;
+  options.step.recovery_speed = analysis.recovery_speed;
+  options.step.tangential = analysis.tangential;
+  options.adaptive = analysis.adaptive;
+  options.detection = detection_options(scene);
+  options.solve_tolerance = analysis.tolerance;
+  return options;
 }
 
-std::string log_line(int step, double time, const StepReport& report, const Snapshot& now) {
-  return fmt::format(
-      "step {:6d}  t {:9.4f} s  contacts {:7d}  iterations {:3d}  momentum {:9.2e}  "
-      "kinetic {:10.3e} J  |v| {:9.2e} m/s",
-      step, time, report.forces.size(), report.solve.iterations, report.residuals.momentum,
-      now.energy.kinetic, now.speed);
+DynamicRun::DynamicRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks)
+    : scene_(scene),
+      analysis_(scene.analysis),
+      sinks_(sinks),
+      simulation_(make_model(scene, assembly), simulation_options(scene)) {}
+
+bool DynamicRun::start_static(Summary* summary) {
+  const Model& model = simulation_.model();
+  const State rest = state_at_rest(model);
+  ContactDetector detector(*model.assembly, detection_options(scene_));
+  const ContactSet& contacts = detector.update(rest.poses);
+  const ContactMemories memories = match_memories({}, contacts.contacts);
+  StaticOptions options;
+  options.tolerance = std::min(analysis_.tolerance, 1e-6);
+  options.log = sinks_.log;
+  const StaticSolution equilibrium = solve_static(model, rest, contacts, memories, options);
+  if (equilibrium.verdict == Verdict::equilibrium) {
+    simulation_.start_from(loaded_state(model, rest, contacts, memories, equilibrium, options));
+    return true;
+  }
+  const Frame frame = static_frame(model, rest, contacts, memories, equilibrium, options);
+  sinks_.frame(frame);
+  summarize_frame(frame, model, summary);
+  summarize_static(equilibrium, options.tolerance, summary);
+  summary->analysis = "dynamic";
+  summary->message = "analysis.start: static: " + summary->message;
+  return false;
 }
 
-/// What a step's report contributes to the summary.
-void summarize_step(const StepReport& report, int step, Summary* summary) {
-  summary->steps = step;
-  summary->applied_load_N = report.balance.applied_load;
-  summary->support_reaction_N = report.balance.support_reaction;
-  summary->equilibrium_residual = report.balance.residual;
-  summary->inertia_share = report.balance.inertia_share;
-  summary->momentum_residual = report.residuals.momentum;
-  summary->contact_law_residual = report.residuals.contact_law;
-  summary->friction_cone_violation = report.residuals.cone_violation;
-  summary->certified_force_error = report.residuals.certified_force_error;
+void DynamicRun::resume(const std::string& bytes) {
+  std::string simulation;
+  ByteReader archive(bytes);
+  archive(progress_, simulation);
+  simulation_.restore(simulation);
 }
 
-void judge(const Analysis& analysis, double worst_momentum, int unconverged_steps, Summary* summary) {
+std::string DynamicRun::checkpoint() const {
+  RunProgress progress = progress_;
+  std::string simulation = simulation_.save();
+  ByteWriter archive;
+  archive(progress, simulation);
+  return archive.bytes();
+}
+
+/// Adaptive steps end on the times of frames and on the end of the run.
+double DynamicRun::step_limit() const {
+  if (!analysis_.adaptive) return analysis_.time_step;
+  const double every = scene_.output.frames_every;
+  const double time = simulation_.state().time;
+  const double next_frame = (std::floor(time / every + 1e-9) + 1.0) * every;
+  return std::min(next_frame, analysis_.duration) - time;
+}
+
+void DynamicRun::step() {
+  report_ = simulation_.advance(step_limit());
+  now_ = take_snapshot(simulation_);
+  ++progress_.steps;
+  progress_.iterations += report_.solve.iterations;
+  progress_.friction_work += report_.slid_work;
+  progress_.worst_momentum = std::max(progress_.worst_momentum, report_.residuals.momentum);
+  if (report_.solve.ending != SolveEnding::converged) ++progress_.unconverged_steps;
+  const double time = simulation_.state().time;
+  if (now_.speed > analysis_.stop.settled_speed) progress_.calm_since = time;
+  sinks_.history(history_row(time, report_, now_, progress_.friction_work));
+  sinks_.log(log_line(progress_.steps, time, report_, now_));
+  sinks_.progress(std::min(1.0, time / analysis_.duration));
+}
+
+Stop DynamicRun::stop_reason() const {
+  const double time = simulation_.state().time;
+  if (!report_.solve.usable()) return Stop::solver_failed;
+  const bool over = analysis_.adaptive
+                        ? time >= analysis_.duration * (1.0 - 1e-12)
+                        : progress_.steps >= std::llround(analysis_.duration / analysis_.time_step);
+  if (over) return Stop::time_over;
+  if (analysis_.stop.collapsed && now_.displacement > analysis_.thresholds.displacement)
+    return Stop::collapsed;
+  if (analysis_.stop.settled_time > 0.0 && time - progress_.calm_since >= analysis_.stop.settled_time)
+    return Stop::settled;
+  return Stop::no;
+}
+
+bool DynamicRun::frame_is_due(Stop stop) const {
+  if (stop != Stop::no) return true;
+  const double every = scene_.output.frames_every;
+  if (!analysis_.adaptive)
+    return progress_.steps % std::max(1LL, std::llround(every / analysis_.time_step)) == 0;
+  const double frames = simulation_.state().time / every;
+  return std::abs(frames - std::round(frames)) < 1e-9;
+}
+
+void DynamicRun::write_frame() {
+  sinks_.frame(make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(),
+                          report_.forces.contacts, simulation_.memories(), simulation_.displacements()));
+  ++progress_.frames;
+}
+
+std::optional<Summary> DynamicRun::run() {
+  const double started = wall_seconds();
+  if (progress_.steps == 0) sinks_.history(history_header());
+  while (true) {
+    step();
+    const Stop stop = stop_reason();
+    const bool due = frame_is_due(stop);
+    if (due) write_frame();
+    if (stop != Stop::no) return summarize(stop, wall_seconds() - started);
+    const bool interrupted = sinks_.interrupted();
+    if (due || interrupted) sinks_.checkpoint(checkpoint());
+    if (interrupted) return std::nullopt;
+  }
+}
+
+std::string stop_note(Stop stop, const Analysis& analysis) {
+  if (stop == Stop::settled)
+    return fmt::format("; settled: below {:.3g} m/s for {:.3g} s", analysis.stop.settled_speed,
+                       analysis.stop.settled_time);
+  if (stop == Stop::collapsed) return "; stopped there";
+  return "";
+}
+
+void judge(const Analysis& analysis, const RunProgress& progress, Summary* summary) {
   summary->accuracy_asked = analysis.tolerance;
-  summary->accuracy_reached = worst_momentum;
+  summary->accuracy_reached = progress.worst_momentum;
   const double speed = summary->max_speed_m_per_s;
   const double displacement = summary->max_displacement_m;
-  if (unconverged_steps > 0) {
+  if (progress.unconverged_steps > 0) {
     summary->status = Status::unconverged;
-    summary->message = fmt::format("{} of {} steps missed the momentum residual {:.1e}; worst {:.2e}",
-                                   unconverged_steps, summary->steps, analysis.tolerance, worst_momentum);
+    summary->message =
+        fmt::format("{} of {} steps missed the momentum residual {:.1e}; worst {:.2e}",
+                    progress.unconverged_steps, progress.steps, analysis.tolerance, progress.worst_momentum);
   } else if (displacement > analysis.thresholds.displacement) {
     summary->status = Status::collapsed;
     summary->message = fmt::format("largest displacement {:.3g} m > {:.3g} m", displacement,
@@ -92,47 +224,45 @@ void judge(const Analysis& analysis, double worst_momentum, int unconverged_step
   }
 }
 
+Summary DynamicRun::summarize(Stop stop, double seconds) const {
+  Summary summary;
+  const Frame last = make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(),
+                                report_.forces.contacts, simulation_.memories(), simulation_.displacements());
+  summarize_frame(last, simulation_.model(), &summary);
+  summary.analysis = "dynamic";
+  summary.steps = progress_.steps;
+  summary.iterations = progress_.iterations;
+  summary.time_step_s = report_.h;
+  summary.solve_time_seconds = seconds;
+  summary.applied_load_N = report_.balance.applied_load;
+  summary.support_reaction_N = report_.balance.support_reaction;
+  summary.equilibrium_residual = report_.balance.residual;
+  summary.inertia_share = report_.balance.inertia_share;
+  summary.momentum_residual = report_.residuals.momentum;
+  summary.contact_law_residual = report_.residuals.contact_law;
+  summary.friction_cone_violation = report_.residuals.cone_violation;
+  summary.certified_force_error = report_.residuals.certified_force_error;
+  judge(analysis_, progress_, &summary);
+  summary.message += stop_note(stop, analysis_);
+  return summary;
+}
+
+bool starts_static(const Case& scene) {
+  if (scene.analysis.start != Analysis::Start::automatic)
+    return scene.analysis.start == Analysis::Start::static_;
+  return scene.supports.base_motion || !std::holds_alternative<ConstantInTime>(scene.joints.friction_time);
+}
+
 }  // namespace
 
-Summary run_dynamic(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
-  const Analysis& analysis = scene.analysis;
-  Simulation simulation(make_model(scene, assembly),
-                        {analysis.time_step, analysis.damping, analysis.recovery_speed, analysis.tangential},
-                        detection_options(scene), analysis.tolerance);
-
+std::optional<Summary> run_dynamic(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
+  DynamicRun run(scene, assembly, sinks);
   Summary summary;
-  const int steps = static_cast<int>(std::llround(analysis.duration / analysis.time_step));
-  const int steps_per_frame =
-      std::max(1, static_cast<int>(std::llround(scene.output.frames_every / analysis.time_step)));
-  double worst_momentum = 0.0;
-  double friction_work = 0.0;
-  int unconverged_steps = 0;
-  const double started = wall_seconds();
-  sinks.history(kHistoryHeader);
-  for (int step = 1; step <= steps; ++step) {
-    const StepReport report = simulation.advance();
-    const Snapshot now = take_snapshot(simulation);
-    const double time = simulation.state().time;
-    friction_work += report.slid_work;
-    summary.iterations += report.solve.iterations;
-    worst_momentum = std::max(worst_momentum, report.residuals.momentum);
-    if (report.solve.ending != SolveEnding::converged) ++unconverged_steps;
-    sinks.history(history_row(time, report, now, friction_work));
-    sinks.log(log_line(step, time, report, now));
-    if (step % steps_per_frame != 0 && step != steps && report.solve.usable()) continue;
-
-    const Frame frame = make_frame(simulation.model(), simulation.state(), simulation.contacts(),
-                                   report.forces, simulation.memories(), simulation.displacements());
-    sinks.frame(frame);
-    summarize_frame(frame, simulation.model(), &summary);
-    summarize_step(report, step, &summary);
-    if (!report.solve.usable()) break;
-  }
-  summary.solve_time_seconds = wall_seconds() - started;
-  summary.analysis = "dynamic";
-  summary.time_step_s = analysis.time_step;
-  judge(analysis, worst_momentum, unconverged_steps, &summary);
-  return summary;
+  if (!sinks.resume_from.empty())
+    run.resume(sinks.resume_from);
+  else if (starts_static(scene) && !run.start_static(&summary))
+    return summary;
+  return run.run();
 }
 
 }  // namespace cupola

@@ -10,6 +10,18 @@ namespace {
 constexpr double kSlipping = 1.0 - 1e-6;  // friction use from which a contact counts as slipping
 constexpr double kLoaded = 1e-9;          // of the largest normal force; less is rounding, and slips nowhere
 
+Status status_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::equilibrium:
+      return Status::stable;
+    case Verdict::moving:
+      return Status::moving;
+    case Verdict::unconverged:
+      break;
+  }
+  return Status::unconverged;
+}
+
 }  // namespace
 
 JointNumbers number_joints(const ContactSet& contacts) {
@@ -39,7 +51,7 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
     const Vec3& force = contact_forces[i];
     const double normal_force = contact.normal.dot(force);
     const double tangential_force = (force - normal_force * contact.normal).norm();
-    const double limit = joint_law(model, contact).mu * normal_force;
+    const double limit = joint_law(model, contacts, contact, state.time).mu * normal_force;
     table.block_a.push_back(contact.block_a);
     table.block_b.push_back(contact.block_b);
     table.kind.push_back(patch.kind);
@@ -92,6 +104,40 @@ void summarize_frame(const Frame& frame, const Model& model, Summary* summary) {
   for (const Vec3& v : frame.blocks.velocity)
     summary->max_speed_m_per_s = std::max(summary->max_speed_m_per_s, v.norm());
   summary->weight_N = model.free_weight;
+}
+
+Frame static_frame(const Model& model, const State& start, const ContactSet& contacts,
+                   const ContactMemories& memories, const StaticSolution& solution,
+                   const StaticOptions& options) {
+  LoadedState loaded = loaded_state(model, start, contacts, memories, solution, options);
+  std::vector<Vec3> displacement(loaded.state.poses.size());
+  for (size_t block = 0; block < displacement.size(); ++block)
+    displacement[block] = loaded.state.poses[block].p_WB - model.assembly->blocks[block].centroid;
+  ContactSet ended = contacts;
+  const VecX u =
+      relative_velocity(solution.step.problem, solution.solution.v) + solution.step.support_velocity;
+  for (size_t i = 0; i < ended.contacts.size(); ++i)
+    ended.contacts[i].gap += solution.h * u[3 * static_cast<Eigen::Index>(i)];
+  return make_frame(model, loaded.state, ended, solution.forces.contacts, loaded.memories, displacement);
+}
+
+void summarize_static(const StaticSolution& solution, double tolerance, Summary* summary) {
+  summary->status = status_of(solution.verdict);
+  summary->message = solution.message;
+  summary->accuracy_asked = tolerance;
+  summary->accuracy_reached =
+      solution.verdict == Verdict::moving ? solution.residuals.momentum : solution.balance.residual;
+  summary->iterations = solution.iterations;
+  summary->steps = 1;
+  summary->time_step_s = solution.h;
+  summary->applied_load_N = solution.balance.applied_load;
+  summary->support_reaction_N = solution.balance.support_reaction;
+  summary->inertia_share = solution.balance.inertia_share;
+  summary->equilibrium_residual = solution.balance.residual;
+  summary->momentum_residual = solution.residuals.momentum;
+  summary->contact_law_residual = solution.residuals.contact_law;
+  summary->friction_cone_violation = solution.residuals.cone_violation;
+  summary->certified_force_error = solution.residuals.certified_force_error;
 }
 
 }  // namespace cupola

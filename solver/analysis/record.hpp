@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/analysis/static_solve.hpp"
 #include "solver/collision/contact_set.hpp"
 #include "solver/contact/contact_problem.hpp"
 #include "solver/dynamics/contact_memory.hpp"
@@ -22,5 +23,13 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
 
 /// What the contacts and blocks of a frame contribute to the summary.
 void summarize_frame(const Frame& frame, const Model& model, Summary* summary);
+
+/// The frame at the end of a static step: displacement h v, gaps as they end up, blocks at rest.
+Frame static_frame(const Model& model, const State& start, const ContactSet& contacts,
+                   const ContactMemories& memories, const StaticSolution& solution,
+                   const StaticOptions& options);
+
+/// What a static solve contributes to the summary.
+void summarize_static(const StaticSolution& solution, double tolerance, Summary* summary);
 
 }  // namespace cupola

@@ -1,13 +1,29 @@
 #include "solver/analysis/analysis.hpp"
 
 namespace cupola {
+namespace {
 
-Summary run_analysis(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
-  Summary summary = scene.analysis.type == AnalysisType::static_ ? run_static(scene, assembly, sinks)
-                                                                 : run_dynamic(scene, assembly, sinks);
-  summary.method = "newton";
-  summary.friction_law = "associated";
-  summary.tangential = scene.analysis.tangential == TangentialSpring::memory ? "memory" : "literal";
+std::optional<Summary> run(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
+  switch (scene.analysis.type) {
+    case AnalysisType::static_:
+      return run_static(scene, assembly, sinks);
+    case AnalysisType::dynamic:
+      return run_dynamic(scene, assembly, sinks);
+    case AnalysisType::staged:
+    case AnalysisType::limit:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Summary> run_analysis(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
+  std::optional<Summary> summary = run(scene, assembly, sinks);
+  if (!summary) return summary;
+  summary->method = "newton";
+  summary->friction_law = "associated";
+  summary->tangential = scene.analysis.tangential == TangentialSpring::memory ? "memory" : "literal";
   return summary;
 }
 

@@ -73,6 +73,12 @@ std::vector<JointPatch> find_patches(const CollisionModel& model, std::span<cons
   return patches;
 }
 
+/// Two parts within the margin overlap by half of it each; boxes stay valid while their block moves by the
+/// allowance.
+double box_padding(const DetectionOptions& options) {
+  return (0.5 + options.moved_fraction) * options.margin;
+}
+
 }  // namespace
 
 void DetectionOptions::validate() const {
@@ -114,27 +120,28 @@ void ContactDetector::carry_along(std::span<const Pose> poses) {
   current_poses_.assign(poses.begin(), poses.end());
 }
 
+void ContactDetector::make_broad_phase(std::span<const Pose> poses) {
+  std::vector<Box> boxes;
+  std::vector<int> groups;
+  for (const CollisionPart& part : model_.parts) {
+    boxes.push_back(part_box(model_, part, poses[part.block], box_padding(options_)));
+    groups.push_back(part.fixed ? -1 : part.block);
+  }
+  broad_phase_.emplace(boxes, groups);
+  box_poses_.assign(poses.begin(), poses.end());
+}
+
 void ContactDetector::update_broad_phase(std::span<const Pose> poses) {
-  // Two parts within the margin overlap by half of it each; boxes stay valid while their block moves by the
-  // allowance.
+  if (!broad_phase_) return make_broad_phase(poses);
   const double allowance = options_.moved_fraction * options_.margin;
-  const double padding = 0.5 * options_.margin + allowance;
   std::vector<int> indices;
   std::vector<Box> boxes;
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {
     const CollisionPart& part = model_.parts[p];
     const double radius = model_.block_radius[part.block];
-    if (broad_phase_ && motion_bound(box_poses_[part.block], poses[part.block], radius) <= allowance)
-      continue;
+    if (motion_bound(box_poses_[part.block], poses[part.block], radius) <= allowance) continue;
     indices.push_back(static_cast<int>(p));
-    boxes.push_back(part_box(model_, part, poses[part.block], padding));
-  }
-  if (!broad_phase_) {
-    std::vector<int> groups;
-    for (const CollisionPart& part : model_.parts) groups.push_back(part.fixed ? -1 : part.block);
-    broad_phase_.emplace(boxes, groups);
-    box_poses_.assign(poses.begin(), poses.end());
-    return;
+    boxes.push_back(part_box(model_, part, poses[part.block], box_padding(options_)));
   }
   broad_phase_->move(indices, boxes);
   for (int p : indices) box_poses_[model_.parts[p].block] = poses[model_.parts[p].block];
@@ -165,6 +172,18 @@ void ContactDetector::detect(std::span<const Pose> poses) {
   detection_poses_.assign(poses.begin(), poses.end());
   current_poses_ = detection_poses_;
   ++num_detections_;
+}
+
+DetectionMemory ContactDetector::memory() const {
+  return {box_poses_, detection_poses_, current_poses_, contacts_, num_detections_};
+}
+
+void ContactDetector::restore(const DetectionMemory& memory) {
+  if (memory.num_detections > 0) make_broad_phase(memory.box_poses);
+  detection_poses_ = memory.detection_poses;
+  current_poses_ = memory.current_poses;
+  contacts_ = memory.contacts;
+  num_detections_ = memory.num_detections;
 }
 
 }  // namespace cupola

@@ -24,6 +24,16 @@ struct DetectionOptions {
   void validate() const;
 };
 
+/// What detection remembers of the motion so far. Given back to a detector of the same assembly and options,
+/// it goes on with the same bits.
+struct DetectionMemory {
+  std::vector<Pose> box_poses;        ///< of the boxes in the broad phase
+  std::vector<Pose> detection_poses;  ///< at which contacts were last detected
+  std::vector<Pose> current_poses;    ///< of the last update
+  AnchoredContacts contacts;
+  int num_detections = 0;
+};
+
 /// Finds the contacts of an assembly and follows them as the blocks move.
 ///
 /// While no block has moved by more than a fraction of the margin, contacts are carried along: their two
@@ -41,6 +51,10 @@ class ContactDetector {
   /// Contacts at the poses of the last update.
   const ContactSet& contacts() const { return contacts_.set; }
 
+  /// What a checkpoint keeps, and how a new detector takes it over.
+  DetectionMemory memory() const;
+  void restore(const DetectionMemory& memory);
+
   int num_detections() const { return num_detections_; }
   double margin() const { return options_.margin; }  ///< m, in force
 
@@ -48,6 +62,7 @@ class ContactDetector {
   bool moved_too_far(std::span<const Pose> poses) const;
   void detect(std::span<const Pose> poses);
   void update_broad_phase(std::span<const Pose> poses);
+  void make_broad_phase(std::span<const Pose> poses);
   void carry_along(std::span<const Pose> poses);
 
   DetectionOptions options_;

@@ -8,6 +8,7 @@ ContactMemories match_memories(const ContactMemories& old, const std::vector<Con
   ContactMemories matched;
   matched.ids.reserve(contacts.size());
   matched.values.resize(contacts.size());
+  matched.tie_impulses = old.tie_impulses;
   std::map<ContactId, size_t> index;  // of the old contacts
   for (size_t i = 0; i < old.ids.size(); ++i) index.emplace(old.ids[i], i);
   for (size_t i = 0; i < contacts.size(); ++i) {

@@ -18,6 +18,7 @@ struct ContactMemory {
 struct ContactMemories {
   std::vector<ContactId> ids;  ///< each names one pair of parts, and so one pair of blocks
   std::vector<ContactMemory> values;
+  std::vector<double> tie_impulses;  ///< N s, of the last step, one per tie of the model
 };
 
 /// Carries memories over to a new set of contacts: a contact keeps its own by its identity, a new one

@@ -5,30 +5,63 @@
 #include "solver/dynamics/time_step.hpp"
 
 namespace cupola {
+namespace {
+
+/// Forces and moments about the centroids, per block.
+struct BlockForces {
+  std::vector<Vec3> force;   // N
+  std::vector<Vec3> moment;  // N m
+};
+
+BlockForces applied_loads(const Model& model, const State& state, double time) {
+  const std::vector<Block>& blocks = model.assembly->blocks;
+  BlockForces sum{std::vector<Vec3>(blocks.size(), Vec3::Zero()),
+                  std::vector<Vec3>(blocks.size(), Vec3::Zero())};
+  const Vec3 gravity = model.loads.gravity_at(time);
+  for (size_t i = 0; i < blocks.size(); ++i) sum.force[i] = blocks[i].mass * gravity;
+  for (const PointLoad& load : model.loads.points) {
+    const Vec3 force = model.loads.factor(load, time) * load.force;
+    sum.force[load.block] += force;
+    sum.moment[load.block] += (state.poses[load.block].q_WB * load.p_BP_B).cross(force);
+  }
+  return sum;
+}
+
+}  // namespace
+
+JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, double h) {
+  JointForces forces;
+  const auto nc = static_cast<Eigen::Index>(contacts.contacts.size());
+  forces.contacts.resize(contacts.contacts.size());
+  for (Eigen::Index i = 0; i < nc; ++i)
+    forces.contacts[i] = contact_frame(contacts.contacts[i].normal) * gamma.segment<3>(3 * i) / h;
+  for (Eigen::Index row = 3 * nc; row < gamma.size(); row += 3) forces.ties.push_back(gamma[row] / h);
+  return forces;
+}
 
 Equilibrium compute_equilibrium(const Model& model, const State& state, const ContactSet& contacts,
-                                const std::vector<Vec3>& contact_forces) {
+                                const JointForces& forces, double time) {
   const std::vector<Block>& blocks = model.assembly->blocks;
-  std::vector<Vec3> force(blocks.size(), Vec3::Zero());
-  std::vector<Vec3> moment(blocks.size(), Vec3::Zero());
   Equilibrium balance;
-  for (size_t i = 0; i < blocks.size(); ++i) force[i] = blocks[i].mass * model.gravity;
-  for (const PointLoad& load : model.loads) {
-    force[load.block] += load.force;
-    moment[load.block] += (state.poses[load.block].q_WB * load.p_BP_B).cross(load.force);
-  }
-  for (int block : model.free_blocks) balance.applied_load += force[block];
+  BlockForces sum = applied_loads(model, state, time);
+  for (int block : model.free_blocks) balance.applied_load += sum.force[block];
 
-  for (size_t i = 0; i < contact_forces.size(); ++i) {
+  const auto add = [&](int a, int b, const Vec3& point_a, const Vec3& point_b, const Vec3& on_b) {
+    sum.force[b] += on_b;
+    sum.moment[b] += (point_b - state.poses[b].p_WB).cross(on_b);
+    sum.force[a] -= on_b;
+    sum.moment[a] -= (point_a - state.poses[a].p_WB).cross(on_b);
+    if (blocks[a].fixed && !blocks[b].fixed) balance.support_reaction += on_b;
+    if (blocks[b].fixed && !blocks[a].fixed) balance.support_reaction -= on_b;
+  };
+  for (size_t i = 0; i < forces.contacts.size(); ++i) {
     const Contact& contact = contacts.contacts[i];
     const Vec3 point = 0.5 * (contact.point_a + contact.point_b);
-    const Vec3& f = contact_forces[i];
-    force[contact.block_b] += f;
-    moment[contact.block_b] += (point - state.poses[contact.block_b].p_WB).cross(f);
-    force[contact.block_a] -= f;
-    moment[contact.block_a] -= (point - state.poses[contact.block_a].p_WB).cross(f);
-    if (blocks[contact.block_a].fixed && !blocks[contact.block_b].fixed) balance.support_reaction += f;
-    if (blocks[contact.block_b].fixed && !blocks[contact.block_a].fixed) balance.support_reaction -= f;
+    add(contact.block_a, contact.block_b, point, point, forces.contacts[i]);
+  }
+  for (size_t k = 0; k < forces.ties.size(); ++k) {
+    const TieGeometry tie = tie_geometry(model.ties[k], state.poses);
+    add(model.ties[k].block_a, model.ties[k].block_b, tie.point_a, tie.point_b, forces.ties[k] * tie.normal);
   }
 
   // Without weight the loads set the scale; without either any imbalance is absolute, in newtons.
@@ -37,7 +70,7 @@ Equilibrium compute_equilibrium(const Model& model, const State& state, const Co
   if (scale == 0.0) scale = 1.0;
   for (int block : model.free_blocks) {
     const double size = std::cbrt(blocks[block].volume);
-    const double unbalanced = std::max(force[block].norm(), moment[block].norm() / size) / scale;
+    const double unbalanced = std::max(sum.force[block].norm(), sum.moment[block].norm() / size) / scale;
     // Written so that NaN counts as the worst.
     if (!(unbalanced <= balance.residual)) {
       balance.residual = unbalanced;
@@ -48,14 +81,6 @@ Equilibrium compute_equilibrium(const Model& model, const State& state, const Co
   if (applied > 0.0)
     balance.inertia_share = 1.0 + balance.support_reaction.dot(balance.applied_load) / applied;
   return balance;
-}
-
-std::vector<Vec3> world_forces(const ContactSet& contacts, const VecX& gamma, double h) {
-  std::vector<Vec3> forces(contacts.contacts.size());
-  for (size_t i = 0; i < forces.size(); ++i)
-    forces[i] =
-        contact_frame(contacts.contacts[i].normal) * gamma.segment<3>(3 * static_cast<Eigen::Index>(i)) / h;
-  return forces;
 }
 
 }  // namespace cupola

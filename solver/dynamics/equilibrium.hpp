@@ -4,6 +4,15 @@
 
 namespace cupola {
 
+/// What holds the blocks together in one step.
+struct JointForces {
+  std::vector<Vec3> contacts;  ///< N, world, on block b of each contact
+  std::vector<double> ties;    ///< N, along each tie's normal, >= 0: tension of a tie, thrust of a strut
+};
+
+/// Impulses of a step as forces.
+JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, double h);
+
 /// Balance of forces recomputed from contact points and world forces, apart from the solver's matrices.
 struct Equilibrium {
   /// Largest unbalanced force of a free block over the mean block weight, and moment over weight times block
@@ -15,11 +24,8 @@ struct Equilibrium {
   double inertia_share = 0.0;            ///< part of the applied load, along it, that no support carries
 };
 
-/// `contact_forces`: N, world, on block b of each contact.
+/// `time`: s, at which the loads are taken.
 Equilibrium compute_equilibrium(const Model& model, const State& state, const ContactSet& contacts,
-                                const std::vector<Vec3>& contact_forces);
-
-/// Impulses of a step as world forces on block b, N.
-std::vector<Vec3> world_forces(const ContactSet& contacts, const VecX& gamma, double h);
+                                const JointForces& forces, double time);
 
 }  // namespace cupola

@@ -2,26 +2,26 @@
 
 #include <algorithm>
 
-#include "assembly/applied_loads.hpp"
-
 namespace cupola {
 
 Model make_model(const Case& scene, const Assembly& assembly) {
   Model model;
   model.assembly = &assembly;
-  model.joints = scene.joints;
-  model.gravity = scene.loads.gravity;
+  int num_rings = 1;
+  for (const Part& part : assembly.parts) num_rings = std::max(num_rings, part.ring + 1);
+  model.joints = JointTable(scene.joints, num_rings);
+  model.friction_time = scene.joints.friction_time;
+  model.loads = make_loads(scene.loads, assembly);
+  model.ties = make_ties(scene, assembly);
+  model.support_motions = make_support_motions(scene, assembly);
   model.free_index.assign(assembly.blocks.size(), ContactProblem::kFixed);
   for (size_t block = 0; block < assembly.blocks.size(); ++block) {
     if (assembly.blocks[block].fixed) continue;
     model.free_index[block] = model.num_free();
     model.free_blocks.push_back(static_cast<int>(block));
   }
-  model.free_weight = free_weight(assembly, model.gravity.norm());
+  model.free_weight = free_weight(assembly, scene.loads.gravity.norm());
   model.block_weight = model.num_free() > 0 ? model.free_weight / model.num_free() : 0.0;
-
-  for (const PointForce& load : applied_loads(scene.loads, assembly))
-    model.loads.push_back({load.block, load.point - assembly.blocks[load.block].centroid, load.force});
   return model;
 }
 
@@ -30,6 +30,7 @@ State state_at_rest(const Model& model) {
   state.poses.resize(model.assembly->blocks.size());
   for (size_t block = 0; block < state.poses.size(); ++block)
     state.poses[block].p_WB = model.assembly->blocks[block].centroid;
+  place_supports(*model.assembly, model.support_motions, 0.0, &state.poses);
   state.v = VecX::Zero(6 * model.num_free());
   return state;
 }
@@ -42,36 +43,40 @@ Mat6 mass_matrix(const Block& block, const Eigen::Quaterniond& q_WB) {
   return M;
 }
 
-VecX applied_forces(const Model& model, const State& state) {
+VecX applied_forces(const Model& model, const State& state, double time) {
   VecX f(6 * model.num_free());
+  const Vec3 gravity = model.loads.gravity_at(time);
   for (int i = 0; i < model.num_free(); ++i) {
     const int block = model.free_blocks[i];
     const Vec3 omega = state.v.segment<3>(6 * i + 3);
     const Mat3 R_WB = state.poses[block].q_WB.toRotationMatrix();
     const Mat3 I_W = R_WB * model.assembly->blocks[block].inertia * R_WB.transpose();
-    f.segment<3>(6 * i) = model.assembly->blocks[block].mass * model.gravity;
+    f.segment<3>(6 * i) = model.assembly->blocks[block].mass * gravity;
     f.segment<3>(6 * i + 3) = -omega.cross(I_W * omega);
   }
-  for (const PointLoad& load : model.loads) {
+  for (const PointLoad& load : model.loads.points) {
     const int i = model.free_index[load.block];
-    if (i == ContactProblem::kFixed) continue;
-    f.segment<3>(6 * i) += load.force;
-    f.segment<3>(6 * i + 3) += (state.poses[load.block].q_WB * load.p_BP_B).cross(load.force);
+    const Vec3 force = model.loads.factor(load, time) * load.force;
+    f.segment<3>(6 * i) += force;
+    f.segment<3>(6 * i + 3) += (state.poses[load.block].q_WB * load.p_BP_B).cross(force);
   }
   return f;
 }
 
 double reference_acceleration(const Model& model, const State& state) {
-  const VecX f = applied_forces(model, state);
-  double acceleration = model.gravity.norm();
-  for (int i = 0; i < model.num_free(); ++i) {
-    const double mass = model.assembly->blocks[model.free_blocks[i]].mass;
-    acceleration = std::max(acceleration, f.segment<3>(6 * i).norm() / mass);
+  std::vector<Vec3> force(model.assembly->blocks.size(), Vec3::Zero());
+  for (const PointLoad& load : model.loads.points)
+    force[load.block] +=
+        (load.time == PointForce::kDeadLoad ? 1.0 : model.loads.factor(load, state.time)) * load.force;
+  double acceleration = model.loads.gravity.norm();
+  for (int block : model.free_blocks) {
+    const Vec3 per_mass = model.loads.gravity + force[block] / model.assembly->blocks[block].mass;
+    acceleration = std::max(acceleration, per_mass.norm());
   }
-  return acceleration;
+  return acceleration > 0.0 ? acceleration : 1.0;
 }
 
-void integrate_positions(const Model& model, double h, State* state) {
+void integrate_positions(const Model& model, double h, double time_advance, State* state) {
   for (int i = 0; i < model.num_free(); ++i) {
     Pose& pose = state->poses[model.free_blocks[i]];
     pose.p_WB += h * state->v.segment<3>(6 * i);
@@ -81,12 +86,20 @@ void integrate_positions(const Model& model, double h, State* state) {
     if (angle > 0.0)
       pose.q_WB = (Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) * pose.q_WB).normalized();
   }
+  state->time += time_advance;
+  place_supports(*model.assembly, model.support_motions, state->time, &state->poses);
 }
 
-JointLaw joint_law(const Model& model, const Contact& contact) {
-  const Compliance& c = model.joints.compliance;
-  const double per = c.per == Compliance::Per::area ? 1.0 / contact.area : 1.0;
-  return {model.joints.friction, c.normal * per, c.tangential * per};
+JointLaw joint_law(const Model& model, const ContactSet& contacts, const Contact& contact, double time) {
+  JointLaw law = model.joints.law(*model.assembly, contacts.patches[contact.patch], contact.area);
+  law.mu *= factor_at(model.friction_time, time);
+  return law;
+}
+
+double largest_speed(const VecX& v) {
+  double speed = 0.0;
+  for (Eigen::Index i = 0; i < v.size(); i += 6) speed = std::max(speed, v.segment<3>(i).norm());
+  return speed;
 }
 
 }  // namespace cupola

@@ -1,37 +1,85 @@
 #include "solver/dynamics/simulation.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cupola {
+namespace {
 
-Simulation::Simulation(Model model, const StepOptions& step, const DetectionOptions& detection,
-                       double solve_tolerance)
+/// Position error of implicit Euler in one step, h |v_new - v| / 2 of the fastest changing block, m.
+double step_error(const VecX& before, const VecX& after, double h) {
+  return 0.5 * h * largest_speed(after - before);
+}
+
+/// The error grows with h^2 where the motion is smooth. Steps change gently, so that one impact does not
+/// throw the step size about.
+double next_step(const AdaptiveStep& adaptive, double h, double error) {
+  const double wanted =
+      error > 0.0 ? 0.9 * h * std::sqrt(adaptive.displacement_error / error) : adaptive.largest;
+  return std::clamp(std::clamp(wanted, 0.2 * h, 2.0 * h), adaptive.smallest, adaptive.largest);
+}
+
+}  // namespace
+
+Simulation::Simulation(Model model, const SimulationOptions& options)
     : model_(std::move(model)),
-      step_(step),
+      options_(options),
       state_(state_at_rest(model_)),
-      detector_(*model_.assembly, detection),
-      solve_tolerance_(solve_tolerance) {}
+      detector_(*model_.assembly, options.detection),
+      next_h_(options.step.h) {
+  memories_.tie_impulses.assign(model_.ties.size(), 0.0);
+}
 
-StepReport Simulation::advance() {
+StepReport Simulation::advance(double h_max) {
+  constexpr double kTolerated = 4.0;  // times the asked error: a step this bad is taken again, shorter
   StepReport report;
+  // 1. Where the blocks touch
   const ContactSet& contacts = detector_.update(state_.poses);
   memories_ = match_memories(memories_, contacts.contacts);
-  const ContactProblem problem = build_contact_problem(model_, state_, contacts, memories_, step_);
-  ContactSolution solution = warm_start(state_, memories_);
-  NewtonOptions options;
-  options.tolerance = solve_tolerance_;
-  options.reference_speed = step_.h * reference_acceleration(model_, state_);
-  report.solve = solver_.solve(problem, options, &solution);
-  report.residuals = compute_residuals(problem, solution, options.reference_speed);
-  report.forces = world_forces(contacts, solution.gamma, step_.h);
-  report.balance = compute_equilibrium(model_, state_, contacts, report.forces);
+
+  StepOptions step = options_.step;
+  step.h = std::min(next_h_, h_max);
+  StepProblem problem;
+  ContactSolution solution;
+  while (true) {
+    // 2. The contact problem and its answer
+    problem = build_step_problem(model_, state_, contacts, memories_, step);
+    solution = warm_start(problem, state_, memories_);
+    NewtonOptions solve_options;
+    solve_options.tolerance = options_.solve_tolerance;
+    solve_options.reference_speed = step.h * reference_acceleration(model_, state_);
+    report.solve = solver_.solve(problem.problem, solve_options, &solution);
+    report.residuals = compute_residuals(problem.problem, solution, solve_options.reference_speed);
+    if (!options_.adaptive) break;
+
+    // 3. Is the step short enough?
+    const double error = step_error(state_.v, solution.v, step.h);
+    next_h_ = next_step(*options_.adaptive, step.h, error);
+    if (error <= kTolerated * options_.adaptive->displacement_error || next_h_ >= step.h) break;
+    step.h = next_h_;
+    ++report.rejected;
+  }
+  report.h = step.h;
+  report.forces = joint_forces(contacts, solution.gamma, step.h);
+  report.balance =
+      compute_equilibrium(model_, state_, contacts, report.forces, state_.time + 0.5 * step.advance());
   report.slid_work = friction_dissipation(problem, solution);
 
-  update_memories(problem, solution, state_, contacts, step_, &memories_);
+  // 4. Memory and motion
+  update_memories(problem, solution, state_, contacts, step, &memories_);
   state_.v = solution.v;
-  integrate_positions(model_, step_.h, &state_);
-  state_.time += step_.h;
+  integrate_positions(model_, step.h, step.advance(), &state_);
   return report;
+}
+
+void Simulation::start_from(const LoadedState& loaded) {
+  // Contacts get their identity where the static solve found them.
+  detector_.update(state_at_rest(model_).poses);
+  state_ = loaded.state;
+  memories_ = loaded.memories;
+  for (ContactMemory& memory : memories_.values) memory.impulse *= next_h_;
+  for (double& impulse : memories_.tie_impulses) impulse *= next_h_;
 }
 
 Vec3 Simulation::linear_momentum() const {

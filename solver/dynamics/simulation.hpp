@@ -1,5 +1,9 @@
 #pragma once
 
+#include <limits>
+#include <optional>
+#include <string>
+
 #include "solver/collision/contact_detector.hpp"
 #include "solver/contact/newton.hpp"
 #include "solver/contact/residuals.hpp"
@@ -11,20 +15,45 @@ namespace cupola {
 
 /// What one step did: the solve, its independent residuals, and the balance at the start of the step.
 struct StepReport {
+  double h = 0.0;  ///< s
   SolveSummary solve;
   Residuals residuals;
-  std::vector<Vec3> forces;  ///< N, world, on block b, in the order of the contacts
-  Equilibrium balance;       ///< of those forces; what is unbalanced accelerates
-  double slid_work = 0.0;    ///< J, lost to friction in this step
+  JointForces forces;
+  Equilibrium balance;     ///< of those forces; what is unbalanced accelerates
+  double slid_work = 0.0;  ///< J, lost to friction in this step
+  int rejected = 0;        ///< attempts at a larger h that the step control refused
+};
+
+/// How a simulation is stepped.
+struct SimulationOptions {
+  StepOptions step;
+  std::optional<AdaptiveStep> adaptive;  ///< none: every step is step.h
+  DetectionOptions detection;
+  double solve_tolerance = 1e-9;  ///< relative momentum residual of each step
+};
+
+/// What a static solve hands to the motion that follows: displaced blocks at rest, joints under load.
+struct LoadedState {
+  State state;
+  ContactMemories memories;  ///< impulses are forces here, N
 };
 
 /// A scene in motion: everything that is carried from step to step.
 class Simulation {
  public:
-  Simulation(Model model, const StepOptions& step, const DetectionOptions& detection, double solve_tolerance);
+  Simulation(Model model, const SimulationOptions& options);
 
-  /// One step of h: detect, build, solve, remember, integrate (paper eq. 8-15).
-  StepReport advance();
+  /// One step: detect, build, solve, remember, integrate (paper eq. 8-15). h is that of the options, or, when
+  /// adaptive, what the last step's error allows; never more than `h_max` (s).
+  StepReport advance(double h_max = std::numeric_limits<double>::infinity());
+
+  /// Begins from an equilibrium instead of the unloaded assembly.
+  void start_from(const LoadedState& loaded);
+
+  /// Everything that later steps depend on, as bytes, and a simulation of the same scene going on from it
+  /// with the same bits. restore() throws std::runtime_error when the bytes do not fit.
+  std::string save() const;
+  void restore(const std::string& bytes);
 
   const Model& model() const { return model_; }
   const State& state() const { return state_; }
@@ -37,12 +66,12 @@ class Simulation {
 
  private:
   Model model_;
-  StepOptions step_;
+  SimulationOptions options_;
   State state_;
   ContactDetector detector_;
   ContactMemories memories_;
-  double solve_tolerance_;
   NewtonSolver solver_;
+  double next_h_;
 };
 
 }  // namespace cupola

@@ -8,12 +8,108 @@
 namespace cupola {
 namespace {
 
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
 /// Rows of one body: u = [R_WC; r x R_WC]^T v, arm r from its centroid to the contact point.
 Mat63 contact_columns(const Vec3& arm, const Mat3& R_WC) {
   Mat63 D;
   D.topRows<3>() = R_WC;
   for (int k = 0; k < 3; ++k) D.col(k).tail<3>() = arm.cross(R_WC.col(k));
   return D;
+}
+
+void resize_rows(int num_rows, StepProblem* step) {
+  ContactProblem& problem = step->problem;
+  problem.block_a.resize(num_rows);
+  problem.block_b.resize(num_rows);
+  problem.D_a.resize(num_rows);
+  problem.D_b.resize(num_rows);
+  problem.b = VecX::Zero(3 * num_rows);
+  problem.E.resize(3 * num_rows);
+  problem.mu = VecX::Zero(num_rows);
+  step->support_velocity = VecX::Zero(3 * num_rows);
+}
+
+void set_free_velocities(const Model& model, const State& state, const StepOptions& options,
+                         ContactProblem* problem) {
+  const int nb = model.num_free();
+  const VecX f = applied_forces(model, state, state.time + 0.5 * options.advance());
+  problem->M.resize(nb);
+  problem->v_star = state.v;
+  for (int i = 0; i < nb; ++i) {
+    const int block = model.free_blocks[i];
+    problem->M[i] = mass_matrix(model.assembly->blocks[block], state.poses[block].q_WB);
+    problem->v_star.segment<6>(6 * i) += options.h * problem->M[i].llt().solve(f.segment<6>(6 * i));
+  }
+}
+
+/// One row set between two blocks; each force acts at its own point.
+void set_row(const Model& model, const State& state, int row, int block_a, int block_b, const Vec3& point_a,
+             const Vec3& point_b, const Mat3& R_WC, ContactProblem* problem) {
+  problem->block_a[row] = model.free_index[block_a];
+  problem->block_b[row] = model.free_index[block_b];
+  problem->D_a[row] = -contact_columns(point_a - state.poses[block_a].p_WB, R_WC);
+  problem->D_b[row] = contact_columns(point_b - state.poses[block_b].p_WB, R_WC);
+}
+
+void set_contact_rows(const Model& model, const State& state, const ContactSet& contacts,
+                      const ContactMemories& memories, const StepOptions& options, ContactProblem* problem) {
+  const double h = options.h;
+  const double h_alpha = h + options.damping;
+  const double end = state.time + options.advance();
+  for (int i = 0; i < static_cast<int>(contacts.contacts.size()); ++i) {
+    const Contact& contact = contacts.contacts[i];
+    const ContactMemory& memory = memories.values[i];
+    const Mat3 R_WC = contact_frame(contact.normal);
+    // One point for both bodies, so that action and reaction have no moment when there is a gap.
+    const Vec3 point = 0.5 * (contact.point_a + contact.point_b);
+    set_row(model, state, i, contact.block_a, contact.block_b, point, point, R_WC, problem);
+
+    const JointLaw law = joint_law(model, contacts, contact, end);
+    problem->mu[i] = law.mu;
+    problem->E.segment<3>(3 * i) << law.compliance_normal, law.compliance_tangential,
+        law.compliance_tangential;
+    problem->E.segment<3>(3 * i) /= h * h_alpha;
+
+    const double unexplained = std::max(contact.gap - memory.elastic_gap, -options.recovery_speed * h_alpha);
+    problem->b[3 * i] = (memory.elastic_gap + unexplained) / h_alpha;
+    if (options.tangential == TangentialSpring::memory) {
+      const Vec3 slip_C = R_WC.transpose() * (state.poses[contact.block_a].q_WB * memory.elastic_slip_A);
+      problem->b.segment<2>(3 * i + 1) = slip_C.tail<2>() / h_alpha;
+    }
+  }
+}
+
+void set_tie_rows(const Model& model, const State& state, const StepOptions& options, int first_row,
+                  ContactProblem* problem) {
+  const double h_alpha = options.h + options.damping;
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    const Tie& tie = model.ties[k];
+    const int row = first_row + static_cast<int>(k);
+    const TieGeometry now = tie_geometry(tie, state.poses);
+    set_row(model, state, row, tie.block_a, tie.block_b, now.point_a, now.point_b, contact_frame(now.normal),
+            problem);
+    problem->E.segment<3>(3 * row).setConstant(tie.compliance / (options.h * h_alpha));
+    problem->b[3 * row] = now.gap / h_alpha;
+  }
+}
+
+/// Adds the imposed velocities of supports to b.
+void add_support_velocities(const Model& model, const State& state, const ContactSet& contacts,
+                            const StepOptions& options, StepProblem* step) {
+  std::vector<Pose> moved = state.poses;
+  place_supports(*model.assembly, model.support_motions, state.time + options.advance(), &moved);
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> v = block_velocities(state.poses, moved, options.h);
+  ContactProblem& problem = step->problem;
+  for (int row = 0; row < problem.num_contacts(); ++row) {
+    const bool is_contact = row < step->num_contacts;
+    const size_t tie = is_contact ? 0 : static_cast<size_t>(row - step->num_contacts);
+    const int a = is_contact ? contacts.contacts[row].block_a : model.ties[tie].block_a;
+    const int b = is_contact ? contacts.contacts[row].block_b : model.ties[tie].block_b;
+    step->support_velocity.segment<3>(3 * row) =
+        problem.D_a[row].transpose() * v.col(a) + problem.D_b[row].transpose() * v.col(b);
+  }
+  problem.b += step->support_velocity;
 }
 
 }  // namespace
@@ -29,67 +125,29 @@ Mat3 contact_frame(const Vec3& normal) {
   return R_WC;
 }
 
-ContactProblem build_contact_problem(const Model& model, const State& state, const ContactSet& contacts,
-                                     const ContactMemories& memories, const StepOptions& options) {
-  ContactProblem problem;
-  const int nb = model.num_free();
-  const int nc = static_cast<int>(contacts.contacts.size());
-  const double h = options.h;
-  const double h_alpha = h + options.damping;
-  problem.h = h;
-
-  const VecX f = applied_forces(model, state);
-  problem.M.resize(nb);
-  problem.v_star = state.v;
-  for (int i = 0; i < nb; ++i) {
-    const int block = model.free_blocks[i];
-    problem.M[i] = mass_matrix(model.assembly->blocks[block], state.poses[block].q_WB);
-    problem.v_star.segment<6>(6 * i) += h * problem.M[i].llt().solve(f.segment<6>(6 * i));
-  }
-
-  problem.block_a.resize(nc);
-  problem.block_b.resize(nc);
-  problem.D_a.resize(nc);
-  problem.D_b.resize(nc);
-  problem.b = VecX::Zero(3 * nc);
-  problem.E.resize(3 * nc);
-  problem.mu.resize(nc);
-  for (int i = 0; i < nc; ++i) {
-    const Contact& contact = contacts.contacts[i];
-    const ContactMemory& memory = memories.values[i];
-    const Mat3 R_WC = contact_frame(contact.normal);
-    // One point for both bodies, so that action and reaction have no moment when there is a gap.
-    const Vec3 point = 0.5 * (contact.point_a + contact.point_b);
-    problem.block_a[i] = model.free_index[contact.block_a];
-    problem.block_b[i] = model.free_index[contact.block_b];
-    problem.D_a[i] = -contact_columns(point - state.poses[contact.block_a].p_WB, R_WC);
-    problem.D_b[i] = contact_columns(point - state.poses[contact.block_b].p_WB, R_WC);
-
-    const JointLaw law = joint_law(model, contact);
-    problem.mu[i] = law.mu;
-    problem.E.segment<3>(3 * i) << law.compliance_normal, law.compliance_tangential,
-        law.compliance_tangential;
-    problem.E.segment<3>(3 * i) /= h * h_alpha;
-
-    const double unexplained = std::max(contact.gap - memory.elastic_gap, -options.recovery_speed * h_alpha);
-    problem.b[3 * i] = (memory.elastic_gap + unexplained) / h_alpha;
-    if (options.tangential == TangentialSpring::memory) {
-      const Vec3 slip_C = R_WC.transpose() * (state.poses[contact.block_a].q_WB * memory.elastic_slip_A);
-      problem.b.segment<2>(3 * i + 1) = slip_C.tail<2>() / h_alpha;
-    }
-  }
-  return problem;
+StepProblem build_step_problem(const Model& model, const State& state, const ContactSet& contacts,
+                               const ContactMemories& memories, const StepOptions& options) {
+  StepProblem step;
+  step.num_contacts = static_cast<int>(contacts.contacts.size());
+  step.problem.h = options.h;
+  resize_rows(step.num_contacts + static_cast<int>(model.ties.size()), &step);
+  set_free_velocities(model, state, options, &step.problem);
+  set_contact_rows(model, state, contacts, memories, options, &step.problem);
+  set_tie_rows(model, state, options, step.num_contacts, &step.problem);
+  if (!model.support_motions.empty()) add_support_velocities(model, state, contacts, options, &step);
+  return step;
 }
 
-void update_memories(const ContactProblem& problem, const ContactSolution& solution, const State& state,
+void update_memories(const StepProblem& step, const ContactSolution& solution, const State& state,
                      const ContactSet& contacts, const StepOptions& options, ContactMemories* memories) {
-  const VecX u = relative_velocity(problem, solution.v);
+  const ContactProblem& problem = step.problem;
+  const VecX u = relative_velocity(problem, solution.v) + step.support_velocity;
   const double h = options.h;
-  for (int i = 0; i < problem.num_contacts(); ++i) {
+  for (int i = 0; i < step.num_contacts; ++i) {
     const Contact& contact = contacts.contacts[i];
     ContactMemory& memory = memories->values[i];
     const Vec3 gamma = solution.gamma.segment<3>(3 * i);
-    const Vec3 b = problem.b.segment<3>(3 * i);
+    const Vec3 b = problem.b.segment<3>(3 * i) - step.support_velocity.segment<3>(3 * i);
     const Vec3 u_el = -(b + problem.E.segment<3>(3 * i).cwiseProduct(gamma));
     memory.impulse = gamma;
     memory.elastic_gap = std::min(0.0, b[0] * (h + options.damping) + h * u_el[0]);
@@ -101,14 +159,18 @@ void update_memories(const ContactProblem& problem, const ContactSolution& solut
         state.poses[contact.block_a].q_WB.conjugate() * (contact_frame(contact.normal) * slip_C);
     if (options.tangential == TangentialSpring::literal) memory.elastic_slip_A.setZero();
   }
+  const int num_ties = problem.num_contacts() - step.num_contacts;
+  memories->tie_impulses.resize(num_ties);
+  for (int k = 0; k < num_ties; ++k) memories->tie_impulses[k] = solution.gamma[3 * (step.num_contacts + k)];
 }
 
-ContactSolution warm_start(const State& state, const ContactMemories& memories) {
+ContactSolution warm_start(const StepProblem& step, const State& state, const ContactMemories& memories) {
   ContactSolution guess;
   guess.v = state.v;
-  guess.gamma.resize(3 * static_cast<Eigen::Index>(memories.values.size()));
-  for (size_t i = 0; i < memories.values.size(); ++i)
-    guess.gamma.segment<3>(3 * static_cast<Eigen::Index>(i)) = memories.values[i].impulse;
+  guess.gamma = VecX::Zero(step.problem.b.size());
+  for (int i = 0; i < step.num_contacts; ++i) guess.gamma.segment<3>(3 * i) = memories.values[i].impulse;
+  for (size_t k = 0; k < memories.tie_impulses.size(); ++k)
+    guess.gamma[3 * (step.num_contacts + static_cast<int>(k))] = memories.tie_impulses[k];
   return guess;
 }
 

@@ -4,39 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/dynamics/scene_options.hpp"
-#include "tests/solver/scenes.hpp"
+#include "tests/solver/motion_scenes.hpp"
 
 namespace cupola {
 namespace {
 
-constexpr double kG = 9.81;
-
-/// A case with the given joints and step, everything else default.
-Case make_case(double friction, double compliance, double h, double damping = 0.0) {
-  Case scene;
-  scene.joints.friction = friction;
-  scene.joints.compliance = {compliance, compliance, Compliance::Per::point};
-  scene.analysis.type = AnalysisType::dynamic;
-  scene.analysis.time_step = h;
-  scene.analysis.damping = damping;
-  scene.analysis.tolerance = 1e-12;
-  return scene;
-}
-
-Simulation simulate(const Case& scene, const Assembly& assembly) {
-  const Analysis& analysis = scene.analysis;
-  return {make_model(scene, assembly),
-          {analysis.time_step, analysis.damping, analysis.recovery_speed, analysis.tangential},
-          detection_options(scene),
-          analysis.tolerance};
-}
-
-/// Gravity seen from an incline of slope tan(a) that rises towards -x.
-Vec3 tilted_gravity(double tan_a) {
-  const double a = std::atan(tan_a);
-  return kG * Vec3(std::sin(a), 0.0, -std::cos(a));
-}
+using testing::kG;
+using testing::make_case;
+using testing::simulate;
+using testing::tilted_gravity;
 
 // Block 1.0 x 0.2 on an incline, tan a = 0.5 > mu = 0.4: discrete associated scheme in closed form,
 // s_N = A h [N - mu^2 (1 - r^N)], r = mu^2/(1 + mu^2), A = g (sin a - mu cos a); gap after the step h mu s_N.
@@ -183,9 +159,9 @@ TEST(Table, SharesAnEccentricLoadAmongFourLegs) {
     const StepReport report = simulation.advance();
     ASSERT_EQ(report.solve.ending, SolveEnding::converged) << report.solve.message;
     Eigen::Vector4d share = Eigen::Vector4d::Zero();  // ++, +-, -+, --
-    for (size_t i = 0; i < report.forces.size(); ++i) {
+    for (size_t i = 0; i < report.forces.contacts.size(); ++i) {
       const Vec3 p = simulation.contacts().contacts[i].point_a;
-      share[(p.x() > 0 ? 0 : 2) + (p.y() > 0 ? 0 : 1)] += report.forces[i].z();
+      share[(p.x() > 0 ? 0 : 2) + (p.y() > 0 ? 0 : 1)] += report.forces.contacts[i].z();
     }
     share /= assembly.blocks[1].mass * kG;
     const Eigen::Vector4d point_legs(0.375, 0.275, 0.225, 0.125);

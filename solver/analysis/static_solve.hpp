@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "solver/contact/newton.hpp"
+#include "solver/contact/residuals.hpp"
+#include "solver/dynamics/equilibrium.hpp"
+#include "solver/dynamics/simulation.hpp"
+#include "solver/dynamics/time_step.hpp"
+
+namespace cupola {
+
+struct StaticOptions {
+  double tolerance = 1e-9;    ///< largest equilibrium residual, inertia share included
+  double time_advance = 0.0;  ///< s by which loads and supports go on in the step
+  std::function<void(const std::string&)> log = [](const std::string&) {};
+};
+
+enum class Verdict {
+  equilibrium,  ///< residual <= tolerance
+  moving,       ///< nothing holds it: the speed it picks up grows with h
+  unconverged   ///< the contact problem was not solved
+};
+
+/// The answer at the last h and what it is worth.
+struct StaticSolution {
+  Verdict verdict = Verdict::unconverged;
+  std::string message;
+  double h = 0.0;  ///< s
+  StepProblem step;
+  ContactSolution solution;
+  SolveSummary solve;
+  Residuals residuals;
+  JointForces forces;
+  Equilibrium balance;
+  double speed_ratio = 0.0;  ///< max |v| / (g h)
+  int iterations = 0;        ///< of all trials
+};
+
+/// Equilibrium in one contact problem with v = 0 and a large step (paper 2.1). The inertia term carries a
+/// share of the load that falls with h^2: h is raised until the equilibrium residual, share included, is as
+/// small as asked. Displacement is h v. A structure that stands has |v| / (g h) falling with h^2; where it
+/// ceases to fall there is no equilibrium, and v is the collapse mechanism.
+StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
+                            const ContactMemories& memories, const StaticOptions& options);
+
+/// The state after the step, at rest, with joints that remember their load.
+LoadedState loaded_state(const Model& model, const State& start, const ContactSet& contacts,
+                         const ContactMemories& memories, const StaticSolution& solution,
+                         const StaticOptions& options);
+
+}  // namespace cupola

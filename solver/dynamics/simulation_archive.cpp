@@ -1,0 +1,70 @@
+#include "assembly/byte_archive.hpp"
+#include "solver/dynamics/simulation.hpp"
+
+namespace cupola {
+
+// The fields that a checkpoint keeps. A new field of these structs that lives from step to step belongs here.
+
+template <class Archive>
+void visit(Archive& archive, Pose& x) {
+  archive(x.p_WB, x.q_WB);
+}
+template <class Archive>
+void visit(Archive& archive, ContactId& x) {
+  archive(x.part_a, x.part_b, x.face_a, x.face_b, x.corner);
+}
+template <class Archive>
+void visit(Archive& archive, Contact& x) {
+  archive(x.id, x.block_a, x.block_b, x.patch, x.point_a, x.point_b, x.normal, x.gap, x.area);
+}
+template <class Archive>
+void visit(Archive& archive, Patch& x) {
+  archive(x.block_a, x.block_b, x.kind, x.ring, x.polygon, x.area);
+}
+template <class Archive>
+void visit(Archive& archive, ContactAnchor& x) {
+  archive(x.r_a, x.r_b, x.normal_a, x.normal_b, x.weight_a);
+}
+template <class Archive>
+void visit(Archive& archive, AnchoredContacts& x) {
+  archive(x.set.contacts, x.set.patches, x.anchors, x.patch_polygons);
+}
+template <class Archive>
+void visit(Archive& archive, DetectionMemory& x) {
+  archive(x.box_poses, x.detection_poses, x.current_poses, x.contacts, x.num_detections);
+}
+template <class Archive>
+void visit(Archive& archive, ContactMemory& x) {
+  archive(x.impulse, x.elastic_gap, x.elastic_slip_A, x.plastic_slip);
+}
+template <class Archive>
+void visit(Archive& archive, ContactMemories& x) {
+  archive(x.ids, x.values, x.tie_impulses);
+}
+template <class Archive>
+void visit(Archive& archive, State& x) {
+  archive(x.time, x.poses, x.v);
+}
+
+std::string Simulation::save() const {
+  State state = state_;
+  DetectionMemory detection = detector_.memory();
+  ContactMemories memories = memories_;
+  double next_h = next_h_;
+  ByteWriter archive;
+  archive(state, detection, memories, next_h);
+  return archive.bytes();
+}
+
+void Simulation::restore(const std::string& bytes) {
+  DetectionMemory detection;
+  State state;
+  ByteReader archive(bytes);
+  archive(state, detection, memories_, next_h_);
+  if (!archive.at_end() || state.poses.size() != state_.poses.size() || state.v.size() != state_.v.size())
+    throw std::runtime_error("is of another scene");
+  state_ = std::move(state);
+  detector_.restore(detection);
+}
+
+}  // namespace cupola

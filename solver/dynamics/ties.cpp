@@ -1,0 +1,112 @@
+#include "solver/dynamics/ties.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "assembly/error.hpp"
+
+namespace cupola {
+namespace {
+
+void check_block(const Assembly& assembly, int block, const char* key) {
+  const int num_blocks = static_cast<int>(assembly.blocks.size());
+  if (block < 0 || block >= num_blocks)
+    throw InputError(
+        fmt::format("{}: block {}: the assembly has blocks 0 to {}", key, block, num_blocks - 1));
+}
+
+/// The tie between two points as built, without force at `length`.
+Tie make_tie(const Assembly& assembly, ImportedTie tie, const char* key) {
+  check_block(assembly, tie.block_a, key);
+  check_block(assembly, tie.block_b, key);
+  if (tie.block_a == tie.block_b)
+    throw InputError(fmt::format("{}: both ends are on block {}", key, tie.block_a));
+  if (tie.point_a == tie.point_b)
+    throw InputError(fmt::format("{}: the ends on blocks {} and {} coincide", key, tie.block_a, tie.block_b));
+  if (tie.block_a > tie.block_b) {
+    std::swap(tie.block_a, tie.block_b);
+    std::swap(tie.point_a, tie.point_b);
+  }
+  return {tie.block_a,
+          tie.block_b,
+          tie.point_a - assembly.blocks[tie.block_a].centroid,
+          tie.point_b - assembly.blocks[tie.block_b].centroid,
+          tie.length,
+          1.0 / tie.stiffness,
+          false};
+}
+
+/// A tie that carries `prestress` as built: shorter by the stretch of that force.
+Tie prestressed_tie(const Assembly& assembly, const PairTie& pair, const char* key) {
+  check_block(assembly, pair.block_a, key);
+  check_block(assembly, pair.block_b, key);
+  ImportedTie tie;
+  tie.block_a = pair.block_a;
+  tie.block_b = pair.block_b;
+  tie.point_a = pair.point_a.value_or(assembly.blocks[pair.block_a].centroid);
+  tie.point_b = pair.point_b.value_or(assembly.blocks[pair.block_b].centroid);
+  tie.stiffness = pair.stiffness;
+  tie.length = (tie.point_b - tie.point_a).norm() - pair.prestress / pair.stiffness;
+  if (!(tie.length > 0.0))
+    throw InputError(
+        fmt::format("{}: the prestress {} N stretches the tie by more than its length", key, pair.prestress));
+  return make_tie(assembly, tie, key);
+}
+
+void add_chain(const Assembly& assembly, const ChainTie& chain, std::vector<Tie>* ties) {
+  std::vector<std::pair<double, int>> around;  // azimuth, block
+  for (size_t block = 0; block < assembly.blocks.size(); ++block) {
+    const Block& b = assembly.blocks[block];
+    if (!b.fixed && b.ring == chain.ring)
+      around.emplace_back(std::atan2(b.centroid.y(), b.centroid.x()), static_cast<int>(block));
+  }
+  if (around.size() < 3)
+    throw InputError(
+        fmt::format("ties.chains: ring {} has {} blocks; a chain needs three", chain.ring, around.size()));
+  std::sort(around.begin(), around.end());
+  for (size_t i = 0; i < around.size(); ++i) {
+    PairTie link;
+    link.block_a = around[i].second;
+    link.block_b = around[(i + 1) % around.size()].second;
+    link.stiffness = chain.stiffness;
+    link.prestress = chain.prestress;
+    ties->push_back(prestressed_tie(assembly, link, "ties.chains"));
+  }
+}
+
+}  // namespace
+
+TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses) {
+  const Pose& a = poses[tie.block_a];
+  const Pose& b = poses[tie.block_b];
+  const Vec3 r_a = a.q_WB * tie.p_AP_A;
+  const Vec3 r_b = b.q_WB * tie.p_BP_B;
+  const Vec3 along = (b.p_WB - a.p_WB) + (r_b - r_a);
+  const double length = along.norm();
+  TieGeometry geometry;
+  geometry.point_a = a.p_WB + r_a;
+  geometry.point_b = b.p_WB + r_b;
+  const double sign = tie.strut ? 1.0 : -1.0;
+  if (length > 0.0) geometry.normal = sign / length * along;
+  geometry.gap = sign * (length - tie.natural_length);
+  return geometry;
+}
+
+std::vector<Tie> make_ties(const Case& scene, const Assembly& assembly) {
+  std::vector<Tie> ties;
+  for (const PairTie& pair : scene.ties.pairs) ties.push_back(prestressed_tie(assembly, pair, "ties.pairs"));
+  for (const ChainTie& chain : scene.ties.chains) add_chain(assembly, chain, &ties);
+  for (ImportedTie imported : assembly.ties) {
+    if (std::isinf(imported.stiffness)) imported.stiffness = scene.ties.rod_stiffness;
+    ties.push_back(make_tie(assembly, imported, "imported tie"));
+    if (!imported.pushes) continue;
+    ties.push_back(ties.back());
+    ties.back().strut = true;
+  }
+  return ties;
+}
+
+}  // namespace cupola

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "solver/dynamics/scene_options.hpp"
+#include "solver/dynamics/simulation.hpp"
+#include "tests/solver/scenes.hpp"
+
+namespace cupola::testing {
+
+constexpr double kG = 9.81;  // m/s2
+
+/// A dynamic case with the given joints and step, everything else default.
+inline Case make_case(double friction, double compliance, double h, double damping = 0.0) {
+  Case scene;
+  scene.joints.friction = friction;
+  scene.joints.compliance = {compliance, compliance, Compliance::Per::point};
+  scene.analysis.type = AnalysisType::dynamic;
+  scene.analysis.time_step = h;
+  scene.analysis.damping = damping;
+  scene.analysis.tolerance = 1e-12;
+  return scene;
+}
+
+inline Simulation simulate(const Case& scene, const Assembly& assembly) {
+  const Analysis& analysis = scene.analysis;
+  SimulationOptions options;
+  options.step = {analysis.time_step, analysis.damping, analysis.recovery_speed, analysis.tangential, {}};
+  options.adaptive = analysis.adaptive;
+  options.detection = detection_options(scene);
+  options.solve_tolerance = analysis.tolerance;
+  return {make_model(scene, assembly), options};
+}
+
+/// Gravity seen from an incline of slope tan(a) that rises towards -x.
+inline Vec3 tilted_gravity(double tan_a) {
+  const double a = std::atan(tan_a);
+  return kG * Vec3(std::sin(a), 0.0, -std::cos(a));
+}
+
+/// One prism along y (from 0 to `width`) over a quadrilateral in the x-z plane, given counter-clockwise seen
+/// from -y: faces 0-1, 1-2, 2-3, 3-0 of the quadrilateral are bed, extrados, bed, intrados.
+inline void add_voussoir(const std::array<Eigen::Vector2d, 4>& quad, double width, double density, bool fixed,
+                         int ring, Assembly* assembly) {
+  add_block({.density = density, .fixed = fixed, .ring = ring}, assembly);
+  const int first = static_cast<int>(assembly->vertices.size());
+  for (const double y : {0.0, width})
+    for (const Eigen::Vector2d& p : quad) assembly->vertices.emplace_back(p.x(), y, p.y());
+  Part part;
+  part.block = static_cast<int>(assembly->blocks.size()) - 1;
+  part.ring = fixed ? -1 : ring;
+  part.face_start = assembly->num_faces();
+  assembly->parts.push_back(part);
+  const std::array<FaceKind, 4> kinds{FaceKind::bed, FaceKind::extrados, FaceKind::bed, FaceKind::intrados};
+  for (int i = 0; i < 4; ++i) {
+    const int j = (i + 1) % 4;
+    assembly->add_face(std::array{first + i, first + j, first + 4 + j, first + 4 + i}, kinds[i]);
+  }
+  assembly->add_face(std::array{first + 3, first + 2, first + 1, first}, FaceKind::free);
+  assembly->add_face(std::array{first + 4, first + 5, first + 6, first + 7}, FaceKind::free);
+}
+
+/// Arch of voussoirs with flat faces: centreline radius 1, half-embrace beta about the crown, radial joints,
+/// vertices at 1 -+ t/2. Two fixed blocks beyond the springings. Blocks: fixed, voussoirs from x > 0, fixed.
+struct ArchSpec {
+  int voussoirs = 27;
+  double thickness = 0.15;  ///< t/R
+  double beta_deg = 90.0;
+  double width = 0.3;       ///< along y, m
+  double density = 1000.0;  ///< kg/m3
+};
+
+inline Assembly make_arch(const ArchSpec& arch) {
+  Assembly assembly;
+  assembly.title = "arch";
+  assembly.num_rings = arch.voussoirs;
+  const double beta = arch.beta_deg * std::numbers::pi / 180.0;
+  const double step = 2.0 * beta / arch.voussoirs;
+  const auto corner = [&](double angle, double radius) {  // angle from the crown, positive towards x
+    return Eigen::Vector2d(radius * std::sin(angle), radius * std::cos(angle));
+  };
+  const double inner = 1.0 - arch.thickness / 2, outer = 1.0 + arch.thickness / 2;
+  for (int k = -1; k <= arch.voussoirs; ++k) {
+    const double start = beta - k * step, end = start - step;
+    const bool fixed = k < 0 || k == arch.voussoirs;
+    add_voussoir({corner(start, inner), corner(start, outer), corner(end, outer), corner(end, inner)},
+                 arch.width, arch.density, fixed, k, &assembly);
+  }
+  compute_mass_properties(&assembly);
+  return assembly;
+}
+
+}  // namespace cupola::testing
