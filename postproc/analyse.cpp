@@ -1,0 +1,94 @@
+#include "postproc/analyse.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "assembly/assembly_file.hpp"
+#include "assembly/atomic_file.hpp"
+#include "assembly/error.hpp"
+#include "postproc/evaluation.hpp"
+#include "postproc/figures.hpp"
+#include "postproc/mesh_output.hpp"
+#include "postproc/post_summary.hpp"
+#include "postproc/result_tables.hpp"
+
+namespace cupola {
+namespace {
+
+std::string in_folder(const std::string& folder, const std::string& name) {
+  return (std::filesystem::path(folder) / name).string();
+}
+
+HistoryRow history_row(const Evaluation& e, const Frame& frame) {
+  HistoryRow row{.time = frame.time};
+  for (const Vec3& d : frame.blocks.displacement)
+    row.max_displacement = std::max(row.max_displacement, d.norm());
+  for (const Vec3& v : frame.blocks.velocity) row.max_speed = std::max(row.max_speed, v.norm());
+  const ContactTable& c = frame.contacts;
+  for (int i = 0; i < c.size(); ++i) {
+    const bool a = e.assembly.blocks[c.block_a[i]].fixed, b = e.assembly.blocks[c.block_b[i]].fixed;
+    if (a != b) row.reaction += (a ? 1.0 : -1.0) * c.force[i].dot(e.up);
+  }
+  return row;
+}
+
+/// The displaced blocks of every readable frame, and what moves over time.
+std::vector<HistoryRow> write_frames(const Evaluation& e, const ResultsReader& results,
+                                     const std::string& folder) {
+  const DisplacedBlocks blocks(e.assembly);
+  std::vector<PvdEntry> entries;
+  std::vector<HistoryRow> history;
+  for (size_t i = 0; i < e.times.size(); ++i) {
+    FrameEvaluation frame;
+    if (e.times[i] == e.last.frame.time) {
+      frame = e.last;
+    } else {
+      try {
+        frame = evaluate_frame(e, results.read_frame(static_cast<int>(i)));
+      } catch (const InputError&) {
+        continue;  // the evaluation has said which frames are missing
+      }
+    }
+    const std::string name = fmt::format("blocks_{:04}.vtu", i);
+    write_mesh(in_folder(folder, name), blocks.at(frame));
+    entries.push_back({e.times[i], name});
+    history.push_back(history_row(e, frame.frame));
+  }
+  write_pvd(in_folder(folder, "blocks.pvd"), entries);
+  return history;
+}
+
+void write_meshes(const Evaluation& e, const std::string& folder) {
+  write_mesh(in_folder(folder, "joints.vtp"), joints_mesh(e));
+  write_mesh(in_folder(folder, "thrust_lines.vtp"), thrust_lines_mesh(e));
+  write_mesh(in_folder(folder, "sections.vtp"), sections_mesh(e));
+  write_mesh(in_folder(folder, "cracks.vtp"), cracks_mesh(e));
+}
+
+}  // namespace
+
+ExitCode analyse(const AnalyseRequest& request) {
+  Assembly assembly = read_assembly(request.assembly_path);
+  const ResultsReader results(request.results_folder, content_hash(assembly));
+  Evaluation e = evaluate(request.scene, std::move(assembly), results);
+
+  const std::string& folder = request.output_folder;
+  make_folder(folder);
+  const std::vector<HistoryRow> history = write_frames(e, results, folder);
+  write_meshes(e, folder);
+  const std::vector<Table> tables = result_tables(e);
+  for (const Table& table : tables)
+    write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
+  const std::vector<Figure> figures = result_figures(e, history);
+  for (std::string& problem : draw_figures(in_folder(folder, "figures"), figures))
+    e.warnings.push_back(std::move(problem));
+  write_text_atomically(in_folder(folder, "summary.json"), post_summary_json(e));
+
+  for (const std::string& warning : e.warnings) fmt::print(stderr, "cupola-post: warning: {}\n", warning);
+  if (!request.quiet) fmt::print("{}: {} tables, {} figures\n", folder, tables.size(), figures.size());
+  return ExitCode::done;
+}
+
+}  // namespace cupola

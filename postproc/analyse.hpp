@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assembly/case/case.hpp"
+#include "assembly/program.hpp"
+
+namespace cupola {
+
+/// What `cupola-post analyse` is asked to do.
+struct AnalyseRequest {
+  Case scene;
+  std::string assembly_path;   ///< assembly.vtu
+  std::string results_folder;  ///< of cupola-solve
+  std::string output_folder;   ///< post/
+  bool quiet = false;
+};
+
+/// Reads the run, evaluates it and writes the output folder (FORMAT.md lists its files). Figures that gnuplot
+/// cannot draw become warnings in the report; a run that is not an equilibrium is said in its first lines.
+ExitCode analyse(const AnalyseRequest& request);
+
+}  // namespace cupola

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assembly/case/case.hpp"
+#include "assembly/results_file.hpp"
+#include "postproc/block_fields.hpp"
+#include "postproc/cuts.hpp"
+#include "postproc/ring_sums.hpp"
+#include "postproc/thrust_line.hpp"
+
+namespace cupola {
+
+/// What one frame says, derived from its contacts.
+struct FrameEvaluation {
+  Frame frame;
+  JointWrenches joints;
+  std::vector<Wrench> from_below;   ///< per block
+  std::vector<BlockFields> fields;  ///< per block
+  std::vector<int> groups;          ///< per block, bodies of the mechanism
+};
+
+/// A meridian with what crosses it.
+struct MeridianEvaluation {
+  ThrustLine thrust;
+  std::vector<HoopRow> hoop;  ///< empty for an arch
+};
+
+/// A horizontal section: the blocks that the plane cuts, and the cut below the nearest ring.
+struct SectionEvaluation {
+  double height = 0.0;  ///< m
+  int ring = -1;        ///< ring whose bed lies nearest; -1 where there are no rings
+  std::vector<CutPolygon> polygons;
+};
+
+/// Everything the postprocessor knows about a run: the last frame in full.
+struct Evaluation {
+  Case scene;
+  Assembly assembly;
+  Summary summary;
+  std::vector<double> times;  ///< s, of all frames
+  Vec3 up = Vec3::UnitZ();
+  std::vector<PointForce> loads;
+  Shell shell;
+  std::vector<ShellAxes> axes;
+  FrameEvaluation last;
+  std::vector<RingSum> rings;
+  std::vector<MeridianEvaluation> meridians;
+  std::vector<SectionEvaluation> sections;
+  std::optional<double> rib_over_mid_sail;  ///< mean ratio of r on the meridians `rib` and `mid_sail`
+  int lost_joints = 0;                      ///< loaded in the first frame, gone in the last
+  std::vector<std::string> warnings;        ///< what a reader must know before the numbers
+};
+
+/// Evaluates the last readable frame. Frames that are missing or damaged become warnings, unless none is
+/// left: then InputError.
+Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results);
+
+/// Evaluates one frame against an evaluation's assembly, loads and shell.
+FrameEvaluation evaluate_frame(const Evaluation& evaluation, Frame frame);
+
+/// Mean over common beds of r of one line over r of the other; none without common beds.
+std::optional<double> mean_ratio(const ThrustLine& numerator, const ThrustLine& denominator);
+
+}  // namespace cupola

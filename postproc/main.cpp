@@ -1,0 +1,62 @@
+// cupola-post: what the contact forces of a run mean, in tables, figures and files for ParaView.
+//
+// Sample runs:
+//   cupola-post analyse cases/dome_circular.yaml --assembly assembly.vtu --results results/ --output post/
+
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "assembly/command_line.hpp"
+#include "assembly/error.hpp"
+#include "postproc/analyse.hpp"
+
+namespace {
+
+using namespace cupola;
+
+constexpr const char* kUsage =
+    "cupola-post: what the contact forces of a run mean.\n\n"
+    "  cupola-post analyse CASE.yaml --assembly FILE --results FOLDER --output FOLDER\n\n"
+    "`cupola-post analyse --help` tells the options.\n";
+
+ExitCode run_analyse(int argc, char** argv) {
+  // 1. What is asked
+  AnalyseRequest request;
+  CommandLine line(
+      "cupola-post analyse", "Evaluates a run: wrenches, thrust lines, sections, figures, report.",
+      "  cupola-post analyse dome.yaml --assembly assembly.vtu --results results/ --output post/");
+  line.required("--assembly", &request.assembly_path, "FILE", "assembly that was solved");
+  line.required("--results", &request.results_folder, "FOLDER", "results of cupola-solve");
+  line.required("--output", &request.output_folder, "FOLDER", "folder to write");
+  if (const auto ended = line.parse(argc, argv)) return *ended;
+
+  // 2. The case
+  request.scene = line.read_case();
+  request.quiet = line.quiet();
+  if (line.check_only()) return ExitCode::done;
+
+  // 3. The evaluation and its files
+  return analyse(request);
+}
+
+ExitCode run(int argc, char** argv) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (command == "analyse") return run_analyse(argc - 1, argv + 1);
+  if (command == "--version") {
+    fmt::print("cupola-post {}\n", program_version());
+    return ExitCode::done;
+  }
+  if (command == "--help" || command == "-h") {
+    fmt::print("{}", kUsage);
+    return ExitCode::done;
+  }
+  if (command.empty()) throw InputError("a command is missing: analyse");
+  throw InputError(fmt::format("`{}` is not a command; the commands are: analyse", command));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program("cupola-post", [&] { return run(argc, argv); });
+}
