@@ -12,6 +12,7 @@
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -45,7 +46,10 @@ constexpr std::string_view kChecksumEnd = " -->\n";
 /// Collects what VTK would print on stderr while it lives.
 class CapturedVtkMessages {
  public:
-  CapturedVtkMessages() : previous_(vtkOutputWindow::GetInstance()) { vtkOutputWindow::SetInstance(window_); }
+  CapturedVtkMessages() : previous_(vtkOutputWindow::GetInstance()) {
+    vtkOutputWindow::SetInstance(window_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // it prints beside the window
+  }
   ~CapturedVtkMessages() { vtkOutputWindow::SetInstance(previous_); }
   CapturedVtkMessages(const CapturedVtkMessages&) = delete;
   CapturedVtkMessages& operator=(const CapturedVtkMessages&) = delete;

@@ -1,0 +1,15 @@
+// assembly.vtu as raw bytes: damaged files. Promise: only a file that is whole gets past the checksum.
+
+#include "assembly/assembly_file.hpp"
+#include "tests/fuzz/reader_under_test.hpp"
+
+namespace cupola {
+
+bool reader_accepts(std::string_view bytes) {
+  static const ScratchPath scratch(".vtu");
+  const std::string& path = scratch.path;
+  write_bytes(path, bytes);
+  return accepts([&] { read_assembly(path); });
+}
+
+}  // namespace cupola

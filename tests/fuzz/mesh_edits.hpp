@@ -1,0 +1,78 @@
+#pragma once
+
+#include <limits>
+
+#include "assembly/mesh_file.hpp"
+#include "tests/fuzz/reader_under_test.hpp"
+
+namespace cupola {
+
+/// Spoils a mesh as the bytes say and keeps it writable: values, cell ids, names, missing and resized field
+/// arrays. The writer puts a right checksum below it, so that the reader's own checks are tested.
+inline void edit_mesh(ByteSource bytes, Mesh* mesh) {
+  const auto spoil = [&bytes](auto& value) {
+    using T = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<T, std::string>) {
+      value = std::string(bytes.index(300), static_cast<char>('!' + bytes.index(90)));
+    } else {
+      const T special[] = {T(0),
+                           T(-1),
+                           std::numeric_limits<T>::max(),
+                           std::numeric_limits<T>::lowest(),
+                           std::numeric_limits<T>::quiet_NaN(),
+                           std::numeric_limits<T>::infinity(),
+                           T(value + 1),
+                           bytes.template take<T>()};
+      value = special[bytes.index(std::size(special))];
+    }
+  };
+  const auto edit_array = [&](std::vector<MeshArray>& arrays, bool resizable) {
+    if (arrays.empty()) return;
+    MeshArray& array = arrays[bytes.index(arrays.size())];
+    switch (bytes.index(8)) {
+      case 0:
+        arrays.erase(arrays.begin() + (&array - arrays.data()));
+        return;
+      case 1:
+        array.name += 'x';
+        return;
+      case 2:
+        if (!resizable) return;
+        std::visit([&](auto& values) { values.resize(bytes.index(2 * values.size() + 3)); }, array.values);
+        array.components = 1;
+        return;
+      default:
+        std::visit(
+            [&](auto& values) {
+              if (!values.empty()) spoil(values[bytes.index(values.size())]);
+            },
+            array.values);
+    }
+  };
+  while (!bytes.empty()) {
+    switch (bytes.index(5)) {
+      case 0:
+        edit_array(mesh->point_data, false);
+        break;
+      case 1:
+        edit_array(mesh->cell_data, false);
+        break;
+      case 2:
+        edit_array(mesh->field_data, true);
+        break;
+      case 3:
+        if (!mesh->points.empty()) spoil(mesh->points[bytes.index(mesh->points.size())]);
+        break;
+      default:
+        // Point ids of hexahedra and vertices: a polyhedron's face counts must stay true to be written.
+        if (mesh->cell_types.empty()) break;
+        const size_t cell = bytes.index(mesh->cell_types.size());
+        if (mesh->cell_types[cell] == Mesh::CellType::polyhedron) break;
+        const int begin = mesh->cell_start[cell];
+        spoil(mesh->cell_points[static_cast<size_t>(begin) +
+                                bytes.index(static_cast<size_t>(mesh->cell_start[cell + 1] - begin))]);
+    }
+  }
+}
+
+}  // namespace cupola
