@@ -5,12 +5,11 @@
 #include <Eigen/Core>
 
 #include "assembly/case/joints.hpp"
+#include "assembly/contact_choices.hpp"
 
 namespace cupola {
 
 enum class AnalysisType { static_, dynamic, staged, limit };
-enum class ContactMethod { newton };
-enum class FrictionLaw { associated };
 enum class TangentialSpring { memory, literal };
 
 /// Time step that follows the motion. The error of implicit Euler in one step is taken as h |v_new - v|/2 of

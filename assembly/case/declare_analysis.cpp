@@ -31,10 +31,17 @@ void declare_stop(Section& s, StopRules& stop) {
 void declare_analysis(Section& s, Analysis& analysis) {
   s.choice("type", analysis.type, {{"static", AnalysisType::static_}, {"dynamic", AnalysisType::dynamic}},
            "equilibrium, or motion in time", {.later = {"staged", "limit"}});
-  s.choice("method", analysis.method, {{"newton", ContactMethod::newton}}, "solver of the contact problem",
-           {.later = {"spg", "apgd", "admm", "nsgs", "interior_point"}});
-  s.choice("friction_law", analysis.friction_law, {{"associated", FrictionLaw::associated}},
-           "associated: sliding dilates (convex problem)", {.later = {"coulomb"}});
+  s.choice("method", analysis.method,
+           {{"newton", ContactMethod::newton},
+            {"interior_point", ContactMethod::interior_point},
+            {"spg", ContactMethod::spg},
+            {"apgd", ContactMethod::apgd},
+            {"nsgs", ContactMethod::nsgs},
+            {"admm", ContactMethod::admm}},
+           "solver of the contact problem");
+  s.choice("friction_law", analysis.friction_law,
+           {{"associated", FrictionLaw::associated}, {"coulomb", FrictionLaw::coulomb}},
+           "associated: sliding dilates (convex problem); coulomb: it does not");
   s.number("tolerance", analysis.tolerance, {.above = 0, .max = 0.1},
            "static: largest equilibrium residual; dynamic: relative momentum residual of a step");
   s.number("time_step", analysis.time_step, {.unit = "s", .above = 0}, "dynamic: step h");

@@ -74,7 +74,7 @@ SimulationOptions simulation_options(const Case& scene) {
   options.step.tangential = analysis.tangential;
   options.adaptive = analysis.adaptive;
   options.detection = detection_options(scene);
-  options.solve_tolerance = analysis.tolerance;
+  options.solve = contact_solver_options(analysis);
   return options;
 }
 
@@ -92,6 +92,8 @@ bool DynamicRun::start_static(Summary* summary) {
   const ContactMemories memories = match_memories({}, contacts.contacts);
   StaticOptions options;
   options.tolerance = std::min(analysis_.tolerance, 1e-6);
+  options.method = analysis_.method;
+  options.law = analysis_.friction_law;
   options.log = sinks_.log;
   const StaticSolution equilibrium = solve_static(model, rest, contacts, memories, options);
   if (equilibrium.verdict == Verdict::equilibrium) {

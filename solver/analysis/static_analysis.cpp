@@ -14,6 +14,8 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
 
   StaticOptions options;
   options.tolerance = scene.analysis.tolerance;
+  options.method = scene.analysis.method;
+  options.law = scene.analysis.friction_law;
   options.log = sinks.log;
   const double started = wall_seconds();
   const StaticSolution solution = solve_static(model, rest, contacts, memories, options);

@@ -42,19 +42,22 @@ StepOptions step_options(const StaticOptions& options, double h) {
 
 void solve_at(const Model& model, const State& start, const ContactSet& contacts,
               const ContactMemories& memories, const StaticOptions& options, double acceleration,
-              NewtonSolver* solver, StaticSolution* trial) {
-  NewtonOptions newton;
-  newton.tolerance = kSolveShare * options.tolerance;
-  newton.reference_speed = trial->h * acceleration;
+              ContactSolver* solver, StaticSolution* trial) {
+  ContactSolverOptions solve;
+  solve.method = options.method;
+  solve.law = options.law;
+  solve.tolerance = kSolveShare * options.tolerance;
+  solve.reference_speed = trial->h * acceleration;
   trial->step = build_step_problem(model, start, contacts, memories, step_options(options, trial->h));
   trial->solution = {};
-  trial->solve = solver->solve(trial->step.problem, newton, &trial->solution);
+  trial->solve = solver->solve(trial->step.problem, solve, &trial->solution);
   trial->iterations += trial->solve.iterations;
-  trial->residuals = compute_residuals(trial->step.problem, trial->solution, newton.reference_speed);
+  trial->residuals =
+      compute_residuals(trial->step.problem, trial->solution, solve.reference_speed, solve.law);
   trial->forces = joint_forces(contacts, trial->solution.gamma, trial->h);
   trial->balance =
       compute_equilibrium(model, start, contacts, trial->forces, start.time + 0.5 * options.time_advance);
-  trial->speed_ratio = largest_speed(trial->solution.v) / newton.reference_speed;
+  trial->speed_ratio = largest_speed(trial->solution.v) / solve.reference_speed;
 }
 
 /// |v| / (g h) at one h.
@@ -97,7 +100,7 @@ void judge(const StaticOptions& options, bool moving, StaticSolution* trial) {
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
   const double acceleration = reference_acceleration(model, start);
-  NewtonSolver solver;
+  ContactSolver solver;
   StaticSolution trial;
   trial.h = first_step(model, start, contacts, acceleration, options.tolerance);
   std::vector<SpeedTrial> trials;

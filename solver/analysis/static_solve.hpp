@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
-#include "solver/contact/newton.hpp"
 #include "solver/contact/residuals.hpp"
+#include "solver/contact/solve_contact.hpp"
 #include "solver/dynamics/equilibrium.hpp"
 #include "solver/dynamics/simulation.hpp"
 #include "solver/dynamics/time_step.hpp"
@@ -12,7 +12,9 @@
 namespace cupola {
 
 struct StaticOptions {
-  double tolerance = 1e-9;    ///< largest equilibrium residual, inertia share included
+  double tolerance = 1e-9;  ///< largest equilibrium residual, inertia share included
+  ContactMethod method = ContactMethod::newton;
+  FrictionLaw law = FrictionLaw::associated;
   double time_advance = 0.0;  ///< s by which loads and supports go on in the step
   std::function<void(const std::string&)> log = [](const std::string&) {};
 };

@@ -1,7 +1,7 @@
 #include "solver/contact/newton.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -12,15 +12,6 @@
 #include "solver/contact/whitening.hpp"
 
 namespace cupola {
-
-void NewtonOptions::validate() const {
-  const auto require = [](bool rule, std::string_view name, double value, std::string_view text) {
-    if (!rule) throw std::invalid_argument(fmt::format("newton: {} = {}: must be {}", name, value, text));
-  };
-  require(tolerance > 0.0 && tolerance < 1.0, "tolerance", tolerance, "in (0, 1)");
-  require(reference_speed > 0.0 && std::isfinite(reference_speed), "reference_speed", reference_speed, "> 0");
-  require(max_iterations >= 1, "max_iterations", max_iterations, ">= 1");
-}
 
 namespace {
 
@@ -42,19 +33,17 @@ std::vector<Mat3> stiffnesses(const ContactProblem& p, const VecX& y) {
 /// State of one solve: what the numbered stages of the loop share.
 struct NewtonLoop {
   const ContactProblem& p;  ///< whitened
-  const NewtonOptions& options;
+  const SolveOptions& options;
   ContactGraph graph;
   double residual_scale;  ///< momentum residual of one unit of block gradient
-  BlockCholesky& factor;
+  NewtonDirection& solver;
   SolveSummary& summary;
 
   double residual(const PrimalPoint& point) const { return point.largest_block_gradient * residual_scale; }
 
-  bool factorize(const std::vector<Mat3>& G) {
-    ++summary.factorizations;
-    return factor.factorize(graph.pattern, assemble_hessian(p, graph, G));
-  }
+  int max_iterations() const { return options.max_iterations > 0 ? options.max_iterations : 100; }
   bool all_stick_start(VecX* w);
+  bool direction(const PrimalPoint& point, VecX* d);
   PrimalPoint run(PrimalPoint point);
   bool should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain);
 };
@@ -65,11 +54,19 @@ bool NewtonLoop::all_stick_start(VecX* w) {
   VecX closing = VecX::Zero(p.b.size());  // straight into the contact: it sticks
   for (int i = 0; i < p.num_contacts(); ++i) closing[3 * i] = -1.0;
   const std::vector<Mat3> G = stiffnesses(p, closing);
-  if (!factorize(G)) return false;
   VecX impulse(p.b.size());
   for (int i = 0; i < p.num_contacts(); ++i) impulse.segment<3>(3 * i) = -G[i] * p.b.segment<3>(3 * i);
-  *w = factor.solve(p.v_star + generalized_impulse(p, impulse));
-  return w->allFinite();
+  const VecX rhs = p.v_star + generalized_impulse(p, impulse);
+  return solver.solve_directly(graph.pattern, assemble_hessian(p, graph, G), rhs, w, &summary) &&
+         w->allFinite();
+}
+
+bool NewtonLoop::direction(const PrimalPoint& point, VecX* d) {
+  const BlockMatrix H = assemble_hessian(p, graph, stiffnesses(p, point.y));
+  if (!options.lag_factor) return solver.solve_directly(graph.pattern, H, -point.gradient, d, &summary);
+  // As many digits as the tolerance still wants, but no more than a step between two active sets is worth.
+  const double forcing = std::clamp(0.1 * options.tolerance / residual(point), 1e-3, 0.1);
+  return solver.solve_lagged(graph.pattern, H, -point.gradient, forcing, d, &summary);
 }
 
 bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain) {
@@ -93,7 +90,7 @@ bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int
                     best_residual, options.tolerance);
     return true;
   }
-  if (summary.iterations >= options.max_iterations) {
+  if (summary.iterations >= max_iterations()) {
     summary.ending = SolveEnding::max_iterations;
     summary.message = fmt::format("momentum residual {:.2e} > tolerance {:.2e} after {} iterations",
                                   best_residual, options.tolerance, summary.iterations);
@@ -112,13 +109,13 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
 
     // 1. Newton direction, or steepest descent should rounding have spoiled it
     ++summary.iterations;
-    if (!factorize(stiffnesses(p, point.y))) {
+    VecX d;
+    if (!direction(point, &d)) {
       summary.ending = SolveEnding::failed;
       summary.message = fmt::format("the Hessian is not positive definite in double precision (iteration {})",
                                     summary.iterations);
       return best;
     }
-    VecX d = -factor.solve(point.gradient);
     if (!(d.dot(point.gradient) < 0.0)) d = -point.gradient;
 
     // 2. Step
@@ -144,7 +141,7 @@ SolveSummary failed(const std::string& message) {
 
 }  // namespace
 
-SolveSummary NewtonSolver::solve(const ContactProblem& problem, const NewtonOptions& options,
+SolveSummary NewtonSolver::solve(const ContactProblem& problem, const SolveOptions& options,
                                  ContactSolution* solution) {
   const double start = wall_seconds();
   options.validate();
@@ -157,7 +154,7 @@ SolveSummary NewtonSolver::solve(const ContactProblem& problem, const NewtonOpti
                   options,
                   contact_graph(problem),
                   1.0 / (root_mean_mass(problem) * options.reference_speed),
-                  factor_,
+                  direction_,
                   summary};
   VecX w;
   if (solution->v.size() == problem.v_star.size()) {

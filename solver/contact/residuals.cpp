@@ -6,9 +6,17 @@
 
 #include <Eigen/Cholesky>
 
-#include "solver/contact/cone.hpp"
-
 namespace cupola {
+
+double delassus_trace(const ContactProblem& p, int i) {
+  double trace = 0.0;
+  const auto add = [&](int k, const Mat63& D) {
+    if (k != ContactProblem::kFixed) trace += (D.transpose() * p.M[k].llt().solve(D)).trace();
+  };
+  add(p.block_a[i], p.D_a[i]);
+  add(p.block_b[i], p.D_b[i]);
+  return trace;
+}
 
 namespace {
 
@@ -37,18 +45,8 @@ bool is_rigid(const ContactLaw& law) {
   return law.e_n == 0.0 || (law.mu > 0.0 && law.e_t == 0.0);
 }
 
-double trace_of_delassus(const ContactProblem& p, int i) {
-  double trace = 0.0;
-  const auto add = [&](int k, const Mat63& D) {
-    if (k != ContactProblem::kFixed) trace += (D.transpose() * p.M[k].llt().solve(D)).trace();
-  };
-  add(p.block_a[i], p.D_a[i]);
-  add(p.block_b[i], p.D_b[i]);
-  return trace;
-}
-
 double contact_law_residual(const ContactProblem& p, const ContactSolution& x, const VecX& y0,
-                            ContactLawKind kind) {
+                            FrictionLaw kind) {
   double squared_error = 0.0;
   VecX expected(x.gamma.size());
   for (int i = 0; i < p.num_contacts(); ++i) {
@@ -56,9 +54,9 @@ double contact_law_residual(const ContactProblem& p, const ContactSolution& x, c
     Vec3 y = y0.segment<3>(3 * i);
     ContactLaw law = contact_law(p, i);
     const Vec3 elastic(law.e_n * gamma[0], law.e_t * gamma[1], law.e_t * gamma[2]);
-    if (kind == ContactLawKind::coulomb) y[0] += law.mu * (y + elastic).tail<2>().norm();
+    if (kind == FrictionLaw::coulomb) y[0] += law.mu * (y + elastic).tail<2>().norm();
     if (is_rigid(law)) {  // gamma - rho (y + E gamma) as the impulse of a contact of compliance 1/rho
-      law.e_n = law.e_t = trace_of_delassus(p, i);
+      law.e_n = law.e_t = delassus_trace(p, i);
       y += elastic - law.e_n * gamma;
     }
     expected.segment<3>(3 * i) = contact_impulse(law, y);
@@ -66,6 +64,25 @@ double contact_law_residual(const ContactProblem& p, const ContactSolution& x, c
   }
   if (squared_error == 0.0) return 0.0;
   return std::sqrt(squared_error) / std::max(x.gamma.norm(), expected.norm());
+}
+
+double contact_law_rounding(const ContactProblem& p, const ContactSolution& x) {
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
+  double squared = 0.0;
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    if (x.gamma.segment<3>(3 * i).isZero(0.0)) continue;  // an open contact is not near any kink
+    double speed = p.b.segment<3>(3 * i).norm();
+    const auto add = [&](int k, const Mat63& D) {
+      if (k != ContactProblem::kFixed)
+        speed += (D.cwiseAbs().transpose() * x.v.segment<6>(6 * k).cwiseAbs()).norm();
+    };
+    add(p.block_a[i], p.D_a[i]);
+    add(p.block_b[i], p.D_b[i]);
+    const ContactLaw law = contact_law(p, i);
+    const double compliance = is_rigid(law) ? delassus_trace(p, i) : law.e_n;
+    squared += std::pow(kEps * speed / compliance, 2);
+  }
+  return squared > 0.0 ? std::sqrt(squared) / x.gamma.norm() : 0.0;
 }
 
 double cone_violation(const ContactProblem& p, const VecX& gamma) {
@@ -79,7 +96,8 @@ double cone_violation(const ContactProblem& p, const VecX& gamma) {
   return worst > 0.0 ? worst / std::max(largest, std::numeric_limits<double>::min()) : 0.0;
 }
 
-/// Smallest compliance that takes part; 0 where some contact is rigid.
+}  // namespace
+
 double smallest_compliance(const ContactProblem& p) {
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < p.num_contacts(); ++i) {
@@ -89,8 +107,7 @@ double smallest_compliance(const ContactProblem& p) {
   return smallest;
 }
 
-/// Fenchel-Young term of one contact, >= 0: its share of the gap between gamma and gamma(v).
-double contact_gap(const ContactLaw& law, const Vec3& y, const Vec3& gamma) {
+double contact_duality_gap(const ContactLaw& law, const Vec3& y, const Vec3& gamma) {
   const Vec3 gamma_v = contact_impulse(law, y);
   const double e_t = law.mu > 0.0 ? law.e_t : 0.0;
   const Vec3 E(law.e_n, e_t, e_t);
@@ -110,8 +127,6 @@ double contact_gap(const ContactLaw& law, const Vec3& y, const Vec3& gamma) {
   return 0.5 * difference.dot(E.cwiseProduct(difference)) + std::max(0.0, gamma.dot(z));
 }
 
-}  // namespace
-
 double largest_unbalanced_impulse(const ContactProblem& problem, const ContactSolution& solution) {
   return momentum_error(problem, solution).largest;
 }
@@ -127,25 +142,26 @@ double duality_gap(const ContactProblem& problem, const ContactSolution& solutio
   const VecX y = relative_velocity(problem, solution.v) + problem.b;
   double gap = momentum_error(problem, solution).half_squared_norm;
   for (int i = 0; i < problem.num_contacts(); ++i) {
-    gap += contact_gap(contact_law(problem, i), y.segment<3>(3 * i), solution.gamma.segment<3>(3 * i));
+    gap +=
+        contact_duality_gap(contact_law(problem, i), y.segment<3>(3 * i), solution.gamma.segment<3>(3 * i));
   }
   return gap;
 }
 
 Residuals compute_residuals(const ContactProblem& problem, const ContactSolution& solution,
-                            double reference_speed, ContactLawKind law) {
+                            double reference_speed, FrictionLaw law) {
   const VecX y0 = relative_velocity(problem, solution.v) + problem.b;
   Residuals residuals;
   residuals.momentum =
       largest_unbalanced_impulse(problem, solution) / (root_mean_mass(problem) * reference_speed);
   residuals.contact_law = contact_law_residual(problem, solution, y0, law);
+  residuals.contact_law_rounding = contact_law_rounding(problem, solution);
   residuals.cone_violation = cone_violation(problem, solution.gamma);
 
   constexpr double kRounding = 1e-14;  // |gamma_t| = mu gamma_n is met to a few eps
   const double min_E = smallest_compliance(problem);
   const double norm = solution.gamma.norm();
-  if (law == ContactLawKind::associated && min_E > 0.0 && norm > 0.0 &&
-      residuals.cone_violation <= kRounding) {
+  if (law == FrictionLaw::associated && min_E > 0.0 && norm > 0.0 && residuals.cone_violation <= kRounding) {
     residuals.certified_force_error = std::sqrt(2.0 * duality_gap(problem, solution) / min_E) / norm;
   }
   return residuals;

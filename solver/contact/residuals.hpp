@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "assembly/contact_choices.hpp"
+#include "solver/contact/cone.hpp"
 #include "solver/contact/contact_problem.hpp"
 
 namespace cupola {
@@ -16,6 +18,9 @@ struct Residuals {
   /// where E_i = 0. s = 0 (associated) or mu |y_t| (coulomb). 0 when gamma = 0 is right, 1 when it should not
   /// be.
   double contact_law = 0.0;
+  /// What rounding of D^T v alone puts into contact_law: eps | |D|^T |v| / E | / |gamma|. Large where blocks
+  /// slide fast on contacts of tiny compliance: no pair of doubles (v, gamma) meets the law closer there.
+  double contact_law_rounding = 0.0;
   /// max over contacts of (|gamma_t| - mu gamma_n)+ and (-gamma_n)+, over the largest |gamma_n|.
   double cone_violation = 0.0;
   /// Upper bound of |gamma - exact| / |gamma| from the duality gap; none where the dual is not strongly
@@ -23,11 +28,15 @@ struct Residuals {
   std::optional<double> certified_force_error;
 };
 
-enum class ContactLawKind { associated, coulomb };
-
 /// `reference_speed`: h |g|, m/s, > 0, the speed a free block picks up in a step.
 Residuals compute_residuals(const ContactProblem& problem, const ContactSolution& solution,
-                            double reference_speed, ContactLawKind law = ContactLawKind::associated);
+                            double reference_speed, FrictionLaw law = FrictionLaw::associated);
+
+/// Smallest compliance that takes part, 1/kg: 0 where some contact is rigid, infinite without contacts.
+double smallest_compliance(const ContactProblem& problem);
+
+/// trace(N_ii), N = D^T M^-1 D, 1/kg: how far a unit impulse moves the contact by itself.
+double delassus_trace(const ContactProblem& problem, int i);
 
 /// Largest M_k^-1 norm of the blocks' share of r = M (v - v_star) - D gamma, N s / sqrt(kg).
 double largest_unbalanced_impulse(const ContactProblem& problem, const ContactSolution& solution);
@@ -42,5 +51,8 @@ double root_mean_mass(const ContactProblem& problem);
 ///
 /// The dual objective is strongly convex with modulus min E, so |gamma - exact|^2 <= 2 gap / min E.
 double duality_gap(const ContactProblem& problem, const ContactSolution& solution);
+
+/// One contact's term of the sum, >= 0, at y = D^T v + b; needs a compliant contact.
+double contact_duality_gap(const ContactLaw& law, const Vec3& y, const Vec3& gamma);
 
 }  // namespace cupola

@@ -18,7 +18,9 @@ struct SolveSummary {
   SolveEnding ending = SolveEnding::failed;
   std::string message;  ///< the inequality that fired, with its numbers
   int iterations = 0;
+  int passes = 0;  ///< outer passes of convex_passes.hpp; 0 where one convex solve sufficed
   int factorizations = 0;
+  int conjugate_gradients = 0;  ///< inner iterations of lagged Newton steps
   int line_search_evaluations = 0;
   std::vector<double> residual_history;  ///< the method's own stopping measure per iteration
   double time_seconds = 0.0;

@@ -9,4 +9,12 @@ DetectionOptions detection_options(const Case& scene) {
   return options;
 }
 
+ContactSolverOptions contact_solver_options(const Analysis& analysis) {
+  ContactSolverOptions options;
+  options.tolerance = analysis.tolerance;
+  options.method = analysis.method;
+  options.law = analysis.friction_law;
+  return options;
+}
+
 }  // namespace cupola

@@ -46,11 +46,11 @@ StepReport Simulation::advance(double h_max) {
     // 2. The contact problem and its answer
     problem = build_step_problem(model_, state_, contacts, memories_, step);
     solution = warm_start(problem, state_, memories_);
-    NewtonOptions solve_options;
-    solve_options.tolerance = options_.solve_tolerance;
+    ContactSolverOptions solve_options = options_.solve;
     solve_options.reference_speed = step.h * reference_acceleration(model_, state_);
     report.solve = solver_.solve(problem.problem, solve_options, &solution);
-    report.residuals = compute_residuals(problem.problem, solution, solve_options.reference_speed);
+    report.residuals =
+        compute_residuals(problem.problem, solution, solve_options.reference_speed, solve_options.law);
     if (!options_.adaptive) break;
 
     // 3. Is the step short enough?

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "solver/collision/contact_detector.hpp"
-#include "solver/contact/newton.hpp"
 #include "solver/contact/residuals.hpp"
+#include "solver/contact/solve_contact.hpp"
 #include "solver/dynamics/energy.hpp"
 #include "solver/dynamics/equilibrium.hpp"
 #include "solver/dynamics/time_step.hpp"
@@ -29,7 +29,7 @@ struct SimulationOptions {
   StepOptions step;
   std::optional<AdaptiveStep> adaptive;  ///< none: every step is step.h
   DetectionOptions detection;
-  double solve_tolerance = 1e-9;  ///< relative momentum residual of each step
+  ContactSolverOptions solve;  ///< the reference speed is set by each step
 };
 
 /// What a static solve hands to the motion that follows: displaced blocks at rest, joints under load.
@@ -70,7 +70,7 @@ class Simulation {
   State state_;
   ContactDetector detector_;
   ContactMemories memories_;
-  NewtonSolver solver_;
+  ContactSolver solver_;
   double next_h_;
 };
 

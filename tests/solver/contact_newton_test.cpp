@@ -18,7 +18,7 @@ struct Solved {
 
 Solved solve(const ContactProblem& problem, double tolerance = 1e-10) {
   Solved result;
-  NewtonOptions options;
+  SolveOptions options;
   options.tolerance = tolerance;
   options.reference_speed = kGravity * problem.h;
   result.summary = NewtonSolver().solve(problem, options, &result.x);
@@ -164,7 +164,7 @@ TEST(Newton, CertifiedErrorBoundsTheTrueOne) {
 TEST(Newton, WarmStartFromTheAnswerNeedsNoIteration) {
   const ContactProblem problem = scenes::stack({2000, 1000, 3000}, 0.01, {0.4, 1e-8, 1e-8});
   Solved s = solve(problem);
-  NewtonOptions options;
+  SolveOptions options;
   options.reference_speed = kGravity * problem.h;
   EXPECT_EQ(NewtonSolver().solve(problem, options, &s.x).iterations, 0);
 }

@@ -143,6 +143,25 @@ inline ContactProblem table(double weight, double x, double y, double h, const J
   return scene.problem();
 }
 
+/// Prism in a V of two planes, each `phi` from the horizontal, the groove's axis x tilted by theta down x
+/// (VERIFICATION 1.3); axes of the groove. `velocity` in m/s.
+inline ContactProblem groove(double phi, double theta, double h, const Joint& joint, const Vec3& velocity) {
+  Scene scene(h, kGravity * Vec3(std::sin(theta), 0, -std::cos(theta)));
+  const double mass = 1000.0;
+  const int prism = scene.add_block({0, 0, 0}, mass, mass * Vec3(0.1, 0.2, 0.2).asDiagonal(), velocity);
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 normal(0, -side * std::sin(phi), std::cos(phi)),
+        down(0, -side * std::cos(phi), -std::sin(phi));
+    for (const double x : {-0.5, 0.5}) {
+      for (const double d : {-0.2, 0.2}) {
+        scene.add_contact(kGround, prism, Vec3(x, 0, 0) - 0.3 * normal + d * down, normal, joint, 0.0,
+                          {1, 0, 0});
+      }
+    }
+  }
+  return scene.problem();
+}
+
 /// Spherical dome of centreline radius `radius`: rings of equal angle, running bond, corner contacts on beds
 /// and heads, base on the ground. Blocks have the mass and inertia of boxes of their mean sizes.
 struct DomeShape {

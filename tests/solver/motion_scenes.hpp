@@ -29,7 +29,7 @@ inline Simulation simulate(const Case& scene, const Assembly& assembly) {
   options.step = {analysis.time_step, analysis.damping, analysis.recovery_speed, analysis.tangential, {}};
   options.adaptive = analysis.adaptive;
   options.detection = detection_options(scene);
-  options.solve_tolerance = analysis.tolerance;
+  options.solve = contact_solver_options(analysis);
   return {make_model(scene, assembly), options};
 }
 

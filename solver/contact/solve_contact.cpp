@@ -1,0 +1,125 @@
+#include "solver/contact/solve_contact.hpp"
+
+#include <algorithm>
+
+#include "assembly/program.hpp"
+#include "solver/contact/admm.hpp"
+#include "solver/contact/apgd.hpp"
+#include "solver/contact/convex_passes.hpp"
+#include "solver/contact/interior_point.hpp"
+#include "solver/contact/nsgs.hpp"
+#include "solver/contact/spg.hpp"
+
+namespace cupola {
+
+namespace {
+
+/// Below this share of its Delassus block a compliance leaves Newton's impulses fewer digits than asked for.
+constexpr double kProximalShare = 1e-4;
+
+bool has_rigid_contact(const ContactProblem& p) {
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    if (p.E[3 * i] == 0.0 || (p.mu[i] > 0.0 && p.E[3 * i + 1] == 0.0)) return true;
+  }
+  return false;
+}
+
+/// The later of two runs on one problem, with the work of both.
+SolveSummary combined(const SolveSummary& first, SolveSummary last) {
+  last.iterations += first.iterations;
+  last.factorizations += first.factorizations;
+  last.conjugate_gradients += first.conjugate_gradients;
+  last.line_search_evaluations += first.line_search_evaluations;
+  last.time_seconds += first.time_seconds;
+  last.residual_history.insert(last.residual_history.begin(), first.residual_history.begin(),
+                               first.residual_history.end());
+  return last;
+}
+
+}  // namespace
+
+SolveSummary ContactSolver::interior_point_then_newton(const ContactProblem& problem,
+                                                       const SolveOptions& options,
+                                                       ContactSolution* solution) {
+  constexpr double kHandOver =
+      1e-7;  // complementarity over elastic work: Newton then finds its last few active sets
+  SolveOptions near = options;
+  near.tolerance = kHandOver;
+  near.max_iterations = 0;
+  const SolveSummary first = solve_interior_point(problem, near, solution);
+  if (!first.usable()) return first;
+  SolveSummary last = combined(first, newton_.solve(problem, options, solution));
+  last.message = "interior point, then Newton: " + last.message;
+  return last;
+}
+
+SolveSummary ContactSolver::newton_with_fall_back(const ContactProblem& problem, const SolveOptions& options,
+                                                  ContactSolution* solution) {
+  constexpr int kPlainIterations =
+      25;  // sound problems take 4 to 20; interior point and Newton together about 27
+  SolveOptions plain = options;
+  const int limit = options.max_iterations > 0 ? options.max_iterations : 100;
+  plain.max_iterations = std::min(limit, kPlainIterations);
+  const SolveSummary first = newton_.solve(problem, plain, solution);
+  if (first.ending != SolveEnding::max_iterations || limit <= kPlainIterations) return first;
+  ContactSolution again;
+  const SolveSummary last = combined(first, interior_point_then_newton(problem, options, &again));
+  if (!last.usable() || last.residual_history.back() > first.residual_history.back()) return first;
+  *solution = again;
+  return last;
+}
+
+SolveSummary ContactSolver::solve_convex(const ContactProblem& problem, const SolveOptions& options,
+                                         ContactMethod method, ContactSolution* solution) {
+  switch (method) {
+    case ContactMethod::newton:
+      return newton_with_fall_back(problem, options, solution);
+    case ContactMethod::interior_point:
+      return interior_point_then_newton(problem, options, solution);
+    case ContactMethod::spg:
+      return solve_spg(problem, options, solution);
+    case ContactMethod::apgd:
+      return solve_apgd(problem, options, solution);
+    case ContactMethod::nsgs:
+      return solve_nsgs(problem, options, solution);
+    case ContactMethod::admm:
+      return solve_admm(problem, options, solution);
+  }
+  return {};
+}
+
+SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSolverOptions& options,
+                                  ContactSolution* solution) {
+  const bool rigid = has_rigid_contact(problem);
+  const bool primal =
+      options.method == ContactMethod::newton || options.method == ContactMethod::interior_point;
+  const auto convex = [&](const ContactProblem& p, const SolveOptions& o, ContactSolution* x) {
+    return solve_convex(p, o, options.method, x);
+  };
+  if (!rigid && options.law == FrictionLaw::associated) {
+    SolveSummary first = convex(problem, options, solution);
+    if (first.ending != SolveEnding::stalled || !primal) return first;
+    ContactSolution polished = *solution;  // sliding on tiny compliance: impulses below rounding of D^T v / E
+    const SolveSummary last =
+        solve_in_passes(problem, options, {options.law, kProximalShare}, convex, &polished);
+    if (last.ending != SolveEnding::converged) return first;
+    *solution = polished;
+    return combined(first, last);
+  }
+  SolveSummary summary;
+  if (options.law == FrictionLaw::associated && !primal) {
+    summary = convex(problem, options, solution);
+  } else {
+    const double share = rigid && primal ? kProximalShare : 0.0;
+    summary = solve_in_passes(problem, options, {options.law, share}, convex, solution);
+  }
+  if (rigid && summary.usable()) summary.message += "; some compliance is zero: forces are not unique";
+  return summary;
+}
+
+SolveSummary solve_contact(const ContactProblem& problem, const ContactSolverOptions& options,
+                           ContactSolution* solution) {
+  return ContactSolver().solve(problem, options, solution);
+}
+
+}  // namespace cupola
