@@ -16,6 +16,8 @@ namespace {
 
 /// Below this share of its Delassus block a compliance leaves Newton's impulses fewer digits than asked for.
 constexpr double kProximalShare = 1e-4;
+constexpr double kNearRounding = 1e-2;  // a momentum residual above this is no rounding
+constexpr int kPolishingPasses = 5;
 
 bool has_rigid_contact(const ContactProblem& p) {
   for (int i = 0; i < p.num_contacts(); ++i) {
@@ -97,11 +99,12 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
     return solve_convex(p, o, options.method, x);
   };
   if (!rigid && options.law == FrictionLaw::associated) {
-    SolveSummary first = convex(problem, options, solution);
-    if (first.ending != SolveEnding::stalled || !primal) return first;
+    const SolveSummary first = convex(problem, options, solution);
+    const bool near = !first.residual_history.empty() && first.residual_history.back() < kNearRounding;
+    if (!first.usable() || first.ending == SolveEnding::converged || !primal || !near) return first;
     ContactSolution polished = *solution;  // sliding on tiny compliance: impulses below rounding of D^T v / E
     const SolveSummary last =
-        solve_in_passes(problem, options, {options.law, kProximalShare}, convex, &polished);
+        solve_in_passes(problem, options, {options.law, kProximalShare, kPolishingPasses}, convex, &polished);
     if (last.ending != SolveEnding::converged) return first;
     *solution = polished;
     return combined(first, last);
