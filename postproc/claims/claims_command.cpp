@@ -1,0 +1,49 @@
+#include "postproc/claims/claims_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "assembly/atomic_file.hpp"
+#include "assembly/error.hpp"
+#include "postproc/claims/claims_report.hpp"
+
+namespace cupola {
+
+ExitCode run_claims(int argc, const char* const* argv) {
+  // 1. What is asked
+  std::string claims_path, runs_folder, output_folder;
+  bool needs_only = false;
+  CLI::App app("Tests the claims of a publication on finished runs.", "cupola-post claims");
+  app.add_option("CLAIMS", claims_path, "claims file (.yaml)")->required();
+  app.add_option("--runs", runs_folder, "folder that holds one folder per run")->type_name("FOLDER");
+  app.add_option("--output", output_folder, "folder to write claims.csv and claims.html to")
+      ->type_name("FOLDER");
+  app.add_flag("--needs", needs_only, "print the runs that the claims need, and stop");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    app.exit(help);
+    return ExitCode::done;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{}; see cupola-post claims --help", error.what()));
+  }
+
+  // 2. The claims
+  const std::vector<Claim> claims = read_claims(claims_path);
+  if (needs_only) {
+    for (const std::string& run : needed_runs(claims)) fmt::print("{}\n", run);
+    return ExitCode::done;
+  }
+  if (runs_folder.empty()) throw InputError("--runs is missing; see cupola-post claims --help");
+
+  // 3. The verdicts
+  const std::vector<ClaimResult> results = evaluate_claims(claims, runs_folder);
+  fmt::print("{}", claims_text(claims, results));
+  if (output_folder.empty()) return ExitCode::done;
+  make_folder(output_folder);
+  write_text_atomically(output_folder + "/claims.csv", to_csv(claims_table(claims, results)));
+  write_text_atomically(output_folder + "/claims.html", claims_html(claims, results));
+  return ExitCode::done;
+}
+
+}  // namespace cupola

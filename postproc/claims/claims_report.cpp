@@ -1,0 +1,138 @@
+#include "postproc/claims/claims_report.hpp"
+
+#include <array>
+
+#include <fmt/format.h>
+
+namespace cupola {
+namespace {
+
+constexpr std::array kVerdicts = {Verdict::reproduced, Verdict::not_reproduced, Verdict::open,
+                                  Verdict::not_solved, Verdict::not_run};
+
+/// "1.27, paper: >= 1 and <= 2", with the unit.
+std::string range(const Claim& claim) {
+  if (!claim.open.empty()) return "-";
+  std::string out;
+  if (claim.at_least) out += ">= " + to_display(*claim.at_least);
+  if (claim.at_most) out += (out.empty() ? "<= " : " and <= ") + to_display(*claim.at_most);
+  return out;
+}
+
+std::string shown_number(const Claim& claim, const ClaimResult& result) {
+  if (!result.number) return "-";
+  return to_display(*result.number) + (claim.unit.empty() ? "" : " " + claim.unit);
+}
+
+std::string remark(const Claim& claim, const ClaimResult& result) {
+  if (result.reason.empty() || claim.note.empty()) return result.reason + claim.note;
+  return result.reason + ". " + claim.note;
+}
+
+std::string counts(const std::vector<ClaimResult>& results) {
+  std::string out = fmt::format("{} claims", results.size());
+  for (const Verdict verdict : kVerdicts) {
+    int count = 0;
+    for (const ClaimResult& result : results) count += result.verdict == verdict;
+    if (count > 0) out += fmt::format(", {} {}", count, to_string(verdict));
+  }
+  return out;
+}
+
+/// Words in lines of at most `width` characters, each after `indent`.
+std::string wrapped_text(const std::string& text, size_t width, const std::string& indent) {
+  std::string out, line;
+  for (size_t start = 0; start < text.size();) {
+    const size_t end = std::min(text.find(' ', start), text.size());
+    const std::string word = text.substr(start, end - start);
+    if (!line.empty() && line.size() + 1 + word.size() > width) {
+      out += indent + line + "\n";
+      line.clear();
+    }
+    if (!word.empty()) line += (line.empty() ? "" : " ") + word;
+    start = end + 1;
+  }
+  return line.empty() ? out : out + indent + line + "\n";
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '&')
+      out += "&amp;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+constexpr const char* kPage = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>Claims</title><style>
+body {{ font: 15px/1.45 sans-serif; max-width: 75em; margin: 2em auto; color: #222 }}
+table {{ border-collapse: collapse }} td, th {{ padding: .35em .7em; border-bottom: 1px solid #ddd;
+text-align: left; vertical-align: top }} small {{ color: #666 }}
+.reproduced {{ color: #007a5a }} .not_reproduced {{ color: #b84300 }} .open {{ color: #555 }}
+.not_solved, .not_run {{ color: #999 }} td.verdict {{ white-space: nowrap; font-weight: bold }}
+</style></head><body><h1>What was claimed, and what came out</h1><p>{}.</p>
+<table><tr><th>Source</th><th>Claim</th><th>Number</th><th>Value</th><th>Claimed</th><th>Verdict</th></tr>
+{}</table></body></html>
+)";
+
+}  // namespace
+
+Table claims_table(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results) {
+  Table t{"claims", "What was claimed, and what came out", {}, {}};
+  t.columns = {{"source", "", "section and figure of the publication"},
+               {"claim", "", "in words"},
+               {"number", "", "what was measured"},
+               {"value", "", "empty where a run is missing"},
+               {"unit", "", "of the value"},
+               {"claimed", "", "range in which the claim holds"},
+               {"verdict", "", ""},
+               {"remark", "", ""}};
+  for (size_t i = 0; i < claims.size(); ++i) {
+    const Claim& claim = claims[i];
+    const Table::Cell value =
+        results[i].number ? Table::Cell(*results[i].number) : Table::Cell(std::string());
+    t.rows.push_back({claim.source, claim.says, claim.number, value, claim.unit, range(claim),
+                      to_string(results[i].verdict), remark(claim, results[i])});
+  }
+  return t;
+}
+
+std::string claims_text(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results) {
+  std::string out;
+  for (size_t i = 0; i < claims.size(); ++i) {
+    const Claim& claim = claims[i];
+    out += fmt::format("{:<15} {}\n", to_string(results[i].verdict) + ":", claim.source);
+    out += wrapped_text(claim.says, 96, "    ");
+    out += wrapped_text(fmt::format("{}: {}{}", claim.number, shown_number(claim, results[i]),
+                                    claim.open.empty() ? fmt::format("  (claimed: {})", range(claim)) : ""),
+                        96, "      ");
+    out += wrapped_text(remark(claim, results[i]), 96, "      ");
+  }
+  return out + "\n" + counts(results) + "\n";
+}
+
+std::string claims_html(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results) {
+  std::string rows;
+  for (size_t i = 0; i < claims.size(); ++i) {
+    const Claim& claim = claims[i];
+    const std::string verdict = to_string(results[i].verdict);
+    std::string css = verdict;
+    for (char& c : css)
+      if (c == ' ') c = '_';
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{}<br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td>"
+        "<td class=\"verdict {}\">{}</td></tr>\n",
+        escaped(claim.source), escaped(claim.says), escaped(remark(claim, results[i])), escaped(claim.number),
+        escaped(shown_number(claim, results[i])), escaped(range(claim)), css, verdict);
+  }
+  return fmt::format(kPage, counts(results), rows);
+}
+
+}  // namespace cupola

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "postproc/claims/verdict.hpp"
+#include "postproc/table.hpp"
+
+namespace cupola {
+
+/// Claim, number and verdict, one row per claim.
+Table claims_table(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results);
+
+/// The same for a terminal, followed by the counts of each verdict.
+std::string claims_text(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results);
+
+/// The same as one HTML page that opens anywhere.
+std::string claims_html(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results);
+
+}  // namespace cupola

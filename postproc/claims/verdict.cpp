@@ -1,0 +1,140 @@
+#include "postproc/claims/verdict.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "assembly/error.hpp"
+#include "postproc/claims/run_files.hpp"
+
+namespace cupola {
+namespace {
+
+bool counts(const CsvFile& table, size_t row, const std::vector<RowFilter>& filters) {
+  for (const RowFilter& filter : filters) {
+    const size_t column = table.column(filter.column);
+    if (!filter.is.empty()) {
+      if (table.rows[row][column] != filter.is) return false;
+      continue;
+    }
+    const double value = table.number(row, column);
+    if (filter.from && value < *filter.from) return false;
+    if (filter.to && value > *filter.to) return false;
+  }
+  return true;
+}
+
+struct Values {
+  std::vector<double> values, against;
+};
+
+void append_rows(const Quantity& quantity, const std::string& name, RunCache& cache, Values* out) {
+  const CsvFile& table = cache.run(name).table(quantity.table);
+  const CsvFile* reference =
+      quantity.reference.empty() ? nullptr : &cache.run(quantity.reference).table(quantity.table);
+  if (reference && reference->rows.size() != table.rows.size())
+    throw InputError(fmt::format("claims: {} of {} has {} rows, of {} {}", quantity.table, name,
+                                 table.rows.size(), quantity.reference, reference->rows.size()));
+  const size_t column = table.column(quantity.column);
+  for (size_t row = 0; row < table.rows.size(); ++row) {
+    if (!counts(table, row, quantity.where)) continue;
+    out->values.push_back(table.number(row, column));
+    if (reference) out->values.back() -= reference->number(row, reference->column(quantity.column));
+    if (!quantity.against.empty()) out->against.push_back(table.number(row, table.column(quantity.against)));
+  }
+}
+
+double evaluate(const Quantity& quantity, RunCache& cache) {
+  Values v;
+  for (const std::string& name : quantity.runs) {
+    if (!quantity.status.empty())
+      v.values.push_back(cache.run(name).status() == quantity.status ? 1.0 : 0.0);
+    else if (!quantity.key.empty())
+      v.values.push_back(cache.run(name).number(quantity.key));
+    else
+      append_rows(quantity, name, cache, &v);
+  }
+  const std::string source = quantity.key + quantity.table + " of " + quantity.runs.front();
+  if (v.values.empty())
+    throw InputError(fmt::format("claims: no row of {} passes the filters of a claim", source));
+  const Take take = quantity.status.empty() ? quantity.take : Take::mean;
+  if (take == Take::only && v.values.size() != 1)
+    throw InputError(fmt::format("claims: {} values in {}: say `take`", v.values.size(), source));
+  return reduce(take, v.values, v.against);
+}
+
+/// The runs that a quantity reads, its reference included.
+std::vector<std::string> runs_of(const Quantity& quantity) {
+  std::vector<std::string> runs = quantity.runs;
+  if (!quantity.reference.empty()) runs.push_back(quantity.reference);
+  return runs;
+}
+
+std::vector<const Quantity*> quantities(const Claim& claim) {
+  std::vector<const Quantity*> out{&claim.value};
+  if (claim.over) out.push_back(&*claim.over);
+  if (claim.minus) out.push_back(&*claim.minus);
+  return out;
+}
+
+std::string joined(const std::set<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+ClaimResult evaluate(const Claim& claim, RunCache& cache) {
+  std::set<std::string> missing, unsolved;
+  for (const Quantity* quantity : quantities(claim))
+    for (const std::string& name : runs_of(*quantity)) {
+      if (!cache.finished(name))
+        missing.insert(name);
+      else if (quantity->status.empty() && cache.run(name).status() == "unconverged")
+        unsolved.insert(name);
+    }
+  if (!missing.empty()) return {Verdict::not_run, std::nullopt, "not run: " + joined(missing)};
+  if (!unsolved.empty()) return {Verdict::not_solved, std::nullopt, "not solved: " + joined(unsolved)};
+
+  double number = evaluate(claim.value, cache);
+  if (claim.over) number /= evaluate(*claim.over, cache);
+  if (claim.minus) number -= evaluate(*claim.minus, cache);
+  if (!claim.open.empty()) return {Verdict::open, number, claim.open};
+  const bool holds = (!claim.at_least || number >= *claim.at_least) &&
+                     (!claim.at_most || number <= *claim.at_most);  // false for nan
+  return {holds ? Verdict::reproduced : Verdict::not_reproduced, number, ""};
+}
+
+}  // namespace
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::reproduced:
+      return "reproduced";
+    case Verdict::not_reproduced:
+      return "not reproduced";
+    case Verdict::open:
+      return "open";
+    case Verdict::not_solved:
+      return "not solved";
+    case Verdict::not_run:
+      return "not run";
+  }
+  return "";
+}
+
+std::vector<std::string> needed_runs(const std::vector<Claim>& claims) {
+  std::vector<std::string> runs;
+  for (const Claim& claim : claims)
+    for (const Quantity* quantity : quantities(claim))
+      for (const std::string& name : runs_of(*quantity))
+        if (std::find(runs.begin(), runs.end(), name) == runs.end()) runs.push_back(name);
+  return runs;
+}
+
+std::vector<ClaimResult> evaluate_claims(const std::vector<Claim>& claims, const std::string& out) {
+  RunCache cache(out);
+  std::vector<ClaimResult> results;
+  for (const Claim& claim : claims) results.push_back(evaluate(claim, cache));
+  return results;
+}
+
+}  // namespace cupola
