@@ -2,6 +2,7 @@
 //
 // Sample runs:
 //   cupola-post analyse cases/dome_circular.yaml --assembly assembly.vtu --results results/ --output post/
+//   cupola-post claims cases/claims.yaml --runs out/ --output out/paper/
 
 #include <cstring>
 
@@ -10,6 +11,7 @@
 #include "assembly/command_line.hpp"
 #include "assembly/error.hpp"
 #include "postproc/analyse.hpp"
+#include "postproc/claims/claims_command.hpp"
 
 namespace {
 
@@ -17,8 +19,9 @@ using namespace cupola;
 
 constexpr const char* kUsage =
     "cupola-post: what the contact forces of a run mean.\n\n"
-    "  cupola-post analyse CASE.yaml --assembly FILE --results FOLDER --output FOLDER\n\n"
-    "`cupola-post analyse --help` tells the options.\n";
+    "  cupola-post analyse CASE.yaml --assembly FILE --results FOLDER --output FOLDER\n"
+    "  cupola-post claims CLAIMS.yaml --runs FOLDER --output FOLDER\n\n"
+    "`cupola-post COMMAND --help` tells the options.\n";
 
 ExitCode run_analyse(int argc, char** argv) {
   // 1. What is asked
@@ -43,6 +46,7 @@ ExitCode run_analyse(int argc, char** argv) {
 ExitCode run(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
   if (command == "analyse") return run_analyse(argc - 1, argv + 1);
+  if (command == "claims") return run_claims(argc - 1, argv + 1);
   if (command == "--version") {
     fmt::print("cupola-post {}\n", program_version());
     return ExitCode::done;
@@ -51,8 +55,8 @@ ExitCode run(int argc, char** argv) {
     fmt::print("{}", kUsage);
     return ExitCode::done;
   }
-  if (command.empty()) throw InputError("a command is missing: analyse");
-  throw InputError(fmt::format("`{}` is not a command; the commands are: analyse", command));
+  if (command.empty()) throw InputError("a command is missing: analyse or claims");
+  throw InputError(fmt::format("`{}` is not a command; the commands are: analyse, claims", command));
 }
 
 }  // namespace

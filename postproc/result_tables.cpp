@@ -10,6 +10,19 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
+/// Per block, 1 for a block laid flat that has a head joint with a herringbone block.
+std::vector<int> beside_spiral(const Evaluation& e) {
+  std::vector<int> beside(e.assembly.blocks.size(), 0);
+  const auto upright = [&e](int b) { return e.assembly.blocks[b].kind == BlockKind::herringbone; };
+  for (const JointWrench& j : e.last.joints.joints) {
+    if (j.joint.kind != JointKind::head) continue;
+    const int a = j.joint.block_a, b = j.joint.block_b;
+    if (upright(b) && !upright(a)) beside[static_cast<size_t>(a)] = 1;
+    if (upright(a) && !upright(b)) beside[static_cast<size_t>(b)] = 1;
+  }
+  return beside;
+}
+
 }  // namespace
 
 Table ring_table(const Evaluation& e) {
@@ -104,6 +117,8 @@ Table block_table(const Evaluation& e) {
                {"kind", "", ""},
                {"ring", "", "first ring"},
                {"slot", "", "place in the ring"},
+               {"rib", "", "1: spans a corner of the vault"},
+               {"beside_spiral", "", "1: a block laid flat with a head joint to an upright one"},
                {"x_m", "m", "centroid in the assembly"},
                {"y_m", "m", ""},
                {"z_m", "m", ""},
@@ -127,6 +142,7 @@ Table block_table(const Evaluation& e) {
                {"displacement_z_m", "m", ""},
                {"mechanism_group", "", "blocks that move as one body"}};
   const double g = e.scene.loads.gravity.norm();
+  const std::vector<int> beside = beside_spiral(e);
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
     const Block& block = e.assembly.blocks[b];
     const BlockFields& v = e.last.fields[b];
@@ -136,6 +152,8 @@ Table block_table(const Evaluation& e) {
                       to_string(block.kind),
                       block.ring,
                       block.slot,
+                      block.rib ? 1 : 0,
+                      beside[b],
                       block.centroid.x(),
                       block.centroid.y(),
                       block.centroid.z(),

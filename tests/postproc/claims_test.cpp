@@ -114,9 +114,12 @@ TEST(Claims, VerdictsSayWhatIsMissingOrNotSolved) {
   EXPECT_FALSE(missing.number);
   EXPECT_EQ(verdict(scratch, "    value: {runs: bad" + key + "    at_least: 1\n").verdict,
             Verdict::not_solved);
-  // How runs end may be counted for all of them.
-  EXPECT_DOUBLE_EQ(*verdict(scratch, "    value: {runs: good bad, status: stable}\n    at_least: 1\n").number,
-                   0.5);
+  // Unconverged is neither standing nor falling.
+  EXPECT_EQ(verdict(scratch, "    value: {runs: bad, status: stable}\n    at_most: 0\n").verdict,
+            Verdict::not_solved);
+  write_run(scratch, "fallen", "collapsed", 1.0);
+  EXPECT_DOUBLE_EQ(
+      *verdict(scratch, "    value: {runs: good fallen, status: stable}\n    at_least: 1\n").number, 0.5);
 }
 
 TEST(Claims, FileIsReadStrictly) {
