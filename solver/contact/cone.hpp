@@ -34,6 +34,12 @@ ContactRegion contact_region(const ContactLaw& law, const Vec3& y);
 /// stick side on the boundaries of stick, the open side on the boundary of separation).
 Mat3 contact_stiffness(const ContactLaw& law, const Vec3& y);
 
+/// Impulse of a compliant contact under Coulomb's law, explicit in y = D^T v + b: gamma_n = (-y_n)+ / e_n,
+/// and gamma_t the projection of -y_t / e_t on the disk of radius mu gamma_n.
+Vec3 coulomb_impulse(const ContactLaw& law, const Vec3& y);
+/// G = -d gamma / d y of it; not symmetric while slipping, because friction follows the normal impulse.
+Mat3 coulomb_stiffness(const ContactLaw& law, const Vec3& y);
+
 /// Projection of x on Y in the norm of diag(e_n, e_t, e_t): argmin over Y of (g - x)^T E (g - x).
 Vec3 project_on_cone(const ContactLaw& metric, const Vec3& x);
 
