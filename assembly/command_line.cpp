@@ -40,6 +40,12 @@ void CommandLine::optional(const std::string& option, int* value, int smallest, 
   app_->add_option(option, *value, help)->check(CLI::Range(smallest, 1 << 20))->capture_default_str();
 }
 
+void CommandLine::instead_of_case(const std::string& option, std::string* value, const std::string& what,
+                                  const std::string& help) {
+  optional(option, value, what, help);
+  instead_of_case_.push_back(value);
+}
+
 void CommandLine::flag(const std::string& option, bool* value, const std::string& help) {
   app_->add_flag(option, *value, help);
 }
@@ -57,6 +63,8 @@ std::optional<ExitCode> CommandLine::parse(int argc, const char* const* argv) {
     fmt::print("{}", case_schema());
     return ExitCode::done;
   }
+  for (const std::string* value : instead_of_case_)
+    if (!value->empty()) return std::nullopt;
   if (case_path_.empty())
     throw InputError(fmt::format("CASE.yaml is missing; see {} --help", app_->get_name()));
   if (check_only_) return std::nullopt;

@@ -34,6 +34,9 @@ class CommandLine {
   void optional(const std::string& option, std::string* value, const std::string& what,
                 const std::string& help);
   void optional(const std::string& option, int* value, int smallest, const std::string& help);
+  /// A string option that replaces CASE and the required options: another kind of run.
+  void instead_of_case(const std::string& option, std::string* value, const std::string& what,
+                       const std::string& help);
   void flag(const std::string& option, bool* value, const std::string& help);
 
   /// Returns how the program ends when it need not go on: --help, --version and --schema print and end with
@@ -51,6 +54,7 @@ class CommandLine {
   std::string case_path_;
   std::vector<std::string> set_options_;
   std::vector<std::pair<std::string, std::string*>> required_;
+  std::vector<std::string*> instead_of_case_;
   bool check_only_ = false;
   bool quiet_ = false;
   bool schema_ = false;

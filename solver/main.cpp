@@ -4,6 +4,7 @@
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --output results/
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --output low/ --set joints.friction=0.2
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --explain
+//   cupola-solve --fclib Capsules-i125-1213.hdf5
 //   cupola-solve cases/collapse.yaml --assembly assembly.vtu --output results/ --resume
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "assembly/command_line.hpp"
 #include "assembly/error.hpp"
 #include "solver/solve_case.hpp"
+#include "solver/solve_fclib.hpp"
 
 namespace {
 
@@ -20,6 +22,7 @@ ExitCode solve(int argc, char** argv) {
   // 1. What is asked
   SolveRequest request;
   bool explain = false;
+  std::string fclib_path;
   CommandLine line("cupola-solve", "Finds the contact forces and the motion of an assembly of rigid blocks.",
                    "  cupola-solve dome.yaml --assembly assembly.vtu --output results/\n"
                    "  cupola-solve dome.yaml --assembly assembly.vtu --explain");
@@ -28,7 +31,12 @@ ExitCode solve(int argc, char** argv) {
   line.optional("--output", &request.output_folder, "FOLDER", "results folder to write");
   line.flag("--explain", &explain, "print the model that would be solved, and stop");
   line.flag("--resume", &request.resume, "go on from the checkpoint in the output folder, if there is one");
+  line.optional("--dump-fclib", &request.dump_fclib, "FILE",
+                "write the contact problem of the static solve or of the last step (HDF5)");
+  line.instead_of_case("--fclib", &fclib_path, "FILE", "solve a problem of the frictional contact library");
   if (const auto ended = line.parse(argc, argv)) return *ended;
+
+  if (!fclib_path.empty()) return solve_fclib(fclib_path, line.quiet());
 
   // 2. The case
   request.scene = line.read_case();

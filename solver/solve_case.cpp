@@ -11,6 +11,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/checkpoint.hpp"
+#include "solver/contact/fclib_file.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/run_control.hpp"
 
@@ -90,6 +91,11 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
     run->analysis = bytes;
     write_checkpoint(checkpoint_path, *run);
   };
+  if (!request.dump_fclib.empty()) {
+    sinks.problem = [&request](const ContactProblem& problem, const VecX& gamma) {
+      write_fclib(request.dump_fclib, request.scene.title, make_delassus(problem), gamma);
+    };
+  }
   sinks.interrupted = [&stop] { return stop.made(); };
   sinks.resume_from = run->analysis;
   return sinks;

@@ -12,6 +12,7 @@ struct SolveRequest {
   Case scene;
   std::string assembly_path;
   std::string output_folder;
+  std::string dump_fclib;  ///< file for the contact problem of the static solve or the last step; empty: none
   bool quiet = false;
   bool resume = false;  ///< go on from the checkpoint in the output folder, if there is one
 };

@@ -7,6 +7,7 @@
 #include "assembly/assembly.hpp"
 #include "assembly/case/case.hpp"
 #include "assembly/results.hpp"
+#include "solver/contact/contact_problem.hpp"
 
 namespace cupola {
 
@@ -20,6 +21,9 @@ struct AnalysisSinks {
   /// A table of the analysis' own, whole: file name (ending .csv) and text.
   std::function<void(const std::string& name, const std::string& text)> table = [](const std::string&,
                                                                                    const std::string&) {};
+  /// The contact problem of the static solve or of the last step, and its impulses.
+  std::function<void(const ContactProblem&, const VecX& gamma)> problem = [](const ContactProblem&,
+                                                                             const VecX&) {};
   /// How much is done, in [0, 1].
   std::function<void(double share)> progress = [](double) {};
   /// Everything needed to go on with the same bits after the last frame and row handed over.

@@ -185,6 +185,7 @@ std::optional<Summary> DynamicRun::run() {
     const Stop stop = stop_reason();
     const bool due = frame_is_due(stop);
     if (due) write_frame();
+    if (stop != Stop::no) sinks_.problem(report_.problem.problem, report_.solution.gamma);
     if (stop != Stop::no) return summarize(stop, wall_seconds() - started);
     const bool interrupted = sinks_.interrupted();
     if (due || interrupted) sinks_.checkpoint(checkpoint());

@@ -27,6 +27,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   summarize_static(solution, options.tolerance, &summary);
   summary.analysis = "static";
   sinks.frame(frame);
+  sinks.problem(solution.step.problem, solution.solution.gamma);
   return summary;
 }
 

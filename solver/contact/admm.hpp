@@ -16,8 +16,9 @@ namespace cupola {
 /// (2011), "Distributed optimization and statistical learning via the alternating direction method of
 /// multipliers", section 3.4.
 ///
-/// Stops when, all E > 0, the certified force error (else the larger of momentum and contact-law residual) of
-/// (w, gamma) is <= tolerance, measured every fifth iteration. Default of max_iterations: 2000.
+/// Stops when the certified force error of (w, gamma), or the larger of its momentum and contact-law
+/// residuals (what Newton answers for), is <= tolerance, measured every fifth iteration. Default of
+/// max_iterations: 2000.
 SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& options,
                         ContactSolution* solution);
 

@@ -69,6 +69,8 @@ StepReport Simulation::advance(double h_max) {
   // 4. Memory and motion
   update_memories(problem, solution, state_, contacts, step, &memories_);
   state_.v = solution.v;
+  report.problem = std::move(problem);
+  report.solution = std::move(solution);
   integrate_positions(model_, step.h, step.advance(), &state_);
   return report;
 }
