@@ -76,6 +76,7 @@ struct Assembly {
   std::string title;
   std::string geometry_hash;  ///< hash of the case's sections that the generator read
   int num_rings = 0;          ///< rings of the complete model's grid; 0 for imported blocks
+  std::string check_report;   ///< what the generator measured and checked, lines for the reader; may be empty
 
   int num_faces() const { return static_cast<int>(face_kinds.size()); }
   std::span<const int> face(int f) const {

@@ -67,6 +67,7 @@ std::vector<MeshArray> field_arrays(const Assembly& assembly) {
           {"program_version", 1, S{program_version()}},
           {"title", 1, S{assembly.title}},
           {"geometry_hash", 1, S{assembly.geometry_hash}},
+          {"check_report", 1, S{assembly.check_report}},
           {"content_hash", 1, S{content_hash(assembly)}},
           {"num_rings", 1, std::vector<I>{assembly.num_rings}},
           column<B>("block_kind", blocks, [](const Block& b) { return b.kind; }),
@@ -265,6 +266,7 @@ Assembly read_assembly(const std::string& path) {
   for (const std::uint8_t kind : face_kinds) assembly.face_kinds.push_back(static_cast<FaceKind>(kind));
   assembly.title = mesh.field<std::string>("title");
   assembly.geometry_hash = mesh.field<std::string>("geometry_hash");
+  assembly.check_report = mesh.field<std::string>("check_report");
   assembly.num_rings = mesh.field<std::int32_t>("num_rings");
   read_parts(mesh, &assembly);
   read_blocks(fields, &assembly);

@@ -46,6 +46,7 @@ Assembly generate(const Case& input, ModelReport* report) {
     measured.shell_volume = make_surface(input.geometry.surface, 2).shell_volume;
     if (!measured.shell_volume) measured.shell_volume = extrapolated_shell_volume(input.geometry.surface);
   }
+  assembly.check_report = to_text(measured);
   if (report) *report = measured;
   return assembly;
 }

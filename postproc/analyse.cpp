@@ -11,7 +11,9 @@
 #include "postproc/evaluation.hpp"
 #include "postproc/figures.hpp"
 #include "postproc/mesh_output.hpp"
+#include "postproc/paraview_views.hpp"
 #include "postproc/post_summary.hpp"
+#include "postproc/report.hpp"
 #include "postproc/result_tables.hpp"
 
 namespace cupola {
@@ -84,10 +86,24 @@ ExitCode analyse(const AnalyseRequest& request) {
   const std::vector<Figure> figures = result_figures(e, history);
   for (std::string& problem : draw_figures(in_folder(folder, "figures"), figures))
     e.warnings.push_back(std::move(problem));
+  std::vector<Picture> pictures;
+  write_views(folder);
+  if (!request.pvbatch.empty()) pictures = draw_pictures(folder, request.pvbatch, &e.warnings);
   write_text_atomically(in_folder(folder, "summary.json"), post_summary_json(e));
+  const std::string run_yaml = in_folder(request.results_folder, "run.yaml");
+  write_text_atomically(
+      in_folder(folder, "report.html"),
+      report_html({.evaluation = &e,
+                   .tables = tables,
+                   .figures = figures,
+                   .pictures = pictures,
+                   .figure_folder = in_folder(folder, "figures"),
+                   .run_yaml = std::filesystem::exists(run_yaml) ? read_text(run_yaml) : ""}));
 
   for (const std::string& warning : e.warnings) fmt::print(stderr, "cupola-post: warning: {}\n", warning);
-  if (!request.quiet) fmt::print("{}: {} tables, {} figures\n", folder, tables.size(), figures.size());
+  if (!request.quiet)
+    fmt::print("{} tables, {} figures, {} pictures; read {}\n", tables.size(), figures.size(),
+               pictures.size(), in_folder(folder, "report.html"));
   return ExitCode::done;
 }
 

@@ -14,6 +14,7 @@ struct AnalyseRequest {
   std::string assembly_path;   ///< assembly.vtu
   std::string results_folder;  ///< of cupola-solve
   std::string output_folder;   ///< post/
+  std::string pvbatch;         ///< command that runs ParaView's pvbatch; "": no 3-D pictures
   bool quiet = false;
 };
 

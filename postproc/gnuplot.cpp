@@ -1,39 +1,15 @@
 #include "postproc/gnuplot.hpp"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include "assembly/atomic_file.hpp"
-
-extern char** environ;
+#include "postproc/process.hpp"
 
 namespace cupola {
 namespace {
-
-/// Runs gnuplot on a script without a shell; its messages go to `log`. Returns its exit status.
-int run_gnuplot(const std::string& script, const std::string& log) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, 1, 2);
-  char program[] = "gnuplot";
-  std::string argument = script;
-  char* const arguments[] = {program, argument.data(), nullptr};
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, program, &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return 127;
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-}
 
 std::string in_folder(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
@@ -54,9 +30,9 @@ std::string draw(const std::string& folder, const Figure& figure, const char* te
         "set output '{}'\nset termoption noenhanced\n",
         terminal, figure.width, figure.height, gnuplot_text(side));
     write_text_atomically(script, head + figure.commands + "unset output\n");
-    const int status = run_gnuplot(script, log);
-    if (status == 127) problem = "gnuplot is not installed";
-    if (status != 0 && status != 127) problem = "gnuplot: " + first_line(read_text(log));
+    const int status = run_process({"gnuplot", script}, log);
+    if (status == kNotFound) problem = "gnuplot is not installed";
+    if (status != 0 && status != kNotFound) problem = "gnuplot: " + first_line(read_text(log));
     if (!problem.empty()) write_text_atomically(side, "");
     return true;
   });

@@ -33,6 +33,7 @@ TEST(AssemblyFile, RoundTripsExactly) {
   EXPECT_EQ(a.face_kinds, b.face_kinds);
   EXPECT_EQ(a.title, b.title);
   EXPECT_EQ(a.geometry_hash, b.geometry_hash);
+  EXPECT_EQ(a.check_report, b.check_report);
   EXPECT_EQ(a.num_rings, b.num_rings);
   ASSERT_EQ(a.parts.size(), b.parts.size());
   for (size_t i = 0; i < a.parts.size(); ++i) {

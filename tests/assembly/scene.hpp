@@ -25,6 +25,7 @@ inline Assembly two_block_assembly() {
   Assembly a;
   a.title = "Two blocks, <awkward> & \"quoted\" – not ASCII";
   a.geometry_hash = "00112233445566778899aabbccddeeff";
+  a.check_report = "volume 1 m3\nblocks 2\n";
   a.num_rings = 3;
   const double third = 1.0 / 3.0;
   for (const double z : {0.0, 1.0, 1.0 + third})

@@ -1,0 +1,145 @@
+"""Standard views of a Cupola run: pvbatch views.py, or Macros > Import new macro in ParaView.
+
+Reads the files beside it (CUPOLA_POST names another folder) and writes pictures/NAME.png.
+"""
+import os
+
+from paraview.simple import *
+
+folder = os.environ.get("CUPOLA_POST") or os.path.dirname(os.path.abspath(globals().get("__file__", "views.py")))
+pictures = os.path.join(folder, "pictures")
+os.makedirs(pictures, exist_ok=True)
+
+
+def path(name):
+    return os.path.join(folder, name)
+
+
+def new_view(direction, up=(0, 0, 1)):
+    """A view towards the model's middle from a direction."""
+    view = CreateView("RenderView")
+    view.ViewSize = [1200, 900]
+    view.UseColorPaletteForBackground = 0
+    view.Background = [1, 1, 1]
+    view.OrientationAxesLabelColor = [0, 0, 0]
+    view.CameraFocalPoint = [0, 0, 0]
+    view.CameraPosition = list(direction)
+    view.CameraViewUp = list(up)
+    return view
+
+
+def colour(display, view, association, array, title, diverging=False):
+    """Colours by an array with a legend; diverging maps are symmetric about zero."""
+    ColorBy(display, (association, array))
+    table = GetColorTransferFunction(array)
+    table.ApplyPreset("Cool to Warm" if diverging else "Viridis (matplotlib)", True)
+    if diverging:
+        table.InvertTransferFunction()
+        low, high = table.RGBPoints[0], table.RGBPoints[-4]
+        most = max(abs(low), abs(high), 1e-12)
+        table.RescaleTransferFunction(-most, most)
+    bar = GetScalarBar(table, view)
+    bar.Title, bar.ComponentTitle = title, ""
+    bar.TitleColor = bar.LabelColor = [0, 0, 0]
+    bar.TitleFontSize = bar.LabelFontSize = 14
+    display.SetScalarBarVisibility(view, True)
+
+
+def save(view, name):
+    ResetCamera(view)
+    GetActiveCamera().Dolly(1.25)
+    Render(view)
+    SaveScreenshot(os.path.join(pictures, name + ".png"), view, ImageResolution=[1200, 900])
+
+
+def has_cells(source):
+    source.UpdatePipeline()
+    return source.GetDataInformation().GetNumberOfCells() > 0
+
+
+def only(source, array, value):
+    """The cells whose array has a value."""
+    picked = Threshold(Input=source, Scalars=["CELLS", array])
+    picked.LowerThreshold = picked.UpperThreshold = value
+    return picked
+
+
+def show_blocks(view, blocks, array=None, title="", diverging=False, opacity=1.0):
+    display = Show(blocks, view)
+    display.Representation = "Surface With Edges" if opacity == 1.0 else "Surface"
+    display.EdgeColor = [0.35, 0.35, 0.35]
+    display.Opacity = opacity
+    display.DiffuseColor = [0.85, 0.83, 0.78]
+    if array:
+        colour(display, view, "CELLS", array, title, diverging)
+    else:
+        ColorBy(display, None)
+    return display
+
+
+OBLIQUE = (-0.6, -1.0, 0.55)
+
+series = PVDReader(FileName=path("blocks.pvd"))
+series.UpdatePipelineInformation()
+times = list(series.TimestepValues) if hasattr(series.TimestepValues, "__len__") else [series.TimestepValues]
+scene = GetAnimationScene()
+scene.UpdateAnimationUsingDataTimeSteps()
+scene.AnimationTime = times[-1]
+series.UpdatePipeline(times[-1])
+
+for name, array, title, diverging in [
+    ("blocks_meridional", "meridional_force_N_per_m", "meridional force (N/m)", False),
+    ("blocks_hoop", "hoop_force_N_per_m", "hoop force (N/m), compression positive", True),
+    ("blocks_friction", "friction_use", "friction utilisation", False),
+]:
+    view = new_view(OBLIQUE)
+    show_blocks(view, series, array, title, diverging)
+    save(view, name)
+
+joints = XMLPolyDataReader(FileName=[path("joints.vtp")])
+if has_cells(joints):
+    view = new_view(OBLIQUE)
+    show_blocks(view, series, opacity=0.15)
+    display = Show(joints, view)
+    display.LineWidth = 2.0
+    colour(display, view, "CELLS", "force_magnitude_N", "joint resultant (N)")
+    save(view, "joints")
+
+lines = XMLPolyDataReader(FileName=[path("thrust_lines.vtp")])
+if has_cells(lines):
+    view = new_view(OBLIQUE)
+    show_blocks(view, series, opacity=0.12)
+    for what, rgb, width in [(0, (0.84, 0.37, 0.0), 5.0), (3, (0, 0, 0), 2.0), (4, (0, 0, 0), 2.0)]:
+        display = Show(only(lines, "what", what), view)
+        ColorBy(display, None)
+        display.AmbientColor = display.DiffuseColor = list(rgb)
+        display.LineWidth = width
+    save(view, "thrust_lines")
+
+sections = XMLPolyDataReader(FileName=[path("sections.vtp")])
+if has_cells(sections):
+    view = new_view((-0.35, -0.6, 0.8))
+    display = Show(only(sections, "what", 1), view)
+    ColorBy(display, None)
+    display.Representation = "Surface With Edges"
+    display.DiffuseColor = [0.85, 0.83, 0.78]
+    segments = Show(only(sections, "what", 0), view)
+    segments.LineWidth = 4.0
+    colour(segments, view, "CELLS", "resultant_N", "resultant from below (N)")
+    save(view, "sections")
+
+cracks = XMLPolyDataReader(FileName=[path("cracks.vtp")])
+if has_cells(cracks):
+    view = new_view(OBLIQUE)
+    show_blocks(view, series, opacity=0.15)
+    display = Show(cracks, view)
+    display.LineWidth = 3.0
+    colour(display, view, "CELLS", "opening_m", "opening (m)")
+    save(view, "cracks")
+
+if len(times) > 1:  # the motion in four pictures, the last one included
+    for i in range(4):
+        scene.AnimationTime = times[(len(times) - 1) * (i + 1) // 4]
+        view = new_view(OBLIQUE)
+        show_blocks(view, series, "mechanism_group", "body of the mechanism")
+        save(view, "motion_%d" % (i + 1))

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "postproc/evaluation.hpp"
+#include "tests/postproc/models.hpp"
+
+namespace cupola::test {
+
+inline constexpr double kGravity = 9.81;
+
+/// The case of a column of three blocks.
+inline Case column_case() {
+  Case scene;
+  scene.title = "Column <b>&amp; \"beds\"";  // to be escaped wherever it is shown
+  scene.geometry.surface = WallSurface{1.2, 1.5, 0.8};
+  scene.geometry_hash = "geometry of the column";
+  scene.hash = "case of the column";
+  scene.postproc.sections = {0.8};
+  return scene;
+}
+
+inline Summary column_summary(const Assembly& a) {
+  Summary s;
+  s.status = Status::stable;
+  s.message = "equilibrium residual 1.0e-12 <= 1.0e-09 asked";
+  s.friction_law = "associated";
+  s.assembly_hash = content_hash(a);
+  s.geometry_hash = "geometry of the column";
+  s.case_hash = "case of the column";
+  s.weight_N = free_weight(a, kGravity);
+  s.free_blocks = static_cast<int>(a.blocks.size()) - 1;
+  return s;
+}
+
+/// Writes frames and a summary, and evaluates them.
+inline Evaluation evaluated(const Assembly& a, const std::vector<Frame>& frames, const Summary& summary,
+                            const Case& scene, const std::string& folder) {
+  ResultsWriter writer(folder, content_hash(a));
+  for (const Frame& frame : frames) writer.write_frame(frame);
+  writer.write_summary(summary);
+  return evaluate(scene, a, ResultsReader(folder, content_hash(a)));
+}
+
+/// Three blocks with the resultant at (x, y) of every bed, and a load of `fraction` weights on top.
+inline Evaluation column_evaluation(double x, double y, double fraction = 0.0) {
+  const Assembly a = column(3);
+  Case scene = column_case();
+  if (fraction > 0.0) scene.loads.top_load = TopLoad{fraction};
+  const double load = fraction * free_weight(a, kGravity);
+  return evaluated(a, {column_at_rest(a, kGravity, load, x, y)}, column_summary(a), scene,
+                   fresh_folder("results"));
+}
+
+}  // namespace cupola::test
