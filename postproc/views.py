@@ -9,6 +9,8 @@ from paraview.simple import *
 folder = os.environ.get("CUPOLA_POST") or os.path.dirname(os.path.abspath(globals().get("__file__", "views.py")))
 pictures = os.path.join(folder, "pictures")
 os.makedirs(pictures, exist_ok=True)
+STONE = (0.85, 0.83, 0.78)
+OBLIQUE = (-0.6, -1.0, 0.55)
 
 
 def path(name):
@@ -45,6 +47,12 @@ def colour(display, view, association, array, title, diverging=False):
     display.SetScalarBarVisibility(view, True)
 
 
+def plain(display, rgb):
+    """One colour, no array."""
+    display.ColorArrayName = ("POINTS", "")
+    display.AmbientColor = display.DiffuseColor = list(rgb)
+
+
 def save(view, name):
     ResetCamera(view)
     GetActiveCamera().Dolly(1.25)
@@ -69,15 +77,12 @@ def show_blocks(view, blocks, array=None, title="", diverging=False, opacity=1.0
     display.Representation = "Surface With Edges" if opacity == 1.0 else "Surface"
     display.EdgeColor = [0.35, 0.35, 0.35]
     display.Opacity = opacity
-    display.DiffuseColor = [0.85, 0.83, 0.78]
     if array:
         colour(display, view, "CELLS", array, title, diverging)
     else:
-        ColorBy(display, None)
-    return display
+        plain(display, STONE)
 
 
-OBLIQUE = (-0.6, -1.0, 0.55)
 
 series = PVDReader(FileName=path("blocks.pvd"))
 series.UpdatePipelineInformation()
@@ -111,8 +116,7 @@ if has_cells(lines):
     show_blocks(view, series, opacity=0.12)
     for what, rgb, width in [(0, (0.84, 0.37, 0.0), 5.0), (3, (0, 0, 0), 2.0), (4, (0, 0, 0), 2.0)]:
         display = Show(only(lines, "what", what), view)
-        ColorBy(display, None)
-        display.AmbientColor = display.DiffuseColor = list(rgb)
+        plain(display, rgb)
         display.LineWidth = width
     save(view, "thrust_lines")
 
@@ -120,9 +124,8 @@ sections = XMLPolyDataReader(FileName=[path("sections.vtp")])
 if has_cells(sections):
     view = new_view((-0.35, -0.6, 0.8))
     display = Show(only(sections, "what", 1), view)
-    ColorBy(display, None)
+    plain(display, STONE)
     display.Representation = "Surface With Edges"
-    display.DiffuseColor = [0.85, 0.83, 0.78]
     segments = Show(only(sections, "what", 0), view)
     segments.LineWidth = 4.0
     colour(segments, view, "CELLS", "resultant_N", "resultant from below (N)")
