@@ -15,7 +15,7 @@ std::string in_folder(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
 }
 
-std::string first_line(const std::string& text) {
+std::string last_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
@@ -32,7 +32,7 @@ std::string draw(const std::string& folder, const Figure& figure, const char* te
     write_text_atomically(script, head + figure.commands + "unset output\n");
     const int status = run_process({"gnuplot", script}, log);
     if (status == kNotFound) problem = "gnuplot is not installed";
-    if (status != 0 && status != kNotFound) problem = "gnuplot: " + first_line(read_text(log));
+    if (status != 0 && status != kNotFound) problem = "gnuplot: " + last_line(read_text(log));
     if (!problem.empty()) write_text_atomically(side, "");
     return true;
   });

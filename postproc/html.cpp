@@ -39,6 +39,7 @@ dt { color: #444; } dd { margin: 0; }
 .side { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 0 1rem; }
 @media (max-width: 600px) {
   body { padding: .5rem .75rem 2rem; } h1 { font-size: 1.3rem; }
+  figure { overflow-x: auto; } figure img { max-width: none; width: 40rem; }
   dl { grid-template-columns: 1fr; } dd { margin: 0 0 .4rem; }
 }
 @media print {

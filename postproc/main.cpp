@@ -2,6 +2,7 @@
 //
 // Sample runs:
 //   cupola-post analyse cases/dome_circular.yaml --assembly assembly.vtu --results results/ --output post/
+//   cupola-post compare out/A/post out/B/post --output comparison/
 //   cupola-post claims cases/claims.yaml --runs out/ --output out/paper/
 
 #include <cstring>
@@ -12,6 +13,7 @@
 #include "assembly/error.hpp"
 #include "postproc/analyse.hpp"
 #include "postproc/claims/claims_command.hpp"
+#include "postproc/compare/compare.hpp"
 
 namespace {
 
@@ -20,6 +22,7 @@ using namespace cupola;
 constexpr const char* kUsage =
     "cupola-post: what the contact forces of a run mean.\n\n"
     "  cupola-post analyse CASE.yaml --assembly FILE --results FOLDER --output FOLDER\n"
+    "  cupola-post compare POST POST ... --output FOLDER\n"
     "  cupola-post claims CLAIMS.yaml --runs FOLDER --output FOLDER\n\n"
     "`cupola-post COMMAND --help` tells the options.\n";
 
@@ -48,6 +51,7 @@ ExitCode run_analyse(int argc, char** argv) {
 ExitCode run(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
   if (command == "analyse") return run_analyse(argc - 1, argv + 1);
+  if (command == "compare") return run_compare(argc - 1, argv + 1);
   if (command == "claims") return run_claims(argc - 1, argv + 1);
   if (command == "--version") {
     fmt::print("cupola-post {}\n", program_version());
@@ -57,8 +61,8 @@ ExitCode run(int argc, char** argv) {
     fmt::print("{}", kUsage);
     return ExitCode::done;
   }
-  if (command.empty()) throw InputError("a command is missing: analyse or claims");
-  throw InputError(fmt::format("`{}` is not a command; the commands are: analyse, claims", command));
+  if (command.empty()) throw InputError("a command is missing: analyse, compare or claims");
+  throw InputError(fmt::format("`{}` is not a command; the commands are: analyse, compare, claims", command));
 }
 
 }  // namespace

@@ -112,8 +112,13 @@ if has_cells(joints):
 
 lines = XMLPolyDataReader(FileName=[path("thrust_lines.vtp")])
 if has_cells(lines):
-    view = new_view(OBLIQUE)
-    show_blocks(view, series, opacity=0.12)
+    # Across the first meridian's plane; an arch's lies in x and z.
+    first = only(lines, "meridian", 0)
+    first.UpdatePipeline()
+    low_x, high_x, low_y, high_y = first.GetDataInformation().GetBounds()[:4]
+    x, y = (low_x + high_x) / 2, (low_y + high_y) / 2
+    view = new_view((y, -x, 0.35 * (abs(x) + abs(y))) if abs(x) + abs(y) > 1e-3 * (high_x - low_x) else (0, -1, 0.2))
+    show_blocks(view, series, opacity=0.05)
     for what, rgb, width in [(0, (0.84, 0.37, 0.0), 5.0), (3, (0, 0, 0), 2.0), (4, (0, 0, 0), 2.0)]:
         display = Show(only(lines, "what", what), view)
         plain(display, rgb)

@@ -1,0 +1,198 @@
+#include "postproc/compare/compare.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "assembly/atomic_file.hpp"
+#include "assembly/error.hpp"
+#include "postproc/claims/csv_file.hpp"
+#include "postproc/compare/reading.hpp"
+#include "postproc/gnuplot.hpp"
+#include "postproc/html.hpp"
+#include "postproc/plot_style.hpp"
+
+namespace cupola {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One curve per run from a table that several runs have.
+struct Overlay {
+  std::string table;   // name of the CSV
+  std::string column;  // against height_m
+  double scale = 1.0;  // of the column's SI value
+  std::string label;   // of the axis, with unit
+  std::string title;
+};
+
+/// Names of the runs' files that begin and end as given, in order, without repetition.
+std::set<std::string> common_files(const std::vector<std::string>& folders, const std::string& start,
+                                   const std::string& ending) {
+  std::set<std::string> names;
+  for (const std::string& folder : folders) {
+    if (!fs::is_directory(folder)) continue;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      if (name.starts_with(start) && name.ends_with(ending) && !name.starts_with("."))
+        names.insert(name.substr(0, name.size() - ending.size()));
+    }
+  }
+  return names;
+}
+
+std::vector<std::vector<double>> curve(const CsvFile& csv, const Overlay& overlay) {
+  const size_t height = csv.column("height_m"), value = csv.column(overlay.column);
+  std::vector<std::vector<double>> rows;
+  for (size_t i = 0; i < csv.rows.size(); ++i)
+    rows.push_back({csv.number(i, height), overlay.scale * csv.number(i, value)});
+  return rows;
+}
+
+/// The overlaid graph, or a figure without commands when fewer than two runs have the table.
+Figure overlay_figure(const Overlay& overlay, const std::vector<std::string>& folders,
+                      const std::vector<std::string>& labels) {
+  constexpr const char* kColours[] = {kBlue, kOrange, kGreen, kPurple, kSky, "#000000"};
+  Figure f;
+  f.name = overlay.table + "_" + overlay.column;
+  f.title = overlay.title;
+  f.width = 760;
+  f.height = 480;
+  std::string data, plot;
+  int curves = 0;
+  for (size_t i = 0; i < folders.size(); ++i) {
+    const std::string path = (fs::path(folders[i]) / (overlay.table + ".csv")).string();
+    if (!fs::exists(path)) continue;
+    data += data_block(fmt::format("run{}", i), curve(read_csv(path), overlay));
+    plot += fmt::format("{} $run{} w lp lc rgb '{}' dt {} pt {} ps 0.5 lw 1.5 title '{}'",
+                        plot.empty() ? "plot" : ",", i, kColours[i % std::size(kColours)],
+                        i / std::size(kColours) + 1, 4 + i, gnuplot_text(labels[i]));
+    ++curves;
+  }
+  if (curves < 2) return f;
+  f.commands = plot_style() + data +
+               fmt::format(
+                   "set xlabel 'height (m)'\nset ylabel '{}'\nset yrange [0:*]\nset key outside bottom "
+                   "center vertical\n{}\n",
+                   gnuplot_text(overlay.label), plot);
+  return f;
+}
+
+std::vector<Figure> overlay_figures(const std::vector<std::string>& folders,
+                                    const std::vector<std::string>& labels) {
+  std::vector<Overlay> overlays{
+      {"rings", "cv_pressure", 100.0, "variation of bed pressures in the ring (%)",
+       "Uniformity of the rings"},
+      {"rings", "largest_friction_use", 100.0, "largest friction utilisation (%)",
+       "Friction used by the beds"},
+      {"rings", "largest_kern_use", 1.0, "largest eccentricity over the kern's", "Eccentricity of the beds"}};
+  for (const std::string& table : common_files(folders, "thrust_", ".csv")) {
+    const std::string name = table.substr(7);
+    overlays.push_back({table, "r_N", 1e-6, "r: resultant (MN)", "Resultant along the meridian " + name});
+    overlays.push_back(
+        {table, "couple_length_m", 1.0, "couple length (m)", "Couple length along the meridian " + name});
+  }
+  std::vector<Figure> figures;
+  for (const Overlay& overlay : overlays) {
+    Figure figure = overlay_figure(overlay, folders, labels);
+    if (!figure.commands.empty()) figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
+/// The runs' own figures of one name, beside each other.
+std::string side_by_side(const std::string& name, const std::vector<std::string>& folders,
+                         const std::vector<std::string>& labels) {
+  std::string pictures;
+  for (size_t i = 0; i < folders.size(); ++i) {
+    const fs::path base = fs::path(folders[i]) / "figures";
+    const fs::path svg = base / (name + ".svg"), png = base / (name + ".png");
+    const std::string picture = html_picture((fs::exists(svg) ? svg : png).string(), name + ", " + labels[i]);
+    if (!picture.empty())
+      pictures +=
+          fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", picture, html_text(labels[i]));
+  }
+  if (pictures.empty()) return "";
+  return fmt::format("<h3>{}</h3>\n<div class=\"side\">\n{}</div>\n", html_text(name), pictures);
+}
+
+std::string comparison_html(const std::vector<PostSummary>& runs, const std::vector<std::string>& folders,
+                            const std::vector<Figure>& figures, const std::string& figure_folder,
+                            const std::vector<std::string>& problems) {
+  const std::vector<std::string> labels = run_labels(runs.size());
+  std::string body = "<h1>Comparison</h1>\n<dl>\n";
+  for (size_t i = 0; i < runs.size(); ++i)
+    body += fmt::format("<dt>{}</dt><dd>{} <small>({}, {})</small></dd>\n", html_text(labels[i]),
+                        html_text(runs[i].title), html_text(runs[i].status), html_text(folders[i]));
+  body += "</dl>\n";
+  for (const std::string& problem : problems)
+    body += "<p class=\"warning\"><strong>Warning:</strong> " + html_text(problem) + "</p>\n";
+  body += "<h2>Reading</h2>\n<p>";
+  for (const std::string& sentence : reading(runs)) body += html_text(sentence) + " ";
+  body += "</p>\n<h2>Numbers</h2>\n" + html_table(comparison_table(runs));
+  body += "<h2>Graphs</h2>\n<div class=\"side\">\n";
+  for (const Figure& figure : figures)
+    body +=
+        fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
+                    html_picture((fs::path(figure_folder) / (figure.name + ".svg")).string(), figure.title),
+                    html_text(figure.title));
+  body += "</div>\n<h2>Side by side</h2>\n";
+  std::vector<std::string> figure_folders;
+  for (const std::string& folder : folders) figure_folders.push_back((fs::path(folder) / "figures").string());
+  for (const char* start : {"thrust_", "section_", "map_", "hoop_"})
+    for (const std::string& name : common_files(figure_folders, start, ".png"))
+      body += side_by_side(name, folders, labels);
+  return html_page("Comparison", body);
+}
+
+}  // namespace
+
+ExitCode compare(const std::vector<std::string>& post_folders, const std::string& output_folder, bool quiet) {
+  std::vector<PostSummary> runs;
+  for (const std::string& folder : post_folders) runs.push_back(read_post_summary(folder));
+  const std::vector<Figure> figures = overlay_figures(post_folders, run_labels(runs.size()));
+  make_folder(output_folder);
+  const std::string figure_folder = (fs::path(output_folder) / "figures").string();
+  const std::vector<std::string> problems = draw_figures(figure_folder, figures);
+  write_text_atomically((fs::path(output_folder) / "comparison.csv").string(),
+                        to_csv(comparison_table(runs)));
+  write_text_atomically((fs::path(output_folder) / "comparison.html").string(),
+                        comparison_html(runs, post_folders, figures, figure_folder, problems));
+  for (const std::string& problem : problems) fmt::print(stderr, "cupola-post: warning: {}\n", problem);
+  if (!quiet) {
+    const std::vector<std::string> labels = run_labels(runs.size());
+    for (size_t i = 0; i < runs.size(); ++i)
+      fmt::print("{}: {} ({})\n", labels[i], runs[i].title, post_folders[i]);
+    for (const std::string& sentence : reading(runs)) fmt::print("{}\n", sentence);
+    fmt::print("read {}\n", (fs::path(output_folder) / "comparison.html").string());
+  }
+  return ExitCode::done;
+}
+
+ExitCode run_compare(int argc, const char* const* argv) {
+  std::vector<std::string> folders;
+  std::string output;
+  bool quiet = false;
+  CLI::App app("Compares runs: reading, table, overlaid graphs, figures side by side.",
+               "cupola-post compare");
+  app.add_option("POST", folders, "folders of `cupola-post analyse`, two or more")->required();
+  app.add_option("--output", output, "folder to write")->type_name("FOLDER")->required();
+  app.add_flag("--quiet", quiet, "print errors only");
+  app.footer("Sample runs:\n  cupola-post compare out/A/post out/B/post --output comparison/");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    app.exit(help);
+    return ExitCode::done;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{}; see cupola-post compare --help", error.what()));
+  }
+  if (folders.size() < 2) throw InputError("a comparison needs two folders or more");
+  return compare(folders, output, quiet);
+}
+
+}  // namespace cupola

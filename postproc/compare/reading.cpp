@@ -1,0 +1,134 @@
+#include "postproc/compare/reading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace cupola {
+namespace {
+
+using Values = std::vector<std::optional<double>>;
+
+std::optional<double> least_safety(const PostSummary& s) {
+  if (s.thrust_lines.empty()) return std::nullopt;
+  double least = std::numeric_limits<double>::infinity();
+  for (const PostSummary::Line& line : s.thrust_lines) least = std::min(least, line.least_geometric_safety);
+  return least;
+}
+
+/// The smaller the better.
+double badness(const Measure& measure, double value) {
+  switch (measure.best) {
+    case Measure::Best::lowest:
+      return value;
+    case Measure::Best::highest:
+      return -value;
+    case Measure::Best::nearest_one:
+      return std::abs(std::log(value));
+  }
+  return value;
+}
+
+/// "..., most even in A, by a factor of 3.7", or that there is nothing to choose.
+std::string conclusion(const Measure& measure, const Values& values, const std::vector<std::string>& labels) {
+  constexpr double kSame = 1e-3;  // numbers that differ by less are read as equal
+  std::vector<size_t> order;
+  for (size_t i = 0; i < values.size(); ++i)
+    if (values[i]) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](size_t i, size_t j) {
+    return badness(measure, *values[i]) < badness(measure, *values[j]);
+  });
+  const double best = *values[order[0]], next = *values[order[1]];
+  if (best == next || std::abs(best - next) <= kSame * std::max(std::abs(best), std::abs(next)))
+    return "the best two are equal within 0.1 %";
+  std::string text = measure.superlative + " in " + labels[order[0]];
+  const double low = std::min(best, next), high = std::max(best, next);
+  if (measure.best != Measure::Best::nearest_one && low > 0.0 && std::isfinite(high))
+    text += fmt::format(", by a factor of {:.3g}", high / low);
+  return text;
+}
+
+std::string sentence(const Measure& measure, const Values& values, const std::vector<std::string>& labels) {
+  std::string numbers;
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (!values[i]) continue;
+    if (!numbers.empty()) numbers += ", ";
+    numbers += fmt::format("{:.4g}{}{} in {}", measure.scale * *values[i], measure.unit.empty() ? "" : " ",
+                           measure.unit, labels[i]);
+  }
+  return fmt::format("{} {}: {}.", measure.subject, numbers, conclusion(measure, values, labels));
+}
+
+}  // namespace
+
+const std::vector<Measure>& measures() {
+  using Best = Measure::Best;
+  using S = PostSummary;
+  using O = std::optional<double>;
+  static const std::vector<Measure> kMeasures{
+      {"cv_pressure_percent", "%", 100.0, "Within a ring, bed pressures vary in the mean by", "most even",
+       Best::lowest, [](const S& s) { return O(s.mean_cv_pressure); }},
+      {"rib_over_mid_sail", "", 1.0, "The resultant of the rib over that of the mid-sail is",
+       "nearest to equal", Best::nearest_one, [](const S& s) { return s.rib_over_mid_sail; }},
+      {"friction_use_percent", "%", 100.0, "Of its friction, the most used joint needs", "least used",
+       Best::lowest, [](const S& s) { return O(s.largest_friction_use); }},
+      {"critical_friction", "", 1.0, "The friction coefficient at which it falls is",
+       "safest against sliding", Best::lowest, [](const S& s) { return s.critical_value; }},
+      {"kern_use", "", 1.0, "Over the kern's edge, the bed forces' mean eccentricity is", "most central",
+       Best::lowest, [](const S& s) { return O(s.mean_kern_use); }},
+      {"geometric_safety", "", 1.0, "The least geometric safety of the thrust lines is", "largest",
+       Best::highest, least_safety},
+      {"thrust_over_weight", "", 1.0, "The outward thrust of the base over the weight is", "smallest",
+       Best::lowest, [](const S& s) { return O(s.thrust_over_weight); }},
+      {"couple_length_m", "m", 1.0, "The largest couple length of a block's wrench is", "smallest",
+       Best::lowest, [](const S& s) { return O(s.largest_couple_length_m); }},
+      {"displacement_mm", "mm", 1000.0, "The largest displacement of a block is", "stiffest", Best::lowest,
+       [](const S& s) { return O(s.max_displacement_m); }},
+  };
+  return kMeasures;
+}
+
+std::vector<std::string> run_labels(size_t num_runs) {
+  std::vector<std::string> labels;
+  for (size_t i = 0; i < num_runs; ++i)
+    labels.push_back(i < 26 ? std::string(1, static_cast<char>('A' + i)) : fmt::format("run {}", i + 1));
+  return labels;
+}
+
+std::vector<std::string> reading(const std::vector<PostSummary>& runs) {
+  const std::vector<std::string> labels = run_labels(runs.size());
+  std::vector<std::string> sentences;
+  for (size_t i = 0; i < runs.size(); ++i)
+    if (runs[i].status != "stable")
+      sentences.push_back(
+          fmt::format("{} is {}: its forces are not those of an equilibrium (residual {:.1e}).", labels[i],
+                      runs[i].status, runs[i].equilibrium_residual));
+  for (const Measure& measure : measures()) {
+    Values values;
+    for (const PostSummary& run : runs) values.push_back(measure.value(run));
+    if (std::count_if(values.begin(), values.end(), [](const auto& v) { return v.has_value(); }) >= 2)
+      sentences.push_back(sentence(measure, values, labels));
+  }
+  return sentences;
+}
+
+Table comparison_table(const std::vector<PostSummary>& runs) {
+  Table t{"comparison", "The runs, measure by measure", {{"run", "", "run"}, {"title", "", "case"}, {"status", "", "status"}}, {}};
+  t.columns.push_back({"blocks", "", "free blocks"});
+  t.columns.push_back({"friction", "", "friction coefficient"});
+  for (const Measure& m : measures()) t.columns.push_back({m.key, m.unit, m.subject});
+  const std::vector<std::string> labels = run_labels(runs.size());
+  for (size_t i = 0; i < runs.size(); ++i) {
+    std::vector<Table::Cell> row{labels[i], runs[i].title, runs[i].status, runs[i].blocks, runs[i].friction};
+    for (const Measure& m : measures()) {
+      const std::optional<double> value = m.value(runs[i]);
+      row.push_back(m.scale * value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    t.rows.push_back(std::move(row));
+  }
+  return t;
+}
+
+}  // namespace cupola
