@@ -11,6 +11,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/checkpoint.hpp"
+#include "solver/collision/patch_file.hpp"
 #include "solver/contact/fclib_file.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/run_control.hpp"
@@ -139,6 +140,8 @@ ExitCode solve_case(const SolveRequest& request) {
   summary->wall_time_seconds = wall_seconds() - started;
   summary->peak_memory_bytes = peak_memory_bytes();
   writer.write_text("run.yaml", provenance(*summary) + request.scene.effective_yaml);
+  write_patches((std::filesystem::path(request.output_folder) / "patches.vtp").string(),
+                ContactDetector(assembly, detection_options(request.scene)).update(initial_poses(assembly)));
   writer.write_summary(*summary);
   if (!request.quiet) print_summary(*summary);
   return summary->status == Status::unconverged ? ExitCode::accuracy_not_reached : ExitCode::done;

@@ -16,11 +16,24 @@ struct Material {
   double density() const { return unit_weight / 9.81; }
 };
 
-struct FaceClipping {};
-
+/// How contacts are found.
 struct ContactDetection {
-  enum class Method { face_clipping };
+  enum class Method { face_clipping, perturbed_gjk, file };
   Method method = Method::face_clipping;
+  /// m, >= 0: faces up to this far apart make contacts; for perturbed_gjk also the radius of the spheres that
+  /// the shrunk shapes are swept with. 0: 1 % of the smallest free block (cube root of its volume).
+  double margin = 0.0;
+
+  /// Of perturbed_gjk alone (paper section 2.3).
+  struct Perturbation {
+    int perturbations = 16;  ///< GJK queries per pair of parts, >= 1
+    double angle = 0.01;     ///< rad, largest rotation, in (0, 0.1]
+    int seed = 1;            ///< of the rotations, >= 0
+    int keep = 4;            ///< points kept per pair of parts, >= 1
+    bool operator==(const Perturbation&) const = default;
+  } perturbation;
+
+  std::string file;  ///< contact points from elsewhere, for method `file`
 };
 
 struct Output {

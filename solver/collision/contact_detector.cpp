@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "assembly/error.hpp"
+#include "solver/collision/contact_file.hpp"
 #include "solver/collision/edge_contact.hpp"
 #include "solver/collision/face_clipping.hpp"
 
@@ -59,9 +60,9 @@ std::pair<int, int> blocks_of(const CollisionModel& model, const PartPair& pair)
   return {model.parts[pair.first].block, model.parts[pair.second].block};
 }
 
-/// All patches between two blocks.
-std::vector<JointPatch> find_patches(const CollisionModel& model, std::span<const PartPair> pairs,
-                                     const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& options) {
+/// All patches between two blocks by face clipping.
+std::vector<JointPatch> clip_blocks(const CollisionModel& model, std::span<const PartPair> pairs,
+                                    const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& options) {
   std::vector<JointPatch> patches;
   for (const auto& [a, b] : pairs) {
     const std::vector<JointPatch> faces = clip_opposed_faces(model, a, b, pose_ab, options);
@@ -73,10 +74,14 @@ std::vector<JointPatch> find_patches(const CollisionModel& model, std::span<cons
   return patches;
 }
 
-/// Two parts within the margin overlap by half of it each; boxes stay valid while their block moves by the
-/// allowance.
-double box_padding(const DetectionOptions& options) {
-  return (0.5 + options.moved_fraction) * options.margin;
+/// All patches between two blocks by the paper's method.
+std::vector<JointPatch> perturb_blocks(const PerturbedGjk& gjk, const CollisionModel& model,
+                                       std::span<const PartPair> pairs, const Eigen::Isometry3d& pose_ab,
+                                       double reach) {
+  std::vector<JointPatch> patches;
+  for (const auto& [a, b] : pairs)
+    if (auto patch = gjk.find(model, a, b, pose_ab, reach)) patches.push_back(std::move(*patch));
+  return patches;
 }
 
 }  // namespace
@@ -91,99 +96,122 @@ void DetectionOptions::validate() const {
 ContactDetector::ContactDetector(const Assembly& assembly, const DetectionOptions& options)
     : options_(options), model_(make_collision_model(assembly)) {
   options_.validate();
-  if (options_.margin == 0.0) options_.margin = kDefaultMargin * model_.smallest_block;
+  if (!options_.contact_file.empty()) given_ = read_contacts(options_.contact_file, assembly);
+  if (options_.perturbed_gjk) perturbed_gjk_.emplace(model_, *options_.perturbed_gjk);
+  if (options_.margin == 0.0)
+    options_.margin = perturbed_gjk_ ? perturbed_gjk_->margin() : kDefaultMargin * model_.smallest_block;
   narrow_.margin = options_.margin;
   narrow_.min_width = kSliverWidth * model_.smallest_block;
   narrow_.tolerance = std::max(kCornerTolerance * model_.smallest_block, 16.0 * model_.rounding);
 }
 
-const ContactSet& ContactDetector::update(std::span<const Pose> poses) {
+const ContactSet& ContactDetector::update(std::span<const Pose> poses, std::span<const double> travel) {
   CUPOLA_ASSERT(poses.size() == model_.block_radius.size());
-  if (num_detections_ == 0 || moved_too_far(poses)) {
-    detect(poses);
-  } else {
-    carry_along(poses);
+  CUPOLA_ASSERT(travel.empty() || travel.size() == poses.size());
+  Reach& now = memory_.now;
+  const bool unmoved = std::equal(poses.begin(), poses.end(), now.poses.begin(), now.poses.end(), same_pose);
+  now.poses.assign(poses.begin(), poses.end());
+  now.travel.assign(poses.size(), 0.0);
+  // A block that would cross its own size in one step is beyond what detection can promise.
+  for (std::size_t b = 0; b < travel.size(); ++b) now.travel[b] = std::min(travel[b], model_.block_radius[b]);
+  if (memory_.num_detections == 0 || needs_detection()) {
+    detect();
+  } else if (!unmoved) {
+    move_contacts(poses, &memory_.contacts);
   }
-  return contacts_.set;
+  return memory_.contacts.set;
 }
 
-bool ContactDetector::moved_too_far(std::span<const Pose> poses) const {
-  const double allowed = options_.moved_fraction * options_.margin;
-  for (std::size_t b = 0; b < poses.size(); ++b)
-    if (!(motion_bound(detection_poses_[b], poses[b], model_.block_radius[b]) <= allowed)) return true;
+bool ContactDetector::still_reaches(const Reach& reach, int block) const {
+  const double moved = motion_bound(reach.poses[block], memory_.now.poses[block], model_.block_radius[block]);
+  return moved + memory_.now.travel[block] <= reach.travel[block] + options_.moved_fraction * options_.margin;
+}
+
+bool ContactDetector::needs_detection() const {
+  if (given_) return false;
+  for (std::size_t b = 0; b < memory_.now.poses.size(); ++b) {
+    if (!still_reaches(memory_.detection, static_cast<int>(b))) return true;
+    // A block that has come to rest need not keep the distant contacts of its flight.
+    if (memory_.detection.travel[b] - memory_.now.travel[b] > options_.margin) return true;
+  }
   return false;
 }
 
-void ContactDetector::carry_along(std::span<const Pose> poses) {
-  if (std::equal(poses.begin(), poses.end(), current_poses_.begin(), same_pose)) return;
-  move_contacts(poses, &contacts_);
-  current_poses_.assign(poses.begin(), poses.end());
+Box ContactDetector::padded_box(const CollisionPart& part, const Reach& reach) const {
+  // Two parts within the margin overlap by half of it each; the rest lasts while the block still reaches.
+  const double padding = (0.5 + options_.moved_fraction) * options_.margin + reach.travel[part.block];
+  return part_box(model_, part, reach.poses[part.block], padding);
 }
 
-void ContactDetector::make_broad_phase(std::span<const Pose> poses) {
+void ContactDetector::make_broad_phase(const Reach& reach) {
   std::vector<Box> boxes;
   std::vector<int> groups;
   for (const CollisionPart& part : model_.parts) {
-    boxes.push_back(part_box(model_, part, poses[part.block], box_padding(options_)));
+    boxes.push_back(padded_box(part, reach));
     groups.push_back(part.fixed ? -1 : part.block);
   }
   broad_phase_.emplace(boxes, groups);
-  box_poses_.assign(poses.begin(), poses.end());
+  memory_.boxes = reach;
 }
 
-void ContactDetector::update_broad_phase(std::span<const Pose> poses) {
-  if (!broad_phase_) return make_broad_phase(poses);
-  const double allowance = options_.moved_fraction * options_.margin;
+void ContactDetector::update_broad_phase() {
+  if (!broad_phase_) return make_broad_phase(memory_.now);
   std::vector<int> indices;
   std::vector<Box> boxes;
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {
-    const CollisionPart& part = model_.parts[p];
-    const double radius = model_.block_radius[part.block];
-    if (motion_bound(box_poses_[part.block], poses[part.block], radius) <= allowance) continue;
+    if (still_reaches(memory_.boxes, model_.parts[p].block)) continue;
     indices.push_back(static_cast<int>(p));
-    boxes.push_back(part_box(model_, part, poses[part.block], box_padding(options_)));
+    boxes.push_back(padded_box(model_.parts[p], memory_.now));
   }
   broad_phase_->move(indices, boxes);
-  for (int p : indices) box_poses_[model_.parts[p].block] = poses[model_.parts[p].block];
+  for (int p : indices) {
+    const int block = model_.parts[p].block;
+    memory_.boxes.poses[block] = memory_.now.poses[block];
+    memory_.boxes.travel[block] = memory_.now.travel[block];
+  }
 }
 
-void ContactDetector::detect(std::span<const Pose> poses) {
-  update_broad_phase(poses);
+void ContactDetector::detect() {
+  AnchoredContacts fresh = given_ ? *given_ : find_contacts();
+  keep_identities(memory_.contacts, &fresh);
+  memory_.contacts = std::move(fresh);
+  move_contacts(memory_.now.poses, &memory_.contacts);
+  memory_.detection = memory_.now;
+  ++memory_.num_detections;
+}
+
+AnchoredContacts ContactDetector::find_contacts() {
+  update_broad_phase();
+  const Reach& now = memory_.now;
   AnchoredContacts fresh;
-  fresh.set.contacts.reserve(contacts_.set.contacts.size());
-  fresh.anchors.reserve(contacts_.anchors.size());
+  fresh.set.contacts.reserve(memory_.contacts.set.contacts.size());
+  fresh.anchors.reserve(memory_.contacts.anchors.size());
   const double nominal_area = model_.smallest_block * model_.smallest_block / 12.0;
   std::vector<PartPair> pairs = broad_phase_->overlapping_pairs();
   const auto by_blocks = [&](const PartPair& p, const PartPair& q) {
     return blocks_of(model_, p) < blocks_of(model_, q);
   };
   std::stable_sort(pairs.begin(), pairs.end(), by_blocks);
+  NarrowPhaseOptions narrow = narrow_;
   for (auto first = pairs.begin(); first != pairs.end();) {
     const auto last = std::upper_bound(first, pairs.end(), *first, by_blocks);
-    const auto [block_a, block_b] = blocks_of(model_, *first);
-    const Eigen::Isometry3d pose_ab = relative_pose(poses[block_a], poses[block_b]);
-    for (const JointPatch& patch : find_patches(model_, {first, last}, pose_ab, narrow_))
-      append_patch(model_, patch, pose_ab, options_.margin, options_.points, nominal_area, &fresh);
+    const auto [a, b] = blocks_of(model_, *first);
+    const Eigen::Isometry3d pose_ab = relative_pose(now.poses[a], now.poses[b]);
+    const double reach = now.travel[a] + now.travel[b];
+    narrow.margin = options_.margin + reach;
+    const std::span<const PartPair> parts(first, last);
+    for (const JointPatch& patch : perturbed_gjk_
+                                       ? perturb_blocks(*perturbed_gjk_, model_, parts, pose_ab, reach)
+                                       : clip_blocks(model_, parts, pose_ab, narrow))
+      append_patch(model_, patch, pose_ab, narrow.margin, options_.points, nominal_area, &fresh);
     first = last;
   }
-  keep_identities(contacts_, &fresh);
-  contacts_ = std::move(fresh);
-  move_contacts(poses, &contacts_);
-  detection_poses_.assign(poses.begin(), poses.end());
-  current_poses_ = detection_poses_;
-  ++num_detections_;
+  return fresh;
 }
 
-DetectionMemory ContactDetector::memory() const {
-  return {box_poses_, detection_poses_, current_poses_, contacts_, num_detections_};
-}
-
-void ContactDetector::restore(const DetectionMemory& memory) {
-  if (memory.num_detections > 0) make_broad_phase(memory.box_poses);
-  detection_poses_ = memory.detection_poses;
-  current_poses_ = memory.current_poses;
-  contacts_ = memory.contacts;
-  num_detections_ = memory.num_detections;
+void ContactDetector::restore(DetectionMemory memory) {
+  memory_ = std::move(memory);
+  if (memory_.num_detections > 0 && !given_) make_broad_phase(Reach(memory_.boxes));
 }
 
 }  // namespace cupola

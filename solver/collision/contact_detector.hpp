@@ -2,10 +2,12 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "solver/collision/collision_model.hpp"
 #include "solver/collision/patch_contacts.hpp"
+#include "solver/collision/perturbed_gjk.hpp"
 #include "solver/collision/proximity.hpp"
 
 namespace cupola {
@@ -20,16 +22,28 @@ struct DetectionOptions {
   /// that approach each other unseen still have half the margin between them.
   double moved_fraction = 0.25;
 
+  /// None: face clipping, with edges and vertices by separating axes. Else the paper's narrow phase.
+  std::optional<PerturbedGjkOptions> perturbed_gjk;
+
+  /// File of contact points that are followed and never found anew; empty: none (see contact_file.hpp).
+  std::string contact_file;
+
   /// Throws InputError naming the value and the rule.
   void validate() const;
+};
+
+/// Where every block was at some time, and how far it might have gone until the next.
+struct Reach {
+  std::vector<Pose> poses;
+  std::vector<double> travel;  ///< m
 };
 
 /// What detection remembers of the motion so far. Given back to a detector of the same assembly and options,
 /// it goes on with the same bits.
 struct DetectionMemory {
-  std::vector<Pose> box_poses;        ///< of the boxes in the broad phase
-  std::vector<Pose> detection_poses;  ///< at which contacts were last detected
-  std::vector<Pose> current_poses;    ///< of the last update
+  Reach boxes;      ///< of the boxes in the broad phase
+  Reach detection;  ///< at the last detection
+  Reach now;        ///< at the last update
   AnchoredContacts contacts;
   int num_detections = 0;
 };
@@ -45,35 +59,39 @@ class ContactDetector {
   /// Throws InputError for invalid options or faces without area.
   ContactDetector(const Assembly& assembly, const DetectionOptions& options);
 
-  /// Contacts at the given poses, one per block. The reference stays valid until the next call.
-  const ContactSet& update(std::span<const Pose> poses);
+  /// Contacts at the given poses, one per block. `travel` tells how far points of each block may move until
+  /// the next call (m; none: not at all): so much wider is the margin of its contacts, so that fast blocks
+  /// meet no surface unseen. The reference stays valid until the next call.
+  const ContactSet& update(std::span<const Pose> poses, std::span<const double> travel = {});
 
   /// Contacts at the poses of the last update.
-  const ContactSet& contacts() const { return contacts_.set; }
+  const ContactSet& contacts() const { return memory_.contacts.set; }
 
   /// What a checkpoint keeps, and how a new detector takes it over.
-  DetectionMemory memory() const;
-  void restore(const DetectionMemory& memory);
+  const DetectionMemory& memory() const { return memory_; }
+  void restore(DetectionMemory memory);
 
-  int num_detections() const { return num_detections_; }
+  int num_detections() const { return memory_.num_detections; }
   double margin() const { return options_.margin; }  ///< m, in force
+  /// m, largest distance of a block's vertex from its centroid.
+  double block_radius(int block) const { return model_.block_radius[block]; }
 
  private:
-  bool moved_too_far(std::span<const Pose> poses) const;
-  void detect(std::span<const Pose> poses);
-  void update_broad_phase(std::span<const Pose> poses);
-  void make_broad_phase(std::span<const Pose> poses);
-  void carry_along(std::span<const Pose> poses);
+  Box padded_box(const CollisionPart& part, const Reach& reach) const;
+  void make_broad_phase(const Reach& reach);
+  void update_broad_phase();
+  bool still_reaches(const Reach& reach, int block) const;
+  bool needs_detection() const;
+  void detect();
+  AnchoredContacts find_contacts();
 
   DetectionOptions options_;
   CollisionModel model_;
   NarrowPhaseOptions narrow_;
+  std::optional<PerturbedGjk> perturbed_gjk_;
   std::optional<BroadPhase> broad_phase_;
-  std::vector<Pose> box_poses_;  ///< of the boxes in the broad phase
-  std::vector<Pose> detection_poses_;
-  std::vector<Pose> current_poses_;
-  AnchoredContacts contacts_;
-  int num_detections_ = 0;
+  std::optional<AnchoredContacts> given_;  ///< from the contact file
+  DetectionMemory memory_;
 };
 
 }  // namespace cupola

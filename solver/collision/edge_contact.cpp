@@ -111,38 +111,6 @@ bool has_opposed_face(const PartPair& pair, const Axis& axis, double max_angle) 
   });
 }
 
-/// Corners, within the margin, of the faces that look at the axis's face, clipped to its outline.
-JointPatch points_on_face(const PartPair& pair, const Axis& axis, const NarrowPhaseOptions& options) {
-  constexpr double kLooksAt = -0.1;  // cosine; steeper faces have no height over the plane worth the name
-  JointPatch points;
-  points.origin = axis.face_a ? axis.face_a->centroid : pair.pose_ab * axis.face_b->centroid;
-  points.set_normal(axis.normal);
-  points.min_gap = std::numeric_limits<double>::infinity();
-  const auto add_corners = [&](const CollisionFace& face_a, const CollisionFace& face_b) {
-    const JointPatch clipped = clip_faces(pair.model, face_a, face_b, pair.pose_ab, axis.normal, options);
-    for (const PatchCorner& corner : clipped.corners) {
-      const LiftedPoint x = lift_to_faces(clipped, corner.position);
-      if (x.gap > options.margin) continue;
-      const Vec2 position = points.project(x.on_a);
-      const bool known = std::ranges::any_of(points.corners, [&](const PatchCorner& other) {
-        return (other.position - position).norm() <= 10.0 * options.tolerance;
-      });
-      if (known) continue;
-      points.corners.push_back({position, {axis.normal, axis.face_a ? 1.0 : 0.0}});
-      points.touching.push_back(x);
-      points.min_gap = std::min(points.min_gap, x.gap);
-    }
-  };
-  if (axis.face_a) {
-    for (const CollisionFace& face : pair.model.faces_of(pair.b))
-      if (axis.normal.dot(pair.pose_ab.linear() * face.normal) < kLooksAt) add_corners(*axis.face_a, face);
-  } else {
-    for (const CollisionFace& face : pair.model.faces_of(pair.a))
-      if (-axis.normal.dot(face.normal) < kLooksAt) add_corners(face, *axis.face_b);
-  }
-  return points;
-}
-
 /// Do all points lie within min_width of one border of the axis's face? Such parts meet along their borders,
 /// as blocks on either side of a mitre do, and carry nothing there.
 bool along_border(const PartPair& pair, const Axis& axis, const JointPatch& points, double min_width) {
@@ -164,6 +132,44 @@ bool along_border(const PartPair& pair, const Axis& axis, const JointPatch& poin
     if (all_near) return true;
   }
   return false;
+}
+
+/// Corners, within the margin, of the faces that look at the axis's face, clipped to its outline.
+JointPatch points_on_face(const PartPair& pair, const Axis& axis, const NarrowPhaseOptions& options) {
+  constexpr double kLooksAt = -0.1;  // cosine; steeper faces have no height over the plane worth the name
+  JointPatch points;
+  points.origin = axis.face_a ? axis.face_a->centroid : pair.pose_ab * axis.face_b->centroid;
+  points.set_normal(axis.normal);
+  points.min_gap = std::numeric_limits<double>::infinity();
+  const CornerNormal of_face{axis.normal, axis.face_a ? 1.0 : 0.0};
+  const double nearly_along = std::cos(options.max_angle);
+  const auto add_corners = [&](const CollisionFace& face_a, const CollisionFace& face_b) {
+    const JointPatch clipped = clip_faces(pair.model, face_a, face_b, pair.pose_ab, axis.normal, options);
+    for (const PatchCorner& corner : clipped.corners) {
+      const LiftedPoint x = lift_to_faces(clipped, corner.position);
+      if (x.gap > options.margin) continue;
+      const Vec2 position = points.project(x.on_a);
+      const bool known = std::ranges::any_of(points.corners, [&](const PatchCorner& other) {
+        return (other.position - position).norm() <= 10.0 * options.tolerance;
+      });
+      if (known) continue;
+      const bool steep = corner.normal.normal.dot(axis.normal) < nearly_along;
+      points.corners.push_back({position, steep ? of_face : corner.normal});
+      points.touching.push_back(x);
+      points.min_gap = std::min(points.min_gap, x.gap);
+    }
+  };
+  points.face_a = axis.face_a ? axis.face_a->id : -1;
+  points.face_b = axis.face_b ? axis.face_b->id : -1;
+  if (axis.face_a) {
+    for (const CollisionFace& face : pair.model.faces_of(pair.b))
+      if (axis.normal.dot(pair.pose_ab.linear() * face.normal) < kLooksAt) add_corners(*axis.face_a, face);
+  } else {
+    for (const CollisionFace& face : pair.model.faces_of(pair.a))
+      if (-axis.normal.dot(face.normal) < kLooksAt) add_corners(face, *axis.face_b);
+  }
+  if (along_border(pair, axis, points, options.min_width)) points.corners.clear();
+  return points;
 }
 
 JointPatch crossing_edges(const Axis& axis) {
@@ -193,18 +199,18 @@ std::optional<JointPatch> find_edge_contact(const CollisionModel& model, int par
   const Axis edge_axis = best_edge_axis(pair, options);
   if (edge_axis.gap > options.margin) return std::nullopt;
 
+  // Where an edge lies across the border of a face, the crossing of that border is one corner of the face
+  // contact; taken alone it would lose the other end. So edges win only with another normal.
+  const bool same_normal = edge_axis.normal.dot(face_axis.normal) > std::cos(options.max_angle);
+  const CollisionFace& face = face_axis.face_a ? *face_axis.face_a : *face_axis.face_b;
   JointPatch contact;
-  FaceKind kind = FaceKind::free;
-  if (edge_axis.gap > face_axis.gap + 100.0 * options.tolerance) {
-    contact = crossing_edges(edge_axis);
-  } else {
-    kind = (face_axis.face_a ? face_axis.face_a : face_axis.face_b)->kind;
-    if (opposed || kind == FaceKind::internal) return std::nullopt;
+  if (!opposed && face.kind != FaceKind::internal && (same_normal || face_axis.gap >= edge_axis.gap))
     contact = points_on_face(pair, face_axis, options);
-    if (contact.corners.empty() || along_border(pair, face_axis, contact, options.min_width))
-      return std::nullopt;
-    contact.face_a = face_axis.face_a ? face_axis.face_a->id : -1;
-    contact.face_b = face_axis.face_b ? face_axis.face_b->id : -1;
+  FaceKind kind = face.kind;
+  if (contact.corners.empty()) {
+    if (face_axis.gap >= edge_axis.gap) return std::nullopt;
+    contact = crossing_edges(edge_axis);
+    kind = FaceKind::free;
   }
   contact.part_a = part_a;
   contact.part_b = part_b;

@@ -53,6 +53,7 @@ struct JointPatch {
   void set_normal(const Vec3& unit_normal);  ///< and a frame (u, v) about it
   Vec2 project(const Vec3& x) const { return {u.dot(x - origin), v.dot(x - origin)}; }
   std::vector<Vec2> outline() const;
+  double point_area = 0.0;  ///< m2 that each of them stands for, 0 where nothing is known
   bool has_area() const { return touching.empty(); }
 };
 

@@ -106,9 +106,11 @@ void append_patch(const CollisionModel& model, const JointPatch& patch, const Ei
              point.corner < 0 ? CornerNormal{patch.normal, 0.5} : patch.corners[point.corner].normal,
              point.area, point.corner);
   } else {
+    const double area = patch.point_area > 0.0 ? patch.point_area : nominal_area;
+    shape.area = patch.point_area * static_cast<double>(patch.corners.size());
     for (std::size_t i = 0; i < patch.corners.size(); ++i) {
       polygon.push_back(patch.touching[i].on_a);
-      append(patch.touching[i], patch.corners[i].normal, nominal_area, static_cast<int>(i));
+      append(patch.touching[i], patch.corners[i].normal, area, static_cast<int>(i));
     }
   }
   contacts->set.patches.push_back(shape);

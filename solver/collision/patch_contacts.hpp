@@ -24,8 +24,8 @@ struct AnchoredContacts {
 };
 
 /// Appends a patch and its contact points within the margin; `pose_ab` as for the patch. An edge or a vertex
-/// has no area: each of its points stands for `nominal_area` (m2). Positions in the world are left to
-/// move_contacts().
+/// has no area: each of its points stands for `nominal_area` (m2), unless the patch knows better. Positions
+/// in the world are left to move_contacts().
 void append_patch(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
                   double margin, PatchPoints points, double nominal_area, AnchoredContacts* contacts);
 

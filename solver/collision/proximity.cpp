@@ -5,7 +5,9 @@
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/convex.h>
 #include <fcl/narrowphase/collision_object.h>
+#include <fcl/narrowphase/distance.h>
 
 namespace cupola {
 namespace {
@@ -78,6 +80,40 @@ std::vector<std::pair<int, int>> BroadPhase::overlapping_pairs() const {
   tree_->manager.collide(&collector, collect_pair);
   std::sort(collector.pairs.begin(), collector.pairs.end());
   return collector.pairs;
+}
+
+struct ConvexBody::Shape {
+  std::shared_ptr<fcl::Convexd> convex;
+};
+
+ConvexBody::ConvexBody(const Polytope& polytope) : shape_(std::make_unique<Shape>()) {
+  auto vertices =
+      std::make_shared<std::vector<fcl::Vector3d>>(polytope.vertices.begin(), polytope.vertices.end());
+  auto faces = std::make_shared<std::vector<int>>();
+  for (const std::vector<int>& face : polytope.faces) {
+    faces->push_back(static_cast<int>(face.size()));
+    faces->insert(faces->end(), face.begin(), face.end());
+  }
+  shape_->convex = std::make_shared<fcl::Convexd>(vertices, static_cast<int>(polytope.faces.size()), faces);
+  shape_->convex->computeLocalAABB();
+}
+
+ConvexBody::~ConvexBody() = default;
+ConvexBody::ConvexBody(ConvexBody&&) noexcept = default;
+ConvexBody& ConvexBody::operator=(ConvexBody&&) noexcept = default;
+
+std::optional<NearestPoints> ConvexBody::nearest_points(const ConvexBody& b,
+                                                        const Eigen::Isometry3d& pose_ab) const {
+  fcl::DistanceRequestd request;
+  request.enable_nearest_points = true;
+  request.enable_signed_distance = false;
+  request.distance_tolerance = 1e-10;  // with the default 1e-6 some points are off by their whole face
+  request.gjk_solver_type = fcl::GST_LIBCCD;
+  fcl::DistanceResultd result;
+  const double distance = fcl::distance(shape_->convex.get(), fcl::Transform3d::Identity(),
+                                        b.shape_->convex.get(), pose_ab, request, result);
+  if (!(distance > 0.0)) return std::nullopt;
+  return NearestPoints{result.nearest_points[0], result.nearest_points[1]};
 }
 
 }  // namespace cupola

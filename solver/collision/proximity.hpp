@@ -1,11 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
+
+#include "solver/collision/inset.hpp"
 
 namespace cupola {
 
@@ -29,6 +32,29 @@ class BroadPhase {
  private:
   struct Tree;
   std::unique_ptr<Tree> tree_;
+};
+
+/// Nearest points of two convex bodies that are apart. Coordinates in m, axes of the first.
+struct NearestPoints {
+  Eigen::Vector3d on_a = Eigen::Vector3d::Zero();
+  Eigen::Vector3d on_b = Eigen::Vector3d::Zero();
+};
+
+/// A convex body for distance queries by GJK (FCL on libccd).
+class ConvexBody {
+ public:
+  explicit ConvexBody(const Polytope& polytope);
+  ~ConvexBody();
+  ConvexBody(ConvexBody&&) noexcept;
+  ConvexBody& operator=(ConvexBody&&) noexcept;
+
+  /// `pose_ab` takes coordinates of b to those of this body. None when the bodies touch or overlap: FCL's
+  /// signed distance would abort the process there. Points to 1e-10 of the bodies' size.
+  std::optional<NearestPoints> nearest_points(const ConvexBody& b, const Eigen::Isometry3d& pose_ab) const;
+
+ private:
+  struct Shape;
+  std::unique_ptr<Shape> shape_;
 };
 
 }  // namespace cupola

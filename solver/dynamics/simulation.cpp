@@ -35,11 +35,10 @@ StepReport Simulation::advance(double h_max) {
   constexpr double kTolerated = 4.0;  // times the asked error: a step this bad is taken again, shorter
   StepReport report;
   // 1. Where the blocks touch
-  const ContactSet& contacts = detector_.update(state_.poses);
-  memories_ = match_memories(memories_, contacts.contacts);
-
   StepOptions step = options_.step;
   step.h = std::min(next_h_, h_max);
+  const ContactSet& contacts = detector_.update(state_.poses, travel(step.h));
+  memories_ = match_memories(memories_, contacts.contacts);
   StepProblem problem;
   ContactSolution solution;
   while (true) {
@@ -82,6 +81,16 @@ void Simulation::start_from(const LoadedState& loaded) {
   memories_ = loaded.memories;
   for (ContactMemory& memory : memories_.values) memory.impulse *= next_h_;
   for (double& impulse : memories_.tie_impulses) impulse *= next_h_;
+}
+
+std::vector<double> Simulation::travel(double h) const {
+  std::vector<double> distance(state_.poses.size(), 0.0);
+  for (int i = 0; i < model_.num_free(); ++i) {
+    const int block = model_.free_blocks[i];
+    distance[block] = h * (state_.v.segment<3>(6 * i).norm() +
+                           detector_.block_radius(block) * state_.v.segment<3>(6 * i + 3).norm());
+  }
+  return distance;
 }
 
 Vec3 Simulation::linear_momentum() const {

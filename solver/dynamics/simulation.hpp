@@ -67,6 +67,9 @@ class Simulation {
   std::vector<Vec3> displacements() const;  ///< m, of the centroids since the assembly
 
  private:
+  /// Farthest that a point of each block goes in a step of h at its present velocity, m.
+  std::vector<double> travel(double h) const;
+
   Model model_;
   SimulationOptions options_;
   State state_;

@@ -30,8 +30,12 @@ void visit(Archive& archive, AnchoredContacts& x) {
   archive(x.set.contacts, x.set.patches, x.anchors, x.patch_polygons);
 }
 template <class Archive>
+void visit(Archive& archive, Reach& x) {
+  archive(x.poses, x.travel);
+}
+template <class Archive>
 void visit(Archive& archive, DetectionMemory& x) {
-  archive(x.box_poses, x.detection_poses, x.current_poses, x.contacts, x.num_detections);
+  archive(x.boxes, x.detection, x.now, x.contacts, x.num_detections);
 }
 template <class Archive>
 void visit(Archive& archive, ContactMemory& x) {
@@ -64,7 +68,7 @@ void Simulation::restore(const std::string& bytes) {
   if (!archive.at_end() || state.poses.size() != state_.poses.size() || state.v.size() != state_.v.size())
     throw std::runtime_error("is of another scene");
   state_ = std::move(state);
-  detector_.restore(detection);
+  detector_.restore(std::move(detection));
 }
 
 }  // namespace cupola

@@ -1,0 +1,132 @@
+#include "solver/collision/contact_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "assembly/atomic_file.hpp"
+#include "assembly/case/scalar.hpp"
+#include "assembly/error.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr std::string_view kHeader = "block_a,block_b,joint,x,y,z,nx,ny,nz,gap_m,area_m2";
+constexpr std::size_t kColumns = 11;
+
+struct Row {
+  int block_a = 0, block_b = 0, joint = 0;
+  Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();
+  double gap = 0.0, area = 0.0;
+};
+
+std::array<double, kColumns> read_numbers(const std::string& line, const FileLocation& where) {
+  std::array<double, kColumns> values{};
+  std::istringstream stream(line);
+  std::string cell;
+  std::size_t count = 0;
+  while (std::getline(stream, cell, ',')) {
+    if (count == kColumns) throw InputError(where, fmt::format("more than {} columns", kColumns));
+    const std::string broken_rule = read_number(cell, &values[count]);
+    if (!broken_rule.empty())
+      throw InputError(where, fmt::format("column {}: '{}': {}", count + 1, cell, broken_rule));
+    ++count;
+  }
+  if (count < kColumns)
+    throw InputError(where, fmt::format("{} of {} columns: {}", count, kColumns, kHeader));
+  return values;
+}
+
+int block_of(double value, const Assembly& assembly, const FileLocation& where) {
+  const int block = static_cast<int>(std::clamp(value, -1.0, static_cast<double>(assembly.blocks.size())));
+  if (block != value || block < 0 || block >= static_cast<int>(assembly.blocks.size()))
+    throw InputError(where,
+                     fmt::format("block {}: must be one of 0 .. {}", value, assembly.blocks.size() - 1));
+  return block;
+}
+
+Row read_row(const std::string& line, const Assembly& assembly, const FileLocation& where) {
+  const auto v = read_numbers(line, where);
+  Row row;
+  row.block_a = block_of(v[0], assembly, where);
+  row.block_b = block_of(v[1], assembly, where);
+  row.joint = static_cast<int>(std::clamp(v[2], -1e9, 1e9));
+  row.point = Vec3(v[3], v[4], v[5]);
+  row.normal = Vec3(v[6], v[7], v[8]);
+  row.gap = v[9];
+  row.area = v[10];
+  if (row.block_a == row.block_b) throw InputError(where, "block_a and block_b are the same");
+  if (!(row.normal.norm() > 0.0)) throw InputError(where, "the normal is zero");
+  if (!(row.area > 0.0)) throw InputError(where, fmt::format("area_m2 = {}: must be > 0", row.area));
+  row.normal.normalize();
+  if (row.block_a > row.block_b) {
+    std::swap(row.block_a, row.block_b);
+    row.normal = -row.normal;
+  }
+  return row;
+}
+
+Patch make_patch(const Row& row, const Assembly& assembly) {
+  const Block& a = assembly.blocks[row.block_a];
+  const Block& b = assembly.blocks[row.block_b];
+  Patch patch{row.block_a, row.block_b, JointKind::other, std::max(a.ring, b.ring), {}, 0.0};
+  if (a.fixed || b.fixed) {
+    patch.kind = JointKind::base;
+    patch.ring = 0;
+  } else if (assembly.num_rings > 0) {
+    patch.kind = a.ring == b.ring ? JointKind::head : JointKind::bed;
+  }
+  return patch;
+}
+
+void append_row(const Row& row, const Assembly& assembly, bool new_patch, AnchoredContacts* contacts) {
+  const Vec3& centroid_a = assembly.blocks[row.block_a].centroid;
+  const Vec3& centroid_b = assembly.blocks[row.block_b].centroid;
+  if (new_patch) {
+    contacts->set.patches.push_back(make_patch(row, assembly));
+    contacts->patch_polygons.emplace_back();
+  }
+  Contact contact;
+  contact.block_a = row.block_a;
+  contact.block_b = row.block_b;
+  contact.patch = static_cast<int>(contacts->set.patches.size()) - 1;
+  // Patches and points are numbered through: parts and faces are the file's business.
+  contact.id.part_a = contact.id.part_b = contact.patch;
+  contact.id.corner = new_patch ? 0 : contacts->set.contacts.back().id.corner + 1;
+  contact.area = row.area;
+  const Vec3 half_gap = 0.5 * row.gap * row.normal;
+  contacts->set.patches.back().area += row.area;
+  contacts->patch_polygons.back().push_back(row.point - half_gap - centroid_a);
+  contacts->set.contacts.push_back(contact);
+  contacts->anchors.push_back(
+      {row.point - half_gap - centroid_a, row.point + half_gap - centroid_b, row.normal, row.normal, 0.5});
+}
+
+}  // namespace
+
+AnchoredContacts read_contacts(const std::string& path, const Assembly& assembly) {
+  std::istringstream stream(read_text(path));
+  std::vector<Row> rows;
+  FileLocation where{path, 0, 1};
+  for (std::string line; std::getline(stream, line);) {
+    ++where.line;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (where.line == 1) {
+      if (line != kHeader) throw InputError(where, fmt::format("the first line must be {}", kHeader));
+    } else if (!line.empty()) {
+      rows.push_back(read_row(line, assembly, where));
+    }
+  }
+  if (rows.empty()) throw InputError(where, "holds no contact");
+  const auto joint = [](const Row& row) { return std::tuple(row.block_a, row.block_b, row.joint); };
+  std::stable_sort(rows.begin(), rows.end(), [&](const Row& p, const Row& q) { return joint(p) < joint(q); });
+  AnchoredContacts contacts;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    append_row(rows[i], assembly, i == 0 || joint(rows[i]) != joint(rows[i - 1]), &contacts);
+  return contacts;
+}
+
+}  // namespace cupola

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "solver/collision/contact_set.hpp"
+
+namespace cupola {
+
+/// Writes the overlap polygons for ParaView (.vtp): one cell per patch that has an area, with `block_a`,
+/// `block_b`, `kind`, `ring`, `area_m2` and `centroid` (m). Throws SystemError.
+void write_patches(const std::string& path, const ContactSet& contacts);
+
+}  // namespace cupola

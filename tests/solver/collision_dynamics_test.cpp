@@ -1,0 +1,118 @@
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/solver/motion_scenes.hpp"
+#include "tests/solver/scenes.hpp"
+
+namespace cupola {
+namespace {
+
+using namespace testing;  // the scenes
+using Eigen::AngleAxisd;
+using Eigen::Quaterniond;
+
+// Rocking block of half-width b and half-height H, let go at rest at half its slenderness alpha. Housner
+// (1963): theta'' = -p^2 sin(alpha - theta), p^2 = 3 g / (4 R); values by integrating that equation.
+struct Rocking {
+  double b, H;             ///< m
+  double quarter_period;   ///< s
+  double omega_at_impact;  ///< rad/s
+  double impact_ratio;     ///< 1 - 3/2 sin^2 alpha, of the speeds after and before the impact
+};
+
+class RockingBlock : public ::testing::TestWithParam<Rocking> {};
+
+TEST_P(RockingBlock, SwingsAndHitsAsHousnerSays) {
+  const auto& [b, H, quarter_period, omega_at_impact, impact_ratio] = GetParam();
+  const double h = 1e-3;
+  const Assembly assembly = box_on_floor({2 * b, 1.0, 2 * H});
+  Case scene = make_case(0.8, 1e-12, h);  // sqrt(m c) = 3e-5 s: rigid
+  scene.analysis.tolerance = 1e-10;
+  Simulation simulation = simulate(scene, assembly);
+  Pose& pose = simulation.mutable_state()->poses[1];
+  const Vec3 hinge(b, 0, 0);
+  pose.q_WB = AngleAxisd(0.5 * std::atan(b / H), Vec3::UnitY());
+  pose.p_WB = hinge + pose.q_WB * (pose.p_WB - hinge);
+
+  std::vector<double> angle, omega;
+  for (int step = 0; step * h < 1.1 * quarter_period; ++step) {
+    simulation.advance();
+    const Quaterniond& q = simulation.state().poses[1].q_WB;
+    angle.push_back(2.0 * std::atan2(q.y(), q.w()));
+    omega.push_back(simulation.state().v[4]);
+  }
+  std::size_t hit = 0;
+  while (hit < angle.size() && angle[hit] > 0.0) ++hit;
+  ASSERT_LT(hit + 2, angle.size());
+  const double time = h * (static_cast<double>(hit) + angle[hit - 1] / (angle[hit - 1] - angle[hit]));
+  EXPECT_NEAR(time / quarter_period, 1.0, 0.01);  // first-order scheme: O(h p), p = 2.7 1/s
+  EXPECT_NEAR(-omega[hit - 1] / omega_at_impact, 1.0, 0.01);
+  EXPECT_NEAR(omega[hit + 1] / omega[hit - 1] / impact_ratio, 1.0, 0.02);  // 1 ms before and after
+}
+
+INSTANTIATE_TEST_SUITE_P(Housner, RockingBlock,
+                         ::testing::Values(Rocking{0.2, 1.0, 0.490864, 0.458240, 0.942308},
+                                           Rocking{0.5, 1.0, 0.516630, 1.018535, 0.700000}));
+
+/// Random orientation from normal deviates.
+Quaterniond random_turn(std::mt19937* random) {
+  std::normal_distribution<double> normal;
+  return Quaterniond(normal(*random), normal(*random), normal(*random), normal(*random)).normalized();
+}
+
+/// Drops block 1 of the scene in `count` random orientations: it ends at rest on one of its faces, and the
+/// energy never rises.
+void drop(const Assembly& assembly, int count, unsigned seed) {
+  std::mt19937 random(seed);
+  const double h = 0.01;
+  for (int trial = 0; trial < count; ++trial) {
+    Case scene = make_case(0.5, 1e-10, h);  // sinks 1e-6 m by its weight
+    scene.analysis.tolerance = 1e-8;
+    Simulation simulation = simulate(scene, assembly);
+    simulation.mutable_state()->poses[1].q_WB = random_turn(&random);
+    double energy = simulation.energy().total();
+    double rise = 0.0;
+    for (int step = 0; step * h < 8.0; ++step) {
+      const StepReport report = simulation.advance();
+      EXPECT_EQ(report.solve.ending, SolveEnding::converged) << report.solve.message << ", trial " << trial;
+      const double next = simulation.energy().total();
+      rise = std::max(rise, next - energy);
+      energy = next;
+    }
+    // The solver leaves 1e-8 of the impulse h g m in each step, at up to 10 m/s: weight times 1e-9 m, or a
+    // few times that where several contacts hit at once.
+    EXPECT_LT(rise, 1e-8 * assembly.blocks[1].mass * kG) << "J, trial " << trial;
+    EXPECT_LT(simulation.state().v.norm(), 1e-6) << "trial " << trial;
+    const Mat3 turn = simulation.state().poses[1].q_WB.toRotationMatrix();
+    EXPECT_NEAR(turn.row(2).cwiseAbs().maxCoeff(), 1.0, 1e-6) << "not on a face, trial " << trial;
+  }
+}
+
+/// A box above the floor, above a wide box on it, or above one so small that it tumbles off.
+Assembly box_in_the_air(double lower_box) {
+  std::vector<BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {40, 40, 1}, .fixed = true},
+                             {.center = {0, 0, lower_box > 0.0 ? 2.5 : 1.5}, .size = {1, 1.2, 0.8}}};
+  if (lower_box > 0.0) boxes.push_back({.center = {0, 0, 0.5}, .size = {lower_box, lower_box, 1}});
+  return make_boxes(boxes);
+}
+
+TEST(DroppedBox, ComesToRestOnAFace) {
+  drop(box_in_the_air(0.0), 10, 1);
+  drop(box_in_the_air(3.0), 10, 2);
+  drop(box_in_the_air(1.5), 10, 3);
+}
+
+TEST(DroppedBoxSlow, ThousandOnAPlane) {
+  drop(box_in_the_air(0.0), 1000, 4);
+}
+TEST(DroppedBoxSlow, ThousandOnABox) {
+  drop(box_in_the_air(3.0), 1000, 5);
+}
+TEST(DroppedBoxSlow, ThousandTumblingOffABox) {
+  drop(box_in_the_air(1.5), 1000, 6);
+}
+
+}  // namespace
+}  // namespace cupola
