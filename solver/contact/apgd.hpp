@@ -12,8 +12,8 @@ namespace cupola {
 ///
 /// L found by backtracking and relaxed by 10 % per step; momentum is dropped where it points uphill. Mazhar,
 /// Heyn, Negrut, Tasora (2015), "Using Nesterov's method to accelerate multibody dynamics with friction and
-/// contact", algorithm 1; we differ in the preconditioning metric B, and in returning the best iterate by
-/// dual_accuracy.
+/// contact", algorithm 1; we differ in the preconditioning metric B, and in returning the iterate of
+/// least f.
 ///
 /// Stops when dual_accuracy <= tolerance. Default of max_iterations: 5000. Cost per iteration: one product
 /// with N per trial of L.

@@ -101,6 +101,8 @@ bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int
 
 PrimalPoint NewtonLoop::run(PrimalPoint point) {
   constexpr double kCostRounding = 4e-16;
+  constexpr double kExactSlope = 1e-6;   // the next Newton step gains more than further digits here
+  constexpr double kInexactSlope = 0.1;  // an inexact direction is not worth more
   PrimalPoint best = point;
   int iterations_without_gain = 0;
   while (true) {
@@ -119,7 +121,8 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
     if (!(d.dot(point.gradient) < 0.0)) d = -point.gradient;
 
     // 2. Step
-    const LineSearchResult search = exact_line_search(p, point, d);
+    const LineSearchResult search =
+        exact_line_search(p, point, d, options.lag_factor ? kInexactSlope : kExactSlope);
     summary.line_search_evaluations += search.evaluations;
     PrimalPoint next = primal_point(p, point.w + search.t * d);
 

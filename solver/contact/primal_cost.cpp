@@ -43,17 +43,24 @@ class Line {
 
   double slope0() const { return slope0_; }
 
-  std::pair<double, double> slope_and_curvature(double t) const {
+  double slope(double t) const {
     double slope = slope0_ + t * dd_;
+    for (int i = 0; i < p_.num_contacts(); ++i) {
+      const Vec3 dy = dy_.segment<3>(3 * i);
+      const Vec3 y = point_.y.segment<3>(3 * i) + t * dy;
+      slope -= (contact_impulse(contact_law(p_, i), y) - point_.gamma.segment<3>(3 * i)).dot(dy);
+    }
+    return slope;
+  }
+
+  double curvature(double t) const {
     double curvature = dd_;
     for (int i = 0; i < p_.num_contacts(); ++i) {
       const Vec3 dy = dy_.segment<3>(3 * i);
       const Vec3 y = point_.y.segment<3>(3 * i) + t * dy;
-      const ContactLaw law = contact_law(p_, i);
-      slope -= (contact_impulse(law, y) - point_.gamma.segment<3>(3 * i)).dot(dy);
-      curvature += dy.dot(contact_stiffness(law, y) * dy);
+      curvature += dy.dot(contact_stiffness(contact_law(p_, i), y) * dy);
     }
-    return {slope, curvature};
+    return curvature;
   }
 
  private:
@@ -66,19 +73,18 @@ class Line {
 
 }  // namespace
 
-LineSearchResult exact_line_search(const ContactProblem& p, const PrimalPoint& point, const VecX& d) {
-  constexpr double kSlopeReduction =
-      1e-6;  // the Newton step of the next iteration gains more than further digits here
+LineSearchResult exact_line_search(const ContactProblem& p, const PrimalPoint& point, const VecX& d,
+                                   double slope_reduction) {
   constexpr int kMaxEvaluations = 60;  // bisection alone resolves a bracket to double precision within this
   const Line line(p, point, d);
   double low = 0.0, high = std::numeric_limits<double>::infinity();
   LineSearchResult result{1.0, 0};
   while (result.evaluations < kMaxEvaluations) {
-    const auto [slope, curvature] = line.slope_and_curvature(result.t);
+    const double slope = line.slope(result.t);
     ++result.evaluations;
-    if (!(std::abs(slope) > kSlopeReduction * std::abs(line.slope0()))) break;
+    if (!(std::abs(slope) > slope_reduction * std::abs(line.slope0()))) break;
     (slope > 0.0 ? high : low) = result.t;
-    double next = result.t - slope / curvature;
+    double next = result.t - slope / line.curvature(result.t);
     if (std::isinf(high)) {
       next = std::clamp(next, 1.5 * result.t, 10.0 * result.t);
     } else if (!(next > low + 0.01 * (high - low) && next < high - 0.01 * (high - low))) {

@@ -25,8 +25,9 @@ struct LineSearchResult {
   int evaluations = 0;
 };
 
-/// The t > 0 that minimises cost(w + t d), to |slope| <= 1e-6 |slope at 0| or to rounding. Safeguarded Newton
-/// on the slope, which is monotone. `slope0` = d . gradient must be negative.
-LineSearchResult exact_line_search(const ContactProblem& whitened, const PrimalPoint& point, const VecX& d);
+/// The t > 0 that minimises cost(w + t d), to |slope| <= slope_reduction |slope at 0| or to rounding.
+/// Safeguarded Newton on the slope, which is monotone. d . gradient must be negative.
+LineSearchResult exact_line_search(const ContactProblem& whitened, const PrimalPoint& point, const VecX& d,
+                                   double slope_reduction);
 
 }  // namespace cupola

@@ -44,7 +44,7 @@ SolveSummary solve_spg(const ContactProblem& problem, const SolveOptions& option
   std::deque<double> recent{f};
   double alpha = 1.0;
   VecX best = gamma;
-  double best_accuracy = dual_accuracy(dual, gamma, g);
+  double best_f = f, best_accuracy = dual_accuracy(dual, gamma, g);
   summary.residual_history.push_back(best_accuracy);
   bool stalled = false;
   while (best_accuracy > options.tolerance && summary.iterations < max_iterations && !stalled) {
@@ -64,7 +64,8 @@ SolveSummary solve_spg(const ContactProblem& problem, const SolveOptions& option
 
     const double accuracy = dual_accuracy(dual, gamma, g);
     summary.residual_history.push_back(accuracy);
-    if (accuracy < best_accuracy) {
+    if (f < best_f || accuracy <= options.tolerance) {
+      best_f = f;
       best_accuracy = accuracy;
       best = gamma;
     }

@@ -8,8 +8,9 @@ namespace cupola {
 /// compliances and relative velocities stay what they are (J^T w = D^T v), so the Hessian I + J G J^T has
 /// comparable rows whatever the blocks weigh and however small they are.
 struct WhitenedProblem {
-  ContactProblem problem;  ///< M = identity, v_star = L^T v_star, D = L^-1 D
-  std::vector<Mat6> L;     ///< lower triangles (nb)
+  ContactProblem problem;       ///< M = identity, v_star = L^T v_star, D = L^-1 D
+  std::vector<Mat6> L;          ///< lower triangles (nb)
+  std::vector<Mat6> L_inverse;  ///< lower triangles (nb)
 
   VecX to_w(const VecX& v) const;  ///< L^T v
   VecX to_v(const VecX& w) const;  ///< L^-T w
