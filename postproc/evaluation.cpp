@@ -63,10 +63,30 @@ int lost_joints(const ContactTable& first, const ContactTable& last) {
   return static_cast<int>(lost.size());
 }
 
+ThrustInput thrust_input(const Evaluation& e) {
+  return {&e.assembly,    &e.shell,          &e.last.frame.contacts,
+          &e.last.joints, e.last.from_below, e.scene.loads.gravity};
+}
+
+/// Every block that a bed touches from below or runs through, uprights included.
+std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput& input, int bed,
+                                         double height) {
+  std::set<int> blocks;
+  for (const BedFacet& facet : e.shell.beds[bed]) blocks.insert(facet.block);
+  std::vector<BedResultant> resultants;
+  for (const int block : blocks) {
+    const Wrench wrench = wrench_at_bed(input, block, bed);
+    const CentralAxis axis = central_axis(wrench);
+    if (axis.exists)
+      resultants.push_back(
+          {block, wrench, axis_in_plane(axis, wrench.force, {e.up, height}), axis.couple_length});
+  }
+  return resultants;
+}
+
 std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {
   std::vector<MeridianEvaluation> meridians;
-  const ThrustInput input{&e.assembly,    &e.shell,          &e.last.frame.contacts,
-                          &e.last.joints, e.last.from_below, e.scene.loads.gravity};
+  const ThrustInput input = thrust_input(e);
   const Surface& surface = e.scene.geometry.surface;
   if (std::holds_alternative<ArchSurface>(surface))
     meridians.push_back({thrust_line(input, "arch", std::nullopt), {}});
@@ -79,15 +99,18 @@ std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {
 }
 
 std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e) {
+  const ThrustInput input = thrust_input(e);
   std::vector<SectionEvaluation> sections;
   for (const double height : e.scene.postproc.sections) {
-    SectionEvaluation section{height, -1, cut_by_plane(e.assembly, {Vec3::UnitZ(), height})};
+    SectionEvaluation section{height, -1, cut_by_plane(e.assembly, {Vec3::UnitZ(), height}), {}};
     double nearest = std::numeric_limits<double>::infinity();
     for (const RingSum& ring : e.rings) {
       if (std::abs(ring.height - height) >= nearest) continue;
       nearest = std::abs(ring.height - height);
       section.ring = ring.ring;
     }
+    if (section.ring >= 0)
+      section.resultants = bed_resultants(e, input, section.ring, e.rings[section.ring].height);
     sections.push_back(std::move(section));
   }
   return sections;

@@ -28,11 +28,20 @@ struct MeridianEvaluation {
   std::vector<HoopRow> hoop;  ///< empty for an arch
 };
 
-/// A horizontal section: the blocks that the plane cuts, and the cut below the nearest ring.
+/// What crosses a bed within one block's width, on the part above.
+struct BedResultant {
+  int block = 0;
+  Wrench wrench;               ///< about the block's centroid
+  Vec3 point = Vec3::Zero();   ///< m, of its central axis at the bed's mean height
+  double couple_length = 0.0;  ///< m
+};
+
+/// A horizontal section: the blocks that the plane cuts, and the bed below the nearest ring.
 struct SectionEvaluation {
   double height = 0.0;  ///< m
   int ring = -1;        ///< ring whose bed lies nearest; -1 where there are no rings
   std::vector<CutPolygon> polygons;
+  std::vector<BedResultant> resultants;  ///< of that bed, by block; none where nothing presses
 };
 
 /// Everything the postprocessor knows about a run: the last frame in full.

@@ -110,6 +110,8 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
   for (const MeridianEvaluation& m : e.meridians)
     if (m.thrust.points.size() > 1) figures.push_back(thrust_figure(e, m));
   if (!e.rings.empty()) figures.push_back(ring_figure(e));
+  if (std::any_of(e.sections.begin(), e.sections.end(), [](const auto& s) { return !s.resultants.empty(); }))
+    figures.push_back(levels_figure(e));
   for (const SectionEvaluation& section : e.sections)
     if (!section.polygons.empty()) figures.push_back(section_figure(e, section));
   for (const MeridianEvaluation& m : e.meridians)

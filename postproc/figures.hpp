@@ -26,6 +26,10 @@ Figure ring_figure(const Evaluation& evaluation);
 /// (paper figures 6, 9, 12).
 Figure section_figure(const Evaluation& evaluation, const SectionEvaluation& section);
 
+/// The resultants across the beds of all sections, drawn to one scale where they act: vaults from above at a
+/// slant, walls in elevation over their blocks (paper figures 6, 9, 11, 12).
+Figure levels_figure(const Evaluation& evaluation);
+
 /// Hoop force across a meridian over the height, through heads and beds.
 Figure hoop_figure(const MeridianEvaluation& meridian);
 

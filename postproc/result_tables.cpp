@@ -218,28 +218,25 @@ Table hoop_table(const MeridianEvaluation& m) {
 
 Table section_table(const Evaluation& e, const SectionEvaluation& section) {
   Table t{fmt::format("section_{:g}m", section.height),
-          fmt::format("Block resultants from below at the section z = {:g} m (ring {})", section.height,
-                      section.ring),
+          fmt::format("Resultants of the blocks across the bed nearest to z = {:g} m (ring {})",
+                      section.height, section.ring),
           {},
           {}};
   t.columns = {{"block", "", ""},
+               {"kind", "", ""},
                {"azimuth_deg", "deg", "of the resultant's point on the bed"},
-               {"x_m", "m", "point of the resultant's line of action nearest the block's centroid"},
+               {"x_m", "m", "point of the resultant's line of action at the bed's mean height"},
                {"y_m", "m", ""},
                {"z_m", "m", ""},
-               {"force_x_N", "N", "resultant from the ring below"},
+               {"force_x_N", "N", "resultant on the part above the bed"},
                {"force_y_N", "N", ""},
                {"force_z_N", "N", ""},
                {"resultant_N", "N", ""},
                {"couple_length_m", "m", ""}};
-  for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
-    if (e.assembly.blocks[b].fixed || e.assembly.blocks[b].ring != section.ring) continue;
-    const Wrench& w = e.last.from_below[b];
-    const CentralAxis axis = central_axis(w);
-    if (!axis.exists) continue;
-    const Vec3& x = axis.point;
-    t.rows.push_back({static_cast<int>(b), azimuth(x) * kDegrees, x.x(), x.y(), x.z(), w.force.x(),
-                      w.force.y(), w.force.z(), w.force.norm(), axis.couple_length});
+  for (const BedResultant& r : section.resultants) {
+    const Vec3 &x = r.point, &f = r.wrench.force;
+    t.rows.push_back({r.block, to_string(e.assembly.blocks[r.block].kind), azimuth(x) * kDegrees, x.x(),
+                      x.y(), x.z(), f.x(), f.y(), f.z(), f.norm(), r.couple_length});
   }
   return t;
 }

@@ -32,19 +32,12 @@ struct SectionForces {
 SectionForces forces_of(const Evaluation& e, const SectionEvaluation& section) {
   SectionForces out;
   if (section.ring < 0) return out;
-  std::vector<size_t> blocks;
   double largest = 0.0;
-  for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
-    const double norm = e.last.from_below[b].force.norm();
-    if (e.assembly.blocks[b].ring != section.ring || norm == 0.0) continue;
-    blocks.push_back(b);
-    largest = std::max(largest, norm);
-  }
+  for (const BedResultant& r : section.resultants) largest = std::max(largest, r.wrench.force.norm());
   out.scale = segment_scale(e.assembly, largest);
   out.unit = force_unit(largest);
-  for (const size_t b : blocks) {
-    const Vec3& f = e.last.from_below[b].force;
-    const Vec3 x = central_axis(e.last.from_below[b]).point;
+  for (const auto& [block, wrench, x, couple_length] : section.resultants) {
+    const Vec3& f = wrench.force;
     out.segments.push_back({x.x(), x.y(), out.scale * f.x(), out.scale * f.y()});
     out.norms.push_back({is_vault(e) ? azimuth(x) * kDegrees : x.x(), out.unit.per_newton * f.norm()});
   }

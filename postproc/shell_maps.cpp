@@ -39,8 +39,8 @@ Rows unrolled(const Evaluation& e, double (*first)(const BlockFields&),
     const double unit = vault ? kDegrees : 1.0;
     const double r = ring;
     // A block across the seam shows on both ends.
-    for (const double turn :
-         {0.0, box.to > std::numbers::pi ? -360.0 : 0.0, box.from < -std::numbers::pi ? 360.0 : 0.0}) {
+    for (const double turn : {0.0, vault && box.to > std::numbers::pi ? -360.0 : 0.0,
+                              vault && box.from < -std::numbers::pi ? 360.0 : 0.0}) {
       if (turn == 0.0 && !rows.empty() && rows.back()[6] == first(fields) && rows.back()[1] == r + 0.5 &&
           rows.back()[2] == unit * box.from)
         continue;

@@ -105,12 +105,6 @@ Wrench wrench_onwards(const ThrustInput& in, int block) {
   return w;
 }
 
-/// Wrench that crosses a bed upwards within one block's width.
-Wrench wrench_at(const ThrustInput& in, int block, int bed) {
-  if (bed == in.shell->num_rings()) return wrench_onwards(in, block);
-  return in.assembly->blocks[block].ring == bed ? in.from_below[block] : wrench_through(in, block, bed);
-}
-
 /// The wrench turned about the z axis.
 Wrench turned(const Wrench& w, double angle) {
   const Mat3 R = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
@@ -152,7 +146,7 @@ bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, T
   for (const auto& [id, block] : blocks_on(in.shell->beds[bed])) {
     const double share = meridian ? overlap(block, *meridian, in.shell->block_width_rad) : 1.0;
     if (share <= 0.0) continue;
-    const Wrench w = wrench_at(in, id, bed);
+    const Wrench w = wrench_at_bed(in, id, bed);
     if (w.force.norm() == 0.0) continue;
     const Vec3 x = axis_in_plane(central_axis(w), w.force, block.plane);
     const double turn = meridian ? *meridian - 0.5 * (block.from + block.to) : 0.0;
@@ -191,6 +185,11 @@ std::optional<Vec3> meeting(const ThrustPoint& p, const ThrustPoint& q, const Ve
 }
 
 }  // namespace
+
+Wrench wrench_at_bed(const ThrustInput& in, int block, int bed) {
+  if (bed == in.shell->num_rings()) return wrench_onwards(in, block);
+  return in.assembly->blocks[block].ring == bed ? in.from_below[block] : wrench_through(in, block, bed);
+}
 
 ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg) {
   ThrustLine line;

@@ -52,6 +52,10 @@ struct ThrustInput {
   Vec3 gravity = Vec3::Zero();
 };
 
+/// Wrench that crosses a bed upwards within one block's width, on the part above, about the block's centroid.
+/// A bed that runs inside the block carries the wrench that balances the block's upper piece.
+Wrench wrench_at_bed(const ThrustInput& input, int block, int bed);
+
 /// Along a meridian of a vault about the z axis; `azimuth_deg` none: along an arch, all blocks of a ring.
 ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg);
 

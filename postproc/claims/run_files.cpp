@@ -79,7 +79,9 @@ const CsvFile& RunFiles::table(const std::string& name) {
 }
 
 bool RunCache::finished(const std::string& name) const {
-  return std::filesystem::exists(std::filesystem::path(out_) / name / "post" / "summary.json");
+  const std::filesystem::path folder = std::filesystem::path(out_) / name;
+  return std::filesystem::exists(folder / "post" / "summary.json") &&
+         std::filesystem::exists(folder / "results" / "summary.json");
 }
 
 RunFiles& RunCache::run(const std::string& name) {

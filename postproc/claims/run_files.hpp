@@ -31,7 +31,7 @@ class RunFiles {
 class RunCache {
  public:
   explicit RunCache(std::string out) : out_(std::move(out)) {}
-  bool finished(const std::string& name) const;  ///< post/summary.json is there
+  bool finished(const std::string& name) const;  ///< solved and analysed
   RunFiles& run(const std::string& name);
 
  private:
