@@ -13,7 +13,7 @@ namespace cupola {
 /// Contact problem of the circular dome at rest, as cupola-solve builds it: 40 x 32 blocks unless told
 /// otherwise.
 struct DomeProblem {
-  int rings = 40, blocks_per_ring = 32;
+  int rings = 40, blocks_per_ring = 32, slices_per_block = 4;
   double h = 1e3;            ///< s; large: static
   double compliance = 1e-8;  ///< m/N per point; kappa = compliance / h^2
   double friction = 0.4;
@@ -25,6 +25,7 @@ inline ContactProblem make_problem(const DomeProblem& dome) {
   RunningBond bond;
   bond.rings = dome.rings;
   bond.blocks_per_ring = dome.blocks_per_ring;
+  bond.slices_per_block = dome.slices_per_block;
   scene.geometry.bond = bond;
   scene.joints.friction = dome.friction;
   scene.joints.compliance = {dome.compliance, dome.compliance, Compliance::Per::point};

@@ -1,0 +1,213 @@
+// Cupola against Siconos (Debian's packages, its C API) on the same problems in one run: the circular dome,
+// 1,280 blocks, Coulomb's law, static-elastic and rigid. CPU seconds, one thread (OPENBLAS_NUM_THREADS=1
+// OMP_NUM_THREADS=1).
+//
+// Masses and speeds are scaled by their means, so that Siconos' error, which mixes N s and m/s, has no unit.
+// `error` is Siconos' own measure of each answer, computed by its routine; `force` compares with our answer
+// at 1e-11 (where the forces are unique).
+//
+//   siconos_benchmark [tolerance] [iterations]     1e-8, 10000
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <string>
+
+#include <fmt/format.h>
+
+extern "C" {
+#include <FrictionContactProblem.h>
+#include <Friction_cst.h>
+#include <GlobalFrictionContactProblem.h>
+#include <NonSmoothDrivers.h>
+#include <NumericsMatrix.h>
+#include <NumericsSparseMatrix.h>
+#include <SolverOptions.h>
+#include <SparseBlockMatrix.h>
+#include <fc3d_compute_error.h>
+}
+
+#include "solver/contact/delassus.hpp"
+#include "solver/contact/residuals.hpp"
+#include "solver/contact/solve_contact.hpp"
+#include "tests/benchmark/dome_problem.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+NumericsMatrix* to_numerics(const Eigen::SparseMatrix<double>& A) {
+  NumericsMatrix* matrix = NM_create(NM_SPARSE, static_cast<int>(A.rows()), static_cast<int>(A.cols()));
+  NM_triplet_alloc(matrix, A.nonZeros());
+  matrix->matrix2->origin = NSM_TRIPLET;
+  for (int column = 0; column < A.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(A, column); it; ++it) {
+      NM_entry(matrix, static_cast<int>(it.row()), static_cast<int>(it.col()), it.value());
+    }
+  }
+  return matrix;
+}
+
+/// The same problem with mean mass 1 and reference speed 1.
+ContactProblem scaled(const ContactProblem& problem, double mass, double speed) {
+  ContactProblem p = problem;
+  for (Mat6& M : p.M) M /= mass;
+  p.E *= mass;
+  p.b /= speed;
+  p.v_star /= speed;
+  return p;
+}
+
+struct Peer {
+  std::string name;
+  std::function<int(VecX* gamma, VecX* u)> solve;  ///< returns iterations
+};
+
+class Comparison {
+ public:
+  Comparison(const std::string& name, const ContactProblem& problem, double tolerance, int max_iterations)
+      : problem_(problem),
+        local_(make_delassus(problem)),
+        tolerance_(tolerance),
+        max_iterations_(max_iterations) {
+    W_ = to_numerics(local_.W);
+    fc_ =
+        frictionContactProblem_new_with_data(3, local_.num_contacts(), W_, local_.q.data(), local_.mu.data());
+    fmt::print("\n{}: {} contacts, tolerance {:.0e}\n{:<28} {:>10} {:>9} {:>10} {:>9} {:>9}\n", name,
+               local_.num_contacts(), tolerance, "solver", "CPU s", "iter", "error", "force", "ratio");
+  }
+  void run_cupola();
+  void run_siconos_local(const std::string& name, int solver, bool blocks);
+  void run_siconos_global();
+
+ private:
+  double siconos_error(VecX gamma) {
+    VecX u = local_.W * gamma + local_.q;
+    double error = 0.0;
+    SolverOptions* options = solver_options_create(SICONOS_FRICTION_3D_NSGS);
+    fc3d_compute_error(fc_, gamma.data(), u.data(), tolerance_, options, local_.q.norm(), &error);
+    solver_options_delete(options);
+    return error;
+  }
+  void print(const std::string& name, double cpu, int iterations, const VecX& gamma) {
+    const double force = (gamma - reference_).norm() / reference_.norm();
+    fmt::print("{:<28} {:>10.3f} {:>9} {:>10.1e} {:>9.1e} {:>9.1f}\n", name, cpu, iterations,
+               siconos_error(gamma), force, cpu / cupola_cpu_);
+    std::fflush(stdout);
+  }
+
+  ContactProblem problem_;
+  DelassusProblem local_;
+  double tolerance_;
+  int max_iterations_;
+  NumericsMatrix* W_ = nullptr;
+  FrictionContactProblem* fc_ = nullptr;
+  VecX reference_;
+  double cupola_cpu_ = 1.0;
+};
+
+void Comparison::run_cupola() {
+  ContactSolverOptions options;
+  options.reference_speed = 1.0;
+  options.law = FrictionLaw::coulomb;
+  options.tolerance = 1e-11;
+  ContactSolution x;
+  solve_contact(problem_, options, &x);
+  reference_ = x.gamma;
+  // Our residuals are not Siconos' error: the tolerance is lowered until its routine, too, is content.
+  for (options.tolerance = tolerance_; options.tolerance > 1e-12; options.tolerance *= 0.1) {
+    x = {};
+    const double start = cpu_seconds();
+    const SolveSummary summary = solve_contact(problem_, options, &x);
+    cupola_cpu_ = cpu_seconds() - start;
+    if (siconos_error(x.gamma) > tolerance_ && options.tolerance > 1e-11) continue;
+    print("cupola newton", cupola_cpu_, summary.iterations, x.gamma);
+    return;
+  }
+}
+
+void Comparison::run_siconos_local(const std::string& name, int solver, bool blocks) {
+  FrictionContactProblem problem = *fc_;
+  if (blocks) {
+    SparseBlockStructuredMatrix* sbm = SBM_new();
+    SBM_from_csparse(3, NM_csc(W_), sbm);
+    problem.M = NM_new_SBM(static_cast<int>(local_.W.rows()), static_cast<int>(local_.W.cols()), sbm);
+  }
+  SolverOptions* options = solver_options_create(solver);
+  options->dparam[SICONOS_DPARAM_TOL] = tolerance_;
+  options->iparam[SICONOS_IPARAM_MAX_ITER] = max_iterations_;
+  VecX gamma = VecX::Zero(local_.q.size()), u = gamma;
+  const double start = cpu_seconds();
+  fc3d_driver(&problem, gamma.data(), u.data(), options);
+  print(name, cpu_seconds() - start, options->iparam[SICONOS_IPARAM_ITER_DONE], gamma);
+  solver_options_delete(options);
+}
+
+/// The global form has no slot for compliance: rigid problems only.
+void Comparison::run_siconos_global() {
+  std::vector<Eigen::Triplet<double>> mass, contacts;
+  for (int k = 0; k < problem_.num_blocks(); ++k) {
+    for (int r = 0; r < 6; ++r) {
+      for (int c = 0; c < 6; ++c) {
+        if (problem_.M[k](r, c) != 0.0) mass.emplace_back(6 * k + r, 6 * k + c, problem_.M[k](r, c));
+      }
+    }
+  }
+  const auto add = [&contacts](int i, int k, const Mat63& D) {
+    for (int r = 0; r < 6 && k != ContactProblem::kFixed; ++r) {
+      for (int c = 0; c < 3; ++c) contacts.emplace_back(6 * k + r, 3 * i + c, D(r, c));
+    }
+  };
+  for (int i = 0; i < problem_.num_contacts(); ++i) {
+    add(i, problem_.block_a[i], problem_.D_a[i]);
+    add(i, problem_.block_b[i], problem_.D_b[i]);
+  }
+  const int n = 6 * problem_.num_blocks(), m = 3 * problem_.num_contacts();
+  Eigen::SparseMatrix<double> M(n, n), H(n, m);
+  M.setFromTriplets(mass.begin(), mass.end());
+  H.setFromTriplets(contacts.begin(), contacts.end());
+  VecX q = M * problem_.v_star, b = problem_.b, mu = problem_.mu;
+  GlobalFrictionContactProblem* global = globalFrictionContactProblem_new();
+  global->dimension = 3;
+  global->numberOfContacts = problem_.num_contacts();
+  global->M = to_numerics(M);
+  global->H = to_numerics(H);
+  global->q = q.data();
+  global->b = b.data();
+  global->mu = mu.data();
+  SolverOptions* options = solver_options_create(SICONOS_GLOBAL_FRICTION_3D_ADMM);
+  options->dparam[SICONOS_DPARAM_TOL] = tolerance_;
+  options->iparam[SICONOS_IPARAM_MAX_ITER] = max_iterations_;
+  VecX gamma = VecX::Zero(m), u = gamma, v = VecX::Zero(n);
+  const double start = cpu_seconds();
+  gfc3d_driver(global, gamma.data(), u.data(), v.data(), options);
+  print("siconos global ADMM", cpu_seconds() - start, options->iparam[SICONOS_IPARAM_ITER_DONE], gamma);
+  solver_options_delete(options);
+}
+
+void compare(const std::string& name, const DomeProblem& dome, double tolerance, int max_iterations) {
+  const ContactProblem problem = make_problem(dome);
+  const double mass = std::pow(root_mean_mass(problem), 2);
+  Comparison comparison(name, scaled(problem, mass, kGravity * dome.h), tolerance, max_iterations);
+  comparison.run_cupola();
+  if (dome.compliance == 0.0) comparison.run_siconos_global();
+  comparison.run_siconos_local("siconos ADMM", SICONOS_FRICTION_3D_ADMM, false);
+  comparison.run_siconos_local("siconos NSGS", SICONOS_FRICTION_3D_NSGS, true);
+}
+
+}  // namespace
+}  // namespace cupola
+
+int main(int argc, char** argv) {
+  const double tolerance = argc > 1 ? std::atof(argv[1]) : 1e-8;
+  const int max_iterations = argc > 2 ? std::atoi(argv[2]) : 10000;
+  cupola::DomeProblem dome;
+  dome.slices_per_block = 2;
+  dome.h = 1.0;
+  cupola::compare("static-elastic dome, kappa 1e-8", dome, tolerance, max_iterations);
+  dome.h = 0.01;
+  dome.compliance = 0.0;
+  cupola::compare("rigid dome, h = 0.01 s", dome, tolerance, max_iterations);
+  return 0;
+}
