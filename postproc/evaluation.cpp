@@ -68,18 +68,22 @@ ThrustInput thrust_input(const Evaluation& e) {
           &e.last.joints, e.last.from_below, e.scene.loads.gravity};
 }
 
-/// Every block that a bed touches from below or runs through, uprights included.
-std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput& input, int bed,
-                                         double height) {
+/// Every block that a bed touches from below or runs through, uprights included. Where an upright is one
+/// convex part (walls), nothing tells what crosses it half-way up: it counts with the wrench at its own foot.
+std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput& input, int bed) {
   std::set<int> blocks;
   for (const BedFacet& facet : e.shell.beds[bed]) blocks.insert(facet.block);
   std::vector<BedResultant> resultants;
-  for (const int block : blocks) {
-    const Wrench wrench = wrench_at_bed(input, block, bed);
+  for (int b = 0; b < static_cast<int>(e.assembly.blocks.size()); ++b) {
+    const Block& block = e.assembly.blocks[b];
+    const bool on_bed = blocks.contains(b);
+    if (block.fixed || (!on_bed && (block.ring >= bed || block.ring + block.num_rings <= bed))) continue;
+    const Wrench wrench = on_bed ? wrench_at_bed(input, b, bed) : e.last.from_below[b];
     const CentralAxis axis = central_axis(wrench);
+    const double height = e.rings[on_bed ? bed : block.ring].height;
     if (axis.exists)
       resultants.push_back(
-          {block, wrench, axis_in_plane(axis, wrench.force, {e.up, height}), axis.couple_length});
+          {b, wrench, axis_in_plane(axis, wrench.force, {e.up, height}), axis.couple_length});
   }
   return resultants;
 }
@@ -109,8 +113,7 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e) {
       nearest = std::abs(ring.height - height);
       section.ring = ring.ring;
     }
-    if (section.ring >= 0)
-      section.resultants = bed_resultants(e, input, section.ring, e.rings[section.ring].height);
+    if (section.ring >= 0) section.resultants = bed_resultants(e, input, section.ring);
     sections.push_back(std::move(section));
   }
   return sections;
