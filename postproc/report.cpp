@@ -53,7 +53,8 @@ std::string findings_section(const Evaluation& e) {
   }
   if (s.rib_over_mid_sail)
     item(fmt::format("The rib carries {:.3f} times the resultant of the mid-sail.", *s.rib_over_mid_sail));
-  item(fmt::format("The couples of the block wrenches have arms of at most {:.3g} m.", s.largest_couple_length_m));
+  item(fmt::format("The couples of the block wrenches have arms of at most {:.3g} m.",
+                   s.largest_couple_length_m));
   item(fmt::format("The most used joint needs {:.1f} % of its friction{}.", 100.0 * s.largest_friction_use,
                    s.largest_friction_use > 0.999 ? ": it slides" : ""));
   item(

@@ -115,7 +115,10 @@ std::vector<std::string> reading(const std::vector<PostSummary>& runs) {
 }
 
 Table comparison_table(const std::vector<PostSummary>& runs) {
-  Table t{"comparison", "The runs, measure by measure", {{"run", "", "run"}, {"title", "", "case"}, {"status", "", "status"}}, {}};
+  Table t{"comparison",
+          "The runs, measure by measure",
+          {{"run", "", "run"}, {"title", "", "case"}, {"status", "", "status"}},
+          {}};
   t.columns.push_back({"blocks", "", "free blocks"});
   t.columns.push_back({"friction", "", "friction coefficient"});
   for (const Measure& m : measures()) t.columns.push_back({m.key, m.unit, m.subject});
