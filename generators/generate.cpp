@@ -1,22 +1,12 @@
 #include "generators/generate.hpp"
 
-#include "assembly/variant.hpp"
-#include "generators/bond/courses.hpp"
-#include "generators/bond/fill.hpp"
-#include "generators/bond/herringbone.hpp"
+#include "assembly/error.hpp"
+#include "generators/bond/make_bond.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
 #include "generators/surface/make_surface.hpp"
 
 namespace cupola {
 namespace {
-
-BondPattern make_bond(const Bond& bond, const BondGrid& grid) {
-  return std::visit(Overloaded{[&](const RunningBond& b) { return running_bond(b, grid); },
-                               [&](const StackBond& b) { return stack_bond(b, grid); },
-                               [&](const HerringboneBond& b) { return herringbone_bond(b, grid); },
-                               [&](const FillBond& b) { return fill_bond(b, grid); }},
-                    bond);
-}
 
 CutOptions cut_options(const Case& input) {
   CutOptions options;
@@ -30,8 +20,7 @@ CutOptions cut_options(const Case& input) {
 }  // namespace
 
 Assembly cut_assembly(const Case& input) {
-  const int rings = std::visit([](const auto& bond) { return bond.rings; }, input.geometry.bond);
-  const SurfaceMap surface = make_surface(input.geometry.surface, rings);
+  const SurfaceMap surface = make_surface(input.geometry.surface, rings_of(input.geometry.bond));
   const BondPattern bond = make_bond(input.geometry.bond, bond_grid(surface));
   Assembly assembly = cut_blocks(surface, bond, cut_options(input));
   assembly.title = input.title;
@@ -39,16 +28,32 @@ Assembly cut_assembly(const Case& input) {
   return assembly;
 }
 
-Assembly generate(const Case& input, ModelReport* report) {
-  Assembly assembly = cut_assembly(input);
-  ModelReport measured = check_model(assembly);
-  if (!input.geometry.stage) {
-    measured.shell_volume = make_surface(input.geometry.surface, 2).shell_volume;
-    if (!measured.shell_volume) measured.shell_volume = extrapolated_shell_volume(input.geometry.surface);
+Assembly generate(const Case& input, GenerateReport* report) {
+  GenerateReport unused;
+  if (!report) report = &unused;
+  const Geometry& geometry = input.geometry;
+  if (geometry.imported) {
+    if (geometry.imperfections) throw InputError("imperfections: imported blocks take none");
+    report->import.emplace();
+    Assembly assembly = import_blocks(*geometry.imported, input.material.density(), &*report->import);
+    assembly.title = input.title;
+    assembly.geometry_hash = input.geometry_hash;
+    report->model = check_model(assembly, imported_tolerances(assembly, *geometry.imported));
+    assembly.check_report = to_text(*report);
+    return assembly;
   }
-  assembly.check_report = to_text(measured);
-  if (report) *report = measured;
+  Assembly assembly = cut_assembly(input);
+  report->model = check_model(assembly, generated_tolerances(assembly));
+  if (!geometry.stage) {
+    report->model.shell_volume = make_surface(geometry.surface, 2).shell_volume;
+    if (!report->model.shell_volume) report->model.shell_volume = extrapolated_shell_volume(geometry.surface);
+  }
+  assembly.check_report = to_text(*report);
   return assembly;
+}
+
+std::string to_text(const GenerateReport& report) {
+  return (report.import ? to_text(*report.import) : "") + to_text(report.model);
 }
 
 }  // namespace cupola

@@ -1,16 +1,28 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "assembly/assembly.hpp"
 #include "assembly/case/case.hpp"
+#include "generators/importer/import.hpp"
 #include "generators/stereotomy/model_checks.hpp"
 
 namespace cupola {
 
-/// Makes the blocks that a case describes, without checking them: surface, bond, stage, density.
+/// What generate made and measured.
+struct GenerateReport {
+  ModelReport model;
+  std::optional<ImportReport> import;  ///< of blocks that others cut
+};
+
+/// Cuts the blocks that a case's surface and bond describe, without checking them.
 Assembly cut_assembly(const Case& input);
 
-/// Makes and checks them (GEOMETRY in generators/README.md tells the formulas). Throws InputError naming the
-/// block when a check fails. `report` may be null.
-Assembly generate(const Case& input, ModelReport* report = nullptr);
+/// Makes the blocks of a case, cut or imported, and checks them. Throws InputError naming the block when a
+/// check fails. `report` may be null.
+Assembly generate(const Case& input, GenerateReport* report = nullptr);
+
+std::string to_text(const GenerateReport& report);
 
 }  // namespace cupola

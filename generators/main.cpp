@@ -12,18 +12,28 @@
 #include "assembly/atomic_file.hpp"
 #include "assembly/command_line.hpp"
 #include "generators/generate.hpp"
+#include "generators/stereotomy/bond_map.hpp"
+#include "generators/stereotomy/report.hpp"
 
 namespace {
 
 using namespace cupola;
 
+void make_parent(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  if (!folder.empty()) make_folder(folder.string());
+}
+
 ExitCode generate_assembly(int argc, char** argv) {
   // 1. What is asked
-  std::string output;
+  std::string output, report_file, bond_map_file;
   CommandLine line("cupola-generate", "Cuts a case's vault into rigid blocks and checks them.",
                    "  cupola-generate dome.yaml --output assembly.vtu\n"
                    "  cupola-generate dome.yaml --output thin.vtu --set geometry.surface.thickness=1.1");
   line.required("--output", &output, "FILE", "assembly to write (.vtu)");
+  line.optional("--report", &report_file, "FILE",
+                "stereotomy report to write (.json, or any ending for text)");
+  line.optional("--bond-map", &bond_map_file, "FILE", "drawing of the unrolled bond to write (.svg)");
   if (const auto ended = line.parse(argc, argv)) return *ended;
 
   // 2. The case
@@ -31,14 +41,22 @@ ExitCode generate_assembly(int argc, char** argv) {
   if (line.check_only()) return ExitCode::done;
 
   // 3. The blocks, checked
-  ModelReport report;
+  GenerateReport report;
   const Assembly assembly = generate(scene, &report);
   if (!line.quiet()) fmt::print("{}", to_text(report));
 
-  // 4. The file
-  const std::filesystem::path folder = std::filesystem::path(output).parent_path();
-  if (!folder.empty()) make_folder(folder.string());
+  // 4. The files
+  make_parent(output);
   write_assembly(output, assembly);
+  if (!report_file.empty()) {
+    make_parent(report_file);
+    write_text_atomically(report_file, report_file.ends_with(".json") ? report_json(assembly, report)
+                                                                      : report_text(assembly, report));
+  }
+  if (!bond_map_file.empty()) {
+    make_parent(bond_map_file);
+    write_text_atomically(bond_map_file, bond_map_svg(scene.geometry));
+  }
   return ExitCode::done;
 }
 

@@ -18,7 +18,7 @@ using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 /// Boundary of one block as triangles; a face that cannot be attached (an edge used twice in one direction)
 /// is left out and leaves its border open.
-SurfaceMesh block_boundary(const Assembly& assembly, const Part* begin, const Part* end) {
+SurfaceMesh boundary_of(const Assembly& assembly, const Part* begin, const Part* end, bool with_internal) {
   SurfaceMesh mesh;
   std::map<int, SurfaceMesh::Vertex_index> vertex;
   const auto mesh_vertex = [&](int id) {
@@ -29,7 +29,7 @@ SurfaceMesh block_boundary(const Assembly& assembly, const Part* begin, const Pa
   };
   for (const Part* part = begin; part != end; ++part)
     for (int f = part->face_start; f < part->face_start + part->num_faces; ++f) {
-      if (assembly.face_kinds[f] == FaceKind::internal) continue;
+      if (!with_internal && assembly.face_kinds[f] == FaceKind::internal) continue;
       const auto ids = assembly.face(f);
       for (size_t i = 2; i < ids.size(); ++i)
         mesh.add_face(mesh_vertex(ids[0]), mesh_vertex(ids[i - 1]), mesh_vertex(ids[i]));
@@ -50,13 +50,14 @@ BoundaryDefect check_boundary(int block, const SurfaceMesh& mesh) {
 
 }  // namespace
 
-std::vector<BoundaryDefect> find_boundary_defects(const Assembly& assembly) {
+std::vector<BoundaryDefect> find_boundary_defects(const Assembly& assembly, bool part_by_part) {
   std::vector<BoundaryDefect> defects;
   const Part* const parts_end = assembly.parts.data() + assembly.parts.size();
   for (const Part* begin = assembly.parts.data(); begin != parts_end;) {
-    const Part* end = begin;
-    while (end != parts_end && end->block == begin->block) ++end;
-    const BoundaryDefect found = check_boundary(begin->block, block_boundary(assembly, begin, end));
+    const Part* end = begin + 1;
+    while (!part_by_part && end != parts_end && end->block == begin->block) ++end;
+    const BoundaryDefect found =
+        check_boundary(begin->block, boundary_of(assembly, begin, end, part_by_part));
     if (found.kind != BoundaryDefect::Kind::none) defects.push_back(found);
     begin = end;
   }

@@ -143,9 +143,44 @@ void declare_stage(Section& s, Stage& stage) {
   s.required_integer("rings", stage.rings, {.min = 1, .max = kMostRings}, "rings built so far");
 }
 
+void declare_import(Section& s, ImportedBlocks& import) {
+  using enum ImportedBlocks::Format;
+  s.file("file", import.path, "blocks to import", true);
+  s.choice("format", import.format,
+           {{"automatic", automatic},
+            {"obj", obj},
+            {"off", off},
+            {"stl", stl},
+            {"ply", ply},
+            {"compas", compas},
+            {"bricks", bricks}},
+           "of the file; automatic goes by its ending (.json: compas, .csv and .txt: bricks)");
+  s.number("metres_per_unit", import.metres_per_unit, {.unit = "m", .above = 0}, "length of the file's unit");
+  s.choice("up", import.up, {{"z", ImportedBlocks::UpAxis::z}, {"y", ImportedBlocks::UpAxis::y}},
+           "the file's upward axis");
+  s.texts("supports", import.supports, "names of the blocks that are fixed");
+  s.flag("flagged_supports", import.flagged_supports, "fix the blocks that the file marks as fixed");
+  s.optional_number("fixed_below", import.fixed_below, {.unit = "m"}, "none",
+                    "fix the blocks whose centroid lies below this height");
+  s.file("springs", import.springs, "ties that only pull, brick CSV");
+  s.file("rods", import.rods, "rigid rods, brick CSV");
+  s.number("weld", import.weld, {.above = 0, .max = 0.1},
+           "vertices nearer than this times the block's size are one");
+  s.number("facet_angle", import.facet_angle, {.unit = "rad", .above = 0, .max = 0.1},
+           "triangles within this angle are one plane facet");
+  s.number("snap", import.snap, {.unit = "m", .min = 0},
+           "opposed facets nearer than this are laid in one plane");
+  s.number("most_overlap", import.most_overlap, {.unit = "m", .min = 0},
+           "deeper overlaps of blocks are an error");
+  s.number("joint_gap", import.joint_gap, {.unit = "m", .min = 0}, "faces nearer than this count as a joint");
+}
+
 }  // namespace
 
 void declare_geometry(Section& s, Geometry& geometry) {
+  s.optional_section("import", geometry.imported, "blocks cut by others, instead of surface and bond",
+                     declare_import);
+  if (geometry.imported) return;
   s.section("surface", geometry.surface, "shape of the masonry shell", declare_surface);
   s.section("bond", geometry.bond, "pattern of the blocks", declare_bond);
   s.optional_section("stage", geometry.stage, "builds the lower rings only", declare_stage);

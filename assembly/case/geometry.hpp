@@ -128,7 +128,28 @@ struct Imperfections {
   int seed = 1;        ///< >= 0
 };
 
+/// Blocks that others cut, instead of a surface and a bond.
+struct ImportedBlocks {
+  enum class Format : std::uint8_t { automatic, obj, off, stl, ply, compas, bricks };
+  enum class UpAxis : std::uint8_t { z, y };
+
+  std::string path;                   ///< file, or folder of files
+  Format format = Format::automatic;  ///< automatic: by the file's ending
+  double metres_per_unit = 1.0;       ///< > 0
+  UpAxis up = UpAxis::z;              ///< of the file; y up is turned to z up about x
+  std::vector<std::string> supports;  ///< names of fixed blocks
+  bool flagged_supports = true;       ///< also those that the file marks as fixed
+  std::optional<double> fixed_below;  ///< m: also those whose centroid lies below this z
+  std::string springs, rods;          ///< files of ties, brick CSV; "" for none
+  double weld = 1e-6;                 ///< x block size: vertices nearer than this are one, > 0
+  double facet_angle = 1e-6;          ///< rad: triangles within this are one plane facet, > 0
+  double snap = 0.0;           ///< m: opposed facets nearer than this are laid in one plane; 0 for none
+  double most_overlap = 1e-3;  ///< m: deeper overlaps of two blocks are an error, >= 0
+  double joint_gap = 1e-3;     ///< m: faces nearer than this count as a joint in the report, >= 0
+};
+
 struct Geometry {
+  std::optional<ImportedBlocks> imported;  ///< then surface, bond and stage mean nothing
   Surface surface = DomeSurface{};
   Bond bond = RunningBond{};
   std::optional<Stage> stage;

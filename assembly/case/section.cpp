@@ -125,13 +125,14 @@ void Section::read_one_number(const std::string& key, const CaseNode& node, cons
   if (!admits(rule, *value)) fail(key, node, "must be " + describe_range(rule));
 }
 
-void Section::file(const std::string& key, std::string& path, const std::string& meaning) {
-  document(key, "file", {}, "none", meaning);
+void Section::file(const std::string& key, std::string& path, const std::string& meaning, bool or_folder) {
+  document(key, or_folder ? "file or folder" : "file", {}, "none", meaning);
   const CaseNode* node = look_up_scalar(key);
   if (!node) return;
   const std::string folder = std::filesystem::path(case_file_).parent_path().string();
   path = path_inside(folder, case_file_, node->text, node->where);
-  if (!std::filesystem::is_regular_file(path)) fail(key, *node, "no such file beside the case");
+  if (!std::filesystem::is_regular_file(path) && !(or_folder && std::filesystem::is_directory(path)))
+    fail(key, *node, "no such file beside the case");
   record(key, node->text, true);
 }
 
@@ -247,6 +248,22 @@ void Section::numbers(const std::string& key, std::vector<double>& values, const
     for (size_t i = 0; i < values.size(); ++i) read_one_number(key, node->items[i], rule, &values[i]);
   }
   record(key, list_of_numbers(values.data(), values.size()));
+}
+
+void Section::texts(const std::string& key, std::vector<std::string>& values, const std::string& meaning) {
+  document(key, "texts", {}, fmt::format("[{}]", joined(values)), meaning);
+  if (const CaseNode* node = look_up(key)) {
+    if (node->kind != CaseNode::Kind::list) fail(key, *node, "must be a list of names, [a, b]");
+    values.clear();
+    for (const CaseNode& item : node->items) {
+      if (item.kind != CaseNode::Kind::scalar) fail(key, item, "must be a name");
+      values.push_back(item.text);
+    }
+  }
+  CaseNode list;
+  list.kind = CaseNode::Kind::list;
+  for (const std::string& value : values) list.items.push_back(scalar(value, true));
+  record(key, list);
 }
 
 void Section::quantity(double& value, const std::vector<UnitName>& names) {

@@ -50,7 +50,7 @@ class Section {
   void text(const std::string& key, std::string& value, const std::string& meaning);
   /// A file that the case names, relative to the case file's folder and inside it (path_inside); `path` gets
   /// what a program opens. Left out, it stays empty.
-  void file(const std::string& key, std::string& path, const std::string& meaning);
+  void file(const std::string& key, std::string& path, const std::string& meaning, bool or_folder = false);
   void number(const std::string& key, double& value, const NumberRule& rule, const std::string& meaning);
   /// They must be given: `value` on entry means nothing.
   void required_number(const std::string& key, double& value, const NumberRule& rule,
@@ -70,6 +70,8 @@ class Section {
                const std::string& meaning);
   void integers(const std::string& key, std::vector<int>& values, const NumberRule& rule,
                 const std::string& meaning);
+
+  void texts(const std::string& key, std::vector<std::string>& values, const std::string& meaning);
 
   /// One quantity under several names, of which the case gives at most one: value = factor * number.
   struct UnitName {

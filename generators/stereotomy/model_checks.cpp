@@ -1,6 +1,7 @@
 #include "generators/stereotomy/model_checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -14,8 +15,6 @@
 namespace cupola {
 namespace {
 
-constexpr double kOpposedCosine = 1.0 - 1e-12;  // faces within 1.4e-6 rad of opposed can be one joint
-
 double model_size(const Assembly& assembly) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& v : assembly.vertices) {
@@ -25,8 +24,8 @@ double model_size(const Assembly& assembly) {
   return (high - low).maxCoeff();
 }
 
-void check_boundaries(const Assembly& assembly) {
-  const std::vector<BoundaryDefect> defects = find_boundary_defects(assembly);
+void check_boundaries(const Assembly& assembly, bool part_by_part) {
+  const std::vector<BoundaryDefect> defects = find_boundary_defects(assembly, part_by_part);
   if (defects.empty()) return;
   const BoundaryDefect& d = defects.front();
   using enum BoundaryDefect::Kind;
@@ -57,17 +56,22 @@ void measure_shape(const Assembly& assembly, const ConvexShape& shape, double bo
   }
 }
 
-bool share_a_face(const Assembly& assembly, const ConvexShape& a, const ConvexShape& b, double tolerance) {
+/// Distance of the planes of two faces that share a joint, if any do.
+std::optional<double> joint_gap(const Assembly& assembly, const ConvexShape& a, const ConvexShape& b,
+                                const ModelTolerances& tolerances) {
+  const double opposed = -std::cos(tolerances.joint_angle);
   for (size_t i = 0; i < a.planes.size(); ++i)
     for (size_t j = 0; j < b.planes.size(); ++j) {
       const Plane& p = a.planes[i];
       const Plane& q = b.planes[j];
-      if (p.normal.dot(q.normal) > -kOpposedCosine || std::abs(p.offset + q.offset) > tolerance) continue;
-      if (polygons_overlap(face_points(assembly, a.faces[i]), face_points(assembly, b.faces[j]), p.normal,
-                           tolerance))
-        return true;
+      if (p.normal.dot(q.normal) > opposed) continue;
+      const std::vector<Vec3> face_a = face_points(assembly, a.faces[i]),
+                              face_b = face_points(assembly, b.faces[j]);
+      const double gap = std::abs(p.normal.dot(polygon_centroid(face_b)) - p.offset);
+      if (gap <= tolerances.joint_gap && polygons_overlap(face_a, face_b, p.normal, tolerances.joint_gap))
+        return gap;
     }
-  return false;
+  return std::nullopt;
 }
 
 /// Joins the blocks that share a face into islands.
@@ -81,20 +85,25 @@ struct Islands {
   std::vector<int> parent;
 };
 
-void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shapes, double tolerance,
-                 ModelReport* report) {
+void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shapes,
+                 const ModelTolerances& tolerances, ModelReport* report) {
   std::set<std::pair<int, int>> joints;
   Islands islands(assembly.blocks.size());
+  const double good_enough = std::min(tolerances.overlap, generated_tolerances(assembly).overlap);
   report->max_overlap = -std::numeric_limits<double>::infinity();
-  for (const auto& [p, q] : touching_boxes(assembly, tolerance)) {
+  for (const auto& [p, q] : touching_boxes(assembly, tolerances.joint_gap)) {
     const int a = assembly.parts[p].block;
     const int b = assembly.parts[q].block;
     if (a == b) continue;
-    const double depth = overlap_depth(shapes[p], shapes[q], tolerance);
+    const double depth = overlap_depth(shapes[p], shapes[q], good_enough);
     report->max_overlap = std::max(report->max_overlap, depth);
-    if (depth > tolerance) throw InputError(fmt::format("blocks {} and {} overlap by {:.3g} m", a, b, depth));
+    if (depth > tolerances.overlap)
+      throw InputError(fmt::format("blocks {} and {} overlap by {:.3g} m", a, b, depth));
     const std::pair pair(std::min(a, b), std::max(a, b));
-    if (joints.contains(pair) || !share_a_face(assembly, shapes[p], shapes[q], tolerance)) continue;
+    if (joints.contains(pair)) continue;
+    const std::optional<double> gap = joint_gap(assembly, shapes[p], shapes[q], tolerances);
+    if (!gap) continue;
+    report->max_joint_gap = std::max(report->max_joint_gap, *gap);
     joints.insert(pair);
     islands.join(a, b);
   }
@@ -109,8 +118,16 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
 
 }  // namespace
 
-ModelReport check_model(const Assembly& assembly, const ModelTolerances& tolerances) {
+ModelTolerances generated_tolerances(const Assembly& assembly) {
   const double size = model_size(assembly);
+  return {1e-13 * size, 2e-11 * size, 2e-11 * size, 1e-6, false};
+}
+
+ModelTolerances imported_tolerances(const Assembly& assembly, const ImportedBlocks& source) {
+  return {1e-5 * model_size(assembly), source.most_overlap, source.joint_gap, 1e-2, true};
+}
+
+ModelReport check_model(const Assembly& assembly, const ModelTolerances& tolerances) {
   ModelReport report;
   report.smallest_block = std::numeric_limits<double>::infinity();
   report.shortest_edge = std::numeric_limits<double>::infinity();
@@ -124,16 +141,16 @@ ModelReport check_model(const Assembly& assembly, const ModelTolerances& toleran
     report.smallest_block = std::min(report.smallest_block, block.volume);
     report.largest_block = std::max(report.largest_block, block.volume);
   }
-  check_boundaries(assembly);
+  check_boundaries(assembly, tolerances.part_by_part);
   std::vector<ConvexShape> shapes;
   for (const Part& part : assembly.parts) {
     shapes.push_back(convex_shape(assembly, part));
-    measure_shape(assembly, shapes.back(), tolerances.plane * size, part.block, &report);
+    measure_shape(assembly, shapes.back(), tolerances.plane, part.block, &report);
     if (assembly.blocks[part.block].kind == BlockKind::support) continue;
     ++report.num_parts;
     report.parts_volume += part.volume;
   }
-  check_pairs(assembly, shapes, tolerances.overlap * size, &report);
+  check_pairs(assembly, shapes, tolerances, &report);
   return report;
 }
 
@@ -147,9 +164,10 @@ std::string to_text(const ModelReport& r) {
     text += fmt::format("smooth shell {:.6f} m3, facets leave out {:.3e} of it\n", *r.shell_volume,
                         1.0 - r.volume / *r.shell_volume);
   text += fmt::format(
-      "largest errors: convexity {:.1e} m, planarity {:.1e} m, overlap of blocks {:.1e} m; shortest edge "
-      "{:.4g} m\n",
-      r.max_convexity_error, r.max_planarity_error, r.max_overlap, r.shortest_edge);
+      "largest errors: convexity {:.1e} m, planarity {:.1e} m, overlap of blocks {:.1e} m, gap in a "
+      "joint {:.1e} m; shortest edge {:.4g} m\n",
+      r.max_convexity_error, r.max_planarity_error, std::max(r.max_overlap, 0.0), r.max_joint_gap,
+      r.shortest_edge);
   if (!r.blocks_without_joint.empty())
     text += fmt::format("{} blocks touch nothing, the first is {}\n", r.blocks_without_joint.size(),
                         r.blocks_without_joint.front());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "assembly/assembly.hpp"
+#include "assembly/case/geometry.hpp"
 
 namespace cupola {
 
@@ -21,22 +22,32 @@ struct ModelReport {
   double max_convexity_error = 0.0;    ///< largest height of a part's vertex above one of its face planes
   double max_planarity_error = 0.0;    ///< largest distance of a face's vertex from the face's plane
   double max_overlap = 0.0;            ///< largest depth by which parts of two blocks overlap; <= 0: none
+  double max_joint_gap = 0.0;          ///< largest distance of the planes of two faces that share a joint
   double shortest_edge = 0.0;
   int islands = 0;  ///< connected pieces of the contact graph
   std::vector<int> blocks_without_joint;
 };
 
-/// Bounds that a generated model keeps, as multiples of its size (largest extent), so that they follow the
-/// rounding of its coordinates.
+/// Bounds that a model must keep.
 struct ModelTolerances {
-  double plane = 1e-13;    ///< convexity and planarity, x model size
-  double overlap = 1e-11;  ///< depth of an overlap, x model size (1e-9 m on the 50 m dome, as asked)
+  double plane = 0.0;         ///< m, convexity and planarity
+  double overlap = 0.0;       ///< m, depth of an overlap
+  double joint_gap = 0.0;     ///< m, faces nearer than this share a joint
+  double joint_angle = 0.0;   ///< rad, so do they when opposed within this
+  bool part_by_part = false;  ///< parts share no vertices: each is checked as a closed surface of its own
 };
 
+/// For generated blocks: rounding of the coordinates, 1e-13 of the model's size for planes and 2e-11 of it
+/// (1e-9 m on the 50 m dome) for overlaps.
+ModelTolerances generated_tolerances(const Assembly& assembly);
+
+/// For imported blocks: what the case accepts; planes within 1e-5 of the model's size.
+ModelTolerances imported_tolerances(const Assembly& assembly, const ImportedBlocks& source);
+
 /// Measures the model and checks it: blocks closed, outward, free of self-intersections (CGAL, exact
-/// predicates), parts convex with plane faces, no two blocks overlap, every block has a joint.
-/// Throws InputError naming the block and the measure that breaks its bound.
-ModelReport check_model(const Assembly& assembly, const ModelTolerances& tolerances = {});
+/// predicates), parts convex with plane faces, no two blocks overlap. Throws InputError naming the block and
+/// the measure that breaks its bound.
+ModelReport check_model(const Assembly& assembly, const ModelTolerances& tolerances);
 
 std::string to_text(const ModelReport& report);
 

@@ -5,6 +5,7 @@
 
 #include "assembly/error.hpp"
 #include "generators/generate.hpp"
+#include "tests/generators/models.hpp"
 
 namespace cupola {
 namespace {
@@ -27,7 +28,7 @@ Case arch_case(int voussoirs, double thickness, int segments) {
 // sin(pi/n).
 TEST(Arch, PolygonalVoussoirsHaveTheirVolume) {
   ModelReport report;
-  const Assembly arch = generate(arch_case(27, 0.15, 1), &report);
+  const Assembly arch = check_and_report(arch_case(27, 0.15, 1), &report);
   EXPECT_EQ(report.num_blocks, 27);
   EXPECT_EQ(report.num_parts, 27);
   EXPECT_EQ(report.num_supports, 2);
@@ -44,7 +45,7 @@ TEST(Arch, PolygonalVoussoirsHaveTheirVolume) {
 
 TEST(Arch, SectorsApproachTheExactVolume) {
   ModelReport report;
-  const Assembly arch = generate(arch_case(7, 0.25, 16), &report);
+  const Assembly arch = check_and_report(arch_case(7, 0.25, 16), &report);
   EXPECT_EQ(report.num_blocks, 7);
   EXPECT_EQ(report.num_parts, 7 * 16);
   const double angle = pi / 7 / 16;
@@ -64,7 +65,7 @@ TEST(Arch, PointedArchMeetsAtTheCrown) {
   c.geometry.surface = arch;
   c.geometry.bond = StackBond{20, 1, 1, {}};
   ModelReport report;
-  const Assembly model = generate(c, &report);
+  const Assembly model = check_and_report(c, &report);
   EXPECT_EQ(report.num_joints, 21);
   EXPECT_LT(report.volume, *report.shell_volume);
   EXPECT_NEAR(report.volume, *report.shell_volume, 4e-3 * *report.shell_volume);
@@ -81,7 +82,7 @@ TEST(Arch, SegmentAndHorseshoeStandOnRadialSprings) {
     Case c = arch_case(15, 0.1, 1);
     std::get<ArchSurface>(c.geometry.surface).half_embrace_deg = half_embrace;
     ModelReport report;
-    generate(c, &report);
+    check_and_report(c, &report);
     EXPECT_NEAR(report.volume, 15 * 0.1 * std::sin(half_embrace * pi / 180 * 2 / 15), 1e-13);
     EXPECT_EQ(report.num_joints, 16);
     EXPECT_EQ(report.islands, 1);
@@ -93,7 +94,7 @@ TEST(Arch, BarrelTakesARunningBondAlongItsAxis) {
   std::get<ArchSurface>(c.geometry.surface).width = 3.0;
   c.geometry.bond = RunningBond{9, 3, 2, {}};
   ModelReport report;
-  generate(c, &report);
+  check_and_report(c, &report);
   EXPECT_EQ(report.num_blocks, 5 * 3 + 4 * 4);
   EXPECT_NEAR(report.volume, 3.0 * 9 * 0.2 * std::sin(pi / 9), 1e-12);
 }

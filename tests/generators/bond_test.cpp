@@ -11,6 +11,7 @@
 #include "generators/bond/fill.hpp"
 #include "generators/bond/herringbone.hpp"
 #include "generators/generate.hpp"
+#include "tests/generators/models.hpp"
 
 namespace cupola {
 namespace {
@@ -201,7 +202,7 @@ TEST(WallHerringbone, HasItsBlocksAndOneDiagonal) {
   bond.spirals = 1;
   c.geometry.bond = bond;
   ModelReport report;
-  const Assembly wall = generate(c, &report);
+  const Assembly wall = check_and_report(c, &report);
   EXPECT_EQ(report.num_blocks, 195);
   EXPECT_EQ(report.num_parts, 195);
   EXPECT_NEAR(report.volume, 32 * 24 * 2.4, 1e-11 * 32 * 24 * 2.4);
@@ -265,7 +266,7 @@ TEST(StackBond, AlignsItsJoints) {
   c.geometry.surface = WallSurface{};
   c.geometry.bond = StackBond{4, 2, 2, {}};
   ModelReport report;
-  generate(c, &report);
+  check_and_report(c, &report);
   EXPECT_EQ(report.num_blocks, 8);
   EXPECT_EQ(report.num_joints, 8 + 4);  // one bed under each block, one head per course
 }

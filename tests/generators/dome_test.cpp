@@ -15,7 +15,7 @@ constexpr double kShellVolume = 9231.922780;
 
 TEST(DomeOfRevolution, PaperDomeHasItsCountsAndVolumes) {
   ModelReport report;
-  const Assembly dome = generate(dome_case(), &report);
+  const Assembly dome = check_and_report(dome_case(), &report);
   EXPECT_EQ(report.num_blocks, 1280);
   EXPECT_EQ(report.num_parts, 5120);
   EXPECT_EQ(report.num_supports, 1);
@@ -35,7 +35,7 @@ TEST(DomeOfRevolution, PaperDomeHasItsCountsAndVolumes) {
 TEST(DomeOfRevolution, FacetErrorOfTheVolumeFallsWithTheSquareOfTheCuts) {
   const auto error = [](int rings, int blocks) {
     ModelReport report;
-    generate(dome_case(rings, blocks, 2), &report);
+    check_and_report(dome_case(rings, blocks, 2), &report);
     return 1.0 - report.volume / kShellVolume;
   };
   const double coarse = error(10, 16);
@@ -48,14 +48,14 @@ TEST(DomeOfRevolution, FacetErrorOfTheVolumeFallsWithTheSquareOfTheCuts) {
 // computed outside this project.
 TEST(DomeOfRevolution, PolyhedralDomesHaveTheirExactVolumes) {
   ModelReport report;
-  generate(dome_case(20, 16, 2), &report);
+  check_and_report(dome_case(20, 16, 2), &report);
   EXPECT_NEAR(report.volume, 9164.786579, 1e-6);
 
   Case hemisphere = dome_case(10, 6, 2);
   const double crown = std::numbers::pi / 2 - 0.1;
   hemisphere.geometry.surface = DomeSurface{1.9, 0.5, 0.1, crown * 180.0 / std::numbers::pi};
   hemisphere.geometry.support_width = 0.2;
-  generate(hemisphere, &report);
+  check_and_report(hemisphere, &report);
   EXPECT_NEAR(report.volume, 0.59427448, 1e-8);
 }
 

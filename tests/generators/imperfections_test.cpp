@@ -2,6 +2,7 @@
 
 #include "assembly/error.hpp"
 #include "generators/generate.hpp"
+#include "tests/generators/models.hpp"
 
 namespace cupola {
 namespace {
@@ -24,8 +25,8 @@ Case imperfect(const Surface& surface, double gap, double noise, int seed) {
 TEST(Imperfections, NoiseKeepsFacesPlaneAndJointsClosed) {
   for (const Surface& surface : all_surfaces()) {
     ModelReport perfect, noisy;
-    const Assembly a = generate(imperfect(surface, 0.0, 0.0, 1), &perfect);
-    const Assembly b = generate(imperfect(surface, 0.0, 2e-3, 1), &noisy);
+    const Assembly a = check_and_report(imperfect(surface, 0.0, 0.0, 1), &perfect);
+    const Assembly b = check_and_report(imperfect(surface, 0.0, 2e-3, 1), &noisy);
     EXPECT_EQ(noisy.num_joints, perfect.num_joints);
     EXPECT_EQ(noisy.islands, 1);
     EXPECT_NE(noisy.volume, perfect.volume);
@@ -44,8 +45,8 @@ TEST(Imperfections, NoiseKeepsFacesPlaneAndJointsClosed) {
 TEST(Imperfections, GapsOpenEveryJoint) {
   for (const Surface& surface : all_surfaces()) {
     ModelReport perfect, open;
-    generate(imperfect(surface, 0.0, 0.0, 1), &perfect);
-    generate(imperfect(surface, 1e-3, 0.0, 7), &open);
+    check_and_report(imperfect(surface, 0.0, 0.0, 1), &perfect);
+    check_and_report(imperfect(surface, 1e-3, 0.0, 7), &open);
     EXPECT_EQ(open.num_joints, 0);
     EXPECT_LT(open.max_overlap, 0.0);
     EXPECT_LT(open.volume, perfect.volume);

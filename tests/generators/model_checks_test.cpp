@@ -9,7 +9,7 @@ namespace {
 
 std::string complaint(const Assembly& assembly) {
   try {
-    check_model(assembly);
+    check_model(assembly, generated_tolerances(assembly));
   } catch (const InputError& error) {
     return error.what();
   }
@@ -67,7 +67,7 @@ TEST(ModelChecks, NameABentFace) {
 TEST(ModelChecks, CountIslandsAndBlocksThatTouchNothing) {
   Assembly wall = cut_assembly(wall_case(4, 2));
   shift_block(&wall, 10, Vec3(0.0, 0.0, 2.0));  // a course is 1.5 m
-  const ModelReport report = check_model(wall);
+  const ModelReport report = check_model(wall, generated_tolerances(wall));
   EXPECT_EQ(report.islands, 2);
   EXPECT_EQ(report.blocks_without_joint, std::vector<int>{10});
 }

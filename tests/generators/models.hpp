@@ -1,8 +1,15 @@
 #pragma once
 
-#include "assembly/case/case.hpp"
+#include "generators/generate.hpp"
 
 namespace cupola {
+
+inline Assembly check_and_report(const Case& c, ModelReport* report) {
+  GenerateReport whole;
+  Assembly assembly = generate(c, &whole);
+  *report = whole.model;
+  return assembly;
+}
 
 inline Case dome_case(int rings = 40, int blocks_per_ring = 32, int slices_per_block = 4) {
   Case c;

@@ -39,7 +39,7 @@ class VaultShell : public testing::TestWithParam<ShellVolume> {};
 TEST_P(VaultShell, HasTheVolumeOfItsExtradosRule) {
   const ShellVolume& shell = GetParam();
   ModelReport report;
-  generate(vault_case(shell.construction, shell.extrados, RunningBond{}), &report);
+  check_and_report(vault_case(shell.construction, shell.extrados, RunningBond{}), &report);
   EXPECT_EQ(report.num_blocks, 1280);
   EXPECT_NEAR(report.parts_volume, report.volume, 1e-12 * report.volume);
   EXPECT_NEAR(report.volume, *report.shell_volume,
@@ -93,7 +93,7 @@ TEST_P(PaperModel, HasItsCountsAndKeepsItsChecks) {
   c.geometry.surface = expected.surface;
   c.geometry.bond = expected.bond;
   ModelReport report;
-  const Assembly model = generate(c, &report);
+  const Assembly model = check_and_report(c, &report);
   EXPECT_EQ(report.num_blocks, expected.blocks);
   EXPECT_EQ(report.num_parts, expected.cells);
   EXPECT_NEAR(report.smallest_block, expected.smallest, 5.5e-4);  // half a unit of the table's last digit
@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Vault, PlanarRibBlocksAreOpenBooksOfTwoParts) {
   ModelReport report;
   const Assembly model =
-      generate(vault_case(Construction::planar_radial, Extrados::normal, RunningBond{}), &report);
+      check_and_report(vault_case(Construction::planar_radial, Extrados::normal, RunningBond{}), &report);
   EXPECT_EQ(report.num_parts, 1280 + 320);
   EXPECT_NEAR(report.smallest_block, 2.151, 5.5e-4);
   EXPECT_NEAR(report.largest_block, 9.665, 5.5e-4);

@@ -14,7 +14,7 @@ class PaperWall : public testing::TestWithParam<WallCount> {};
 
 TEST_P(PaperWall, HasItsCountAndVolumeWithOnePartPerBlock) {
   ModelReport report;
-  const Assembly wall = generate(wall_case(GetParam().rings, GetParam().blocks_per_ring), &report);
+  const Assembly wall = check_and_report(wall_case(GetParam().rings, GetParam().blocks_per_ring), &report);
   EXPECT_EQ(report.num_blocks, GetParam().blocks);
   EXPECT_EQ(report.num_parts, GetParam().blocks);
   EXPECT_NEAR(report.volume, 72.0, 72.0 * 1e-12);  // 12 x 6 x 1 m; sum of up to 5050 rounded volumes
@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, PaperWall,
 // nb - 1 or nb heads in a course.
 TEST(Wall, RunningBondHasTheJointsOfItsRectangles) {
   ModelReport report;
-  generate(wall_case(4, 2), &report);
+  check_and_report(wall_case(4, 2), &report);
   const int base = 2, beds = 3 * 4, heads = 2 * 1 + 2 * 2;
   EXPECT_EQ(report.num_joints, base + beds + heads);
 }

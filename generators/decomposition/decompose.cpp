@@ -1,0 +1,126 @@
+#include "generators/decomposition/decompose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "assembly/error.hpp"
+#include "generators/decomposition/plane_voting.hpp"
+#include "generators/stereotomy/separation.hpp"
+
+namespace cupola {
+namespace {
+
+bool is_convex(const TriangleMesh& mesh, const std::vector<Facet>& facets, double tolerance) {
+  for (const Facet& facet : facets)
+    for (const Vec3& v : mesh.vertices)
+      if (facet.plane.normal.dot(v) - facet.plane.offset > tolerance) return false;
+  return true;
+}
+
+/// The block itself, one face per facet; nothing when a facet's border is no single loop.
+std::optional<ConvexPolyhedron> as_polyhedron(const TriangleMesh& mesh, const std::vector<Facet>& facets) {
+  ConvexPolyhedron solid;
+  solid.vertices = mesh.vertices;
+  for (const Facet& facet : facets) {
+    solid.faces.push_back(facet_loop(mesh, facet));
+    solid.planes.push_back(facet.plane);
+    if (solid.faces.back().empty()) return std::nullopt;
+  }
+  return solid;
+}
+
+/// Does some of the block's surface lie in a part's face?
+bool holds_surface(const TriangleMesh& mesh, const std::vector<Facet>& facets, const ConvexPolyhedron& part,
+                   size_t face, double tolerance) {
+  std::vector<Vec3> polygon;
+  for (int v : part.faces[face]) polygon.push_back(part.vertices[v]);
+  for (const Facet& facet : facets) {
+    if (facet.plane.normal.dot(part.planes[face].normal) < 1.0 - 1e-9) continue;
+    const bool same_plane = std::ranges::all_of(polygon, [&](const Vec3& p) {
+      return std::abs(facet.plane.normal.dot(p) - facet.plane.offset) <= tolerance;
+    });
+    if (!same_plane) continue;
+    for (int t : facet.triangles) {
+      const std::vector<Vec3> triangle{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+      if (polygons_overlap(polygon, triangle, facet.plane.normal, tolerance)) return true;
+    }
+  }
+  return false;
+}
+
+/// Drops the vertices that lie within an edge, which only two faces hold: they come from facets that were
+/// joined and from cuts through an edge's end.
+void drop_vertices_on_edges(ConvexPolyhedron* solid) {
+  std::vector<int> num_faces(solid->vertices.size(), 0);
+  for (const auto& face : solid->faces)
+    for (int v : face) ++num_faces[v];
+  std::vector<int> new_id(solid->vertices.size(), -1);
+  std::vector<Vec3> kept;
+  for (auto& face : solid->faces) {
+    std::erase_if(face, [&](int v) { return num_faces[v] < 3; });
+    for (int& v : face) {
+      if (new_id[v] < 0) {
+        new_id[v] = static_cast<int>(kept.size());
+        kept.push_back(solid->vertices[v]);
+      }
+      v = new_id[v];
+    }
+  }
+  solid->vertices = std::move(kept);
+}
+
+double volume_of(const std::vector<ConvexPolyhedron>& parts) {
+  double volume = 0.0;
+  for (const ConvexPolyhedron& part : parts) volume += polyhedron_volume(part);
+  return volume;
+}
+
+}  // namespace
+
+Decomposition decompose(const TriangleMesh& mesh, const std::string& name,
+                        const DecompositionOptions& options) {
+  const double size = mesh_size(mesh);
+  std::vector<int> facet_of;
+  const std::vector<Facet> facets = find_facets(mesh, options.facet_angle, options.flat * size, &facet_of);
+  const double noise = 4.0 * unevenness(mesh, facets);
+  double area = 0.0;
+  for (const Facet& facet : facets) area += facet.area;
+
+  Decomposition result;
+  result.volume = mesh_volume(mesh);
+  const double bound = std::max(1e-9 * result.volume, noise * area);
+  const auto accept = [&](std::vector<ConvexPolyhedron> parts, Decomposition::Method method) {
+    for (ConvexPolyhedron& part : parts) drop_vertices_on_edges(&part);
+    result.volume_error = volume_of(parts) - result.volume;
+    result.method = method;
+    result.parts = std::move(parts);
+    return !result.parts.empty() && std::abs(result.volume_error) <= bound;
+  };
+
+  const std::optional<ConvexPolyhedron> whole =
+      is_convex(mesh, facets, std::max(1e-9 * size, noise)) ? as_polyhedron(mesh, facets) : std::nullopt;
+  const bool done = (whole && accept({*whole}, Decomposition::Method::already_convex)) ||
+                    accept(decompose_by_planes(
+                               mesh, facets, find_reflex_edges(mesh, facets, facet_of, options.facet_angle)),
+                           Decomposition::Method::planes) ||
+                    accept(decompose_by_nef(mesh), Decomposition::Method::nef);
+  if (!done)
+    throw InputError(
+        fmt::format("block {}: cannot be split into convex parts: they miss its volume by {:.3g} m3", name,
+                    result.volume_error));
+
+  const double tolerance = std::max(1e-8 * size, noise);
+  for (const ConvexPolyhedron& part : result.parts) {
+    result.internal.emplace_back();
+    for (size_t f = 0; f < part.faces.size(); ++f)
+      result.internal.back().push_back(result.parts.size() > 1 &&
+                                       !holds_surface(mesh, facets, part, f, tolerance));
+  }
+  return result;
+}
+
+}  // namespace cupola

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "assembly/atomic_file.hpp"
+#include "generators/importer/readers.hpp"
+
+namespace cupola {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// 1-based line of a byte of the text.
+int line_of(const std::string& text, size_t byte) {
+  return 1 +
+         static_cast<int>(std::count(
+             text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size())), '\n'));
+}
+
+/// Walks down a path of keys, or fails naming the missing one.
+const Json& descend(const Json& node, std::initializer_list<const char*> keys, const FileLocation& where,
+                    const std::string& what) {
+  const Json* here = &node;
+  for (const char* key : keys) {
+    if (!here->is_object() || !here->contains(key))
+      throw InputError(where, fmt::format("{}: '{}' is missing", what, key));
+    here = &(*here)[key];
+  }
+  return *here;
+}
+
+double coordinate(const Json& vertex, const char* axis, const FileLocation& where, const std::string& what) {
+  const Json& value = descend(vertex, {axis}, where, what);
+  if (!value.is_number() || !std::isfinite(value.get<double>()))
+    throw InputError(where, fmt::format("{}: {} is not a finite number", what, axis));
+  return value.get<double>();
+}
+
+PolygonMesh read_mesh_of(const Json& data, const FileLocation& where, const std::string& block) {
+  PolygonMesh mesh;
+  std::map<std::string, int> id;
+  for (const auto& [key, vertex] : descend(data, {"vertex"}, where, block).items()) {
+    const std::string what = fmt::format("{}, vertex {}", block, key);
+    id[key] = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.emplace_back(coordinate(vertex, "x", where, what), coordinate(vertex, "y", where, what),
+                               coordinate(vertex, "z", where, what));
+  }
+  for (const auto& [key, face] : descend(data, {"face"}, where, block).items()) {
+    std::vector<int> ids;
+    for (const Json& v : face) {
+      const auto found = id.find(v.is_string() ? v.get<std::string>() : v.dump());
+      if (found == id.end())
+        throw InputError(where,
+                         fmt::format("{}, face {}: vertex {} is not in the block", block, key, v.dump()));
+      ids.push_back(found->second);
+    }
+    if (ids.size() < 3)
+      throw InputError(where, fmt::format("{}, face {}: fewer than three vertices", block, key));
+    mesh.faces.push_back(std::move(ids));
+  }
+  return mesh;
+}
+
+/// Numeric keys in their order, so that block 2 comes before block 10.
+bool key_before(const std::string& a, const std::string& b) {
+  long x = 0, y = 0;
+  const bool both_numbers = std::from_chars(a.data(), a.data() + a.size(), x).ec == std::errc() &&
+                            std::from_chars(b.data(), b.data() + b.size(), y).ec == std::errc();
+  return both_numbers ? x < y : a < b;
+}
+
+/// Parses the file, and refuses two blocks of one name, of which JSON libraries silently keep the last.
+Json parse_assembly(const std::string& text, const std::string& path) {
+  std::vector<std::map<std::string, int>> keys;  // of the objects that are open
+  std::vector<std::string> parents{""};          // the key each of them is the value of
+  return Json::parse(text, [&](int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) {
+      keys.emplace_back();
+      parents.emplace_back();
+    } else if (event == Json::parse_event_t::object_end) {
+      keys.pop_back();
+      parents.pop_back();
+    } else if (event == Json::parse_event_t::key) {
+      const std::string key = parsed.get<std::string>();
+      const bool in_nodes = parents[parents.size() - 2] == "node";
+      if (++keys.back()[key] > 1 && in_nodes)
+        throw InputError(FileLocation{path}, fmt::format("block {}: the file has two of that name", key));
+      parents.back() = key;
+    }
+    return true;
+  });
+}
+
+}  // namespace
+
+std::vector<RawBlock> read_compas(const std::string& path) {
+  const std::string text = read_text(path);
+  Json root;
+  try {
+    root = parse_assembly(text, path);
+  } catch (const Json::parse_error& error) {
+    throw InputError(FileLocation{path, line_of(text, error.byte), 0}, "not valid JSON here");
+  }
+  const FileLocation where{path, 1, 0};
+  const Json& nodes = descend(root, {"data", "graph", "data", "node"}, where, "not a COMPAS assembly");
+  std::vector<std::string> names;
+  for (const auto& [name, node] : nodes.items()) names.push_back(name);
+  std::ranges::sort(names, key_before);
+
+  std::vector<RawBlock> blocks;
+  for (const std::string& name : names) {
+    const Json& node = nodes[name];
+    const FileLocation here{path, line_of(text, text.find('"' + name + "\": {\"block\"")), 0};
+    const std::string what = fmt::format("block {}", name);
+    RawBlock block{name, here, {}, {}, false, {}};
+    block.mesh = read_mesh_of(descend(node, {"block", "data"}, here, what), here, what);
+    if (block.mesh.faces.empty()) throw InputError(here, fmt::format("{}: it has no faces", what));
+    const auto support = node.find("is_support");
+    block.fixed = support != node.end() && support->is_boolean() && support->get<bool>();
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+}  // namespace cupola

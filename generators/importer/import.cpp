@@ -1,0 +1,237 @@
+#include "generators/importer/import.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "generators/decomposition/decompose.hpp"
+#include "generators/importer/mesh_repair.hpp"
+#include "generators/importer/readers.hpp"
+#include "generators/importer/snap_facets.hpp"
+
+namespace cupola {
+namespace {
+
+namespace fs = std::filesystem;
+using Format = ImportedBlocks::Format;
+
+constexpr double kSliver = 1e-3;  // thickness over size
+
+Format format_of(const fs::path& path) {
+  static const std::map<std::string, Format> endings{
+      {".obj", Format::obj},     {".off", Format::off},    {".stl", Format::stl},   {".ply", Format::ply},
+      {".json", Format::compas}, {".csv", Format::bricks}, {".txt", Format::bricks}};
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto found = endings.find(ending);
+  return found == endings.end() ? Format::automatic : found->second;
+}
+
+std::vector<RawBlock> read_file(const fs::path& path, Format format) {
+  switch (format == Format::automatic ? format_of(path) : format) {
+    case Format::obj:
+      return read_obj(path.string());
+    case Format::off:
+      return read_off(path.string());
+    case Format::stl:
+      return read_stl(path.string());
+    case Format::ply:
+      return read_ply(path.string());
+    case Format::compas:
+      return read_compas(path.string());
+    case Format::bricks:
+      return read_bricks(path.string());
+    case Format::automatic:
+      break;
+  }
+  throw InputError(FileLocation{path.string()}, "its ending tells no format: say geometry.import.format");
+}
+
+std::vector<RawBlock> read_all(const ImportedBlocks& source) {
+  if (!fs::is_directory(source.path)) {
+    if (!fs::exists(source.path)) throw InputError(FileLocation{source.path}, "no such file or folder");
+    return read_file(source.path, source.format);
+  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(source.path))
+    if (entry.is_regular_file() && format_of(entry.path()) != Format::automatic)
+      files.push_back(entry.path());
+  std::ranges::sort(files);
+  if (files.empty()) throw InputError(FileLocation{source.path}, "the folder holds no block files");
+  std::vector<RawBlock> blocks;
+  for (const fs::path& file : files)
+    for (RawBlock& block : read_file(file, source.format)) blocks.push_back(std::move(block));
+  return blocks;
+}
+
+/// File units and axes to metres, z up.
+Vec3 to_world(const ImportedBlocks& source, const Vec3& p) {
+  const Vec3 turned = source.up == ImportedBlocks::UpAxis::y ? Vec3(p.x(), -p.z(), p.y()) : p;
+  return source.metres_per_unit * turned;
+}
+
+void place_in_world(const ImportedBlocks& source, std::vector<RawBlock>* blocks) {
+  std::map<std::string, FileLocation> first;
+  for (RawBlock& block : *blocks) {
+    const auto [it, is_new] = first.try_emplace(block.name, block.where);
+    if (!is_new)
+      throw InputError(block.where, fmt::format("block {}: the name is taken by {}:{}", block.name,
+                                                it->second.file, it->second.line));
+    for (Vec3& v : block.mesh.vertices) v = to_world(source, v);
+    for (auto& part : block.point_parts)
+      for (Vec3& v : part) v = to_world(source, v);
+  }
+  for (const std::string& name : source.supports)
+    if (!first.contains(name))
+      throw InputError(
+          fmt::format("geometry.import.supports: {} names no block named '{}'", source.path, name));
+}
+
+/// Repaired surfaces, and which block each belongs to: blocks given by point clouds have one per part.
+struct Surfaces {
+  std::vector<TriangleMesh> meshes;
+  std::vector<int> block;
+};
+
+Surfaces repair_all(const std::vector<RawBlock>& blocks, double weld) {
+  Surfaces surfaces;
+  for (size_t b = 0; b < blocks.size(); ++b) {
+    const RawBlock& raw = blocks[b];
+    if (raw.point_parts.empty()) {
+      surfaces.meshes.push_back(repair_mesh(raw, weld));
+      surfaces.block.push_back(static_cast<int>(b));
+    }
+    for (const auto& points : raw.point_parts) {
+      surfaces.meshes.push_back(hull_mesh(raw, points));
+      surfaces.block.push_back(static_cast<int>(b));
+    }
+  }
+  return surfaces;
+}
+
+bool is_sliver(const ConvexPolyhedron& part) {
+  double size = 0.0, largest_face = 0.0;
+  for (const Vec3& v : part.vertices) size = std::max(size, (v - part.vertices.front()).norm());
+  for (const auto& face : part.faces) {
+    std::vector<Vec3> corners;
+    for (int v : face) corners.push_back(part.vertices[v]);
+    largest_face = std::max(largest_face, polygon_area(corners));
+  }
+  return polyhedron_volume(part) < kSliver * size * largest_face;
+}
+
+void append_part(const ConvexPolyhedron& solid, const std::vector<bool>& internal, int block,
+                 Assembly* assembly) {
+  Part part;
+  part.block = block;
+  part.face_start = assembly->num_faces();
+  assembly->parts.push_back(part);
+  const int first = static_cast<int>(assembly->vertices.size());
+  assembly->vertices.insert(assembly->vertices.end(), solid.vertices.begin(), solid.vertices.end());
+  for (size_t f = 0; f < solid.faces.size(); ++f) {
+    std::vector<int> ids;
+    for (int v : solid.faces[f]) ids.push_back(first + v);
+    assembly->add_face(ids, internal[f] ? FaceKind::internal : FaceKind::free);
+  }
+}
+
+void append_blocks(const std::vector<RawBlock>& raw, const Surfaces& surfaces,
+                   const DecompositionOptions& options, double density, Assembly* assembly,
+                   ImportReport* report) {
+  for (size_t m = 0; m < surfaces.meshes.size(); ++m) {
+    const int b = surfaces.block[m];
+    if (m == 0 || surfaces.block[m - 1] != b) {
+      Block block;
+      block.kind = BlockKind::imported;
+      block.density = raw[b].density.value_or(density);
+      assembly->blocks.push_back(block);
+      report->names.push_back(raw[b].name);
+      report->parts.push_back(0);
+    }
+    const Decomposition pieces = decompose(surfaces.meshes[m], raw[b].name, options);
+    using enum Decomposition::Method;
+    ++(pieces.method == already_convex ? report->already_convex
+       : pieces.method == planes       ? report->by_planes
+                                       : report->by_nef);
+    report->largest_volume_error =
+        std::max(report->largest_volume_error, std::abs(pieces.volume_error) / pieces.volume);
+    report->parts.back() += static_cast<int>(pieces.parts.size());
+    for (size_t p = 0; p < pieces.parts.size(); ++p) {
+      append_part(pieces.parts[p], pieces.internal[p], b, assembly);
+      report->sliver_parts += is_sliver(pieces.parts[p]) ? 1 : 0;
+    }
+  }
+}
+
+void fix_supports(const ImportedBlocks& source, const std::vector<RawBlock>& raw, Assembly* assembly) {
+  const std::set<std::string> named(source.supports.begin(), source.supports.end());
+  for (size_t b = 0; b < raw.size(); ++b) {
+    Block& block = assembly->blocks[b];
+    block.fixed = named.contains(raw[b].name) || (source.flagged_supports && raw[b].fixed) ||
+                  (source.fixed_below && block.centroid.z() < *source.fixed_below);
+    if (!block.fixed) continue;
+    block.kind = BlockKind::support;
+    block.ring = -1;
+  }
+  for (Part& part : assembly->parts) part.ring = assembly->blocks[part.block].ring;
+}
+
+std::vector<ImportedTie> read_ties(const ImportedBlocks& source, const std::vector<RawBlock>& raw) {
+  std::vector<RawTie> rows;
+  if (!source.springs.empty()) rows = read_springs(source.springs);
+  if (!source.rods.empty())
+    for (RawTie& rod : read_rods(source.rods)) rows.push_back(std::move(rod));
+  std::map<std::string, int> block_of;
+  for (size_t b = 0; b < raw.size(); ++b) block_of[raw[b].name] = static_cast<int>(b);
+  std::vector<ImportedTie> ties;
+  for (const RawTie& row : rows) {
+    for (const std::string& name : {row.block_a, row.block_b})
+      if (!block_of.contains(name)) throw InputError(row.where, fmt::format("no block is named '{}'", name));
+    ties.push_back({block_of[row.block_a], block_of[row.block_b], to_world(source, row.point_a),
+                    to_world(source, row.point_b), row.stiffness, row.length * source.metres_per_unit,
+                    row.pushes});
+  }
+  return ties;
+}
+
+}  // namespace
+
+Assembly import_blocks(const ImportedBlocks& source, double density, ImportReport* report) {
+  ImportReport unused;
+  if (!report) report = &unused;
+  std::vector<RawBlock> raw = read_all(source);
+  place_in_world(source, &raw);
+  Surfaces surfaces = repair_all(raw, source.weld);
+  if (source.snap > 0.0)
+    report->snapped_facets = snap_facets(&surfaces.meshes, source.facet_angle, source.snap);
+
+  Assembly assembly;
+  DecompositionOptions options;
+  options.facet_angle = source.facet_angle;
+  append_blocks(raw, surfaces, options, density, &assembly, report);
+  compute_mass_properties(&assembly);
+  fix_supports(source, raw, &assembly);
+  assembly.ties = read_ties(source, raw);
+  report->ties = static_cast<int>(assembly.ties.size());
+  return assembly;
+}
+
+std::string to_text(const ImportReport& r) {
+  std::string text = fmt::format(
+      "{} blocks imported: {} convex pieces as they are, {} split by planes, {} by Nef polyhedra; volumes of "
+      "the "
+      "parts within {:.1e}\n",
+      r.names.size(), r.already_convex, r.by_planes, r.by_nef, r.largest_volume_error);
+  for (size_t b = 0; b < r.names.size(); ++b)
+    if (r.parts[b] > 1) text += fmt::format("  block {}: {} convex parts\n", r.names[b], r.parts[b]);
+  if (r.sliver_parts > 0)
+    text += fmt::format("{} parts are slivers, thinner than 1e-3 of their size\n", r.sliver_parts);
+  if (r.snapped_facets > 0) text += fmt::format("{} facets laid in common planes\n", r.snapped_facets);
+  if (r.ties > 0) text += fmt::format("{} ties\n", r.ties);
+  return text;
+}
+
+}  // namespace cupola

@@ -1,0 +1,134 @@
+#include "generators/importer/mesh_repair.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/convex_hull_3.h>
+#include <fmt/format.h>
+
+namespace cupola {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using SurfaceMesh = CGAL::Surface_mesh<Point>;
+using Polygons = std::vector<std::vector<std::size_t>>;
+
+[[noreturn]] void fail(const RawBlock& block, const std::string& message) {
+  throw InputError(block.where, fmt::format("block {}: {}", block.name, message));
+}
+
+double extent(const std::vector<Vec3>& points) {
+  Vec3 low = points.front(), high = low;
+  for (const Vec3& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return (high - low).maxCoeff();
+}
+
+/// Makes one vertex of those nearer than `distance` to an earlier one: sweeps along x.
+PolygonMesh weld_vertices(const PolygonMesh& mesh, double distance) {
+  std::vector<int> order(mesh.vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int v) { return mesh.vertices[v].x(); });
+  std::vector<int> representative(mesh.vertices.size(), -1);
+  for (size_t i = 0; i < order.size(); ++i) {
+    const int v = order[i];
+    if (representative[v] < 0) representative[v] = v;
+    for (size_t j = i + 1; j < order.size(); ++j) {
+      const int w = order[j];
+      if (mesh.vertices[w].x() - mesh.vertices[v].x() > distance) break;
+      if (representative[w] < 0 && (mesh.vertices[w] - mesh.vertices[v]).norm() <= distance)
+        representative[w] = representative[v];
+    }
+  }
+  PolygonMesh welded;
+  std::vector<int> new_id(mesh.vertices.size(), -1);
+  for (const auto& face : mesh.faces) {
+    std::vector<int> loop;
+    for (int v : face) {
+      const int r = representative[v];
+      if (!loop.empty() && loop.back() == r) continue;
+      loop.push_back(r);
+    }
+    while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+    if (loop.size() < 3) continue;  // it has no area
+    for (int& v : loop) {
+      if (new_id[v] < 0) {
+        new_id[v] = static_cast<int>(welded.vertices.size());
+        welded.vertices.push_back(mesh.vertices[v]);
+      }
+      v = new_id[v];
+    }
+    welded.faces.push_back(std::move(loop));
+  }
+  return welded;
+}
+
+TriangleMesh to_triangles(const SurfaceMesh& surface) {
+  TriangleMesh mesh;
+  std::vector<int> id(surface.num_vertices(), -1);
+  for (const auto v : surface.vertices()) {
+    id[v] = static_cast<int>(mesh.vertices.size());
+    const Point& p = surface.point(v);
+    mesh.vertices.emplace_back(p.x(), p.y(), p.z());
+  }
+  for (const auto f : surface.faces()) {
+    std::array<int, 3> triangle{};
+    int i = 0;
+    for (const auto v : CGAL::vertices_around_face(surface.halfedge(f), surface)) triangle.at(i++) = id[v];
+    mesh.triangles.push_back(triangle);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TriangleMesh repair_mesh(const RawBlock& block, double weld) {
+  for (const Vec3& v : block.mesh.vertices)
+    if (!v.allFinite()) fail(block, "a vertex is not finite");
+  const PolygonMesh welded = weld_vertices(block.mesh, weld * extent(block.mesh.vertices));
+  if (welded.faces.empty()) fail(block, "no face has any area");
+  std::vector<Point> points;
+  for (const Vec3& v : welded.vertices) points.emplace_back(v.x(), v.y(), v.z());
+  Polygons polygons;
+  for (const auto& face : welded.faces) polygons.emplace_back(face.begin(), face.end());
+
+  const bool consistent = pmp::is_polygon_soup_a_polygon_mesh(polygons);
+  if (!consistent && !pmp::orient_polygon_soup(points, polygons))
+    fail(block, "its faces do not form one surface");
+  SurfaceMesh surface;
+  pmp::polygon_soup_to_polygon_mesh(points, polygons, surface);
+  int open_edges = 0;
+  for (const auto edge : surface.edges()) open_edges += surface.is_border(edge) ? 1 : 0;
+  if (open_edges > 0) fail(block, fmt::format("not closed, {} boundary edges", open_edges));
+  if (!pmp::triangulate_faces(surface)) fail(block, "a face cannot be split into triangles");
+  if (pmp::does_self_intersect(surface)) fail(block, "its surface crosses itself");
+  if (!pmp::is_outward_oriented(surface)) {
+    if (consistent) fail(block, "inside out: turn its faces");
+    pmp::reverse_face_orientations(surface);
+  }
+  surface.collect_garbage();
+  return to_triangles(surface);
+}
+
+TriangleMesh hull_mesh(const RawBlock& block, std::span<const Vec3> points) {
+  std::vector<Point> input;
+  for (const Vec3& p : points) input.emplace_back(p.x(), p.y(), p.z());
+  SurfaceMesh hull;
+  CGAL::convex_hull_3(input.begin(), input.end(), hull);
+  if (hull.num_faces() < 4) fail(block, "the corners of a part lie in one plane");
+  if (!CGAL::is_triangle_mesh(hull)) pmp::triangulate_faces(hull);
+  return to_triangles(hull);
+}
+
+}  // namespace cupola

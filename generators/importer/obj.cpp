@@ -1,0 +1,71 @@
+#include <map>
+
+#include <fmt/format.h>
+
+#include "generators/importer/readers.hpp"
+#include "generators/importer/text_lines.hpp"
+
+namespace cupola {
+namespace {
+
+/// Vertex numbers count from 1 over the whole file, or backwards from -1.
+int vertex_index(const TextLines& lines, std::string_view word, size_t num_vertices) {
+  const std::string text(word.substr(0, word.find('/')));
+  long index = 0;
+  try {
+    size_t used = 0;
+    index = std::stol(text, &used);
+    if (used != text.size()) index = 0;
+  } catch (const std::exception&) {
+    index = 0;
+  }
+  if (index < 0) index += static_cast<long>(num_vertices) + 1;
+  if (index < 1 || index > static_cast<long>(num_vertices))
+    lines.fail(fmt::format("f: '{}' is none of the {} vertices above", word, num_vertices));
+  return static_cast<int>(index) - 1;
+}
+
+/// Gives every block its own vertices, in the order of their first use.
+void keep_used_vertices(const std::vector<Vec3>& all, RawBlock* block) {
+  std::map<int, int> local;
+  for (auto& face : block->mesh.faces)
+    for (int& v : face) {
+      const auto [it, is_new] = local.try_emplace(v, static_cast<int>(local.size()));
+      if (is_new) block->mesh.vertices.push_back(all[static_cast<size_t>(v)]);
+      v = it->second;
+    }
+}
+
+}  // namespace
+
+std::vector<RawBlock> read_obj(const std::string& path) {
+  TextLines lines(path);
+  std::vector<Vec3> vertices;
+  std::vector<RawBlock> blocks;
+  bool has_objects = false;
+  while (lines.next()) {
+    const auto& words = lines.words();
+    if (words[0] == "v") {
+      vertices.push_back(lines.point(1));
+    } else if (words[0] == "o" || (words[0] == "g" && !has_objects)) {
+      has_objects = has_objects || words[0] == "o";
+      const std::string name = words.size() > 1 ? std::string(words[1]) : std::to_string(blocks.size());
+      blocks.push_back({name, lines.where(), {}, {}, false, {}});
+    } else if (words[0] == "f") {
+      if (blocks.empty()) blocks.push_back({"0", lines.where(), {}, {}, false, {}});
+      std::vector<int> face;
+      for (size_t i = 1; i < words.size(); ++i)
+        face.push_back(vertex_index(lines, words[i], vertices.size()));
+      if (face.size() < 3) lines.fail("f: a face has at least three vertices");
+      blocks.back().mesh.faces.push_back(face);
+    }
+  }
+  for (RawBlock& block : blocks) {
+    if (block.mesh.faces.empty())
+      throw InputError(block.where, fmt::format("block {}: it has no faces", block.name));
+    keep_used_vertices(vertices, &block);
+  }
+  return blocks;
+}
+
+}  // namespace cupola

@@ -1,0 +1,62 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "assembly/atomic_file.hpp"
+#include "generators/importer/binary_bytes.hpp"
+#include "generators/importer/readers.hpp"
+#include "generators/importer/text_lines.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr size_t kHeaderBytes = 84, kTriangleBytes = 50;
+
+PolygonMesh read_ascii(const std::string& path) {
+  TextLines lines(path);
+  PolygonMesh mesh;
+  while (lines.next()) {
+    if (lines.words()[0] != "vertex") continue;
+    mesh.vertices.push_back(lines.point(1));
+    const int n = static_cast<int>(mesh.vertices.size());
+    if (n % 3 == 0) mesh.faces.push_back({n - 3, n - 2, n - 1});
+  }
+  if (mesh.vertices.size() % 3 != 0) lines.fail("the last triangle has no three vertices");
+  return mesh;
+}
+
+PolygonMesh read_binary(const std::string& path, const std::string& bytes) {
+  BinaryBytes data(path, bytes, kHeaderBytes - 4, false);
+  const auto num_triangles = data.take<std::uint32_t>();
+  if (num_triangles > data.left() / kTriangleBytes)
+    throw InputError(
+        FileLocation{path},
+        fmt::format("declares {} triangles, the rest of the file has {} bytes", num_triangles, data.left()));
+  PolygonMesh mesh;
+  for (std::uint32_t t = 0; t < num_triangles; ++t) {
+    for (int i = 0; i < 3; ++i) data.take<float>();  // its normal, which the vertices' order gives as well
+    for (int corner = 0; corner < 3; ++corner) {
+      const double x = data.take<float>(), y = data.take<float>(), z = data.take<float>();
+      if (!std::isfinite(x + y + z))
+        throw InputError(FileLocation{path}, fmt::format("triangle {}: a vertex is not finite", t));
+      mesh.vertices.emplace_back(x, y, z);
+    }
+    data.take<std::uint16_t>();
+    const int n = static_cast<int>(mesh.vertices.size());
+    mesh.faces.push_back({n - 3, n - 2, n - 1});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+// STL names no shared vertices: equal coordinates are one vertex, then components can be told apart.
+std::vector<RawBlock> read_stl(const std::string& path) {
+  const std::string bytes = read_text(path);
+  const bool ascii = bytes.starts_with("solid") && bytes.find("facet") != std::string::npos;
+  PolygonMesh mesh = ascii ? read_ascii(path) : read_binary(path, bytes);
+  merge_equal_vertices(&mesh);
+  return split_components(mesh, path);
+}
+
+}  // namespace cupola

@@ -1,0 +1,76 @@
+#include "generators/importer/text_lines.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "assembly/atomic_file.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr std::string_view kWhite = " \t\r\v\f";
+
+template <class T>
+bool parse(std::string_view word, T* value) {
+  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), *value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+}  // namespace
+
+TextLines::TextLines(std::string path, std::string_view separators)
+    : path_(std::move(path)), text_(read_text(path_)), separators_(separators) {}
+
+bool TextLines::next() {
+  while (position_ < text_.size()) {
+    const size_t end = std::min(text_.find('\n', position_), text_.size());
+    std::string_view line(text_.data() + position_, end - position_);
+    position_ = std::min(end + 1, text_.size());
+    ++line_;
+    line = line.substr(0, line.find('#'));
+    words_.clear();
+    const std::string between = std::string(kWhite) + std::string(separators_);
+    for (size_t start = line.find_first_not_of(between); start != std::string_view::npos;) {
+      const size_t stop = std::min(line.find_first_of(between, start), line.size());
+      words_.push_back(line.substr(start, stop - start));
+      start = line.find_first_not_of(between, stop);
+    }
+    if (!words_.empty()) return true;
+  }
+  return false;
+}
+
+void TextLines::fail(const std::string& message) const {
+  throw InputError(where(), message);
+}
+
+double TextLines::number(size_t word) const {
+  double value = 0.0;
+  if (word >= words_.size()) fail(fmt::format("a number is missing: {} given", words_.size()));
+  if (!parse(words_[word], &value) || !std::isfinite(value))
+    fail(fmt::format("'{}' is not a finite number", words_[word]));
+  return value;
+}
+
+long TextLines::integer(size_t word) const {
+  long value = 0;
+  if (word >= words_.size()) fail(fmt::format("a whole number is missing: {} given", words_.size()));
+  if (!parse(words_[word], &value)) fail(fmt::format("'{}' is not a whole number", words_[word]));
+  return value;
+}
+
+Vec3 TextLines::point(size_t first) const {
+  return {number(first), number(first + 1), number(first + 2)};
+}
+
+size_t TextLines::count(size_t word, size_t bytes_each) const {
+  const long value = integer(word);
+  if (value < 0 || static_cast<size_t>(value) > bytes_left() / bytes_each + 1)
+    fail(fmt::format("declares {} items, the rest of the file has {} bytes", value, bytes_left()));
+  return static_cast<size_t>(value);
+}
+
+}  // namespace cupola

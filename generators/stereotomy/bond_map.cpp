@@ -1,0 +1,78 @@
+#include "generators/stereotomy/bond_map.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "assembly/error.hpp"
+#include "generators/bond/make_bond.hpp"
+#include "generators/stereotomy/cell_grid.hpp"
+#include "generators/stereotomy/cut_blocks.hpp"
+#include "generators/surface/make_surface.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kWidth = 1600.0;  // px, of the drawing
+constexpr double kMargin = 30.0;   // px
+
+const char* colour(const CellGrid& grid, int block) {
+  const BondBlock& label = grid.bond.blocks[block];
+  if (label.kind == BlockKind::herringbone) return label.truncated ? "#8c4a2f" : "#d9784b";
+  const auto [start, end] = slices_in_row(grid, block, grid.first_row(block));
+  for (int cut = start + 1; cut < end; ++cut)
+    if (grid.is_corner(cut)) return "#7fa3c7";
+  return "#e8dcc8";
+}
+
+struct Scale {
+  double x, y, left, bottom;  // px per abscissa and per row; px of the origin
+};
+
+/// One rectangle per run of rows with the same slices; a run over the seam is drawn at both ends.
+void draw_block(const CellGrid& grid, int block, const Scale& scale, std::string* svg) {
+  const auto draw = [&](int row_start, int row_end, double from, double to) {
+    *svg += fmt::format("<rect x='{:.2f}' y='{:.2f}' width='{:.2f}' height='{:.2f}' fill='{}'/>\n",
+                        scale.left + scale.x * from, scale.bottom - scale.y * row_end, scale.x * (to - from),
+                        scale.y * (row_end - row_start), colour(grid, block));
+  };
+  for (int row = grid.first_row(block); row <= grid.last_row(block);) {
+    const auto slices = slices_in_row(grid, block, row);
+    int end = row + 1;
+    while (end <= grid.last_row(block) && slices_in_row(grid, block, end) == slices) ++end;
+    const double from = grid.abscissa(slices.first), to = grid.abscissa(slices.second);
+    draw(row, end, from, to);
+    if (grid.surface.closed && to > grid.surface.extent + 1e-9)
+      draw(row, end, from - grid.surface.extent, to - grid.surface.extent);
+    row = end;
+  }
+}
+
+}  // namespace
+
+std::string bond_map_svg(const Geometry& geometry) {
+  if (geometry.imported) throw InputError("--bond-map: imported blocks have no bond");
+  const SurfaceMap surface = make_surface(geometry.surface, rings_of(geometry.bond));
+  const BondPattern bond = make_bond(geometry.bond, bond_grid(surface));
+  const CellGrid grid = make_cell_grid(surface, bond, geometry.stage ? geometry.stage->rings : 0);
+
+  const double row_height = std::clamp(800.0 / grid.num_rows, 2.0, 60.0);
+  const double height = row_height * grid.num_rows + 2.0 * kMargin;
+  const Scale scale{(kWidth - 2.0 * kMargin) / surface.extent, row_height, kMargin, height - kMargin};
+  std::string svg = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} "
+      "{1:.0f}'>\n"
+      "<defs><clipPath id='shell'><rect x='{2:.2f}' y='{2:.2f}' width='{3:.2f}' "
+      "height='{4:.2f}'/></clipPath></defs>\n"
+      "<rect width='100%' height='100%' fill='white'/>\n"
+      "<g stroke='#3a3a3a' stroke-width='0.6' clip-path='url(#shell)'>\n",
+      kWidth, height, kMargin, kWidth - 2.0 * kMargin, height - 2.0 * kMargin);
+  for (int block : grid.order) draw_block(grid, block, scale, &svg);
+  svg += "</g>\n<g stroke='#1f3f66' stroke-width='1.2' stroke-dasharray='6 4'>\n";
+  for (double corner : surface.corners)
+    svg += fmt::format("<line x1='{0:.2f}' x2='{0:.2f}' y1='{1:.2f}' y2='{2:.2f}'/>\n",
+                       scale.left + scale.x * corner, kMargin, height - kMargin);
+  return svg + "</g>\n</svg>\n";
+}
+
+}  // namespace cupola

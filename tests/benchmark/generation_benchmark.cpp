@@ -1,0 +1,70 @@
+// Time of generation with all its checks, and that it grows in step with the number of blocks; of splitting
+// non-convex blocks.
+
+#include <benchmark/benchmark.h>
+
+#include "assembly/program.hpp"
+#include "generators/decomposition/decompose.hpp"
+#include "generators/generate.hpp"
+#include "tests/generators/meshes.hpp"
+
+namespace cupola {
+namespace {
+
+void generate_and_check(benchmark::State& state, const Case& scene) {
+  std::size_t blocks = 0;
+  for (auto _ : state) blocks = generate(scene).blocks.size();
+  state.counters["blocks"] = static_cast<double>(blocks);
+  state.counters["peak_MB"] = static_cast<double>(peak_memory_bytes()) / 1e6;
+}
+
+void HerringboneDome(benchmark::State& state) {
+  Case scene;
+  scene.geometry.bond = HerringboneBond{};
+  generate_and_check(state, scene);
+}
+
+void Brunelleschi(benchmark::State& state) {
+  Case scene;
+  scene.geometry.surface = OctagonalVault{};
+  scene.geometry.bond = HerringboneBond{};
+  generate_and_check(state, scene);
+}
+
+/// `state.range` rings of as many blocks on a dome, two cells each.
+void RunningDome(benchmark::State& state) {
+  Case scene;
+  const int n = static_cast<int>(state.range(0));
+  scene.geometry.bond = RunningBond{n, n, 2, {}};
+  generate_and_check(state, scene);
+}
+
+void Wall(benchmark::State& state) {
+  Case scene;
+  const int n = static_cast<int>(state.range(0));
+  scene.geometry.surface = WallSurface{0.24 * n, 0.06 * n, 1.0};
+  scene.geometry.bond = RunningBond{n, n, 2, {}};
+  generate_and_check(state, scene);
+}
+
+void SplitCross(benchmark::State& state) {
+  const TriangleMesh mesh = repair_mesh(turned(prism(cross_shape(), 1.0)), 1e-6);
+  for (auto _ : state) benchmark::DoNotOptimize(decompose(mesh, "cross").parts.data());
+}
+
+void SplitCrossByNef(benchmark::State& state) {
+  const TriangleMesh mesh = repair_mesh(prism(cross_shape(), 1.0), 1e-6);
+  for (auto _ : state) benchmark::DoNotOptimize(decompose_by_nef(mesh).data());
+}
+
+BENCHMARK(HerringboneDome)->Unit(benchmark::kMillisecond);
+BENCHMARK(Brunelleschi)->Unit(benchmark::kMillisecond);
+BENCHMARK(RunningDome)->Arg(36)->Arg(100)->Arg(317)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(Wall)->Arg(100)->Arg(317)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(SplitCross)->Unit(benchmark::kMicrosecond);
+BENCHMARK(SplitCrossByNef)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace cupola
+
+BENCHMARK_MAIN();

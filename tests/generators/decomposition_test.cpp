@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "generators/decomposition/decompose.hpp"
+#include "generators/stereotomy/separation.hpp"
+#include "tests/generators/meshes.hpp"
+
+namespace cupola {
+namespace {
+
+double volume_of(const std::vector<ConvexPolyhedron>& parts) {
+  double sum = 0.0;
+  for (const ConvexPolyhedron& part : parts) sum += polyhedron_volume(part);
+  return sum;
+}
+
+double largest_concavity(const std::vector<ConvexPolyhedron>& parts) {
+  double above = 0.0;
+  for (const ConvexPolyhedron& part : parts)
+    for (const Plane& plane : part.planes)
+      for (const Vec3& v : part.vertices) above = std::max(above, plane.normal.dot(v) - plane.offset);
+  return above;
+}
+
+/// Depth by which two parts overlap along the axes of their face normals: an upper bound of the overlap.
+double overlap(const ConvexPolyhedron& a, const ConvexPolyhedron& b) {
+  double depth = INFINITY;
+  for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)})
+    for (const Plane& plane : one->planes) {
+      double below = -INFINITY;
+      for (const Vec3& v : other->vertices) below = std::max(below, plane.offset - plane.normal.dot(v));
+      depth = std::min(depth, below);
+    }
+  return depth;
+}
+
+struct Shape {
+  const char* name;
+  std::vector<Eigen::Vector2d> polygon;
+  double area;
+  size_t parts;  // as a person would cut it
+};
+
+class Decomposed : public testing::TestWithParam<Shape> {};
+
+void expect_partition(const TriangleMesh& mesh, double volume, size_t parts) {
+  const Decomposition d = decompose(mesh, "test");
+  EXPECT_NEAR(mesh_volume(mesh), volume, 1e-12 * volume);
+  EXPECT_NEAR(volume_of(d.parts), volume, 1e-9 * volume);
+  EXPECT_EQ(d.parts.size(), parts);
+  EXPECT_NE(d.method, Decomposition::Method::nef);
+  EXPECT_LT(largest_concavity(d.parts), 1e-12);
+  for (size_t i = 0; i < d.parts.size(); ++i)
+    for (size_t j = i + 1; j < d.parts.size(); ++j) EXPECT_LT(overlap(d.parts[i], d.parts[j]), 1e-9);
+}
+
+TEST_P(Decomposed, IsAPartitionOfAsFewPartsAsAPersonWouldDraw) {
+  const Shape& shape = GetParam();
+  expect_partition(repair_mesh(prism(shape.polygon, 1.5), 1e-6), 1.5 * shape.area, shape.parts);
+}
+
+TEST_P(Decomposed, IsThatPartitionWhenTurnedByAnIrrationalAngle) {
+  const Shape& shape = GetParam();
+  expect_partition(repair_mesh(turned(prism(shape.polygon, 1.5)), 1e-6), 1.5 * shape.area, shape.parts);
+}
+
+double polygon_area_2d(const std::vector<Eigen::Vector2d>& p) {
+  double twice = 0.0;
+  for (size_t i = 0; i < p.size(); ++i) {
+    const auto& q = p[(i + 1) % p.size()];
+    twice += p[i].x() * q.y() - p[i].y() * q.x();
+  }
+  return 0.5 * twice;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, Decomposed,
+    testing::Values(Shape{"box", {{0, 0}, {2, 0}, {2, 1}, {0, 1}}, 2.0, 1},
+                    Shape{"hexagon", {{1, 0}, {2, 0}, {2.5, 1}, {2, 2}, {1, 2}, {0.5, 1}}, 3.0, 1},
+                    Shape{"L", l_shape(), 4.5, 2}, Shape{"U", u_shape(), 8.0, 3},
+                    Shape{"T", t_shape(), 5.0, 2}, Shape{"cross", cross_shape(), 5.0, 3},
+                    Shape{"book", book_shape(), polygon_area_2d(book_shape()), 2}),
+    [](const auto& param_info) { return std::string(param_info.param.name); });
+
+// A face that lies between two parts is internal; one that holds some of the block's surface is not.
+TEST(Decomposition, TellsInternalFaces) {
+  const Decomposition d = decompose(repair_mesh(prism(l_shape(), 1.0), 1e-6), "L");
+  ASSERT_EQ(d.parts.size(), 2u);
+  double internal_area = 0.0, free_area = 0.0;
+  for (size_t p = 0; p < 2; ++p)
+    for (size_t f = 0; f < d.parts[p].faces.size(); ++f) {
+      std::vector<Vec3> corners;
+      for (int v : d.parts[p].faces[f]) corners.push_back(d.parts[p].vertices[v]);
+      (d.internal[p][f] ? internal_area : free_area) += polygon_area(corners);
+    }
+  const double surface = 2 * 4.5 + (3 + 1 + 2 + 1.5 + 1 + 2.5);
+  EXPECT_GT(internal_area, 0.99);              // the upright's foot at least, 1 x 1 m
+  EXPECT_GE(free_area, surface - 1e-12);       // nothing of the surface is lost
+  EXPECT_LE(free_area, surface + 1.0 + 1e-9);  // the cut may lie in a free face once
+}
+
+TEST(Decomposition, NefFallbackGivesAPartitionToo) {
+  const TriangleMesh mesh = repair_mesh(prism(l_shape(), 1.0), 1e-6);
+  const std::vector<ConvexPolyhedron> parts = decompose_by_nef(mesh);
+  EXPECT_GE(parts.size(), 2u);
+  EXPECT_NEAR(volume_of(parts), 4.5, 1e-9 * 4.5);
+}
+
+// An arch with a polygonal soffit: n reflex edges on one curve need n + 1 wedges.
+TEST(Decomposition, CutsACurvedSoffitIntoWedges) {
+  std::vector<Eigen::Vector2d> polygon{{-2, 0}, {-1, 0}};
+  const int n = 12;
+  for (int i = 1; i < n; ++i) polygon.emplace_back(-std::cos(M_PI * i / n), std::sin(M_PI * i / n));
+  polygon.insert(polygon.end(), {{1, 0}, {2, 0}, {2, 2}, {-2, 2}});
+  const TriangleMesh mesh = repair_mesh(prism(polygon, 1.0), 1e-6);
+  const Decomposition d = decompose(mesh, "soffit");
+  EXPECT_NEAR(volume_of(d.parts), polygon_area_2d(polygon), 1e-9 * polygon_area_2d(polygon));
+  EXPECT_LE(d.parts.size(), static_cast<size_t>(n));
+  EXPECT_GE(d.parts.size(), static_cast<size_t>(n + 1) / 2);  // a convex piece can serve two edges at most
+}
+
+TEST(Decomposition, TwoSeparateBoxesInOneBlockAreTwoParts) {
+  RawBlock boxes = prism({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1.0);
+  const RawBlock other = prism({{3, 0}, {4, 0}, {4, 2}, {3, 2}}, 1.0);
+  const int shift = static_cast<int>(boxes.mesh.vertices.size());
+  boxes.mesh.vertices.insert(boxes.mesh.vertices.end(), other.mesh.vertices.begin(),
+                             other.mesh.vertices.end());
+  for (auto face : other.mesh.faces) {
+    for (int& v : face) v += shift;
+    boxes.mesh.faces.push_back(face);
+  }
+  expect_partition(repair_mesh(boxes, 1e-6), 3.0, 2);
+}
+
+}  // namespace
+}  // namespace cupola
