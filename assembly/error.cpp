@@ -12,6 +12,7 @@ namespace {
 
 std::string located(const FileLocation& where, const std::string& message) {
   if (where.line == 0) return fmt::format("{}: error: {}", where.file, message);
+  if (where.column == 0) return fmt::format("{}:{}: error: {}", where.file, where.line, message);
   return fmt::format("{}:{}:{}: error: {}", where.file, where.line, where.column, message);
 }
 

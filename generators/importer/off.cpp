@@ -24,10 +24,10 @@ std::vector<RawBlock> read_off(const std::string& path) {
   }
   for (size_t f = 0; f < num_faces; ++f) {
     advance("all faces");
-    const size_t size = lines.count(0, 0 + 1);
+    const long size = lines.integer(0);
     std::vector<int> face;
-    for (size_t i = 0; i < size; ++i) {
-      const long v = lines.integer(1 + i);
+    for (long i = 0; i < size; ++i) {  // a missing vertex ends the loop with an error
+      const long v = lines.integer(static_cast<size_t>(1 + i));
       if (v < 0 || v >= static_cast<long>(num_vertices))
         lines.fail(fmt::format("vertex {} is none of the {}", v, num_vertices));
       face.push_back(static_cast<int>(v));

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "assembly/error.hpp"
@@ -45,13 +46,12 @@ std::string obj_box(const std::string& name, double x, double z, int first) {
   std::string text = "o " + name + "\n";
   for (double dz : {0.0, 1.0})
     for (auto [dx, dy] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
-      text += "v " + std::to_string(x + dx) + " " + std::to_string(dy) + " " + std::to_string(z + dz) + "\n";
+      text += fmt::format("v {:f} {} {:f}\n", x + dx, dy, z + dz);
   const int faces[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
                            {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
   for (const auto& face : faces) {
-    text += "f";
-    for (int v : face) text += " " + std::to_string(first + v);
-    text += "\n";
+    text +=
+        fmt::format("f {} {} {} {}\n", first + face[0], first + face[1], first + face[2], first + face[3]);
   }
   return text;
 }
@@ -203,7 +203,7 @@ TEST_F(Import, BrokenInputIsNamed) {
 
   std::string nan = box;
   nan.replace(nan.find("v 1.0"), 5, "v nan");
-  EXPECT_NE(complaint(write("nan.obj", nan)).find("nan.obj:3: error: 'nan000' is not a finite number"),
+  EXPECT_NE(complaint(write("nan.obj", nan)).find("nan.obj:3: error: 'nan00000' is not a finite number"),
             std::string::npos)
       << complaint(write("nan.obj", nan));
 
