@@ -36,6 +36,7 @@ pre { overflow-x: auto; background: #f5f5f5; padding: .75rem; font-size: .8rem; 
 summary { cursor: pointer; }
 dl { display: grid; grid-template-columns: minmax(9rem, max-content) 1fr; gap: .1rem 1rem; margin: .5rem 0; }
 dt { color: #444; } dd { margin: 0; }
+.side > * { min-width: 0; }
 .side { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 0 1rem; }
 @media (max-width: 600px) {
   body { padding: .5rem .75rem 2rem; } h1 { font-size: 1.3rem; }

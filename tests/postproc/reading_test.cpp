@@ -1,0 +1,102 @@
+#include "postproc/compare/reading.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace cupola {
+namespace {
+
+/// Two runs that differ in every measure.
+std::vector<PostSummary> two_runs() {
+  PostSummary a;
+  a.title = "Running bond";
+  a.status = "stable";
+  a.mean_cv_pressure = 0.031;
+  a.rib_over_mid_sail = 1.05;
+  a.largest_friction_use = 0.62;
+  a.critical_value = 0.101;
+  a.mean_kern_use = 0.21;
+  a.thrust_over_weight = 0.11;
+  a.largest_couple_length_m = 0.04;
+  a.max_displacement_m = 0.071;
+  a.thrust_lines = {{"rib", true, 0.5, 4.0}, {"mid_sail", true, 0.6, 3.0}};
+  PostSummary b = a;
+  b.title = "Herringbone";
+  b.mean_cv_pressure = 0.124;
+  b.rib_over_mid_sail = 0.7;
+  b.largest_friction_use = 0.93;
+  b.critical_value = 0.152;
+  b.mean_kern_use = 0.48;
+  b.thrust_over_weight = 0.152;
+  b.largest_couple_length_m = 0.173;
+  b.max_displacement_m = 0.085;
+  b.thrust_lines = {{"rib", true, 0.5, 1.9}};
+  return {a, b};
+}
+
+TEST(Reading, EverySentenceHoldsItsNumbersAndTheBest) {
+  const auto runs = two_runs();
+  const auto sentences = reading(runs);
+  ASSERT_EQ(sentences.size(), measures().size());
+  for (size_t i = 0; i < sentences.size(); ++i) {
+    const Measure& m = measures()[i];
+    for (const PostSummary& run : runs)
+      EXPECT_NE(sentences[i].find(fmt::format("{:.4g}", m.scale * *m.value(run))), std::string::npos)
+          << sentences[i];
+    EXPECT_NE(sentences[i].find(m.superlative + " in A"), std::string::npos) << sentences[i];
+  }
+  EXPECT_NE(sentences[0].find("by a factor of 4"), std::string::npos) << "0.124 / 0.031";
+}
+
+TEST(Reading, EverySentenceChangesWhenTheRunsAreSwapped) {
+  auto runs = two_runs();
+  const auto before = reading(runs);
+  std::swap(runs[0], runs[1]);
+  const auto after = reading(runs);
+  ASSERT_EQ(before.size(), after.size());
+  for (size_t i = 0; i < before.size(); ++i) {
+    EXPECT_NE(before[i], after[i]);
+    EXPECT_NE(after[i].find(measures()[i].superlative + " in B"), std::string::npos) << after[i];
+  }
+}
+
+TEST(Reading, EqualRunsAreCalledEqual) {
+  auto runs = two_runs();
+  runs[1] = runs[0];
+  for (const std::string& sentence : reading(runs))
+    EXPECT_NE(sentence.find("equal within 0.1 %"), std::string::npos) << sentence;
+}
+
+TEST(Reading, ARunThatIsNotAtRestIsSaidFirst) {
+  auto runs = two_runs();
+  runs[1].status = "unconverged";
+  runs[1].equilibrium_residual = 0.02;
+  EXPECT_EQ(reading(runs)[0],
+            "B is unconverged: its forces are not those of an equilibrium (residual 2.0e-02).");
+}
+
+TEST(Reading, WhatOnlyOneRunHasIsLeftOut) {
+  auto runs = two_runs();
+  runs[0].rib_over_mid_sail.reset();
+  runs[0].critical_value.reset();
+  EXPECT_EQ(reading(runs).size(), measures().size() - 2);
+}
+
+TEST(Reading, TheTableHasARowPerRunAndAColumnPerMeasure) {
+  const Table table = comparison_table(two_runs());
+  ASSERT_EQ(table.rows.size(), 2u);
+  for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
+  EXPECT_EQ(std::get<std::string>(table.rows[1][1]), "Herringbone");
+}
+
+TEST(Reading, LabelsAreLettersThenNumbers) {
+  const auto labels = run_labels(28);
+  EXPECT_EQ(labels[0], "A");
+  EXPECT_EQ(labels[25], "Z");
+  EXPECT_EQ(labels[26], "run 27");
+}
+
+}  // namespace
+}  // namespace cupola
