@@ -26,9 +26,14 @@ void solve_wall(const ProgramFolder& folder, const std::string& set = "") {
       0);
 }
 
+ProgramRun analyse(const ProgramFolder& folder, const std::string& results, const std::string& set = "") {
+  return folder.run("cupola-post analyse " + kWall + " --assembly assembly.vtu --results " + results +
+                    " --output post --quiet" + set);
+}
+
 TEST(Programs, AnswerHelpVersionSchemaAndCheck) {
   const ProgramFolder folder;
-  for (const std::string program : {"cupola-generate", "cupola-solve"}) {
+  for (const std::string program : {"cupola-generate", "cupola-solve", "cupola-post analyse"}) {
     EXPECT_NE(folder.run(program + " --help").out.find("Sample runs:"), std::string::npos);
     EXPECT_EQ(folder.run(program + " --version").out.find(program + " "), 0u);
     EXPECT_NE(folder.run(program + " --schema").out.find("joints.friction"), std::string::npos);
@@ -107,6 +112,41 @@ TEST(Programs, RefuseADamagedAssemblyAndTouchNothing) {
                              " --assembly assembly.vtu --output results "
                              "--set geometry.bond.rings=3"),
                   "was not made from");
+  EXPECT_EQ(folder.contents(), before);
+}
+
+TEST(Programs, AnalyseTheSmallestCase) {
+  const ProgramFolder folder;
+  solve_wall(folder);
+  const ProgramRun run = analyse(folder, "results");
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const char* file : {"joints.vtp", "joints.csv", "rings.csv", "blocks.pvd", "summary.json"})
+    EXPECT_TRUE(std::filesystem::exists(folder.file(std::string("post/") + file))) << file;
+}
+
+TEST(Programs, RefuseResultsThatDoNotBelongAndTouchNothing) {
+  const ProgramFolder folder;
+  solve_wall(folder, " --set geometry.surface.length=9");
+  std::filesystem::rename(folder.file("results"), folder.file("other"));
+  solve_wall(folder);
+  ASSERT_EQ(analyse(folder, "results").code, 0);
+  std::filesystem::copy(folder.file("results"), folder.file("cut"));
+  const std::string contacts = slurp(folder.file("results/contacts_0000.vtp"));
+  std::ofstream(folder.file("cut/contacts_0000.vtp")) << contacts.substr(0, contacts.size() / 2);
+  std::filesystem::copy(folder.file("results"), folder.file("headless"));
+  std::filesystem::remove(folder.file("headless/summary.json"));
+  std::filesystem::copy(folder.file("results"), folder.file("unlisted"));
+  std::ofstream(folder.file("unlisted/contacts.pvd")) << "<VTKFile";
+
+  const auto before = folder.contents();
+  expect_one_line(analyse(folder, "none"), "none");
+  expect_one_line(analyse(folder, "other"), "other");
+  expect_one_line(analyse(folder, "cut"), "contacts_0000.vtp: error: ");
+  expect_one_line(analyse(folder, "headless"), "summary.json");
+  expect_one_line(analyse(folder, "unlisted"), "contacts.pvd: error: ");
+  expect_one_line(analyse(folder, "results", " --set geometry.surface.length=9"), "was not made from");
+  expect_one_line(folder.run("cupola-post"), "a command is missing");
+  expect_one_line(folder.run("cupola-post analise"), "is not a command");
   EXPECT_EQ(folder.contents(), before);
 }
 
