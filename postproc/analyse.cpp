@@ -69,15 +69,32 @@ void write_meshes(const Evaluation& e, const std::string& folder) {
   write_mesh(in_folder(folder, "cracks.vtp"), cracks_mesh(e));
 }
 
+/// A picture of one case with the numbers of another must be asked for.
+void check_provenance(const AnalyseRequest& request, const Assembly& assembly, const Summary& summary) {
+  if (request.force) return;
+  if (assembly.geometry_hash != request.scene.geometry_hash)
+    throw InputError(FileLocation{request.assembly_path},
+                     fmt::format("was not made from {}: its geometry or material differ; --force takes it",
+                                 request.scene.file));
+  if (summary.case_hash != request.scene.hash)
+    throw InputError(
+        FileLocation{request.results_folder},
+        fmt::format("was not solved from {}: its loads, joints or analysis differ; --force takes it",
+                    request.scene.file));
+}
+
 }  // namespace
 
 ExitCode analyse(const AnalyseRequest& request) {
   Assembly assembly = read_assembly(request.assembly_path);
   const ResultsReader results(request.results_folder, content_hash(assembly));
+  check_provenance(request, assembly, results.summary());
   Evaluation e = evaluate(request.scene, std::move(assembly), results);
 
   const std::string& folder = request.output_folder;
   make_folder(folder);
+  // A summary says that a folder is complete: the old one goes before the first file is replaced.
+  std::filesystem::remove(in_folder(folder, "summary.json"));
   const std::vector<HistoryRow> history = write_frames(e, results, folder);
   write_meshes(e, folder);
   const std::vector<Table> tables = result_tables(e);

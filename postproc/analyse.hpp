@@ -16,6 +16,7 @@ struct AnalyseRequest {
   std::string output_folder;   ///< post/
   std::string pvbatch;         ///< command that runs ParaView's pvbatch; "": no 3-D pictures
   bool quiet = false;
+  bool force = false;  ///< take a run of another geometry, load, joint or analysis
 };
 
 /// Reads the run, evaluates it and writes the output folder (FORMAT.md lists its files). Figures that gnuplot

@@ -35,6 +35,7 @@ ExitCode run_analyse(int argc, char** argv) {
   line.required("--assembly", &request.assembly_path, "FILE", "assembly that was solved");
   line.required("--results", &request.results_folder, "FOLDER", "results of cupola-solve");
   line.required("--output", &request.output_folder, "FOLDER", "folder to write");
+  line.flag("--force", &request.force, "take an assembly or results of another case");
   line.optional("--pvbatch", &request.pvbatch, "COMMAND",
                 "draw 3-D pictures with ParaView, e.g. 'xvfb-run -a pvbatch'");
   if (const auto ended = line.parse(argc, argv)) return *ended;

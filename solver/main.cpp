@@ -30,6 +30,7 @@ ExitCode solve(int argc, char** argv) {
                 "assembly that cupola-generate made from the case");
   line.optional("--output", &request.output_folder, "FOLDER", "results folder to write");
   line.flag("--explain", &explain, "print the model that would be solved, and stop");
+  line.flag("--force", &request.force, "take an assembly that was made from another geometry or material");
   line.flag("--resume", &request.resume, "go on from the checkpoint in the output folder, if there is one");
   line.optional("--dump-fclib", &request.dump_fclib, "FILE",
                 "write the contact problem of the static solve or of the last step (HDF5)");
@@ -45,7 +46,7 @@ ExitCode solve(int argc, char** argv) {
 
   // 3. The model, or its solution
   if (explain) {
-    fmt::print("{}", explain_case(request.scene, request.assembly_path));
+    fmt::print("{}", explain_case(request));
     return ExitCode::done;
   }
   if (request.output_folder.empty()) throw InputError("--output is missing; see cupola-solve --help");

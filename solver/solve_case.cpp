@@ -19,12 +19,15 @@
 namespace cupola {
 namespace {
 
-Assembly read_matching_assembly(const Case& scene, const std::string& path) {
+Assembly read_matching_assembly(const SolveRequest& request) {
+  const std::string& path = request.assembly_path;
   Assembly assembly = read_assembly(path);
-  if (assembly.geometry_hash != scene.geometry_hash)
-    throw InputError(FileLocation{path}, fmt::format("was not made from {}: its geometry or material differ; "
-                                                     "run cupola-generate again",
-                                                     scene.file));
+  if (assembly.geometry_hash == request.scene.geometry_hash) return assembly;
+  const std::string differs =
+      fmt::format("was not made from {}: its geometry or material differ", request.scene.file);
+  if (!request.force)
+    throw InputError(FileLocation{path}, differs + "; run cupola-generate again, or take it with --force");
+  fmt::print(stderr, "cupola-solve: warning: {} {}\n", path, differs);
   return assembly;
 }
 
@@ -106,7 +109,7 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
 
 ExitCode solve_case(const SolveRequest& request) {
   const double started = wall_seconds();
-  const Assembly assembly = read_matching_assembly(request.scene, request.assembly_path);
+  const Assembly assembly = read_matching_assembly(request);
   const std::string assembly_hash = content_hash(assembly);
   const std::string checkpoint_path = (std::filesystem::path(request.output_folder) / "checkpoint").string();
 
@@ -147,8 +150,9 @@ ExitCode solve_case(const SolveRequest& request) {
   return summary->status == Status::unconverged ? ExitCode::accuracy_not_reached : ExitCode::done;
 }
 
-std::string explain_case(const Case& scene, const std::string& assembly_path) {
-  const Assembly assembly = read_matching_assembly(scene, assembly_path);
+std::string explain_case(const SolveRequest& request) {
+  const Case& scene = request.scene;
+  const Assembly assembly = read_matching_assembly(request);
   const Model model = make_model(scene, assembly);
   ContactDetector detector(assembly, detection_options(scene));
   const ContactSet& contacts = detector.update(state_at_rest(model).poses);

@@ -14,6 +14,7 @@ struct SolveRequest {
   std::string output_folder;
   std::string dump_fclib;  ///< file for the contact problem of the static solve or the last step; empty: none
   bool quiet = false;
+  bool force = false;   ///< take an assembly that was made from another geometry or material
   bool resume = false;  ///< go on from the checkpoint in the output folder, if there is one
 };
 
@@ -24,6 +25,6 @@ struct SolveRequest {
 ExitCode solve_case(const SolveRequest& request);
 
 /// The model that would be solved: bodies, unknowns, contacts, active features and why (`--explain`).
-std::string explain_case(const Case& scene, const std::string& assembly_path);
+std::string explain_case(const SolveRequest& request);
 
 }  // namespace cupola

@@ -66,7 +66,7 @@ struct Case {
   Postproc postproc;
 
   std::string file;            ///< path as given on the command line
-  std::string hash;            ///< of the whole effective case
+  std::string hash;            ///< of everything but title and postproc, which change no number of a run
   std::string geometry_hash;   ///< of the sections the generator reads: geometry, material
   std::string effective_yaml;  ///< every key with the value in force
 };

@@ -7,13 +7,23 @@
 namespace cupola {
 namespace {
 
-/// Fingerprint of the sections that the generator reads: another friction or load keeps the assembly.
-std::string hash_sections(const CaseNode& effective, std::initializer_list<std::string_view> names) {
+/// Fingerprint of the sections that `is_read` names.
+std::string hash_sections(const CaseNode& effective, bool (*is_read)(const std::string& name)) {
   CaseNode chosen;
   chosen.kind = CaseNode::Kind::map;
-  for (const std::string_view name : names)
-    if (const CaseNode::Entry* entry = effective.find_entry(name)) chosen.entries.push_back(*entry);
+  for (const CaseNode::Entry& entry : effective.entries)
+    if (is_read(entry.key)) chosen.entries.push_back(entry);
   return hash_text(to_yaml(chosen));
+}
+
+/// Another friction or load keeps the assembly.
+bool generator_reads(const std::string& name) {
+  return name == "geometry" || name == "material" || name == "imperfections";
+}
+
+/// Another title or figure keeps the run.
+bool solver_reads(const std::string& name) {
+  return name != "title" && name != "postproc";
 }
 
 }  // namespace
@@ -27,8 +37,8 @@ Case read_case(const std::string& path, const std::vector<std::string>& set_opti
 
   the_case.file = path;
   the_case.effective_yaml = to_yaml(root.effective());
-  the_case.hash = hash_text(the_case.effective_yaml);
-  the_case.geometry_hash = hash_sections(root.effective(), {"geometry", "material", "imperfections"});
+  the_case.hash = hash_sections(root.effective(), solver_reads);
+  the_case.geometry_hash = hash_sections(root.effective(), generator_reads);
   return the_case;
 }
 

@@ -145,9 +145,25 @@ TEST(Programs, RefuseResultsThatDoNotBelongAndTouchNothing) {
   expect_one_line(analyse(folder, "headless"), "summary.json");
   expect_one_line(analyse(folder, "unlisted"), "contacts.pvd: error: ");
   expect_one_line(analyse(folder, "results", " --set geometry.surface.length=9"), "was not made from");
+  expect_one_line(analyse(folder, "results", " --set joints.friction=0.3"), "was not solved from");
   expect_one_line(folder.run("cupola-post"), "a command is missing");
   expect_one_line(folder.run("cupola-post analise"), "is not a command");
   EXPECT_EQ(folder.contents(), before);
+}
+
+TEST(Programs, TakeWhatDoesNotBelongWhenForced) {
+  const ProgramFolder folder;
+  solve_wall(folder);
+  const ProgramRun solved = folder.run("cupola-solve " + kWall +
+                                       " --assembly assembly.vtu --output forced --quiet --force "
+                                       "--set material.density=2000");
+  EXPECT_EQ(solved.code, 0) << solved.err;
+  EXPECT_NE(solved.err.find("warning"), std::string::npos) << solved.err;
+  const ProgramRun drawn = analyse(folder, "results", " --force --set joints.friction=0.3");
+  EXPECT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_NE(drawn.err.find("warning"), std::string::npos) << drawn.err;
+  // What is drawn is not what is computed: another figure needs no other run.
+  EXPECT_EQ(analyse(folder, "results", " --set postproc.sections=[1.5] --set title=other").code, 0);
 }
 
 TEST(Programs, AFailedRunLeavesTheOldAssembly) {
