@@ -34,14 +34,13 @@ figure img { display: block; max-width: 100%; height: auto; }
 figcaption { font-size: .9rem; color: #333; max-width: 55rem; }
 pre { overflow-x: auto; background: #f5f5f5; padding: .75rem; font-size: .8rem; line-height: 1.35; }
 summary { cursor: pointer; }
-dl { display: grid; grid-template-columns: minmax(9rem, max-content) 1fr; gap: .1rem 1rem; margin: .5rem 0; }
+dl { display: grid; grid-template-columns: minmax(9rem, max-content) minmax(0, 1fr); gap: .1rem 1rem; margin: .5rem 0; }
 dt { color: #444; } dd { margin: 0; }
-.side > * { min-width: 0; }
 .side { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 0 1rem; }
 @media (max-width: 600px) {
   body { padding: .5rem .75rem 2rem; } h1 { font-size: 1.3rem; }
   figure { overflow-x: auto; } figure img { max-width: none; width: 40rem; }
-  dl { grid-template-columns: 1fr; } dd { margin: 0 0 .4rem; }
+  dl { grid-template-columns: minmax(0, 1fr); } dd { margin: 0 0 .4rem; }
 }
 @media print {
   body { max-width: none; padding: 0; font-size: 10pt; } figure, .verdict, .warning, tr { break-inside: avoid; }

