@@ -1,23 +1,12 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
-
-#include <gtest/gtest.h>
+#include <vector>
 
 #include "assembly/assembly.hpp"
+#include "tests/fresh_folder.hpp"
 
 namespace cupola::test {
-
-/// A folder of this test's own, emptied on entry.
-inline std::string fresh_folder(const std::string& name) {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = std::filesystem::temp_directory_path() / "cupola_tests" /
-                      (std::string(test->test_suite_name()) + "." + test->name() + "." + name);
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder.string();
-}
 
 /// A fixed cube and a block on it made of a box and a triangular prism; awkward numbers everywhere, so that
 /// a lost digit shows.

@@ -2,27 +2,16 @@
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <string>
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "assembly/assembly_file.hpp"
 #include "assembly/results_file.hpp"
+#include "tests/fresh_folder.hpp"
 
 namespace cupola::test {
-
-/// A folder of this test's own, emptied on entry.
-inline std::string fresh_folder(const std::string& name) {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = std::filesystem::temp_directory_path() / "cupola_tests" /
-                      (std::string(test->test_suite_name()) + "." + test->name() + "." + name);
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder.string();
-}
 
 /// Starts a part of the newest vertices' eight corners: bit 0 along the first direction, bit 1 along the
 /// second, bit 2 upwards. `kinds`: lower, upper, then the sides of the first direction (low, high), then of
