@@ -33,11 +33,11 @@ VecX shift_at(const ContactProblem& p, const ContactSolution& x, const VecX& R, 
   return shift;
 }
 
-/// Worst of the two residuals over what can be asked of it: <= 1 ends the passes.
+/// Worst of the residuals over what can be asked of it: <= 1 ends the passes.
 double excess(const Residuals& r, double tolerance) {
   constexpr double kRoundingMargin = 16.0;  // several roundings add up
-  return std::max(r.momentum / tolerance,
-                  r.contact_law / std::max(tolerance, kRoundingMargin * r.contact_law_rounding));
+  const double law = r.contact_law / std::max(tolerance, kRoundingMargin * r.contact_law_rounding);
+  return std::max({r.momentum / tolerance, law, r.rigid_contact_speed / tolerance});
 }
 
 void add_counts(const SolveSummary& pass, SolveSummary* total) {
@@ -47,64 +47,116 @@ void add_counts(const SolveSummary& pass, SolveSummary* total) {
   total->line_search_evaluations += pass.line_search_evaluations;
 }
 
+/// State of the passes.
+class Passes {
+ public:
+  Passes(const ContactProblem& problem, const SolveOptions& options, const PassOptions& passes,
+         const ContactSolution& guess)
+      : problem_(problem),
+        options_(options),
+        passes_(passes),
+        convex_(problem),
+        x_(guess),
+        anderson_(kDepth) {
+    if (x_.gamma.size() != problem.b.size()) x_.gamma = VecX::Zero(problem.b.size());
+    if (x_.v.size() != problem.v_star.size()) x_.v = VecX(0);
+    set_share(passes.proximal_share);
+  }
+  void run(const ConvexSolve& solve, ContactSolution* best_solution, SolveSummary* summary);
+
+ private:
+  static constexpr int kDepth = 10;     // differences that Anderson combines
+  static constexpr int kPatience = 80;  // passes without a new best before giving up
+  static constexpr int kRetry = 16;     // passes without a new best before Anderson starts afresh
+
+  void set_share(double share);
+  void adapt_share(const Residuals& residuals, double error, double last_error);
+
+  const ContactProblem& problem_;
+  const SolveOptions& options_;
+  const PassOptions& passes_;
+  ContactProblem convex_;  ///< with E' and b'
+  ContactSolution x_;
+  Anderson anderson_;
+  double share_ = 0.0;
+  VecX R_, shift_;
+};
+
+void Passes::set_share(double share) {
+  share_ = share;
+  R_ = proximal_compliance(problem_, share);
+  convex_.E = problem_.E + R_;
+  shift_ = x_.v.size() > 0 ? shift_at(problem_, x_, R_, passes_.law) : VecX(-R_.cwiseProduct(x_.gamma));
+  anderson_.forget();
+}
+
+/// A smaller R contracts faster where impulses are hardly determined; a larger one leaves them more digits.
+void Passes::adapt_share(const Residuals& residuals, double error, double last_error) {
+  constexpr double kSmallest = 1e-9, kLargest = 1e-2;
+  constexpr double kSlow = 0.2;  // a pass that gains less than this factor is not worth its solve
+  if (share_ == 0.0) return;
+  if (residuals.momentum > options_.tolerance && share_ < kLargest) {
+    set_share(10.0 * share_);
+  } else if (residuals.momentum <= 0.1 * options_.tolerance && error > kSlow * last_error &&
+             share_ > kSmallest) {
+    set_share(0.1 * share_);
+  }
+}
+
+void Passes::run(const ConvexSolve& solve, ContactSolution* best_solution, SolveSummary* summary) {
+  SolveOptions inner = options_;
+  inner.tolerance = 0.5 * options_.tolerance;
+  double best = std::numeric_limits<double>::infinity(), last = best;
+  Residuals best_residuals;
+  int best_pass = 0, pass = 0;
+  while (best > 1.0 && pass < passes_.max_passes && pass - best_pass < kPatience) {
+    // 1. A convex problem, solved
+    summary->passes = ++pass;
+    convex_.b = problem_.b + shift_;
+    const SolveSummary solved = solve(convex_, inner, &x_);
+    add_counts(solved, summary);
+    if (!solved.usable()) {
+      summary->message = fmt::format("pass {}: {}", pass, solved.message);
+      break;
+    }
+
+    // 2. What it is worth on the given problem
+    const Residuals residuals = compute_residuals(problem_, x_, options_.reference_speed, passes_.law);
+    summary->residual_history.push_back(std::max(residuals.momentum, residuals.contact_law));
+    const double error = excess(residuals, options_.tolerance);
+    if (error < best) {
+      best = error;
+      best_pass = pass;
+      best_residuals = residuals;
+      *best_solution = x_;
+    }
+
+    // 3. The next one. The proximal map contracts by itself; only De Saxce's is worth accelerating.
+    const VecX next = shift_at(problem_, x_, R_, passes_.law);
+    if ((pass - best_pass) % kRetry == kRetry - 1) anderson_.forget();
+    shift_ = passes_.law == FrictionLaw::coulomb ? anderson_.next(shift_, next) : next;
+    adapt_share(residuals, error, last);
+    last = error;
+  }
+  if (best_pass == 0) return;  // failed in the first pass
+  summary->ending = best <= 1.0                  ? SolveEnding::converged
+                    : pass >= passes_.max_passes ? SolveEnding::max_iterations
+                                                 : SolveEnding::stalled;
+  summary->message =
+      fmt::format("momentum residual {:.2e}, contact-law residual {:.2e}, tolerance {:.2e} after {} passes",
+                  best_residuals.momentum, best_residuals.contact_law, options_.tolerance, pass);
+}
+
 }  // namespace
 
 SolveSummary solve_in_passes(const ContactProblem& problem, const SolveOptions& options,
                              const PassOptions& passes, const ConvexSolve& solve, ContactSolution* solution) {
-  constexpr int kDepth = 10;     // differences that Anderson combines
-  constexpr int kPatience = 80;  // passes without a new best before giving up
-  constexpr int kRetry = 16;     // passes without a new best before Anderson starts afresh
   const double start = wall_seconds();
   options.validate();
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
-
-  const VecX R = proximal_compliance(problem, passes.proximal_share);
-  ContactProblem convex = problem;
-  convex.E += R;
-  ContactSolution x = *solution;
-  if (x.gamma.size() != problem.b.size()) x.gamma = VecX::Zero(problem.b.size());
-  if (x.v.size() != problem.v_star.size()) x.v = VecX(0);
-  VecX shift = VecX::Zero(problem.b.size());
-  if (x.v.size() > 0) shift = shift_at(problem, x, R, passes.law);
-  Anderson anderson(kDepth);
-  SolveOptions inner = options;
-  inner.tolerance = 0.5 * options.tolerance;
-
-  double best = std::numeric_limits<double>::infinity();
-  Residuals best_residuals;
-  int best_pass = 0, pass = 0;
-  while (best > 1.0 && pass < passes.max_passes && pass - best_pass < kPatience) {
-    ++pass;
-    convex.b = problem.b + shift;
-    const SolveSummary solved = solve(convex, inner, &x);
-    add_counts(solved, &summary);
-    if (!solved.usable()) {
-      summary.message = fmt::format("pass {}: {}", pass, solved.message);
-      break;
-    }
-    const Residuals residuals = compute_residuals(problem, x, options.reference_speed, passes.law);
-    summary.residual_history.push_back(std::max(residuals.momentum, residuals.contact_law));
-    if (const double now = excess(residuals, options.tolerance); now < best) {
-      best = now;
-      best_pass = pass;
-      best_residuals = residuals;
-      *solution = x;
-    }
-    const VecX next = shift_at(problem, x, R, passes.law);
-    if ((pass - best_pass) % kRetry == kRetry - 1) anderson.forget();
-    // The proximal map contracts by itself where it matters; only De Saxce's is worth accelerating.
-    shift = passes.law == FrictionLaw::coulomb ? anderson.next(shift, next) : next;
-  }
-  summary.passes = pass;
+  Passes(problem, options, passes, *solution).run(solve, solution, &summary);
   summary.time_seconds = wall_seconds() - start;
-  if (best_pass == 0) return summary;  // failed in the first pass
-  summary.ending = best <= 1.0                 ? SolveEnding::converged
-                   : pass >= passes.max_passes ? SolveEnding::max_iterations
-                                               : SolveEnding::stalled;
-  summary.message =
-      fmt::format("momentum residual {:.2e}, contact-law residual {:.2e}, tolerance {:.2e} after {} passes",
-                  best_residuals.momentum, best_residuals.contact_law, options.tolerance, pass);
   return summary;
 }
 

@@ -16,8 +16,8 @@ using ConvexSolve = std::function<SolveSummary(const ContactProblem& problem, co
 struct PassOptions {
   FrictionLaw law = FrictionLaw::associated;
   /// Contacts whose compliance is below this share of their own Delassus block (a third of trace N_ii) get
-  /// the difference as a proximal term, >= 0; 0 adds none. 1e-6 keeps twelve digits and contracts a million
-  /// times per pass wherever the impulses are determined.
+  /// the difference as a proximal term R, >= 0; 0 adds none. This is the share of the first pass: it shrinks
+  /// where passes gain little and grows where rounding of D^T v / R is felt.
   double proximal_share = 0.0;
   int max_passes = 300;  ///< >= 1
 };
@@ -34,8 +34,9 @@ struct PassOptions {
 /// s and the proximal centre in the same pass.
 ///
 /// Stops when Residuals::contact_law (of `law`, on the given problem) and the momentum residual are <=
-/// tolerance, or as small as rounding lets them be. Zero compliance: impulses are in general not unique; the
-/// answer is the one near the guess, and the message says so. For the Coulomb law there may be no answer (mu
+/// tolerance, or as small as rounding lets them be; so is rigid_contact_speed. Zero compliance: impulses are
+/// in general not unique; the answer is the one near the guess, and the message says so. For the Coulomb law
+/// there may be no answer (mu
 /// >~ 1); then `stalled`.
 SolveSummary solve_in_passes(const ContactProblem& problem, const SolveOptions& options,
                              const PassOptions& passes, const ConvexSolve& solve, ContactSolution* solution);

@@ -45,8 +45,9 @@ bool is_rigid(const ContactLaw& law) {
   return law.e_n == 0.0 || (law.mu > 0.0 && law.e_t == 0.0);
 }
 
-double contact_law_residual(const ContactProblem& p, const ContactSolution& x, const VecX& y0,
-                            FrictionLaw kind) {
+/// Sets contact_law and rigid_contact_speed.
+void measure_contact_law(const ContactProblem& p, const ContactSolution& x, const VecX& y0, FrictionLaw kind,
+                         double reference_speed, Residuals* residuals) {
   double squared_error = 0.0;
   VecX expected(x.gamma.size());
   for (int i = 0; i < p.num_contacts(); ++i) {
@@ -55,15 +56,21 @@ double contact_law_residual(const ContactProblem& p, const ContactSolution& x, c
     ContactLaw law = contact_law(p, i);
     const Vec3 elastic(law.e_n * gamma[0], law.e_t * gamma[1], law.e_t * gamma[2]);
     if (kind == FrictionLaw::coulomb) y[0] += law.mu * (y + elastic).tail<2>().norm();
-    if (is_rigid(law)) {  // gamma - rho (y + E gamma) as the impulse of a contact of compliance 1/rho
+    const bool rigid = is_rigid(law);
+    if (rigid) {  // gamma - rho (y + E gamma) as the impulse of a contact of compliance 1/rho
       law.e_n = law.e_t = delassus_trace(p, i);
       y += elastic - law.e_n * gamma;
     }
     expected.segment<3>(3 * i) = contact_impulse(law, y);
-    squared_error += (gamma - expected.segment<3>(3 * i)).squaredNorm();
+    const double error = (gamma - expected.segment<3>(3 * i)).norm();
+    squared_error += error * error;
+    if (rigid) {
+      residuals->rigid_contact_speed =
+          std::max(residuals->rigid_contact_speed, law.e_n * error / reference_speed);
+    }
   }
-  if (squared_error == 0.0) return 0.0;
-  return std::sqrt(squared_error) / std::max(x.gamma.norm(), expected.norm());
+  if (squared_error == 0.0) return;
+  residuals->contact_law = std::sqrt(squared_error) / std::max(x.gamma.norm(), expected.norm());
 }
 
 double contact_law_rounding(const ContactProblem& p, const ContactSolution& x) {
@@ -154,7 +161,7 @@ Residuals compute_residuals(const ContactProblem& problem, const ContactSolution
   Residuals residuals;
   residuals.momentum =
       largest_unbalanced_impulse(problem, solution) / (root_mean_mass(problem) * reference_speed);
-  residuals.contact_law = contact_law_residual(problem, solution, y0, law);
+  measure_contact_law(problem, solution, y0, law, reference_speed, &residuals);
   residuals.contact_law_rounding = contact_law_rounding(problem, solution);
   residuals.cone_violation = cone_violation(problem, solution.gamma);
 

@@ -18,6 +18,10 @@ struct Residuals {
   /// where E_i = 0. s = 0 (associated) or mu |y_t| (coulomb). 0 when gamma = 0 is right, 1 when it should not
   /// be.
   double contact_law = 0.0;
+  /// Zero compliance only: max over rigid contacts of |gamma - P(gamma - rho (y + s n))| / (rho
+  /// reference_speed), the speed by which a contact misses its law. contact_law weighs it by impulses and is
+  /// blind to slow creep.
+  double rigid_contact_speed = 0.0;
   /// What rounding of D^T v alone puts into contact_law: eps | |D|^T |v| / E | / |gamma|. Large where blocks
   /// slide fast on contacts of tiny compliance: no pair of doubles (v, gamma) meets the law closer there.
   double contact_law_rounding = 0.0;

@@ -17,7 +17,7 @@ namespace {
 /// Below this share of its Delassus block a compliance leaves Newton's impulses fewer digits than asked for.
 constexpr double kProximalShare = 1e-4;
 constexpr double kNearRounding = 1e-2;  // a momentum residual above this is no rounding
-constexpr int kPolishingPasses = 5;
+constexpr int kRescuePasses = 40;
 
 bool has_rigid_contact(const ContactProblem& p) {
   for (int i = 0; i < p.num_contacts(); ++i) {
@@ -100,12 +100,15 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
   };
   if (!rigid && options.law == FrictionLaw::associated) {
     const SolveSummary first = convex(problem, options, solution);
+    if (!first.usable() || first.ending == SolveEnding::converged || !primal) return first;
+    // Sliding on tiny compliance leaves impulses below the rounding of D^T v / E; and what defeats both
+    // methods is easier on a larger compliance that is then taken away.
     const bool near = !first.residual_history.empty() && first.residual_history.back() < kNearRounding;
-    if (!first.usable() || first.ending == SolveEnding::converged || !primal || !near) return first;
-    ContactSolution polished = *solution;  // sliding on tiny compliance: impulses below rounding of D^T v / E
+    ContactSolution polished = near ? *solution : ContactSolution{};
     const SolveSummary last =
-        solve_in_passes(problem, options, {options.law, kProximalShare, kPolishingPasses}, convex, &polished);
-    if (last.ending != SolveEnding::converged) return first;
+        solve_in_passes(problem, options, {options.law, kProximalShare, kRescuePasses}, convex, &polished);
+    const bool better = last.usable() && last.residual_history.back() < first.residual_history.back();
+    if (last.ending != SolveEnding::converged && !better) return first;
     *solution = polished;
     return combined(first, last);
   }

@@ -162,6 +162,49 @@ inline ContactProblem groove(double phi, double theta, double h, const Joint& jo
   return scene.problem();
 }
 
+/// Arch of n polygonal voussoirs (flat faces, vertices on the radii R +- t/2), half embrace beta, springings
+/// fixed, one metre deep, R = 1 m, in the x-z plane; gravity tilted by `tilt` towards x (VERIFICATION 2).
+inline ContactProblem arch(int n, double thickness, double beta, double tilt, double h, const Joint& joint) {
+  Scene scene(h, kGravity * Vec3(std::sin(tilt), 0, -std::cos(tilt)));
+  const auto corner = [&](int k, double r) {  // angle from the crown, from -beta to beta
+    const double angle = -beta + 2 * beta * k / n;
+    return Vec3(r * std::sin(angle), 0, r * std::cos(angle));
+  };
+  const double inner = 1.0 - thickness / 2, outer = 1.0 + thickness / 2, density = 2000.0;
+  for (int k = 0; k < n; ++k) {
+    const std::array<Vec3, 4> quad{corner(k, inner), corner(k, outer), corner(k + 1, outer),
+                                   corner(k + 1, inner)};
+    // Area, first and second moments by triangles from the first corner, plane (x, z).
+    double area = 0.0, xx = 0.0, zz = 0.0, xz = 0.0;
+    Vec3 first = Vec3::Zero();
+    for (int j = 1; j < 3; ++j) {
+      const Vec3 a = quad[j] - quad[0], b = quad[j + 1] - quad[0];
+      const double twice = std::abs(a[0] * b[2] - a[2] * b[0]);
+      area += twice / 2;
+      first += twice / 6 * (a + b);
+      xx += twice / 12 * (a[0] * a[0] + a[0] * b[0] + b[0] * b[0]);
+      zz += twice / 12 * (a[2] * a[2] + a[2] * b[2] + b[2] * b[2]);
+      xz += twice / 24 * (2 * a[0] * a[2] + a[0] * b[2] + a[2] * b[0] + 2 * b[0] * b[2]);
+    }
+    const Vec3 c = first / area;
+    xx -= area * c[0] * c[0];
+    zz -= area * c[2] * c[2];
+    xz -= area * c[0] * c[2];
+    const double yy = area / 12;  // depth 1 m
+    Mat3 inertia;
+    inertia << yy + zz, 0, -xz, 0, xx + zz, 0, -xz, 0, xx + yy;
+    scene.add_block(quad[0] + c, density * area, density * inertia);
+  }
+  for (int k = 0; k <= n; ++k) {
+    const double angle = -beta + 2 * beta * k / n;
+    const Vec3 normal(std::cos(angle), 0, -std::sin(angle)), middle = corner(k, 1.0);
+    const Vec3 half_radial = corner(k, 1.0 + thickness / 2) - middle;
+    scene.add_patch(k == 0 ? kGround : k - 1, k == n ? kGround : k, middle, half_radial, {0, 0.5, 0}, normal,
+                    joint);
+  }
+  return scene.problem();
+}
+
 /// Spherical dome of centreline radius `radius`: rings of equal angle, running bond, corner contacts on beds
 /// and heads, base on the ground. Blocks have the mass and inertia of boxes of their mean sizes.
 struct DomeShape {
