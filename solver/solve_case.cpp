@@ -1,5 +1,6 @@
 #include "solver/solve_case.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -11,6 +12,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/checkpoint.hpp"
+#include "solver/collision/geometry_warnings.hpp"
 #include "solver/collision/patch_file.hpp"
 #include "solver/contact/fclib_file.hpp"
 #include "solver/dynamics/scene_options.hpp"
@@ -29,6 +31,13 @@ Assembly read_matching_assembly(const SolveRequest& request) {
     throw InputError(FileLocation{path}, differs + "; run cupola-generate again, or take it with --force");
   fmt::print(stderr, "cupola-solve: warning: {} {}\n", path, differs);
   return assembly;
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+  constexpr std::size_t kShown = 10;
+  for (std::size_t i = 0; i < std::min(kShown, warnings.size()); ++i)
+    fmt::print(stderr, "warning: {}\n", warnings[i]);
+  if (warnings.size() > kShown) fmt::print(stderr, "warning: {} more like these\n", warnings.size() - kShown);
 }
 
 std::string provenance(const Summary& summary) {
@@ -112,6 +121,8 @@ ExitCode solve_case(const SolveRequest& request) {
   const Assembly assembly = read_matching_assembly(request);
   const std::string assembly_hash = content_hash(assembly);
   const std::string checkpoint_path = (std::filesystem::path(request.output_folder) / "checkpoint").string();
+
+  print_warnings(geometry_warnings(assembly, detection_options(request.scene)));
 
   // 1. Where the run stands
   Checkpoint run = find_checkpoint(request, checkpoint_path, assembly_hash).value_or(Checkpoint{});

@@ -73,6 +73,8 @@ class ContactDetector {
 
   int num_detections() const { return memory_.num_detections; }
   double margin() const { return options_.margin; }  ///< m, in force
+  const CollisionModel& model() const { return model_; }
+  const NarrowPhaseOptions& narrow_phase() const { return narrow_; }
   /// m, largest distance of a block's vertex from its centroid.
   double block_radius(int block) const { return model_.block_radius[block]; }
 

@@ -36,6 +36,14 @@ Axis axis_along(const Vec3& normal, double gap, const CollisionFace* face_a, con
   return axis;
 }
 
+PartPair make_pair(const CollisionModel& model, int part_a, int part_b, const Eigen::Isometry3d& pose_ab) {
+  PartPair pair{model, model.parts[part_a], model.parts[part_b], pose_ab, {}, {}};
+  const auto local_a = model.vertices_of(pair.a);
+  pair.vertices_a.assign(local_a.begin(), local_a.end());
+  for (const Vec3& x : model.vertices_of(pair.b)) pair.vertices_b.push_back(pose_ab * x);
+  return pair;
+}
+
 double lowest(const std::vector<Vec3>& vertices, const Vec3& direction) {
   double height = std::numeric_limits<double>::infinity();
   for (const Vec3& x : vertices) height = std::min(height, direction.dot(x));
@@ -187,11 +195,7 @@ JointPatch crossing_edges(const Axis& axis) {
 std::optional<JointPatch> find_edge_contact(const CollisionModel& model, int part_a, int part_b,
                                             const Eigen::Isometry3d& pose_ab,
                                             const NarrowPhaseOptions& options) {
-  PartPair pair{model, model.parts[part_a], model.parts[part_b], pose_ab, {}, {}};
-  const auto local_a = model.vertices_of(pair.a);
-  pair.vertices_a.assign(local_a.begin(), local_a.end());
-  for (const Vec3& x : model.vertices_of(pair.b)) pair.vertices_b.push_back(pose_ab * x);
-
+  const PartPair pair = make_pair(model, part_a, part_b, pose_ab);
   const Axis face_axis = best_face_axis(pair, options.margin);
   if (face_axis.gap > options.margin) return std::nullopt;
   const bool opposed = has_opposed_face(pair, face_axis, options.max_angle);
@@ -216,6 +220,14 @@ std::optional<JointPatch> find_edge_contact(const CollisionModel& model, int par
   contact.part_b = part_b;
   classify(pair.a, kind, pair.b, FaceKind::free, &contact);
   return contact;
+}
+
+double separation(const CollisionModel& model, int part_a, int part_b, const Eigen::Isometry3d& pose_ab,
+                  const NarrowPhaseOptions& options) {
+  const PartPair pair = make_pair(model, part_a, part_b, pose_ab);
+  const double face_gap = best_face_axis(pair, options.margin).gap;
+  if (face_gap >= -options.tolerance) return face_gap;  // they touch: edges could only say the same
+  return std::max(face_gap, best_edge_axis(pair, options).gap);
 }
 
 }  // namespace cupola

@@ -1,0 +1,94 @@
+#include "solver/collision/geometry_warnings.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "solver/collision/edge_contact.hpp"
+#include "solver/collision/face_clipping.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kOverlap = 1e-6;  // of the smallest block; ten thousand times the clipping tolerance
+
+/// Largest value met per pair of blocks.
+using PairValues = std::map<std::pair<int, int>, double>;
+
+void keep_largest(PairValues* values, int a, int b, double value) {
+  double& largest = values->try_emplace({a, b}, value).first->second;
+  largest = std::max(largest, value);
+}
+
+std::vector<std::pair<int, int>> touching_parts(const CollisionModel& model, const std::vector<Pose>& poses,
+                                                double tolerance) {
+  std::vector<Box> boxes;
+  std::vector<int> groups;
+  for (const CollisionPart& part : model.parts) {
+    Box box;
+    for (const Vec3& r : model.vertices_of(part)) box.extend(Vec3(poses[part.block].p_WB + r));
+    box.min().array() -= tolerance;
+    box.max().array() += tolerance;
+    boxes.push_back(box);
+    groups.push_back(part.fixed ? -1 : part.block);
+  }
+  return BroadPhase(boxes, groups).overlapping_pairs();
+}
+
+/// Smallest distance between a face and the vertex farthest behind it.
+double thickness(const CollisionModel& model, const CollisionPart& part) {
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (const CollisionFace& face : model.faces_of(part)) {
+    double depth = 0.0;
+    for (const Vec3& x : model.vertices_of(part)) depth = std::max(depth, face.normal.dot(face.centroid - x));
+    thinnest = std::min(thinnest, depth);
+  }
+  return thinnest;
+}
+
+}  // namespace
+
+std::vector<std::string> geometry_warnings(const Assembly& assembly, const DetectionOptions& options) {
+  const ContactDetector detector(assembly, options);
+  const CollisionModel& model = detector.model();
+  const std::vector<Pose> poses = initial_poses(assembly);
+  NarrowPhaseOptions any_width = detector.narrow_phase();
+  any_width.min_width = 10.0 * any_width.tolerance;
+
+  PairValues overlaps, slivers;
+  for (const auto& [i, k] : touching_parts(model, poses, any_width.tolerance)) {
+    const int a = model.parts[i].block;
+    const int b = model.parts[k].block;
+    Eigen::Isometry3d pose_ab = Eigen::Isometry3d::Identity();
+    pose_ab.translation() = poses[b].p_WB - poses[a].p_WB;
+    const double depth = -separation(model, i, k, pose_ab, any_width);
+    if (depth > kOverlap * model.smallest_block) keep_largest(&overlaps, a, b, depth);
+    for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width)) {
+      const double width = polygon_width(patch.outline());
+      if (width < detector.narrow_phase().min_width) keep_largest(&slivers, a, b, width);
+    }
+  }
+
+  std::vector<std::string> warnings;
+  for (const auto& [pair, depth] : overlaps)
+    warnings.push_back(fmt::format("blocks {} and {} overlap by {:.3g} m", pair.first, pair.second, depth));
+  for (const auto& [pair, width] : slivers)
+    warnings.push_back(fmt::format("blocks {} and {}: a joint only {:.3g} m wide is left out", pair.first,
+                                   pair.second, width));
+  std::map<int, double> thin;
+  for (const CollisionPart& part : model.parts) {
+    const double part_thickness = thickness(model, part);
+    if (part_thickness >= detector.margin()) continue;
+    double& thinnest = thin.try_emplace(part.block, part_thickness).first->second;
+    thinnest = std::min(thinnest, part_thickness);
+  }
+  for (const auto& [block, thinnest] : thin)
+    warnings.push_back(
+        fmt::format("block {}: a part only {:.3g} m thick is thinner than contact.margin = {:.3g} m", block,
+                    thinnest, detector.margin()));
+  return warnings;
+}
+
+}  // namespace cupola
