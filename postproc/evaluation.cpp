@@ -53,7 +53,7 @@ void add_status_warnings(const Summary& summary, std::vector<std::string>* warni
     warnings->push_back("the structure has collapsed. " + summary.message);
 }
 
-int lost_joints(const ContactTable& first, const ContactTable& last) {
+int joints_lost_between(const ContactTable& first, const ContactTable& last) {
   std::set<std::pair<int, int>> present;
   for (int i = 0; i < last.size(); ++i) present.emplace(last.block_a[i], last.block_b[i]);
   std::set<std::pair<int, int>> lost;
@@ -63,9 +63,30 @@ int lost_joints(const ContactTable& first, const ContactTable& last) {
   return static_cast<int>(lost.size());
 }
 
+void count_lost_joints(const ResultsReader& results, Evaluation* e) {
+  if (e->times.size() < 2) return;
+  try {
+    e->lost_joints = joints_lost_between(results.read_frame(0).contacts, e->last.frame.contacts);
+  } catch (const InputError& error) {
+    e->warnings.push_back(fmt::format("joints lost are not counted: {}", error.what()));
+  }
+  if (e->lost_joints > 0)
+    e->warnings.push_back(
+        fmt::format("{} joints of the first frame have parted completely in the last", e->lost_joints));
+}
+
+/// The applied forces at an instant.
+std::vector<PointForce> loads_at(const Evaluation& e, double time) {
+  const std::vector<TimeFunction> times = load_times(e.scene.loads);
+  std::vector<PointForce> loads = e.loads;
+  for (PointForce& load : loads)
+    load.force *=
+        factor_at(load.time == PointForce::kDeadLoad ? e.scene.loads.dead_load_time : times[load.time], time);
+  return loads;
+}
+
 ThrustInput thrust_input(const Evaluation& e) {
-  return {&e.assembly,    &e.shell,          &e.last.frame.contacts,
-          &e.last.joints, e.last.from_below, e.scene.loads.gravity};
+  return {&e.assembly, &e.shell, &e.last.frame.contacts, &e.last.joints, e.last.from_below, e.last.gravity};
 }
 
 /// Every block that a bed touches from below or runs through, uprights included. Where an upright is one
@@ -125,9 +146,12 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   check_blocks(frame, e.assembly);
   FrameEvaluation out;
   out.frame = std::move(frame);
+  const Loads& loads = e.scene.loads;
+  out.gravity = factor_at(loads.dead_load_time, out.frame.time) * loads.gravity;
+  out.loads = loads_at(e, out.frame.time);
   out.joints = joint_wrenches(e.assembly, out.frame.contacts, e.shell);
   out.from_below = wrenches_from_below(e.assembly, out.joints);
-  out.fields = block_fields(e.assembly, out.frame, out.joints, out.from_below, e.loads, e.axes);
+  out.fields = block_fields(e.assembly, out.frame, out.joints, out.from_below, out.loads, e.axes);
   if (e.summary.status == Status::stable)
     out.groups.assign(e.assembly.blocks.size(), 0);
   else
@@ -165,16 +189,14 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   else if (e.summary.case_hash != scene.hash)
     e.warnings.push_back("the case has changed since the run: loads, joints or analysis may differ");
 
+  if (!e.assembly.ties.empty() || !scene.ties.pairs.empty() || !scene.ties.chains.empty())
+    e.warnings.push_back("ties carry forces too: ring sums and wrenches count the joints only");
+
   e.last = evaluate_frame(e, last_readable_frame(results, &e.warnings));
-  e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, scene.loads.gravity, e.loads);
+  e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads);
   e.meridians = evaluate_meridians(e);
   e.sections = evaluate_sections(e);
-  if (e.times.size() > 1) {
-    e.lost_joints = lost_joints(results.read_frame(0).contacts, e.last.frame.contacts);
-    if (e.lost_joints > 0)
-      e.warnings.push_back(
-          fmt::format("{} joints of the first frame have parted completely in the last", e.lost_joints));
-  }
+  count_lost_joints(results, &e);
   const MeridianEvaluation *rib = nullptr, *mid_sail = nullptr;
   for (const MeridianEvaluation& m : e.meridians) {
     if (m.thrust.name == "rib") rib = &m;

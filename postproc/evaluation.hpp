@@ -16,6 +16,8 @@ namespace cupola {
 /// What one frame says, derived from its contacts.
 struct FrameEvaluation {
   Frame frame;
+  Vec3 gravity = Vec3::Zero();    ///< m/s2, at that instant
+  std::vector<PointForce> loads;  ///< at that instant
   JointWrenches joints;
   std::vector<Wrench> from_below;   ///< per block
   std::vector<BlockFields> fields;  ///< per block
@@ -51,7 +53,7 @@ struct Evaluation {
   Summary summary;
   std::vector<double> times;  ///< s, of all frames
   Vec3 up = Vec3::UnitZ();
-  std::vector<PointForce> loads;
+  std::vector<PointForce> loads;  ///< at their full values
   Shell shell;
   std::vector<ShellAxes> axes;
   FrameEvaluation last;

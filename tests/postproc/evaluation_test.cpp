@@ -89,6 +89,20 @@ TEST(Evaluation, SectionsCutTheBlocks) {
   EXPECT_NEAR(polygon_area(e.sections[0].polygons[0].outline), 0.96, 1e-12);
 }
 
+TEST(Evaluation, LoadsCountAsMuchAsTheirTimeSays) {
+  // Half of gravity and of the top load at the frame's time, and forces to match.
+  const Assembly a = test::column(3);
+  Case scene = column_case();
+  scene.loads.top_load = TopLoad{2.0};
+  scene.loads.dead_load_time = RampInTime{0.0, 1.0, 0.0, 4.0};
+  const double g = 0.5 * kGravity;
+  Frame frame = test::column_at_rest(a, g, 2.0 * free_weight(a, g), 0.6, 0.4);
+  frame.time = 2.0;
+  const Evaluation e = evaluated(a, {frame}, column_summary(a), scene, test::fresh_folder("results"));
+  for (const RingSum& ring : e.rings) EXPECT_LT(ring.relative_difference, 1e-14);
+  EXPECT_NEAR(e.rings[0].load_above.z(), -4.5 * kBlockWeight, 1e-9 * kBlockWeight);
+}
+
 TEST(Evaluation, ProblemsAreSaidFirst) {
   const Assembly a = test::column(3);
   const Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);

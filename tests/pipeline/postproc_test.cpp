@@ -1,0 +1,165 @@
+// What the postprocessor makes of solved models, against closed forms and published numbers.
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "generators/generate.hpp"
+#include "postproc/evaluation.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "tests/fresh_folder.hpp"
+
+namespace cupola {
+namespace {
+
+Evaluation solved(const Case& scene) {
+  const Assembly assembly = generate(scene);
+  const std::string folder = test::fresh_folder("results");
+  ResultsWriter writer(folder, content_hash(assembly));
+  AnalysisSinks sinks;
+  sinks.frame = [&writer](const Frame& frame) { writer.write_frame(frame); };
+  sinks.log = sinks.history = [](const std::string&) {};
+  Summary summary = run_static(scene, assembly, sinks);
+  summary.assembly_hash = content_hash(assembly);
+  writer.write_summary(summary);
+  return evaluate(scene, assembly, ResultsReader(folder, content_hash(assembly)));
+}
+
+Case paper_dome(double lantern) {
+  Case scene;
+  RunningBond bond;
+  bond.rings = 40;
+  scene.geometry.bond = bond;
+  scene.analysis.tolerance = 1e-9;
+  if (lantern > 0.0) scene.loads.lantern = TopLoad{lantern};
+  scene.postproc.meridians = {{"meridian", 0.0}};
+  return scene;
+}
+
+// Smooth shell of the paper's profile, 18 kN/m3, with a lantern of 2 % of its weight: vertical force through
+// the joint at angle theta, kN (dblquad of the volumes), and the membrane's N_phi, kN/m.
+struct MembraneRow {
+  double theta_deg, force, n_phi;
+};
+constexpr MembraneRow kMembrane[] = {{0, 169498.1022, 1143.070}, {6, 146739.7467, 1003.686},
+                                     {12, 124373.7152, 888.002}, {18, 102788.0336, 789.614},
+                                     {24, 82362.1779, 703.634},  {30, 63462.9168, 626.048},
+                                     {36, 46440.2934, 553.212},  {42, 31623.7900, 481.333},
+                                     {48, 19318.7181, 405.751},  {54, 9802.8733, 319.536}};
+
+TEST(PostprocDome, CarriesTheMembranesForces) {
+  const Evaluation e = solved(paper_dome(0.02));
+  ASSERT_EQ(e.summary.status, Status::stable);
+  const double weight = e.rings[0].joint_force.z();
+  for (const MembraneRow& row : kMembrane) {
+    const size_t k = static_cast<size_t>(std::lround(row.theta_deg / 1.5));
+    const RingSum& ring = e.rings[k];
+    EXPECT_LE(ring.relative_difference, 1e-7) << "ring " << k;
+    EXPECT_NEAR(ring.joint_force.z() / weight, row.force / kMembrane[0].force, 1e-4)
+        << row.theta_deg << " deg";
+    // The facets weigh 6e-4 less than the smooth shell. N_phi of a block stands for its middle, so the bed's
+    // is the mean of the blocks on both sides; bending, which the membrane has not, adds a few per cent.
+    if (row.theta_deg < 6 || row.theta_deg > 48) continue;
+    double n_phi = 0.0;
+    int count = 0;
+    for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
+      const int r = e.assembly.blocks[b].ring;
+      if (r != static_cast<int>(k) && r + 1 != static_cast<int>(k)) continue;
+      n_phi += e.last.fields[b].meridional_force;
+      ++count;
+    }
+    EXPECT_NEAR(1e-3 * n_phi / count, row.n_phi, 0.03 * row.n_phi) << row.theta_deg << " deg";
+  }
+}
+
+TEST(PostprocDome, HoopsPullBelowAndPressAbove) {
+  const Evaluation e = solved(paper_dome(0.02));
+  // Membrane theory changes sign at 26.9 deg, ring 18. Friction lets the hoops carry less tension than it
+  // asks, so that the sign changes somewhere near.
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
+    const Block& block = e.assembly.blocks[b];
+    if (block.fixed) continue;
+    if (block.ring >= 2 && block.ring < 14)
+      EXPECT_LT(e.last.fields[b].hoop_force, 0.0) << "ring " << block.ring;
+    if (block.ring >= 24) EXPECT_GT(e.last.fields[b].hoop_force, 0.0) << "ring " << block.ring;
+  }
+  // What crosses one meridian half-plane is, course by course, what the blocks say: their sums agree within
+  // the sawtooth that the bond cuts.
+  double crossing = 0.0, blocks = 0.0;
+  for (const HoopRow& row : e.meridians[0].hoop) crossing += row.head_force + row.bed_force;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    if (!e.assembly.blocks[b].fixed && e.assembly.blocks[b].ring > 0)
+      blocks += e.last.fields[b].hoop_force * (38.2 + 36.0) / 2.0 * 1.5 * std::numbers::pi / 180.0 / 32.0;
+  EXPECT_NEAR(crossing, blocks, 0.05 * std::abs(crossing));
+}
+
+// 27 polygonal voussoirs, t/R = 0.15, mu = 0.6: every admissible thrust over weight lies in [0.17557,
+// 0.22737] (linear programme), and each springing carries half the weight.
+TEST(PostprocArch, ThrustLiesBetweenItsBounds) {
+  Case scene;
+  ArchSurface arch;
+  arch.span = 1.85;
+  arch.thickness = 0.15;
+  arch.width = 0.3;
+  scene.geometry.surface = arch;
+  StackBond bond;
+  bond.rings = 27;
+  bond.blocks_per_ring = 1;
+  bond.slices_per_block = 2;
+  scene.geometry.bond = bond;
+  scene.joints.friction = 0.6;
+  const Evaluation e = solved(scene);
+  int springings = 0;
+  for (const JointWrench& joint : e.last.joints.joints) {
+    if (joint.joint.kind != JointKind::base) continue;
+    ++springings;
+    const int voussoir =
+        e.assembly.blocks[joint.joint.block_a].fixed ? joint.joint.block_b : joint.joint.block_a;
+    const Vec3 reaction = wrench_on(joint, voussoir).force;
+    const double thrust = std::hypot(reaction.x(), reaction.y()) / e.summary.weight_N;
+    EXPECT_GE(thrust, 0.17557);
+    EXPECT_LE(thrust, 0.22737);
+    EXPECT_NEAR(reaction.z() / e.summary.weight_N, 0.5, 1e-6);
+  }
+  EXPECT_EQ(springings, 2);
+  ASSERT_EQ(e.meridians.size(), 1u);
+  const ThrustLine& line = e.meridians[0].thrust;
+  ASSERT_EQ(line.points.size(), 28u) << "both springings and 26 joints";
+  EXPECT_TRUE(line.inside);
+  for (const ThrustPoint& p : line.points)  // mirror symmetry
+    EXPECT_NEAR(p.r, line.points[27 - static_cast<size_t>(p.bed)].r, 1e-6 * e.summary.weight_N);
+}
+
+// Strips one block wide tile the shell: what crosses a bed in all of them together is what stands on it,
+// uprights cut through included.
+TEST(PostprocHerringbone, StripsTogetherCarryWhatStandsOnTheBed) {
+  Case scene;
+  DomeSurface dome;
+  dome.crown_angle_deg = 30.0;
+  scene.geometry.surface = dome;
+  HerringboneBond bond;
+  bond.rings = 10;
+  bond.blocks_per_ring = 16;
+  bond.spirals = 4;
+  scene.geometry.bond = bond;
+  scene.joints.friction = 0.6;
+  for (int strip = 0; strip < 16; ++strip)
+    scene.postproc.meridians.push_back({"strip" + std::to_string(strip), 3.0 + strip * 22.5});
+  const Evaluation e = solved(scene);
+  ASSERT_EQ(e.summary.status, Status::stable);
+  EXPECT_NEAR(e.shell.block_width_rad, 2.0 * std::numbers::pi / 16, 1e-9);
+  const double g = scene.loads.gravity.norm();
+  for (int bed = 0; bed < 10; ++bed) {
+    double above = 0.0, carried = 0.0;
+    for (const Part& part : e.assembly.parts)
+      if (part.ring >= bed) above += e.assembly.blocks[part.block].density * part.volume * g;
+    for (const MeridianEvaluation& m : e.meridians)
+      for (const ThrustPoint& p : m.thrust.points)
+        if (p.bed == bed) carried += p.v;
+    EXPECT_NEAR(carried / above, 1.0, 1e-7) << "bed " << bed;
+  }
+}
+
+}  // namespace
+}  // namespace cupola
