@@ -19,10 +19,4 @@ std::optional<JointPatch> find_edge_contact(const CollisionModel& model, int par
                                             const Eigen::Isometry3d& pose_ab,
                                             const NarrowPhaseOptions& options);
 
-/// Largest gap (m) between the parts along any face normal or common normal of two edges: their distance
-/// where a face or two edges are nearest, less than it where vertices are, and minus the depth of their
-/// overlap where it is negative.
-double separation(const CollisionModel& model, int part_a, int part_b, const Eigen::Isometry3d& pose_ab,
-                  const NarrowPhaseOptions& options);
-
 }  // namespace cupola

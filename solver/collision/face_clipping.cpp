@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/collision/separating_axis.hpp"
+
 namespace cupola {
 namespace {
 
@@ -75,6 +77,18 @@ bool same_planes(const JointPatch& p, const JointPatch& q) {
   return p.plane_a.normal.dot(q.plane_a.normal) > kCosine && p.plane_b.normal.dot(q.plane_b.normal) > kCosine;
 }
 
+/// Is the overlap at the faces of the patch the least deep one? Behind the facing faces of two thin parts lie
+/// others that are opposed as well and whose planes have passed each other although the parts are apart.
+/// Along either face's normal the parts are nowhere nearer than the patch is at its nearest corner, so the
+/// faces of the true contact pass. Face normals suffice: faces within max_angle separate where edges do.
+bool is_least_deep(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
+                   const NarrowPhaseOptions& options) {
+  if (patch.min_gap >= -options.tolerance) return true;  // two points that near belong to parts that touch
+  const TwoParts parts = place_parts(model, patch.part_a, patch.part_b, pose_ab);
+  const double depth = patch.min_gap * patch.normal.dot(patch.plane_a.normal);
+  return depth >= best_face_axis(parts, options.margin).gap - options.tolerance;
+}
+
 }  // namespace
 
 JointPatch clip_faces(const CollisionModel& model, const CollisionFace& face_a, const CollisionFace& face_b,
@@ -132,9 +146,10 @@ std::vector<JointPatch> clip_opposed_faces(const CollisionModel& model, int part
       patches.push_back(std::move(patch));
     }
   }
-  if (patches.size() <= 1) return patches;
+  if (patches.empty()) return patches;
   const auto by_gap = [](const JointPatch& p, const JointPatch& q) { return p.min_gap < q.min_gap; };
   const JointPatch best = *std::max_element(patches.begin(), patches.end(), by_gap);
+  if (!is_least_deep(model, best, pose_ab, options)) return {};
   std::erase_if(patches, [&](const JointPatch& p) { return !same_planes(p, best); });
   return patches;
 }

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "solver/collision/edge_contact.hpp"
 #include "solver/collision/face_clipping.hpp"
+#include "solver/collision/separating_axis.hpp"
 
 namespace cupola {
 namespace {

@@ -259,6 +259,33 @@ TEST(ContactDetector, SeparateFeetStaySeparatePatches) {
   EXPECT_EQ(contacts_at_rest(scene).patches.size(), 3u);
 }
 
+// Of slabs k and k + 2 the far faces are opposed too, and their planes have passed each other. The stack is
+// turned, so that boxes along the axes cannot tell them apart.
+TEST(ContactDetector, ThinSlabsTouchTheirNeighboursOnly) {
+  for (const double thickness : {0.2, 0.05, 0.02}) {
+    std::vector<BoxSpec> slabs{{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true}};
+    for (int k = 0; k < 20; ++k)
+      slabs.push_back({.center = {0, 0, (k + 0.5) * thickness}, .size = {1, 1, thickness}, .ring = k});
+    const Eigen::Isometry3d turn = some_motion(Vec3::Zero());
+    const Assembly scene = transformed(make_boxes(slabs), turn);
+    for (const double sunk : {0.0, 1e-3 * thickness, 0.2 * thickness}) {  // per joint
+      for (const double tilt : {0.0, 1e-3, 1e-2}) {  // rad over the thickness, every other slab
+        auto poses = initial_poses(scene);
+        for (std::size_t k = 1; k < poses.size(); ++k) {
+          poses[k].p_WB -= turn.linear().col(2) * (sunk * static_cast<double>(k));
+          poses[k].q_WB = AngleAxisd(k % 2 ? tilt * thickness : 0.0, turn.linear().col(1));
+        }
+        const ContactSet set = ContactDetector(scene, {}).update(poses);
+        EXPECT_EQ(set.patches.size(), 20u) << thickness << " " << sunk << " " << tilt;
+        for (const Contact& contact : set.contacts) {
+          EXPECT_EQ(contact.block_b, contact.block_a + 1) << thickness << " " << sunk << " " << tilt;
+          EXPECT_NEAR(contact.gap, -sunk, 0.51 * tilt * thickness + 1e-12);
+        }
+      }
+    }
+  }
+}
+
 TEST(ContactDetector, RejectsBadOptions) {
   const Assembly scene = box_on_floor(Vec3(1, 1, 1));
   DetectionOptions options;
