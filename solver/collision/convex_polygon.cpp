@@ -49,10 +49,37 @@ void simplify(std::vector<ClipCorner>* polygon, double tolerance) {
   *polygon = std::move(kept);
 }
 
+/// Distance of corner i from the chord of its neighbours.
+double height_over_chord(const std::vector<ClipCorner>& polygon, std::size_t i) {
+  const std::size_t n = polygon.size();
+  const Vec2& previous = polygon[(i + n - 1) % n].position;
+  const Vec2 chord = polygon[(i + 1) % n].position - previous;
+  return std::abs(cross(chord, polygon[i].position - previous)) / chord.norm();
+}
+
+/// Drops the flattest crossings of a subject's and a clip's edge, one by one; the edges that end and start at
+/// the other corners keep their names.
+void drop_flat_crossings(std::vector<ClipCorner>* polygon, int num_subject, double height) {
+  while (polygon->size() > 3) {
+    std::size_t flattest = polygon->size();
+    double smallest = height;
+    for (std::size_t i = 0; i < polygon->size(); ++i) {
+      const ClipCorner& corner = (*polygon)[i];
+      if ((corner.edge_in < num_subject) == (corner.edge_out < num_subject)) continue;
+      const double here = height_over_chord(*polygon, i);
+      if (here >= smallest) continue;
+      smallest = here;
+      flattest = i;
+    }
+    if (flattest == polygon->size()) return;
+    polygon->erase(polygon->begin() + static_cast<std::ptrdiff_t>(flattest));
+  }
+}
+
 }  // namespace
 
 std::vector<ClipCorner> clip_convex_polygon(std::span<const Vec2> subject, std::span<const Vec2> clip,
-                                            double tolerance) {
+                                            double tolerance, double crossing_height) {
   std::vector<ClipCorner> polygon;
   polygon.reserve(subject.size() + clip.size());
   for (std::size_t i = 0; i < subject.size(); ++i) polygon.push_back({subject[i], 0, static_cast<int>(i)});
@@ -61,6 +88,7 @@ std::vector<ClipCorner> clip_convex_polygon(std::span<const Vec2> subject, std::
     polygon = clip_by_line(polygon, clip[i], clip[(i + 1) % clip.size()], num_subject + static_cast<int>(i),
                            tolerance);
   simplify(&polygon, tolerance);
+  drop_flat_crossings(&polygon, num_subject, crossing_height);
   return polygon;
 }
 

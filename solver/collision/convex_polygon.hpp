@@ -20,9 +20,11 @@ struct ClipCorner {
 /// Overlap of two convex polygons, both counter-clockwise, by Sutherland-Hodgman clipping; empty when they do
 /// not overlap. Corners nearer than `tolerance` (m) to an edge count as on its inside, corners nearer than
 /// that to each other are one, and corners on the chord of their neighbours are dropped: two equal polygons
-/// give that polygon, whatever the rounding of their corners.
+/// give that polygon, whatever the rounding of their corners. Where two edges cross that nearly coincide, so
+/// that the crossing lies within `crossing_height` (m) of the chord of its neighbours, it is no corner: two
+/// equal polygons, one turned a little, give a polygon with as many corners.
 std::vector<ClipCorner> clip_convex_polygon(std::span<const Vec2> subject, std::span<const Vec2> clip,
-                                            double tolerance);
+                                            double tolerance, double crossing_height = 0.0);
 
 /// Area, m2, positive for counter-clockwise.
 double polygon_area(std::span<const Vec2> polygon);

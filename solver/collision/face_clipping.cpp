@@ -109,8 +109,8 @@ JointPatch clip_faces(const CollisionModel& model, const CollisionFace& face_a, 
   for (const Vec3& x : model.face_corners(face_b)) corners_b.push_back(pose_ab * x);
   std::reverse(corners_b.begin(), corners_b.end());  // counter-clockwise about the normal, as a's
   patch.min_gap = std::numeric_limits<double>::infinity();
-  for (const ClipCorner& corner :
-       clip_convex_polygon(project(corners_a, patch), project(corners_b, patch), options.tolerance)) {
+  for (const ClipCorner& corner : clip_convex_polygon(project(corners_a, patch), project(corners_b, patch),
+                                                      options.tolerance, options.min_width)) {
     patch.corners.push_back(
         {corner.position, corner_normal(corners_a, corners_b, patch, corner, options.max_angle)});
     patch.min_gap = std::min(patch.min_gap, lift_to_faces(patch, corner.position).gap);

@@ -55,6 +55,21 @@ TEST(ClipConvexPolygon, RoundedCornersMakeNoSlivers) {
   EXPECT_NEAR(polygon_area(polygon), 1.0, 1e-12);  // width 1 times the shaking of 1e-14, four sides
 }
 
+TEST(ClipConvexPolygon, SmallTurnsMakeNoCorners) {
+  // Turned by `angle` about its centre, each border of the unit square crosses the fixed one at its middle,
+  // angle^2 / 4 to angle / 4 above the chord: eight corners, or the four of one of the squares.
+  std::vector<Vec2> turned = box(-0.5, -0.5, 0.5, 0.5);
+  const double angle = 1e-4;
+  for (Vec2& x : turned) x = Vec2(x.x() - angle * x.y(), x.y() + angle * x.x());
+  const auto square = box(-0.5, -0.5, 0.5, 0.5);
+  EXPECT_EQ(clip_convex_polygon(square, turned, kTolerance).size(), 8u);
+  const auto flattened = clip_convex_polygon(square, turned, kTolerance, 1e-3);
+  EXPECT_EQ(flattened.size(), 4u);
+  EXPECT_NEAR(polygon_area(positions(flattened)), 1.0, 2.0 * angle);
+  // The corners of one polygon stay, however flat they are.
+  EXPECT_EQ(clip_convex_polygon(regular_polygon(64, 1.0), box(-2, -2, 2, 2), kTolerance, 0.1).size(), 64u);
+}
+
 TEST(ClipConvexPolygon, PolygonInsideTheOther) {
   EXPECT_EQ(overlap(box(1, 1, 2, 2), box(0, 0, 3, 3)), box(1, 1, 2, 2));
   EXPECT_DOUBLE_EQ(polygon_area(overlap(box(0, 0, 3, 3), box(1, 1, 2, 2))), 1.0);
