@@ -102,8 +102,10 @@ void time_stepping() {
   fmt::print("\nTime stepping, h = 0.01 s, memory, lagged factor, mean of steps 2 to 50\n");
   fmt::print("{:<12} {:<10} {:>9} {:>12} {:>10} {:>8} {:>10}\n", "c m/N", "tolerance", "contacts",
              "CPU ms/step", "iterations", "fact", "worst");
-  for (const auto& [c, tolerance] : {std::pair{1e-8, 1e-4}, {1e-8, 1e-8}, {1e-10, 1e-6}}) {
+  for (const auto& [slices, c, tolerance] :
+       {std::tuple{2, 1e-8, 1e-4}, {2, 1e-8, 1e-8}, {2, 1e-10, 1e-6}, {4, 1e-8, 1e-4}, {4, 1e-8, 1e-8}}) {
     DomeProblem dome;
+    dome.slices_per_block = slices;
     dome.h = 0.01;
     dome.compliance = c;
     ContactProblem problem = make_problem(dome);

@@ -80,9 +80,9 @@ TEST(Slices, DoNotChangeTheJointsOfAWall) {
 TEST(Slices, DoNotChangeTheJointsOfAPlanarOctagon) {
   OctagonalVault vault;
   vault.construction = OctagonalVault::Construction::planar_radial;
-  const auto four = joint_wrenches(sliced(vault, 20, 16, 4, Compliance::Per::area));
-  const auto eight = joint_wrenches(sliced(vault, 20, 16, 8, Compliance::Per::area));
-  EXPECT_LT(difference(four, eight), 1e-6);
+  const auto two = joint_wrenches(sliced(vault, 20, 16, 2, Compliance::Per::area));
+  for (const int slices : {4, 8})
+    EXPECT_LT(difference(two, joint_wrenches(sliced(vault, 20, 16, slices, Compliance::Per::area))), 1e-6);
 }
 
 // On conical beds more slices are another geometry: chords of the circle, whose error is O(1 / slices^2).

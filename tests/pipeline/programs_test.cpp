@@ -1,6 +1,8 @@
 // The built programs, run as a user runs them: what they say, what they return, what they leave on the disk.
 
 #include <algorithm>
+#include <cstdlib>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -73,6 +75,25 @@ TEST(Programs, WriteTheSameBytesEveryTime) {
   auto a = first.contents(), b = second.contents();
   for (auto* files : {&a, &b}) files->erase("work/results/summary.json");  // holds wall time and memory
   EXPECT_EQ(a, b);
+}
+
+// 1,280 blocks: the factor's dense blocks are large enough for a BLAS that were allowed to split them.
+TEST(Programs, WriteTheSameBytesOnOneAndTwoThreads) {
+  const std::string dome = kCases + "dome_circular.yaml";
+  std::map<std::string, std::string> files[2];
+  for (const int threads : {1, 2}) {
+    for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"})
+      setenv(name, std::to_string(threads).c_str(), 1);
+    const ProgramFolder folder;
+    ASSERT_EQ(folder.run("cupola-generate " + dome + " --output assembly.vtu --quiet").code, 0);
+    ASSERT_EQ(folder.run("cupola-solve " + dome + " --assembly assembly.vtu --output results --quiet").code,
+              0);
+    files[threads - 1] = folder.contents();
+    files[threads - 1].erase("work/results/summary.json");  // holds wall time and memory
+  }
+  for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) unsetenv(name);
+  EXPECT_GT(files[0].size(), 4u);
+  EXPECT_EQ(files[0], files[1]);
 }
 
 TEST(Programs, RunYamlIsACaseThatGivesTheSameModel) {

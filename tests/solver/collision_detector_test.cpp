@@ -149,6 +149,12 @@ TEST(ContactDetector, SlidingOffAnEdge) {
     EXPECT_NEAR(moved.patches[1].area, overlap, 1e-12);
     EXPECT_EQ(moved.patches[1].kind, JointKind::bed);
   }
+  // On the sliver width, off the edge, and a hair on either side of it: nothing carries.
+  for (const double overlap : {1e-3 - 1e-9, 1e-9, 0.0, -1e-9, -1e-3}) {
+    auto poses = initial_poses(scene);
+    poses[2].p_WB.x() += 1.0 - overlap;
+    EXPECT_EQ(ContactDetector(scene, {}).update(poses).contacts.size(), 4u) << overlap;
+  }
 }
 
 // A box that rocks on its edge stands on two points, whose normal is the slab's and whose gap is exact.

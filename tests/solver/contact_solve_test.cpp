@@ -142,6 +142,24 @@ TEST(SolveContact, CompliantDomeUnderCoulomb) {
   }
 }
 
+// Beyond mu = 1 Coulomb's law may have no answer in one step: whatever the passes reach is said, never a
+// crash or a converged that is not.
+TEST(SolveContact, CoulombBeyondOneEndsWithAStatus) {
+  scenes::DomeShape shape;
+  shape.rings = 8;
+  shape.blocks_per_ring = 12;
+  for (const double mu : {1.5, 3.0, 10.0}) {
+    for (const double c : {1e-8, 0.0}) {
+      const Solved s = solve(scenes::dome(shape, 0.01, {mu, c, c}), kCoulomb, 1e-8);
+      EXPECT_TRUE(s.summary.usable()) << mu << " " << s.summary.message;
+      EXPECT_TRUE(s.x.v.allFinite() && s.x.gamma.allFinite());
+      const bool met = s.residuals.momentum <= 1e-8 && s.residuals.contact_law <= 1e-8;
+      EXPECT_EQ(s.summary.ending == SolveEnding::converged, met)
+          << mu << " " << c << " " << s.summary.message;
+    }
+  }
+}
+
 // Random gaps open and close many contacts: interior point takes over from Newton.
 TEST(SolveContact, GapsAreSolvedByTheFallBack) {
   scenes::DomeShape shape;
