@@ -64,6 +64,7 @@ std::vector<HistoryRow> write_frames(const Evaluation& e, const ResultsReader& r
 
 void write_meshes(const Evaluation& e, const std::string& folder) {
   write_mesh(in_folder(folder, "joints.vtp"), joints_mesh(e));
+  write_mesh(in_folder(folder, "wrenches.vtp"), wrenches_mesh(e));
   write_mesh(in_folder(folder, "thrust_lines.vtp"), thrust_lines_mesh(e));
   write_mesh(in_folder(folder, "sections.vtp"), sections_mesh(e));
   write_mesh(in_folder(folder, "cracks.vtp"), cracks_mesh(e));

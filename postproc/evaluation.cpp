@@ -196,6 +196,8 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads);
   e.meridians = evaluate_meridians(e);
   e.sections = evaluate_sections(e);
+  for (const CutPlane& plane : scene.postproc.planes)
+    e.planes.push_back(plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads));
   count_lost_joints(results, &e);
   const MeridianEvaluation *rib = nullptr, *mid_sail = nullptr;
   for (const MeridianEvaluation& m : e.meridians) {

@@ -8,6 +8,7 @@
 #include "assembly/results_file.hpp"
 #include "postproc/block_fields.hpp"
 #include "postproc/cuts.hpp"
+#include "postproc/plane_cut.hpp"
 #include "postproc/ring_sums.hpp"
 #include "postproc/thrust_line.hpp"
 
@@ -60,6 +61,7 @@ struct Evaluation {
   std::vector<RingSum> rings;
   std::vector<MeridianEvaluation> meridians;
   std::vector<SectionEvaluation> sections;
+  std::vector<PlaneCut> planes;
   std::optional<double> rib_over_mid_sail;  ///< mean ratio of r on the meridians `rib` and `mid_sail`
   int lost_joints = 0;                      ///< loaded in the first frame, gone in the last
   std::vector<std::string> warnings;        ///< what a reader must know before the numbers

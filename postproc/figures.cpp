@@ -114,6 +114,8 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
     figures.push_back(levels_figure(e));
   for (const SectionEvaluation& section : e.sections)
     if (!section.polygons.empty()) figures.push_back(section_figure(e, section));
+  for (const PlaneCut& cut : e.planes)
+    if (!cut.polygons.empty()) figures.push_back(plane_figure(e, cut));
   for (const MeridianEvaluation& m : e.meridians)
     if (!m.hoop.empty()) figures.push_back(hoop_figure(m));
   if (e.shell.num_rings() > 0) {

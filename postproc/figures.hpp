@@ -30,6 +30,9 @@ Figure section_figure(const Evaluation& evaluation, const SectionEvaluation& sec
 /// slant, walls in elevation over their blocks (paper figures 6, 9, 11, 12).
 Figure levels_figure(const Evaluation& evaluation);
 
+/// The blocks cut by a plane and what the joints across it press or pull.
+Figure plane_figure(const Evaluation& evaluation, const PlaneCut& cut);
+
 /// Hoop force across a meridian over the height, through heads and beds.
 Figure hoop_figure(const MeridianEvaluation& meridian);
 

@@ -8,36 +8,12 @@
 
 #include "assembly/part_cells.hpp"
 #include "assembly/program.hpp"
+#include "postproc/mesh_parts.hpp"
 
 namespace cupola {
 namespace {
 
-using Ints = std::vector<std::int32_t>;
-using Doubles = std::vector<double>;
 using CellType = Mesh::CellType;
-
-int add(Mesh* mesh, const Vec3& p) {
-  return mesh->add_point(p.x(), p.y(), p.z());
-}
-
-void append(const Vec3& v, Doubles* values) {
-  values->insert(values->end(), v.begin(), v.end());
-}
-
-std::vector<MeshArray> about(const Evaluation& e, double scale) {
-  return {{"title", 1, std::vector<std::string>{e.scene.title}},
-          {"program_version", 1, std::vector<std::string>{program_version()}},
-          {"status", 1, std::vector<std::string>{to_string(e.summary.status)}},
-          {"segment_scale_m_per_N", 1, Doubles{scale}}};
-}
-
-double largest_resultant(const Evaluation& e) {
-  double largest = 0.0;
-  for (const Wrench& w : e.last.from_below) largest = std::max(largest, w.force.norm());
-  for (const JointWrench& joint : e.last.joints.joints)
-    largest = std::max(largest, joint.wrench.force.norm());
-  return largest;
-}
 
 /// The force as it is drawn: on the upper block of a bed, on the second block elsewhere.
 Vec3 drawn_force(const JointWrench& joint) {
@@ -70,7 +46,7 @@ DisplacedBlocks::DisplacedBlocks(const Assembly& assembly) : assembly_(assembly)
 
 Mesh DisplacedBlocks::at(const FrameEvaluation& e) const {
   Mesh mesh = cells_;
-  Doubles displacement;
+  MeshDoubles displacement;
   displacement.reserve(3 * split_.vertices.size());
   std::vector<Mat3> rotation;
   for (const Eigen::Vector4d& q : e.frame.blocks.quaternion_wxyz)
@@ -79,18 +55,18 @@ Mesh DisplacedBlocks::at(const FrameEvaluation& e) const {
     const int b = vertex_block_[v];
     const Vec3 moved =
         e.frame.blocks.position[b] + rotation[b] * (split_.vertices[v] - assembly_.blocks[b].centroid);
-    add(&mesh, moved);
+    add_point(&mesh, moved);
     append(moved - split_.vertices[v], &displacement);
   }
   mesh.point_data = {{"displacement_m", 3, std::move(displacement)}};
 
   const auto ints = [&](const char* name, auto get) {
-    Ints values;
+    MeshInts values;
     for (const Part& part : assembly_.parts) values.push_back(get(part));
     mesh.cell_data.push_back({name, 1, std::move(values)});
   };
   const auto doubles = [&](const char* name, auto get) {
-    Doubles values;
+    MeshDoubles values;
     for (const Part& part : assembly_.parts) values.push_back(get(e.fields[part.block]));
     mesh.cell_data.push_back({name, 1, std::move(values)});
   };
@@ -106,7 +82,7 @@ Mesh DisplacedBlocks::at(const FrameEvaluation& e) const {
   ints("block", [](const Part& p) { return p.block; });
   ints("ring", [](const Part& p) { return p.ring; });
   ints("kind", [&](const Part& p) { return static_cast<int>(assembly_.blocks[p.block].kind); });
-  mesh.field_data = {{"time_s", 1, Doubles{e.frame.time}},
+  mesh.field_data = {{"time_s", 1, MeshDoubles{e.frame.time}},
                      {"program_version", 1, std::vector<std::string>{program_version()}}};
   return mesh;
 }
@@ -126,23 +102,23 @@ double segment_scale(const Assembly& assembly, double largest_force) {
 
 Mesh joints_mesh(const Evaluation& e) {
   const auto& joints = e.last.joints.joints;
-  const double scale = segment_scale(e.assembly, largest_resultant(e));
+  const double scale = common_scale(e);
   Mesh mesh;
-  for (const JointWrench& joint : joints) add(&mesh, joint.wrench.point);
-  for (const JointWrench& joint : joints) add(&mesh, joint.wrench.point + scale * drawn_force(joint));
+  for (const JointWrench& joint : joints) add_point(&mesh, joint.wrench.point);
+  for (const JointWrench& joint : joints) add_point(&mesh, joint.wrench.point + scale * drawn_force(joint));
   const int n = static_cast<int>(joints.size());
   for (int i = 0; i < n; ++i) mesh.add_cell(CellType::vertex, {i});
   for (int i = 0; i < n; ++i) mesh.add_cell(CellType::polyline, {i, n + i});
 
   // Points and tips carry the same values, and so do the two cells of a joint.
   const auto ints = [&](const char* name, auto get) {
-    Ints values;
+    MeshInts values;
     for (int repeat = 0; repeat < 2; ++repeat)
       for (const JointWrench& joint : joints) values.push_back(get(joint));
     mesh.point_data.push_back({name, 1, std::move(values)});
   };
   const auto doubles = [&](const char* name, auto get, int components = 1) {
-    Doubles values;
+    MeshDoubles values;
     for (int repeat = 0; repeat < 2; ++repeat)
       for (const JointWrench& joint : joints) {
         if constexpr (std::is_same_v<decltype(get(joint)), double>)
@@ -170,115 +146,44 @@ Mesh joints_mesh(const Evaluation& e) {
   ints("block_b", [](const JointWrench& j) { return j.joint.block_b; });
   ints("kind", [](const JointWrench& j) { return static_cast<int>(j.joint.kind); });
   ints("ring", [](const JointWrench& j) { return j.joint.ring; });
-  Ints tip(static_cast<size_t>(2 * n), 0);
+  MeshInts tip(static_cast<size_t>(2 * n), 0);
   std::fill(tip.begin() + n, tip.end(), 1);
   mesh.point_data.push_back({"tip", 1, std::move(tip)});
   mesh.field_data = about(e, scale);
   return mesh;
 }
 
-Mesh thrust_lines_mesh(const Evaluation& e) {
-  const double scale = segment_scale(e.assembly, largest_resultant(e));
+Mesh wrenches_mesh(const Evaluation& e) {
+  const double scale = common_scale(e);
   Mesh mesh;
-  Ints what, meridian;
-  Doubles resultant;
-  const auto add_line = [&](const std::vector<Vec3>& points, int kind, int index, double r) {
-    if (points.size() < 2) return;
-    std::vector<int> ids;
-    for (const Vec3& p : points) ids.push_back(add(&mesh, p));
-    mesh.add_cell(CellType::polyline, ids);
-    what.push_back(kind);
-    meridian.push_back(index);
-    resultant.push_back(r);
-  };
-  for (size_t m = 0; m < e.meridians.size(); ++m) {
-    const ThrustLine& line = e.meridians[m].thrust;
-    const int index = static_cast<int>(m);
-    std::vector<Vec3> thrust, intrados, extrados;
-    for (const ThrustPoint& p : line.points) {
-      thrust.push_back(p.point);
-      intrados.push_back(p.intrados);
-      extrados.push_back(p.extrados);
-      add_line({p.point, p.point + scale * p.force}, 2, index, p.r);
+  MeshInts block, ring, kind, tip;
+  MeshDoubles force, couple, magnitude, couple_length;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
+    const Wrench& w = e.last.from_below[b];
+    const CentralAxis axis = central_axis(w);
+    if (e.assembly.blocks[b].fixed || !axis.exists) continue;
+    const int start = add_point(&mesh, axis.point);
+    const int end = add_point(&mesh, axis.point + scale * w.force);
+    mesh.add_cell(CellType::polyline, {start, end});
+    for (const int at_tip : {0, 1}) {
+      tip.push_back(at_tip);
+      append(w.force, &force);
+      append(axis.couple, &couple);
     }
-    add_line(thrust, 0, index, 0.0);
-    add_line(line.envelope, 1, index, 0.0);
-    add_line(intrados, 3, index, 0.0);
-    add_line(extrados, 4, index, 0.0);
+    block.push_back(static_cast<int>(b));
+    ring.push_back(e.assembly.blocks[b].ring);
+    kind.push_back(static_cast<int>(e.assembly.blocks[b].kind));
+    magnitude.push_back(w.force.norm());
+    couple_length.push_back(axis.couple_length);
   }
-  mesh.cell_data = {{"what", 1, std::move(what)},
-                    {"meridian", 1, std::move(meridian)},
-                    {"resultant_N", 1, std::move(resultant)}};
+  mesh.point_data = {
+      {"force_N", 3, std::move(force)}, {"couple_Nm", 3, std::move(couple)}, {"tip", 1, std::move(tip)}};
+  mesh.cell_data = {{"block", 1, std::move(block)},
+                    {"ring", 1, std::move(ring)},
+                    {"kind", 1, std::move(kind)},
+                    {"resultant_N", 1, std::move(magnitude)},
+                    {"couple_length_m", 1, std::move(couple_length)}};
   mesh.field_data = about(e, scale);
-  return mesh;
-}
-
-Mesh sections_mesh(const Evaluation& e) {
-  const double scale = segment_scale(e.assembly, largest_resultant(e));
-  Mesh mesh;
-  Ints what, block;
-  Doubles height, resultant;
-  const auto note = [&](int kind, int b, double z, double r) {
-    what.push_back(kind);
-    block.push_back(b);
-    height.push_back(z);
-    resultant.push_back(r);
-  };
-  for (const SectionEvaluation& section : e.sections) {
-    for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
-      const Wrench& w = e.last.from_below[b];
-      const CentralAxis axis = central_axis(w);
-      if (e.assembly.blocks[b].ring != section.ring || section.ring < 0 || !axis.exists) continue;
-      const int start = add(&mesh, axis.point);
-      mesh.add_cell(CellType::polyline, {start, add(&mesh, axis.point + scale * w.force)});
-      note(0, static_cast<int>(b), section.height, w.force.norm());
-    }
-  }
-  for (const SectionEvaluation& section : e.sections) {
-    for (const CutPolygon& polygon : section.polygons) {
-      std::vector<int> ids;
-      for (const Vec3& p : polygon.outline) ids.push_back(add(&mesh, p));
-      mesh.add_cell(CellType::polygon, ids);
-      note(1, polygon.block, section.height, 0.0);
-    }
-  }
-  mesh.cell_data = {{"what", 1, std::move(what)},
-                    {"block", 1, std::move(block)},
-                    {"height_m", 1, std::move(height)},
-                    {"resultant_N", 1, std::move(resultant)}};
-  mesh.field_data = about(e, scale);
-  return mesh;
-}
-
-Mesh cracks_mesh(const Evaluation& e) {
-  const ContactTable& c = e.last.frame.contacts;
-  Mesh mesh;
-  Ints joint_id, kind;
-  Doubles opening, slip;
-  for (size_t j = 0; j < e.last.joints.joints.size(); ++j) {
-    const JointWrench& joint = e.last.joints.joints[j];
-    std::vector<Vec3> open;
-    for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
-      const int row = e.last.joints.contacts[i];
-      if (c.normal_force[row] <= 0.0 && c.gap[row] > 0.0) open.push_back(c.point[row]);
-    }
-    if (open.size() < 2) continue;
-    const PlanarHull hull = planar_hull(open, joint.patch.plane.normal);
-    if (hull.outline.size() < 2) continue;
-    std::vector<int> ids;
-    for (const Eigen::Vector2d& corner : hull.outline) ids.push_back(add(&mesh, hull.position(corner)));
-    if (ids.size() > 2) ids.push_back(ids.front());
-    mesh.add_cell(CellType::polyline, ids);
-    joint_id.push_back(static_cast<int>(j));
-    kind.push_back(static_cast<int>(joint.joint.kind));
-    opening.push_back(joint.opening);
-    slip.push_back(joint.slip);
-  }
-  mesh.cell_data = {{"opening_m", 1, std::move(opening)},
-                    {"slip_m", 1, std::move(slip)},
-                    {"joint", 1, std::move(joint_id)},
-                    {"kind", 1, std::move(kind)}};
-  mesh.field_data = about(e, 0.0);
   return mesh;
 }
 

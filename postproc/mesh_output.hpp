@@ -26,12 +26,16 @@ double segment_scale(const Assembly& assembly, double largest_force);
 /// second) block, drawn to the scale in the field data. The array `tip` is 1 at a segment's far end.
 Mesh joints_mesh(const Evaluation& evaluation);
 
+/// The wrench on every block from the ring below: a segment from its central axis, to the joints' scale.
+Mesh wrenches_mesh(const Evaluation& evaluation);
+
 /// Thrust lines, their envelopes and lines of action, and the skins along each meridian, as polylines told
 /// apart by the cell array `what`: 0 thrust line, 1 envelope, 2 line of action, 3 intrados, 4 extrados.
 Mesh thrust_lines_mesh(const Evaluation& evaluation);
 
-/// Outlines of the blocks cut by the sections, and the resultants from below of the ring nearest to each, as
-/// segments to the joints' scale. `what`: 0 segment, 1 outline.
+/// Outlines of the blocks cut by sections and planes, with the resultants across the bed nearest to each
+/// section and the joint forces across each plane as segments to the joints' scale. `what`: 0 segment, 1
+/// outline.
 Mesh sections_mesh(const Evaluation& evaluation);
 
 /// Open joints: the outline of each joint's points without force and with a gap, one polyline per joint.

@@ -28,6 +28,7 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("program_version", s.program_version);
   visit("blocks", s.blocks);
   visit("weight_N", s.weight_N);
+  visit("block_size_m", s.block_size_m);
   visit("friction", s.friction);
   visit("equilibrium_residual", s.equilibrium_residual);
   visit("largest_ring_difference", s.largest_ring_difference);
@@ -85,6 +86,9 @@ PostSummary post_summary(const Evaluation& e) {
   s.program_version = program_version();
   s.blocks = e.summary.free_blocks;
   s.weight_N = e.summary.weight_N;
+  double volume = 0.0;
+  for (const Block& block : e.assembly.blocks) volume += block.fixed ? 0.0 : block.volume;
+  if (s.blocks > 0) s.block_size_m = std::cbrt(volume / s.blocks);
   s.friction = e.scene.joints.friction;
   s.equilibrium_residual = e.summary.equilibrium_residual;
   s.max_displacement_m = e.summary.max_displacement_m;
@@ -107,8 +111,8 @@ PostSummary post_summary(const Evaluation& e) {
   if (!e.rings.empty() && e.summary.weight_N > 0.0)
     s.thrust_over_weight = e.rings.front().radial_thrust / e.summary.weight_N;
   for (const MeridianEvaluation& m : e.meridians)
-    s.thrust_lines.push_back(
-        {m.thrust.name, m.thrust.inside, m.thrust.least_face_distance, m.thrust.least_geometric_safety});
+    s.thrust_lines.push_back({m.thrust.name, m.thrust.undefined, m.thrust.inside,
+                              m.thrust.least_face_distance, m.thrust.least_geometric_safety});
   return s;
 }
 
@@ -126,9 +130,17 @@ std::string post_summary_json(const Evaluation& e) {
   json["thrust_lines"] = Json::array();
   for (const PostSummary::Line& line : s.thrust_lines)
     json["thrust_lines"].push_back({{"name", line.name},
+                                    {"undefined_beds", line.undefined},
                                     {"inside", line.inside},
                                     {"least_face_distance_m", line.least_face_distance_m},
                                     {"least_geometric_safety", line.least_geometric_safety}});
+  json["planes"] = Json::array();
+  for (const PlaneCut& cut : e.planes)
+    json["planes"].push_back(
+        {{"name", cut.name},
+         {"through_N", cut.across.force.dot(cut.normal)},
+         {"along_N", (cut.across.force - cut.across.force.dot(cut.normal) * cut.normal).norm()},
+         {"relative_difference", cut.relative_difference}});
   json["rings"] = rings_json(e);
   return json.dump(2) + "\n";
 }
@@ -154,6 +166,7 @@ PostSummary read_post_summary(const std::string& folder) {
   for (const Json& entry : json["thrust_lines"]) {
     PostSummary::Line line;
     read(entry, "name", &line.name);
+    read(entry, "undefined_beds", &line.undefined);
     read(entry, "inside", &line.inside);
     read(entry, "least_face_distance_m", &line.least_face_distance_m);
     read(entry, "least_geometric_safety", &line.least_geometric_safety);

@@ -15,6 +15,7 @@ struct PostSummary {
   std::string title, status, friction_law, program_version, folder;
   int blocks = 0;
   double weight_N = 0.0;
+  double block_size_m = 0.0;  ///< cube root of the free blocks' mean volume
   double friction = 0.0;
   double largest_ring_difference = 0.0;  ///< over the rings, relative
   double mean_cv_pressure = 0.0;         ///< mean over the rings
@@ -29,6 +30,7 @@ struct PostSummary {
   std::optional<double> critical_value;  ///< of a limit analysis
   struct Line {
     std::string name;
+    int undefined = 0;  ///< beds without a place in the thickness
     bool inside = false;
     double least_face_distance_m = 0.0;
     double least_geometric_safety = 0.0;

@@ -30,16 +30,26 @@ std::string verdict_section(const Evaluation& e) {
                            html_text(verdict_text(e.summary)), html_text(e.summary.message + "."));
 }
 
+std::string thrust_text(const ThrustLine& line) {
+  const int placed = static_cast<int>(line.points.size()) - line.undefined;
+  if (placed == 0) return fmt::format("Thrust line {}: no bed presses, so that there is none.", line.name);
+  return fmt::format(
+      "Thrust line {}: {} inside the thickness; nearest face {:.3g} m, geometric safety {:.3g}{}.", line.name,
+      line.inside ? "stays" : "does not stay", line.least_face_distance, line.least_geometric_safety,
+      line.undefined == 0 ? ""
+                          : fmt::format("; {} of {} beds have none, their resultants run along them",
+                                        line.undefined, line.points.size()));
+}
+
 /// What the numbers say about the structure, each sentence with its number.
 std::string findings_section(const Evaluation& e) {
   const PostSummary s = post_summary(e);
   std::string out = "<h2>What the forces say</h2>\n<ul>\n";
   const auto item = [&out](const std::string& text) { out += "<li>" + html_text(text) + "</li>\n"; };
-  for (const MeridianEvaluation& m : e.meridians)
-    item(fmt::format(
-        "Thrust line {}: {} inside the thickness; nearest face {:.3g} m, geometric safety {:.3g}.",
-        m.thrust.name, m.thrust.inside ? "stays" : "does not stay", m.thrust.least_face_distance,
-        m.thrust.least_geometric_safety));
+  for (const MeridianEvaluation& m : e.meridians) item(thrust_text(m.thrust));
+  for (const PlaneCut& cut : e.planes)
+    item(fmt::format("Across the plane {} the joints press with {} on what lies beyond.", cut.name,
+                     force_text(cut.across.force.dot(cut.normal))));
   if (!e.rings.empty()) {
     item(fmt::format("In every ring the joint forces carry the load above to {:.1e} of it.",
                      s.largest_ring_difference));
@@ -130,8 +140,9 @@ std::string files_section() {
   };
   row("blocks.pvd", "displaced blocks of every frame with their fields, for ParaView");
   row("joints.vtp", "every joint's wrench as points and as segments to scale");
+  row("wrenches.vtp", "the wrench on every block from the ring below, on its central axis");
   row("thrust_lines.vtp", "thrust lines, envelopes and lines of action");
-  row("sections.vtp", "sections with the resultants of the nearest ring");
+  row("sections.vtp", "sections and planes with the resultants across them");
   row("cracks.vtp", "open joints as lines");
   row("views.py", "the standard views, for pvbatch or as a macro of ParaView");
   row("summary.json", "the numbers that compare runs");

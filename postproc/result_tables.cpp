@@ -130,7 +130,10 @@ Table block_table(const Evaluation& e) {
                {"moment_y_Nm", "N m", ""},
                {"moment_z_Nm", "N m", ""},
                {"resultant_N", "N", "its norm"},
-               {"couple_length_m", "m", "couple over force on its central axis"},
+               {"axis_x_m", "m", "point of its central axis nearest to the centroid"},
+               {"axis_y_m", "m", ""},
+               {"axis_z_m", "m", ""},
+               {"couple_length_m", "m", "couple over force on that axis"},
                {"meridional_force_N_per_m", "N/m", "per metre of ring, compression positive"},
                {"hoop_force_N_per_m", "N/m", "per metre of meridian, compression positive"},
                {"friction_use", "", "largest of its joints"},
@@ -147,6 +150,7 @@ Table block_table(const Evaluation& e) {
     const Block& block = e.assembly.blocks[b];
     const BlockFields& v = e.last.fields[b];
     const Wrench& w = e.last.from_below[b];
+    const CentralAxis axis = central_axis(w);
     const Vec3& d = e.last.frame.blocks.displacement[b];
     t.rows.push_back({static_cast<int>(b),
                       to_string(block.kind),
@@ -165,6 +169,9 @@ Table block_table(const Evaluation& e) {
                       w.moment.y(),
                       w.moment.z(),
                       v.resultant,
+                      axis.point.x(),
+                      axis.point.y(),
+                      axis.point.z(),
                       v.couple_length,
                       v.meridional_force,
                       v.hoop_force,
@@ -188,7 +195,8 @@ Table thrust_table(const ThrustLine& line) {
                {"x_m", "m", "point of the thrust line"},
                {"y_m", "m", ""},
                {"z_m", "m", ""},
-               {"position", "", "through the thickness: 0 intrados, 1 extrados"},
+               {"position", "",
+                "through the thickness: 0 intrados, 1 extrados; nan: none, the resultant runs along the bed"},
                {"r_N", "N", "norm of the resultant"},
                {"v_N", "N", "its vertical component"},
                {"force_x_N", "N", "resultant on the part above, in the meridian plane"},
@@ -241,6 +249,30 @@ Table section_table(const Evaluation& e, const SectionEvaluation& section) {
   return t;
 }
 
+Table plane_table(const Evaluation& e, const PlaneCut& cut) {
+  Table t{"cut_" + cut.name, "Joints across the plane " + cut.name, {}, {}};
+  t.columns = {{"block_a", "", "first block"},
+               {"block_b", "", "second block"},
+               {"kind", "", "bed, head, base or other"},
+               {"ring", "", "course of the upper part"},
+               {"x_m", "m", "centre of pressure"},
+               {"y_m", "m", ""},
+               {"z_m", "m", ""},
+               {"force_x_N", "N", "on the block beyond the plane"},
+               {"force_y_N", "N", ""},
+               {"force_z_N", "N", ""},
+               {"through_N", "N", "in the plane's normal, compression positive"},
+               {"along_N", "N", "in the plane"}};
+  for (const int j : cut.joints) {
+    const JointWrench& joint = e.last.joints.joints[j];
+    const Vec3 &x = joint.centre_of_pressure, f = force_beyond(cut, e.assembly, joint);
+    const double through = f.dot(cut.normal);
+    t.rows.push_back({joint.joint.block_a, joint.joint.block_b, to_string(joint.joint.kind), joint.joint.ring,
+                      x.x(), x.y(), x.z(), f.x(), f.y(), f.z(), through, (f - through * cut.normal).norm()});
+  }
+  return t;
+}
+
 std::vector<Table> result_tables(const Evaluation& e) {
   std::vector<Table> tables;
   if (!e.rings.empty()) tables.push_back(ring_table(e));
@@ -249,6 +281,7 @@ std::vector<Table> result_tables(const Evaluation& e) {
     if (!m.hoop.empty()) tables.push_back(hoop_table(m));
   }
   for (const SectionEvaluation& section : e.sections) tables.push_back(section_table(e, section));
+  for (const PlaneCut& cut : e.planes) tables.push_back(plane_table(e, cut));
   tables.push_back(joint_table(e));
   tables.push_back(block_table(e));
   return tables;

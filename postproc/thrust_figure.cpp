@@ -43,12 +43,16 @@ std::string thrust_data(const ThrustLine& line, bool arch, const ForceUnit& unit
     skins[0].push_back(at(p.intrados));
     skins[1].push_back(at(p.extrados));
     beds.insert(beds.end(), {at(p.intrados), at(p.extrados), {}});
-    thrust.push_back(at(p.point));
-    const double thickness = (p.extrados - p.intrados).norm();
-    const Vec3 reach = longest > 0.0 ? Vec3(1.5 * thickness / longest * p.force) : Vec3(Vec3::Zero());
-    action.insert(action.end(), {at(p.point - reach), at(p.point + reach), {}});
-    graphs.push_back({arch ? abscissa(line, arch, p.point) : p.height(), unit.per_newton * p.r,
-                      unit.per_newton * p.v, p.couple_length});
+    if (p.is_placed()) {
+      thrust.push_back(at(p.point));
+      const double thickness = (p.extrados - p.intrados).norm();
+      const Vec3 reach = longest > 0.0 ? Vec3(1.5 * thickness / longest * p.force) : Vec3(Vec3::Zero());
+      action.insert(action.end(), {at(p.point - reach), at(p.point + reach), {}});
+    } else {
+      thrust.push_back({});  // the line is interrupted
+    }
+    graphs.push_back({arch ? 0.5 * (p.intrados.x() + p.extrados.x()) : p.height(), unit.per_newton * p.r,
+                      unit.per_newton * p.v, p.couple_length, p.face_distance});
   }
   for (const Vec3& p : line.envelope) envelope.push_back(at(p));
   return data_block("intrados", skins[0]) + data_block("extrados", skins[1]) + data_block("beds", beds) +
@@ -67,11 +71,11 @@ std::string profile_plot() {
       kOrange, kGreen, kSky);
 }
 
-/// Three panels that share the height axis: profile, resultant, couple length.
+/// Four panels that share the height axis: profile, resultant, couple length, distance to the nearer face.
 std::string vault_panels(const ThrustLine& line, int width, int height, const ForceUnit& unit) {
   Range x, z;
   for (const ThrustPoint& p : line.points) {
-    for (const Vec3& q : {p.intrados, p.extrados, p.point}) {
+    for (const Vec3& q : {p.intrados, p.extrados, p.is_placed() ? p.point : p.intrados}) {
       x.add(abscissa(line, false, q));
       z.add(q.z());
     }
@@ -81,9 +85,9 @@ std::string vault_panels(const ThrustLine& line, int width, int height, const Fo
   // One metre is as long across as up: the panel's height in pixels sets its width.
   constexpr double kBottom = 0.10, kTop = 0.93, kLeft = 0.07;
   const double pixels_per_metre = (kTop - kBottom) * height / (z.high - z.low);
-  const double right = std::min(0.60, kLeft + (x.high - x.low) * pixels_per_metre / width);
+  const double right = std::min(0.50, kLeft + (x.high - x.low) * pixels_per_metre / width);
   x.high = std::max(x.high, x.low + (right - kLeft) * width / pixels_per_metre);
-  const double gap = 0.055, panel = (0.98 - right - 2 * gap) / 2;
+  const double gap = 0.045, panel = (0.98 - right - 3 * gap) / 3;
   const auto margins = [&](double left, double end) {
     return fmt::format(
         "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen "
@@ -101,33 +105,43 @@ std::string vault_panels(const ThrustLine& line, int width, int height, const Fo
              "plot $graphs using 2:1 w lp lc rgb '{0}' pt 7 ps 0.4 title 'r: norm', $graphs using 3:1 w l lc "
              "rgb '{1}' dt 2 lw 2 title 'v: vertical'\n",
              kBlue, kOrange, unit.name) +
-         margins(0.98 - panel, 0.98) +
+         margins(right + 2 * gap + panel, right + 2 * gap + 2 * panel) +
          fmt::format(
              "set xlabel 'couple length (m)'\nset xrange [0:*]\nset xtics 0,0.1\nif (couple < 0.2) {{set "
              "xtics auto; set xrange [0:0.2]; set xtics 0.05}}\n"
-             "plot $graphs using 4:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle\nunset multiplot\n",
-             kPurple);
+             "plot $graphs using 4:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle\n",
+             kPurple) +
+         margins(0.98 - panel, 0.98) +
+         fmt::format(
+             "set xlabel 'distance to the nearer face (m)'\nset xrange [*<0:*]\nset xtics auto\n"
+             "plot $graphs using 5:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle\nunset multiplot\n",
+             kGreen);
 }
 
-/// Profile above, graphs below, over the arch's length.
+/// Profile above; resultant, couple length and distance to the nearer face below, over the arch's length.
 std::string arch_panels(const ForceUnit& unit) {
   const auto band = [](double bottom, double top) {
     return fmt::format("set bmargin at screen {}\nset tmargin at screen {}\n", bottom, top);
   };
-  return "set multiplot\nset lmargin at screen 0.09\nset rmargin at screen 0.97\n" + band(0.50, 0.97) +
+  return "set multiplot\nset lmargin at screen 0.09\nset rmargin at screen 0.97\n" + band(0.57, 0.97) +
          "set size ratio -1\nset ylabel 'height (m)'\nset key bottom center\n" + profile_plot() +
-         "set size noratio\nset key top center\n" + band(0.29, 0.44) +
+         "set size noratio\nset key top center\n" + band(0.41, 0.51) +
          fmt::format(
              "set ylabel 'resultant ({2})'\nset yrange [0:*]\n"
              "plot $graphs using 1:2 w lp lc rgb '{0}' pt 7 ps 0.4 title 'r: norm', $graphs using "
              "1:(abs($3)) "
              "w l lc rgb '{1}' dt 2 title 'v: vertical'\n",
              kBlue, kOrange, unit.name) +
-         band(0.08, 0.23) +
+         band(0.245, 0.345) +
          fmt::format(
-             "set xlabel 'x (m)'\nset ylabel 'couple length (m)'\nset yrange [0:0.001<*]\n"
-             "plot $graphs using 1:4 w lp lc rgb '{}' pt 7 ps 0.4 notitle\nunset multiplot\n",
-             kPurple);
+             "set ylabel 'couple (m)'\nset yrange [0:0.001<*]\n"
+             "plot $graphs using 1:4 w lp lc rgb '{}' pt 7 ps 0.4 notitle\n",
+             kPurple) +
+         band(0.08, 0.18) +
+         fmt::format(
+             "set xlabel 'x (m)'\nset ylabel 'to the face (m)'\nset yrange [*<0:*]\n"
+             "plot $graphs using 1:5 w lp lc rgb '{}' pt 7 ps 0.4 notitle\nunset multiplot\n",
+             kGreen);
 }
 
 }  // namespace
@@ -147,12 +161,15 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
                  : fmt::format("Thrust line, meridian {} ({:g} deg)", line.name, line.azimuth_deg);
   f.caption = fmt::format(
       "The line {} between intrados and extrados; it comes within {:.3g} m of a face, geometric safety "
-      "{:.3g}. r is the "
+      "{:.3g}{}. r is the "
       "norm of the resultant that crosses the bed in one block's width, v its vertical component; the "
       "largest couple "
       "length is {:.3g} m.",
-      line.inside ? "stays" : "does not stay", line.least_face_distance, line.least_geometric_safety, couple);
-  f.width = 1200;
+      line.inside ? "stays" : "does not stay", line.least_face_distance, line.least_geometric_safety,
+      line.undefined == 0 ? ""
+                          : fmt::format(", {} beds left out whose resultant runs along them", line.undefined),
+      couple);
+  f.width = 1400;
   f.height = arch ? 900 : 640;
   f.commands = plot_style() + fmt::format("couple = {}\n", couple) + thrust_data(line, arch, unit) +
                (arch ? arch_panels(unit) : vault_panels(line, f.width, f.height, unit));

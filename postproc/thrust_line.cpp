@@ -11,6 +11,12 @@
 namespace cupola {
 namespace {
 
+/// A resultant that presses on its bed with less than this share of itself runs along the bed: its line of
+/// action meets the bed's plane far outside, or anywhere. Dry joints stay above it up to a friction of 10.
+constexpr double kLeastPressing = 0.1;
+/// A resultant below this share of the line's largest is what the solver's residual leaves.
+constexpr double kLeastResultant = 1e-6;
+
 /// The facets of one block on one bed, the azimuths they cover, and their mean plane.
 struct BlockBed {
   std::vector<const BedFacet*> facets;
@@ -139,10 +145,15 @@ bool find_skins(const std::vector<BedFacet>& bed, std::optional<double> meridian
 }
 
 /// Sums the strip's blocks on one bed. False when nothing presses there.
+///
+/// The strip's position is the mean of the blocks' own, weighted by how hard each presses on its bed: so the
+/// moments of the normal forces add up, and a force along the bed, whose line meets it anywhere, counts for
+/// nothing.
 bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, ThrustPoint* point) {
   Wrench sum;
   sum.point = 0.5 * (point->intrados + point->extrados);
-  double weighted_position = 0.0, weight = 0.0;
+  double weighted_position = 0.0, pressing = 0.0;
+  const Vec3& onwards = in.shell->direction(bed);
   for (const auto& [id, block] : blocks_on(in.shell->beds[bed])) {
     const double share = meridian ? overlap(block, *meridian, in.shell->block_width_rad) : 1.0;
     if (share <= 0.0) continue;
@@ -151,12 +162,14 @@ bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, T
     const Vec3 x = axis_in_plane(central_axis(w), w.force, block.plane);
     const double turn = meridian ? *meridian - 0.5 * (block.from + block.to) : 0.0;
     sum.add(share * turned(w, turn));
-    weighted_position += share * w.force.norm() * position_in(block, x);
-    weight += share * w.force.norm();
+    const double normal =
+        std::copysign(1.0, block.plane.normal.dot(onwards)) * block.plane.normal.dot(w.force);
+    weighted_position += share * normal * position_in(block, x);
+    pressing += share * normal;
     ++point->blocks;
   }
-  if (weight == 0.0) return false;
-  point->position = weighted_position / weight;
+  if (point->blocks == 0) return false;
+  if (pressing > kLeastPressing * sum.force.norm()) point->position = weighted_position / pressing;
   point->force = sum.force;
   point->r = sum.force.norm();
   point->v = sum.force.z();
@@ -164,10 +177,13 @@ bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, T
   return true;
 }
 
-void measure(ThrustPoint* point) {
-  const double thickness = (point->extrados - point->intrados).norm();
-  point->point = point->intrados + point->position * (point->extrados - point->intrados);
-  point->face_distance = thickness * std::min(point->position, 1.0 - point->position);
+/// Places the resultant in the thickness; NaN all through where its position is not defined.
+void measure(ThrustPoint* point, double largest_resultant) {
+  if (point->r <= kLeastResultant * largest_resultant)
+    point->position = std::numeric_limits<double>::quiet_NaN();
+  const Vec3 through = point->extrados - point->intrados;
+  point->point = point->intrados + point->position * through;
+  point->face_distance = through.norm() * (0.5 - std::abs(point->position - 0.5));
   point->geometric_safety = 0.5 / std::abs(point->position - 0.5);
 }
 
@@ -201,21 +217,27 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
     ThrustPoint point;
     point.bed = bed;
     if (!find_skins(input.shell->beds[bed], meridian, &point)) continue;
-    if (!sum_strip(input, bed, meridian, &point)) continue;
-    measure(&point);
-    line.points.push_back(point);
+    if (sum_strip(input, bed, meridian, &point)) line.points.push_back(point);
   }
-  line.inside = !line.points.empty();
+  double largest = 0.0;
+  for (const ThrustPoint& point : line.points) largest = std::max(largest, point.r);
+  for (ThrustPoint& point : line.points) measure(&point, largest);
+  line.undefined = static_cast<int>(std::count_if(line.points.begin(), line.points.end(),
+                                                  [](const ThrustPoint& p) { return !p.is_placed(); }));
+  line.inside = line.undefined < static_cast<int>(line.points.size());
   line.least_face_distance = line.least_geometric_safety = std::numeric_limits<double>::infinity();
   for (const ThrustPoint& point : line.points) {
+    if (!point.is_placed()) continue;
     line.inside = line.inside && point.face_distance >= 0.0;
     line.least_face_distance = std::min(line.least_face_distance, point.face_distance);
     line.least_geometric_safety = std::min(line.least_geometric_safety, point.geometric_safety);
   }
   const Vec3 outwards = meridian ? Vec3(std::cos(*meridian), std::sin(*meridian), 0.0) : Vec3::UnitX();
-  for (size_t i = 1; i < line.points.size(); ++i)
+  for (size_t i = 1; i < line.points.size(); ++i) {
+    if (!line.points[i - 1].is_placed() || !line.points[i].is_placed()) continue;
     if (const auto meet = meeting(line.points[i - 1], line.points[i], outwards))
       line.envelope.push_back(*meet);
+  }
   return line;
 }
 

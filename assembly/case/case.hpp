@@ -46,9 +46,17 @@ struct Meridian {
   double azimuth_deg = 0.0;
 };
 
+/// Any plane, by a point and a normal of any length; the blocks that the normal points to lie beyond it.
+struct CutPlane {
+  std::string name;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d normal{1.0, 0.0, 0.0};
+};
+
 struct Postproc {
   std::vector<Meridian> meridians;
   std::vector<double> sections;  ///< m, heights of horizontal sections
+  std::vector<CutPlane> planes;
 };
 
 /// Everything a case file says, in SI units, defaults filled in.

@@ -1,12 +1,30 @@
+#include <algorithm>
+#include <cctype>
+
 #include "assembly/case/declare.hpp"
 
 namespace cupola {
 namespace {
 
+/// Names become names of files.
+void declare_name(Section& s, std::string& name) {
+  s.text("name", name, "its name in files and figures: letters, digits, _ and -");
+  s.rule(std::all_of(name.begin(), name.end(),
+                     [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; }),
+         "name", "may hold letters, digits, _ and - only");
+}
+
 void declare_meridian(Section& s, Meridian& meridian) {
-  s.text("name", meridian.name, "its name in files and figures");
+  declare_name(s, meridian.name);
   s.number("azimuth_deg", meridian.azimuth_deg, {.unit = "deg", .min = -360, .max = 360},
            "half-plane of a meridian, from x towards y");
+}
+
+void declare_plane(Section& s, CutPlane& plane) {
+  declare_name(s, plane.name);
+  s.vector3("point", plane.point, {.unit = "m"}, "a point of the plane");
+  s.vector3("normal", plane.normal, {}, "towards what lies beyond, of any length");
+  s.rule(plane.normal.norm() > 0.0, "normal", "must have a length");
 }
 
 }  // namespace
@@ -18,6 +36,8 @@ void declare_output(Section& s, Output& output) {
 void declare_postproc(Section& s, Postproc& postproc) {
   s.list("meridians", postproc.meridians, "meridians to draw thrust lines in", declare_meridian);
   s.numbers("sections", postproc.sections, {.unit = "m"}, "heights of horizontal sections");
+  s.list("planes", postproc.planes, "planes of any direction: what their two sides pass to each other",
+         declare_plane);
 }
 
 }  // namespace cupola

@@ -31,8 +31,13 @@ double badness(const Measure& measure, double value) {
   return value;
 }
 
+bool is_negligible(const Measure& measure, const PostSummary& run, double value) {
+  return measure.noise && std::abs(value) <= measure.noise(run);
+}
+
 /// "..., most even in A, by a factor of 3.7", or that there is nothing to choose.
-std::string conclusion(const Measure& measure, const Values& values, const std::vector<std::string>& labels) {
+std::string conclusion(const Measure& measure, const Values& values, const std::vector<PostSummary>& runs,
+                       const std::vector<std::string>& labels) {
   constexpr double kSame = 1e-3;  // numbers that differ by less are read as equal
   std::vector<size_t> order;
   for (size_t i = 0; i < values.size(); ++i)
@@ -41,24 +46,31 @@ std::string conclusion(const Measure& measure, const Values& values, const std::
     return badness(measure, *values[i]) < badness(measure, *values[j]);
   });
   const double best = *values[order[0]], next = *values[order[1]];
+  const bool best_is_noise = is_negligible(measure, runs[order[0]], best);
+  if (best_is_noise && is_negligible(measure, runs[order[1]], next)) return "the best two are negligible";
   if (best == next || std::abs(best - next) <= kSame * std::max(std::abs(best), std::abs(next)))
     return "the best two are equal within 0.1 %";
   std::string text = measure.superlative + " in " + labels[order[0]];
   const double low = std::min(best, next), high = std::max(best, next);
-  if (measure.best != Measure::Best::nearest_one && low > 0.0 && std::isfinite(high))
+  if (measure.best != Measure::Best::nearest_one && !best_is_noise && low > 0.0 && std::isfinite(high))
     text += fmt::format(", by a factor of {:.3g}", high / low);
   return text;
 }
 
-std::string sentence(const Measure& measure, const Values& values, const std::vector<std::string>& labels) {
+std::string sentence(const Measure& measure, const Values& values, const std::vector<PostSummary>& runs,
+                     const std::vector<std::string>& labels) {
+  const std::string unit = measure.unit.empty() ? "" : " " + measure.unit;
   std::string numbers;
   for (size_t i = 0; i < values.size(); ++i) {
     if (!values[i]) continue;
     if (!numbers.empty()) numbers += ", ";
-    numbers += fmt::format("{:.4g}{}{} in {}", measure.scale * *values[i], measure.unit.empty() ? "" : " ",
-                           measure.unit, labels[i]);
+    if (is_negligible(measure, runs[i], *values[i]))
+      numbers += fmt::format("negligible (below {:.0e}{}, the accuracy of its forces) in {}",
+                             measure.scale * measure.noise(runs[i]), unit, labels[i]);
+    else
+      numbers += fmt::format("{:.4g}{} in {}", measure.scale * *values[i], unit, labels[i]);
   }
-  return fmt::format("{} {}: {}.", measure.subject, numbers, conclusion(measure, values, labels));
+  return fmt::format("{} {}: {}.", measure.subject, numbers, conclusion(measure, values, runs, labels));
 }
 
 }  // namespace
@@ -67,23 +79,25 @@ const std::vector<Measure>& measures() {
   using Best = Measure::Best;
   using S = PostSummary;
   using O = std::optional<double>;
+  const auto of_ratio = [](const S& s) { return s.equilibrium_residual; };
+  const auto of_arm = [](const S& s) { return s.equilibrium_residual * s.block_size_m; };
   static const std::vector<Measure> kMeasures{
       {"cv_pressure_percent", "%", 100.0, "Within a ring, bed pressures vary in the mean by", "most even",
-       Best::lowest, [](const S& s) { return O(s.mean_cv_pressure); }},
+       Best::lowest, [](const S& s) { return O(s.mean_cv_pressure); }, of_ratio},
       {"rib_over_mid_sail", "", 1.0, "The resultant of the rib over that of the mid-sail is",
        "nearest to equal", Best::nearest_one, [](const S& s) { return s.rib_over_mid_sail; }},
       {"friction_use_percent", "%", 100.0, "Of its friction, the most used joint needs", "least used",
-       Best::lowest, [](const S& s) { return O(s.largest_friction_use); }},
+       Best::lowest, [](const S& s) { return O(s.largest_friction_use); }, of_ratio},
       {"critical_friction", "", 1.0, "The friction coefficient at which it falls is",
        "safest against sliding", Best::lowest, [](const S& s) { return s.critical_value; }},
       {"kern_use", "", 1.0, "Over the kern's edge, the bed forces' mean eccentricity is", "most central",
-       Best::lowest, [](const S& s) { return O(s.mean_kern_use); }},
+       Best::lowest, [](const S& s) { return O(s.mean_kern_use); }, of_ratio},
       {"geometric_safety", "", 1.0, "The least geometric safety of the thrust lines is", "largest",
        Best::highest, least_safety},
       {"thrust_over_weight", "", 1.0, "The outward thrust of the base over the weight is", "smallest",
-       Best::lowest, [](const S& s) { return O(s.thrust_over_weight); }},
+       Best::lowest, [](const S& s) { return O(s.thrust_over_weight); }, of_ratio},
       {"couple_length_m", "m", 1.0, "The largest couple length of a block's wrench is", "smallest",
-       Best::lowest, [](const S& s) { return O(s.largest_couple_length_m); }},
+       Best::lowest, [](const S& s) { return O(s.largest_couple_length_m); }, of_arm},
       {"displacement_mm", "mm", 1000.0, "The largest displacement of a block is", "stiffest", Best::lowest,
        [](const S& s) { return O(s.max_displacement_m); }},
   };
@@ -109,7 +123,7 @@ std::vector<std::string> reading(const std::vector<PostSummary>& runs) {
     Values values;
     for (const PostSummary& run : runs) values.push_back(measure.value(run));
     if (std::count_if(values.begin(), values.end(), [](const auto& v) { return v.has_value(); }) >= 2)
-      sentences.push_back(sentence(measure, values, labels));
+      sentences.push_back(sentence(measure, values, runs, labels));
   }
   return sentences;
 }

@@ -19,6 +19,9 @@ struct Measure {
   std::string superlative;  ///< of the run that is best by this measure
   Best best = Best::lowest;
   std::optional<double> (*value)(const PostSummary&) = nullptr;  ///< none where a run has no such number
+  /// The value below which it says nothing: what an error of all forces by the run's equilibrium residual
+  /// makes of it. None for measures that are not zero where forces are exact and even.
+  double (*noise)(const PostSummary&) = nullptr;
 };
 const std::vector<Measure>& measures();
 
@@ -26,7 +29,8 @@ const std::vector<Measure>& measures();
 std::vector<std::string> run_labels(size_t num_runs);
 
 /// What the numbers say, a sentence per measure that at least two runs have. Each sentence holds the number
-/// of every run and names the best one; runs that are not at rest are said first.
+/// of every run and names the best one; numbers below their noise are called negligible, for a ratio of two
+/// roundings means nothing; runs that are not at rest are said first.
 std::vector<std::string> reading(const std::vector<PostSummary>& runs);
 
 /// One row per run, one column per measure.

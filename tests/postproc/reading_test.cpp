@@ -21,7 +21,7 @@ std::vector<PostSummary> two_runs() {
   a.thrust_over_weight = 0.11;
   a.largest_couple_length_m = 0.04;
   a.max_displacement_m = 0.071;
-  a.thrust_lines = {{"rib", true, 0.5, 4.0}, {"mid_sail", true, 0.6, 3.0}};
+  a.thrust_lines = {{"rib", 0, true, 0.5, 4.0}, {"mid_sail", 0, true, 0.6, 3.0}};
   PostSummary b = a;
   b.title = "Herringbone";
   b.mean_cv_pressure = 0.124;
@@ -32,7 +32,7 @@ std::vector<PostSummary> two_runs() {
   b.thrust_over_weight = 0.152;
   b.largest_couple_length_m = 0.173;
   b.max_displacement_m = 0.085;
-  b.thrust_lines = {{"rib", true, 0.5, 1.9}};
+  b.thrust_lines = {{"rib", 0, true, 0.5, 1.9}};
   return {a, b};
 }
 
@@ -67,6 +67,32 @@ TEST(Reading, EqualRunsAreCalledEqual) {
   runs[1] = runs[0];
   for (const std::string& sentence : reading(runs))
     EXPECT_NE(sentence.find("equal within 0.1 %"), std::string::npos) << sentence;
+}
+
+TEST(Reading, WhatIsBelowTheAccuracyOfTheForcesIsNegligible) {
+  // Exact symmetry leaves 1e-13; a factor of 4e11 to the other run would be a ratio with rounding.
+  auto runs = two_runs();
+  for (PostSummary& run : runs) run.equilibrium_residual = 3e-9;
+  for (PostSummary& run : runs) run.block_size_m = 2.0;
+  runs[0].mean_cv_pressure = 1e-13;
+  runs[0].largest_couple_length_m = 5.9e-9;  // below 3e-9 x 2 m
+  const auto has = [](const std::vector<std::string>& sentences, const std::string& part) {
+    return std::any_of(sentences.begin(), sentences.end(),
+                       [&](const std::string& s) { return s.find(part) != std::string::npos; });
+  };
+  auto sentences = reading(runs);
+  EXPECT_TRUE(
+      has(sentences,
+          "vary in the mean by negligible (below 3e-07 %, the accuracy of its forces) in A, 12.4 % in B: "
+          "most even in A."))
+      << sentences[0];
+  EXPECT_TRUE(
+      has(sentences, "wrench is negligible (below 6e-09 m, the accuracy of its forces) in A, 0.173 m in B"));
+  runs[0].largest_couple_length_m = 6.1e-9;  // just above
+  EXPECT_TRUE(
+      has(reading(runs), "wrench is 6.1e-09 m in A, 0.173 m in B: smallest in A, by a factor of 2.84e+07."));
+  runs[1].mean_cv_pressure = 2e-13;
+  EXPECT_TRUE(has(reading(runs), "in B: the best two are negligible."));
 }
 
 TEST(Reading, ARunThatIsNotAtRestIsSaidFirst) {

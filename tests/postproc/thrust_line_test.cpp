@@ -67,6 +67,50 @@ TEST(ThrustLine, LeavingTheThicknessIsSaid) {
   EXPECT_NEAR(line.least_face_distance, -0.1, 1e-9);
 }
 
+TEST(ThrustLine, AResultantAlongTheBedHasNoPlace) {
+  MeridianScene scene(4, 12, 0.0, 0.5, -100.0, 1000.0);
+  for (Wrench& w : scene.from_below)  // ring 2: along the bed, 0.1 % of the others pressing on it
+    if (scene.assembly.blocks[static_cast<size_t>(&w - scene.from_below.data())].ring == 2) {
+      const Vec3 radial = Vec3(w.point.x(), w.point.y(), 0.0).normalized();
+      w.force = 500.0 * radial + 20.0 * Vec3::UnitZ();
+    }
+  const ThrustLine line = thrust_line(scene.input(), "m", 0.0);
+  ASSERT_EQ(line.points.size(), 4u);
+  EXPECT_EQ(line.undefined, 1);
+  EXPECT_FALSE(line.points[2].is_placed());
+  EXPECT_TRUE(std::isnan(line.points[2].face_distance));
+  EXPECT_NEAR(line.points[2].v, 20.0, 1e-9) << "the force itself is known";
+  EXPECT_TRUE(line.inside) << "of the beds that have a place";
+  // The meridian meets the odd rings in the middle of a facet, where the level part of the 1 m of thickness
+  // is shorter by cos 15 deg; ring 1 stands on a bed that rises by 0.02 rad.
+  EXPECT_NEAR(line.least_face_distance,
+              0.5 * std::hypot(std::cos(0.02) * std::cos(std::numbers::pi / 12), std::sin(0.02)), 1e-9);
+}
+
+TEST(ThrustLine, ForcesThatAreRoundingHaveNoPlace) {
+  MeridianScene scene(4, 12, 0.0, 0.5, -100.0, 1000.0);
+  for (size_t b = 0; b < scene.from_below.size(); ++b)
+    if (scene.assembly.blocks[b].ring == 3) scene.from_below[b] = 1e-7 * scene.from_below[b];
+  EXPECT_EQ(thrust_line(scene.input(), "m", 0.0).undefined, 1);
+  for (size_t b = 0; b < scene.from_below.size(); ++b)
+    if (scene.assembly.blocks[b].ring == 3) scene.from_below[b] = 100.0 * scene.from_below[b];
+  EXPECT_EQ(thrust_line(scene.input(), "m", 0.0).undefined, 0);
+}
+
+// Beside a block that presses at 0.25 of the thickness stands one that is pushed along its bed by nearly as
+// much. Its own line of action meets the bed some 40 m away; with a thousandth of the pressure it moves the
+// strip's resultant by about 0.04 m.
+TEST(ThrustLine, APushAlongTheBedHardlyMovesTheResultant) {
+  MeridianScene scene(1, 12, 0.0, 0.25, 0.0, 1000.0);
+  Wrench& pushed = scene.from_below[0];
+  pushed.force = Vec3::UnitZ() + 400.0 * Vec3(pushed.point.x(), pushed.point.y(), 0.0).normalized();
+  pushed.moment = Vec3::Zero();
+  const ThrustLine line = thrust_line(scene.input(), "m", 0.0);  // blocks 0 and 11, half of each
+  ASSERT_EQ(line.points.size(), 1u);
+  ASSERT_EQ(line.points[0].blocks, 2);
+  EXPECT_NEAR(line.points[0].position, 0.25 - 0.04, 0.02);
+}
+
 // A bed inside a block carries what stands above it: one tall block in three courses.
 TEST(ThrustLine, InnerBedsCarryThePieceAbove) {
   Assembly a = test::column(3);
