@@ -120,6 +120,11 @@ std::string to_json(const Summary& summary) {
   Json json;
   json["format_version"] = kFormatVersion;
   for_each_field(summary, [&json](const char* key, const auto& value) { json[key] = to_value(value); });
+  if (const auto& critical = summary.critical) {
+    json["critical_parameter"] = critical->parameter;
+    json["critical_value"] = critical->value;
+    json["bracket"] = {critical->stable, critical->moving};
+  }
   return json.dump(2) + "\n";
 }
 
@@ -138,6 +143,15 @@ Summary summary_from_json(const std::string& text, const std::string& file) {
       throw InputError(FileLocation{file}, fmt::format("{} = {}: has the wrong type", key, json[key].dump()));
     }
   });
+  if (json.contains("critical_value")) {
+    try {
+      summary.critical = CriticalValue{json.at("critical_parameter"), json.at("critical_value"),
+                                       json.at("bracket").at(0), json.at("bracket").at(1)};
+    } catch (const std::exception&) {
+      throw InputError(FileLocation{file},
+                       "critical_value: parameter or bracket is missing or has the wrong type");
+    }
+  }
   return summary;
 }
 

@@ -67,6 +67,14 @@ std::vector<Joint> joints_of(const ContactTable& contacts);
 enum class Status { stable, moving, collapsed, unconverged };
 std::string to_string(Status status);
 
+/// The value of a parameter at which a structure ceases to stand, and the bracket that was searched.
+struct CriticalValue {
+  std::string parameter;
+  double value = 0.0;   ///< middle of the bracket
+  double stable = 0.0;  ///< stands here
+  double moving = 0.0;  ///< moves here
+};
+
 /// results/summary.json: what was solved, how it ended, how good it is. Definitions: assembly/FORMAT.md.
 struct Summary {
   Status status = Status::unconverged;
@@ -94,6 +102,7 @@ struct Summary {
   std::int64_t peak_memory_bytes = 0;
   int threads = 1;
   double accuracy_asked = 0.0, accuracy_reached = 0.0;
+  std::optional<CriticalValue> critical;  ///< limit analysis only
 };
 
 std::string to_json(const Summary& summary);

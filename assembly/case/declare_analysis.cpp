@@ -26,11 +26,45 @@ void declare_stop(Section& s, StopRules& stop) {
   s.number("settled_speed", stop.settled_speed, {.unit = "m/s", .above = 0}, "slower counts as settled");
 }
 
+void declare_limit(Section& s, LimitSearch& limit) {
+  using Parameter = LimitSearch::Parameter;
+  s.choice(
+      "parameter", limit.parameter,
+      {{"friction", Parameter::friction},
+       {"tilt", Parameter::tilt},
+       {"acceleration", Parameter::acceleration},
+       {"load", Parameter::load},
+       {"spread", Parameter::spread}},
+      "what is varied: a friction coefficient; tilt of gravity (deg); horizontal acceleration (g); factor on "
+      "loads.forces and loads.faces; factor on supports.moves");
+  s.number("low", limit.low, {}, "one end of the bracket");
+  s.number("high", limit.high, {}, "other end");
+  s.number("relative_width", limit.relative_width, {.above = 0, .below = 1}, "of the final bracket");
+  s.vector3("direction", limit.direction, {}, "horizontal direction of tilt and acceleration");
+  s.optional_section("joints", limit.joints, "whose friction is varied; left out: of all joints",
+                     declare_joint_group);
+  s.rule(limit.low < limit.high, "high", "must be > low");
+}
+
+void declare_staged(Section& s, StagedConstruction& staged) {
+  s.integer("first_ring", staged.first_ring, {.min = 0}, "last ring laid in the first stage");
+  s.integer("last_ring", staged.last_ring, {.min = -1},
+            "last ring laid in the last stage; -1: the complete model");
+  s.number("fresh_friction", staged.fresh_friction, {.min = 0}, "of the bed of the ring just laid");
+  s.flag("critical_friction", staged.critical_friction,
+         "also search the fresh friction at which each stage falls");
+  s.number("relative_width", staged.relative_width, {.above = 0, .below = 1}, "of that bracket");
+}
+
 }  // namespace
 
 void declare_analysis(Section& s, Analysis& analysis) {
-  s.choice("type", analysis.type, {{"static", AnalysisType::static_}, {"dynamic", AnalysisType::dynamic}},
-           "equilibrium, or motion in time", {.later = {"staged", "limit"}});
+  s.choice("type", analysis.type,
+           {{"static", AnalysisType::static_},
+            {"dynamic", AnalysisType::dynamic},
+            {"staged", AnalysisType::staged},
+            {"limit", AnalysisType::limit}},
+           "equilibrium; motion in time; construction ring by ring; search of a critical value");
   s.choice("method", analysis.method,
            {{"newton", ContactMethod::newton},
             {"interior_point", ContactMethod::interior_point},
@@ -61,6 +95,8 @@ void declare_analysis(Section& s, Analysis& analysis) {
             {"static", Analysis::Start::static_}},
            "dynamic: unloaded, or in equilibrium; automatic: static under base motion or varying friction");
   s.section("stop", analysis.stop, "dynamic: when to end before the duration", declare_stop);
+  s.section("limit", analysis.limit, "limit: what is searched", declare_limit);
+  s.section("staged", analysis.staged, "staged: what is built", declare_staged);
   s.later({"accuracy"});
   s.rule(analysis.type != AnalysisType::dynamic || analysis.duration / analysis.time_step <= kMostSteps,
          "duration", "duration / time_step must be <= 1e9 steps");

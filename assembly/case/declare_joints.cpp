@@ -37,8 +37,9 @@ void declare_joint_group(Section& s, RingJoints& joints) {
             {"bed", RingJoints::Sort::bed},
             {"head", RingJoints::Sort::head},
             {"herringbone", RingJoints::Sort::herringbone},
-            {"base", RingJoints::Sort::base}},
-           "which joints of these rings");
+            {"base", RingJoints::Sort::base},
+            {"laid_bed", RingJoints::Sort::laid_bed}},
+           "which joints of these rings; laid_bed: every bed, also on supports and of herringbone blocks");
   s.rule(joints.from <= joints.to, "to", "must be >= from");
 }
 

@@ -24,7 +24,14 @@ struct JointLawChange {
 /// Sorts of joints that may have a law of their own. `base` touches a fixed support, `herringbone` touches a
 /// herringbone block; of the others, `bed` lies between rings and `head` within one.
 struct RingJoints {
-  enum class Sort { all, bed, head, herringbone, base };
+  enum class Sort {
+    all,
+    bed,
+    head,
+    herringbone,
+    base,
+    laid_bed  ///< every bed, also on supports and of herringbone blocks
+  };
   int from = 0, to = 0;  ///< rings, both included: course of the upper part of the joint, the lowest is 0
   Sort sort = Sort::all;
   JointLawChange law;

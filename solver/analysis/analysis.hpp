@@ -43,4 +43,13 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
 /// Time stepping (paper eq. 8-15) from the unloaded assembly, or from its static equilibrium.
 std::optional<Summary> run_dynamic(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
+/// Searches the critical value of one parameter: the structure stands on one side of the bracket and moves on
+/// the other. Every value is judged by a static solve; `spread` follows the equilibria while supports move.
+/// Frames: the last equilibrium, and the mechanism with its velocities scaled to 1 m/s.
+std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
+
+/// Builds ring after ring. Each stage is a static solve of what stands so far, the bed of its last ring with
+/// the friction of fresh mortar; the critical fresh friction of each stage is searched on request.
+std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
+
 }  // namespace cupola

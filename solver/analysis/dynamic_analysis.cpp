@@ -90,10 +90,8 @@ bool DynamicRun::start_static(Summary* summary) {
   ContactDetector detector(*model.assembly, detection_options(scene_));
   const ContactSet& contacts = detector.update(rest.poses);
   const ContactMemories memories = match_memories({}, contacts.contacts);
-  StaticOptions options;
+  StaticOptions options = static_options(analysis_);
   options.tolerance = std::min(analysis_.tolerance, 1e-6);
-  options.method = analysis_.method;
-  options.law = analysis_.friction_law;
   options.log = sinks_.log;
   const StaticSolution equilibrium = solve_static(model, rest, contacts, memories, options);
   if (equilibrium.verdict == Verdict::equilibrium) {

@@ -121,6 +121,14 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   return make_frame(model, loaded.state, ended, solution.forces.contacts, loaded.memories, displacement);
 }
 
+StaticOptions static_options(const Analysis& analysis) {
+  StaticOptions options;
+  options.tolerance = analysis.tolerance;
+  options.method = analysis.method;
+  options.law = analysis.friction_law;
+  return options;
+}
+
 void summarize_static(const StaticSolution& solution, double tolerance, Summary* summary) {
   summary->status = status_of(solution.verdict);
   summary->message = solution.message;

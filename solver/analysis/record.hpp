@@ -29,6 +29,9 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
                    const ContactMemories& memories, const StaticSolution& solution,
                    const StaticOptions& options);
 
+/// Tolerance, method and law of the case for a static solve.
+StaticOptions static_options(const Analysis& analysis);
+
 /// What a static solve contributes to the summary.
 void summarize_static(const StaticSolution& solution, double tolerance, Summary* summary);
 

@@ -10,8 +10,9 @@ std::optional<Summary> run(const Case& scene, const Assembly& assembly, const An
     case AnalysisType::dynamic:
       return run_dynamic(scene, assembly, sinks);
     case AnalysisType::staged:
+      return run_staged(scene, assembly, sinks);
     case AnalysisType::limit:
-      break;
+      return run_limit(scene, assembly, sinks);
   }
   return std::nullopt;
 }

@@ -12,10 +12,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   const ContactSet& contacts = detector.update(rest.poses);
   const ContactMemories memories = match_memories({}, contacts.contacts);
 
-  StaticOptions options;
-  options.tolerance = scene.analysis.tolerance;
-  options.method = scene.analysis.method;
-  options.law = scene.analysis.friction_law;
+  StaticOptions options = static_options(scene.analysis);
   options.log = sinks.log;
   const double started = wall_seconds();
   const StaticSolution solution = solve_static(model, rest, contacts, memories, options);

@@ -11,10 +11,22 @@ namespace {
 constexpr int kMaxSolves = 10;
 constexpr double kSolveShare = 0.1;  // of the asked residual is left to the solve, the rest to inertia
 
+/// Largest displacement of a support in the step, m.
+double imposed_displacement(const Model& model, const State& start, const StaticOptions& options) {
+  std::vector<Pose> moved = start.poses;
+  place_supports(*model.assembly, model.support_motions, start.time + options.time_advance, &moved);
+  double largest = 0.0;
+  for (size_t i = 0; i < moved.size(); ++i)
+    largest = std::max(largest, (moved[i].p_WB - start.poses[i].p_WB).norm());
+  return largest;
+}
+
 /// First guess of h. A displacement d reached in one step costs the inertia m d / h^2, so h^2 >= d / (g tol).
 /// The crown sinks by about c F at the support's contacts, once per course.
 double first_step(const Model& model, const State& start, const ContactSet& contacts, double acceleration,
-                  double tolerance) {
+                  const StaticOptions& options) {
+  constexpr double kShortShare = 1e-2;  // inertia share to begin with where the structure may move
+  const double tolerance = options.may_move ? std::max(kShortShare, options.tolerance) : options.tolerance;
   double compliance = 0.0;
   int at_supports = 0;
   for (const Contact& contact : contacts.contacts) {
@@ -28,7 +40,8 @@ double first_step(const Model& model, const State& start, const ContactSet& cont
   for (Eigen::Index i = 0; i < f.size(); i += 6) load += f.segment<3>(i).norm();
   const double courses =
       model.assembly->num_rings > 0 ? model.assembly->num_rings : std::cbrt(model.num_free());
-  const double displacement = courses * compliance * load / std::max(1, at_supports);
+  const double displacement =
+      courses * compliance * load / std::max(1, at_supports) + imposed_displacement(model, start, options);
   if (displacement == 0.0) return 1.0;
   return 2.0 * std::sqrt(displacement / (acceleration * tolerance));
 }
@@ -40,24 +53,37 @@ StepOptions step_options(const StaticOptions& options, double h) {
   return step;
 }
 
+/// Relative momentum residual up to which a speed is known.
+double known_to(double speed_ratio) {
+  constexpr double kShare = 1e-2;
+  return kShare * speed_ratio;
+}
+
+/// Solves at trial->h. What moves fast is not solved finer than its verdict needs: its impulses lose digits
+/// with h^2, and no answer to the full tolerance may exist in double precision.
 void solve_at(const Model& model, const State& start, const ContactSet& contacts,
               const ContactMemories& memories, const StaticOptions& options, double acceleration,
               ContactSolver* solver, StaticSolution* trial) {
+  constexpr double kCoarse = 1e-4;
   ContactSolverOptions solve;
   solve.method = options.method;
   solve.law = options.law;
-  solve.tolerance = kSolveShare * options.tolerance;
   solve.reference_speed = trial->h * acceleration;
+  const double fine = kSolveShare * options.tolerance;
   trial->step = build_step_problem(model, start, contacts, memories, step_options(options, trial->h));
   trial->solution = {};
-  trial->solve = solver->solve(trial->step.problem, solve, &trial->solution);
-  trial->iterations += trial->solve.iterations;
+  for (const double tolerance : {std::max(fine, kCoarse), fine}) {
+    solve.tolerance = tolerance;
+    trial->solve = solver->solve(trial->step.problem, solve, &trial->solution);
+    trial->iterations += trial->solve.iterations;
+    trial->speed_ratio = largest_speed(trial->solution.v) / solve.reference_speed;
+    if (tolerance == fine || known_to(trial->speed_ratio) >= kCoarse) break;
+  }
   trial->residuals =
       compute_residuals(trial->step.problem, trial->solution, solve.reference_speed, solve.law);
   trial->forces = joint_forces(contacts, trial->solution.gamma, trial->h);
   trial->balance =
       compute_equilibrium(model, start, contacts, trial->forces, start.time + 0.5 * options.time_advance);
-  trial->speed_ratio = largest_speed(trial->solution.v) / solve.reference_speed;
 }
 
 /// |v| / (g h) at one h.
@@ -65,17 +91,30 @@ struct SpeedTrial {
   double h, ratio;
 };
 
-/// Over the last two raises of h the ratio fell by less than the square root of what h grew: elastic
-/// displacements make it fall with h^2.
+/// Elastic displacements make the ratio fall with h^2, a mechanism keeps it. In between lies the square root
+/// of what h grew.
+bool falls_slowly(const SpeedTrial& before, const SpeedTrial& after) {
+  return after.ratio > before.ratio * std::sqrt(before.h / after.h);
+}
+
+/// Neither of the last two raises of h slowed the structure down.
 bool keeps_moving(const std::vector<SpeedTrial>& trials) {
-  if (trials.size() < 3) return false;
-  const SpeedTrial& first = trials[trials.size() - 3];
-  const SpeedTrial& middle = trials[trials.size() - 2];
-  const SpeedTrial& last = trials.back();
-  const auto falls_slowly = [](const SpeedTrial& a, const SpeedTrial& b) {
-    return b.ratio > a.ratio * std::sqrt(a.h / b.h);
-  };
-  return falls_slowly(first, middle) && falls_slowly(middle, last);
+  const size_t n = trials.size();
+  return n >= 3 && falls_slowly(trials[n - 3], trials[n - 2]) && falls_slowly(trials[n - 2], trials[n - 1]);
+}
+
+/// The inertia share falls with h^2: a little more than needed. But impulses of a moving structure lose
+/// digits with h^2, so h leaps only when the last raise has shown that it slows down.
+double raise_of_h(const std::vector<SpeedTrial>& trials, double residual, const StaticOptions& options) {
+  constexpr double kCareful = 2.0;
+  constexpr double kByDegrees = 6.0;
+  constexpr double kFarthest = 100.0;
+  constexpr double kFast = 3e-2;  // a ratio beyond what an equilibrium shows at the first h
+  const size_t n = trials.size();
+  const bool slows_down =
+      n >= 2 ? !falls_slowly(trials[n - 2], trials[n - 1]) : options.may_move && trials[0].ratio < kFast;
+  const double leap = options.may_move ? kByDegrees : kFarthest;
+  return std::clamp(2.0 * std::sqrt(residual / options.tolerance), kCareful, slows_down ? leap : kCareful);
 }
 
 void judge(const StaticOptions& options, bool moving, StaticSolution* trial) {
@@ -97,12 +136,24 @@ void judge(const StaticOptions& options, bool moving, StaticSolution* trial) {
 
 }  // namespace
 
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::equilibrium:
+      return "equilibrium";
+    case Verdict::moving:
+      return "moving";
+    case Verdict::unconverged:
+      return "unconverged";
+  }
+  return "";
+}
+
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
   const double acceleration = reference_acceleration(model, start);
   ContactSolver solver;
   StaticSolution trial;
-  trial.h = first_step(model, start, contacts, acceleration, options.tolerance);
+  trial.h = first_step(model, start, contacts, acceleration, options);
   std::vector<SpeedTrial> trials;
   for (int k = 0; k < kMaxSolves; ++k) {
     solve_at(model, start, contacts, memories, options, acceleration, &solver, &trial);
@@ -111,11 +162,12 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
                     "equilibrium {:9.2e}  |v|/(g h) {:9.2e}",
                     trial.h, trial.solve.iterations, trial.residuals.momentum, trial.residuals.contact_law,
                     trial.balance.residual, trial.speed_ratio));
-    if (trial.solve.ending != SolveEnding::converged || trial.balance.residual <= options.tolerance) break;
+    const bool converged = trial.solve.ending == SolveEnding::converged;
+    if (converged && trial.balance.residual <= options.tolerance) break;
+    if (!converged && !(trial.residuals.momentum <= known_to(trial.speed_ratio))) break;
     trials.push_back({trial.h, trial.speed_ratio});
     if (keeps_moving(trials)) break;
-    // The share falls with h^2; a little more than needed, and never a leap that starves the solve of digits.
-    trial.h *= std::clamp(2.0 * std::sqrt(trial.balance.residual / options.tolerance), 2.0, 100.0);
+    trial.h *= raise_of_h(trials, trial.balance.residual, options);
   }
   judge(options, keeps_moving(trials), &trial);
   return trial;

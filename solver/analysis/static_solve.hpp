@@ -15,15 +15,23 @@ struct StaticOptions {
   double tolerance = 1e-9;  ///< largest equilibrium residual, inertia share included
   ContactMethod method = ContactMethod::newton;
   FrictionLaw law = FrictionLaw::associated;
+  /// Expects that the structure may move: begins with a short h, where a mechanism is told in few iterations,
+  /// and raises it by degrees. Otherwise h is at once what an equilibrium of that tolerance needs.
+  bool may_move = false;
   double time_advance = 0.0;  ///< s by which loads and supports go on in the step
   std::function<void(const std::string&)> log = [](const std::string&) {};
 };
+
+/// Equilibrium residual up to which a structure counts as standing where only the verdict matters.
+constexpr double kVerdictTolerance = 1e-5;
 
 enum class Verdict {
   equilibrium,  ///< residual <= tolerance
   moving,       ///< nothing holds it: the speed it picks up grows with h
   unconverged   ///< the contact problem was not solved
 };
+
+std::string to_string(Verdict verdict);
 
 /// The answer at the last h and what it is worth.
 struct StaticSolution {

@@ -5,8 +5,6 @@
 namespace cupola {
 namespace {
 
-using Sort = RingJoints::Sort;
-
 JointLaw changed(JointLaw law, const JointLawChange& change) {
   law.mu = change.friction.value_or(law.mu);
   law.compliance_normal = change.normal.value_or(law.compliance_normal);
@@ -14,46 +12,67 @@ JointLaw changed(JointLaw law, const JointLawChange& change) {
   return law;
 }
 
-const std::optional<JointLawChange>& change_of(const Joints& joints, Sort sort) {
+const std::optional<JointLawChange>& change_of(const Joints& joints, JointSort sort) {
   static const std::optional<JointLawChange> none;
   switch (sort) {
-    case Sort::bed:
+    case JointSort::bed:
       return joints.bed;
-    case Sort::head:
+    case JointSort::head:
       return joints.head;
-    case Sort::herringbone:
+    case JointSort::herringbone_bed:
+    case JointSort::herringbone_other:
       return joints.herringbone;
-    case Sort::base:
+    case JointSort::base:
       return joints.base;
-    case Sort::all:
+    case JointSort::other:
       break;
   }
   return none;
 }
 
+bool is_meant(RingJoints::Sort group, JointSort sort) {
+  switch (group) {
+    case RingJoints::Sort::all:
+      return true;
+    case RingJoints::Sort::bed:
+      return sort == JointSort::bed;
+    case RingJoints::Sort::head:
+      return sort == JointSort::head;
+    case RingJoints::Sort::herringbone:
+      return sort == JointSort::herringbone_bed || sort == JointSort::herringbone_other;
+    case RingJoints::Sort::base:
+      return sort == JointSort::base;
+    case RingJoints::Sort::laid_bed:
+      return sort == JointSort::bed || sort == JointSort::herringbone_bed || sort == JointSort::base;
+  }
+  return false;
+}
+
 }  // namespace
 
-RingJoints::Sort joint_sort(const Assembly& assembly, const Patch& patch) {
-  if (patch.kind == JointKind::base) return Sort::base;
+JointSort joint_sort(const Assembly& assembly, const Patch& patch) {
+  if (patch.kind == JointKind::base) return JointSort::base;
   const auto is_herringbone = [&](int block) {
     return assembly.blocks[block].kind == BlockKind::herringbone;
   };
-  if (is_herringbone(patch.block_a) || is_herringbone(patch.block_b)) return Sort::herringbone;
-  if (patch.kind == JointKind::bed) return Sort::bed;
-  if (patch.kind == JointKind::head) return Sort::head;
-  return Sort::all;
+  const bool is_bed = patch.kind == JointKind::bed;
+  if (is_herringbone(patch.block_a) || is_herringbone(patch.block_b))
+    return is_bed ? JointSort::herringbone_bed : JointSort::herringbone_other;
+  if (is_bed) return JointSort::bed;
+  return patch.kind == JointKind::head ? JointSort::head : JointSort::other;
 }
 
 JointTable::JointTable(const Joints& joints, int num_rings)
     : per_area_(joints.compliance.per == Compliance::Per::area) {
   const JointLaw general{joints.friction, joints.compliance.normal, joints.compliance.tangential};
-  for (int sort = 0; sort < kSorts; ++sort) {
-    const auto& change = change_of(joints, static_cast<Sort>(sort));
-    laws_[sort].assign(std::max(1, num_rings), change ? changed(general, *change) : general);
+  for (int s = 0; s < kJointSorts; ++s) {
+    const auto sort = static_cast<JointSort>(s);
+    const auto& change = change_of(joints, sort);
+    laws_[s].assign(std::max(1, num_rings), change ? changed(general, *change) : general);
     for (const RingJoints& group : joints.rings) {
-      if (group.sort != Sort::all && group.sort != static_cast<Sort>(sort)) continue;
+      if (!is_meant(group.sort, sort)) continue;
       for (int ring = std::max(0, group.from); ring <= std::min(group.to, num_rings - 1); ++ring)
-        laws_[sort][ring] = changed(laws_[sort][ring], group.law);
+        laws_[s][ring] = changed(laws_[s][ring], group.law);
     }
   }
 }
@@ -66,13 +85,6 @@ JointLaw JointTable::law(const Assembly& assembly, const Patch& patch, double ar
     law.compliance_tangential /= area;
   }
   return law;
-}
-
-double JointTable::largest_normal_compliance() const {
-  double largest = 0.0;
-  for (const auto& rings : laws_)
-    for (const JointLaw& law : rings) largest = std::max(largest, law.compliance_normal);
-  return largest;
 }
 
 }  // namespace cupola

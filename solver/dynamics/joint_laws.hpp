@@ -15,6 +15,12 @@ struct JointLaw {
   double compliance_tangential = 0.0;  ///< same unit
 };
 
+/// Sorts of joints that can differ in their law. A base joint lies on a support, a herringbone joint touches
+/// a herringbone block.
+enum class JointSort { bed, head, herringbone_bed, herringbone_other, base, other };
+constexpr int kJointSorts = 6;
+JointSort joint_sort(const Assembly& assembly, const Patch& patch);
+
 /// The law of every sort of joint in every ring, with the case's changes worked in.
 class JointTable {
  public:
@@ -23,15 +29,10 @@ class JointTable {
 
   /// Law of a contact point of the patch that stands for `area` (m2), at full friction.
   JointLaw law(const Assembly& assembly, const Patch& patch, double area) const;
-  double largest_normal_compliance() const;  ///< in the unit of the case
 
  private:
-  static constexpr int kSorts = 5;
-  std::array<std::vector<JointLaw>, kSorts> laws_;  // by sort, then ring
+  std::array<std::vector<JointLaw>, kJointSorts> laws_;  // by sort, then ring
   bool per_area_ = false;
 };
-
-/// The sort a joint belongs to: base, herringbone, bed, head, or `all` for what is none of these.
-RingJoints::Sort joint_sort(const Assembly& assembly, const Patch& patch);
 
 }  // namespace cupola

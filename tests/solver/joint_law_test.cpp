@@ -71,11 +71,11 @@ TEST(JointLaws, HerringboneBlocksMakeHerringboneJoints) {
   patch.block_a = 1;
   patch.block_b = 2;
   patch.kind = JointKind::bed;
-  EXPECT_EQ(joint_sort(stack, patch), RingJoints::Sort::herringbone);
+  EXPECT_EQ(joint_sort(stack, patch), JointSort::herringbone_bed);
   patch.block_a = 0;
   patch.block_b = 1;
   patch.kind = JointKind::base;
-  EXPECT_EQ(joint_sort(stack, patch), RingJoints::Sort::base);
+  EXPECT_EQ(joint_sort(stack, patch), JointSort::base);
 }
 
 // A block on an incline of slope 0.3 under friction that falls from 0.4 to 0.2 in 1 s: it lets go when

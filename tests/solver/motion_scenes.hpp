@@ -55,10 +55,10 @@ inline void add_voussoir(const std::array<Eigen::Vector2d, 4>& quad, double widt
   const std::array<FaceKind, 4> kinds{FaceKind::bed, FaceKind::extrados, FaceKind::bed, FaceKind::intrados};
   for (int i = 0; i < 4; ++i) {
     const int j = (i + 1) % 4;
-    assembly->add_face(std::array{first + i, first + j, first + 4 + j, first + 4 + i}, kinds[i]);
+    assembly->add_face(std::array{first + i, first + 4 + i, first + 4 + j, first + j}, kinds[i]);
   }
-  assembly->add_face(std::array{first + 3, first + 2, first + 1, first}, FaceKind::free);
-  assembly->add_face(std::array{first + 4, first + 5, first + 6, first + 7}, FaceKind::free);
+  assembly->add_face(std::array{first, first + 1, first + 2, first + 3}, FaceKind::free);
+  assembly->add_face(std::array{first + 7, first + 6, first + 5, first + 4}, FaceKind::free);
 }
 
 /// Arch of voussoirs with flat faces: centreline radius 1, half-embrace beta about the crown, radial joints,

@@ -1,0 +1,151 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "assembly/program.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "solver/analysis/limit_parameter.hpp"
+#include "solver/analysis/limit_search.hpp"
+#include "solver/analysis/mechanism.hpp"
+#include "solver/analysis/record.hpp"
+#include "solver/analysis/support_path.hpp"
+#include "solver/dynamics/scene_options.hpp"
+
+namespace cupola {
+namespace {
+
+const char* const kHistoryHeader = "value,verdict,speed_ratio,equilibrium_residual,iterations";
+
+/// Where an equilibrium was looked for, and what came of it.
+struct Probe {
+  Model model;
+  State start;
+  ContactSet contacts;
+  ContactMemories memories;
+  StaticSolution solution;
+};
+
+/// One limit analysis and the last probe on either side of the critical value.
+struct LimitRun {
+  const Case& scene;
+  const Assembly& assembly;
+  const AnalysisSinks& sinks;
+  StaticOptions options;
+  std::optional<Probe> stable, moving;
+  int iterations = 0;
+  int num_trials = 0;
+  bool interrupted = false;
+
+  Probe probe_at(double value) const;
+  /// Keeps and reports a trial; false when the user wants to stop.
+  bool keep(double value, Probe probe);
+  Bracket search_value();
+  Bracket follow_spread();
+};
+
+Probe LimitRun::probe_at(double value) const {
+  Probe probe;
+  probe.model = make_model(case_at(scene, value), assembly);
+  probe.start = state_at_rest(probe.model);
+  ContactDetector detector(assembly, detection_options(scene));
+  probe.contacts = detector.update(probe.start.poses);
+  probe.memories = match_memories({}, probe.contacts.contacts);
+  probe.solution = solve_static(probe.model, probe.start, probe.contacts, probe.memories, options);
+  return probe;
+}
+
+bool LimitRun::keep(double value, Probe probe) {
+  const StaticSolution& solution = probe.solution;
+  iterations += solution.iterations;
+  ++num_trials;
+  sinks.log(fmt::format("trial {:3d}  {} {:12.8g}  {:<11}  |v|/(g h) {:9.2e}  iterations {:4d}", num_trials,
+                        to_string(scene.analysis.limit.parameter), value, to_string(solution.verdict),
+                        solution.speed_ratio, solution.iterations));
+  sinks.history(fmt::format("{:.17g},{},{:.9e},{:.9e},{}", value, to_string(solution.verdict),
+                            solution.speed_ratio, solution.balance.residual, solution.iterations));
+  if (solution.verdict == Verdict::equilibrium)
+    stable = std::move(probe);
+  else
+    moving = std::move(probe);
+  interrupted = sinks.interrupted();
+  return !interrupted;
+}
+
+Bracket LimitRun::search_value() {
+  const LimitSearch& limit = scene.analysis.limit;
+  return bisect(limit.low, limit.high, {limit.relative_width, 0.0}, [this](double value) {
+    Probe probe = probe_at(value);
+    const LimitTrial trial{value, probe.solution.verdict, probe.solution.speed_ratio};
+    // An interrupted search ends at once: a trial without a verdict stops the bisection.
+    return keep(value, std::move(probe)) ? trial : LimitTrial{value, Verdict::unconverged, 0.0};
+  });
+}
+
+Bracket LimitRun::follow_spread() {
+  const LimitSearch& limit = scene.analysis.limit;
+  const Model model = make_model(case_at(scene, 0.0), assembly);
+  SupportPath path(model, detection_options(scene), options);
+  return follow(&path, limit.low, limit.high, limit.relative_width,
+                [&](const LimitTrial& trial, const StaticSolution& solution) {
+                  return keep(trial.value, {model, path.start(), path.contacts(), path.memories(), solution});
+                });
+}
+
+/// Two frames: the last equilibrium, and the mechanism with its velocities scaled to 1 m/s.
+void write_frames(const LimitRun& run, Summary* summary) {
+  if (run.stable) {
+    const Probe& probe = *run.stable;
+    const Frame frame =
+        static_frame(probe.model, probe.start, probe.contacts, probe.memories, probe.solution, run.options);
+    summarize_frame(frame, probe.model, summary);
+    summarize_static(probe.solution, run.options.tolerance, summary);
+    Frame first = frame;
+    first.time = 0.0;
+    run.sinks.frame(first);
+  }
+  if (!run.moving) return;
+  const Probe& probe = *run.moving;
+  const Mechanism mechanism = find_mechanism(probe.model, probe.start, probe.contacts, probe.solution);
+  State moving = probe.start;
+  moving.v = mechanism.v;
+  moving.time = 1.0;
+  run.sinks.frame(make_frame(probe.model, moving, probe.contacts, probe.solution.forces.contacts,
+                             probe.memories, std::vector<Vec3>(moving.poses.size(), Vec3::Zero())));
+  run.sinks.table("mechanism_blocks.csv", mechanism_blocks_csv(probe.model, mechanism));
+  run.sinks.table("mechanism_joints.csv", mechanism_joints_csv(mechanism));
+  summary->message += "; " + describe(mechanism);
+}
+
+}  // namespace
+
+std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
+  LimitRun run{scene, assembly, sinks, static_options(scene.analysis), {}, {}};
+  run.options.tolerance = std::max(run.options.tolerance, kVerdictTolerance);
+  run.options.may_move = true;
+  const LimitSearch::Parameter parameter = scene.analysis.limit.parameter;
+  const double started = wall_seconds();
+  sinks.history(kHistoryHeader);
+  const Bracket bracket =
+      parameter == LimitSearch::Parameter::spread ? run.follow_spread() : run.search_value();
+  if (run.interrupted) return std::nullopt;
+
+  Summary summary;
+  write_frames(run, &summary);
+  const std::string mechanism = run.moving ? summary.message.substr(summary.message.find("; ")) : "";
+  summary.analysis = "limit";
+  summary.status = bracket.found ? Status::stable : Status::unconverged;
+  summary.message = fmt::format("{}: {}{}", to_string(parameter), bracket.message, mechanism);
+  summary.steps = run.num_trials;
+  summary.iterations = run.iterations;
+  summary.accuracy_asked = scene.analysis.limit.relative_width;
+  if (bracket.found) {
+    summary.critical =
+        CriticalValue{to_string(parameter), bracket.middle(), bracket.stable.value, bracket.moving.value};
+    summary.accuracy_reached =
+        std::abs(bracket.stable.value - bracket.moving.value) / std::abs(bracket.middle());
+  }
+  summary.solve_time_seconds = wall_seconds() - started;
+  return summary;
+}
+
+}  // namespace cupola

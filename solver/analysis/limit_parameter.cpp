@@ -1,0 +1,81 @@
+#include "solver/analysis/limit_parameter.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "assembly/error.hpp"
+
+namespace cupola {
+namespace {
+
+/// Unit horizontal direction: what of `direction` is normal to gravity.
+Vec3 horizontal(const Case& scene) {
+  const Vec3 down = scene.loads.gravity.normalized();
+  const Vec3& wanted = scene.analysis.limit.direction;
+  const Vec3 level = wanted - wanted.dot(down) * down;
+  if (!(level.norm() > 1e-6 * wanted.norm()))
+    throw InputError("analysis.limit.direction must not be along gravity");
+  return level.normalized();
+}
+
+void freeze(TimeFunction* time) {
+  const double factor = factor_at(*time, 0.0);
+  *time = RampInTime{factor, factor, 0.0, 1.0};
+}
+
+}  // namespace
+
+Case case_at(const Case& scene, double value) {
+  Case at = scene;
+  const LimitSearch& limit = scene.analysis.limit;
+  const double g = scene.loads.gravity.norm();
+  freeze(&at.joints.friction_time);
+  freeze(&at.loads.dead_load_time);
+  for (BlockForce& load : at.loads.forces) freeze(&load.time);
+  for (FaceLoad& load : at.loads.faces) freeze(&load.time);
+  switch (limit.parameter) {
+    case LimitSearch::Parameter::friction: {
+      RingJoints group = limit.joints.value_or(RingJoints{0, kLastRing, RingJoints::Sort::all, {}});
+      group.law = {value, {}, {}};
+      at.joints.rings.push_back(group);
+      break;
+    }
+    case LimitSearch::Parameter::tilt: {
+      const double angle = value * std::numbers::pi / 180.0;
+      at.loads.gravity = std::cos(angle) * scene.loads.gravity + std::sin(angle) * g * horizontal(scene);
+      break;
+    }
+    case LimitSearch::Parameter::acceleration:
+      at.loads.gravity += value * g * horizontal(scene);
+      break;
+    case LimitSearch::Parameter::load:
+      for (BlockForce& load : at.loads.forces) load.force *= value;
+      for (FaceLoad& load : at.loads.faces) {
+        load.traction *= value;
+        load.pressure *= value;
+      }
+      break;
+    case LimitSearch::Parameter::spread:
+      for (SupportMove& move : at.supports.moves) move.time = TableInTime{"", {0.0, 1e6}, {0.0, 1e6}};
+      break;
+  }
+  return at;
+}
+
+std::string to_string(LimitSearch::Parameter parameter) {
+  switch (parameter) {
+    case LimitSearch::Parameter::friction:
+      return "friction";
+    case LimitSearch::Parameter::tilt:
+      return "tilt";
+    case LimitSearch::Parameter::acceleration:
+      return "acceleration";
+    case LimitSearch::Parameter::load:
+      return "load";
+    case LimitSearch::Parameter::spread:
+      return "spread";
+  }
+  return "";
+}
+
+}  // namespace cupola

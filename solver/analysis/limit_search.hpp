@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "solver/analysis/static_solve.hpp"
+
+namespace cupola {
+
+/// What one static solve said at one value of the parameter.
+struct LimitTrial {
+  double value = 0.0;
+  Verdict verdict = Verdict::unconverged;
+  double speed_ratio = 0.0;  ///< |v| / (g h)
+};
+
+/// A bracket of the critical value.
+struct Bracket {
+  LimitTrial stable, moving;
+  int trials = 0;
+  bool found = false;
+  std::string message;  ///< how it ended
+  double middle() const { return 0.5 * (stable.value + moving.value); }
+};
+
+/// When a bracket is narrow enough: the wider of the two.
+struct BracketWidth {
+  double relative = 1e-3;  ///< of its middle
+  double absolute = 0.0;
+};
+
+/// Bisects between a value at which the structure stands and one at which it moves, until the bracket is
+/// narrow enough. Ends without a bracket when both ends behave alike or a
+/// trial does not converge.
+Bracket bisect(double low, double high, const BracketWidth& wanted,
+               const std::function<LimitTrial(double value)>& try_value);
+
+}  // namespace cupola

@@ -1,0 +1,148 @@
+#include "solver/analysis/mechanism.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace cupola {
+namespace {
+
+constexpr double kAtRest = 1e-3;  // of the fastest block: slower is not moving
+
+int root_of(std::vector<int>& parent, int block) {
+  while (parent[block] != block) block = parent[block] = parent[parent[block]];
+  return block;
+}
+
+/// What the points of each joint do; contacts of one joint may be scattered over the set.
+std::vector<MovingJoint> joint_motions(const ContactSet& contacts, const VecX& u, double fastest) {
+  const JointNumbers numbers = number_joints(contacts);
+  std::vector<MovingJoint> joints(numbers.count);
+  std::vector<bool> any_closed(numbers.count, false);
+  for (size_t i = 0; i < contacts.contacts.size(); ++i) {
+    const Contact& contact = contacts.contacts[i];
+    const int j = numbers.of_contact[i];
+    MovingJoint& joint = joints[j];
+    joint.block_a = contact.block_a;
+    joint.block_b = contact.block_b;
+    joint.kind = contacts.patches[contact.patch].kind;
+    joint.ring = contacts.patches[contact.patch].ring;
+    const Vec3 at_point = u.segment<3>(3 * static_cast<Eigen::Index>(i)) / fastest;
+    joint.opening = std::max(joint.opening, at_point[0]);
+    // Under the associated law a sliding point lifts off by mu |u_t|: it counts as closed.
+    if (at_point[0] <= std::max(kAtRest, at_point.tail<2>().norm())) {
+      any_closed[j] = true;
+      joint.sliding = std::max(joint.sliding, at_point.tail<2>().norm());
+    }
+  }
+  for (size_t j = 0; j < joints.size(); ++j) {
+    MovingJoint& joint = joints[j];
+    const bool slides = joint.sliding > kAtRest;
+    const bool opens = joint.opening > kAtRest;
+    if (slides && any_closed[j] && joint.sliding >= joint.opening)
+      joint.motion = JointMotion::sliding;
+    else if (opens)
+      joint.motion = any_closed[j] ? JointMotion::hinging : JointMotion::opening;
+  }
+  return joints;
+}
+
+/// Blocks joined by closed joints move as one; those at rest are group 0, the others count from 1.
+void find_groups(const Model& model, Mechanism* mechanism) {
+  const int num_blocks = static_cast<int>(model.assembly->blocks.size());
+  std::vector<int> parent(num_blocks);
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const MovingJoint& joint : mechanism->joints)
+    if (joint.motion == JointMotion::closed)
+      parent[root_of(parent, joint.block_a)] = root_of(parent, joint.block_b);
+  const auto moves = [&](int block) {
+    const int i = model.free_index[block];
+    return i != ContactProblem::kFixed && mechanism->v.segment<3>(6 * i).norm() > kAtRest;
+  };
+  std::vector<bool> group_moves(num_blocks, false);
+  for (int block = 0; block < num_blocks; ++block)
+    if (moves(block)) group_moves[root_of(parent, block)] = true;
+  std::vector<int> number(num_blocks, 0);
+  mechanism->group.assign(num_blocks, 0);
+  for (int block = 0; block < num_blocks; ++block) {
+    const int root = root_of(parent, block);
+    if (!group_moves[root]) continue;
+    if (number[root] == 0) number[root] = ++mechanism->num_groups;
+    mechanism->group[block] = number[root];
+  }
+}
+
+}  // namespace
+
+std::string to_string(JointMotion motion) {
+  switch (motion) {
+    case JointMotion::closed:
+      return "closed";
+    case JointMotion::sliding:
+      return "sliding";
+    case JointMotion::opening:
+      return "opening";
+    case JointMotion::hinging:
+      return "hinging";
+  }
+  return "";
+}
+
+Mechanism find_mechanism(const Model& model, const State& start, const ContactSet& contacts,
+                         const StaticSolution& solution) {
+  const double fastest = std::max(largest_speed(solution.solution.v), 1e-300);
+  const ContactProblem& problem = solution.step.problem;
+  const VecX u = relative_velocity(problem, solution.solution.v) + solution.step.support_velocity;
+
+  Mechanism mechanism;
+  mechanism.v = solution.solution.v / fastest;
+  mechanism.joints = joint_motions(contacts, u, fastest);
+  find_groups(model, &mechanism);
+
+  const VecX f = applied_forces(model, start, start.time);
+  double power = 0.0, scale = 0.0;
+  for (Eigen::Index i = 0; i < f.size(); i += 6) {
+    power += f.segment<6>(i).dot(mechanism.v.segment<6>(i));
+    scale += f.segment<3>(i).norm() * mechanism.v.segment<3>(i).norm();
+  }
+  mechanism.load_power = scale > 0.0 ? power / scale : 0.0;
+  for (int i = 0; i < problem.num_contacts(); ++i)
+    mechanism.violation =
+        std::max(mechanism.violation, (problem.mu[i] * u.segment<2>(3 * i + 1).norm() - u[3 * i]) / fastest);
+  return mechanism;
+}
+
+std::string mechanism_blocks_csv(const Model& model, const Mechanism& mechanism) {
+  std::string text = "block,ring,slot,group,v_x,v_y,v_z,omega_x,omega_y,omega_z\n";
+  for (int i = 0; i < model.num_free(); ++i) {
+    const int block = model.free_blocks[i];
+    const auto v = mechanism.v.segment<6>(6 * i);
+    text += fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", block,
+                        model.assembly->blocks[block].ring, model.assembly->blocks[block].slot,
+                        mechanism.group[block], v[0], v[1], v[2], v[3], v[4], v[5]);
+  }
+  return text;
+}
+
+std::string mechanism_joints_csv(const Mechanism& mechanism) {
+  std::string text = "block_a,block_b,kind,ring,motion,opening,sliding\n";
+  for (const MovingJoint& joint : mechanism.joints)
+    text += fmt::format("{},{},{},{},{},{:.9g},{:.9g}\n", joint.block_a, joint.block_b, to_string(joint.kind),
+                        joint.ring, to_string(joint.motion), joint.opening, joint.sliding);
+  return text;
+}
+
+std::string describe(const Mechanism& mechanism) {
+  const auto count = [&](JointMotion motion) {
+    return std::count_if(mechanism.joints.begin(), mechanism.joints.end(),
+                         [motion](const MovingJoint& joint) { return joint.motion == motion; });
+  };
+  return fmt::format(
+      "{} groups of blocks move; {} joints slide, {} open, {} hinge; work of the loads {:.3g} > 0, contacts "
+      "hindered by {:.1e}",
+      mechanism.num_groups, count(JointMotion::sliding), count(JointMotion::opening),
+      count(JointMotion::hinging), mechanism.load_power, mechanism.violation);
+}
+
+}  // namespace cupola

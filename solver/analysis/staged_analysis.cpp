@@ -1,0 +1,171 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "assembly/error.hpp"
+#include "assembly/program.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "solver/analysis/limit_search.hpp"
+#include "solver/analysis/record.hpp"
+#include "solver/dynamics/scene_options.hpp"
+#include "solver/dynamics/stages.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kNarrowest = 1e-4;  // of a bracket of friction: below it no mortar can be told from another
+
+/// What one stage showed.
+struct StageResult {
+  int ring = 0;
+  int blocks = 0;
+  double weight = 0.0;  // N
+  Verdict verdict = Verdict::unconverged;
+  double speed_ratio = 0.0;
+  std::optional<Bracket> critical;  // of the fresh friction
+};
+
+/// One stage with its contacts, which do not depend on friction.
+class StageRun {
+ public:
+  StageRun(const Case& scene, const Assembly& complete, int ring)
+      : scene_(scene),
+        stage_(build_stage(complete, ring)),
+        complete_(stage_.assembly.blocks.size() == complete.blocks.size()) {
+    ContactDetector detector(stage_.assembly, detection_options(scene));
+    contacts_ = detector.update(initial_poses(stage_.assembly));
+    memories_ = match_memories({}, contacts_.contacts);
+    options_ = static_options(scene.analysis);
+    options_.tolerance = std::max(options_.tolerance, kVerdictTolerance);
+    options_.may_move = true;
+  }
+
+  StaticSolution solve(double fresh_friction) {
+    model_ = make_model(case_of_stage(scene_, stage_, fresh_friction, complete_), stage_.assembly);
+    return solve_static(model_, state_at_rest(model_), contacts_, memories_, options_);
+  }
+  /// Frame of the last solve, in the blocks of the complete assembly.
+  Frame frame(const StaticSolution& solution, const Assembly& complete) const;
+  const Model& model() const { return model_; }
+  const StaticOptions& options() const { return options_; }
+
+ private:
+  const Case& scene_;
+  ConstructionStage stage_;
+  bool complete_;
+  ContactSet contacts_;
+  ContactMemories memories_;
+  StaticOptions options_;
+  Model model_;
+};
+
+Frame StageRun::frame(const StaticSolution& solution, const Assembly& complete) const {
+  Frame frame = static_frame(model_, state_at_rest(model_), contacts_, memories_, solution, options_);
+  frame.time = stage_.ring;
+  for (int& block : frame.contacts.block_a) block = stage_.complete_block[static_cast<size_t>(block)];
+  for (int& block : frame.contacts.block_b) block = stage_.complete_block[static_cast<size_t>(block)];
+  BlockTable blocks;
+  for (const Block& block : complete.blocks) {
+    blocks.position.push_back(block.centroid);
+    blocks.quaternion_wxyz.emplace_back(1.0, 0.0, 0.0, 0.0);
+    blocks.velocity.push_back(Vec3::Zero());
+    blocks.angular_velocity.push_back(Vec3::Zero());
+    blocks.displacement.push_back(Vec3::Zero());
+  }
+  for (size_t i = 0; i < stage_.complete_block.size(); ++i) {
+    const auto block = static_cast<size_t>(stage_.complete_block[i]);
+    blocks.position[block] = frame.blocks.position[i];
+    blocks.quaternion_wxyz[block] = frame.blocks.quaternion_wxyz[i];
+    blocks.displacement[block] = frame.blocks.displacement[i];
+  }
+  frame.blocks = std::move(blocks);
+  return frame;
+}
+
+/// Smallest fresh friction at which the stage stands, between none and that of hardened joints.
+Bracket critical_friction(const Case& scene, StageRun* run) {
+  double hardened = scene.joints.friction;
+  if (scene.joints.bed && scene.joints.bed->friction) hardened = *scene.joints.bed->friction;
+  return bisect(0.0, hardened, {scene.analysis.staged.relative_width, kNarrowest}, [run](double friction) {
+    const StaticSolution solution = run->solve(friction);
+    return LimitTrial{friction, solution.verdict, solution.speed_ratio};
+  });
+}
+
+std::string row(const StageResult& stage) {
+  const bool found = stage.critical && stage.critical->found;
+  return fmt::format(
+      "{},{},{:.9g},{},{:.6e},{},{}\n", stage.ring, stage.blocks, stage.weight, to_string(stage.verdict),
+      stage.speed_ratio,
+      found ? fmt::format("{:.9g},{:.9g}", stage.critical->stable.value, stage.critical->moving.value) : ",",
+      stage.critical ? stage.critical->message : "");
+}
+
+void judge(const std::vector<StageResult>& stages, double fresh_friction, Summary* summary) {
+  const StageResult* worst = nullptr;
+  int falling = 0, unconverged = 0;
+  for (const StageResult& stage : stages) {
+    falling += stage.verdict == Verdict::moving;
+    unconverged += stage.verdict == Verdict::unconverged;
+    if (stage.critical && stage.critical->found &&
+        (worst == nullptr || stage.critical->stable.value > worst->critical->stable.value))
+      worst = &stage;
+  }
+  summary->status = unconverged > 0 ? Status::unconverged : falling > 0 ? Status::moving : Status::stable;
+  summary->message = fmt::format("{} of {} stages do not stand with fresh friction {:g}", falling,
+                                 stages.size(), fresh_friction);
+  if (unconverged > 0) summary->message += fmt::format(", {} did not converge", unconverged);
+  if (worst == nullptr) return;
+  const Bracket& bracket = *worst->critical;
+  summary->critical =
+      CriticalValue{"fresh friction", bracket.middle(), bracket.stable.value, bracket.moving.value};
+  summary->message +=
+      fmt::format("; the most demanding is ring {}, which needs {:.4g}", worst->ring, bracket.stable.value);
+}
+
+}  // namespace
+
+std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
+  const StagedConstruction& staged = scene.analysis.staged;
+  int last_laid = 0;
+  for (const Block& block : assembly.blocks) last_laid = std::max(last_laid, block.ring);
+  const int last = staged.last_ring < 0 ? last_laid : std::min(staged.last_ring, last_laid);
+  if (staged.first_ring > last)
+    throw InputError(
+        fmt::format("analysis.staged.first_ring = {}: the last ring is {}", staged.first_ring, last));
+
+  Summary summary;
+  std::vector<StageResult> results;
+  std::string table = "ring,blocks,weight_N,verdict,speed_ratio,critical_stands,critical_moves,note\n";
+  const double started = wall_seconds();
+  for (int ring = staged.first_ring; ring <= last; ++ring) {
+    StageRun run(scene, assembly, ring);
+    StageResult stage;
+    const StaticSolution solution = run.solve(staged.fresh_friction);
+    stage.ring = ring;
+    stage.blocks = run.model().num_free();
+    stage.weight = run.model().free_weight;
+    stage.verdict = solution.verdict;
+    stage.speed_ratio = solution.speed_ratio;
+    const Frame frame = run.frame(solution, assembly);
+    sinks.frame(frame);
+    summarize_frame(frame, run.model(), &summary);
+    summarize_static(solution, run.options().tolerance, &summary);
+    if (staged.critical_friction) stage.critical = critical_friction(scene, &run);
+    table += row(stage);
+    results.push_back(stage);
+    sinks.table("stages.csv", table);
+    sinks.log(fmt::format("ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}", ring, stage.blocks,
+                          to_string(stage.verdict), stage.speed_ratio,
+                          stage.critical ? stage.critical->message : ""));
+    sinks.progress(static_cast<double>(ring - staged.first_ring + 1) / (last - staged.first_ring + 1));
+    if (sinks.interrupted()) return std::nullopt;
+  }
+  summary.analysis = "staged";
+  summary.steps = static_cast<int>(results.size());
+  summary.solve_time_seconds = wall_seconds() - started;
+  judge(results, staged.fresh_friction, &summary);
+  return summary;
+}
+
+}  // namespace cupola

@@ -1,0 +1,62 @@
+#include "solver/analysis/support_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace cupola {
+
+SupportPath::SupportPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options)
+    : model_(model), options_(options), detector_(*model.assembly, detection) {
+  loaded_.state = state_at_rest(model_);
+}
+
+StaticSolution SupportPath::advance(double value) {
+  start_ = loaded_.state;
+  const ContactSet& contacts = detector_.update(start_.poses);
+  memories_ = match_memories(loaded_.memories, contacts.contacts);
+  options_.time_advance = value - start_.time;
+  StaticSolution solution = solve_static(model_, start_, contacts, memories_, options_);
+  if (solution.verdict == Verdict::equilibrium)
+    loaded_ = loaded_state(model_, start_, contacts, memories_, solution, options_);
+  return solution;
+}
+
+Bracket follow(SupportPath* path, double low, double high, double relative_width,
+               const std::function<bool(const LimitTrial&, const StaticSolution&)>& report) {
+  constexpr int kFirstSteps = 40;  // the path is straight to second order in the step
+  constexpr double kGrowth = 1.5;  // after a step that held
+  Bracket bracket;
+  const double longest = (high - low) / kFirstSteps;
+  double step = longest;
+  double next = low;
+  while (true) {
+    const StaticSolution solution = path->advance(next);
+    const LimitTrial trial{next, solution.verdict, solution.speed_ratio};
+    ++bracket.trials;
+    if (!report(trial, solution)) return bracket;
+    if (trial.verdict == Verdict::equilibrium) {
+      bracket.stable = trial;
+      if (next >= high) {
+        bracket.message = fmt::format("stands up to the end of the bracket, {:g}", high);
+        return bracket;
+      }
+      step = std::min(longest, kGrowth * step);
+    } else if (next == low) {
+      bracket.message = fmt::format("{} at the start of the bracket, {:g}", to_string(trial.verdict), low);
+      return bracket;
+    } else {
+      bracket.moving = trial;
+      step = 0.5 * (next - path->value());
+      if (step < 0.5 * relative_width * std::abs(next)) break;
+    }
+    next = std::min(high, path->value() + step);
+  }
+  bracket.found = bracket.moving.verdict == Verdict::moving;
+  bracket.message = fmt::format("follows to {:.6g}, {} at {:.6g}", bracket.stable.value,
+                                to_string(bracket.moving.verdict), bracket.moving.value);
+  return bracket;
+}
+
+}  // namespace cupola

@@ -1,0 +1,81 @@
+#include "solver/dynamics/stages.hpp"
+
+#include <algorithm>
+
+namespace cupola {
+namespace {
+
+constexpr int kNotBuilt = -1;
+
+/// Block of the complete assembly -> block of the stage, or kNotBuilt.
+std::vector<int> stage_block(const ConstructionStage& stage, size_t num_complete) {
+  std::vector<int> index(num_complete, kNotBuilt);
+  for (size_t block = 0; block < stage.complete_block.size(); ++block)
+    index[static_cast<size_t>(stage.complete_block[block])] = static_cast<int>(block);
+  return index;
+}
+
+}  // namespace
+
+ConstructionStage build_stage(const Assembly& complete, int ring) {
+  ConstructionStage stage;
+  stage.ring = ring;
+  Assembly& built = stage.assembly;
+  built.vertices = complete.vertices;
+  built.face_vertex_start = {0};
+  built.title = complete.title;
+  built.geometry_hash = complete.geometry_hash;
+  built.num_rings = complete.num_rings;
+  for (size_t block = 0; block < complete.blocks.size(); ++block) {
+    if (!complete.blocks[block].fixed && complete.blocks[block].ring > ring) continue;
+    stage.complete_block.push_back(static_cast<int>(block));
+    built.blocks.push_back(complete.blocks[block]);
+  }
+  const std::vector<int> index = stage_block(stage, complete.blocks.size());
+  for (const Part& part : complete.parts) {
+    if (index[static_cast<size_t>(part.block)] == kNotBuilt) continue;
+    Part copy = part;
+    copy.block = index[static_cast<size_t>(part.block)];
+    copy.face_start = built.num_faces();
+    built.parts.push_back(copy);
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      built.add_face(complete.face(f), complete.face_kinds[f]);
+  }
+  for (ImportedTie tie : complete.ties) {
+    tie.block_a = index[static_cast<size_t>(tie.block_a)];
+    tie.block_b = index[static_cast<size_t>(tie.block_b)];
+    if (tie.block_a != kNotBuilt && tie.block_b != kNotBuilt) built.ties.push_back(tie);
+  }
+  return stage;
+}
+
+Case case_of_stage(const Case& scene, const ConstructionStage& stage, double fresh_friction, bool complete) {
+  Case at = scene;
+  RingJoints fresh{stage.ring, stage.ring, RingJoints::Sort::laid_bed, {}};
+  fresh.law.friction = fresh_friction;
+  at.joints.rings.push_back(fresh);
+  if (complete) return at;
+  const Vec3 gravity = scene.loads.gravity;
+  at.loads = Loads{};
+  at.loads.gravity = gravity;
+  at.loads.dead_load_time = scene.loads.dead_load_time;
+  at.supports = Supports{};
+
+  int num_complete = 0;
+  for (int block : stage.complete_block) num_complete = std::max(num_complete, block + 1);
+  const std::vector<int> index = stage_block(stage, static_cast<size_t>(num_complete));
+  const auto built = [&](int block) {
+    return block < num_complete && index[static_cast<size_t>(block)] >= 0;
+  };
+  at.ties.pairs.clear();
+  for (PairTie tie : scene.ties.pairs) {
+    if (!built(tie.block_a) || !built(tie.block_b)) continue;
+    tie.block_a = index[static_cast<size_t>(tie.block_a)];
+    tie.block_b = index[static_cast<size_t>(tie.block_b)];
+    at.ties.pairs.push_back(tie);
+  }
+  std::erase_if(at.ties.chains, [&](const ChainTie& chain) { return chain.ring > stage.ring; });
+  return at;
+}
+
+}  // namespace cupola

@@ -1,0 +1,308 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "solver/analysis/analysis.hpp"
+#include "tests/solver/motion_scenes.hpp"
+
+namespace cupola {
+namespace {
+
+using testing::kG;
+using testing::make_case;
+using testing::simulate;
+
+/// Tips the block on the floor by `angle` (rad, about y) over its lower edge at +x; it touches the floor
+/// there.
+void tip(double half_width, double half_height, double angle, State* state) {
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+  const Vec3 edge(half_width, 0, 0);
+  state->poses[1].q_WB = turn;
+  state->poses[1].p_WB = edge + turn * Vec3(-half_width, 0, half_height);
+}
+
+double tilt_of(const State& state) {
+  return 2.0 * std::atan2(state.poses[1].q_WB.y(), state.poses[1].q_WB.w());
+}
+
+// Rocking block (Housner 1963), half-width b, half-height H, released at theta0: the exact equation of motion
+// theta'' = -p^2 sin(alpha - theta) gives the quarter period and the angular velocity at impact; the impact
+// keeps 1 - 1.5 sin^2 alpha of it.
+TEST(Rocking, KeepsQuarterPeriodAndImpactRatio) {
+  struct Row {
+    double b, H, share, quarter, omega, ratio;
+  };
+  for (const Row& row : std::initializer_list<Row>{{0.2, 1.0, 0.5, 0.490864, 0.458240, 0.942308},
+                                                   {0.2, 1.0, 0.8, 0.853852, 0.518616, 0.942308},
+                                                   {0.5, 1.0, 0.5, 0.516630, 1.018535, 0.700000}}) {
+    const Assembly assembly = testing::box_on_floor({2 * row.b, 1.0, 2 * row.H});
+    const double h = 1e-3;
+    Case scene = make_case(0.8, 1e-12, h);
+    scene.analysis.tolerance = 1e-9;
+    Simulation simulation = simulate(scene, assembly);
+    tip(row.b, row.H, row.share * std::atan(row.b / row.H), simulation.mutable_state());
+    double impact = 0.0, before = 0.0;
+    while (simulation.state().time < 1.5 * row.quarter) {
+      before = simulation.state().v[4];
+      simulation.advance();
+      if (tilt_of(simulation.state()) > 0.0) continue;
+      impact = simulation.state().time;
+      break;
+    }
+    EXPECT_NEAR(impact / row.quarter, 1.0, 0.01) << "b " << row.b << ", share " << row.share;
+    EXPECT_NEAR(-before / row.omega, 1.0, 0.01);
+    for (int step = 0; step < 5; ++step) simulation.advance();
+    EXPECT_NEAR(simulation.state().v[4] / before, row.ratio, 0.02)
+        << "b " << row.b << ", share " << row.share;
+  }
+}
+
+// Block of 1 kg driven by F = 8 cos t on mu = 0.8: slides four times in 10 s and is parked in between.
+// Positions of the true Coulomb law; the associated law lags by its dilation.
+TEST(Driven, StickSlipBlockMovesAsTheCoulombLaw) {
+  Assembly assembly = testing::box_on_floor({0.3, 0.3, 0.1}, 1.0 / (0.3 * 0.3 * 0.1));
+  Case scene = make_case(0.8, 1e-10, 1e-3);
+  scene.analysis.tolerance = 1e-9;
+  HarmonicInTime cosine{.frequency = 0.5 / std::numbers::pi, .phase_deg = 90.0};
+  scene.loads.forces = {{.block = 1, .point = Vec3(0, 0, 0), .force = Vec3(8, 0, 0), .time = cosine}};
+  Simulation simulation = simulate(scene, assembly);
+  struct Parked {
+    double time, x;
+  };
+  double largest = 0.0, smallest = 0.0;
+  for (const Parked& parked : std::initializer_list<Parked>{{0.5, 0.004349},
+                                                            {2.9, 0.004349},
+                                                            {3.7, -0.008697},
+                                                            {6.0, -0.008697},
+                                                            {6.8, 0.004349},
+                                                            {9.2, 0.004349},
+                                                            {10.0, -0.008697}}) {
+    while (simulation.state().time < parked.time - 5e-4) {
+      simulation.advance();
+      largest = std::max(largest, simulation.state().v[0]);
+      smallest = std::min(smallest, simulation.state().v[0]);
+    }
+    EXPECT_NEAR(simulation.state().poses[1].p_WB.x(), parked.x, 1e-4) << "t = " << parked.time;
+    EXPECT_LT(std::abs(simulation.state().v[0]), 1e-6) << "parked at t = " << parked.time;
+  }
+  EXPECT_NEAR(smallest, -0.039545, 2e-4);
+  EXPECT_NEAR(largest, 0.039545, 2e-4);
+}
+
+/// Height of a block on springs after 0.05 s of free oscillation with step h.
+double oscillate(double h) {
+  const Assembly assembly = testing::box_on_floor({1, 1, 1});
+  Simulation simulation = simulate(make_case(0.4, 1e-5, h), assembly);
+  const int steps = static_cast<int>(std::llround(0.05 / h));
+  for (int step = 0; step < steps; ++step) simulation.advance();
+  return simulation.state().poses[1].p_WB.z() - 0.5;
+}
+
+// Exact: y = -(m g / k)(1 - cos w t), k = 4/c. The scheme is implicit Euler: first order.
+TEST(ConvergenceOrder, IsOneInTheStep) {
+  const double k = 4e5, w = std::sqrt(k / 1000.0);
+  const double exact = -1000.0 * kG / k * (1.0 - std::cos(w * 0.05));
+  const double coarse = oscillate(2e-4) - exact, fine = oscillate(1e-4) - exact;
+  EXPECT_NEAR(std::log2(coarse / fine), 1.0, 0.05) << coarse << " " << fine;
+}
+
+// Sliding on an incline: energy lost is the friction's work, to the order of the scheme.
+TEST(EnergyBalance, OfASlidingBlockClosesToFirstOrder) {
+  double worst[2] = {0, 0};
+  for (int i = 0; i < 2; ++i) {
+    const double h = i == 0 ? 2e-3 : 1e-3;
+    const Assembly assembly = testing::box_on_floor({1.0, 0.5, 0.2});
+    Case scene = make_case(0.2, 1e-10, h);
+    scene.loads.gravity = testing::tilted_gravity(0.5);
+    Simulation simulation = simulate(scene, assembly);
+    double work = 0.0;
+    const double start = simulation.energy().total();
+    while (simulation.state().time < 0.5) work += simulation.advance().slid_work;
+    const double lost = start - simulation.energy().total();
+    worst[i] = std::abs(lost - work) / work;
+  }
+  EXPECT_LT(worst[1], 0.02);
+  EXPECT_NEAR(worst[0] / worst[1], 2.0, 0.2);
+}
+
+// A rocking block can only lose energy, up to the first order error of its free rotation.
+TEST(EnergyBalance, OfARockingBlockNeverGrowsBeyondTheScheme) {
+  const Assembly assembly = testing::box_on_floor({0.4, 1.0, 2.0});
+  double growth[2] = {0, 0};
+  for (int i = 0; i < 2; ++i) {
+    const double h = i == 0 ? 2e-3 : 1e-3;
+    Case scene = make_case(0.8, 1e-11, h);
+    scene.analysis.tolerance = 1e-9;
+    Simulation simulation = simulate(scene, assembly);
+    tip(0.2, 1.0, 0.5 * std::atan(0.2), simulation.mutable_state());
+    const double start = simulation.energy().total();
+    const double rest = 0.0;  // potential as built
+    while (simulation.state().time < 3.0) {
+      simulation.advance();
+      growth[i] = std::max(growth[i], (simulation.energy().total() - start) / (start - rest));
+    }
+    EXPECT_LT(simulation.energy().total(), 0.75 * start) << "three seconds of impacts";
+  }
+  EXPECT_LT(growth[1], 5e-3);
+}
+
+// Free flight: the centroid falls as implicit Euler does, to rounding; energy drifts to first order.
+TEST(EnergyBalance, OfATumblingBlockDriftsToFirstOrder) {
+  double drift[2] = {0, 0};
+  for (int i = 0; i < 2; ++i) {
+    const double h = i == 0 ? 2e-3 : 1e-3;
+    const Assembly assembly = testing::make_boxes({{.center = {0, 0, 50}, .size = {1, 2, 3}}});
+    Case scene = make_case(0.4, 1e-8, h);
+    scene.loads.gravity.setZero();
+    Simulation simulation = simulate(scene, assembly);
+    simulation.mutable_state()->v << 1, 0, 0, 0.3, 2.0, 0.1;
+    const double start = simulation.energy().total();
+    while (simulation.state().time < 1.0) simulation.advance();
+    drift[i] = std::abs(simulation.energy().total() / start - 1.0);
+  }
+  EXPECT_LT(drift[1], 5e-3);
+  EXPECT_NEAR(drift[0] / drift[1], 2.0, 0.3);
+}
+
+// Heavy on light: joint forces are the weights above, whatever the ratio, and nothing sinks.
+TEST(MassRatio, HeavyOnLightCarriesTheWeightAbove) {
+  for (const double ratio : {1e2, 1e4, 1e6}) {
+    const Assembly stack = testing::stack_of_cubes(1.0, {1000.0, 1000.0, 1000.0 * ratio});
+    Case scene = make_case(0.4, 1e-12, 0.01);
+    scene.analysis.tolerance = 1e-9;
+    Simulation simulation = simulate(scene, stack);
+    StepReport report;
+    for (int step = 0; step < 200; ++step) report = simulation.advance();
+    std::vector<double> on_joint(3, 0.0);
+    const ContactSet& contacts = simulation.contacts();
+    for (size_t i = 0; i < report.forces.contacts.size(); ++i)
+      on_joint[contacts.contacts[i].block_a] += report.forces.contacts[i].z();
+    const double W = 1000.0 * kG;
+    EXPECT_NEAR(on_joint[0] / (W * (2 + ratio)), 1.0, 1e-6) << ratio;
+    EXPECT_NEAR(on_joint[1] / (W * (1 + ratio)), 1.0, 1e-6) << ratio;
+    EXPECT_NEAR(on_joint[2] / (W * ratio), 1.0, 1e-6) << ratio;
+    for (const Contact& contact : contacts.contacts) EXPECT_GT(contact.gap, -1e-4);
+  }
+}
+
+/// The last frame and the summary of a dynamic case.
+struct RunResult {
+  Summary summary;
+  Frame last;
+  int rows = -1;  // without the header
+};
+
+RunResult run(const Case& scene, const Assembly& assembly) {
+  RunResult result;
+  AnalysisSinks sinks;
+  sinks.frame = [&result](const Frame& frame) { result.last = frame; };
+  sinks.history = [&result](const std::string&) { ++result.rows; };
+  result.summary = run_dynamic(scene, assembly, sinks).value();
+  return result;
+}
+
+// Released in equilibrium nothing moves, and the forces stay those of the static analysis.
+TEST(StaticStart, IsAtRestWithItsElasticDepthAndTangentialMemory) {
+  const Assembly assembly = testing::box_on_floor({1.0, 0.5, 0.2});
+  Case scene = make_case(0.6, 1e-6, 0.01);
+  scene.analysis.tolerance = 1e-10;
+  scene.analysis.duration = 1.0;
+  scene.analysis.start = Analysis::Start::static_;
+  scene.loads.gravity = testing::tilted_gravity(0.3);
+  const RunResult moved = run(scene, assembly);
+  EXPECT_EQ(moved.summary.status, Status::stable) << moved.summary.message;
+  EXPECT_LT(moved.summary.max_speed_m_per_s, 1e-9);
+  scene.analysis.type = AnalysisType::static_;
+  Frame still;
+  AnalysisSinks sinks;
+  sinks.frame = [&still](const Frame& frame) { still = frame; };
+  run_static(scene, assembly, sinks);
+  ASSERT_EQ(moved.last.contacts.size(), still.contacts.size());
+  const double W = assembly.blocks[1].mass * kG;
+  for (int i = 0; i < still.contacts.size(); ++i)
+    EXPECT_LT((moved.last.contacts.force[i] - still.contacts.force[i]).norm(), 1e-7 * W);
+}
+
+TEST(StaticStart, SaysWhenThereIsNoEquilibriumToStartFrom) {
+  Case scene = make_case(0.2, 1e-6, 0.01);
+  scene.analysis.start = Analysis::Start::static_;
+  scene.loads.gravity = testing::tilted_gravity(0.3);
+  const RunResult moved = run(scene, testing::box_on_floor({1.0, 0.5, 0.2}));
+  EXPECT_EQ(moved.summary.status, Status::moving);
+  EXPECT_NE(moved.summary.message.find("analysis.start: static"), std::string::npos);
+  EXPECT_EQ(moved.summary.steps, 1);
+}
+
+// The dead load at once makes a spring overshoot to twice its static depth; applied slowly it does not.
+TEST(Ramp, AppliesTheDeadLoadWithoutOvershoot) {
+  const Assembly assembly = testing::box_on_floor({1, 1, 1});
+  const double depth = 1000.0 * kG * 1e-6 / 4.0;
+  for (const bool ramped : {false, true}) {
+    Case scene = make_case(0.4, 1e-6, 1e-4);
+    scene.analysis.tolerance = 1e-9;
+    if (ramped) scene.loads.dead_load_time = RampInTime{.from = 0, .to = 1, .start = 0, .duration = 0.5};
+    Simulation simulation = simulate(scene, assembly);
+    double deepest = 0.0;
+    while (simulation.state().time < 0.6) {
+      simulation.advance();
+      deepest = std::max(deepest, 0.5 - simulation.state().poses[1].p_WB.z());
+    }
+    // Numerical damping takes a little of the first swing, w h / 2 per radian of pi.
+    EXPECT_NEAR(deepest / depth, ramped ? 1.0 : 2.0, ramped ? 0.02 : 0.02);
+  }
+}
+
+TEST(AdaptiveStep, FollowsTheMotionAndHitsTheFrames) {
+  const Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {20, 20, 1}, .fixed = true},
+                                                 {.center = {0, 0, 1.5}, .size = {1, 1, 1}}});
+  Case scene = make_case(0.4, 1e-10, 0.001);
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.duration = 2.0;
+  scene.output.frames_every = 0.25;
+  scene.analysis.adaptive = AdaptiveStep{.smallest = 1e-5, .largest = 0.1, .displacement_error = 1e-3};
+  std::vector<double> times;
+  AnalysisSinks sinks;
+  sinks.frame = [&times](const Frame& frame) { times.push_back(frame.time); };
+  const Summary summary = run_dynamic(scene, assembly, sinks).value();
+  EXPECT_EQ(summary.status, Status::stable) << summary.message;
+  ASSERT_EQ(times.size(), 8u);
+  for (size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], 0.25 * (static_cast<double>(i) + 1), 1e-9);
+  EXPECT_LT(summary.steps, 400) << "2,000 steps of the first size";
+}
+
+TEST(StopRules, EndARunThatHasSettledOrCollapsed) {
+  const Assembly assembly = testing::box_on_floor({1, 1, 1});
+  Case scene = make_case(0.4, 1e-8, 0.01);
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.stop.settled_time = 0.2;
+  const RunResult settled = run(scene, assembly);
+  EXPECT_EQ(settled.summary.status, Status::stable);
+  EXPECT_LT(settled.last.time, 1.0);
+  EXPECT_NE(settled.summary.message.find("settled"), std::string::npos);
+  EXPECT_EQ(settled.rows, settled.summary.steps);
+
+  scene.loads.gravity = testing::tilted_gravity(1.0);
+  scene.analysis.stop.collapsed = true;
+  const RunResult fallen = run(scene, assembly);
+  EXPECT_EQ(fallen.summary.status, Status::collapsed);
+  EXPECT_LT(fallen.last.time, 1.0);
+}
+
+// Pressure on the upper faces of a wall weighs on its foot; a traction pushes it sideways.
+TEST(FaceLoads, ReachTheSupports) {
+  Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 3, 2);
+  for (const Part& part : wall.parts)
+    if (part.ring == 1) wall.face_kinds[part.face_start + 1] = FaceKind::top;
+  Case scene = make_case(0.6, 1e-9, 1.0);
+  scene.analysis.type = AnalysisType::static_;
+  scene.analysis.tolerance = 1e-9;
+  scene.loads.faces = {{.faces = FaceKind::top, .traction = Vec3(100, 0, 0), .pressure = 2000, .time = {}}};
+  const Summary summary = run_static(scene, wall, {});
+  const double area = 3.0 * 0.5;
+  EXPECT_NEAR(summary.support_reaction_N.z(), summary.weight_N + 2000 * area, 1e-6 * summary.weight_N);
+  EXPECT_NEAR(summary.support_reaction_N.x(), -100 * area, 1e-6 * summary.weight_N);
+}
+
+}  // namespace
+}  // namespace cupola
