@@ -115,8 +115,15 @@ void declare_herringbone_bond(Section& s, HerringboneBond& bond) {
   s.choice("chirality", bond.chirality,
            {{"right", HerringboneBond::Chirality::right}, {"left", HerringboneBond::Chirality::left}},
            "right climbs counter-clockwise seen from above");
+  s.choice("beside", bond.beside,
+           {{"stepped", HerringboneBond::Beside::stepped},
+            {"half", HerringboneBond::Beside::half},
+            {"aligned", HerringboneBond::Beside::aligned}},
+           "head joints of the flat blocks: step with the spirals, half bond, or on meridians");
   s.optional_number("phase", bond.phase, {.min = 0, .below = 1}, kNoPhase, kPhase);
   s.integer("refine", bond.refine, {.min = 1, .max = 64}, "slices per upright block's width");
+  s.rule(bond.beside != HerringboneBond::Beside::half || bond.verticals_per_block * bond.refine % 2 == 0,
+         "beside", "half needs an even number of slices per block: verticals_per_block times refine");
   check_cells(s, bond.rings, bond.blocks_per_ring, 1.0 * bond.verticals_per_block * bond.refine);
 }
 

@@ -92,6 +92,8 @@ struct StackBond {
 struct HerringboneBond {
   enum class Chirality : std::uint8_t { right, left };
   enum class Path : std::uint8_t { spiral, meridian };
+  /// Head joints of the flat blocks: step with the spirals, keep a half bond, or lie on meridians.
+  enum class Beside : std::uint8_t { stepped, half, aligned };
 
   int rings = 40;
   int blocks_per_ring = 32;                ///< whole blocks that would fill a ring
@@ -100,6 +102,7 @@ struct HerringboneBond {
   int verticals_per_block = 3;             ///< a vertical is a whole block's width over this
   Path path = Path::spiral;                ///< `meridian`: strips that climb straight up
   Chirality chirality = Chirality::right;  ///< right: climbs counter-clockwise seen from above
+  Beside beside = Beside::stepped;
   std::optional<double> phase = {};  ///< block widths from the first corner to the first spiral's start;
                                      ///< none: 1/6 on a vault with corners, else 0
   int refine = 1;                    ///< slices per vertical's width

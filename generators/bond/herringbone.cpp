@@ -13,16 +13,19 @@ namespace {
 constexpr double kCornerPhase =
     1.0 / 6.0;  // block widths: with three verticals per block no joint meets a corner
 
-/// The bond in units of one vertical's width.
+/// The bond in slices, `refine` of them to a vertical's width.
 struct Layout {
   const HerringboneBond& bond;
   bool closed;
   int num_rings;
-  int num_units;          // around, or along
-  int offset;             // units from 0 to the first strip, on an open surface
-  BondPattern pattern{};  // block_of in units
+  int num_slices;         // around, or along
+  int offset;             // slices from 0 to the first strip, on an open surface
+  BondPattern pattern{};  // blocks and block_of
 
-  int strip_start(int strip) const { return offset + strip * num_units / bond.spirals; }
+  int whole() const { return bond.verticals_per_block * bond.refine; }
+  int strip_start(int strip) const {
+    return offset + strip * (num_slices / bond.refine) / bond.spirals * bond.refine;
+  }
   int column(int vertical) const {
     if (bond.path == HerringboneBond::Path::spiral) return vertical;
     const int n = bond.rings_per_vertical;
@@ -32,35 +35,47 @@ struct Layout {
     pattern.blocks.push_back({kind, truncated, strip});
     return static_cast<int>(pattern.blocks.size()) - 1;
   }
-  bool contains(int unit) const { return closed || (unit >= 0 && unit < num_units); }
-  int& at(int ring, int unit) {
+  bool contains(int slice) const { return closed || (slice >= 0 && slice < num_slices); }
+  int& at(int ring, int slice) {
     return pattern
-        .block_of[static_cast<size_t>(ring) * num_units + (unit % num_units + num_units) % num_units];
+        .block_of[static_cast<size_t>(ring) * num_slices + (slice % num_slices + num_slices) % num_slices];
   }
 };
 
 void lay_verticals(Layout* layout) {
-  const int height = layout->bond.rings_per_vertical;
+  const int height = layout->bond.rings_per_vertical, width = layout->bond.refine;
   for (int strip = 0; strip < layout->bond.spirals; ++strip)
     for (int j = 1 - height; j < layout->num_rings; ++j) {
-      const int unit = layout->strip_start(strip) + layout->column(j);
-      if (!layout->contains(unit)) continue;
+      const int left = layout->strip_start(strip) + layout->column(j) * width;
+      if (!layout->contains(left)) continue;
       const int bottom = std::max(j, 0), top = std::min(j + height, layout->num_rings);
       const int block = layout->new_block(BlockKind::herringbone, top - bottom < height, strip);
-      for (int ring = bottom; ring < top; ++ring) layout->at(ring, unit) = block;
+      for (int ring = bottom; ring < top; ++ring)
+        for (int slice = left; slice < left + width; ++slice) layout->at(ring, slice) = block;
     }
 }
 
-/// Lays whole blocks from unit `from`, `count` units towards `step` = +1 or -1. The last block takes the
-/// rest: 2/3 to 4/3 of a whole one when the run allows.
+/// Slices of the first block of a run that goes from the edge `edge` towards `step`.
+int first_width(const Layout& layout, int ring, int edge, int step) {
+  const int whole = layout.whole();
+  if (layout.bond.beside == HerringboneBond::Beside::stepped) return whole;
+  const bool shifted = layout.bond.beside == HerringboneBond::Beside::half && ring % 2 != 0;
+  const int joint = layout.offset + (shifted ? whole / 2 : 0);  // one of the lattice
+  const int ahead = (step * (joint - edge) % whole + whole) % whole;
+  return ahead == 0 ? whole : ahead;
+}
+
+/// Lays blocks from slice `from`, `count` slices towards `step` = +1 or -1: whole ones between a first and a
+/// last that the strips cut. What is narrower than half of a whole one goes to its neighbour.
 void lay_run(Layout* layout, int ring, int from, int count, int step) {
   if (count <= 0) return;
-  const int whole = layout->bond.verticals_per_block;
-  const int num_blocks = std::max(1, (2 * count + whole) / (2 * whole));
-  for (int n = 0; n < num_blocks; ++n) {
+  const int whole = layout->whole();
+  int end = first_width(*layout, ring, step > 0 ? from : from + 1, step);
+  if (2 * end < whole) end += whole;
+  for (int laid = 0; laid < count; end += whole) {
+    if (2 * (count - end) < whole) end = count;
     const int block = layout->new_block(BlockKind::standard, false, -1);
-    const int end = n + 1 < num_blocks ? (n + 1) * whole : count;
-    for (int i = n * whole; i < end; ++i) layout->at(ring, from + step * i) = block;
+    for (; laid < end; ++laid) layout->at(ring, from + step * laid) = block;
   }
 }
 
@@ -68,17 +83,18 @@ void lay_whole_blocks(Layout* layout) {
   const HerringboneBond& bond = layout->bond;
   const bool spiral = bond.path == HerringboneBond::Path::spiral;
   for (int ring = 0; ring < layout->num_rings; ++ring) {
-    const int climb = spiral ? ring - bond.rings_per_vertical + 1 : 0;
+    const int climb = spiral ? (ring - bond.rings_per_vertical + 1) * bond.refine : 0;
     for (int strip = 0; strip < bond.spirals; ++strip) {
       const int left = layout->strip_start(strip) + climb;  // edges of the strip in this ring
-      const int right = left + bond.rings_per_vertical;
+      const int right = left + bond.rings_per_vertical * bond.refine;
       if (layout->closed) {
         const int next = strip + 1 < bond.spirals ? layout->strip_start(strip + 1)
-                                                  : layout->strip_start(0) + layout->num_units;
+                                                  : layout->strip_start(0) + layout->num_slices;
         lay_run(layout, ring, right, next + climb - right, +1);
       } else {
-        const int from = std::clamp(right, 0, layout->num_units), to = std::clamp(left, 0, layout->num_units);
-        lay_run(layout, ring, from, layout->num_units - from, +1);
+        const int from = std::clamp(right, 0, layout->num_slices),
+                  to = std::clamp(left, 0, layout->num_slices);
+        lay_run(layout, ring, from, layout->num_slices - from, +1);
         lay_run(layout, ring, to - 1, to, -1);
       }
     }
@@ -106,19 +122,15 @@ BondPattern herringbone_bond(const HerringboneBond& bond, const BondGrid& grid) 
       bond.verticals_per_block * bond.phase.value_or(grid.corners.empty() ? 0.0 : kCornerPhase);
   check(bond, grid, num_units, phase);
   const int whole = static_cast<int>(std::floor(phase));
-  Layout layout{bond, grid.closed, grid.num_rings, num_units, whole, {}};
-  layout.pattern.block_of.assign(static_cast<size_t>(grid.num_rings) * num_units, -1);
+  const int num_slices = num_units * bond.refine;
+  Layout layout{bond, grid.closed, grid.num_rings, num_slices, whole * bond.refine, {}};
+  layout.pattern.block_of.assign(static_cast<size_t>(grid.num_rings) * num_slices, -1);
   lay_verticals(&layout);
   lay_whole_blocks(&layout);
 
-  BondPattern pattern;
+  BondPattern pattern = std::move(layout.pattern);
   pattern.num_rings = grid.num_rings;
-  pattern.blocks = std::move(layout.pattern.blocks);
-  pattern.cuts =
-      lattice_cuts(grid.extent, grid.extent * (phase - whole) / num_units, num_units * bond.refine);
-  for (int ring = 0; ring < grid.num_rings; ++ring)
-    for (int slice = 0; slice < num_units * bond.refine; ++slice)
-      pattern.block_of.push_back(layout.at(ring, slice / bond.refine));
+  pattern.cuts = lattice_cuts(grid.extent, grid.extent * (phase - whole) / num_units, num_slices);
   if (bond.chirality == HerringboneBond::Chirality::left) mirror(grid.extent, &pattern);
   split_at_corners(grid, &pattern);
   return pattern;

@@ -9,7 +9,8 @@ namespace cupola {
 /// stands at the azimuth [a_i + j v, a_i + (j + 1) v) and spans the rings [j, j + rings_per_vertical), cut
 /// off by base and crown, j = 1 - rings_per_vertical .. K - 1, a_i = i extent / strips + phase. Every ring
 /// crosses rings_per_vertical verticals of each strip; the rest of the ring is laid in whole blocks cut from
-/// the strip on, so that their joints step by v per ring; a rest narrower than 2/3 w widens the last block.
+/// the strip on, so that their joints step by v per ring (`beside`: or lie where a half bond or meridians put
+/// them); a rest narrower than w/2 widens its neighbour.
 ///
 /// On a meridian path the verticals stand side by side instead: j at a_i + (j mod rings_per_vertical) v.
 /// On an open surface there is one strip, from the lower left corner, laid from it towards both ends; what
