@@ -65,7 +65,7 @@ bool LimitRun::keep(double value, Probe probe) {
                             solution.speed_ratio, solution.balance.residual, solution.iterations));
   if (solution.verdict == Verdict::equilibrium)
     stable = std::move(probe);
-  else
+  else if (solution.verdict == Verdict::moving)
     moving = std::move(probe);
   interrupted = sinks.interrupted();
   return !interrupted;
@@ -73,12 +73,13 @@ bool LimitRun::keep(double value, Probe probe) {
 
 Bracket LimitRun::search_value() {
   const LimitSearch& limit = scene.analysis.limit;
-  return bisect(limit.low, limit.high, {limit.relative_width, 0.0}, [this](double value) {
-    Probe probe = probe_at(value);
-    const LimitTrial trial{value, probe.solution.verdict, probe.solution.speed_ratio};
-    // An interrupted search ends at once: a trial without a verdict stops the bisection.
-    return keep(value, std::move(probe)) ? trial : LimitTrial{value, Verdict::unconverged, 0.0};
-  });
+  return bisect(limit.low, limit.high, {limit.relative_width, 0.0},
+                [this](double value) -> std::optional<LimitTrial> {
+                  Probe probe = probe_at(value);
+                  const LimitTrial trial{value, probe.solution.verdict, probe.solution.speed_ratio};
+                  if (!keep(value, std::move(probe))) return std::nullopt;
+                  return trial;
+                });
 }
 
 Bracket LimitRun::follow_spread() {
@@ -133,7 +134,7 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   write_frames(run, &summary);
   const std::string mechanism = run.moving ? summary.message.substr(summary.message.find("; ")) : "";
   summary.analysis = "limit";
-  summary.status = bracket.found ? Status::stable : Status::unconverged;
+  summary.status = bracket.narrow ? Status::stable : Status::unconverged;
   summary.message = fmt::format("{}: {}{}", to_string(parameter), bracket.message, mechanism);
   summary.steps = run.num_trials;
   summary.iterations = run.iterations;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "solver/analysis/static_solve.hpp"
@@ -18,7 +19,8 @@ struct LimitTrial {
 struct Bracket {
   LimitTrial stable, moving;
   int trials = 0;
-  bool found = false;
+  bool found = false;   ///< both ends have their verdict
+  bool narrow = false;  ///< and are as near to each other as wanted
   std::string message;  ///< how it ended
   double middle() const { return 0.5 * (stable.value + moving.value); }
 };
@@ -29,10 +31,13 @@ struct BracketWidth {
   double absolute = 0.0;
 };
 
+/// What happens at a value; none: the search is given up.
+using TryValue = std::function<std::optional<LimitTrial>(double value)>;
+
 /// Bisects between a value at which the structure stands and one at which it moves, until the bracket is
-/// narrow enough. Ends without a bracket when both ends behave alike or a
-/// trial does not converge.
-Bracket bisect(double low, double high, const BracketWidth& wanted,
-               const std::function<LimitTrial(double value)>& try_value);
+/// narrow enough. A trial that does not converge says nothing: the bracket then closes in on it from either
+/// side, stays wider than wanted, and the message tells what is not known. No bracket is found when both ends
+/// behave alike or one of them does not converge.
+Bracket bisect(double low, double high, const BracketWidth& wanted, const TryValue& try_value);
 
 }  // namespace cupola

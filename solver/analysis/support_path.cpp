@@ -53,7 +53,7 @@ Bracket follow(SupportPath* path, double low, double high, double relative_width
     }
     next = std::min(high, path->value() + step);
   }
-  bracket.found = bracket.moving.verdict == Verdict::moving;
+  bracket.found = bracket.narrow = bracket.moving.verdict == Verdict::moving;
   bracket.message = fmt::format("follows to {:.6g}, {} at {:.6g}", bracket.stable.value,
                                 to_string(bracket.moving.verdict), bracket.moving.value);
   return bracket;

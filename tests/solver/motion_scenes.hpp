@@ -91,4 +91,22 @@ inline Assembly make_arch(const ArchSpec& arch) {
   return assembly;
 }
 
+/// Wall of Ferris and Tin-Loi: 5 blocks of 0.4 x 0.175 m in a course, running bond, the first course with
+/// half blocks at its ends or of whole blocks.
+inline Assembly ferris_wall(int courses, bool whole_first) {
+  const double length = 0.4, height = 0.175;
+  std::vector<BoxSpec> boxes{{.center = {1, 0.5, -0.5}, .size = {6, 2, 1}, .fixed = true}};
+  for (int c = 0; c < courses; ++c) {
+    const bool whole = (c % 2 == 0) == whole_first;
+    for (int j = 0; j < (whole ? 5 : 6); ++j) {
+      const double low = whole ? j * length : std::max(0.0, (j - 0.5) * length);
+      const double high = whole ? (j + 1) * length : std::min(5 * length, (j + 0.5) * length);
+      boxes.push_back({.center = {0.5 * (low + high), 0.5, (c + 0.5) * height},
+                       .size = {high - low, 1, height},
+                       .ring = c});
+    }
+  }
+  return make_boxes(boxes);
+}
+
 }  // namespace cupola::testing

@@ -1,0 +1,155 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "generators/importer/import.hpp"
+#include "solver/analysis/static_solve.hpp"
+#include "solver/dynamics/scene_options.hpp"
+#include "tests/generators/shared_data.hpp"
+
+// Assemblies of BlockResearchGroup/compas_cra (MIT licence). What the associated law says of them was found
+// by linear programmes over the friction cones; where Coulomb's law says something else, the associated law
+// jams: sliding would open the joint, and the neighbours do not let it.
+
+namespace cupola {
+namespace {
+
+constexpr double kG = 9.81;  // m/s2
+
+struct Scene {
+  std::string file;
+  std::vector<std::string> supports;
+  double mu;
+  Vec3 gravity = Vec3(0.0, 0.0, -kG);
+};
+
+Assembly import_scene(const Scene& scene) {
+  ImportedBlocks source;
+  source.path = shared_data() + "/compas_cra/" + scene.file;
+  source.supports = scene.supports;
+  Assembly assembly = import_blocks(source, 1000.0);
+  if (scene.file == "bridge.json") {
+    for (size_t block = 11; block <= 15; ++block) assembly.blocks[block].density *= 3.51;
+    compute_mass_properties(&assembly);
+  }
+  return assembly;
+}
+
+StaticSolution solve(const Scene& scene, FrictionLaw law, double compliance = 1e-9) {
+  const Assembly assembly = import_scene(scene);
+  Case c;
+  c.joints.friction = scene.mu;
+  c.joints.compliance = {compliance, compliance, Compliance::Per::point};
+  c.loads.gravity = scene.gravity;
+  const Model model = make_model(c, assembly);
+  const State rest = state_at_rest(model);
+  ContactDetector detector(assembly, detection_options(c));
+  const ContactSet& contacts = detector.update(rest.poses);
+  StaticOptions options;
+  options.tolerance = kVerdictTolerance;
+  options.law = law;
+  options.may_move = true;
+  return solve_static(model, rest, contacts, match_memories({}, contacts.contacts), options);
+}
+
+void expect_verdict(const Scene& scene, FrictionLaw law, Verdict expected) {
+  const StaticSolution solution = solve(scene, law);
+  EXPECT_EQ(to_string(solution.verdict), to_string(expected))
+      << scene.file << ", mu " << scene.mu << ", gravity " << scene.gravity.transpose() << ", "
+      << to_string(law) << ": " << solution.message;
+}
+
+/// Gravity as the blocks see it once they are tilted about x or y, deg.
+Vec3 tilted_about_x(double deg) {
+  const double a = deg * std::numbers::pi / 180.0;
+  return kG * Vec3(0.0, -std::sin(a), -std::cos(a));
+}
+Vec3 tilted_about_y(double deg) {
+  const double a = deg * std::numbers::pi / 180.0;
+  return kG * Vec3(std::sin(a), 0.0, -std::cos(a));
+}
+
+class CompasAssembly : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (shared_data().empty()) GTEST_SKIP() << "no shared data";
+  }
+};
+
+const std::vector<std::string> kWalls{"0", "1"};
+
+// A beam between two vertical walls: the associated law holds it at any friction by prestress, Coulomb's law
+// lets it fall.
+TEST_F(CompasAssembly, BeamBetweenWallsJamsOrFalls) {
+  for (const double mu : {0.1, 0.84}) {
+    expect_verdict({"H.json", kWalls, mu}, FrictionLaw::associated, Verdict::equilibrium);
+    expect_verdict({"H.json", kWalls, mu}, FrictionLaw::coulomb, Verdict::moving);
+  }
+}
+
+// Between walls that lean inward by 30 deg the associated law needs mu >= tan 30 deg.
+TEST_F(CompasAssembly, KeystoneUpsideDownJamsFromTheSlopeOfItsWalls) {
+  const double tan30 = std::tan(std::numbers::pi / 6.0);
+  expect_verdict({"A.json", kWalls, 1.01 * tan30}, FrictionLaw::associated, Verdict::equilibrium);
+  expect_verdict({"A.json", kWalls, 0.99 * tan30}, FrictionLaw::associated, Verdict::moving);
+  expect_verdict({"A.json", kWalls, 0.84}, FrictionLaw::coulomb, Verdict::moving);
+}
+
+// A wedge of 60 deg jams at every tilt.
+TEST_F(CompasAssembly, SteepWedgeJamsAtEveryTilt) {
+  for (const char* file : {"type-a.json", "type-b.json"})
+    for (const double deg : {0.0, 30.0, 60.0, 89.0, 120.0, 150.0, 180.0}) {
+      expect_verdict({file, kWalls, .84, tilted_about_x(deg)}, FrictionLaw::associated, Verdict::equilibrium);
+      expect_verdict({file, kWalls, .84, tilted_about_y(deg)}, FrictionLaw::associated, Verdict::equilibrium);
+    }
+}
+
+struct Tilt {
+  const char* file;
+  bool about_x;
+  FrictionLaw law;
+  double critical_deg;
+};
+
+// Wedges of 30 deg on tilting ground: with a tall head it topples; the low one slides up a flank at 30 deg +
+// atan mu, and along the groove at tan(theta) = mu / sqrt(cos^2 30 - mu^2 sin^2 30) under the associated law
+// but at mu / cos 30 under Coulomb's.
+TEST_F(CompasAssembly, FlatWedgesSlideOrTopple) {
+  const double mu = 0.84, rad = 180.0 / std::numbers::pi, cos30 = std::sqrt(0.75);
+  const double coulomb = std::atan(mu / cos30) * rad;
+  for (const Tilt& tilt :
+       std::initializer_list<Tilt>{{"type-c.json", false, FrictionLaw::associated, 65.71},
+                                   {"type-c.json", true, FrictionLaw::associated, 46.96},
+                                   {"type-d.json", false, FrictionLaw::associated, 30 + std::atan(mu) * rad},
+                                   {"type-d.json", true, FrictionLaw::associated, 47.96},
+                                   {"type-c.json", false, FrictionLaw::coulomb, 65.71},
+                                   {"type-d.json", false, FrictionLaw::coulomb, 30 + std::atan(mu) * rad},
+                                   {"type-d.json", true, FrictionLaw::coulomb, coulomb}}) {
+    for (const double factor : {0.99, 1.01}) {
+      const double deg = factor * tilt.critical_deg;
+      expect_verdict({tilt.file, kWalls, mu, tilt.about_x ? tilted_about_x(deg) : tilted_about_y(deg)},
+                     tilt.law, factor < 1.0 ? Verdict::equilibrium : Verdict::moving);
+    }
+  }
+}
+
+TEST_F(CompasAssembly, ThatStandUnderEitherLaw) {
+  for (const FrictionLaw law : {FrictionLaw::associated, FrictionLaw::coulomb}) {
+    expect_verdict({"cubes.json", {"0"}, 0.84}, law, Verdict::equilibrium);
+    for (const double mu : {0.4, 1.0}) {
+      expect_verdict({"shelf-stable.json", {"0"}, mu}, law, Verdict::equilibrium);
+      expect_verdict({"bridge.json", kWalls, mu}, law, Verdict::equilibrium);
+    }
+  }
+}
+
+TEST_F(CompasAssembly, SnakeNeedsFriction) {
+  for (const FrictionLaw law : {FrictionLaw::associated, FrictionLaw::coulomb}) {
+    expect_verdict({"snake.json", {"0"}, 0.4}, law, Verdict::moving);
+    expect_verdict({"snake.json", {"0"}, 0.6}, law, Verdict::equilibrium);
+  }
+}
+
+}  // namespace
+}  // namespace cupola
