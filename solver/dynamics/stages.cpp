@@ -37,6 +37,7 @@ ConstructionStage build_stage(const Assembly& complete, int ring) {
     Part copy = part;
     copy.block = index[static_cast<size_t>(part.block)];
     copy.face_start = built.num_faces();
+    copy.num_faces = 0;  // add_face counts them
     built.parts.push_back(copy);
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
       built.add_face(complete.face(f), complete.face_kinds[f]);

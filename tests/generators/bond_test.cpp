@@ -117,6 +117,35 @@ TEST(Herringbone, ThreeVerticalsAreOneWidthInEveryRing) {
   }
 }
 
+// Beside the spirals the joints of flat blocks lie on meridians a block's width apart, in half bond shifted
+// by half of it in every other ring; what the spirals cut is not narrower than half a block.
+TEST(Herringbone, FlatBlocksLieInHalfBondOrOnMeridians) {
+  const double width = 2 * pi / 32;
+  for (const auto beside : {HerringboneBond::Beside::half, HerringboneBond::Beside::aligned}) {
+    HerringboneBond spec;
+    spec.beside = beside;
+    spec.refine = 2;
+    const BondPattern bond = herringbone_bond(spec, BondGrid{40, true, 2 * pi, {}});
+    for (int ring = 0; ring < 40; ++ring) {
+      const bool shifted = beside == HerringboneBond::Beside::half && ring % 2 != 0;
+      for (int s = 0; s < bond.num_slices(); ++s) {
+        const int left = bond.at(ring, (s + bond.num_slices() - 1) % bond.num_slices());
+        const int right = bond.at(ring, s);
+        if (left == right || bond.blocks[left].kind == BlockKind::herringbone ||
+            bond.blocks[right].kind == BlockKind::herringbone)
+          continue;
+        EXPECT_NEAR(std::remainder(bond.cuts[s] - (shifted ? width / 2 : 0.0), width), 0.0, 1e-9)
+            << "ring " << ring;
+      }
+      for (const auto& [block, w] : widths_in_ring(bond, ring)) {
+        if (bond.blocks[block].kind == BlockKind::herringbone) continue;
+        EXPECT_GT(w, width / 2 - 1e-9);
+        EXPECT_LT(w, 2 * width - 1e-9);
+      }
+    }
+  }
+}
+
 TEST(Herringbone, TruncatedVerticalsAreKeptAndFlagged) {
   const BondPattern bond = herringbone_bond(HerringboneBond{}, BondGrid{40, true, 2 * pi, {}});
   int verticals = 0, truncated = 0;

@@ -169,7 +169,9 @@ TEST(EnergyBalance, OfATumblingBlockDriftsToFirstOrder) {
 TEST(MassRatio, HeavyOnLightCarriesTheWeightAbove) {
   for (const double ratio : {1e2, 1e4, 1e6}) {
     const Assembly stack = testing::stack_of_cubes(1.0, {1000.0, 1000.0, 1000.0 * ratio});
-    Case scene = make_case(0.4, 1e-12, 0.01);
+    // Joints sink by 1e-5 m under the stack, whatever it weighs; the first swing has died out long before 2 s.
+    const double depth = 1e-5, W = 1000.0 * kG;
+    Case scene = make_case(0.4, 4.0 * depth / (W * (2 + ratio)), 0.01);
     scene.analysis.tolerance = 1e-9;
     Simulation simulation = simulate(scene, stack);
     StepReport report;
@@ -178,11 +180,10 @@ TEST(MassRatio, HeavyOnLightCarriesTheWeightAbove) {
     const ContactSet& contacts = simulation.contacts();
     for (size_t i = 0; i < report.forces.contacts.size(); ++i)
       on_joint[contacts.contacts[i].block_a] += report.forces.contacts[i].z();
-    const double W = 1000.0 * kG;
     EXPECT_NEAR(on_joint[0] / (W * (2 + ratio)), 1.0, 1e-6) << ratio;
     EXPECT_NEAR(on_joint[1] / (W * (1 + ratio)), 1.0, 1e-6) << ratio;
     EXPECT_NEAR(on_joint[2] / (W * ratio), 1.0, 1e-6) << ratio;
-    for (const Contact& contact : contacts.contacts) EXPECT_GT(contact.gap, -1e-4);
+    for (const Contact& contact : contacts.contacts) EXPECT_GT(contact.gap, -1.1 * depth);
   }
 }
 
@@ -202,10 +203,11 @@ RunResult run(const Case& scene, const Assembly& assembly) {
   return result;
 }
 
-// Released in equilibrium nothing moves, and the forces stay those of the static analysis.
+// Released in equilibrium nothing moves, and the forces stay those of the static analysis: c F = 2e-6 m of
+// elastic displacement changes lever arms of 1 m by as much.
 TEST(StaticStart, IsAtRestWithItsElasticDepthAndTangentialMemory) {
   const Assembly assembly = testing::box_on_floor({1.0, 0.5, 0.2});
-  Case scene = make_case(0.6, 1e-6, 0.01);
+  Case scene = make_case(0.6, 1e-8, 0.01);
   scene.analysis.tolerance = 1e-10;
   scene.analysis.duration = 1.0;
   scene.analysis.start = Analysis::Start::static_;
@@ -255,7 +257,7 @@ TEST(Ramp, AppliesTheDeadLoadWithoutOvershoot) {
 
 TEST(AdaptiveStep, FollowsTheMotionAndHitsTheFrames) {
   const Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {20, 20, 1}, .fixed = true},
-                                                 {.center = {0, 0, 1.5}, .size = {1, 1, 1}}});
+                                                 {.center = {0, 0, 0.9}, .size = {1, 1, 1}}});
   Case scene = make_case(0.4, 1e-10, 0.001);
   scene.analysis.tolerance = 1e-9;
   scene.analysis.duration = 2.0;

@@ -247,7 +247,12 @@ TEST(Mechanism, OfTheSemicircleHasFiveHinges) {
   EXPECT_EQ(hinges, 6);
   EXPECT_EQ(mechanism.group.front(), 0) << "the support rests";
   EXPECT_GT(mechanism.load_power, 1e-3);
-  EXPECT_LT(mechanism.violation, 1e-4) << "compliance closes joints by that much of the motion";
+  // What hinders is the compliance's closing E gamma, and nothing else.
+  const ContactProblem& problem = solution.step.problem;
+  const double closing = problem.E.cwiseProduct(solution.solution.gamma).cwiseAbs().maxCoeff();
+  EXPECT_LT(mechanism.violation, 1.8 * closing / largest_speed(solution.solution.v) + 1e-8)
+      << "normal and mu times tangential part";
+  EXPECT_LT(mechanism.violation, 1e-3);
 }
 
 // Load multiplier: a block on a rough floor is pushed by lambda W at its foot; it slides at lambda = mu.
