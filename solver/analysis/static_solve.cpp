@@ -103,13 +103,26 @@ bool keeps_moving(const std::vector<SpeedTrial>& trials) {
   return n >= 3 && falls_slowly(trials[n - 3], trials[n - 2]) && falls_slowly(trials[n - 2], trials[n - 1]);
 }
 
+/// A ratio beyond what an equilibrium shows at the first h.
+constexpr double kFast = 3e-2;
+
+/// An h at which elastic displacements are a trifle: c m / h^2 = kRigid for the most compliant contact.
+double rigid_step(const Model& model, const State& start, const ContactSet& contacts) {
+  constexpr double kRigid = 1e-8;  // leaves the impulses of what moves fast half of their digits
+  double compliance = 0.0;
+  for (const Contact& contact : contacts.contacts)
+    compliance = std::max(compliance, joint_law(model, contacts, contact, start.time).compliance_normal);
+  double mass = 0.0;
+  for (const int block : model.free_blocks) mass += model.assembly->blocks[block].mass;
+  return std::sqrt(compliance * mass / std::max(1, model.num_free()) / kRigid);
+}
+
 /// The inertia share falls with h^2: a little more than needed. But impulses of a moving structure lose
 /// digits with h^2, so h leaps only when the last raise has shown that it slows down.
 double raise_of_h(const std::vector<SpeedTrial>& trials, double residual, const StaticOptions& options) {
   constexpr double kCareful = 2.0;
   constexpr double kByDegrees = 6.0;
   constexpr double kFarthest = 100.0;
-  constexpr double kFast = 3e-2;  // a ratio beyond what an equilibrium shows at the first h
   const size_t n = trials.size();
   const bool slows_down =
       n >= 2 ? !falls_slowly(trials[n - 2], trials[n - 1]) : options.may_move && trials[0].ratio < kFast;
@@ -155,7 +168,8 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
   StaticSolution trial;
   trial.h = first_step(model, start, contacts, acceleration, options);
   std::vector<SpeedTrial> trials;
-  for (int k = 0; k < kMaxSolves; ++k) {
+  bool moving = false;
+  for (int k = 0; k < kMaxSolves && !moving; ++k) {
     solve_at(model, start, contacts, memories, options, acceleration, &solver, &trial);
     options.log(
         fmt::format("static  h {:9.3e} s  iterations {:3d}  momentum {:9.2e}  law {:9.2e}  "
@@ -166,10 +180,18 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
     if (converged && trial.balance.residual <= options.tolerance) break;
     if (!converged && !(trial.residuals.momentum <= known_to(trial.speed_ratio))) break;
     trials.push_back({trial.h, trial.speed_ratio});
-    if (keeps_moving(trials)) break;
-    trial.h *= raise_of_h(trials, trial.balance.residual, options);
+    const double rigid = rigid_step(model, start, contacts);
+    if (!keeps_moving(trials)) {
+      trial.h *= raise_of_h(trials, trial.balance.residual, options);
+    } else if (options.law == FrictionLaw::associated && trial.speed_ratio > kFast && trial.h < rigid) {
+      // Joints so soft that blocks nearly fall freely in h show nothing yet: ask once more, rigid. (Under
+      // Coulomb's law the rigid problem is another one: it admits self-stress that no compliance builds up.)
+      trial.h = rigid;
+    } else {
+      moving = true;
+    }
   }
-  judge(options, keeps_moving(trials), &trial);
+  judge(options, moving, &trial);
   return trial;
 }
 
