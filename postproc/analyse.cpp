@@ -15,6 +15,7 @@
 #include "postproc/post_summary.hpp"
 #include "postproc/report.hpp"
 #include "postproc/result_tables.hpp"
+#include "postproc/stages.hpp"
 
 namespace cupola {
 namespace {
@@ -98,10 +99,14 @@ ExitCode analyse(const AnalyseRequest& request) {
   std::filesystem::remove(in_folder(folder, "summary.json"));
   const std::vector<HistoryRow> history = write_frames(e, results, folder);
   write_meshes(e, folder);
-  const std::vector<Table> tables = result_tables(e);
+  std::vector<Table> tables = result_tables(e);
+  std::vector<Figure> figures = result_figures(e, history);
+  if (std::optional<Table> stages = stage_table(e, request.results_folder)) {
+    figures.insert(figures.begin(), stage_figure(*stages));
+    tables.insert(tables.begin(), std::move(*stages));
+  }
   for (const Table& table : tables)
     write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
-  const std::vector<Figure> figures = result_figures(e, history);
   for (std::string& problem : draw_figures(in_folder(folder, "figures"), figures))
     e.warnings.push_back(std::move(problem));
   std::vector<Picture> pictures;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "assembly/error.hpp"
@@ -28,9 +29,36 @@ void check_blocks(const Frame& frame, const Assembly& assembly) {
                                  assembly.blocks.size()));
 }
 
-/// The last frame that can be read; those after it are named in the warnings.
-Frame last_readable_frame(const ResultsReader& results, std::vector<std::string>* warnings) {
-  for (int i = static_cast<int>(results.times().size()) - 1;; --i) {
+bool is_mechanism(const Summary& summary, const Frame& frame) {
+  return summary.analysis == "limit" && frame.time > 0.0;
+}
+
+/// Moves the blocks of a mechanism along its velocities, until the fastest has gone a twentieth of the model.
+void show_mechanism(const Assembly& assembly, Frame* frame) {
+  constexpr double kShown = 0.05;
+  Eigen::AlignedBox3d box;
+  for (const Block& block : assembly.blocks)
+    if (!block.fixed) box.extend(block.centroid);
+  BlockTable& blocks = frame->blocks;
+  double fastest = 0.0;
+  for (const Vec3& v : blocks.velocity) fastest = std::max(fastest, v.norm());
+  if (fastest == 0.0) return;
+  const double time =
+      kShown * std::max(box.diagonal().norm(), std::cbrt(assembly.blocks.front().volume)) / fastest;
+  for (size_t b = 0; b < blocks.position.size(); ++b) {
+    const Vec3 turn = time * blocks.angular_velocity[b];
+    const Eigen::Quaterniond q(Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()));
+    blocks.position[b] += time * blocks.velocity[b];
+    blocks.displacement[b] += time * blocks.velocity[b];
+    blocks.quaternion_wxyz[b] = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
+  }
+}
+
+/// The last frame that can be read; those after it are named in the warnings. Of a limit analysis, the last
+/// equilibrium, which comes before the mechanism.
+Frame evaluated_frame(const ResultsReader& results, std::vector<std::string>* warnings) {
+  const bool limit = results.summary().analysis == "limit";
+  for (int i = limit ? 0 : static_cast<int>(results.times().size()) - 1;; --i) {
     try {
       return results.read_frame(i);
     } catch (const InputError& error) {
@@ -64,7 +92,7 @@ int joints_lost_between(const ContactTable& first, const ContactTable& last) {
 }
 
 void count_lost_joints(const ResultsReader& results, Evaluation* e) {
-  if (e->times.size() < 2) return;
+  if (e->times.size() < 2 || e->summary.analysis != "dynamic") return;
   try {
     e->lost_joints = joints_lost_between(results.read_frame(0).contacts, e->last.frame.contacts);
   } catch (const InputError& error) {
@@ -146,13 +174,15 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   check_blocks(frame, e.assembly);
   FrameEvaluation out;
   out.frame = std::move(frame);
+  const bool mechanism = is_mechanism(e.summary, out.frame);
+  if (mechanism) show_mechanism(e.assembly, &out.frame);
   const Loads& loads = e.scene.loads;
   out.gravity = factor_at(loads.dead_load_time, out.frame.time) * loads.gravity;
   out.loads = loads_at(e, out.frame.time);
   out.joints = joint_wrenches(e.assembly, out.frame.contacts, e.shell);
   out.from_below = wrenches_from_below(e.assembly, out.joints);
   out.fields = block_fields(e.assembly, out.frame, out.joints, out.from_below, out.loads, e.axes);
-  if (e.summary.status == Status::stable)
+  if (e.summary.status == Status::stable && !mechanism)
     out.groups.assign(e.assembly.blocks.size(), 0);
   else
     out.groups =
@@ -192,7 +222,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   if (!e.assembly.ties.empty() || !scene.ties.pairs.empty() || !scene.ties.chains.empty())
     e.warnings.push_back("ties carry forces too: ring sums and wrenches count the joints only");
 
-  e.last = evaluate_frame(e, last_readable_frame(results, &e.warnings));
+  e.last = evaluate_frame(e, evaluated_frame(results, &e.warnings));
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads);
   e.meridians = evaluate_meridians(e);
   e.sections = evaluate_sections(e);

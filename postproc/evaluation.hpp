@@ -71,7 +71,8 @@ struct Evaluation {
 /// left: then InputError.
 Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results);
 
-/// Evaluates one frame against an evaluation's assembly, loads and shell.
+/// Evaluates one frame against an evaluation's assembly, loads and shell. The second frame of a limit
+/// analysis, its mechanism, is shown displaced along its velocities.
 FrameEvaluation evaluate_frame(const Evaluation& evaluation, Frame frame);
 
 /// Mean over common beds of r of one line over r of the other; none without common beds.

@@ -91,6 +91,7 @@ PostSummary post_summary(const Evaluation& e) {
   if (s.blocks > 0) s.block_size_m = std::cbrt(volume / s.blocks);
   s.friction = e.scene.joints.friction;
   s.equilibrium_residual = e.summary.equilibrium_residual;
+  if (e.summary.critical) s.critical_value = e.summary.critical->value;
   s.max_displacement_m = e.summary.max_displacement_m;
   s.rib_over_mid_sail = e.rib_over_mid_sail;
   for (const RingSum& r : e.rings) {

@@ -167,6 +167,10 @@ std::string run_section(const ReportInput& input) {
 }  // namespace
 
 std::string verdict_text(const Summary& s) {
+  if (s.analysis == "limit" && s.critical)
+    return fmt::format(
+        "The structure stands at a {0} of {1:.5g} and moves at {2:.5g}. Forces below are those at {1:.5g}.",
+        s.critical->parameter, s.critical->stable, s.critical->moving);
   switch (s.status) {
     case Status::stable:
       return "The structure is at rest.";

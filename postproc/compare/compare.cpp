@@ -90,6 +90,8 @@ std::vector<Figure> overlay_figures(const std::vector<std::string>& folders,
       {"rings", "largest_friction_use", 100.0, "largest friction utilisation (%)",
        "Friction used by the beds"},
       {"rings", "largest_kern_use", 1.0, "largest eccentricity over the kern's", "Eccentricity of the beds"}};
+  overlays.push_back({"stages", "critical_friction", 1.0, "friction that the ring just laid needs",
+                      "Construction, ring by ring"});
   for (const std::string& table : common_files(folders, "thrust_", ".csv")) {
     const std::string name = table.substr(7);
     overlays.push_back({table, "r_N", 1e-6, "r: resultant (MN)", "Resultant along the meridian " + name});
@@ -133,7 +135,7 @@ std::string comparison_html(const std::vector<PostSummary>& runs, const std::vec
     body += "<p class=\"warning\"><strong>Warning:</strong> " + html_text(problem) + "</p>\n";
   body += "<h2>Reading</h2>\n<p>";
   for (const std::string& sentence : reading(runs)) body += html_text(sentence) + " ";
-  body += "</p>\n<h2>Numbers</h2>\n" + html_table(comparison_table(runs));
+  body += "</p>\n<h2>Numbers</h2>\n" + html_table(plain_table(runs));
   body += "<h2>Graphs</h2>\n<div class=\"side\">\n";
   for (const Figure& figure : figures)
     body +=

@@ -82,23 +82,32 @@ const std::vector<Measure>& measures() {
   const auto of_ratio = [](const S& s) { return s.equilibrium_residual; };
   const auto of_arm = [](const S& s) { return s.equilibrium_residual * s.block_size_m; };
   static const std::vector<Measure> kMeasures{
-      {"cv_pressure_percent", "%", 100.0, "Within a ring, bed pressures vary in the mean by", "most even",
+      {"cv_pressure_percent", "%", 100.0, "Within a ring, bed pressures vary in the mean by",
+       "How evenly the blocks of one ring share the load: 0 when all are pressed alike.", "most even",
        Best::lowest, [](const S& s) { return O(s.mean_cv_pressure); }, of_ratio},
       {"rib_over_mid_sail", "", 1.0, "The resultant of the rib over that of the mid-sail is",
+       "Whether a corner of the vault carries more than the middle of a sail: 1 when alike.",
        "nearest to equal", Best::nearest_one, [](const S& s) { return s.rib_over_mid_sail; }},
-      {"friction_use_percent", "%", 100.0, "Of its friction, the most used joint needs", "least used",
+      {"friction_use_percent", "%", 100.0, "Of its friction, the most used joint needs",
+       "How near the joint that is worst off comes to sliding: at 100 % it slides.", "least used",
        Best::lowest, [](const S& s) { return O(s.largest_friction_use); }, of_ratio},
       {"critical_friction", "", 1.0, "The friction coefficient at which it falls is",
+       "How slippery its joints may become before the vault falls: the lower, the safer.",
        "safest against sliding", Best::lowest, [](const S& s) { return s.critical_value; }},
-      {"kern_use", "", 1.0, "Over the kern's edge, the bed forces' mean eccentricity is", "most central",
+      {"kern_use", "", 1.0, "Over the kern's edge, the bed forces' mean eccentricity is",
+       "How centrally the beds are pressed: up to 1 the whole bed is, above it a part gapes.", "most central",
        Best::lowest, [](const S& s) { return O(s.mean_kern_use); }, of_ratio},
-      {"geometric_safety", "", 1.0, "The least geometric safety of the thrust lines is", "largest",
-       Best::highest, least_safety},
-      {"thrust_over_weight", "", 1.0, "The outward thrust of the base over the weight is", "smallest",
-       Best::lowest, [](const S& s) { return O(s.thrust_over_weight); }, of_ratio},
-      {"couple_length_m", "m", 1.0, "The largest couple length of a block's wrench is", "smallest",
-       Best::lowest, [](const S& s) { return O(s.largest_couple_length_m); }, of_arm},
-      {"displacement_mm", "mm", 1000.0, "The largest displacement of a block is", "stiffest", Best::lowest,
+      {"geometric_safety", "", 1.0, "The least geometric safety of the thrust lines is",
+       "How much thicker the shell is than the line of thrust needs: at 1 the line touches a face.",
+       "largest", Best::highest, least_safety},
+      {"thrust_over_weight", "", 1.0, "The outward thrust of the base over the weight is",
+       "How hard the vault leans outwards on what it stands on.", "smallest", Best::lowest,
+       [](const S& s) { return O(s.thrust_over_weight); }, of_ratio},
+      {"couple_length_m", "m", 1.0, "The largest couple length of a block's wrench is",
+       "How far off its axis a force twists the worst block.", "smallest", Best::lowest,
+       [](const S& s) { return O(s.largest_couple_length_m); }, of_arm},
+      {"displacement_mm", "mm", 1000.0, "The largest displacement of a block is",
+       "How far mortar yields under the weight.", "stiffest", Best::lowest,
        [](const S& s) { return O(s.max_displacement_m); }},
   };
   return kMeasures;
@@ -144,6 +153,28 @@ Table comparison_table(const std::vector<PostSummary>& runs) {
       row.push_back(m.scale * value.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
     t.rows.push_back(std::move(row));
+  }
+  return t;
+}
+
+Table plain_table(const std::vector<PostSummary>& runs) {
+  Table t{"numbers", "The numbers and what they tell", {{"measure", "", "what it tells"}}, {}};
+  const std::vector<std::string> labels = run_labels(runs.size());
+  for (size_t i = 0; i < runs.size(); ++i) t.columns.push_back({labels[i], labels[i], runs[i].title});
+  for (const Measure& m : measures()) {
+    std::vector<Table::Cell> row{m.plainly};
+    bool any = false;
+    for (const PostSummary& run : runs) {
+      const std::optional<double> value = m.value(run);
+      any = any || value.has_value();
+      if (!value)
+        row.emplace_back("-");
+      else if (is_negligible(m, run, *value))
+        row.emplace_back("negligible");
+      else
+        row.emplace_back(to_display(m.scale * *value) + (m.unit.empty() ? "" : " " + m.unit));
+    }
+    if (any) t.rows.push_back(std::move(row));
   }
   return t;
 }

@@ -16,6 +16,7 @@ struct Measure {
   std::string unit;         ///< as shown: "%", "m", ...
   double scale = 1.0;       ///< from the summary's SI value to the unit
   std::string subject;      ///< beginning of the sentence, up to the number
+  std::string plainly;      ///< what it tells, for readers who build rather than compute
   std::string superlative;  ///< of the run that is best by this measure
   Best best = Best::lowest;
   std::optional<double> (*value)(const PostSummary&) = nullptr;  ///< none where a run has no such number
@@ -33,7 +34,10 @@ std::vector<std::string> run_labels(size_t num_runs);
 /// roundings means nothing; runs that are not at rest are said first.
 std::vector<std::string> reading(const std::vector<PostSummary>& runs);
 
-/// One row per run, one column per measure.
+/// One row per run, one column per measure: for the CSV.
 Table comparison_table(const std::vector<PostSummary>& runs);
+
+/// One row per measure with what it tells, one column per run: for the reader.
+Table plain_table(const std::vector<PostSummary>& runs);
 
 }  // namespace cupola

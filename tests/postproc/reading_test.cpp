@@ -117,6 +117,20 @@ TEST(Reading, TheTableHasARowPerRunAndAColumnPerMeasure) {
   EXPECT_EQ(std::get<std::string>(table.rows[1][1]), "Herringbone");
 }
 
+TEST(Reading, ThePlainTableExplainsEveryMeasureThatARunHas) {
+  auto runs = two_runs();
+  runs[0].equilibrium_residual = 1e-9;
+  runs[0].mean_cv_pressure = 1e-13;
+  for (PostSummary& run : runs) run.critical_value.reset();
+  const Table table = plain_table(runs);
+  ASSERT_EQ(table.columns.size(), 3u);
+  EXPECT_EQ(table.columns[2].meaning, "Herringbone");
+  ASSERT_EQ(table.rows.size(), measures().size() - 1) << "no run has a critical friction";
+  EXPECT_EQ(std::get<std::string>(table.rows[0][1]), "negligible");
+  EXPECT_EQ(std::get<std::string>(table.rows[0][2]), "12.4 %");
+  for (const auto& row : table.rows) EXPECT_GT(std::get<std::string>(row[0]).size(), 20u);
+}
+
 TEST(Reading, LabelsAreLettersThenNumbers) {
   const auto labels = run_labels(28);
   EXPECT_EQ(labels[0], "A");
