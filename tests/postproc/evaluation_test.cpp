@@ -1,5 +1,7 @@
 #include "postproc/evaluation.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -8,6 +10,8 @@
 #include "assembly/error.hpp"
 #include "postproc/mesh_output.hpp"
 #include "postproc/post_summary.hpp"
+#include "postproc/report.hpp"
+#include "postproc/stages.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola {
@@ -143,6 +147,53 @@ TEST(Evaluation, MechanismGroupsFollowTheMotion) {
   const JointWrenches joints = joint_wrenches(a, frame.contacts, shell_of(a, Vec3::UnitZ()));
   EXPECT_EQ(mechanism_groups(a, frame, joints, 0.004), (std::vector{0, 0, 1, 1}));
   EXPECT_EQ(mechanism_groups(a, frame, joints, 0.3), (std::vector{0, 0, 0, 0}));
+}
+
+TEST(Evaluation, ALimitAnalysisShowsForcesOfTheEquilibriumAndTheMechanismDisplaced) {
+  const Assembly a = test::column(3);
+  Frame stands = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4), moves = stands;
+  moves.time = 1.0;
+  for (int i = 0; i < moves.contacts.size(); ++i) moves.contacts.force[i] *= 0.5;  // not in balance
+  moves.blocks.velocity[3] = Vec3(1.0, 0, 0);                                      // the top block slides off
+  Summary summary = column_summary(a);
+  summary.analysis = "limit";
+  summary.critical = CriticalValue{"friction", 0.1, 0.101, 0.099};
+  const std::string folder = test::fresh_folder("results");
+  const Evaluation e = evaluated(a, {stands, moves}, summary, column_case(), folder);
+  EXPECT_EQ(e.last.frame.time, 0.0);
+  EXPECT_LT(e.rings[0].relative_difference, 1e-14);
+  EXPECT_TRUE(e.warnings.empty());
+  EXPECT_EQ(post_summary(e).critical_value, 0.1);
+  EXPECT_NE(verdict_text(summary).find("stands at a friction of 0.101 and moves at 0.099"),
+            std::string::npos);
+
+  const FrameEvaluation mechanism = evaluate_frame(e, ResultsReader(folder, content_hash(a)).read_frame(1));
+  // A twentieth of the model: centroids from 0.25 to 1.25 m, or the first block's cube root, the larger.
+  const double shown = 0.05 * std::max(1.0, std::cbrt(a.blocks[0].volume));
+  EXPECT_NEAR(mechanism.frame.blocks.displacement[3].x(), shown, 1e-12);
+  EXPECT_EQ(mechanism.frame.blocks.displacement[2].norm(), 0.0);
+  EXPECT_EQ(mechanism.groups, (std::vector{0, 0, 0, 1}));
+}
+
+TEST(Evaluation, AStagedRunHasATableOfItsRings) {
+  const Assembly a = test::column(3);
+  Summary summary = column_summary(a);
+  summary.analysis = "staged";
+  const std::string folder = test::fresh_folder("results");
+  const Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+  EXPECT_FALSE(stage_table(evaluated(a, {frame}, column_summary(a), column_case(), folder), folder));
+  const Evaluation e = evaluated(a, {frame}, summary, column_case(), folder);
+  EXPECT_FALSE(stage_table(e, folder)) << "no stages.csv";
+  write_text_atomically(folder + "/stages.csv",
+                        "ring,blocks,weight_N,verdict,speed_ratio,critical_stands,critical_moves,note\n"
+                        "1,2,100,equilibrium,1e-9,0.12,0.11,narrow\n2,3,150,moving,0.3,,,no bracket\n");
+  const std::optional<Table> table = stage_table(e, folder);
+  ASSERT_TRUE(table);
+  ASSERT_EQ(table->rows.size(), 2u);
+  EXPECT_NEAR(std::get<double>(table->rows[0][1]), 0.5, 1e-12) << "the bed of ring 1";
+  EXPECT_NEAR(std::get<double>(table->rows[0][4]), 0.115, 1e-15);
+  EXPECT_TRUE(std::isnan(std::get<double>(table->rows[1][4])));
+  EXPECT_NE(stage_figure(*table).commands.find("0.5 0.115"), std::string::npos);
 }
 
 TEST(Evaluation, CracksOutlineTheOpenPoints) {
