@@ -52,6 +52,8 @@ struct Analysis {
   AnalysisType type = AnalysisType::static_;
   ContactMethod method = ContactMethod::newton;
   FrictionLaw friction_law = FrictionLaw::associated;
+  /// Static: the model repeats so many times around the z axis, and one sector is solved for all; 1: none.
+  int cyclic_sectors = 1;
   /// Static: largest equilibrium residual accepted, inertia share included; h follows from it. Dynamic: the
   /// relative momentum residual of each step.
   double tolerance = 1e-9;

@@ -76,6 +76,8 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.choice("friction_law", analysis.friction_law,
            {{"associated", FrictionLaw::associated}, {"coulomb", FrictionLaw::coulomb}},
            "associated: sliding dilates (convex problem); coulomb: it does not");
+  s.integer("cyclic_sectors", analysis.cyclic_sectors, {.min = 1, .max = 100000},
+            "static: so many equal sectors around the z axis, of which one is solved; 1: the whole model");
   s.number("tolerance", analysis.tolerance, {.above = 0, .max = 0.1},
            "static: largest equilibrium residual; dynamic: relative momentum residual of a step");
   s.number("time_step", analysis.time_step, {.unit = "s", .above = 0}, "dynamic: step h");
@@ -97,6 +99,8 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.section("stop", analysis.stop, "dynamic: when to end before the duration", declare_stop);
   s.section("limit", analysis.limit, "limit: what is searched", declare_limit);
   s.section("staged", analysis.staged, "staged: what is built", declare_staged);
+  s.rule(analysis.type == AnalysisType::static_ || analysis.cyclic_sectors == 1, "cyclic_sectors",
+         "needs analysis.type: static");
   s.later({"accuracy"});
   s.rule(analysis.type != AnalysisType::dynamic || analysis.duration / analysis.time_step <= kMostSteps,
          "duration", "duration / time_step must be <= 1e9 steps");

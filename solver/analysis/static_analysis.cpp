@@ -15,6 +15,11 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   StaticOptions options = static_options(scene.analysis);
   options.log = sinks.log;
   const double started = wall_seconds();
+  std::optional<CyclicSymmetry> symmetry;
+  if (scene.analysis.cyclic_sectors > 1) {
+    symmetry = find_cyclic_symmetry(model, rest, contacts, scene.analysis.cyclic_sectors);
+    options.symmetry = &*symmetry;
+  }
   const StaticSolution solution = solve_static(model, rest, contacts, memories, options);
 
   Summary summary;
@@ -23,6 +28,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   summarize_frame(frame, model, &summary);
   summarize_static(solution, options.tolerance, &summary);
   summary.analysis = "static";
+  summary.unknowns /= scene.analysis.cyclic_sectors;
   sinks.frame(frame);
   sinks.problem(solution.step.problem, solution.solution.gamma);
   return summary;

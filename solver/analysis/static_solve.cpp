@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "solver/analysis/cyclic_reduction.hpp"
+
 namespace cupola {
 namespace {
 
@@ -61,6 +63,17 @@ double known_to(double speed_ratio) {
 
 /// Solves at trial->h. What moves fast is not solved finer than its verdict needs: its impulses lose digits
 /// with h^2, and no answer to the full tolerance may exist in double precision.
+/// Solves the whole problem, or one sector of it.
+SolveSummary solve_problem(const ContactProblem& problem, const CyclicSymmetry* symmetry,
+                           const ContactSolverOptions& options, ContactSolver* solver,
+                           ContactSolution* solution) {
+  if (!symmetry) return solver->solve(problem, options, solution);
+  ContactSolution sector = restrict(*solution, *symmetry);
+  const SolveSummary summary = solver->solve(reduce(problem, *symmetry), options, &sector);
+  *solution = expand(sector, problem, *symmetry);
+  return summary;
+}
+
 void solve_at(const Model& model, const State& start, const ContactSet& contacts,
               const ContactMemories& memories, const StaticOptions& options, double acceleration,
               ContactSolver* solver, StaticSolution* trial) {
@@ -74,7 +87,7 @@ void solve_at(const Model& model, const State& start, const ContactSet& contacts
   trial->solution = {};
   for (const double tolerance : {std::max(fine, kCoarse), fine}) {
     solve.tolerance = tolerance;
-    trial->solve = solver->solve(trial->step.problem, solve, &trial->solution);
+    trial->solve = solve_problem(trial->step.problem, options.symmetry, solve, solver, &trial->solution);
     trial->iterations += trial->solve.iterations;
     trial->speed_ratio = largest_speed(trial->solution.v) / solve.reference_speed;
     if (tolerance == fine || known_to(trial->speed_ratio) >= kCoarse) break;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "solver/analysis/cyclic_symmetry.hpp"
 #include "solver/contact/residuals.hpp"
 #include "solver/contact/solve_contact.hpp"
 #include "solver/dynamics/equilibrium.hpp"
@@ -18,7 +19,8 @@ struct StaticOptions {
   /// Expects that the structure may move: begins with a short h, where a mechanism is told in few iterations,
   /// and raises it by degrees. Otherwise h is at once what an equilibrium of that tolerance needs.
   bool may_move = false;
-  double time_advance = 0.0;  ///< s by which loads and supports go on in the step
+  const CyclicSymmetry* symmetry = nullptr;  ///< of the model; then one sector is solved for all
+  double time_advance = 0.0;                 ///< s by which loads and supports go on in the step
   std::function<void(const std::string&)> log = [](const std::string&) {};
 };
 
