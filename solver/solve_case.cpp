@@ -127,7 +127,10 @@ ExitCode solve_case(const SolveRequest& request) {
   // 1. Where the run stands
   Checkpoint run = find_checkpoint(request, checkpoint_path, assembly_hash).value_or(Checkpoint{});
   if (!run.analysis.empty() && !request.quiet)
-    fmt::print("resuming after frame {} at {:g} s\n", run.frame_times.size(), run.frame_times.back());
+    fmt::print("resuming {}\n",
+               run.frame_times.empty()
+                   ? "before the first frame"
+                   : fmt::format("after frame {} at {:g} s", run.frame_times.size(), run.frame_times.back()));
   run.program_version = program_version();
   run.case_hash = request.scene.hash;
   run.assembly_hash = assembly_hash;

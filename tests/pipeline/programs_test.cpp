@@ -206,5 +206,25 @@ TEST(Programs, SayWhichFileCannotBeWritten) {
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
+TEST(Programs, InterruptedBeforeTheFirstFrameGoesOn) {
+  const ProgramFolder folder;
+  const std::string set =
+      " --set analysis.type=dynamic --set analysis.duration=1000 --set output.frames_every=1000";
+  ASSERT_EQ(folder.run("cupola-generate " + kWall + " --output assembly.vtu --quiet" + set).code, 0);
+  const std::string solve = "cupola-solve " + kWall + " --assembly assembly.vtu --output results" + set;
+  // Ctrl-C once the first steps are said; the frame is due after 100,000.
+  const auto interrupted = [&folder](const std::string& command) {
+    return folder.run("sh -c '" + command + " >log 2>&1 & until grep -q ^step log; do sleep 0.05; done; " +
+                      "kill -INT $!; wait $!'");
+  };
+  EXPECT_EQ(interrupted(solve).code, 4) << slurp(folder.file("log"));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("results/checkpoint")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("results/summary.json")));
+  std::filesystem::remove(folder.file("log"));
+  EXPECT_EQ(interrupted(solve + " --resume").code, 4) << slurp(folder.file("log"));
+  EXPECT_NE(slurp(folder.file("log")).find("resuming before the first frame"), std::string::npos)
+      << slurp(folder.file("log"));
+}
+
 }  // namespace
 }  // namespace cupola
