@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "solver/analysis/cyclic_reduction.hpp"
+#include "solver/contact/kinematic_bound.hpp"
 
 namespace cupola {
 namespace {
@@ -55,6 +56,13 @@ StepOptions step_options(const StaticOptions& options, double h) {
   return step;
 }
 
+/// Whether the equilibrium may be asked for with one large h. Other methods than Newton's tell late that they
+/// will not get there, and so do the passes of Coulomb's law.
+bool tries_at_once(const StaticOptions& options) {
+  return !options.may_move && options.method == ContactMethod::newton &&
+         options.law == FrictionLaw::associated;
+}
+
 /// Relative momentum residual up to which a speed is known.
 double known_to(double speed_ratio) {
   constexpr double kShare = 1e-2;
@@ -78,9 +86,11 @@ void solve_at(const Model& model, const State& start, const ContactSet& contacts
               const ContactMemories& memories, const StaticOptions& options, double acceleration,
               ContactSolver* solver, StaticSolution* trial) {
   constexpr double kCoarse = 1e-4;
+  constexpr int kAtOnce = 25;  // Newton iterations: an equilibrium that takes more is easier found by degrees
   ContactSolverOptions solve;
   solve.method = options.method;
   solve.law = options.law;
+  solve.max_iterations = tries_at_once(options) ? kAtOnce : 0;
   solve.reference_speed = trial->h * acceleration;
   const double fine = kSolveShare * options.tolerance;
   trial->step = build_step_problem(model, start, contacts, memories, step_options(options, trial->h));
@@ -91,6 +101,7 @@ void solve_at(const Model& model, const State& start, const ContactSet& contacts
     trial->iterations += trial->solve.iterations;
     trial->speed_ratio = largest_speed(trial->solution.v) / solve.reference_speed;
     if (tolerance == fine || known_to(trial->speed_ratio) >= kCoarse) break;
+    if (tries_at_once(options) && trial->solve.ending != SolveEnding::converged) break;
   }
   trial->residuals =
       compute_residuals(trial->step.problem, trial->solution, solve.reference_speed, solve.law);
@@ -143,12 +154,27 @@ double raise_of_h(const std::vector<SpeedTrial>& trials, double residual, const 
   return std::clamp(2.0 * std::sqrt(residual / options.tolerance), kCareful, slows_down ? leap : kCareful);
 }
 
+/// What the motion proves: the sum of normal forces that an equilibrium would need, over the sum found.
+double needed_over_found(const StaticSolution& trial) {
+  return required_normal_force(trial.step.problem, trial.solution.v) /
+         normal_force_sum(trial.step.problem, trial.solution.gamma);
+}
+
+/// From here on a motion counts as proven: no other forces of that size balance the loads either.
+constexpr double kProven = 10.0;
+
+std::string proof(const StaticSolution& trial) {
+  const double needed = needed_over_found(trial);
+  if (needed < kProven) return "not certified: other forces of the size found might balance the loads";
+  return fmt::format("an equilibrium would need normal forces {:.2g} times those found", needed);
+}
+
 void judge(const StaticOptions& options, bool moving, StaticSolution* trial) {
   if (moving) {
     trial->verdict = Verdict::moving;
     trial->message =
-        fmt::format("no equilibrium: |v|/(g h) = {:.3e} at h = {:.3g} s no longer falls as h grows",
-                    trial->speed_ratio, trial->h);
+        fmt::format("no equilibrium: |v|/(g h) = {:.3e} at h = {:.3g} s no longer falls as h grows; {}",
+                    trial->speed_ratio, trial->h, proof(*trial));
   } else if (trial->solve.ending == SolveEnding::converged && trial->balance.residual <= options.tolerance) {
     trial->verdict = Verdict::equilibrium;
     trial->message = fmt::format("equilibrium residual {:.2e} <= {:.2e} asked, h = {:.3g} s",
@@ -160,22 +186,10 @@ void judge(const StaticOptions& options, bool moving, StaticSolution* trial) {
   }
 }
 
-}  // namespace
-
-std::string to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::equilibrium:
-      return "equilibrium";
-    case Verdict::moving:
-      return "moving";
-    case Verdict::unconverged:
-      return "unconverged";
-  }
-  return "";
-}
-
-StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
-                            const ContactMemories& memories, const StaticOptions& options) {
+/// Solves at a first h, and at larger ones until the residual is as small as asked or the structure is seen
+/// to move.
+StaticSolution raise_step(const Model& model, const State& start, const ContactSet& contacts,
+                          const ContactMemories& memories, const StaticOptions& options) {
   const double acceleration = reference_acceleration(model, start);
   ContactSolver solver;
   StaticSolution trial;
@@ -200,12 +214,42 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
       // Joints so soft that blocks nearly fall freely in h show nothing yet: ask once more, rigid. (Under
       // Coulomb's law the rigid problem is another one: it admits self-stress that no compliance builds up.)
       trial.h = rigid;
+    } else if (options.certify && k + 1 < kMaxSolves && needed_over_found(trial) < kProven) {
+      // What the joints give way is less and less of the motion: the proof grows with h^2.
+      trial.h *= std::clamp(std::sqrt(2.0 * kProven / needed_over_found(trial)), 2.0, 10.0);
     } else {
       moving = true;
     }
   }
   judge(options, moving, &trial);
   return trial;
+}
+
+}  // namespace
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::equilibrium:
+      return "equilibrium";
+    case Verdict::moving:
+      return "moving";
+    case Verdict::unconverged:
+      return "unconverged";
+  }
+  return "";
+}
+
+StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
+                            const ContactMemories& memories, const StaticOptions& options) {
+  const StaticSolution first = raise_step(model, start, contacts, memories, options);
+  if (first.verdict != Verdict::unconverged || options.may_move) return first;
+  // A mechanism, or joints that open and close in numbers: both show themselves at short h.
+  StaticOptions by_degrees = options;
+  by_degrees.may_move = true;
+  by_degrees.certify = options.law == FrictionLaw::associated;  // what slides by Coulomb's law proves nothing
+  StaticSolution again = raise_step(model, start, contacts, memories, by_degrees);
+  again.iterations += first.iterations;
+  return again;
 }
 
 LoadedState loaded_state(const Model& model, const State& start, const ContactSet& contacts,

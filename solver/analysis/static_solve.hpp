@@ -19,6 +19,8 @@ struct StaticOptions {
   /// Expects that the structure may move: begins with a short h, where a mechanism is told in few iterations,
   /// and raises it by degrees. Otherwise h is at once what an equilibrium of that tolerance needs.
   bool may_move = false;
+  /// Goes on raising h until the motion proves that nothing balances the loads (kinematic_bound.hpp).
+  bool certify = false;
   const CyclicSymmetry* symmetry = nullptr;  ///< of the model; then one sector is solved for all
   double time_advance = 0.0;                 ///< s by which loads and supports go on in the step
   std::function<void(const std::string&)> log = [](const std::string&) {};
@@ -53,7 +55,8 @@ struct StaticSolution {
 /// Equilibrium in one contact problem with v = 0 and a large step (paper 2.1). The inertia term carries a
 /// share of the load that falls with h^2: h is raised until the equilibrium residual, share included, is as
 /// small as asked. Displacement is h v. A structure that stands has |v| / (g h) falling with h^2; where it
-/// ceases to fall there is no equilibrium, and v is the collapse mechanism.
+/// ceases to fall there is no equilibrium, and v is the collapse mechanism. What one large h does not settle
+/// in a few iterations is asked for again from a short h, by degrees, and its motion certified.
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options);
 

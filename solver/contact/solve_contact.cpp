@@ -101,6 +101,7 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
   if (!rigid && options.law == FrictionLaw::associated) {
     const SolveSummary first = convex(problem, options, solution);
     if (!first.usable() || first.ending == SolveEnding::converged || !primal) return first;
+    if (options.max_iterations > 0) return first;  // the caller has set a limit to the work
     // Sliding on tiny compliance leaves impulses below the rounding of D^T v / E; and what defeats both
     // methods is easier on a larger compliance that is then taken away.
     const bool near = !first.residual_history.empty() && first.residual_history.back() < kNearRounding;

@@ -1,0 +1,51 @@
+#include <gtest/gtest.h>
+
+#include "generators/generate.hpp"
+#include "solver/analysis/analysis.hpp"
+
+// Structures that cannot stand, under dead load: the answer is a mechanism, proven to be one, whatever step
+// the analysis would have liked.
+
+namespace cupola {
+namespace {
+
+Summary statics_of(const Case& scene) {
+  AnalysisSinks sinks;
+  return run_static(scene, cut_assembly(scene), sinks);
+}
+
+Case dome(double friction) {
+  Case scene;
+  scene.geometry.bond = RunningBond{.rings = 12, .blocks_per_ring = 16, .slices_per_block = 4};
+  scene.joints.friction = friction;
+  return scene;
+}
+
+TEST(StaticCollapse, DomeWithoutFrictionEnoughMovesAndIsProvenTo) {
+  for (const double friction : {0.0, 0.02, 0.05}) {
+    const Summary summary = statics_of(dome(friction));
+    EXPECT_EQ(summary.status, Status::moving) << friction << ": " << summary.message;
+    EXPECT_NE(summary.message.find("would need normal forces"), std::string::npos) << summary.message;
+  }
+  EXPECT_EQ(statics_of(dome(0.4)).status, Status::stable);
+}
+
+TEST(StaticCollapse, ThinArchMovesAndTheThickerOneStands) {
+  for (const auto& [ratio, expected] : {std::pair{0.99, Status::moving}, {1.01, Status::stable}}) {
+    const double thickness = ratio * 0.10672;  // limit of 27 polygonal voussoirs, centreline radius 1
+    ArchSurface arch;
+    arch.span = 2.0 - thickness;
+    arch.thickness = thickness;
+    arch.voussoir_segments = 1;
+    Case scene;
+    scene.geometry.surface = arch;
+    scene.geometry.bond = StackBond{27, 1, 1, {}};
+    scene.joints.friction = 0.8;
+    scene.joints.compliance = {1e-11, 1e-11, Compliance::Per::point};  // sinks by far less than the margin
+    const Summary summary = statics_of(scene);
+    EXPECT_EQ(summary.status, expected) << ratio << ": " << summary.message;
+  }
+}
+
+}  // namespace
+}  // namespace cupola
