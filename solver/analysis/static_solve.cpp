@@ -69,8 +69,6 @@ double known_to(double speed_ratio) {
   return kShare * speed_ratio;
 }
 
-/// Solves at trial->h. What moves fast is not solved finer than its verdict needs: its impulses lose digits
-/// with h^2, and no answer to the full tolerance may exist in double precision.
 /// Solves the whole problem, or one sector of it.
 SolveSummary solve_problem(const ContactProblem& problem, const CyclicSymmetry* symmetry,
                            const ContactSolverOptions& options, ContactSolver* solver,
@@ -82,6 +80,8 @@ SolveSummary solve_problem(const ContactProblem& problem, const CyclicSymmetry* 
   return summary;
 }
 
+/// Solves at trial->h. What moves fast is not solved finer than its verdict needs: its impulses lose digits
+/// with h^2, and no answer to the full tolerance may exist in double precision.
 void solve_at(const Model& model, const State& start, const ContactSet& contacts,
               const ContactMemories& memories, const StaticOptions& options, double acceleration,
               ContactSolver* solver, StaticSolution* trial) {
