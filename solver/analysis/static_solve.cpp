@@ -165,7 +165,7 @@ constexpr double kProven = 10.0;
 
 std::string proof(const StaticSolution& trial) {
   const double needed = needed_over_found(trial);
-  if (needed < kProven) return "not certified: other forces of the size found might balance the loads";
+  if (needed < kProven) return "not certified: other forces in the friction cones might balance the loads";
   return fmt::format("an equilibrium would need normal forces {:.2g} times those found", needed);
 }
 
@@ -173,8 +173,8 @@ void judge(const StaticOptions& options, bool moving, StaticSolution* trial) {
   if (moving) {
     trial->verdict = Verdict::moving;
     trial->message =
-        fmt::format("no equilibrium: |v|/(g h) = {:.3e} at h = {:.3g} s no longer falls as h grows; {}",
-                    trial->speed_ratio, trial->h, proof(*trial));
+        fmt::format("no equilibrium: |v|/(g h) = {:.3e} at h = {:.3g} s no longer falls as h grows",
+                    trial->speed_ratio, trial->h);
   } else if (trial->solve.ending == SolveEnding::converged && trial->balance.residual <= options.tolerance) {
     trial->verdict = Verdict::equilibrium;
     trial->message = fmt::format("equilibrium residual {:.2e} <= {:.2e} asked, h = {:.3g} s",
@@ -241,15 +241,26 @@ std::string to_string(Verdict verdict) {
 
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
-  const StaticSolution first = raise_step(model, start, contacts, memories, options);
-  if (first.verdict != Verdict::unconverged || options.may_move) return first;
+  StaticSolution answer = raise_step(model, start, contacts, memories, options);
+  if (options.may_move) return answer;
   // A mechanism, or joints that open and close in numbers: both show themselves at short h.
   StaticOptions by_degrees = options;
   by_degrees.may_move = true;
   by_degrees.certify = options.law == FrictionLaw::associated;  // what slides by Coulomb's law proves nothing
-  StaticSolution again = raise_step(model, start, contacts, memories, by_degrees);
-  again.iterations += first.iterations;
-  return again;
+  if (answer.verdict == Verdict::unconverged) {
+    const int iterations = answer.iterations;
+    answer = raise_step(model, start, contacts, memories, by_degrees);
+    answer.iterations += iterations;
+  }
+  if (answer.verdict != Verdict::moving) return answer;
+  if (options.law == FrictionLaw::associated) {
+    answer.message += "; " + proof(answer);
+  } else {  // where no forces in the cones balance the loads, none do by Coulomb's law
+    by_degrees.law = FrictionLaw::associated;
+    by_degrees.certify = true;
+    answer.message += "; " + proof(raise_step(model, start, contacts, memories, by_degrees));
+  }
+  return answer;
 }
 
 LoadedState loaded_state(const Model& model, const State& start, const ContactSet& contacts,

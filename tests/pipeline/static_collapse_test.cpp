@@ -30,6 +30,16 @@ TEST(StaticCollapse, DomeWithoutFrictionEnoughMovesAndIsProvenTo) {
   EXPECT_EQ(statics_of(dome(0.4)).status, Status::stable);
 }
 
+// No forces in the cones balance the loads: that proves it for Coulomb's law too.
+TEST(StaticCollapse, DomeMovesUnderCoulombsLaw) {
+  Case scene = dome(0.05);
+  scene.geometry.bond = RunningBond{.rings = 6, .blocks_per_ring = 12, .slices_per_block = 2};
+  scene.analysis.friction_law = FrictionLaw::coulomb;
+  const Summary summary = statics_of(scene);
+  EXPECT_EQ(summary.status, Status::moving) << summary.message;
+  EXPECT_NE(summary.message.find("would need normal forces"), std::string::npos) << summary.message;
+}
+
 TEST(StaticCollapse, ThinArchMovesAndTheThickerOneStands) {
   for (const auto& [ratio, expected] : {std::pair{0.99, Status::moving}, {1.01, Status::stable}}) {
     const double thickness = ratio * 0.10672;  // limit of 27 polygonal voussoirs, centreline radius 1
