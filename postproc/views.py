@@ -55,7 +55,7 @@ def plain(display, rgb):
 
 def save(view, name):
     ResetCamera(view)
-    GetActiveCamera().Dolly(1.25)
+    GetActiveCamera().Dolly(1.35)
     Render(view)
     SaveScreenshot(os.path.join(pictures, name + ".png"), view, ImageResolution=[1200, 900])
 
@@ -74,9 +74,13 @@ def only(source, array, value):
 
 def show_blocks(view, blocks, array=None, title="", diverging=False, opacity=1.0):
     display = Show(blocks, view)
-    display.Representation = "Surface With Edges" if opacity == 1.0 else "Surface"
-    display.EdgeColor = [0.35, 0.35, 0.35]
+    display.Representation = "Surface"
     display.Opacity = opacity
+    if opacity == 1.0:  # outlines of the blocks, without the triangles that faces are drawn by
+        outlines = FeatureEdges(Input=ExtractSurface(Input=blocks))
+        outlines.FeatureAngle = 20.0
+        outlines.Coloring = 0
+        plain(Show(outlines, view), (0.25, 0.25, 0.25))
     if array:
         colour(display, view, "CELLS", array, title, diverging)
     else:

@@ -150,7 +150,7 @@ for name in sys.argv[1:]:
     SaveScreenshot(name + ".png", view, ImageResolution=[300, 200])
 )python");
   const std::string files = folder + "/assembly.vtu " + folder + "/results/contacts.pvd " + folder +
-                            "/results/blocks.pvd " + post + "/blocks.pvd";
+                            "/results/blocks.pvd " + post + "/blocks.pvd " + post + "/wrenches.vtp";
   ASSERT_EQ(std::system((pvbatch + " " + folder + "/draw.py " + files + " >" + folder + "/log 2>&1").c_str()),
             0)
       << read_text(folder + "/log");
