@@ -30,8 +30,9 @@ struct StopRules {
 /// Search of the value at which the structure ceases to stand.
 struct LimitSearch {
   /// friction: the coefficient of the joints chosen; tilt: of gravity, deg; acceleration: horizontal, over
-  /// g; load: factor on `loads.forces` and `loads.faces`; spread: factor on `supports.moves`.
-  enum class Parameter { friction, tilt, acceleration, load, spread };
+  /// g; load: factor on `loads.forces` and `loads.faces`; thickness: factor on that of the masonry, about
+  /// its middle surface; spread: factor on `supports.moves`.
+  enum class Parameter { friction, tilt, acceleration, load, thickness, spread };
   Parameter parameter = Parameter::friction;
   double low = 0.0, high = 1.0;              ///< bracket: stable at one end, not at the other
   double relative_width = 1e-3;              ///< of the final bracket, in (0, 1)

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "solver/analysis/mechanism.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/analysis/support_path.hpp"
+#include "solver/analysis/thickness.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {
@@ -18,6 +20,7 @@ const char* const kHistoryHeader = "value,verdict,speed_ratio,equilibrium_residu
 
 /// Where an equilibrium was looked for, and what came of it.
 struct Probe {
+  std::shared_ptr<const Assembly> assembly;
   Model model;
   State start;
   ContactSet contacts;
@@ -45,9 +48,12 @@ struct LimitRun {
 
 Probe LimitRun::probe_at(double value) const {
   Probe probe;
-  probe.model = make_model(case_at(scene, value), assembly);
+  probe.assembly = scene.analysis.limit.parameter == LimitSearch::Parameter::thickness
+                       ? std::make_shared<const Assembly>(with_thickness(assembly, value))
+                       : std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {});
+  probe.model = make_model(case_at(scene, value), *probe.assembly);
   probe.start = state_at_rest(probe.model);
-  ContactDetector detector(assembly, detection_options(scene));
+  ContactDetector detector(*probe.assembly, detection_options(scene));
   probe.contacts = detector.update(probe.start.poses);
   probe.memories = match_memories({}, probe.contacts.contacts);
   probe.solution = solve_static(probe.model, probe.start, probe.contacts, probe.memories, options);
@@ -86,10 +92,11 @@ Bracket LimitRun::follow_spread() {
   const LimitSearch& limit = scene.analysis.limit;
   const Model model = make_model(case_at(scene, 0.0), assembly);
   SupportPath path(model, detection_options(scene), options);
-  return follow(&path, limit.low, limit.high, limit.relative_width,
-                [&](const LimitTrial& trial, const StaticSolution& solution) {
-                  return keep(trial.value, {model, path.start(), path.contacts(), path.memories(), solution});
-                });
+  return follow(
+      &path, limit.low, limit.high, limit.relative_width,
+      [&](const LimitTrial& trial, const StaticSolution& solution) {
+        return keep(trial.value, {{}, model, path.start(), path.contacts(), path.memories(), solution});
+      });
 }
 
 /// Two frames: the last equilibrium, and the mechanism with its velocities scaled to 1 m/s.

@@ -55,6 +55,8 @@ Case case_at(const Case& scene, double value) {
         load.pressure *= value;
       }
       break;
+    case LimitSearch::Parameter::thickness:
+      break;  // a matter of the assembly: with_thickness()
     case LimitSearch::Parameter::spread:
       for (SupportMove& move : at.supports.moves) move.time = TableInTime{"", {0.0, 1e6}, {0.0, 1e6}};
       break;
@@ -72,6 +74,8 @@ std::string to_string(LimitSearch::Parameter parameter) {
       return "acceleration";
     case LimitSearch::Parameter::load:
       return "load";
+    case LimitSearch::Parameter::thickness:
+      return "thickness";
     case LimitSearch::Parameter::spread:
       return "spread";
   }

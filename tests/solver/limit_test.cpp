@@ -7,6 +7,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/limit_search.hpp"
 #include "solver/analysis/mechanism.hpp"
+#include "solver/analysis/thickness.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 // Critical values of plane problems. The expected numbers are linear programmes over the friction cones
@@ -309,6 +310,30 @@ TEST(Spread, IsFollowedUntilAFourthHingeForms) {
     last = summary.critical->value;
   }
   EXPECT_LT(last, 1.0);
+}
+
+// Thickness is varied about the centreline: arches of R = 1 at their least thickness, and a closed form of
+// what the change does to an assembly.
+TEST(Thickness, OfTheSemicircleAndOfAShallowArch) {
+  struct Row {
+    double beta_deg, t, least;
+  };
+  for (const Row& row : std::initializer_list<Row>{{90, .15, .10672}, {60, .05, .022646}}) {
+    const Summary summary = run(limit_case(LimitSearch::Parameter::thickness, 0.2, 1.2, 0.8),
+                                make_arch({.thickness = row.t, .beta_deg = row.beta_deg}));
+    ASSERT_TRUE(summary.critical) << summary.message;
+    EXPECT_NEAR(summary.critical->value * row.t / row.least, 1.0, 5e-3) << row.beta_deg;
+  }
+}
+
+TEST(Thickness, StretchesAboutTheMiddleSurface) {
+  const Assembly thin = with_thickness(make_arch({.thickness = 0.2}), 0.6);
+  const Assembly expected = make_arch({.thickness = 0.12});
+  ASSERT_EQ(thin.vertices.size(), expected.vertices.size());
+  for (size_t i = 0; i < thin.vertices.size(); ++i)
+    EXPECT_LT((thin.vertices[i] - expected.vertices[i]).norm(), 1e-15);
+  EXPECT_NEAR(thin.blocks[7].mass, expected.blocks[7].mass, 1e-10);
+  EXPECT_THROW(with_thickness(testing::box_on_floor({1, 1, 1}), 0.5), InputError);
 }
 
 TEST(Limit, RefusesADirectionAlongGravity) {

@@ -1,0 +1,53 @@
+#include "solver/analysis/thickness.hpp"
+
+#include <map>
+#include <set>
+
+#include "assembly/error.hpp"
+
+namespace cupola {
+namespace {
+
+std::set<int> vertices_on(const Assembly& assembly, const Part& part, FaceKind kind) {
+  std::set<int> vertices;
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+    if (assembly.face_kinds[f] == kind) vertices.insert(assembly.face(f).begin(), assembly.face(f).end());
+  return vertices;
+}
+
+/// Adds the edges of a part from its intrados to its extrados.
+void add_edges_across(const Assembly& assembly, const Part& part, std::map<int, int>* extrados_of) {
+  const std::set<int> inner = vertices_on(assembly, part, FaceKind::intrados);
+  const std::set<int> outer = vertices_on(assembly, part, FaceKind::extrados);
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+    const auto ids = assembly.face(f);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      int a = ids[i], b = ids[(i + 1) % ids.size()];
+      if (!inner.contains(a)) std::swap(a, b);
+      if (!inner.contains(a) || !outer.contains(b)) continue;
+      if (const auto [edge, is_new] = extrados_of->emplace(a, b); !is_new && edge->second != b)
+        throw InputError("a vertex of the intrados has edges to two of the extrados: no thickness to vary");
+    }
+  }
+}
+
+}  // namespace
+
+Assembly with_thickness(const Assembly& assembly, double factor) {
+  std::map<int, int> extrados_of;  // vertex on the intrados -> the one across
+  for (const Part& part : assembly.parts) add_edges_across(assembly, part, &extrados_of);
+  if (extrados_of.empty())
+    throw InputError(
+        "no block has an intrados and an extrados: analysis.limit.parameter thickness has nothing to vary");
+  Assembly changed = assembly;
+  for (const auto& [inner, outer] : extrados_of) {
+    const Vec3 middle = 0.5 * (assembly.vertices[inner] + assembly.vertices[outer]);
+    const Vec3 half = 0.5 * factor * (assembly.vertices[outer] - assembly.vertices[inner]);
+    changed.vertices[inner] = middle - half;
+    changed.vertices[outer] = middle + half;
+  }
+  compute_mass_properties(&changed);
+  return changed;
+}
+
+}  // namespace cupola
