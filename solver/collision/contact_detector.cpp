@@ -173,9 +173,12 @@ void ContactDetector::update_broad_phase() {
 
 void ContactDetector::detect() {
   AnchoredContacts fresh = given_ ? *given_ : find_contacts();
-  keep_identities(memory_.contacts, &fresh);
+  std::set<ContactId> from_the_side = keep_identities(memory_.contacts, &fresh);
+  // Overlaps as built are for the solver to judge; points that stand for areas yield as little as those are.
+  if (memory_.num_detections == 0 || options_.points != PatchPoints::corners) from_the_side.clear();
   memory_.contacts = std::move(fresh);
   move_contacts(memory_.now.poses, &memory_.contacts);
+  settle_rest_gaps(from_the_side, &memory_.contacts);
   memory_.detection = memory_.now;
   ++memory_.num_detections;
 }
@@ -207,6 +210,15 @@ AnchoredContacts ContactDetector::find_contacts() {
     first = last;
   }
   return fresh;
+}
+
+void ContactDetector::count_gaps_from(std::span<const double> gaps) {
+  std::vector<Contact>& contacts = memory_.contacts.set.contacts;
+  CUPOLA_ASSERT(gaps.size() == contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    memory_.contacts.anchors[i].rest_gap += contacts[i].gap - gaps[i];
+    contacts[i].gap = gaps[i];
+  }
 }
 
 void ContactDetector::restore(DetectionMemory memory) {

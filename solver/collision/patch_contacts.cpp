@@ -4,6 +4,8 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace cupola {
 namespace {
@@ -11,13 +13,17 @@ namespace {
 ContactAnchor anchor_of(const LiftedPoint& point, const CornerNormal& corner,
                         const Eigen::Isometry3d& pose_ab) {
   const Eigen::Isometry3d pose_ba = pose_ab.inverse(Eigen::Isometry);
-  return {point.on_a, pose_ba * point.on_b, corner.normal, pose_ba.linear() * corner.normal, corner.weight_a};
+  return {point.on_a, pose_ba * point.on_b, corner.normal, pose_ba.linear() * corner.normal, corner.weight_a,
+          0.0};
 }
 
-/// What orders patches: block pair, part pair, face pair.
-auto patch_name(const Contact& contact) {
-  const ContactId& id = contact.id;
-  return std::tuple(contact.block_a, contact.block_b, id.part_a, id.part_b, id.face_a, id.face_b);
+/// What names a patch among those of two blocks.
+auto patch_name(const ContactId& id) {
+  return std::tuple(id.part_a, id.part_b, id.face_a, id.face_b);
+}
+
+auto block_pair(const Contact& contact) {
+  return std::pair(contact.block_a, contact.block_b);
 }
 
 /// Contacts [start, end) of one patch, in the order of the set.
@@ -25,10 +31,70 @@ struct Range {
   std::size_t start = 0, end = 0;
 };
 
-Range patch_range(const std::vector<Contact>& contacts, std::size_t start) {
-  std::size_t end = start;
-  while (end < contacts.size() && patch_name(contacts[end]) == patch_name(contacts[start])) ++end;
-  return {start, end};
+/// The patches of the block pair that begins at `start`.
+std::vector<Range> patches_of_pair(const std::vector<Contact>& contacts, std::size_t start) {
+  std::vector<Range> patches;
+  for (std::size_t i = start; i < contacts.size() && block_pair(contacts[i]) == block_pair(contacts[start]);
+       ++i) {
+    if (patches.empty() || contacts[i].patch != contacts[patches.back().start].patch)
+      patches.push_back({i, i});
+    patches.back().end = i + 1;
+  }
+  return patches;
+}
+
+/// Where a patch lies, in the axes of block a.
+struct Place {
+  Vec3 center = Vec3::Zero(), normal = Vec3::Zero();
+  double radius = 0.0;
+};
+
+Place place_of(const AnchoredContacts& contacts, Range range) {
+  Place place;
+  for (std::size_t i = range.start; i < range.end; ++i) {
+    place.center += contacts.anchors[i].r_a / static_cast<double>(range.end - range.start);
+    place.normal += contacts.anchors[i].normal_a;
+  }
+  place.normal.normalize();
+  for (std::size_t i = range.start; i < range.end; ++i)
+    place.radius = std::max(place.radius, (contacts.anchors[i].r_a - place.center).norm());
+  return place;
+}
+
+/// For each patch of a block pair the old one that it continues: of the same name, else the nearest in the
+/// same plane. A patch that was joined from several pairs of parts changes its name when a sliver joins it.
+std::vector<std::optional<Range>> predecessors(const AnchoredContacts& old_contacts,
+                                               std::vector<Range> old_patches,
+                                               const AnchoredContacts& contacts,
+                                               const std::vector<Range>& patches) {
+  constexpr double kSamePlane = 0.999;  // cosine of the normals
+  std::vector<std::optional<Range>> found(patches.size());
+  const auto name = [](const AnchoredContacts& set, Range range) {
+    return patch_name(set.set.contacts[range.start].id);
+  };
+  for (std::size_t n = 0; n < patches.size(); ++n)
+    for (std::size_t k = 0; k < old_patches.size() && !found[n]; ++k) {
+      if (name(contacts, patches[n]) != name(old_contacts, old_patches[k])) continue;
+      found[n] = old_patches[k];
+      old_patches.erase(old_patches.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  for (std::size_t n = 0; n < patches.size() && !old_patches.empty(); ++n) {
+    if (found[n]) continue;
+    const Place place = place_of(contacts, patches[n]);
+    auto nearest = old_patches.end();
+    double least = place.radius;
+    for (auto old = old_patches.begin(); old != old_patches.end(); ++old) {
+      const Place before = place_of(old_contacts, *old);
+      const double distance = (before.center - place.center).norm();
+      if (before.normal.dot(place.normal) < kSamePlane || distance > std::min(least, before.radius)) continue;
+      nearest = old;
+      least = distance;
+    }
+    if (nearest == old_patches.end()) continue;
+    found[n] = *nearest;
+    old_patches.erase(nearest);
+  }
+  return found;
 }
 
 /// Smallest number >= 0 (corner) or largest <= -1 (inner point) that is not taken yet.
@@ -38,8 +104,10 @@ int free_number(bool corner, const std::set<int>& taken) {
   return number;
 }
 
-void match_patch(const AnchoredContacts& old_contacts, Range old_range, Range range,
-                 AnchoredContacts* fresh) {
+/// Gives the points of a patch the names of the old one's nearest points; `further` ones get numbers that
+/// nobody has.
+void match_patch(const AnchoredContacts& old_contacts, Range old_range, Range range, AnchoredContacts* fresh,
+                 std::set<ContactId>* further) {
   struct Candidate {
     double distance;
     std::size_t old_index, index;
@@ -57,13 +125,28 @@ void match_patch(const AnchoredContacts& old_contacts, Range old_range, Range ra
     const int number = old_contacts.set.contacts[c.old_index].id.corner;
     if (numbers[c.index - range.start] || taken.contains(number)) continue;
     numbers[c.index - range.start] = number;
+    fresh->anchors[c.index].rest_gap = old_contacts.anchors[c.old_index].rest_gap;
     taken.insert(number);
   }
   for (std::size_t i = range.start; i < range.end; ++i) {
-    int& corner = fresh->set.contacts[i].id.corner;
-    corner = numbers[i - range.start].value_or(free_number(corner >= 0, taken));
-    taken.insert(corner);
+    ContactId& id = fresh->set.contacts[i].id;
+    const int number = numbers[i - range.start].value_or(free_number(id.corner >= 0, taken));
+    taken.insert(number);
+    id = old_contacts.set.contacts[old_range.start].id;
+    id.corner = number;
+    if (!numbers[i - range.start]) further->insert(id);
   }
+}
+
+/// A patch that took over an old name may leave another with that name as well: its points get other numbers.
+void make_unique(const std::vector<Range>& patches, AnchoredContacts* contacts) {
+  std::set<ContactId> seen;
+  for (const Range& patch : patches)
+    for (std::size_t i = patch.start; i < patch.end; ++i) {
+      ContactId& id = contacts->set.contacts[i].id;
+      const int step = id.corner >= 0 ? 1 : -1;
+      while (!seen.insert(id).second) id.corner += step;
+    }
 }
 
 void sort_patch(Range range, AnchoredContacts* contacts) {
@@ -134,7 +217,7 @@ void move_contacts(std::span<const Pose> poses, AnchoredContacts* contacts) {
                       (1.0 - anchor.weight_a) * (R_WB[b] * anchor.normal_b))
                          .normalized();
     // The centroids are subtracted first: far from the origin the points themselves have lost digits.
-    contact.gap = contact.normal.dot((poses[b].p_WB - poses[a].p_WB) + (r_b - r_a));
+    contact.gap = contact.normal.dot((poses[b].p_WB - poses[a].p_WB) + (r_b - r_a)) - anchor.rest_gap;
   }
   for (std::size_t p = 0; p < contacts->patch_polygons.size(); ++p) {
     Patch& patch = contacts->set.patches[p];
@@ -144,17 +227,47 @@ void move_contacts(std::span<const Pose> poses, AnchoredContacts* contacts) {
   }
 }
 
-void keep_identities(const AnchoredContacts& old_contacts, AnchoredContacts* contacts) {
+std::set<ContactId> keep_identities(const AnchoredContacts& old_contacts, AnchoredContacts* contacts) {
+  std::set<ContactId> from_the_side;
   const std::vector<Contact>& old_set = old_contacts.set.contacts;
   std::size_t old_start = 0;
   for (std::size_t start = 0; start < contacts->set.contacts.size();) {
-    const Range range = patch_range(contacts->set.contacts, start);
-    const Contact& first = contacts->set.contacts[start];
-    while (old_start < old_set.size() && patch_name(old_set[old_start]) < patch_name(first)) ++old_start;
-    if (old_start < old_set.size() && patch_name(old_set[old_start]) == patch_name(first))
-      match_patch(old_contacts, patch_range(old_set, old_start), range, contacts);
-    sort_patch(range, contacts);
-    start = range.end;
+    const std::vector<Range> patches = patches_of_pair(contacts->set.contacts, start);
+    const auto pair = block_pair(contacts->set.contacts[start]);
+    while (old_start < old_set.size() && block_pair(old_set[old_start]) < pair) ++old_start;
+    std::vector<Range> old_patches;
+    if (old_start < old_set.size() && block_pair(old_set[old_start]) == pair)
+      old_patches = patches_of_pair(old_set, old_start);
+    const std::vector<std::optional<Range>> before =
+        predecessors(old_contacts, old_patches, *contacts, patches);
+    std::size_t continued = 0;
+    for (std::size_t n = 0; n < patches.size(); ++n) {
+      if (!before[n]) continue;
+      match_patch(old_contacts, *before[n], patches[n], contacts, &from_the_side);
+      ++continued;
+    }
+    make_unique(patches, contacts);
+    for (std::size_t n = 0; n < patches.size() && continued == old_patches.size(); ++n)
+      for (std::size_t i = patches[n].start; i < patches[n].end && !before[n]; ++i)
+        from_the_side.insert(contacts->set.contacts[i].id);
+    for (const Range& patch : patches) sort_patch(patch, contacts);
+    start = patches.back().end;
+  }
+  return from_the_side;
+}
+
+void settle_rest_gaps(const std::set<ContactId>& from_the_side, AnchoredContacts* contacts) {
+  const auto settle = [&](std::size_t i, double rest_gap) {
+    double& rest = contacts->anchors[i].rest_gap;
+    contacts->set.contacts[i].gap += rest - rest_gap;
+    rest = rest_gap;
+  };
+  const auto whole_gap = [&](std::size_t i) {
+    return contacts->set.contacts[i].gap + contacts->anchors[i].rest_gap;
+  };
+  for (std::size_t i = 0; i < contacts->anchors.size(); ++i) {
+    const bool begins = from_the_side.contains(contacts->set.contacts[i].id);
+    if (begins || whole_gap(i) > contacts->anchors[i].rest_gap) settle(i, std::min(0.0, whole_gap(i)));
   }
 }
 

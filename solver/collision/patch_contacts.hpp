@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct ContactAnchor {
   Vec3 r_a = Vec3::Zero(), r_b = Vec3::Zero();              ///< m
   Vec3 normal_a = Vec3::UnitZ(), normal_b = Vec3::UnitZ();  ///< the normal, from a to b
   double weight_a = 0.5;  ///< 1: the normal turns with a, 0: with b, 1/2: with both
+  double rest_gap = 0.0;  ///< m: the gap counts from here
 };
 
 /// Contacts with what is needed to move them along with their blocks.
@@ -32,9 +34,15 @@ void append_patch(const CollisionModel& model, const JointPatch& patch, const Ei
 /// Places points, normals, gaps and patch polygons for the given poses of the blocks.
 void move_contacts(std::span<const Pose> poses, AnchoredContacts* contacts);
 
-/// Gives every new contact the corner number of the nearest old one of the same sort (corner or inner point)
-/// in the same patch, nearest pairs first; those left over get free numbers. Both sides are expected in the
-/// same poses. Contacts are sorted by identity again.
-void keep_identities(const AnchoredContacts& old_contacts, AnchoredContacts* contacts);
+/// Gives every new contact the name and the rest gap of the nearest old one of the same sort (corner or inner
+/// point) in the patch that its own continues, nearest pairs first; those left over get free numbers. Both
+/// sides are expected in the same poses. Returns the contacts that came in from the side: of patches that
+/// continue no old one although none of the block pair's was lost, and further points of patches that do.
+std::set<ContactId> keep_identities(const AnchoredContacts& old_contacts, AnchoredContacts* contacts);
+
+/// Where blocks have slid along each other while their joints are compressed, faces meet that have already
+/// passed each other. Such contacts, `from_the_side`, begin without force: their gap counts from its present
+/// value. The others lose what of their rest gap has opened.
+void settle_rest_gaps(const std::set<ContactId>& from_the_side, AnchoredContacts* contacts);
 
 }  // namespace cupola

@@ -78,7 +78,16 @@ void Simulation::start_from(const LoadedState& loaded) {
   // Contacts get their identity where the static solve found them.
   detector_.update(state_at_rest(model_).poses);
   state_ = loaded.state;
-  memories_ = loaded.memories;
+  const ContactSet& contacts = detector_.update(state_.poses);
+  memories_ = match_memories(loaded.memories, contacts.contacts);
+  // In its one step the associated law has opened the joints that slid by mu times their slip, under load:
+  // that is where they rest.
+  std::vector<double> gaps;
+  for (size_t i = 0; i < contacts.contacts.size(); ++i) {
+    const bool loaded_joint = memories_.values[i].impulse[0] > 0.0;
+    gaps.push_back(loaded_joint ? memories_.values[i].elastic_gap : contacts.contacts[i].gap);
+  }
+  detector_.count_gaps_from(gaps);
   for (ContactMemory& memory : memories_.values) memory.impulse *= next_h_;
   for (double& impulse : memories_.tie_impulses) impulse *= next_h_;
 }

@@ -23,7 +23,7 @@ void visit(Archive& archive, Patch& x) {
 }
 template <class Archive>
 void visit(Archive& archive, ContactAnchor& x) {
-  archive(x.r_a, x.r_b, x.normal_a, x.normal_b, x.weight_a);
+  archive(x.r_a, x.r_b, x.normal_a, x.normal_b, x.weight_a, x.rest_gap);
 }
 template <class Archive>
 void visit(Archive& archive, AnchoredContacts& x) {

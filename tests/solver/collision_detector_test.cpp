@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -302,6 +303,48 @@ TEST(ContactDetector, RejectsBadOptions) {
   options.margin = 0.0;
   options.moved_fraction = 0.5;
   EXPECT_THROW(ContactDetector(scene, options), InputError);
+}
+
+/// Two columns side by side, face to face at x = 0, each of a part 1 m wide under one of the given width.
+Assembly two_columns(double upper_a, double upper_b) {
+  Assembly columns;
+  for (const auto& [x, upper] : {std::pair(-0.5, upper_a), std::pair(0.5, upper_b)}) {
+    testing::BoxSpec part{.center = {x, 0, 0.5}, .size = {1, 1, 1}};
+    testing::add_block(part, &columns);
+    testing::add_box_part(part, false, false, &columns);
+    part.center.z() = 1.5;
+    part.size.y() = upper;
+    testing::add_box_part(part, false, false, &columns);
+  }
+  compute_mass_properties(&columns);
+  return columns;
+}
+
+// One column sinks along the other while their joint is compressed: slivers of other pairs of parts join the
+// patches, but every contact keeps its name and its gap; new points begin without a gap or force.
+TEST(ContactDetector, SinkingBesideACompressedJointKeepsItsContacts) {
+  // 0.8 and 0.8: the sliver of upper on lower part joins a patch; 0.6 and 0.8: it makes one of its own.
+  for (const auto& [upper_a, num_after] : {std::pair(0.8, 8u), std::pair(0.6, 12u)}) {
+    const Assembly columns = two_columns(upper_a, 0.8);
+    ContactDetector detector(columns, {});
+    std::vector<Pose> poses = initial_poses(columns);
+    const std::vector<Contact> before = detector.update(poses).contacts;
+    ASSERT_EQ(before.size(), 8u);
+    poses[1].p_WB += Vec3(-5e-4, 0.0, -5e-3);
+    const std::vector<Contact> after = detector.update(poses).contacts;
+    EXPECT_EQ(after.size(), num_after);
+    std::set<ContactId> known;
+    for (const Contact& contact : before) known.insert(contact.id);
+    size_t kept = 0;
+    for (const Contact& contact : after) {
+      kept += known.count(contact.id);
+      EXPECT_NEAR(contact.gap, known.contains(contact.id) ? -5e-4 : 0.0, 1e-12);
+    }
+    EXPECT_EQ(kept, before.size());
+    // What opens loses its rest gap: back where it was built every gap is what it looks like.
+    poses = initial_poses(columns);
+    for (const Contact& contact : detector.update(poses).contacts) EXPECT_NEAR(contact.gap, 0.0, 1e-12);
+  }
 }
 
 }  // namespace

@@ -169,7 +169,8 @@ TEST(EnergyBalance, OfATumblingBlockDriftsToFirstOrder) {
 TEST(MassRatio, HeavyOnLightCarriesTheWeightAbove) {
   for (const double ratio : {1e2, 1e4, 1e6}) {
     const Assembly stack = testing::stack_of_cubes(1.0, {1000.0, 1000.0, 1000.0 * ratio});
-    // Joints sink by 1e-5 m under the stack, whatever it weighs; the first swing has died out long before 2 s.
+    // Joints sink by 1e-5 m under the stack, whatever it weighs; the first swing has died out long before 2
+    // s.
     const double depth = 1e-5, W = 1000.0 * kG;
     Case scene = make_case(0.4, 4.0 * depth / (W * (2 + ratio)), 0.01);
     scene.analysis.tolerance = 1e-9;
@@ -224,6 +225,22 @@ TEST(StaticStart, IsAtRestWithItsElasticDepthAndTangentialMemory) {
   const double W = assembly.blocks[1].mass * kG;
   for (int i = 0; i < still.contacts.size(); ++i)
     EXPECT_LT((moved.last.contacts.force[i] - still.contacts.force[i]).norm(), 1e-7 * W);
+}
+
+// A beam that jams between two walls under the associated law has slid in the static step and opened its
+// joints by mu times the slip, under load. Released there it rests.
+TEST(StaticStart, OfJointsThatSlidIsAtRest) {
+  const Assembly assembly = testing::make_boxes({{.center = {-1.6, 0, 0}, .size = {1, 1, 3}, .fixed = true},
+                                                 {.center = {1.6, 0, 0}, .size = {1, 1, 3}, .fixed = true},
+                                                 {.center = {0, 0, 0}, .size = {2.2, 0.5, 0.5}}});
+  Case scene = make_case(0.5, 1e-8, 0.01);
+  scene.analysis.tolerance = 1e-10;
+  scene.analysis.duration = 0.1;
+  scene.analysis.start = Analysis::Start::static_;
+  const RunResult moved = run(scene, assembly);
+  EXPECT_EQ(moved.summary.status, Status::stable) << moved.summary.message;
+  // One step of free fall would be 0.1 m/s.
+  EXPECT_LT(moved.summary.max_speed_m_per_s, 1e-6);
 }
 
 TEST(StaticStart, SaysWhenThereIsNoEquilibriumToStartFrom) {
