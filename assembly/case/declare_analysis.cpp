@@ -39,13 +39,13 @@ void declare_limit(Section& s, LimitSearch& limit) {
       "what is varied: a friction coefficient; tilt of gravity (deg); horizontal acceleration (g); factor on "
       "loads.forces and loads.faces; factor on the thickness about the middle surface; factor on "
       "supports.moves");
-  s.rule(limit.parameter != Parameter::thickness || limit.low > 0.0, "low", "must be > 0 for a thickness");
   s.number("low", limit.low, {}, "one end of the bracket");
   s.number("high", limit.high, {}, "other end");
   s.number("relative_width", limit.relative_width, {.above = 0, .below = 1}, "of the final bracket");
   s.vector3("direction", limit.direction, {}, "horizontal direction of tilt and acceleration");
   s.optional_section("joints", limit.joints, "whose friction is varied; left out: of all joints",
                      declare_joint_group);
+  s.rule(limit.parameter != Parameter::thickness || limit.low > 0.0, "low", "must be > 0 for a thickness");
   s.rule(limit.low < limit.high, "high", "must be > low");
 }
 
