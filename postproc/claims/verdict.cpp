@@ -88,7 +88,7 @@ ClaimResult evaluate(const Claim& claim, RunCache& cache) {
     for (const std::string& name : runs_of(*quantity)) {
       if (!cache.finished(name))
         missing.insert(name);
-      else if (cache.run(name).status() == "unconverged")
+      else if (quantity->status != "unconverged" && cache.run(name).status() == "unconverged")
         unsolved.insert(name);
     }
   if (!missing.empty()) return {Verdict::not_run, std::nullopt, "not run: " + joined(missing)};

@@ -95,7 +95,7 @@ Bracket critical_friction(const Case& scene, StageRun* run) {
 std::string row(const StageResult& stage) {
   const bool found = stage.critical && stage.critical->found;
   return fmt::format(
-      "{},{},{:.9g},{},{:.6e},{},{}\n", stage.ring, stage.blocks, stage.weight, to_string(stage.verdict),
+      "{},{},{:.9g},{},{:.6e},{},\"{}\"\n", stage.ring, stage.blocks, stage.weight, to_string(stage.verdict),
       stage.speed_ratio,
       found ? fmt::format("{:.9g},{:.9g}", stage.critical->stable.value, stage.critical->moving.value) : ",",
       stage.critical ? stage.critical->message : "");

@@ -14,7 +14,7 @@ sed -i 's/duration: .*}/duration: 10}/' "$work/cases/small.yaml"
 run() { make -f Makefile.cases small BUILD="$build" FOLDER="$work/cases" OUT="$work/$1" > "$work/log" 2>&1; }
 contents() {
   (cd "$1" && find . -type f ! -name '*.part*' ! -name '.*' | sort | while read -r file; do
-    echo "$file $(sed -E '/wall_time|solve_time|peak_memory/d' "$file" | md5sum | cut -c1-32)"; done)
+    echo "$file $(sed -E '/wall_time|solve_time|peak_memory|Solved by/d' "$file" | md5sum | cut -c1-32)"; done)
 }
 
 start=$(date +%s%N)

@@ -117,6 +117,9 @@ TEST(Claims, VerdictsSayWhatIsMissingOrNotSolved) {
   // Unconverged is neither standing nor falling.
   EXPECT_EQ(verdict(scratch, "    value: {runs: bad, status: stable}\n    at_most: 0\n").verdict,
             Verdict::not_solved);
+  // Unless that is the question: which runs does a method leave unsolved?
+  EXPECT_DOUBLE_EQ(
+      *verdict(scratch, "    value: {runs: good bad, status: unconverged}\n    at_least: 1\n").number, 0.5);
   write_run(scratch, "fallen", "collapsed", 1.0);
   EXPECT_DOUBLE_EQ(
       *verdict(scratch, "    value: {runs: good fallen, status: stable}\n    at_least: 1\n").number, 0.5);
