@@ -3,6 +3,7 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSMPTools.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkStringOutputWindow.h>
@@ -28,6 +30,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 #include <vtkXMLUtilities.h>
+#include <vtkZLibDataCompressor.h>
 
 #include "assembly/atomic_file.hpp"
 #include "assembly/error.hpp"
@@ -181,12 +184,32 @@ vtkSmartPointer<vtkPolyData> to_poly_data(const Mesh& mesh) {
   return poly_data;
 }
 
+/// Says so when there is no memory to compress in: VTK's writers would go on with a null pointer.
+class Compressor : public vtkZLibDataCompressor {
+ public:
+  static Compressor* New() {
+    auto* compressor = new Compressor;
+    compressor->InitializeObjectBase();
+    return compressor;
+  }
+
+ private:
+  size_t CompressBuffer(const unsigned char* data, size_t size, unsigned char* compressed,
+                        size_t space) override {
+    const size_t used = vtkZLibDataCompressor::CompressBuffer(data, size, compressed, space);
+    if (used == 0) throw std::bad_alloc();
+    return used;
+  }
+};
+
 template <class Writer>
 void write_data(const std::string& side_path, vtkDataSet* data, const Mesh& mesh) {
   add_arrays(mesh.point_data, data->GetPointData());
   add_arrays(mesh.cell_data, data->GetCellData());
   add_arrays(mesh.field_data, data->GetFieldData());
+  vtkSMPTools::SetBackend("Sequential");  // threads would save no time here, and may fail to start
   vtkNew<Writer> writer;
+  writer->SetCompressor(vtkNew<Compressor>());
   writer->SetFileName(side_path.c_str());
   writer->SetInputData(data);
   writer->SetDataModeToAppended();

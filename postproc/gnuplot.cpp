@@ -48,9 +48,9 @@ std::vector<std::string> draw_figures(const std::string& folder, const std::vect
   make_folder(folder);
   std::vector<std::string> problems;
   for (const Figure& figure : figures) {
-    write_text_atomically(
-        in_folder(folder, figure.name + ".gp"),
-        fmt::format("# {}\n# gnuplot -p {}.gp\n{}", figure.title, figure.name, figure.commands));
+    write_text_atomically(in_folder(folder, figure.name + ".gp"),
+                          fmt::format("# {}\n# gnuplot -p {}.gp\n{}", gnuplot_text(figure.title), figure.name,
+                                      figure.commands));
     std::string problem = draw(folder, figure, "pngcairo", ".png");
     if (problem.empty() && figure.vector) problem = draw(folder, figure, "svg", ".svg");
     if (!problem.empty()) problems.push_back(fmt::format("figure {} is not drawn: {}", figure.name, problem));
@@ -76,8 +76,8 @@ std::string data_block(const std::string& name, const std::vector<std::vector<do
 std::string gnuplot_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '\'') out += '\'';  // doubled inside single quotes
-    out += c == '\n' ? ' ' : c;
+    if (c == '\'') out += '\'';                            // doubled inside single quotes
+    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;  // a line end would begin a command
   }
   return out;
 }

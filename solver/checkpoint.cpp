@@ -46,6 +46,7 @@ std::optional<Checkpoint> read_checkpoint(const std::string& path) {
   try {
     ByteReader archive(bytes);
     visit(archive, checkpoint);
+    if (!archive.at_end()) throw std::runtime_error("holds more than a checkpoint");
   } catch (const std::runtime_error& error) {
     throw InputError(where, fmt::format("is damaged: it {}", error.what()));
   }

@@ -104,9 +104,12 @@ std::vector<RawBlock> read_compas(const std::string& path) {
     root = parse_assembly(text, path);
   } catch (const Json::parse_error& error) {
     throw InputError(FileLocation{path, line_of(text, error.byte), 0}, "not valid JSON here");
+  } catch (const Json::out_of_range&) {
+    throw InputError(FileLocation{path}, "holds a number that does not fit in double precision");
   }
   const FileLocation where{path, 1, 0};
   const Json& nodes = descend(root, {"data", "graph", "data", "node"}, where, "not a COMPAS assembly");
+  if (!nodes.is_object()) throw InputError(where, "not a COMPAS assembly: 'node' is no object");
   std::vector<std::string> names;
   for (const auto& [name, node] : nodes.items()) names.push_back(name);
   std::ranges::sort(names, key_before);

@@ -56,9 +56,13 @@ std::vector<RawBlock> read_all(const ImportedBlocks& source) {
     return read_file(source.path, source.format);
   }
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(source.path))
-    if (entry.is_regular_file() && format_of(entry.path()) != Format::automatic)
-      files.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(source.path)) {
+    if (!entry.is_regular_file() || format_of(entry.path()) == Format::automatic) continue;
+    const fs::path inside = fs::canonical(entry.path()).lexically_relative(fs::canonical(source.path));
+    if (*inside.begin() == "..")
+      throw InputError(FileLocation{entry.path().string()}, "is a link to a file outside the folder");
+    files.push_back(entry.path());
+  }
   std::ranges::sort(files);
   if (files.empty()) throw InputError(FileLocation{source.path}, "the folder holds no block files");
   std::vector<RawBlock> blocks;

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -125,6 +126,11 @@ class Values {
   size_t word_ = 0;
 };
 
+/// -1 for what is no index, so that it is refused as any other that is out of range.
+int to_index(double value) {
+  return value >= 0.0 && value <= std::numeric_limits<int>::max() ? static_cast<int>(value) : -1;
+}
+
 void read_row(const Element& element, Values* values, const std::string& path, PolygonMesh* mesh) {
   Vec3 point = Vec3::Zero();
   values->start_row();
@@ -137,7 +143,7 @@ void read_row(const Element& element, Values* values, const std::string& path, P
     }
     const size_t size = values->next_count(*property.list_count);
     std::vector<int> list;
-    for (size_t i = 0; i < size; ++i) list.push_back(static_cast<int>(values->next(property.type)));
+    for (size_t i = 0; i < size; ++i) list.push_back(to_index(values->next(property.type)));
     if (element.name != "face" || (property.name != "vertex_indices" && property.name != "vertex_index"))
       continue;
     for (int v : list)

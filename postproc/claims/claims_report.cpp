@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "postproc/html.hpp"
+
 namespace cupola {
 namespace {
 
@@ -53,21 +55,6 @@ std::string wrapped_text(const std::string& text, size_t width, const std::strin
     start = end + 1;
   }
   return line.empty() ? out : out + indent + line + "\n";
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
 }
 
 constexpr const char* kPage = R"(<!DOCTYPE html>
@@ -129,8 +116,9 @@ std::string claims_html(const std::vector<Claim>& claims, const std::vector<Clai
     rows += fmt::format(
         "<tr><td>{}</td><td>{}<br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td>"
         "<td class=\"verdict {}\">{}</td></tr>\n",
-        escaped(claim.source), escaped(claim.says), escaped(remark(claim, results[i])), escaped(claim.number),
-        escaped(shown_number(claim, results[i])), escaped(range(claim)), css, verdict);
+        html_text(claim.source), html_text(claim.says), html_text(remark(claim, results[i])),
+        html_text(claim.number), html_text(shown_number(claim, results[i])), html_text(range(claim)), css,
+        verdict);
   }
   return fmt::format(kPage, counts(results), rows);
 }

@@ -59,9 +59,9 @@ Row read_row(const std::string& line, const Assembly& assembly, const FileLocati
   row.gap = v[9];
   row.area = v[10];
   if (row.block_a == row.block_b) throw InputError(where, "block_a and block_b are the same");
-  if (!(row.normal.norm() > 0.0)) throw InputError(where, "the normal is zero");
+  if (!(row.normal.stableNorm() > 0.0)) throw InputError(where, "the normal is zero");
   if (!(row.area > 0.0)) throw InputError(where, fmt::format("area_m2 = {}: must be > 0", row.area));
-  row.normal.normalize();
+  row.normal.stableNormalize();  // whatever the length
   if (row.block_a > row.block_b) {
     std::swap(row.block_a, row.block_b);
     row.normal = -row.normal;

@@ -1,13 +1,11 @@
 #include "solver/contact/fclib_file.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <memory>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
-#include <hdf5.h>
 
 extern "C" {
 #include <fclib.h>
@@ -15,6 +13,7 @@ extern "C" {
 
 #include "assembly/atomic_file.hpp"
 #include "assembly/error.hpp"
+#include "solver/contact/hdf5_reader.hpp"
 
 namespace cupola {
 
@@ -26,145 +25,118 @@ using Sparse = Eigen::SparseMatrix<double>;
   throw InputError(FileLocation{path}, "FCLIB: " + what);
 }
 
-/// libfclib ends the process when a name is missing, so the names are looked up first.
-class NameCheck {
- public:
-  explicit NameCheck(const std::string& path) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    if (H5Fis_hdf5(path.c_str()) <= 0) reject(path, "not an HDF5 file, or it cannot be read");
-    file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (file_ < 0) reject(path, "cannot be opened");
-  }
-  ~NameCheck() { H5Fclose(file_); }
-  NameCheck(const NameCheck&) = delete;
-  NameCheck& operator=(const NameCheck&) = delete;
+/// Reads W, M or H of `rows` x `columns`, sizes that the vectors beside it confirm.
+Sparse read_matrix(const Hdf5Reader& file, const std::string& name, Eigen::Index rows, Eigen::Index columns) {
+  const int m = file.integer(name + "/m"), n = file.integer(name + "/n"), nz = file.integer(name + "/nz");
+  if (m != rows || n != columns)
+    reject(file.path(), fmt::format("{} is {} x {}, its vectors say {} x {}", name, m, n, rows, columns));
+  const std::vector<int> p = file.integers(name + "/p"), i = file.integers(name + "/i");
+  const std::vector<double> x = file.numbers(name + "/x");
+  const bool triplets = nz >= 0, by_rows = nz == -2;
+  if (nz < -2) reject(file.path(), fmt::format("{}/nz = {} is no storage scheme", name, nz));
+  const std::size_t majors = static_cast<std::size_t>(by_rows ? m : n);
+  if (p.size() < (triplets ? static_cast<std::size_t>(nz) : majors + 1))
+    reject(file.path(), fmt::format("{}/p has {} elements", name, p.size()));
 
-  bool has(const std::string& name) const {
-    for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
-      if (H5Lexists(file_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-      if (end == std::string::npos) return true;
-    }
-  }
-  void require(const std::string& path, const std::string& group,
-               const std::vector<std::string>& names) const {
-    for (const std::string& name : names) {
-      if (!has(group + name)) reject(path, fmt::format("{}{} is missing", group, name));
-    }
-  }
-
- private:
-  hid_t file_;
-};
-
-std::vector<std::string> matrix_names(const std::string& name) {
-  std::vector<std::string> names;
-  for (const char* field : {"nzmax", "m", "n", "nz", "p", "i", "x"}) names.push_back(name + "/" + field);
-  return names;
-}
-
-Sparse to_sparse(const std::string& path, const char* name, const fclib_matrix& A) {
   std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](int row, int column, double value) {
-    if (row < 0 || row >= A.m || column < 0 || column >= A.n || !std::isfinite(value)) {
-      reject(path, fmt::format("{} has an entry ({}, {}) = {} outside its {} x {}", name, row, column, value,
-                               A.m, A.n));
+  const auto add = [&](std::size_t k, int row, int column) {
+    if (row < 0 || row >= m || column < 0 || column >= n || !std::isfinite(x[k])) {
+      reject(file.path(),
+             fmt::format("{} has an entry ({}, {}) = {} outside its {} x {}", name, row, column, x[k], m, n));
     }
-    entries.emplace_back(row, column, value);
+    entries.emplace_back(row, column, x[k]);
   };
-  const bool triplets = A.nz >= 0, by_rows = A.nz == -2;
+  const auto check_entry = [&](long long k) {
+    const auto stored = static_cast<long long>(std::min(i.size(), x.size()));
+    if (k < 0 || k >= stored)
+      reject(file.path(), fmt::format("{} points to entry {} of {}", name, k, stored));
+    return static_cast<std::size_t>(k);
+  };
   if (triplets) {
-    for (int k = 0; k < A.nz; ++k) add(A.i[k], A.p[k], A.x[k]);
+    for (int k = 0; k < nz; ++k) add(check_entry(k), i[check_entry(k)], p[static_cast<std::size_t>(k)]);
   } else {
-    for (int major = 0; major < (by_rows ? A.m : A.n); ++major) {
-      for (int k = A.p[major]; k < A.p[major + 1]; ++k) {
-        if (k < 0 || k >= A.nzmax) reject(path, fmt::format("{} points to entry {} of {}", name, k, A.nzmax));
-        add(by_rows ? major : A.i[k], by_rows ? A.i[k] : major, A.x[k]);
+    for (std::size_t major = 0; major < majors; ++major) {
+      if (p[major + 1] < p[major]) reject(file.path(), name + "/p decreases");
+      for (int k = p[major]; k < p[major + 1]; ++k) {
+        const std::size_t at = check_entry(k);
+        const int here = static_cast<int>(major);
+        add(at, by_rows ? here : i[at], by_rows ? i[at] : here);
       }
     }
   }
-  Sparse matrix(A.m, A.n);
+  Sparse matrix(m, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
 
-VecX to_vector(const std::string& path, const char* name, const double* values, Eigen::Index size) {
-  if (values == nullptr) reject(path, fmt::format("{} is missing", name));
-  VecX vector = Eigen::Map<const VecX>(values, size);
-  if (!vector.allFinite()) reject(path, fmt::format("{} is not finite", name));
+VecX read_vector(const Hdf5Reader& file, const std::string& name) {
+  const std::vector<double> values = file.numbers(name);
+  VecX vector = Eigen::Map<const VecX>(values.data(), static_cast<Eigen::Index>(values.size()));
+  if (!vector.allFinite()) reject(file.path(), fmt::format("{} is not finite", name));
   return vector;
 }
 
-void check_contacts(const std::string& path, int spacedim, Eigen::Index rows) {
-  if (spacedim != 3) reject(path, fmt::format("space dimension {}: only 3 is solved here", spacedim));
-  if (rows == 0 || rows % 3 != 0) reject(path, fmt::format("{} contact rows are no multiple of 3", rows));
+void check_contacts(const Hdf5Reader& file, int spacedim, Eigen::Index rows, const VecX& mu) {
+  if (spacedim != 3) reject(file.path(), fmt::format("space dimension {}: only 3 is solved here", spacedim));
+  if (rows == 0 || rows != 3 * mu.size())
+    reject(file.path(), fmt::format("{} contact rows for {} contacts", rows, mu.size()));
+  if (mu.minCoeff() < 0.0) reject(file.path(), fmt::format("mu = {} < 0", mu.minCoeff()));
 }
 
-DelassusProblem read_local(const std::string& path, const NameCheck& names) {
-  names.require(path, "/fclib_local/", matrix_names("W"));
-  names.require(path, "/fclib_local/", {"spacedim", "vectors/q", "vectors/mu"});
-  if (names.has("/fclib_local/V")) reject(path, "equality constraints (V, R) are not solved here");
-  const std::unique_ptr<fclib_local, void (*)(fclib_local*)> p(fclib_read_local(path.c_str()),
-                                                               [](fclib_local* q) {
-                                                                 fclib_delete_local(q);
-                                                                 std::free(q);
-                                                               });
-  check_contacts(path, p->spacedim, p->W->m);
-  if (p->W->m != p->W->n) reject(path, fmt::format("W is {} x {}, not square", p->W->m, p->W->n));
-  return {to_sparse(path, "W", *p->W), to_vector(path, "q", p->q, p->W->m),
-          to_vector(path, "mu", p->mu, p->W->m / 3)};
-}
-
-/// W = H^T M^-1 H, q = H^T M^-1 f + w.
-DelassusProblem read_global(const std::string& path, const NameCheck& names) {
-  names.require(path, "/fclib_global/", matrix_names("M"));
-  names.require(path, "/fclib_global/", matrix_names("H"));
-  names.require(path, "/fclib_global/", {"spacedim", "vectors/f", "vectors/w", "vectors/mu"});
-  if (names.has("/fclib_global/G")) reject(path, "equality constraints (G) are not solved here");
-  const std::unique_ptr<fclib_global, void (*)(fclib_global*)> p(fclib_read_global(path.c_str()),
-                                                                 [](fclib_global* q) {
-                                                                   fclib_delete_global(q);
-                                                                   std::free(q);
-                                                                 });
-  check_contacts(path, p->spacedim, p->H->n);
-  if (p->M->m != p->M->n || p->M->m != p->H->m) {
-    reject(path, fmt::format("M is {} x {} and H {} x {}", p->M->m, p->M->n, p->H->m, p->H->n));
-  }
-  const Sparse M = to_sparse(path, "M", *p->M), H = to_sparse(path, "H", *p->H);
-  const Eigen::SimplicialLDLT<Sparse> factor(M);
-  if (factor.info() != Eigen::Success) reject(path, "M cannot be factorised: not positive definite");
-  const VecX f = to_vector(path, "f", p->f, p->M->m);
+DelassusProblem read_local(const Hdf5Reader& file) {
+  if (file.has("/fclib_local/V")) reject(file.path(), "equality constraints (V, R) are not solved here");
   DelassusProblem local;
-  local.W = Sparse(H.transpose() * Sparse(factor.solve(H)));
-  local.q = H.transpose() * factor.solve(f) + to_vector(path, "w", p->w, p->H->n);
-  local.mu = to_vector(path, "mu", p->mu, p->H->n / 3);
+  local.q = read_vector(file, "/fclib_local/vectors/q");
+  local.mu = read_vector(file, "/fclib_local/vectors/mu");
+  check_contacts(file, file.integer("/fclib_local/spacedim"), local.q.size(), local.mu);
+  local.W = read_matrix(file, "/fclib_local/W", local.q.size(), local.q.size());
   return local;
 }
 
-/// Of a local problem; libfclib writes and reads those of a global one with sizes that contradict each other.
-std::optional<VecX> read_impulses(const std::string& path, const NameCheck& names, Eigen::Index size) {
-  if (!names.has("/solution/r") || !names.has("/solution/u")) return std::nullopt;
-  const std::unique_ptr<fclib_solution, void (*)(fclib_solution*)> s(
-      fclib_read_solution(path.c_str()), [](fclib_solution* q) { fclib_delete_solutions(q, 1); });
-  if (!s || s->r == nullptr) return std::nullopt;
-  return to_vector(path, "solution r", s->r, size);
+/// W = H^T M^-1 H, q = H^T M^-1 f + w.
+DelassusProblem read_global(const Hdf5Reader& file) {
+  if (file.has("/fclib_global/G")) reject(file.path(), "equality constraints (G) are not solved here");
+  const VecX f = read_vector(file, "/fclib_global/vectors/f"),
+             w = read_vector(file, "/fclib_global/vectors/w");
+  DelassusProblem local;
+  local.mu = read_vector(file, "/fclib_global/vectors/mu");
+  check_contacts(file, file.integer("/fclib_global/spacedim"), w.size(), local.mu);
+  const Sparse M = read_matrix(file, "/fclib_global/M", f.size(), f.size());
+  const Sparse H = read_matrix(file, "/fclib_global/H", f.size(), w.size());
+  const Eigen::SimplicialLDLT<Sparse> factor(M);
+  if (factor.info() != Eigen::Success) reject(file.path(), "M cannot be factorised: not positive definite");
+  local.W = Sparse(H.transpose() * Sparse(factor.solve(H)));
+  local.q = H.transpose() * factor.solve(f) + w;
+  const bool finite = local.q.allFinite() && local.W.coeffs().allFinite();
+  if (!finite) reject(file.path(), "M is singular in double precision");
+  return local;
+}
+
+/// Of a local problem; libfclib writes those of a global one with sizes that contradict each other.
+std::optional<VecX> read_impulses(const Hdf5Reader& file, Eigen::Index size) {
+  if (!file.has("/solution/r")) return std::nullopt;
+  VecX impulses = read_vector(file, "/solution/r");
+  if (impulses.size() != size)
+    reject(file.path(), fmt::format("/solution/r has {} elements, not {}", impulses.size(), size));
+  return impulses;
 }
 
 }  // namespace
 
+// libfclib reads into arrays of the sizes that a file states, whatever the arrays in the file are, and ends
+// the process when a name is missing: good for writing, but not for reading files of others.
 FclibProblem read_fclib(const std::string& path) {
-  const NameCheck names(path);
+  const Hdf5Reader file(path);
   FclibProblem problem;
-  if (names.has("/fclib_local")) {
-    problem.local = read_local(path, names);
-    problem.impulses = read_impulses(path, names, problem.local.q.size());
-  } else if (names.has("/fclib_global")) {
-    problem.local = read_global(path, names);
+  if (file.has("/fclib_local")) {
+    problem.local = read_local(file);
+    problem.impulses = read_impulses(file, problem.local.q.size());
+  } else if (file.has("/fclib_global")) {
+    problem.local = read_global(file);
     problem.was_global = true;
   } else {
     reject(path, "neither /fclib_local nor /fclib_global is there");
   }
-  if (problem.local.mu.minCoeff() < 0.0)
-    reject(path, fmt::format("mu = {} < 0", problem.local.mu.minCoeff()));
   return problem;
 }
 

@@ -111,6 +111,13 @@ const BadCase kBadCases[] = {
      "bad.yaml:1:41: error: geometry.bond = {...}: bond.blocks_per_ring must be >= 3 on a closed ring"},
     {"MeridianNotAMap", kGood + "postproc: {meridians: [mid_sail]}\n",
      "bad.yaml:6:24: error: postproc.meridians[0] = mid_sail: must be a map of keys"},
+    {"MeridianOutside", kGood + "postproc: {meridians: [{name: ../../rib, azimuth_deg: 0}]}\n",
+     "bad.yaml:6:31: error: postproc.meridians[0].name = ../../rib: may hold letters, digits, _ and - only"},
+    {"MeridianWithACommand",
+     kGood + "postproc: {meridians: [{name: \"a\\nsystem('touch x')\", azimuth_deg: 0}]}\n",
+     "bad.yaml:6:31: error: postproc.meridians[0].name = \"a?system('touch x')\": may hold letters, digits, "
+     "_ "
+     "and - only"},
     {"NotAMap", "- a\n- b\n", "bad.yaml:1:1: error: a case file is a map of sections, `key: value`"},
     {"Empty", "", "bad.yaml: error: the file is empty"},
     {"OnlyComment", "# nothing\n", "bad.yaml: error: the file is empty"},

@@ -6,16 +6,12 @@
 set -u
 build=$1; kills=$2
 cd "$(dirname "$0")/../.." || exit 1
-work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
+. tests/faults/common.sh
 mkdir "$work/cases"; cp tests/faults/small.yaml "$work/cases/small.yaml"
 # Long enough that the kills fall into the run: about a second.
 sed -i 's/duration: .*}/duration: 10}/' "$work/cases/small.yaml"
 
 run() { make -f Makefile.cases small BUILD="$build" FOLDER="$work/cases" OUT="$work/$1" > "$work/log" 2>&1; }
-contents() {
-  (cd "$1" && find . -type f ! -name '*.part*' ! -name '.*' | sort | while read -r file; do
-    echo "$file $(sed -E '/wall_time|solve_time|peak_memory|Solved by/d' "$file" | md5sum | cut -c1-32)"; done)
-}
 
 start=$(date +%s%N)
 run reference || { cat "$work/log"; exit 1; }

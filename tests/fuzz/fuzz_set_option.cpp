@@ -16,8 +16,8 @@ bool reader_accepts(std::string_view bytes) {
   const std::string path = CUPOLA_SOURCE_DIR "/cases/dome_circular.yaml";
   Case once;
   if (!accepts([&] { once = read_case(path, options); })) return false;
-  options.insert(options.end(), options.begin(),
-                 options.begin() + static_cast<std::ptrdiff_t>(options.size()));
+  const std::vector<std::string> repeated = options;
+  options.insert(options.end(), repeated.begin(), repeated.end());
   Case twice;
   if (accepts([&] { twice = read_case(path, options); }))
     demand(once.hash == twice.hash, "repeating options changes nothing");

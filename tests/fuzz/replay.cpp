@@ -2,6 +2,7 @@
 // the slowest input and the memory; fails above the limits that the project promises.
 //
 //   fuzz_case --edits 10000 cases/*.yaml
+//   fuzz_case --edits 10000 --write edited_ cases/*.yaml     only writes the edits: edited_0.yaml ...
 
 #include <algorithm>
 #include <cstdio>
@@ -95,32 +96,49 @@ struct Tally {
   }
 };
 
-int replay(int argc, char** argv) {
+struct Request {
   int edits = 0;
   unsigned seed = 1;
+  std::string write;  ///< where edits are written, instead of read
   std::vector<std::string> inputs;
+};
+
+Request parse(int argc, char** argv) {
+  Request request;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument == "--edits" && i + 1 < argc)
-      edits = std::atoi(argv[++i]);
+      request.edits = std::atoi(argv[++i]);
     else if (argument == "--seed" && i + 1 < argc)
-      seed = static_cast<unsigned>(std::atoi(argv[++i]));
+      request.seed = static_cast<unsigned>(std::atoi(argv[++i]));
+    else if (argument == "--write" && i + 1 < argc)
+      request.write = argv[++i];
     else
-      inputs.push_back(read_text(argument));
+      request.inputs.push_back(read_text(argument));
   }
-  if (inputs.empty()) inputs.emplace_back();
+  if (request.inputs.empty()) request.inputs.emplace_back();
+  return request;
+}
 
-  Tally files;
-  for (const std::string& input : inputs) files.run(input);
-  Tally edited;
-  Editor editor(seed);
-  for (int i = 0; i < edits; ++i)
-    edited.run(editor.edit(inputs[static_cast<size_t>(i) % inputs.size()], inputs));
+int replay(const Request& request) {
+  const std::vector<std::string>& inputs = request.inputs;
+  Editor editor(request.seed);
+  Tally files, edited;
+  if (request.write.empty())
+    for (const std::string& input : inputs) files.run(input);
+  for (int i = 0; i < request.edits; ++i) {
+    const std::string bytes = editor.edit(inputs[static_cast<size_t>(i) % inputs.size()], inputs);
+    if (request.write.empty())
+      edited.run(bytes);
+    else
+      write_bytes(fmt::format("{}{}.yaml", request.write, i), bytes);
+  }
+  if (!request.write.empty()) return 0;
 
   const double slowest = std::max(files.slowest, edited.slowest);
   fmt::print(
       "{} files ({} accepted), {} random edits ({} accepted, {} refused); slowest {:.3f} s, {:.0f} MB\n",
-      files.accepted + files.refused, files.accepted, edits, edited.accepted, edited.refused, slowest,
+      files.accepted + files.refused, files.accepted, request.edits, edited.accepted, edited.refused, slowest,
       static_cast<double>(peak_memory_bytes()) / 1e6);
   if (slowest > kLongest || peak_memory_bytes() > kMostMemory) {
     fmt::print(stderr, "beyond the limits of {} s and {} bytes\n", kLongest, kMostMemory);
@@ -133,7 +151,7 @@ int replay(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return replay(argc, argv);
+    return replay(parse(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "a reader let this escape: %s\n", error.what());
     return 1;

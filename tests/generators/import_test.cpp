@@ -220,6 +220,19 @@ TEST_F(Import, BrokenInputIsNamed) {
   EXPECT_NE(complaint((folder_ / "missing.obj").string()).find("no such file"), std::string::npos);
 }
 
+TEST_F(Import, AFolderLinkCannotLeadOutside) {
+  const std::string outside = write("box.off", kOffBox);
+  const auto folder = folder_ / "blocks";
+  std::filesystem::create_directory(folder);
+  write("blocks/a.off", kOffBox);
+  std::filesystem::create_symlink("a.off", folder / "b.off");
+  EXPECT_EQ(complaint(folder.string()).find("outside"), std::string::npos) << "a link within it may be";
+  std::filesystem::create_symlink(outside, folder / "c.off");
+  EXPECT_NE(complaint(folder.string()).find("c.off: error: is a link to a file outside the folder"),
+            std::string::npos)
+      << complaint(folder.string());
+}
+
 // --- models made by others, where they are at hand ------------------------------------------------------
 
 struct SharedModel {

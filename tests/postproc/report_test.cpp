@@ -96,6 +96,35 @@ TEST(Report, EscapesTheTitleAndSaysTheVerdict) {
   EXPECT_EQ(html.find("http"), std::string::npos) << "nothing is fetched from outside";
 }
 
+// Every text that a file may hold, in the report and in a comparison of two runs.
+TEST(Report, NoTextFromAFileBecomesMarkup) {
+  const std::string markup = "<script>alert('x')</script>";
+  const std::string folder = std::filesystem::path(analysed_column("markup")).parent_path().string();
+  const Assembly a = test::column(3);
+  Summary summary = test::column_summary(a);
+  for (std::string* text :
+       {&summary.message, &summary.analysis, &summary.method, &summary.friction_law, &summary.tangential,
+        &summary.program_version, &summary.case_hash, &summary.geometry_hash})
+    *text = markup;
+  for (const Status status : {Status::stable, Status::unconverged}) {
+    summary.status = status;
+    write_text_atomically(folder + "/results/summary.json", to_json(summary));
+    Case scene = test::column_case();
+    scene.title = markup;
+    AnalyseRequest request{scene, folder + "/assembly.vtu", folder + "/results", folder + "/post"};
+    request.quiet = request.force = true;
+    ASSERT_EQ(analyse(request), ExitCode::done);
+    const std::string html = read_text(folder + "/post/report.html");
+    EXPECT_EQ(html.find("<script"), std::string::npos);
+    EXPECT_NE(html.find("<h1>&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt;</h1>"), std::string::npos);
+    EXPECT_NE(html.find("&lt;script&gt;"), html.rfind("&lt;script&gt;")) << "title and message both show";
+  }
+  const std::string out = test::fresh_folder("markup_comparison");
+  ASSERT_EQ(compare({folder + "/post", analysed_column("b")}, out, true), ExitCode::done);
+  const std::string html = read_text(out + "/comparison.html");
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+}
+
 TEST(Report, AnUnconvergedRunIsSaidBeforeAnythingElse) {
   const std::string html = read_text(analysed_column("column", "", Status::unconverged) + "/report.html");
   const size_t warning = html.find("the solver did not reach the accuracy asked");

@@ -7,6 +7,7 @@
 
 #include "assembly/atomic_file.hpp"
 #include "postproc/claims/csv_file.hpp"
+#include "postproc/gnuplot.hpp"
 #include "postproc/html.hpp"
 #include "tests/postproc/models.hpp"
 
@@ -51,6 +52,11 @@ TEST(Html, EverythingFromOutsideIsEscaped) {
   EXPECT_EQ(table.find("<b>&"), std::string::npos);
   EXPECT_NE(table.find("&lt;b&gt;&amp;"), std::string::npos);
   EXPECT_NE(table.find("&lt;count&gt;"), std::string::npos);
+}
+
+// A quote would end the string of a gnuplot command and a line end the comment; both could begin a command.
+TEST(Gnuplot, TextFromOutsideStaysText) {
+  EXPECT_EQ(gnuplot_text("a'b\nsystem('x')\r`x`"), "a''b system(''x'') `x`");
 }
 
 TEST(Html, PicturesTravelInside) {

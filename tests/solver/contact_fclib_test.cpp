@@ -120,6 +120,33 @@ TEST(Fclib, BadFilesAreExplained) {
   std::filesystem::remove(path);
 }
 
+// W = 2 I of three rows, q = -e1, mu = 0.4, once sound and once with one array that lies: libfclib would
+// write past the arrays that it took for the stated sizes (bad_m, bad_nz, nzmax_too_small), or end the
+// process (bad_text).
+TEST(Fclib, SizesAreThoseOfTheArraysAndNothingElseIsOpened) {
+  const std::string seeds = CUPOLA_SOURCE_DIR "/tests/fuzz/seeds/fclib/";
+  for (const char* name : {"columns", "rows", "triplets", "nzmax_too_small"}) {
+    const FclibProblem file = read_fclib(seeds + name + ".hdf5");
+    EXPECT_EQ(file.local.W.toDense(), (2.0 * Eigen::Matrix3d::Identity()).eval()) << name;
+    EXPECT_EQ(file.impulses.value(), Vec3(0.5, 0.0, 0.0)) << name;
+  }
+  const std::pair<const char*, const char*> bad[] = {
+      {"bad_m", "/fclib_local/W is 2000000000 x 3, its vectors say 3 x 3"},
+      {"bad_nz", "/fclib_local/W/p has 3 elements"},
+      {"bad_huge", "/fclib_local/vectors/q declares 1000000000000 elements, the file holds 0 bytes of it"},
+      {"bad_external", "/fclib_local/vectors/q lies in another file"},
+      {"bad_link", "/fclib_local/W is a link, which is not followed"},
+      {"bad_text", "/fclib_local/vectors/mu does not hold numbers"}};
+  for (const auto& [name, phrase] : bad) {
+    try {
+      read_fclib(seeds + name + ".hdf5");
+      ADD_FAILURE() << name << " is accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(phrase), std::string::npos) << error.what();
+    }
+  }
+}
+
 // Problems of other codes: full 3x3 structure, no compliance, Coulomb's law, W of Capsules unsymmetric by
 // 1e-3.
 TEST(Fclib, PublicProblemsAreSolved) {

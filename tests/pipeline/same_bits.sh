@@ -1,0 +1,70 @@
+#!/bin/bash
+# Same input, same bits: runs five cases, hashes everything that they write, and compares repeated runs, one and two
+# threads, a run that was interrupted and resumed, and other builds (debug against release, with sanitizers).
+#
+#   same_bits.sh BIN_FOLDER [OTHER_BIN_FOLDER ...]
+set -u
+bins=$(realpath "$@") || exit 1
+cd "$(dirname "$0")/../.." || exit 1
+. tests/faults/common.sh
+first=$(echo "$bins" | head -n 1)
+differ=0; compared=0
+
+# Five cases: a bond each, three surfaces, both friction laws, static and dynamic.
+settings() {
+  case $1 in
+    dome_circular) ;;
+    octagon_planar_horizontal) echo geometry.bond.rings=20;;
+    brunelleschi) ;;
+    wall_herringbone) echo analysis.friction_law=coulomb;;
+    dome_circular_dynamic) echo geometry.bond.rings=12 geometry.bond.blocks_per_ring=16 analysis.duration=1;;
+  esac
+}
+
+# run NAME BIN FOLDER [SOLVE OPTION ...]
+run() {
+  local name=$1 bin=$2 folder=$3 sets=() word
+  for word in $(settings "$name"); do sets+=(--set "$word"); done
+  mkdir -p "$folder"
+  "$bin/cupola-generate" cases/"$name".yaml --quiet --output "$folder/assembly.vtu" "${sets[@]}" &&
+    "$bin/cupola-solve" cases/"$name".yaml --quiet --assembly "$folder/assembly.vtu" --output "$folder/results" \
+      "${sets[@]}" "${@:4}"
+}
+# Also without the revision, which differs between builds.
+hash_of() { (cd "$1" && find assembly.vtu results -type f ! -name checkpoint | sort | while read -r file; do
+  echo "$file $(sed -aE '/wall_time|solve_time|peak_memory|program_version/d' "$file" | md5sum)"; done) | md5sum | cut -c1-16; }
+# compare WHAT FOLDER
+compare() {
+  local hash; hash=$(hash_of "$2"); compared=$((compared + 1))
+  [ "$hash" = "$expected" ] || { differ=$((differ + 1)); echo "DIFFERENT: $name, $1: $hash"; }
+}
+
+for name in dome_circular octagon_planar_horizontal brunelleschi wall_herringbone dome_circular_dynamic; do
+  reference=$work/$name
+  export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
+  run $name "$first" "$reference"; code=$?
+  [ $code -eq 0 ] || [ $code -eq 3 ] || { echo "$name ended with $code"; exit 1; }
+  expected=$(hash_of "$reference")
+  echo "$name: $expected"
+  run $name "$first" "$work/again"; compare "a second run" "$work/again"; rm -r "$work/again"
+  export OMP_NUM_THREADS=2 OPENBLAS_NUM_THREADS=2
+  run $name "$first" "$work/two"; compare "two threads" "$work/two"; rm -r "$work/two"
+  for bin in $(echo "$bins" | tail -n +2); do
+    run $name "$bin" "$work/other"; compare "$bin" "$work/other"; rm -r "$work/other"; done
+done
+
+# The dynamic case once more, interrupted after ever longer times until it is through.
+interruptions=0
+for try in $(seq 1 60); do
+  folder=$work/resumed
+  resume=(); [ -e "$folder/results/checkpoint" ] && resume=(--resume)
+  run $name "$first" "$folder" "${resume[@]}" & pid=$!
+  sleep "$(awk -v n="$try" 'BEGIN {print n / 10}')"; pkill -TERM -P $pid cupola-solve 2> /dev/null
+  wait $pid; code=$?
+  [ $code -eq 4 ] && { interruptions=$((interruptions + 1)); continue; }
+  [ $code -eq 0 ] && break
+done
+[ $code -eq 0 ] && [ $interruptions -gt 0 ] || { differ=$((differ + 1)); echo "not resumed: code $code"; }
+compare "resumed after $interruptions interruptions" "$folder"
+echo "5 cases, $compared comparisons, $differ differ"
+[ $differ -eq 0 ]
