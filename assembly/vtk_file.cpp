@@ -1,6 +1,7 @@
 // The one file that knows VTK's types: mesh files as .vtu and .vtp, and reading of .pvd collections.
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <new>
@@ -18,7 +19,6 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkSMPTools.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkStringOutputWindow.h>
@@ -207,7 +207,6 @@ void write_data(const std::string& side_path, vtkDataSet* data, const Mesh& mesh
   add_arrays(mesh.point_data, data->GetPointData());
   add_arrays(mesh.cell_data, data->GetCellData());
   add_arrays(mesh.field_data, data->GetFieldData());
-  vtkSMPTools::SetBackend("Sequential");  // threads would save no time here, and may fail to start
   vtkNew<Writer> writer;
   writer->SetCompressor(vtkNew<Compressor>());
   writer->SetFileName(side_path.c_str());
@@ -381,6 +380,8 @@ Mesh read_data(const std::string& path) {
 }  // namespace
 
 void write_mesh(const std::string& path, const Mesh& mesh) {
+  // VTK's threads would save no time and may fail to start; the header of its own switch is no valid C++20.
+  ::setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 0);
   write_atomically(path, [&](const std::string& side_path) {
     if (is_polygonal(path))
       write_data<vtkXMLPolyDataWriter>(side_path, to_poly_data(mesh), mesh);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -114,6 +115,9 @@ CaseNode parse_set_option(const std::string& option) {
 std::string path_inside(const std::string& root_folder, const std::string& from_file, const std::string& name,
                         const FileLocation& where) {
   const fs::path path = fs::path(from_file).parent_path() / name;
+  std::error_code error;
+  if (fs::status(path, error).type() == fs::file_type::none)  // too long, links in a circle, no right to look
+    throw InputError(where, fmt::format("{}: cannot be looked up: {}", shown(name), error.message()));
   const fs::path root = identity_of(root_folder.empty() ? "." : root_folder);
   const fs::path relative = identity_of(path).lexically_relative(root);
   if (fs::path(name).is_absolute() || relative.empty() || *relative.begin() == "..")

@@ -112,9 +112,10 @@ DelassusProblem read_global(const Hdf5Reader& file) {
   return local;
 }
 
-/// Of a local problem; libfclib writes those of a global one with sizes that contradict each other.
+/// Of a local problem; libfclib writes those of a global one with sizes that contradict each other. Public
+/// problems declare solutions that nobody has written.
 std::optional<VecX> read_impulses(const Hdf5Reader& file, Eigen::Index size) {
-  if (!file.has("/solution/r")) return std::nullopt;
+  if (!file.written("/solution/r")) return std::nullopt;
   VecX impulses = read_vector(file, "/solution/r");
   if (impulses.size() != size)
     reject(file.path(), fmt::format("/solution/r has {} elements, not {}", impulses.size(), size));

@@ -70,6 +70,12 @@ bool Hdf5Reader::has(const std::string& name) const {
   }
 }
 
+bool Hdf5Reader::written(const std::string& name) const {
+  if (!has(name)) return false;
+  const Handle data(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  return data >= 0 && H5Dget_storage_size(data) > 0;
+}
+
 template <class T>
 std::vector<T> Hdf5Reader::read(const std::string& name) const {
   constexpr bool whole = std::is_same_v<T, int>;

@@ -17,7 +17,8 @@ class Hdf5Reader {
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
-  bool has(const std::string& name) const;  ///< "/group/name", reached within this file
+  bool has(const std::string& name) const;      ///< "/group/name", reached within this file
+  bool written(const std::string& name) const;  ///< there, and not only declared
   std::vector<int> integers(const std::string& name) const;
   std::vector<double> numbers(const std::string& name) const;
   int integer(const std::string& name) const;  ///< an array of one element

@@ -9,6 +9,8 @@ post() { "$bin/cupola-post" analyse "$case_file" --quiet --assembly "$1/assembly
 
 # One line per file: name and checksum, without wall times and memory, which no two runs share.
 contents() {
-  (cd "$1" && find . -type f ! -name '*.part*' ! -name '.*' | sort | while read -r file; do
-    echo "$file $(sed -E '/wall_time|solve_time|peak_memory/d' "$file" | md5sum | cut -c1-32)"; done)
+  local times='wall_time|solve_time|peak_memory' all file
+  (cd "$1" && all=$(find . -type f ! -name '*.part*' ! -name '.*' | sort) && [ -n "$all" ] || return 0
+    { for file in $(grep -laE "$times" $all); do echo "$(sed -E "/$times/d" "$file" | md5sum) $file"; done
+      grep -LaE "$times" $all | xargs -r md5sum; } | awk '{print $NF, $1}' | sort)
 }
