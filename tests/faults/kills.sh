@@ -2,14 +2,13 @@
 # Kills make and everything it started (kill -9) at random moments of a case's three programs, starts it again
 # each time, and compares the final files with those of an undisturbed run, bit by bit.
 #
-#   kills.sh BUILD_FOLDER KILLS
+#   kills.sh BUILD_FOLDER KILLS [SECONDS OF MOTION, default 10: about a second of computing]
 set -u
-build=$1; kills=$2
+build=$1; kills=$2; motion=${3:-10}
 cd "$(dirname "$0")/../.." || exit 1
 . tests/faults/common.sh
 mkdir "$work/cases"; cp tests/faults/small.yaml "$work/cases/small.yaml"
-# Long enough that the kills fall into the run: about a second.
-sed -i 's/duration: .*}/duration: 10}/' "$work/cases/small.yaml"
+sed -i "s/duration: .*}/duration: $motion}/" "$work/cases/small.yaml"
 
 run() { make -f Makefile.cases small BUILD="$build" FOLDER="$work/cases" OUT="$work/$1" > "$work/log" 2>&1; }
 

@@ -25,11 +25,12 @@ check() {
 }
 
 # --- memory: from what starts the program to what it needs, in equal steps of address space
+# OpenBLAS tries for ever when it starts with too little: hence the limit on seconds.
 needs() { # kB; the smallest multiple of 8 MB with which "$@" ends well
   local low=0 high=512 middle
   while [ $((high - low)) -gt 1 ]; do
     middle=$(((low + high) / 2))
-    if (ulimit -v $((middle * 8192)); "$@") > /dev/null 2>&1; then high=$middle; else low=$middle; fi
+    if (ulimit -v $((middle * 8192)); ulimit -t 5; "$@") > /dev/null 2>&1; then high=$middle; else low=$middle; fi
   done
   echo $((high * 8192))
 }
@@ -40,7 +41,7 @@ for stage in generate solve post; do
   for i in $(seq 0 $((limits - 1))); do
     limit=$((starts + (enough - starts) * i / limits)); what="$((limit / 1024)) MB"
     prepare
-    (ulimit -v $limit; $stage "$run") > /dev/null 2> "$work/err"; code=$?
+    (ulimit -v $limit; ulimit -t 20; $stage "$run") > /dev/null 2> "$work/err"; code=$?
     check 1 'memory|Cannot allocate'
     $stage "$run" > /dev/null 2> "$work/err" && unchanged || defect "does not run again: $(cat "$work/err")"
   done

@@ -32,7 +32,7 @@ run() {
 }
 # Also without the revision, which differs between builds.
 hash_of() { (cd "$1" && find assembly.vtu results -type f ! -name checkpoint | sort | while read -r file; do
-  echo "$file $(sed -aE '/wall_time|solve_time|peak_memory|program_version/d' "$file" | md5sum)"; done) | md5sum | cut -c1-16; }
+  echo "$file $(sed -aE '/wall_time|solve_time|peak[_ ]memory|program_version/d' "$file" | md5sum)"; done) | md5sum | cut -c1-16; }
 # compare WHAT FOLDER
 compare() {
   local hash; hash=$(hash_of "$2"); compared=$((compared + 1))

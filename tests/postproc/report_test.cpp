@@ -111,8 +111,13 @@ TEST(Report, NoTextFromAFileBecomesMarkup) {
     write_text_atomically(folder + "/results/summary.json", to_json(summary));
     Case scene = test::column_case();
     scene.title = markup;
-    AnalyseRequest request{scene, folder + "/assembly.vtu", folder + "/results", folder + "/post"};
-    request.quiet = request.force = true;
+    const AnalyseRequest request{.scene = scene,
+                                 .assembly_path = folder + "/assembly.vtu",
+                                 .results_folder = folder + "/results",
+                                 .output_folder = folder + "/post",
+                                 .pvbatch = "",
+                                 .quiet = true,
+                                 .force = true};
     ASSERT_EQ(analyse(request), ExitCode::done);
     const std::string html = read_text(folder + "/post/report.html");
     EXPECT_EQ(html.find("<script"), std::string::npos);
