@@ -13,7 +13,8 @@ CutOptions cut_options(const Case& input) {
   options.density = input.material.density();
   options.support_width = input.geometry.support_width;
   options.imperfections = input.geometry.imperfections;
-  if (input.geometry.stage) options.stage_rings = input.geometry.stage->rings;
+  if (input.geometry.stage)
+    options.stage_rings = input.geometry.stage->rings * refinement_of(input.geometry.bond);
   return options;
 }
 
@@ -38,7 +39,8 @@ Assembly generate(const Case& input, GenerateReport* report) {
     Assembly assembly = import_blocks(*geometry.imported, input.material.density(), &*report->import);
     assembly.title = input.title;
     assembly.geometry_hash = input.geometry_hash;
-    report->model = check_model(assembly, imported_tolerances(assembly, *geometry.imported));
+    report->model =
+        check_model(assembly, imported_tolerances(assembly, *geometry.imported), report->import->origins);
     assembly.check_report = to_text(*report);
     return assembly;
   }
@@ -53,7 +55,8 @@ Assembly generate(const Case& input, GenerateReport* report) {
 }
 
 std::string to_text(const GenerateReport& report) {
-  return (report.import ? to_text(*report.import) : "") + to_text(report.model);
+  if (!report.import) return to_text(report.model);
+  return to_text(*report.import) + to_text(report.model, report.import->origins);
 }
 
 }  // namespace cupola

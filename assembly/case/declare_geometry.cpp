@@ -69,41 +69,47 @@ void declare_surface(Section& s, Surface& surface) {
       "shape of the shell");
 }
 
-void declare_grid(Section& s, int& rings, int& blocks_per_ring) {
+void declare_grid(Section& s, int& rings, int& blocks_per_ring, int& refine) {
   s.integer("rings", rings, {.min = 1, .max = kMostRings},
             "rings of a dome, courses of a wall, voussoirs of an arch");
   s.integer("blocks_per_ring", blocks_per_ring, {.min = 1, .max = kMostCells},
             "whole blocks in each ring; at least 3 on a closed ring");
+  s.integer("refine", refine, {.min = 1, .max = 1000},
+            "each course becomes so many courses, each block so many blocks, by the same rule");
 }
 
-void check_cells(const Section& s, double rings, double blocks_per_ring, double slices) {
-  s.rule(rings * blocks_per_ring * slices <= kMostCells, "blocks_per_ring",
-         "rings x blocks_per_ring x slices must be <= 2e7 cells");
+/// `slices`: cells per whole block along the ring.
+template <class SomeBond>
+void check_cells(const Section& s, const SomeBond& bond, double slices) {
+  const double courses = 1.0 * bond.rings * bond.refine;
+  s.rule(courses <= kMostRings, "refine", "rings x refine must be <= 1e5");
+  s.rule(courses * bond.blocks_per_ring * bond.refine * slices <= kMostCells, "blocks_per_ring",
+         "rings x blocks_per_ring x slices x refine^2 must be <= 2e7 cells");
 }
 
 constexpr const char* kPhase = "block widths from the first corner to the first joint or spiral";
 constexpr const char* kNoPhase = "off the corners";
 
 void declare_running_bond(Section& s, RunningBond& bond) {
-  declare_grid(s, bond.rings, bond.blocks_per_ring);
+  declare_grid(s, bond.rings, bond.blocks_per_ring, bond.refine);
   s.integer("slices_per_block", bond.slices_per_block, {.min = 2, .max = 64},
             "convex cells per block along the ring, even");
   s.optional_number("phase", bond.phase, {.min = 0, .below = 1}, kNoPhase, kPhase);
   s.rule(bond.slices_per_block % 2 == 0, "slices_per_block",
          "must be even: odd rings are shifted by half a block");
-  check_cells(s, bond.rings, bond.blocks_per_ring, bond.slices_per_block);
+  check_cells(s, bond, bond.slices_per_block);
 }
 
 void declare_stack_bond(Section& s, StackBond& bond) {
-  declare_grid(s, bond.rings, bond.blocks_per_ring);
+  declare_grid(s, bond.rings, bond.blocks_per_ring, bond.refine);
   s.integer("slices_per_block", bond.slices_per_block, {.min = 1, .max = 64},
             "convex cells per block along the ring");
   s.optional_number("phase", bond.phase, {.min = 0, .below = 1}, kNoPhase, kPhase);
-  check_cells(s, bond.rings, bond.blocks_per_ring, bond.slices_per_block);
+  check_cells(s, bond, bond.slices_per_block);
 }
 
 void declare_herringbone_bond(Section& s, HerringboneBond& bond) {
-  declare_grid(s, bond.rings, bond.blocks_per_ring);
+  declare_grid(s, bond.rings, bond.blocks_per_ring, bond.refine);
   s.integer("spirals", bond.spirals, {.min = 1, .max = kMostRings}, "number of spirals or meridian strips");
   s.integer("rings_per_vertical", bond.rings_per_vertical, {.min = 1, .max = 1000},
             "height of an upright block");
@@ -121,19 +127,22 @@ void declare_herringbone_bond(Section& s, HerringboneBond& bond) {
             {"aligned", HerringboneBond::Beside::aligned}},
            "head joints of the flat blocks: step with the spirals, half bond, or on meridians");
   s.optional_number("phase", bond.phase, {.min = 0, .below = 1}, kNoPhase, kPhase);
-  s.integer("refine", bond.refine, {.min = 1, .max = 64}, "slices per upright block's width");
-  s.rule(bond.beside != HerringboneBond::Beside::half || bond.verticals_per_block * bond.refine % 2 == 0,
-         "beside", "half needs an even number of slices per block: verticals_per_block times refine");
-  check_cells(s, bond.rings, bond.blocks_per_ring, 1.0 * bond.verticals_per_block * bond.refine);
+  s.integer("slices_per_vertical", bond.slices_per_vertical, {.min = 1, .max = 64},
+            "convex cells per upright block along the ring");
+  s.rule(bond.beside != HerringboneBond::Beside::half ||
+             bond.verticals_per_block * bond.slices_per_vertical % 2 == 0,
+         "beside",
+         "half needs an even number of slices per block: verticals_per_block x slices_per_vertical");
+  check_cells(s, bond, 1.0 * bond.verticals_per_block * bond.slices_per_vertical);
 }
 
 void declare_fill_bond(Section& s, FillBond& bond) {
-  declare_grid(s, bond.rings, bond.blocks_per_ring);
+  declare_grid(s, bond.rings, bond.blocks_per_ring, bond.refine);
   s.integer("slices_per_block", bond.slices_per_block, {.min = 1, .max = 64},
             "possible cuts per mean block width");
   s.number("narrowest", bond.narrowest, {.above = 0, .max = 1}, "narrowest block over the mean width");
   s.number("widest", bond.widest, {.min = 1, .max = 10}, "widest block over the mean width");
-  check_cells(s, bond.rings, bond.blocks_per_ring, bond.slices_per_block);
+  check_cells(s, bond, bond.slices_per_block);
 }
 
 void declare_bond(Section& s, Bond& bond) {
@@ -148,6 +157,11 @@ void declare_bond(Section& s, Bond& bond) {
 
 void declare_stage(Section& s, Stage& stage) {
   s.required_integer("rings", stage.rings, {.min = 1, .max = kMostRings}, "rings built so far");
+}
+
+void declare_block_density(Section& s, BlockDensity& change) {
+  s.texts("blocks", change.blocks, "names of the blocks");
+  s.required_number("density", change.density, {.unit = "kg/m3", .above = 0}, "of these blocks");
 }
 
 void declare_import(Section& s, ImportedBlocks& import) {
@@ -169,6 +183,7 @@ void declare_import(Section& s, ImportedBlocks& import) {
   s.flag("flagged_supports", import.flagged_supports, "fix the blocks that the file marks as fixed");
   s.optional_number("fixed_below", import.fixed_below, {.unit = "m"}, "none",
                     "fix the blocks whose centroid lies below this height");
+  s.list("densities", import.densities, "blocks of a density of their own", declare_block_density);
   s.file("springs", import.springs, "ties that only pull, brick CSV");
   s.file("rods", import.rods, "rigid rods, brick CSV");
   s.number("weld", import.weld, {.above = 0, .max = 0.1},

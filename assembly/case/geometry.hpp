@@ -68,15 +68,20 @@ struct ArchSurface {
 
 using Surface = std::variant<DomeSurface, OctagonalVault, ArchSurface, WallSurface>;
 
+/// Every bond has `refine`: each course becomes so many courses and each block so many blocks, laid by the
+/// same rule; counts and default phases below are those before refinement. In the shell, one block stays as
+/// thick as the shell.
+
 /// Running bond: every ring has the same number of blocks, odd rings are shifted by half a block. On a wall
 /// the odd courses end in half blocks.
 struct RunningBond {
   int rings = 40;            ///< courses, >= 1
   int blocks_per_ring = 32;  ///< >= 1 on a wall, >= 3 on a dome
   int slices_per_block = 4;  ///< azimuthal cells per block, even
-  std::optional<double> phase =
-      {};  ///< block widths from the first corner to the first head joint; none: 1/4 on
-           ///< a vault with corners, so that no joint lies on a corner, else 0
+  /// Block widths from the first corner to the first head joint; none: 1/4 on a vault with corners, so that
+  /// no joint lies on a corner, else 0.
+  std::optional<double> phase = {};
+  int refine = 1;  ///< >= 1
 };
 
 /// Stack bond: all head joints aligned.
@@ -85,6 +90,7 @@ struct StackBond {
   int blocks_per_ring = 32;
   int slices_per_block = 4;
   std::optional<double> phase = {};  ///< as in RunningBond
+  int refine = 1;                    ///< >= 1
 };
 
 /// Narrow upright blocks ("verticals") that climb through whole blocks laid flat. On closed surfaces they
@@ -105,7 +111,8 @@ struct HerringboneBond {
   Beside beside = Beside::stepped;
   std::optional<double> phase = {};  ///< block widths from the first corner to the first spiral's start;
                                      ///< none: 1/6 on a vault with corners, else 0
-  int refine = 1;                    ///< slices per vertical's width
+  int slices_per_vertical = 1;       ///< azimuthal cells per vertical
+  int refine = 1;                    ///< >= 1; each spiral becomes so many side by side in its band
 };
 
 /// Whole blocks of unequal width, chosen ring by ring (dynamic programming) so that head joints avoid the
@@ -116,6 +123,7 @@ struct FillBond {
   int slices_per_block = 8;  ///< cuts are possible at multiples of the mean width over this
   double narrowest = 0.75;   ///< of the mean width, in (0, 1]
   double widest = 1.25;      ///< of the mean width, >= 1
+  int refine = 1;            ///< >= 1
 };
 
 using Bond = std::variant<RunningBond, StackBond, HerringboneBond, FillBond>;
@@ -131,21 +139,29 @@ struct Imperfections {
   int seed = 1;        ///< >= 0
 };
 
+/// Density of some imported blocks.
+struct BlockDensity {
+  std::vector<std::string> blocks;  ///< names
+  double density = 0.0;             ///< kg/m3, > 0
+};
+
 /// Blocks that others cut, instead of a surface and a bond.
 struct ImportedBlocks {
   enum class Format : std::uint8_t { automatic, obj, off, stl, ply, compas, bricks };
   enum class UpAxis : std::uint8_t { z, y };
 
-  std::string path;                   ///< file, or folder of files
-  Format format = Format::automatic;  ///< automatic: by the file's ending
-  double metres_per_unit = 1.0;       ///< > 0
-  UpAxis up = UpAxis::z;              ///< of the file; y up is turned to z up about x
-  std::vector<std::string> supports;  ///< names of fixed blocks
-  bool flagged_supports = true;       ///< also those that the file marks as fixed
-  std::optional<double> fixed_below;  ///< m: also those whose centroid lies below this z
-  std::string springs, rods;          ///< files of ties, brick CSV; "" for none
-  double weld = 1e-6;                 ///< x block size: vertices nearer than this are one, > 0
-  double facet_angle = 1e-6;          ///< rad: triangles within this are one plane facet, > 0
+  std::string path;                     ///< file, or folder of files
+  Format format = Format::automatic;    ///< automatic: by the file's ending
+  double metres_per_unit = 1.0;         ///< > 0
+  UpAxis up = UpAxis::z;                ///< of the file; y up is turned to z up about x
+  std::vector<std::string> supports;    ///< names of fixed blocks
+  bool flagged_supports = true;         ///< also those that the file marks as fixed
+  std::optional<double> fixed_below;    ///< m: also those whose centroid lies below this z
+  std::vector<BlockDensity> densities;  ///< before those of the file, before the case's material
+  std::string springs, rods;            ///< files of ties, brick CSV; "" for none
+  double weld = 1e-6;                   ///< x block size: vertices nearer than this are one, > 0
+  /// rad: triangles within this, and within this times the block's size of one plane, are a facet, > 0.
+  double facet_angle = 1e-6;
   double snap = 0.0;           ///< m: opposed facets nearer than this are laid in one plane; 0 for none
   double most_overlap = 1e-3;  ///< m: deeper overlaps of two blocks are an error, >= 0
   double joint_gap = 1e-3;     ///< m: faces nearer than this count as a joint in the report, >= 0

@@ -1,6 +1,7 @@
 #include "generators/bond/courses.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,13 +13,22 @@ namespace {
 constexpr double kCornerPhase =
     0.25;  // block widths: joints of even and odd rings stay equally far from corners
 
-BondPattern courses(int blocks_per_ring, int m, int odd_shift, std::optional<double> phase,
-                    const BondGrid& grid) {
-  if (phase && *phase != 0.0 && !grid.closed)
+/// Phase in widths of the refined blocks. Whole blocks keep their joints where that leaves none on a corner.
+double phase_of(std::optional<double> phase, int refine, const BondGrid& grid) {
+  if (phase) return std::fmod(*phase * refine, 1.0);
+  if (grid.corners.empty()) return 0.0;
+  return refine % 2 == 1 ? std::fmod(kCornerPhase * refine, 1.0) : kCornerPhase;
+}
+
+template <class Courses>
+BondPattern courses(const Courses& bond, int odd_shift, const BondGrid& grid) {
+  if (bond.phase && *bond.phase != 0.0 && !grid.closed)
     throw InputError(fmt::format(
-        "geometry.bond.phase = {}: only closed surfaces have one, a wall starts at its end", *phase));
+        "geometry.bond.phase = {}: only closed surfaces have one, a wall starts at its end", *bond.phase));
+  const int m = bond.slices_per_block;
+  const int blocks_per_ring = bond.blocks_per_ring * bond.refine;
   const int num_slices = blocks_per_ring * m;
-  const double slices = m * phase.value_or(grid.corners.empty() ? 0.0 : kCornerPhase);
+  const double slices = m * phase_of(bond.phase, bond.refine, grid);
   const int whole = static_cast<int>(std::floor(slices));
   BondPattern pattern;
   pattern.num_rings = grid.num_rings;
@@ -47,11 +57,11 @@ BondPattern running_bond(const RunningBond& bond, const BondGrid& grid) {
   if (m % 2 != 0)
     throw InputError(fmt::format(
         "geometry.bond.slices_per_block = {}: must be even, odd rings are shifted by half a block", m));
-  return courses(bond.blocks_per_ring, m, m / 2, bond.phase, grid);
+  return courses(bond, m / 2, grid);
 }
 
 BondPattern stack_bond(const StackBond& bond, const BondGrid& grid) {
-  return courses(bond.blocks_per_ring, bond.slices_per_block, 0, bond.phase, grid);
+  return courses(bond, 0, grid);
 }
 
 }  // namespace cupola

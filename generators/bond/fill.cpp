@@ -25,14 +25,16 @@ struct Lattice {
   }
 };
 
-/// Cost of a joint at each position, given the joints of the ring below.
+/// Cost of a joint at each position, given the joints of the ring below (ascending).
 std::vector<double> joint_costs(const Lattice& lattice, const std::vector<int>& below) {
   const double quarter = 0.25 * lattice.mean;
   std::vector<double> cost(lattice.num_units + 1, 0.0);
   for (int position = 0; position <= lattice.num_units; ++position) {
-    double nearest = kInfinity;
-    for (int joint : below) nearest = std::min(nearest, lattice.distance(position, joint));
-    cost[position] = std::max(0.0, 1.0 - nearest / quarter);
+    const auto above = std::ranges::lower_bound(below, position);
+    if (!below.empty())
+      for (int joint : {above == below.end() ? below.front() : *above,
+                        above == below.begin() ? below.back() : *(above - 1)})
+        cost[position] = std::max(cost[position], 1.0 - lattice.distance(position, joint) / quarter);
     for (double corner : lattice.corners)
       if (lattice.distance(position, corner) < quarter - 1e-9) cost[position] = kInfinity;
   }
@@ -82,7 +84,7 @@ RingFill fill_ring(const Lattice& lattice, const std::vector<int>& below) {
 
 Lattice make_lattice(const FillBond& bond, const BondGrid& grid) {
   const int m = bond.slices_per_block;
-  Lattice lattice{bond.blocks_per_ring * m,
+  Lattice lattice{bond.blocks_per_ring * bond.refine * m,
                   m,
                   static_cast<int>(std::ceil(bond.narrowest * m - 1e-9)),
                   static_cast<int>(std::floor(bond.widest * m + 1e-9)),

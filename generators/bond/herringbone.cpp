@@ -13,18 +13,26 @@ namespace {
 constexpr double kCornerPhase =
     1.0 / 6.0;  // block widths: with three verticals per block no joint meets a corner
 
-/// The bond in slices, `refine` of them to a vertical's width.
+/// The bond in slices, `slices_per_vertical` of them to a vertical's width. A band is what the case calls a
+/// spiral or strip: `refine` strips side by side, each with `rings_per_vertical` verticals in every ring.
 struct Layout {
   const HerringboneBond& bond;
   bool closed;
   int num_rings;
   int num_slices;         // around, or along
-  int offset;             // slices from 0 to the first strip, on an open surface
+  int offset;             // slices from 0 to the first band
   BondPattern pattern{};  // blocks and block_of
 
-  int whole() const { return bond.verticals_per_block * bond.refine; }
-  int strip_start(int strip) const {
-    return offset + strip * (num_slices / bond.refine) / bond.spirals * bond.refine;
+  int whole() const { return bond.verticals_per_block * bond.slices_per_vertical; }
+  int strip_width() const { return bond.rings_per_vertical * bond.slices_per_vertical; }
+  int band_width() const { return bond.refine * strip_width(); }
+  /// First slice of a band. A refined one is moved back, so that in the first course of each unrefined ring
+  /// it begins where the unrefined band does.
+  int band_start(int band) const {
+    const bool climbs = bond.path == HerringboneBond::Path::spiral;
+    const int ahead = climbs ? (bond.rings_per_vertical - 1) * (bond.refine - 1) : 0;
+    const int num_verticals = num_slices / bond.slices_per_vertical;  // widths of one, all round
+    return offset + (band * num_verticals / bond.spirals - ahead) * bond.slices_per_vertical;
   }
   int column(int vertical) const {
     if (bond.path == HerringboneBond::Path::spiral) return vertical;
@@ -43,16 +51,20 @@ struct Layout {
 };
 
 void lay_verticals(Layout* layout) {
-  const int height = layout->bond.rings_per_vertical, width = layout->bond.refine;
-  for (int strip = 0; strip < layout->bond.spirals; ++strip)
+  const HerringboneBond& bond = layout->bond;
+  const int height = bond.rings_per_vertical, width = bond.slices_per_vertical;
+  for (int strip = 0; strip < bond.spirals * bond.refine; ++strip) {
+    const int band = strip / bond.refine;
+    const int start = layout->band_start(band) + strip % bond.refine * layout->strip_width();
     for (int j = 1 - height; j < layout->num_rings; ++j) {
-      const int left = layout->strip_start(strip) + layout->column(j) * width;
+      const int left = start + layout->column(j) * width;
       if (!layout->contains(left)) continue;
       const int bottom = std::max(j, 0), top = std::min(j + height, layout->num_rings);
-      const int block = layout->new_block(BlockKind::herringbone, top - bottom < height, strip);
+      const int block = layout->new_block(BlockKind::herringbone, top - bottom < height, band);
       for (int ring = bottom; ring < top; ++ring)
         for (int slice = left; slice < left + width; ++slice) layout->at(ring, slice) = block;
     }
+  }
 }
 
 /// Slices of the first block of a run that goes from the edge `edge` towards `step`.
@@ -83,13 +95,13 @@ void lay_whole_blocks(Layout* layout) {
   const HerringboneBond& bond = layout->bond;
   const bool spiral = bond.path == HerringboneBond::Path::spiral;
   for (int ring = 0; ring < layout->num_rings; ++ring) {
-    const int climb = spiral ? (ring - bond.rings_per_vertical + 1) * bond.refine : 0;
-    for (int strip = 0; strip < bond.spirals; ++strip) {
-      const int left = layout->strip_start(strip) + climb;  // edges of the strip in this ring
-      const int right = left + bond.rings_per_vertical * bond.refine;
+    const int climb = spiral ? (ring - bond.rings_per_vertical + 1) * bond.slices_per_vertical : 0;
+    for (int band = 0; band < bond.spirals; ++band) {
+      const int left = layout->band_start(band) + climb;  // edges of the band in this ring
+      const int right = left + layout->band_width();
       if (layout->closed) {
-        const int next = strip + 1 < bond.spirals ? layout->strip_start(strip + 1)
-                                                  : layout->strip_start(0) + layout->num_slices;
+        const int next = band + 1 < bond.spirals ? layout->band_start(band + 1)
+                                                 : layout->band_start(0) + layout->num_slices;
         lay_run(layout, ring, right, next + climb - right, +1);
       } else {
         const int from = std::clamp(right, 0, layout->num_slices),
@@ -101,11 +113,12 @@ void lay_whole_blocks(Layout* layout) {
   }
 }
 
-void check(const HerringboneBond& bond, const BondGrid& grid, int num_units, double phase_units) {
-  if (grid.closed && num_units / bond.spirals < bond.rings_per_vertical)
+void check(const HerringboneBond& bond, const BondGrid& grid, double phase_units) {
+  const int num_verticals = bond.blocks_per_ring * bond.verticals_per_block;
+  if (grid.closed && num_verticals / bond.spirals < bond.rings_per_vertical)
     throw InputError(fmt::format(
         "geometry.bond.spirals = {}: with {} verticals each they do not fit into the {} that a ring holds",
-        bond.spirals, bond.rings_per_vertical, num_units));
+        bond.spirals, bond.rings_per_vertical, num_verticals));
   if (!grid.closed && bond.spirals != 1)
     throw InputError(fmt::format("geometry.bond.spirals = {}: a wall has one strip, say 1", bond.spirals));
   if (!grid.closed && phase_units != std::round(phase_units))
@@ -114,23 +127,30 @@ void check(const HerringboneBond& bond, const BondGrid& grid, int num_units, dou
         *bond.phase, bond.verticals_per_block));
 }
 
+/// Widths of a vertical from the first corner to the first band. By default joints lie half a width off the
+/// corners.
+double phase_in_verticals(const HerringboneBond& bond, const BondGrid& grid) {
+  if (bond.phase) return *bond.phase * bond.verticals_per_block * bond.refine;
+  if (grid.corners.empty()) return 0.0;
+  return bond.verticals_per_block * kCornerPhase + (bond.refine - 1) / 2;
+}
+
 }  // namespace
 
 BondPattern herringbone_bond(const HerringboneBond& bond, const BondGrid& grid) {
-  const int num_units = bond.blocks_per_ring * bond.verticals_per_block;
-  const double phase =
-      bond.verticals_per_block * bond.phase.value_or(grid.corners.empty() ? 0.0 : kCornerPhase);
-  check(bond, grid, num_units, phase);
+  const int num_verticals = bond.blocks_per_ring * bond.verticals_per_block * bond.refine;
+  const int num_slices = num_verticals * bond.slices_per_vertical;
+  const double phase = phase_in_verticals(bond, grid);
+  check(bond, grid, phase);
   const int whole = static_cast<int>(std::floor(phase));
-  const int num_slices = num_units * bond.refine;
-  Layout layout{bond, grid.closed, grid.num_rings, num_slices, whole * bond.refine, {}};
+  Layout layout{bond, grid.closed, grid.num_rings, num_slices, whole * bond.slices_per_vertical, {}};
   layout.pattern.block_of.assign(static_cast<size_t>(grid.num_rings) * num_slices, -1);
   lay_verticals(&layout);
   lay_whole_blocks(&layout);
 
   BondPattern pattern = std::move(layout.pattern);
   pattern.num_rings = grid.num_rings;
-  pattern.cuts = lattice_cuts(grid.extent, grid.extent * (phase - whole) / num_units, num_slices);
+  pattern.cuts = lattice_cuts(grid.extent, grid.extent * (phase - whole) / num_verticals, num_slices);
   if (bond.chirality == HerringboneBond::Chirality::left) mirror(grid.extent, &pattern);
   split_at_corners(grid, &pattern);
   return pattern;

@@ -12,6 +12,9 @@ namespace cupola {
 /// the strip on, so that their joints step by v per ring (`beside`: or lie where a half bond or meridians put
 /// them); a rest narrower than w/2 widens its neighbour.
 ///
+/// Refined n times, verticals are n times narrower and lower, and each strip becomes a band of n strips side
+/// by side that covers the same part of the shell.
+///
 /// On a meridian path the verticals stand side by side instead: j at a_i + (j mod rings_per_vertical) v.
 /// On an open surface there is one strip, from the lower left corner, laid from it towards both ends; what
 /// lies beyond the ends is left out.

@@ -16,7 +16,11 @@ BondPattern make_bond(const Bond& bond, const BondGrid& grid) {
 }
 
 int rings_of(const Bond& bond) {
-  return std::visit([](const auto& b) { return b.rings; }, bond);
+  return std::visit([](const auto& b) { return b.rings * b.refine; }, bond);
+}
+
+int refinement_of(const Bond& bond) {
+  return std::visit([](const auto& b) { return b.refine; }, bond);
 }
 
 }  // namespace cupola

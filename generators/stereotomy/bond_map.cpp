@@ -54,7 +54,8 @@ std::string bond_map_svg(const Geometry& geometry) {
   if (geometry.imported) throw InputError("--bond-map: imported blocks have no bond");
   const SurfaceMap surface = make_surface(geometry.surface, rings_of(geometry.bond));
   const BondPattern bond = make_bond(geometry.bond, bond_grid(surface));
-  const CellGrid grid = make_cell_grid(surface, bond, geometry.stage ? geometry.stage->rings : 0);
+  const CellGrid grid = make_cell_grid(
+      surface, bond, geometry.stage ? geometry.stage->rings * refinement_of(geometry.bond) : 0);
 
   const double row_height = std::clamp(800.0 / grid.num_rows, 2.0, 60.0);
   const double height = row_height * grid.num_rows + 2.0 * kMargin;

@@ -105,8 +105,8 @@ const BadCase kBadCases[] = {
      "a block"},
     {"TooManyCells",
      "geometry: {surface: {type: dome}, bond: {type: running, rings: 100000, blocks_per_ring: 9999}}\n",
-     "bad.yaml:1:89: error: geometry.bond.blocks_per_ring = 9999: rings x blocks_per_ring x slices must be "
-     "<= 2e7 cells"},
+     "bad.yaml:1:89: error: geometry.bond.blocks_per_ring = 9999: rings x blocks_per_ring x slices x "
+     "refine^2 must be <= 2e7 cells"},
     {"TooFewAround", "geometry: {surface: {type: dome}, bond: {type: running, blocks_per_ring: 2}}\n",
      "bad.yaml:1:41: error: geometry.bond = {...}: bond.blocks_per_ring must be >= 3 on a closed ring"},
     {"MeridianNotAMap", kGood + "postproc: {meridians: [mid_sail]}\n",

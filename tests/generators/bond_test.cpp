@@ -124,7 +124,7 @@ TEST(Herringbone, FlatBlocksLieInHalfBondOrOnMeridians) {
   for (const auto beside : {HerringboneBond::Beside::half, HerringboneBond::Beside::aligned}) {
     HerringboneBond spec;
     spec.beside = beside;
-    spec.refine = 2;
+    spec.slices_per_vertical = 2;
     const BondPattern bond = herringbone_bond(spec, BondGrid{40, true, 2 * pi, {}});
     for (int ring = 0; ring < 40; ++ring) {
       const bool shifted = beside == HerringboneBond::Beside::half && ring % 2 != 0;
