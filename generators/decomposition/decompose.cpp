@@ -9,10 +9,13 @@
 
 #include "assembly/error.hpp"
 #include "generators/decomposition/plane_voting.hpp"
+#include "generators/decomposition/prism_partition.hpp"
 #include "generators/stereotomy/separation.hpp"
 
 namespace cupola {
 namespace {
+
+constexpr int kMostParts = 2000;  // of one block
 
 bool is_convex(const TriangleMesh& mesh, const std::vector<Facet>& facets, double tolerance) {
   for (const Facet& facet : facets)
@@ -103,11 +106,16 @@ Decomposition decompose(const TriangleMesh& mesh, const std::string& name,
 
   const std::optional<ConvexPolyhedron> whole =
       is_convex(mesh, facets, std::max(1e-9 * size, noise)) ? as_polyhedron(mesh, facets) : std::nullopt;
-  const bool done = (whole && accept({*whole}, Decomposition::Method::already_convex)) ||
-                    accept(decompose_by_planes(
-                               mesh, facets, find_reflex_edges(mesh, facets, facet_of, options.facet_angle)),
-                           Decomposition::Method::planes) ||
-                    accept(decompose_by_nef(mesh), Decomposition::Method::nef);
+  bool done = whole && accept({*whole}, Decomposition::Method::already_convex);
+  if (!done) {
+    std::vector<ConvexPolyhedron> prisms = partition_prism(mesh, facets, facet_of, options.facet_angle);
+    std::vector<ConvexPolyhedron> pieces =
+        decompose_by_planes(mesh, facets, find_reflex_edges(mesh, facets, facet_of, options.facet_angle),
+                            prisms.empty() ? kMostParts : static_cast<int>(prisms.size()));
+    done = (!pieces.empty() && accept(std::move(pieces), Decomposition::Method::planes)) ||
+           accept(std::move(prisms), Decomposition::Method::prism) ||
+           accept(decompose_by_nef(mesh), Decomposition::Method::nef);
+  }
   if (!done)
     throw InputError(
         fmt::format("block {}: cannot be split into convex parts: they miss its volume by {:.3g} m3", name,

@@ -15,7 +15,7 @@ struct DecompositionOptions {
 
 /// Convex parts of one block.
 struct Decomposition {
-  enum class Method { already_convex, planes, nef };
+  enum class Method { already_convex, planes, prism, nef };
   Method method = Method::already_convex;
   std::vector<ConvexPolyhedron> parts;
   /// Per part and face: lies between two parts of the block, with no surface of the block in it.
@@ -26,8 +26,9 @@ struct Decomposition {
 
 /// Splits a block into convex parts that are a partition of it: their volumes sum to the block's within
 /// 1e-9 of it, or within what the unevenness of its facets explains. A convex block stays as it is, its
-/// facets bounded by its own vertices. Tries plane voting, then CGAL's Nef polyhedra; throws InputError with
-/// `name` when neither gives a partition.
+/// facets bounded by its own vertices. Tries plane voting and, for prisms, their cross-section, and takes
+/// what has fewer parts; then CGAL's Nef polyhedra. Throws InputError with `name` when none gives a
+/// partition.
 Decomposition decompose(const TriangleMesh& mesh, const std::string& name,
                         const DecompositionOptions& options = {});
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -20,7 +21,8 @@ struct Slicer {
   const std::vector<Facet>& facets;
   const std::vector<ReflexEdge>& edges;
   int most_parts;
-  double length, volume;  // tolerances, m and m3
+  double length, volume;                       // tolerances, m and m3
+  std::vector<std::array<int, 3>> neighbours;  // triangle beyond each triangle's edge i, i + 1
   std::vector<ConvexPolyhedron> parts{};
   bool failed = false;
 };
@@ -55,19 +57,38 @@ bool resolves(const Slicer& s, const Plane& plane, const ReflexEdge& edge) {
   return (a <= kAngle && b <= kAngle) || (a >= -kAngle && b >= -kAngle);
 }
 
-bool cuts_facet(const Slicer& s, const Plane& plane, const Facet& facet) {
-  bool above = false, below = false;
-  for (int t : facet.triangles)
-    for (int i = 0; i < 3; ++i) {
-      const double h = height(plane, s.mesh.corner(t, i));
-      above = above || h > s.length;
-      below = below || h < -s.length;
+/// How many separate limbs of the solid a plane cuts, of those triangles that reach into a cell. Corners in
+/// the plane count as below it.
+int num_limbs_cut(const Slicer& s, const Plane& plane, const std::vector<char>& in_cell) {
+  const auto num_triangles = static_cast<int>(s.mesh.triangles.size());
+  const auto above = [&](int t, int i) { return height(plane, s.mesh.corner(t, i)) > s.length; };
+  std::vector<char> open(in_cell.size(), 0);  // cut by the plane and not counted yet
+  for (int t = 0; t < num_triangles; ++t)
+    open[t] = in_cell[t] && (above(t, 0) != above(t, 1) || above(t, 0) != above(t, 2));
+  int count = 0;
+  for (int seed = 0; seed < num_triangles; ++seed) {
+    if (!open[seed]) continue;
+    ++count;
+    open[seed] = 0;
+    for (std::vector<int> stack{seed}; !stack.empty();) {
+      const int t = stack.back();
+      stack.pop_back();
+      for (int i = 0; i < 3; ++i) {
+        const int next = s.neighbours[t][i];
+        if (next < 0 || !open[next] || above(t, i) == above(t, (i + 1) % 3)) continue;
+        open[next] = 0;
+        stack.push_back(next);
+      }
     }
-  return above && below;
+  }
+  return count;
 }
 
-double score(const Slicer& s, const Plane& plane, const std::vector<int>& active) {
+/// Worth of a plane for the edges and triangles in a cell; nothing when it resolves no edge.
+std::optional<double> score(const Slicer& s, const Plane& plane, const std::vector<int>& active,
+                            const std::vector<char>& in_cell) {
   double votes = 0.0;
+  int continued = 0;
   bool sliver = false;
   int above = 0, below = 0;
   for (int e : active) {
@@ -77,16 +98,19 @@ double score(const Slicer& s, const Plane& plane, const std::vector<int>& active
     below += middle < -s.length ? 1 : 0;
     if (!resolves(s, plane, edge)) continue;
     votes += 1.0;
+    bool continues = false;
     for (int f : {edge.facet_a, edge.facet_b}) {
       const double sine = s.facets[f].plane.normal.cross(plane.normal).norm();
       sliver = sliver || (sine > kAngle && sine < kSliver);
+      continues = continues || sine <= kAngle;
     }
+    continued += continues ? 1 : 0;
   }
-  if (votes == 0.0) return -1.0;
-  const auto cut = std::ranges::count_if(s.facets, [&](const Facet& f) { return cuts_facet(s, plane, f); });
-  votes -= 0.1 * static_cast<double>(cut) / static_cast<double>(s.facets.size());
+  if (votes == 0.0) return std::nullopt;
+  const int limbs = num_limbs_cut(s, plane, in_cell);
   const double imbalance = static_cast<double>(std::abs(above - below)) / static_cast<double>(active.size());
-  return votes - (sliver ? 0.5 : 0.0) - 1e-3 * imbalance;
+  return votes + 0.2 * std::min(continued, 2) - std::max(0, limbs - 1) - (sliver ? 0.5 : 0.0) -
+         1e-3 * imbalance;
 }
 
 Plane plane_through(const Vec3& normal, const Vec3& point) {
@@ -201,7 +225,7 @@ void finish_cell(Slicer* s, const ConvexPolyhedron& cell) {
 
 void slice(Slicer* s, const ConvexPolyhedron& cell, const std::vector<int>& edges) {
   if (s->failed || cell.empty()) return;
-  if (static_cast<int>(s->parts.size()) >= s->most_parts) {
+  if (static_cast<int>(s->parts.size()) > s->most_parts) {
     s->failed = true;
     return;
   }
@@ -212,12 +236,14 @@ void slice(Slicer* s, const ConvexPolyhedron& cell, const std::vector<int>& edge
     finish_cell(s, cell);
     return;
   }
-  double best = 0.0;
+  std::vector<char> in_cell(s->mesh.triangles.size(), 0);
+  for (int t = 0; t < static_cast<int>(in_cell.size()); ++t) in_cell[t] = reaches_inside(*s, t, cell);
+  double best = -std::numeric_limits<double>::infinity();
   std::optional<Plane> chosen;
   for (const Plane& plane : candidates(*s, active)) {
-    const double value = score(*s, plane, active);
-    if (value <= best) continue;
-    best = value;
+    const std::optional<double> value = score(*s, plane, active, in_cell);
+    if (!value || *value <= best) continue;
+    best = *value;
     chosen = plane;
   }
   if (!chosen) {
@@ -246,12 +272,13 @@ std::vector<ConvexPolyhedron> decompose_by_planes(const TriangleMesh& mesh, cons
                 reflex_edges,
                 most_parts,
                 std::max(kLength * size, noise),
-                std::max(kVolume * mesh_volume(mesh), noise * area)};
+                std::max(kVolume * mesh_volume(mesh), noise * area),
+                triangle_neighbours(mesh)};
   std::vector<int> all;
   for (size_t e = 0; e < reflex_edges.size(); ++e) all.push_back(static_cast<int>(e));
   const Vec3 margin = Vec3::Constant(0.1 * size);
   slice(&slicer, box_polyhedron(low - margin, high + margin), all);
-  if (slicer.failed) return {};
+  if (slicer.failed || static_cast<int>(slicer.parts.size()) > most_parts) return {};
   return slicer.parts;
 }
 

@@ -13,12 +13,13 @@ namespace cupola {
 /// such a cell is convex, piece by piece, and its parts are the cell clipped by the facets in it. The next
 /// plane is the one with most votes among: planes through two coplanar reflex edges, the facets at a reflex
 /// edge continued, and bisectors. A reflex edge votes for a plane that holds it and leaves less than 180 deg
-/// of solid on either side. A plane loses half a vote when it makes less than 11 deg with a facet at its
-/// edges without continuing it (slivers), and a little for every facet it cuts.
+/// of solid on either side. A plane gains a fifth of a vote when it continues a facet at its edges,
+/// loses half when it comes within 11 deg of one without continuing it (slivers), and one for every limb of
+/// the block that it cuts besides the first.
 ///
-/// Returns nothing when more than `most_parts` cells would be needed.
+/// Returns nothing when more than `most_parts` parts would be needed.
 std::vector<ConvexPolyhedron> decompose_by_planes(const TriangleMesh& mesh, const std::vector<Facet>& facets,
                                                   const std::vector<ReflexEdge>& reflex_edges,
-                                                  int most_parts = 2000);
+                                                  int most_parts);
 
 }  // namespace cupola

@@ -97,6 +97,17 @@ std::vector<Facet> find_facets(const TriangleMesh& mesh, double angle, double di
   return facets;
 }
 
+std::vector<std::array<int, 3>> triangle_neighbours(const TriangleMesh& mesh) {
+  const std::map<Edge, int> left = edge_map(mesh);
+  std::vector<std::array<int, 3>> neighbours(mesh.triangles.size());
+  for (size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const auto across = left.find({mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][i]});
+      neighbours[t].at(i) = across == left.end() ? -1 : across->second;
+    }
+  return neighbours;
+}
+
 double unevenness(const TriangleMesh& mesh, const std::vector<Facet>& facets) {
   double largest = 0.0;
   for (const Facet& facet : facets)
@@ -123,7 +134,12 @@ std::vector<int> facet_loop(const TriangleMesh& mesh, const Facet& facet) {
     loop.push_back(v);
     if (loop.size() > num_border) return {};
   }
-  return loop.size() == num_border ? loop : std::vector<int>{};
+  if (loop.size() != num_border) return {};
+  std::map<int, int> num_triangles;
+  for (int t : facet.triangles)
+    for (int v : mesh.triangles[t]) ++num_triangles[v];
+  std::ranges::rotate(loop, std::ranges::max_element(loop, {}, [&](int v) { return num_triangles[v]; }));
+  return loop;
 }
 
 std::vector<ReflexEdge> find_reflex_edges(const TriangleMesh& mesh, const std::vector<Facet>& facets,

@@ -30,10 +30,14 @@ struct Facet {
 std::vector<Facet> find_facets(const TriangleMesh& mesh, double angle, double distance,
                                std::vector<int>* facet_of);
 
+/// Triangle beyond the edge from corner i to corner i + 1 of each triangle; -1 for none.
+std::vector<std::array<int, 3>> triangle_neighbours(const TriangleMesh& mesh);
+
 /// Largest distance of a facet's corner from the facet's plane, m: how noisy the coordinates are.
 double unevenness(const TriangleMesh& mesh, const std::vector<Facet>& facets);
 
-/// Boundary of a facet without holes as one polygon, counter-clockwise; empty when it has holes.
+/// Boundary of a facet without holes as one polygon, counter-clockwise; empty when it has holes. Begins where
+/// most of its triangles meet, so that a fan from there bounds the same volume although the facet is warped.
 std::vector<int> facet_loop(const TriangleMesh& mesh, const Facet& facet);
 
 /// Line segment where two facets meet with more than 180 deg of solid between them.

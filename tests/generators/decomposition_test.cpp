@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Shape{"box", {{0, 0}, {2, 0}, {2, 1}, {0, 1}}, 2.0, 1},
                     Shape{"hexagon", {{1, 0}, {2, 0}, {2.5, 1}, {2, 2}, {1, 2}, {0.5, 1}}, 3.0, 1},
                     Shape{"L", l_shape(), 4.5, 2}, Shape{"U", u_shape(), 8.0, 3},
-                    Shape{"T", t_shape(), 5.0, 2},
+                    Shape{"T", t_shape(), 5.0, 2}, Shape{"cross", cross_shape(), 5.0, 3},
                     Shape{"book", book_shape(), polygon_area_2d(book_shape()), 2}),
     [](const auto& param_info) { return std::string(param_info.param.name); });
 

@@ -45,6 +45,9 @@ inline std::vector<Eigen::Vector2d> u_shape() {
 inline std::vector<Eigen::Vector2d> t_shape() {
   return {{1, 0}, {2, 0}, {2, 2}, {3, 2}, {3, 3}, {0, 3}, {0, 2}, {1, 2}};
 }
+inline std::vector<Eigen::Vector2d> cross_shape() {
+  return {{1, 0}, {2, 0}, {2, 1}, {3, 1}, {3, 2}, {2, 2}, {2, 3}, {1, 3}, {1, 2}, {0, 2}, {0, 1}, {1, 1}};
+}
 /// Plan of a rib block: two legs at 45 deg, like an open book.
 inline std::vector<Eigen::Vector2d> book_shape() {
   const double c = std::sqrt(0.5);
