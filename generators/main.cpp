@@ -26,7 +26,7 @@ void make_parent(const std::string& file) {
 
 ExitCode generate_assembly(int argc, char** argv) {
   // 1. What is asked
-  std::string output, report_file, bond_map_file;
+  std::string output, report_file, bond_map_file, contacts_file;
   CommandLine line("cupola-generate", "Cuts a case's vault into rigid blocks and checks them.",
                    "  cupola-generate dome.yaml --output assembly.vtu\n"
                    "  cupola-generate dome.yaml --output thin.vtu --set geometry.surface.thickness=1.1");
@@ -34,6 +34,9 @@ ExitCode generate_assembly(int argc, char** argv) {
   line.optional("--report", &report_file, "FILE",
                 "stereotomy report to write (.json, or any ending for text)");
   line.optional("--bond-map", &bond_map_file, "FILE", "drawing of the unrolled bond to write (.svg)");
+  line.optional(
+      "--contacts", &contacts_file, "FILE",
+      "contact points to write from an imported file's own interfaces (.csv, for contact.method: file)");
   if (const auto ended = line.parse(argc, argv)) return *ended;
 
   // 2. The case
@@ -56,6 +59,11 @@ ExitCode generate_assembly(int argc, char** argv) {
   if (!bond_map_file.empty()) {
     make_parent(bond_map_file);
     write_text_atomically(bond_map_file, bond_map_svg(scene.geometry));
+  }
+  if (!contacts_file.empty()) {
+    if (!scene.geometry.imported) throw InputError("--contacts: generated blocks bring no interfaces");
+    make_parent(contacts_file);
+    write_text_atomically(contacts_file, contacts_csv(*scene.geometry.imported, assembly, *report.import));
   }
   return ExitCode::done;
 }

@@ -1,9 +1,12 @@
 #include "generators/mesh_checks.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 
-#include <CGAL/Bbox_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
@@ -48,6 +51,53 @@ BoundaryDefect check_boundary(int block, const SurfaceMesh& mesh) {
   return {block, none, 0};
 }
 
+/// Ranges of x, y, z (m) and azimuth (rad, from -pi up to 2 pi) of a part.
+struct Ranges {
+  std::array<double, 4> low, high;
+};
+
+Ranges ranges_of(const Assembly& assembly, const Part& part, double margin) {
+  using std::numbers::pi;
+  Ranges r;
+  r.low.fill(std::numeric_limits<double>::infinity());
+  r.high.fill(-std::numeric_limits<double>::infinity());
+  const Vec3& first = assembly.vertices[assembly.face(part.face_start)[0]];
+  const double azimuth = std::atan2(first.y(), first.x());
+  double nearest = std::numeric_limits<double>::infinity();  // to the axis
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+    for (int v : assembly.face(f)) {
+      const Vec3& p = assembly.vertices[v];
+      const double turned = azimuth + std::remainder(std::atan2(p.y(), p.x()) - azimuth, 2.0 * pi);
+      nearest = std::min(nearest, std::hypot(p.x(), p.y()));
+      const std::array<double, 4> at{p.x(), p.y(), p.z(), turned};
+      for (size_t i = 0; i < 4; ++i) {
+        const double grown = i < 3 ? margin : 0.0;
+        r.low.at(i) = std::min(r.low.at(i), at.at(i) - grown);
+        r.high.at(i) = std::max(r.high.at(i), at.at(i) + grown);
+      }
+    }
+  // A convex part that keeps clear of the axis has its extreme azimuths at corners, less than pi apart.
+  const double spread = r.high[3] - r.low[3];
+  const double clear = nearest * std::cos(0.5 * spread);
+  if (spread > 0.9 * pi || clear <= 2.0 * margin) {
+    r.low[3] = -pi;
+    r.high[3] = pi;
+    return r;
+  }
+  r.low[3] -= margin / clear;
+  r.high[3] += margin / clear;
+  if (r.low[3] < -pi) {
+    r.low[3] += 2.0 * pi;
+    r.high[3] += 2.0 * pi;
+  }
+  return r;
+}
+
+struct PartBox : CGAL::Box_intersection_d::Box_d<double, 4> {
+  PartBox(double* low, double* high, int part_id) : Box_d(low, high), part(part_id) {}
+  int part;
+};
+
 }  // namespace
 
 std::vector<BoundaryDefect> find_boundary_defects(const Assembly& assembly, bool part_by_part) {
@@ -64,31 +114,20 @@ std::vector<BoundaryDefect> find_boundary_defects(const Assembly& assembly, bool
   return defects;
 }
 
-std::vector<std::pair<int, int>> touching_boxes(const Assembly& assembly, double margin) {
-  struct PartBox : CGAL::Box_intersection_d::Box_d<double, 3> {
-    PartBox(const CGAL::Bbox_3& box, int part_id) : Box_d(box), part(part_id) {}
-    int part;
-  };
+void visit_near_pairs(const Assembly& assembly, double margin, const std::function<void(int, int)>& visit) {
   std::vector<PartBox> boxes;
-  for (size_t p = 0; p < assembly.parts.size(); ++p) {
-    Vec3 low = Vec3::Constant(INFINITY), high = -low;
-    const Part& part = assembly.parts[p];
-    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
-      for (int v : assembly.face(f)) {
-        low = low.cwiseMin(assembly.vertices[v]);
-        high = high.cwiseMax(assembly.vertices[v]);
-      }
-    low.array() -= margin;
-    high.array() += margin;
-    boxes.emplace_back(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()),
-                       static_cast<int>(p));
+  for (int p = 0; p < static_cast<int>(assembly.parts.size()); ++p) {
+    Ranges r = ranges_of(assembly, assembly.parts[p], margin);
+    boxes.emplace_back(r.low.data(), r.high.data(), p);
+    const double turn = 2.0 * std::numbers::pi;
+    if (r.high[3] <= std::numbers::pi) continue;
+    r.low[3] -= turn;  // beyond the seam: also where it comes round
+    r.high[3] -= turn;
+    boxes.emplace_back(r.low.data(), r.high.data(), p);
   }
-  std::vector<std::pair<int, int>> pairs;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const PartBox& a, const PartBox& b) {
-    pairs.emplace_back(std::min(a.part, b.part), std::max(a.part, b.part));
+    if (a.part != b.part) visit(std::min(a.part, b.part), std::max(a.part, b.part));
   });
-  std::ranges::sort(pairs);
-  return pairs;
 }
 
 }  // namespace cupola

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <utility>
+#include <functional>
 #include <vector>
 
 #include "assembly/assembly.hpp"
@@ -20,7 +20,11 @@ struct BoundaryDefect {
 /// checks every convex part on its own instead, with all its faces: imported parts share no vertices.
 std::vector<BoundaryDefect> find_boundary_defects(const Assembly& assembly, bool part_by_part = false);
 
-/// Pairs of parts whose bounding boxes, grown by `margin` (m), touch; first < second, in ascending order.
-std::vector<std::pair<int, int>> touching_boxes(const Assembly& assembly, double margin);
+/// Calls `visit` for pairs of parts that may touch: their ranges of x, y, z and azimuth about the z axis,
+/// grown by `margin` (m), overlap. The azimuth tells thin blocks of a dome apart, whose upright boxes overlap
+/// far around. Always in the same order, part_a < part_b; pairs that straddle the azimuth of 180 deg may come
+/// twice.
+void visit_near_pairs(const Assembly& assembly, double margin,
+                      const std::function<void(int part_a, int part_b)>& visit);
 
 }  // namespace cupola

@@ -26,6 +26,13 @@ struct RawBlock {
   std::optional<double> density;  ///< kg/m3, where the file says
 };
 
+/// Polygon in which two blocks of the file touch, in the file's units and axes.
+struct RawInterface {
+  FileLocation where;
+  std::string block_a, block_b;
+  std::vector<Vec3> points;
+};
+
 /// Tie between two blocks of the same file set, by block names.
 struct RawTie {
   FileLocation where;

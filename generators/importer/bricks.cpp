@@ -32,12 +32,12 @@ std::vector<RawBlock> read_bricks(const std::string& path) {
   std::vector<RawBlock> blocks;
   while (lines.next()) {
     const size_t num_words = lines.words().size();
+    lines.enter(fmt::format("block {}", lines.words()[0]));
     if (num_words < kFirstCoordinate)
       lines.fail(fmt::format("a row begins with {} values, this one has {}", kFirstCoordinate, num_words));
     RawBlock block{std::string(lines.words()[0]), lines.where(), {}, {{}}, lines.number(1) != 0.0, {}};
     block.density = lines.number(4);
-    if (*block.density <= 0.0)
-      lines.fail(fmt::format("block {}: density {} must be > 0", block.name, *block.density));
+    if (*block.density <= 0.0) lines.fail(fmt::format("density {} must be > 0", *block.density));
     size_t w = kFirstCoordinate;
     while (w < num_words) {
       if (lines.number(w) == kPartSeparator) {
@@ -49,10 +49,10 @@ std::vector<RawBlock> read_bricks(const std::string& path) {
       }
     }
     std::erase_if(block.point_parts, [](const auto& part) { return part.empty(); });
-    if (block.point_parts.empty()) lines.fail(fmt::format("block {}: it has no corners", block.name));
+    if (block.point_parts.empty()) lines.fail("it has no corners");
     blocks.push_back(std::move(block));
   }
-  if (blocks.empty()) lines.fail("the file has no blocks");
+  if (blocks.empty()) throw InputError(FileLocation{path}, "the file has no blocks");
   return blocks;
 }
 

@@ -95,21 +95,33 @@ Json parse_assembly(const std::string& text, const std::string& path) {
   });
 }
 
-}  // namespace
+/// The file's graph, and its text for line numbers.
+struct Graph {
+  std::string text;
+  Json data;
+};
 
-std::vector<RawBlock> read_compas(const std::string& path) {
-  const std::string text = read_text(path);
+Graph read_graph(const std::string& path) {
+  Graph graph{read_text(path), {}};
   Json root;
   try {
-    root = parse_assembly(text, path);
+    root = parse_assembly(graph.text, path);
   } catch (const Json::parse_error& error) {
-    throw InputError(FileLocation{path, line_of(text, error.byte), 0}, "not valid JSON here");
+    throw InputError(FileLocation{path, line_of(graph.text, error.byte), 0}, "not valid JSON here");
   } catch (const Json::out_of_range&) {
     throw InputError(FileLocation{path}, "holds a number that does not fit in double precision");
   }
-  const FileLocation where{path, 1, 0};
-  const Json& nodes = descend(root, {"data", "graph", "data", "node"}, where, "not a COMPAS assembly");
-  if (!nodes.is_object()) throw InputError(where, "not a COMPAS assembly: 'node' is no object");
+  graph.data = descend(root, {"data", "graph", "data"}, FileLocation{path, 1, 0}, "not a COMPAS assembly");
+  return graph;
+}
+
+}  // namespace
+
+std::vector<RawBlock> read_compas(const std::string& path) {
+  const auto [text, graph] = read_graph(path);
+  const Json& nodes = descend(graph, {"node"}, FileLocation{path, 1, 0}, "not a COMPAS assembly");
+  if (!nodes.is_object())
+    throw InputError(FileLocation{path, 1, 0}, "not a COMPAS assembly: 'node' is no object");
   std::vector<std::string> names;
   for (const auto& [name, node] : nodes.items()) names.push_back(name);
   std::ranges::sort(names, key_before);
@@ -127,6 +139,30 @@ std::vector<RawBlock> read_compas(const std::string& path) {
     blocks.push_back(std::move(block));
   }
   return blocks;
+}
+
+std::vector<RawInterface> read_compas_interfaces(const std::string& path) {
+  const auto [text, graph] = read_graph(path);
+  const FileLocation where{path, line_of(text, text.find("\"edge\"")), 0};
+  std::vector<RawInterface> interfaces;
+  for (const auto& [block_a, others] : descend(graph, {"edge"}, where, "its interfaces").items())
+    for (const auto& [block_b, edge] : others.items()) {
+      const std::string what = fmt::format("interface of blocks {} and {}", block_a, block_b);
+      if (!edge.contains("interfaces") || !edge["interfaces"].is_array()) continue;
+      for (const Json& face : edge["interfaces"]) {
+        RawInterface polygon{where, block_a, block_b, {}};
+        for (const Json& p : descend(face, {"data", "points"}, where, what)) {
+          if (!p.is_array() || p.size() != 3 || !p[0].is_number() || !p[1].is_number() || !p[2].is_number())
+            throw InputError(where, fmt::format("{}: a point has three numbers", what));
+          polygon.points.emplace_back(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
+        }
+        if (polygon.points.size() < 3)
+          throw InputError(where, fmt::format("{}: fewer than three points", what));
+        interfaces.push_back(std::move(polygon));
+      }
+    }
+  if (interfaces.empty()) throw InputError(where, "the file has no interfaces");
+  return interfaces;
 }
 
 }  // namespace cupola

@@ -77,21 +77,34 @@ Vec3 to_world(const ImportedBlocks& source, const Vec3& p) {
   return source.metres_per_unit * turned;
 }
 
+/// Refuses names that no block has.
+void check_names(const ImportedBlocks& source, const std::vector<std::string>& names,
+                 const std::map<std::string, size_t>& block_of, const char* key) {
+  for (const std::string& name : names)
+    if (!block_of.contains(name))
+      throw InputError(fmt::format("geometry.import.{}: {} has no block named '{}'", key, source.path, name));
+}
+
+/// Coordinates to metres, z up; densities as the case says. Refuses two blocks of one name.
 void place_in_world(const ImportedBlocks& source, std::vector<RawBlock>* blocks) {
-  std::map<std::string, FileLocation> first;
-  for (RawBlock& block : *blocks) {
-    const auto [it, is_new] = first.try_emplace(block.name, block.where);
-    if (!is_new)
+  std::map<std::string, size_t> block_of;
+  for (size_t b = 0; b < blocks->size(); ++b) {
+    RawBlock& block = (*blocks)[b];
+    const auto [it, is_new] = block_of.try_emplace(block.name, b);
+    if (!is_new) {
+      const FileLocation& first = (*blocks)[it->second].where;
       throw InputError(block.where, fmt::format("block {}: the name is taken by {}:{}", block.name,
-                                                it->second.file, it->second.line));
+                                                first.file, first.line));
+    }
     for (Vec3& v : block.mesh.vertices) v = to_world(source, v);
     for (auto& part : block.point_parts)
       for (Vec3& v : part) v = to_world(source, v);
   }
-  for (const std::string& name : source.supports)
-    if (!first.contains(name))
-      throw InputError(
-          fmt::format("geometry.import.supports: {} names no block named '{}'", source.path, name));
+  check_names(source, source.supports, block_of, "supports");
+  for (const BlockDensity& change : source.densities) {
+    check_names(source, change.blocks, block_of, "densities");
+    for (const std::string& name : change.blocks) (*blocks)[block_of[name]].density = change.density;
+  }
 }
 
 /// Repaired surfaces, and which block each belongs to: blocks given by point clouds have one per part.
@@ -152,13 +165,14 @@ void append_blocks(const std::vector<RawBlock>& raw, const Surfaces& surfaces,
       block.kind = BlockKind::imported;
       block.density = raw[b].density.value_or(density);
       assembly->blocks.push_back(block);
-      report->names.push_back(raw[b].name);
+      report->origins.push_back({raw[b].name, raw[b].where});
       report->parts.push_back(0);
     }
     const Decomposition pieces = decompose(surfaces.meshes[m], raw[b].name, options);
     using enum Decomposition::Method;
     ++(pieces.method == already_convex ? report->already_convex
        : pieces.method == planes       ? report->by_planes
+       : pieces.method == prism        ? report->as_prisms
                                        : report->by_nef);
     report->largest_volume_error =
         std::max(report->largest_volume_error, std::abs(pieces.volume_error) / pieces.volume);
@@ -167,6 +181,23 @@ void append_blocks(const std::vector<RawBlock>& raw, const Surfaces& surfaces,
       append_part(pieces.parts[p], pieces.internal[p], b, assembly);
       report->sliver_parts += is_sliver(pieces.parts[p]) ? 1 : 0;
     }
+  }
+}
+
+/// Volume, mass and inertia of the surfaces as given: parts fill them only within the facets' unevenness.
+void weigh_surfaces(const std::vector<RawBlock>& raw, const Surfaces& surfaces, Assembly* assembly) {
+  for (size_t m = 0; m < surfaces.meshes.size(); ++m) {
+    if (!raw[surfaces.block[m]].point_parts.empty()) continue;
+    Assembly surface;
+    surface.vertices = surfaces.meshes[m].vertices;
+    surface.parts.emplace_back();
+    for (const auto& triangle : surfaces.meshes[m].triangles) surface.add_face(triangle, FaceKind::free);
+    const SolidProperties solid = solid_properties(surface, surface.parts.front());
+    Block& block = assembly->blocks[surfaces.block[m]];
+    block.volume = solid.volume;
+    block.mass = block.density * solid.volume;
+    block.centroid = solid.centroid;
+    block.inertia = block.density * solid.inertia;
   }
 }
 
@@ -214,9 +245,10 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
 
   Assembly assembly;
   DecompositionOptions options;
-  options.facet_angle = source.facet_angle;
+  options.facet_angle = options.flat = source.facet_angle;
   append_blocks(raw, surfaces, options, density, &assembly, report);
   compute_mass_properties(&assembly);
+  weigh_surfaces(raw, surfaces, &assembly);
   fix_supports(source, raw, &assembly);
   assembly.ties = read_ties(source, raw);
   report->ties = static_cast<int>(assembly.ties.size());
@@ -225,17 +257,41 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
 
 std::string to_text(const ImportReport& r) {
   std::string text = fmt::format(
-      "{} blocks imported: {} convex pieces as they are, {} split by planes, {} by Nef polyhedra; volumes of "
-      "the "
-      "parts within {:.1e}\n",
-      r.names.size(), r.already_convex, r.by_planes, r.by_nef, r.largest_volume_error);
-  for (size_t b = 0; b < r.names.size(); ++b)
-    if (r.parts[b] > 1) text += fmt::format("  block {}: {} convex parts\n", r.names[b], r.parts[b]);
+      "{} blocks imported: {} convex pieces as they are, {} split by planes, {} by their cross-section, "
+      "{} by Nef polyhedra; volumes of the parts within {:.1e}\n",
+      r.origins.size(), r.already_convex, r.by_planes, r.as_prisms, r.by_nef, r.largest_volume_error);
+  for (size_t b = 0; b < r.origins.size(); ++b)
+    if (r.parts[b] > 1) text += fmt::format("  block {}: {} convex parts\n", r.origins[b].name, r.parts[b]);
   if (r.sliver_parts > 0)
     text += fmt::format("{} parts are slivers, thinner than 1e-3 of their size\n", r.sliver_parts);
   if (r.snapped_facets > 0) text += fmt::format("{} facets laid in common planes\n", r.snapped_facets);
   if (r.ties > 0) text += fmt::format("{} ties\n", r.ties);
   return text;
+}
+
+std::string contacts_csv(const ImportedBlocks& source, const Assembly& assembly, const ImportReport& report) {
+  const bool compas = source.format == Format::compas ||
+                      (source.format == Format::automatic && format_of(source.path) == Format::compas);
+  if (!compas) throw InputError(FileLocation{source.path}, "only COMPAS assemblies bring interfaces along");
+  std::map<std::string, int> block_of;
+  for (size_t b = 0; b < report.origins.size(); ++b) block_of[report.origins[b].name] = static_cast<int>(b);
+  std::string csv = "block_a,block_b,joint,x,y,z,nx,ny,nz,gap_m,area_m2\n";
+  int joint = 0;
+  for (const RawInterface& face : read_compas_interfaces(source.path)) {
+    for (const std::string& name : {face.block_a, face.block_b})
+      if (!block_of.contains(name)) throw InputError(face.where, fmt::format("no block is named '{}'", name));
+    const int a = block_of[face.block_a], b = block_of[face.block_b];
+    std::vector<Vec3> corners;
+    for (const Vec3& p : face.points) corners.push_back(to_world(source, p));
+    Vec3 n = polygon_plane(corners).normal;
+    if (n.dot(assembly.blocks[b].centroid - assembly.blocks[a].centroid) < 0.0) n = -n;
+    const double area = polygon_area(corners) / static_cast<double>(corners.size());
+    for (const Vec3& p : corners)
+      csv += fmt::format("{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},0,{:.17g}\n", a, b, joint,
+                         p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), area);
+    ++joint;
+  }
+  return csv;
 }
 
 }  // namespace cupola

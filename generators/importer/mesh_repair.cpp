@@ -11,6 +11,7 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 namespace cupola {
@@ -74,6 +75,25 @@ PolygonMesh weld_vertices(const PolygonMesh& mesh, double distance) {
   return welded;
 }
 
+/// Splits a face by a fan from its first vertex, as its volume is usually defined when it is not plane;
+/// keeps it whole when some triangle of the fan would lie outside it.
+void append_fan(const std::vector<int>& face, const std::vector<Vec3>& vertices, Polygons* polygons) {
+  const auto area = [&](size_t i) {
+    const Vec3& origin = vertices[face[0]];
+    return Vec3((vertices[face[i]] - origin).cross(vertices[face[i + 1]] - origin));
+  };
+  Vec3 normal = Vec3::Zero();
+  for (size_t i = 1; i + 1 < face.size(); ++i) normal += area(i);
+  for (size_t i = 1; i + 1 < face.size(); ++i)
+    if (area(i).dot(normal) <= 0.0) {
+      polygons->emplace_back(face.begin(), face.end());
+      return;
+    }
+  for (size_t i = 1; i + 1 < face.size(); ++i)
+    polygons->push_back({static_cast<std::size_t>(face[0]), static_cast<std::size_t>(face[i]),
+                         static_cast<std::size_t>(face[i + 1])});
+}
+
 TriangleMesh to_triangles(const SurfaceMesh& surface) {
   TriangleMesh mesh;
   std::vector<int> id(surface.num_vertices(), -1);
@@ -101,7 +121,7 @@ TriangleMesh repair_mesh(const RawBlock& block, double weld) {
   std::vector<Point> points;
   for (const Vec3& v : welded.vertices) points.emplace_back(v.x(), v.y(), v.z());
   Polygons polygons;
-  for (const auto& face : welded.faces) polygons.emplace_back(face.begin(), face.end());
+  for (const auto& face : welded.faces) append_fan(face, welded.vertices, &polygons);
 
   const bool consistent = pmp::is_polygon_soup_a_polygon_mesh(polygons);
   if (!consistent && !pmp::orient_polygon_soup(points, polygons))

@@ -8,7 +8,8 @@
 namespace cupola {
 
 /// The closed, outward triangle surface of a block as read: vertices nearer than `weld` x block size become
-/// one, faces without area are dropped, polygons are split into triangles, faces that disagree are turned.
+/// one, faces without area are dropped, polygons are split into triangles (a fan from the first vertex, which
+/// decides what a warped face means), faces that disagree are turned.
 /// Throws InputError naming block and file when what is left is open, inside out as a whole, or crosses
 /// itself (exact predicates).
 TriangleMesh repair_mesh(const RawBlock& block, double weld);

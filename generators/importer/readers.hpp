@@ -22,6 +22,10 @@ std::vector<RawBlock> read_stl(const std::string& path);
 /// COMPAS assembly JSON: data.graph.data.node[k].block.data.{vertex, face}; `is_support` fixes a block.
 std::vector<RawBlock> read_compas(const std::string& path);
 
+/// Contact faces that a COMPAS assembly file brings along:
+/// data.graph.data.edge[u][v].interfaces[].data.points.
+std::vector<RawInterface> read_compas_interfaces(const std::string& path);
+
 /// Brick CSV, one row per block: ID, fixed, visible, yielding, density, force (3), reference point (3), then
 /// the corners x, y, z of its convex parts, parts separated by 9999. Force and reference point are left out.
 std::vector<RawBlock> read_bricks(const std::string& path);

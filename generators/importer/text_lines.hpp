@@ -22,6 +22,8 @@ class TextLines {
   size_t bytes_left() const { return text_.size() - position_; }
   const std::string& path() const { return path_; }
 
+  /// What the lines from here on describe, for messages: "block 7".
+  void enter(std::string subject) { subject_ = std::move(subject); }
   [[noreturn]] void fail(const std::string& message) const;  ///< InputError at this line
   double number(size_t word) const;                          ///< finite, or fails
   long integer(size_t word) const;
@@ -30,7 +32,7 @@ class TextLines {
   size_t count(size_t word, size_t bytes_each) const;
 
  private:
-  std::string path_, text_;
+  std::string path_, text_, subject_;
   std::string_view separators_;
   size_t position_ = 0;
   int line_ = 0;

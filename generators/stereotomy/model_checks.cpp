@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -24,7 +23,23 @@ double model_size(const Assembly& assembly) {
   return (high - low).maxCoeff();
 }
 
-void check_boundaries(const Assembly& assembly, bool part_by_part) {
+/// Names of blocks and the place to complain about.
+struct Names {
+  std::span<const BlockOrigin> origins;
+
+  std::string name(int block) const { return origins.empty() ? std::to_string(block) : origins[block].name; }
+  [[noreturn]] void fail(int block, const std::string& message) const {
+    if (origins.empty()) throw InputError(message);
+    throw InputError(origins[block].where, message);
+  }
+  /// The name, and the place when that is not told anyway.
+  std::string full(int block) const {
+    if (origins.empty()) return name(block);
+    return fmt::format("{} ({}:{})", name(block), origins[block].where.file, origins[block].where.line);
+  }
+};
+
+void check_boundaries(const Assembly& assembly, bool part_by_part, const Names& names) {
   const std::vector<BoundaryDefect> defects = find_boundary_defects(assembly, part_by_part);
   if (defects.empty()) return;
   const BoundaryDefect& d = defects.front();
@@ -32,12 +47,12 @@ void check_boundaries(const Assembly& assembly, bool part_by_part) {
   const std::string what = d.kind == open ? fmt::format("not closed, {} boundary edges", d.boundary_edges)
                            : d.kind == inside_out ? "inside out"
                                                   : "its surface crosses itself";
-  throw InputError(fmt::format("block {}: {}{}", d.block, what,
-                               defects.size() > 1 ? fmt::format(" ({} bad blocks)", defects.size()) : ""));
+  names.fail(d.block, fmt::format("block {}: {}{}", names.name(d.block), what,
+                                  defects.size() > 1 ? fmt::format(" ({} bad pieces)", defects.size()) : ""));
 }
 
 void measure_shape(const Assembly& assembly, const ConvexShape& shape, double bound, int block,
-                   ModelReport* report) {
+                   const Names& names, ModelReport* report) {
   for (size_t i = 0; i < shape.planes.size(); ++i) {
     const Plane& plane = shape.planes[i];
     double above = 0.0, off = 0.0;
@@ -50,9 +65,10 @@ void measure_shape(const Assembly& assembly, const ConvexShape& shape, double bo
     }
     report->max_convexity_error = std::max(report->max_convexity_error, above);
     report->max_planarity_error = std::max(report->max_planarity_error, off);
-    if (off > bound) throw InputError(fmt::format("block {}: a face is {:.3g} m off its plane", block, off));
+    if (off > bound)
+      names.fail(block, fmt::format("block {}: a face is {:.3g} m off its plane", names.name(block), off));
     if (above > bound)
-      throw InputError(fmt::format("block {}: a part is not convex by {:.3g} m", block, above));
+      names.fail(block, fmt::format("block {}: a part is not convex by {:.3g} m", names.name(block), above));
   }
 }
 
@@ -86,30 +102,35 @@ struct Islands {
 };
 
 void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shapes,
-                 const ModelTolerances& tolerances, ModelReport* report) {
-  std::set<std::pair<int, int>> joints;
+                 const ModelTolerances& tolerances, const Names& names, ModelReport* report) {
+  std::vector<std::pair<int, int>> joints;  // of blocks; found once per pair of parts
   Islands islands(assembly.blocks.size());
   const double good_enough = std::min(tolerances.overlap, generated_tolerances(assembly).overlap);
   report->max_overlap = -std::numeric_limits<double>::infinity();
-  for (const auto& [p, q] : touching_boxes(assembly, tolerances.joint_gap)) {
-    const int a = assembly.parts[p].block;
-    const int b = assembly.parts[q].block;
-    if (a == b) continue;
+  visit_near_pairs(assembly, tolerances.joint_gap, [&](int p, int q) {
+    const int a = std::min(assembly.parts[p].block, assembly.parts[q].block);
+    const int b = std::max(assembly.parts[p].block, assembly.parts[q].block);
+    if (a == b) return;
     const double depth = overlap_depth(shapes[p], shapes[q], good_enough);
     report->max_overlap = std::max(report->max_overlap, depth);
     if (depth > tolerances.overlap)
-      throw InputError(fmt::format("blocks {} and {} overlap by {:.3g} m", a, b, depth));
-    const std::pair pair(std::min(a, b), std::max(a, b));
-    if (joints.contains(pair)) continue;
+      names.fail(a, fmt::format("blocks {} and {} overlap by {:.3g} m", names.name(a), names.full(b), depth));
+    if (depth < -tolerances.joint_gap) return;
     const std::optional<double> gap = joint_gap(assembly, shapes[p], shapes[q], tolerances);
-    if (!gap) continue;
+    if (!gap) return;
     report->max_joint_gap = std::max(report->max_joint_gap, *gap);
-    joints.insert(pair);
+    joints.emplace_back(a, b);
     islands.join(a, b);
-  }
+  });
+  std::ranges::sort(joints);
+  joints.erase(std::ranges::unique(joints).begin(), joints.end());
   report->num_joints = static_cast<int>(joints.size());
   std::vector<char> has_joint(assembly.blocks.size(), 0);
   for (const auto& [a, b] : joints) has_joint[a] = has_joint[b] = 1;
+  for (const ImportedTie& tie : assembly.ties) {
+    has_joint[tie.block_a] = has_joint[tie.block_b] = 1;
+    islands.join(tie.block_a, tie.block_b);
+  }
   for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b) {
     if (islands.root(b) == b) ++report->islands;
     if (!has_joint[b]) report->blocks_without_joint.push_back(b);
@@ -124,10 +145,13 @@ ModelTolerances generated_tolerances(const Assembly& assembly) {
 }
 
 ModelTolerances imported_tolerances(const Assembly& assembly, const ImportedBlocks& source) {
-  return {1e-5 * model_size(assembly), source.most_overlap, source.joint_gap, 1e-2, true};
+  const double plane = std::max(1e-5, source.facet_angle) * model_size(assembly);
+  return {plane, source.most_overlap, source.joint_gap, 1e-2, true};
 }
 
-ModelReport check_model(const Assembly& assembly, const ModelTolerances& tolerances) {
+ModelReport check_model(const Assembly& assembly, const ModelTolerances& tolerances,
+                        std::span<const BlockOrigin> origins) {
+  const Names names{origins};
   ModelReport report;
   report.smallest_block = std::numeric_limits<double>::infinity();
   report.shortest_edge = std::numeric_limits<double>::infinity();
@@ -141,20 +165,20 @@ ModelReport check_model(const Assembly& assembly, const ModelTolerances& toleran
     report.smallest_block = std::min(report.smallest_block, block.volume);
     report.largest_block = std::max(report.largest_block, block.volume);
   }
-  check_boundaries(assembly, tolerances.part_by_part);
+  check_boundaries(assembly, tolerances.part_by_part, names);
   std::vector<ConvexShape> shapes;
   for (const Part& part : assembly.parts) {
     shapes.push_back(convex_shape(assembly, part));
-    measure_shape(assembly, shapes.back(), tolerances.plane, part.block, &report);
+    measure_shape(assembly, shapes.back(), tolerances.plane, part.block, names, &report);
     if (assembly.blocks[part.block].kind == BlockKind::support) continue;
     ++report.num_parts;
     report.parts_volume += part.volume;
   }
-  check_pairs(assembly, shapes, tolerances, &report);
+  check_pairs(assembly, shapes, tolerances, names, &report);
   return report;
 }
 
-std::string to_text(const ModelReport& r) {
+std::string to_text(const ModelReport& r, std::span<const BlockOrigin> origins) {
   std::string text = fmt::format(
       "{} blocks in {} convex parts, {} support block(s), {} joints, {} island(s)\n"
       "volume {:.6f} m3, blocks {:.4g} to {:.4g} m3\n",
@@ -170,7 +194,7 @@ std::string to_text(const ModelReport& r) {
       r.shortest_edge);
   if (!r.blocks_without_joint.empty())
     text += fmt::format("{} blocks touch nothing, the first is {}\n", r.blocks_without_joint.size(),
-                        r.blocks_without_joint.front());
+                        Names{origins}.name(r.blocks_without_joint.front()));
   return text;
 }
 

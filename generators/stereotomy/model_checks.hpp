@@ -1,11 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "assembly/assembly.hpp"
 #include "assembly/case/geometry.hpp"
+#include "assembly/error.hpp"
 
 namespace cupola {
 
@@ -24,8 +26,14 @@ struct ModelReport {
   double max_overlap = 0.0;            ///< largest depth by which parts of two blocks overlap; <= 0: none
   double max_joint_gap = 0.0;          ///< largest distance of the planes of two faces that share a joint
   double shortest_edge = 0.0;
-  int islands = 0;  ///< connected pieces of the contact graph
-  std::vector<int> blocks_without_joint;
+  int islands = 0;                        ///< connected pieces of the graph of joints and ties
+  std::vector<int> blocks_without_joint;  ///< that no tie holds either
+};
+
+/// Where a block came from, for messages; generated blocks are called by their number.
+struct BlockOrigin {
+  std::string name;
+  FileLocation where;
 };
 
 /// Bounds that a model must keep.
@@ -41,14 +49,16 @@ struct ModelTolerances {
 /// (1e-9 m on the 50 m dome) for overlaps.
 ModelTolerances generated_tolerances(const Assembly& assembly);
 
-/// For imported blocks: what the case accepts; planes within 1e-5 of the model's size.
+/// For imported blocks: what the case accepts; planes within 1e-5, or facet_angle if more, of the model's
+/// size.
 ModelTolerances imported_tolerances(const Assembly& assembly, const ImportedBlocks& source);
 
 /// Measures the model and checks it: blocks closed, outward, free of self-intersections (CGAL, exact
 /// predicates), parts convex with plane faces, no two blocks overlap. Throws InputError naming the block and
-/// the measure that breaks its bound.
-ModelReport check_model(const Assembly& assembly, const ModelTolerances& tolerances);
+/// the measure that breaks its bound. `origins`: of all blocks, or none.
+ModelReport check_model(const Assembly& assembly, const ModelTolerances& tolerances,
+                        std::span<const BlockOrigin> origins = {});
 
-std::string to_text(const ModelReport& report);
+std::string to_text(const ModelReport& report, std::span<const BlockOrigin> origins = {});
 
 }  // namespace cupola

@@ -86,13 +86,14 @@ std::string report_json(const Assembly& assembly, const GenerateReport& report) 
   const ImportReport& i = *report.import;
   json["import"] = {{"already_convex", i.already_convex},
                     {"split_by_planes", i.by_planes},
+                    {"split_by_cross_section", i.as_prisms},
                     {"split_by_nef", i.by_nef},
                     {"snapped_facets", i.snapped_facets},
                     {"sliver_parts", i.sliver_parts},
                     {"largest_volume_error", i.largest_volume_error},
                     {"ties", i.ties}};
-  for (size_t b = 0; b < i.names.size(); ++b)
-    json["import"]["parts_per_block"].push_back({{"block", i.names[b]}, {"parts", i.parts[b]}});
+  for (size_t b = 0; b < i.origins.size(); ++b)
+    json["import"]["parts_per_block"].push_back({{"block", i.origins[b].name}, {"parts", i.parts[b]}});
   return json.dump(2) + "\n";
 }
 

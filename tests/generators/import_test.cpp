@@ -67,7 +67,9 @@ TEST_F(Import, ReadsObjectsOfAnObjAsBlocks) {
   ImportReport report;
   const Assembly model = import_blocks(source, 2000.0, &report);
   ASSERT_EQ(model.blocks.size(), 2u);
-  EXPECT_EQ(report.names, (std::vector<std::string>{"lower", "upper"}));
+  ASSERT_EQ(report.origins.size(), 2u);
+  EXPECT_EQ(report.origins[0].name, "lower");
+  EXPECT_EQ(report.origins[1].name, "upper");
   EXPECT_TRUE(model.blocks[0].fixed);
   EXPECT_FALSE(model.blocks[1].fixed);
   EXPECT_NEAR(model.blocks[1].mass, 2000.0, 1e-9);
@@ -203,8 +205,9 @@ TEST_F(Import, BrokenInputIsNamed) {
 
   std::string nan = box;
   nan.replace(nan.find("v 1.0"), 5, "v nan");
-  EXPECT_NE(complaint(write("nan.obj", nan)).find("nan.obj:3: error: 'nan00000' is not a finite number"),
-            std::string::npos)
+  EXPECT_NE(
+      complaint(write("nan.obj", nan)).find("nan.obj:3: error: block a: 'nan00000' is not a finite number"),
+      std::string::npos)
       << complaint(write("nan.obj", nan));
 
   EXPECT_NE(complaint(write("empty.obj", box + "o nothing\n")).find("block nothing: it has no faces"),
@@ -305,6 +308,77 @@ TEST(SharedData, WallAndBricksImportAndPassTheChecks) {
     EXPECT_EQ(static_cast<int>(model.blocks.size()), blocks) << file;
     EXPECT_EQ(report.import->by_nef, 0) << file;
   }
+}
+
+// The file has 322 rows; the one before the beam seats, #994, is commented out. The anchors 997 and 998 stand
+// 0.3 m off the wall, each held to a beam seat by a rod alone.
+TEST(SharedData, WallOfBricksHangsTogetherByItsRods) {
+  if (shared_data().empty()) GTEST_SKIP() << "no shared data";
+  Case c;
+  c.geometry.imported.emplace();
+  c.geometry.imported->path = shared_data() + "/masonry/wall_brickfile.txt";
+  c.geometry.imported->up = ImportedBlocks::UpAxis::y;
+  GenerateReport report;
+  Assembly wall = generate(c, &report);
+  ASSERT_EQ(wall.blocks.size(), 321u);
+  EXPECT_EQ(report.model.num_supports, 3);  // the anchors and the ground
+  EXPECT_EQ(report.model.islands, 3);
+  ASSERT_EQ(report.model.blocks_without_joint.size(), 2u);
+  for (int i : {0, 1}) {
+    const int block = report.model.blocks_without_joint[static_cast<size_t>(i)];
+    EXPECT_EQ(report.import->origins[static_cast<size_t>(block)].name, i == 0 ? "997" : "998");
+    EXPECT_TRUE(wall.blocks[static_cast<size_t>(block)].fixed);
+  }
+  for (const Block& block : wall.blocks) {
+    if (!block.fixed) {
+      EXPECT_TRUE(block.density == 1800.0 || block.density == 2500.0 || block.density == 11904.0);
+    }
+  }
+  c.geometry.imported->rods = shared_data() + "/masonry/wall_rigidrodfile.txt";
+  generate(c, &report);
+  EXPECT_EQ(report.model.islands, 1);
+  EXPECT_TRUE(report.model.blocks_without_joint.empty());
+}
+
+// Its faces are warped quads: the volume is that of the fans from their first vertices.
+TEST(SharedData, WarpedFacesAreFansFromTheirFirstVertex) {
+  if (shared_data().empty()) GTEST_SKIP() << "no shared data";
+  double volume = 0.0;
+  for (const RawBlock& block : read_compas(shared_data() + "/compas_cra/curve-3-blocks.json"))
+    volume += mesh_volume(repair_mesh(block, 1e-6));
+  EXPECT_NEAR(volume, 4.269792, 1e-6);
+}
+
+TEST_F(Import, TakesDensitiesFromTheCase) {
+  ImportedBlocks source;
+  source.path = write("two.obj", obj_box("lower", 0, 0, 1) + obj_box("upper", 0.25, 1, 9));
+  source.densities = {{{"upper"}, 3510.0}};
+  const Assembly model = import_blocks(source, 2000.0);
+  EXPECT_NEAR(model.blocks[0].mass, 2000.0, 1e-9);
+  EXPECT_NEAR(model.blocks[1].mass, 3510.0, 1e-9);
+  source.densities = {{{"middle"}, 3510.0}};
+  EXPECT_THROW(import_blocks(source, 2000.0), InputError);
+}
+
+// A cylinder of 128 sides is one convex part of 256 vertices.
+TEST_F(Import, TakesBlocksOfManyVerticesWhole) {
+  const int n = 128;
+  std::string text = "o drum\n", lower = "f", upper = "f", sides;
+  for (int i = 0; i < n; ++i) {
+    const double a = 2.0 * M_PI * i / n;
+    text += fmt::format("v {0:.17g} {1:.17g} 0\nv {0:.17g} {1:.17g} 1\n", std::cos(a), std::sin(a));
+    const int next = (i + 1) % n;
+    upper += fmt::format(" {}", 2 * i + 2);
+    lower += fmt::format(" {}", 2 * (n - 1 - i) + 1);
+    sides += fmt::format("f {} {} {} {}\n", 2 * i + 1, 2 * next + 1, 2 * next + 2, 2 * i + 2);
+  }
+  ImportedBlocks source;
+  source.path = write("drum.obj", text + lower + "\n" + upper + "\n" + sides);
+  ImportReport report;
+  const Assembly model = import_blocks(source, 1.0, &report);
+  EXPECT_EQ(report.parts, std::vector<int>{1});
+  EXPECT_EQ(model.vertices.size(), 2u * n);
+  EXPECT_NEAR(model.blocks[0].volume, 0.5 * n * std::sin(2.0 * M_PI / n), 1e-12);
 }
 
 TEST(SharedData, SpringsAndRodsNameTheirBlocks) {

@@ -1,6 +1,6 @@
-# Runs PROGRAM on CASE and demands exit code 2, one line on stderr that holds EXPECTED and PHRASE, and no OUTPUT.
+# Runs PROGRAM on CASE, with ARGUMENTS if any, and demands exit code 2, one line on stderr that holds EXPECTED and PHRASE, and no OUTPUT.
 file(REMOVE ${OUTPUT})
-execute_process(COMMAND ${PROGRAM} ${CASE} --output ${OUTPUT} RESULT_VARIABLE code ERROR_VARIABLE message)
+execute_process(COMMAND ${PROGRAM} ${CASE} --output ${OUTPUT} ${ARGUMENTS} RESULT_VARIABLE code ERROR_VARIABLE message)
 if(NOT code EQUAL 2)
   message(FATAL_ERROR "exit code ${code}, not 2: ${message}")
 endif()
