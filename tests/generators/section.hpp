@@ -1,11 +1,23 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "assembly/assembly.hpp"
 
 namespace cupola {
+
+/// Has the part corners on both sides of the level z?
+inline bool reaches_level(const Assembly& assembly, const Part& part, double z) {
+  double low = INFINITY, high = -INFINITY;
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+    for (int v : assembly.face(f)) {
+      low = std::min(low, assembly.vertices[v].z());
+      high = std::max(high, assembly.vertices[v].z());
+    }
+  return low < z && z < high;
+}
 
 /// Blocks (supports left out) whose parts hold more than `shortest` (m) of the half-line from the z axis
 /// outwards at height z and the given azimuth (rad). Each convex part clips the line by its face planes.
@@ -14,7 +26,7 @@ inline std::set<int> blocks_on_radial_line(const Assembly& assembly, double z, d
   const Vec3 origin(0.0, 0.0, z), direction(std::cos(azimuth), std::sin(azimuth), 0.0);
   std::set<int> blocks;
   for (const Part& part : assembly.parts) {
-    if (part.ring < 0) continue;
+    if (part.ring < 0 || !reaches_level(assembly, part, z)) continue;
     double from = 0.0, to = INFINITY;
     for (int f = part.face_start; f < part.face_start + part.num_faces && from < to; ++f) {
       const Plane plane = polygon_plane(face_points(assembly, f));

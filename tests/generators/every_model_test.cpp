@@ -1,0 +1,134 @@
+// What holds for every model of the paper: every cell convex, no two blocks overlap, no joint on a corner,
+// one connected piece, volumes that add up; also at the stages of 14.5 and 22.5 m.
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "generators/generate.hpp"
+#include "tests/generators/models.hpp"
+
+namespace cupola {
+namespace {
+
+using std::numbers::pi;
+using Construction = OctagonalVault::Construction;
+using Extrados = OctagonalVault::Extrados;
+
+struct Model {
+  const char* name;
+  Surface surface;
+  Bond bond;
+};
+
+void PrintTo(const Model& model, std::ostream* out) {
+  *out << model.name;
+}
+
+Surface vault(Construction construction, Extrados extrados) {
+  OctagonalVault v;
+  v.construction = construction;
+  v.extrados = extrados;
+  return v;
+}
+
+HerringboneBond left_herringbone() {
+  HerringboneBond bond;
+  bond.chirality = HerringboneBond::Chirality::left;
+  return bond;
+}
+
+HerringboneBond meridian_strips() {
+  HerringboneBond bond;
+  bond.path = HerringboneBond::Path::meridian;
+  return bond;
+}
+
+HerringboneBond wall_diagonal() {
+  HerringboneBond bond;
+  bond.rings = 24;
+  bond.blocks_per_ring = 8;
+  bond.spirals = 1;
+  return bond;
+}
+
+class EveryModel : public testing::TestWithParam<std::tuple<Model, int>> {
+ protected:
+  static Case scene() {
+    const auto& [model, stage] = GetParam();
+    Case c;
+    c.geometry.surface = model.surface;
+    c.geometry.bond = model.bond;
+    if (stage > 0) c.geometry.stage = Stage{stage};
+    return c;
+  }
+};
+
+/// Lengths of the model times the rounding of a few operations: 50 m x 2^-53 x 4.
+constexpr double kRounding = 3e-14;
+
+TEST_P(EveryModel, IsConvexWithoutOverlapsAndInOnePiece) {
+  ModelReport report;
+  const Assembly assembly = check_and_report(scene(), &report);
+  EXPECT_LT(report.max_convexity_error, kRounding);
+  EXPECT_LT(report.max_planarity_error, kRounding);
+  EXPECT_LT(report.max_overlap, 1e-9);
+  EXPECT_EQ(report.islands, 1);
+  EXPECT_TRUE(report.blocks_without_joint.empty());
+  EXPECT_NEAR(report.parts_volume, report.volume, 1e-12 * report.volume);
+  EXPECT_GT(report.shortest_edge, 0.1);  // no slivers: the shortest is a split vertical at the crown, 0.16 m
+}
+
+TEST_P(EveryModel, HasNoHeadJointOnACorner) {
+  const auto* octagon = std::get_if<OctagonalVault>(&std::get<0>(GetParam()).surface);
+  if (!octagon) GTEST_SKIP() << "it has no corners";
+  const Assembly assembly = cut_assembly(scene());
+  int heads = 0;
+  for (int f = 0; f < assembly.num_faces(); ++f) {
+    if (assembly.face_kinds[f] != FaceKind::head) continue;
+    ++heads;
+    const Vec3 p = polygon_centroid(face_points(assembly, f));
+    const double off = std::remainder(std::atan2(p.y(), p.x()), 2.0 * pi / octagon->sails);
+    EXPECT_GT(std::abs(off), 1e-3) << "face " << f;  // blocks are 0.2 rad wide
+  }
+  EXPECT_GT(heads, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Paper, EveryModel,
+    testing::Combine(
+        testing::Values(
+            Model{"dome_running", DomeSurface{}, RunningBond{}},
+            Model{"dome_stack", DomeSurface{}, StackBond{}},
+            Model{"dome_herringbone", DomeSurface{}, HerringboneBond{}},
+            Model{"dome_left_herringbone", DomeSurface{}, left_herringbone()},
+            Model{"dome_meridian_strips", DomeSurface{}, meridian_strips()},
+            Model{"octagon_circular", vault(Construction::circular, Extrados::normal), RunningBond{}},
+            Model{"octagon_circular_corner", vault(Construction::circular, Extrados::corner), RunningBond{}},
+            Model{"octagon_circular_midsail", vault(Construction::circular, Extrados::midsail),
+                  RunningBond{}},
+            Model{"octagon_planar", vault(Construction::planar_radial, Extrados::normal), RunningBond{}},
+            Model{"octagon_planar_corner", vault(Construction::planar_radial, Extrados::corner),
+                  RunningBond{}},
+            Model{"octagon_level", vault(Construction::planar_horizontal, Extrados::normal), RunningBond{}},
+            Model{"octagon_level_bed", vault(Construction::planar_horizontal, Extrados::bed), RunningBond{}},
+            Model{"octagon_fill", vault(Construction::circular, Extrados::normal), FillBond{}},
+            Model{"brunelleschi", vault(Construction::circular, Extrados::normal), HerringboneBond{}},
+            Model{"brunelleschi_left", vault(Construction::circular, Extrados::normal), left_herringbone()}),
+        testing::Values(0, 16, 26)),  // rings: 14.5 and 22.5 m
+    [](const auto& test) {
+      return std::string(std::get<0>(test.param).name) + "_" + std::to_string(std::get<1>(test.param));
+    });
+
+INSTANTIATE_TEST_SUITE_P(
+    Walls, EveryModel,
+    testing::Combine(testing::Values(Model{"wall_medium", WallSurface{}, RunningBond{20, 10, 2}},
+                                     Model{"wall_herringbone", WallSurface{32.0, 24.0, 2.4},
+                                           wall_diagonal()}),
+                     testing::Values(0)),
+    [](const auto& test) { return std::string(std::get<0>(test.param).name); });
+
+}  // namespace
+}  // namespace cupola
