@@ -51,7 +51,7 @@ std::vector<RawBlock> read_obj(const std::string& path) {
       has_objects = has_objects || words[0] == "o";
       const std::string name = words.size() > 1 ? std::string(words[1]) : std::to_string(blocks.size());
       blocks.push_back({name, lines.where(), {}, {}, false, {}});
-      lines.enter("block " + name);
+      lines.enter(fmt::format("block {}", name));
     } else if (words[0] == "f") {
       if (blocks.empty()) blocks.push_back({"0", lines.where(), {}, {}, false, {}});
       std::vector<int> face;

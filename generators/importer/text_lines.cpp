@@ -44,7 +44,7 @@ bool TextLines::next() {
 }
 
 void TextLines::fail(const std::string& message) const {
-  throw InputError(where(), subject_.empty() ? message : subject_ + ": " + message);
+  throw InputError(where(), subject_.empty() ? message : fmt::format("{}: {}", subject_, message));
 }
 
 double TextLines::number(size_t word) const {
