@@ -93,7 +93,7 @@ def picture(source, direction, name, flat=False):
     view.CameraPosition = list(direction)
     view.CameraViewUp = [0, 1, 0] if flat else [0, 0, 1]
     ResetCamera(view)
-    GetActiveCamera().Zoom(1.4)
+    GetActiveCamera().Zoom(1.2)
     Render(view)
     SaveScreenshot("%s_%s.png" % (prefix, name), view, ImageResolution=SIZE)
     Delete(view)
