@@ -22,4 +22,7 @@ long long peak_memory_bytes();
 /// Seconds of a monotonic clock.
 double wall_seconds();
 
+/// Seconds of processor time that this process has used so far, its own and the system's for it.
+double cpu_seconds();
+
 }  // namespace cupola

@@ -53,6 +53,7 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("iterations", s.iterations);
   visit("solve_time_seconds", s.solve_time_seconds);
   visit("wall_time_seconds", s.wall_time_seconds);
+  visit("cpu_time_seconds", s.cpu_time_seconds);
   visit("peak_memory_bytes", s.peak_memory_bytes);
   visit("threads", s.threads);
   visit("accuracy_asked", s.accuracy_asked);

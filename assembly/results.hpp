@@ -99,6 +99,7 @@ struct Summary {
   int steps = 0, iterations = 0;
   double solve_time_seconds = 0.0;  ///< contact solves alone, without reading and writing
   double wall_time_seconds = 0.0;
+  double cpu_time_seconds = 0.0;  ///< of the whole process: what a busy machine does not change
   std::int64_t peak_memory_bytes = 0;
   int threads = 1;
   double accuracy_asked = 0.0, accuracy_reached = 0.0;

@@ -85,6 +85,40 @@ void check_provenance(const AnalyseRequest& request, const Assembly& assembly, c
                     request.scene.file));
 }
 
+struct Drawn {
+  std::vector<Figure> figures;
+  std::vector<Picture> pictures;
+};
+
+/// Meshes for ParaView, figures and pictures. What cannot be drawn becomes a warning.
+Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const std::optional<Table>& stages,
+           Evaluation* e) {
+  const std::string& folder = request.output_folder;
+  const std::vector<HistoryRow> history = write_frames(*e, results, folder);
+  write_meshes(*e, folder);
+  Drawn drawn{result_figures(*e, history), {}};
+  if (stages) drawn.figures.insert(drawn.figures.begin(), stage_figure(*stages));
+  for (std::string& problem : draw_figures(in_folder(folder, "figures"), drawn.figures))
+    e->warnings.push_back(std::move(problem));
+  write_views(folder);
+  if (!request.pvbatch.empty()) drawn.pictures = draw_pictures(folder, request.pvbatch, &e->warnings);
+  return drawn;
+}
+
+void write_report(const AnalyseRequest& request, const std::vector<Table>& tables, const Drawn& drawn,
+                  const Evaluation& e) {
+  const std::string& folder = request.output_folder;
+  const std::string run_yaml = in_folder(request.results_folder, "run.yaml");
+  write_text_atomically(
+      in_folder(folder, "report.html"),
+      report_html({.evaluation = &e,
+                   .tables = tables,
+                   .figures = drawn.figures,
+                   .pictures = drawn.pictures,
+                   .figure_folder = in_folder(folder, "figures"),
+                   .run_yaml = std::filesystem::exists(run_yaml) ? read_text(run_yaml) : ""}));
+}
+
 }  // namespace
 
 ExitCode analyse(const AnalyseRequest& request) {
@@ -97,36 +131,21 @@ ExitCode analyse(const AnalyseRequest& request) {
   make_folder(folder);
   // A summary says that a folder is complete: the old one goes before the first file is replaced.
   std::filesystem::remove(in_folder(folder, "summary.json"));
-  const std::vector<HistoryRow> history = write_frames(e, results, folder);
-  write_meshes(e, folder);
   std::vector<Table> tables = result_tables(e);
-  std::vector<Figure> figures = result_figures(e, history);
-  if (std::optional<Table> stages = stage_table(e, request.results_folder)) {
-    figures.insert(figures.begin(), stage_figure(*stages));
-    tables.insert(tables.begin(), std::move(*stages));
-  }
+  std::optional<Table> stages = stage_table(e, request.results_folder);
+  if (stages) tables.insert(tables.begin(), *stages);
   for (const Table& table : tables)
     write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
-  for (std::string& problem : draw_figures(in_folder(folder, "figures"), figures))
-    e.warnings.push_back(std::move(problem));
-  std::vector<Picture> pictures;
-  write_views(folder);
-  if (!request.pvbatch.empty()) pictures = draw_pictures(folder, request.pvbatch, &e.warnings);
+  Drawn drawn;
+  if (!request.tables_only) drawn = draw(request, results, stages, &e);
   write_text_atomically(in_folder(folder, "summary.json"), post_summary_json(e));
-  const std::string run_yaml = in_folder(request.results_folder, "run.yaml");
-  write_text_atomically(
-      in_folder(folder, "report.html"),
-      report_html({.evaluation = &e,
-                   .tables = tables,
-                   .figures = figures,
-                   .pictures = pictures,
-                   .figure_folder = in_folder(folder, "figures"),
-                   .run_yaml = std::filesystem::exists(run_yaml) ? read_text(run_yaml) : ""}));
+  if (!request.tables_only) write_report(request, tables, drawn, e);
 
   for (const std::string& warning : e.warnings) fmt::print(stderr, "cupola-post: warning: {}\n", warning);
   if (!request.quiet)
-    fmt::print("{} tables, {} figures, {} pictures; read {}\n", tables.size(), figures.size(),
-               pictures.size(), in_folder(folder, "report.html"));
+    fmt::print("{} tables, {} figures, {} pictures; read {}\n", tables.size(), drawn.figures.size(),
+               drawn.pictures.size(),
+               in_folder(folder, request.tables_only ? "summary.json" : "report.html"));
   return ExitCode::done;
 }
 

@@ -15,6 +15,7 @@ struct AnalyseRequest {
   std::string results_folder;  ///< of cupola-solve
   std::string output_folder;   ///< post/
   std::string pvbatch;         ///< command that runs ParaView's pvbatch; "": no 3-D pictures
+  bool tables_only = false;    ///< neither meshes nor figures nor a report: what other programs read
   bool quiet = false;
   bool force = false;  ///< take a run of another geometry, load, joint or analysis
 };

@@ -4,6 +4,7 @@
 //   cupola-post analyse cases/dome_circular.yaml --assembly assembly.vtu --results results/ --output post/
 //   cupola-post compare out/A/post out/B/post --output comparison/
 //   cupola-post claims cases/claims.yaml --runs out/ --output out/paper/
+//   cupola-post tradeoff cases/tradeoff.txt --runs out/tradeoff/dome_circular --output study/
 
 #include <cstring>
 
@@ -14,6 +15,7 @@
 #include "postproc/analyse.hpp"
 #include "postproc/claims/claims_command.hpp"
 #include "postproc/compare/compare.hpp"
+#include "postproc/tradeoff/tradeoff_command.hpp"
 
 namespace {
 
@@ -23,7 +25,8 @@ constexpr const char* kUsage =
     "cupola-post: what the contact forces of a run mean.\n\n"
     "  cupola-post analyse CASE.yaml --assembly FILE --results FOLDER --output FOLDER\n"
     "  cupola-post compare POST POST ... --output FOLDER\n"
-    "  cupola-post claims CLAIMS.yaml --runs FOLDER --output FOLDER\n\n"
+    "  cupola-post claims CLAIMS.yaml --runs FOLDER --output FOLDER\n"
+    "  cupola-post tradeoff STUDY.txt --runs FOLDER --output FOLDER\n\n"
     "`cupola-post COMMAND --help` tells the options.\n";
 
 ExitCode run_analyse(int argc, char** argv) {
@@ -35,6 +38,7 @@ ExitCode run_analyse(int argc, char** argv) {
   line.required("--assembly", &request.assembly_path, "FILE", "assembly that was solved");
   line.required("--results", &request.results_folder, "FOLDER", "results of cupola-solve");
   line.required("--output", &request.output_folder, "FOLDER", "folder to write");
+  line.flag("--tables", &request.tables_only, "write the tables and the summary only");
   line.flag("--force", &request.force, "take an assembly or results of another case");
   line.optional("--pvbatch", &request.pvbatch, "COMMAND",
                 "draw 3-D pictures with ParaView, e.g. 'xvfb-run -a pvbatch'");
@@ -54,6 +58,7 @@ ExitCode run(int argc, char** argv) {
   if (command == "analyse") return run_analyse(argc - 1, argv + 1);
   if (command == "compare") return run_compare(argc - 1, argv + 1);
   if (command == "claims") return run_claims(argc - 1, argv + 1);
+  if (command == "tradeoff") return run_tradeoff(argc - 1, argv + 1);
   if (command == "--version") {
     fmt::print("cupola-post {}\n", program_version());
     return ExitCode::done;
@@ -62,8 +67,9 @@ ExitCode run(int argc, char** argv) {
     fmt::print("{}", kUsage);
     return ExitCode::done;
   }
-  if (command.empty()) throw InputError("a command is missing: analyse, compare or claims");
-  throw InputError(fmt::format("`{}` is not a command; the commands are: analyse, compare, claims", command));
+  if (command.empty()) throw InputError("a command is missing: analyse, compare, claims or tradeoff");
+  throw InputError(
+      fmt::format("`{}` is not a command; the commands are: analyse, compare, claims, tradeoff", command));
 }
 
 }  // namespace

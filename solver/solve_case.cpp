@@ -16,6 +16,7 @@
 #include "solver/collision/patch_file.hpp"
 #include "solver/contact/fclib_file.hpp"
 #include "solver/dynamics/scene_options.hpp"
+#include "solver/explain.hpp"
 #include "solver/run_control.hpp"
 
 namespace cupola {
@@ -155,6 +156,7 @@ ExitCode solve_case(const SolveRequest& request) {
   summary->geometry_hash = request.scene.geometry_hash;
   summary->assembly_hash = assembly_hash;
   summary->wall_time_seconds = wall_seconds() - started;
+  summary->cpu_time_seconds = cpu_seconds();
   summary->peak_memory_bytes = peak_memory_bytes();
   writer.write_text("run.yaml", provenance(*summary) + request.scene.effective_yaml);
   write_patches((std::filesystem::path(request.output_folder) / "patches.vtp").string(),
@@ -165,35 +167,7 @@ ExitCode solve_case(const SolveRequest& request) {
 }
 
 std::string explain_case(const SolveRequest& request) {
-  const Case& scene = request.scene;
-  const Assembly assembly = read_matching_assembly(request);
-  const Model model = make_model(scene, assembly);
-  ContactDetector detector(assembly, detection_options(scene));
-  const ContactSet& contacts = detector.update(state_at_rest(model).poses);
-  const size_t fixed = assembly.blocks.size() - static_cast<size_t>(model.num_free());
-
-  std::string text = fmt::format("{} ({})\n", scene.title.empty() ? "untitled" : scene.title, scene.file);
-  text += fmt::format("  blocks      {} free, {} fixed (no unknowns), {} convex parts\n", model.num_free(),
-                      fixed, assembly.parts.size());
-  text += fmt::format("  unknowns    {} velocities; contacts {} in {} joints ({} rows{})\n",
-                      6 * model.num_free(), contacts.contacts.size(), number_joints(contacts).count,
-                      (scene.joints.friction > 0.0 ? 3 : 1) * contacts.contacts.size(),
-                      scene.joints.friction > 0.0 ? "" : ", frictionless: normal rows only");
-  text += fmt::format("  weight      {:.6e} N; {} point loads besides gravity\n", model.free_weight,
-                      model.loads.points.size());
-  if (scene.analysis.type == AnalysisType::static_) {
-    text += fmt::format(
-        "  analysis    static: nothing is integrated, contacts are found once; equilibrium residual "
-        "asked {:.1e}\n",
-        scene.analysis.tolerance);
-  } else {
-    text += fmt::format(
-        "  analysis    dynamic: {:.0f} steps of {:g} s, contacts found again when something moved; "
-        "tangential spring {}\n",
-        scene.analysis.duration / scene.analysis.time_step, scene.analysis.time_step,
-        scene.analysis.tangential == TangentialSpring::memory ? "with memory" : "literal");
-  }
-  return text;
+  return explain_model(request.scene, read_matching_assembly(request)).text;
 }
 
 }  // namespace cupola

@@ -49,6 +49,22 @@ struct StagedConstruction {
   double relative_width = 1e-2;   ///< of that bracket, in (0, 1)
 };
 
+/// How good the answer shall be, in words or as an error of the joints' wrenches, instead of a tolerance.
+struct Accuracy {
+  /// Points on the measured curve of time against error (README, "Speed against accuracy"): custom leaves the
+  /// key `tolerance` as it is.
+  enum class Preset { custom, draft, standard, reference };
+  Preset preset = Preset::custom;
+  /// Static analysis: relative error of the bed-joint wrenches, rms, to be certified; in (0, 1).
+  std::optional<double> wrench_error;
+};
+
+/// Islands of blocks that have come to rest leave the problem until something pushes them.
+struct Sleep {
+  double speed = 1e-5;  ///< m/s, > 0: slower is at rest
+  double time = 0.5;    ///< s, > 0: at rest for so long, an island sleeps
+};
+
 struct Analysis {
   AnalysisType type = AnalysisType::static_;
   ContactMethod method = ContactMethod::newton;
@@ -58,6 +74,12 @@ struct Analysis {
   /// Static: largest equilibrium residual accepted, inertia share included; h follows from it. Dynamic: the
   /// relative momentum residual of each step.
   double tolerance = 1e-9;
+  Accuracy accuracy;
+  /// Motion in the plane x-z alone, three unknowns per block: the scene must be plane (walls).
+  bool plane = false;
+  /// Iterations of the contact method per solve; 0: the method's own limit. A budget that is used up ends as
+  /// unconverged.
+  int max_iterations = 0;
   double time_step = 0.01;  ///< h, s, dynamic only
   std::optional<AdaptiveStep> adaptive;
   double duration = 4.0;        ///< s, dynamic only
@@ -72,6 +94,7 @@ struct Analysis {
     double displacement = 0.5;  ///< m: further is `collapsed`
   } thresholds;
   StopRules stop;
+  std::optional<Sleep> sleep;  ///< dynamic; none: every island is solved in every step
   LimitSearch limit;
   StagedConstruction staged;
 };

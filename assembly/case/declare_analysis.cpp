@@ -59,6 +59,51 @@ void declare_staged(Section& s, StagedConstruction& staged) {
   s.number("relative_width", staged.relative_width, {.above = 0, .below = 1}, "of that bracket");
 }
 
+void declare_sleep(Section& s, Sleep& sleep) {
+  s.number("speed", sleep.speed, {.unit = "m/s", .above = 0}, "slower counts as rest");
+  s.number("time", sleep.time, {.unit = "s", .above = 0}, "at rest for so long, an island sleeps");
+}
+
+void declare_wrench_error(Section& s, Accuracy& accuracy) {
+  s.optional_number(
+      "wrench_error", accuracy.wrench_error, {.above = 0, .max = 0.5}, "none",
+      "static: relative error of the bed-joint wrenches to be certified; the tolerance follows");
+}
+
+/// Tolerances of the presets, static and dynamic: points on the measured curve of time against error.
+double preset_tolerance(Accuracy::Preset preset, AnalysisType type) {
+  const bool moves = type == AnalysisType::dynamic;
+  switch (preset) {
+    case Accuracy::Preset::draft:
+      return moves ? 1e-3 : 1e-2;
+    case Accuracy::Preset::standard:
+      return moves ? 1e-5 : 1e-5;
+    case Accuracy::Preset::reference:
+      return moves ? 1e-10 : 1e-10;
+    case Accuracy::Preset::custom:
+      break;
+  }
+  return 0.0;
+}
+
+/// A preset settles the tolerance, so that `--set analysis.accuracy=draft` works on any case.
+void declare_accuracy(Section& s, Analysis& analysis) {
+  using enum Accuracy::Preset;
+  const NumberRule rule{.above = 0, .max = 0.1};
+  s.choice_or_section(
+      "accuracy", analysis.accuracy.preset,
+      {{"custom", custom}, {"draft", draft}, {"standard", standard}, {"reference", reference}},
+      analysis.accuracy, "how good the answer shall be; all but custom settle the tolerance",
+      declare_wrench_error);
+  if (analysis.accuracy.preset == custom) {
+    s.number("tolerance", analysis.tolerance, rule,
+             "static: largest equilibrium residual; dynamic: relative momentum residual of a step");
+  } else {
+    analysis.tolerance = preset_tolerance(analysis.accuracy.preset, analysis.type);
+    s.settled_number("tolerance", analysis.tolerance, rule);
+  }
+}
+
 }  // namespace
 
 void declare_analysis(Section& s, Analysis& analysis) {
@@ -81,8 +126,9 @@ void declare_analysis(Section& s, Analysis& analysis) {
            "associated: sliding dilates (convex problem); coulomb: it does not");
   s.integer("cyclic_sectors", analysis.cyclic_sectors, {.min = 1, .max = 100000},
             "static: so many equal sectors around the z axis, of which one is solved; 1: the whole model");
-  s.number("tolerance", analysis.tolerance, {.above = 0, .max = 0.1},
-           "static: largest equilibrium residual; dynamic: relative momentum residual of a step");
+  declare_accuracy(s, analysis);
+  s.integer("max_iterations", analysis.max_iterations, {.min = 0, .max = 1000000},
+            "of the method per contact problem; 0: its own limit");
   s.number("time_step", analysis.time_step, {.unit = "s", .above = 0}, "dynamic: step h");
   s.optional_section("adaptive", analysis.adaptive,
                      "dynamic: the step follows the motion, beginning at time_step", declare_adaptive);
@@ -104,7 +150,14 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.section("staged", analysis.staged, "staged: what is built", declare_staged);
   s.rule(analysis.type == AnalysisType::static_ || analysis.cyclic_sectors == 1, "cyclic_sectors",
          "needs analysis.type: static");
-  s.later({"accuracy"});
+  s.flag("plane", analysis.plane,
+         "motion in the plane x-z alone, three unknowns per block; the scene must be plane");
+  s.optional_section("sleep", analysis.sleep, "dynamic: islands of blocks at rest leave the problem",
+                     declare_sleep);
+  s.rule(!analysis.sleep || (analysis.type == AnalysisType::dynamic && !analysis.adaptive), "sleep",
+         "needs type dynamic with steps of one length");
+  s.rule(!analysis.accuracy.wrench_error || analysis.type == AnalysisType::static_, "accuracy",
+         "wrench_error serves a static analysis; in motion give a tolerance or a preset");
   s.rule(analysis.type != AnalysisType::dynamic || analysis.duration / analysis.time_step <= kMostSteps,
          "duration", "duration / time_step must be <= 1e9 steps");
 }

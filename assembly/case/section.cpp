@@ -10,8 +10,6 @@
 namespace cupola {
 namespace {
 
-constexpr const char* kLater = "this version does not serve it yet";
-
 std::string joined(const std::vector<std::string>& names) {
   std::string out;
   for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
@@ -164,6 +162,12 @@ void Section::number(const std::string& key, double& value, const NumberRule& ru
   read_number_key(key, value, rule);
 }
 
+void Section::settled_number(const std::string& key, double value, const NumberRule& rule) {
+  double set_aside = value;
+  if (const CaseNode* node = look_up_scalar(key)) read_one_number(key, *node, rule, &set_aside);
+  record(key, format_number(value));
+}
+
 void Section::required_number(const std::string& key, double& value, const NumberRule& rule,
                               const std::string& meaning) {
   document(key, "number", rule, "required", meaning);
@@ -290,8 +294,6 @@ int Section::choose(const std::string& key, const std::vector<std::string>& name
   if (const CaseNode* node = look_up_scalar(key)) {
     const auto found = std::find(names.begin(), names.end(), node->text);
     if (found == names.end()) {
-      if (contains(rule.later, node->text))
-        fail(key, *node, fmt::format("{}; now: {}", kLater, joined(names)));
       const std::string near = nearest_name(node->text, names);
       fail(key, *node,
            (near.empty() ? "" : fmt::format("did you mean {}? ", near)) + "must be one of " + joined(names));
@@ -349,10 +351,6 @@ void Section::describe_alternative(const std::string& key, const std::string& na
   schema_->condition.clear();
 }
 
-void Section::later(std::initializer_list<std::string> keys) {
-  later_.insert(later_.end(), keys);
-}
-
 void Section::rule(bool holds, const std::string& key, const std::string& text) const {
   if (holds || describing()) return;
   const CaseNode* node = node_ ? node_->find(key) : nullptr;
@@ -364,7 +362,6 @@ void Section::finish() const {
   if (node_) {
     for (const auto& [key, where, value] : node_->entries) {
       if (contains(known_, key)) continue;
-      if (contains(later_, key)) throw InputError(where, fmt::format("{}: {}", path_of(key), kLater));
       const std::string near = nearest_name(key, known_);
       throw InputError(
           where, fmt::format("{}: unknown key{}; valid here: {}", shown(path_of(key)),

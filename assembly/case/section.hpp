@@ -26,8 +26,7 @@ struct Choice {
 };
 
 struct ChoiceRule {
-  bool required = false;                ///< the case must say it: there is no default
-  std::vector<std::string> later = {};  ///< names of the design that this version does not serve yet
+  bool required = false;  ///< the case must say it: there is no default
 };
 
 /// One map of the case file while it is declared. A declaration function names every key once, with unit,
@@ -52,6 +51,9 @@ class Section {
   /// what a program opens. Left out, it stays empty.
   void file(const std::string& key, std::string& path, const std::string& meaning, bool or_folder = false);
   void number(const std::string& key, double& value, const NumberRule& rule, const std::string& meaning);
+  /// A number that another key has settled as `value`: what the file says is checked and set aside, and
+  /// run.yaml gets the value in force.
+  void settled_number(const std::string& key, double value, const NumberRule& rule);
   /// They must be given: `value` on entry means nothing.
   void required_number(const std::string& key, double& value, const NumberRule& rule,
                        const std::string& meaning);
@@ -88,6 +90,12 @@ class Section {
               std::initializer_list<Choice<std::type_identity_t<T>>> choices, const std::string& meaning,
               const ChoiceRule& rule = {});
 
+  /// A name, or in its place a map of keys of its own.
+  template <class T, class Keys>
+  void choice_or_section(const std::string& key, T& value,
+                         std::initializer_list<Choice<std::type_identity_t<T>>> choices, Keys& keys,
+                         const std::string& meaning, void (*declare)(Section&, Keys&));
+
   template <class T>
   void section(const std::string& key, T& value, const std::string& meaning, void (*declare)(Section&, T&));
   /// Left out, it stays empty and the feature costs nothing.
@@ -108,10 +116,7 @@ class Section {
   /// This map is one of several kinds; `key` (which has no default) says which.
   template <class Variant>
   void variant(const std::string& key, Variant& value, const std::vector<Alternative<Variant>>& alternatives,
-               const std::string& meaning, const std::vector<std::string>& later = {});
-
-  /// Keys of the design that this version does not serve yet: using one is an error that says so.
-  void later(std::initializer_list<std::string> keys);
+               const std::string& meaning);
 
   /// A rule between several keys; the message is located at `key`.
   void rule(bool holds, const std::string& key, const std::string& text) const;
@@ -160,7 +165,6 @@ class Section {
   std::string case_file_;
   CaseNode effective_;
   std::vector<std::string> known_;
-  std::vector<std::string> later_;
   std::vector<std::string> missing_;
 };
 
@@ -176,6 +180,16 @@ void Section::choice(const std::string& key, T& value,
   }
   const int chosen = choose(key, names, current, meaning, rule);
   if (chosen >= 0) value = (choices.begin() + chosen)->value;
+}
+
+template <class T, class Keys>
+void Section::choice_or_section(const std::string& key, T& value,
+                                std::initializer_list<Choice<std::type_identity_t<T>>> choices, Keys& keys,
+                                const std::string& meaning, void (*declare)(Section&, Keys&)) {
+  const CaseNode* node = node_ ? node_->find(key) : nullptr;
+  const bool is_map = node && node->kind == CaseNode::Kind::map;
+  if (!is_map) choice(key, value, choices, meaning);
+  if (is_map || describing()) section(key, keys, "instead of a name", declare);
 }
 
 template <class T>
@@ -203,11 +217,10 @@ void Section::list(const std::string& key, std::vector<T>& values, const std::st
 
 template <class Variant>
 void Section::variant(const std::string& key, Variant& value,
-                      const std::vector<Alternative<Variant>>& alternatives, const std::string& meaning,
-                      const std::vector<std::string>& later) {
+                      const std::vector<Alternative<Variant>>& alternatives, const std::string& meaning) {
   std::vector<std::string> names;
   for (const auto& alternative : alternatives) names.push_back(alternative.name);
-  const int chosen = choose(key, names, -1, meaning, {.required = true, .later = later});
+  const int chosen = choose(key, names, -1, meaning, {.required = true});
   check_given(key);
   if (chosen >= 0) alternatives[static_cast<size_t>(chosen)].declare(*this, value);
   if (!describing()) return;

@@ -1,5 +1,6 @@
 #include "postproc/claims/run_files.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -76,6 +77,18 @@ const CsvFile& RunFiles::table(const std::string& name) {
   const auto found = tables_.find(name);
   if (found != tables_.end()) return found->second;
   return tables_.emplace(name, read_csv(fmt::format("{}/post/{}.csv", folder_, name))).first->second;
+}
+
+std::vector<std::string> RunFiles::table_names(const std::string& start) const {
+  std::vector<std::string> names;
+  std::error_code none_there;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ + "/post", none_there)) {
+    const std::filesystem::path path = entry.path();
+    if (path.extension() == ".csv" && path.stem().string().starts_with(start))
+      names.push_back(path.stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 bool RunCache::finished(const std::string& name) const {

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "postproc/claims/csv_file.hpp"
 
@@ -19,6 +20,8 @@ class RunFiles {
   /// as 0 and 1. InputError when there is no such number.
   double number(const std::string& key);
   const CsvFile& table(const std::string& name);  ///< post/NAME.csv
+  /// Names of the tables that begin with `start`, sorted.
+  std::vector<std::string> table_names(const std::string& start) const;
 
  private:
   struct Summaries;

@@ -34,6 +34,8 @@ void visit(Archive& archive, RunProgress& x) {
 
 namespace {
 
+constexpr int kStepsPerFactor = 10;  // at least so often a run can be interrupted
+
 enum class Stop { no, time_over, collapsed, settled, solver_failed };
 
 /// One dynamic analysis: the simulation, its progress, and where its results go.
@@ -73,6 +75,7 @@ SimulationOptions simulation_options(const Case& scene) {
   options.step.recovery_speed = analysis.recovery_speed;
   options.step.tangential = analysis.tangential;
   options.adaptive = analysis.adaptive;
+  options.sleep = analysis.sleep;
   options.detection = detection_options(scene);
   options.solve = contact_solver_options(analysis);
   return options;
@@ -82,7 +85,9 @@ DynamicRun::DynamicRun(const Case& scene, const Assembly& assembly, const Analys
     : scene_(scene),
       analysis_(scene.analysis),
       sinks_(sinks),
-      simulation_(make_model(scene, assembly), simulation_options(scene)) {}
+      simulation_(make_model(scene, assembly), simulation_options(scene)) {
+  if (scene.analysis.sleep) require_sleepable(scene, simulation_.model());
+}
 
 bool DynamicRun::start_static(Summary* summary) {
   const Model& model = simulation_.model();
@@ -185,6 +190,9 @@ std::optional<Summary> DynamicRun::run() {
     if (due) write_frame();
     if (stop != Stop::no) sinks_.problem(report_.problem.problem, report_.solution.gamma);
     if (stop != Stop::no) return summarize(stop, wall_seconds() - started);
+    // A resumed run starts without a factor. So does this one at every step at which it can be cut off.
+    if (!due && progress_.steps % kStepsPerFactor != 0) continue;
+    simulation_.forget_factor();
     const bool interrupted = sinks_.interrupted();
     if (due || interrupted) sinks_.checkpoint(checkpoint());
     if (interrupted) return std::nullopt;

@@ -84,7 +84,7 @@ void summarize_frame(const Frame& frame, const Model& model, Summary* summary) {
   const ContactTable& contacts = frame.contacts;
   summary->blocks = frame.blocks.size();
   summary->free_blocks = model.num_free();
-  summary->unknowns = 6 * model.num_free();
+  summary->unknowns = model.num_unknowns();
   summary->contacts = contacts.size();
   summary->joints = 0;
   summary->slipping_contacts = 0;
@@ -126,6 +126,7 @@ StaticOptions static_options(const Analysis& analysis) {
   options.tolerance = analysis.tolerance;
   options.method = analysis.method;
   options.law = analysis.friction_law;
+  options.max_iterations = analysis.max_iterations;
   return options;
 }
 

@@ -1,10 +1,34 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
 #include "assembly/program.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/analysis/static_solve.hpp"
+#include "solver/analysis/wrench_error.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {
+namespace {
+
+/// Statics finds displacements on the geometry as built.
+std::string linearity_note(const Assembly& assembly, double displacement) {
+  constexpr double kSmall = 0.1;  // of the smallest free block
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Block& block : assembly.blocks)
+    if (!block.fixed) smallest = std::min(smallest, std::cbrt(block.volume));
+  if (displacement <= kSmall * smallest) return "";
+  return fmt::format(
+      "; blocks move by up to {:.2g} m, which is not little beside the smallest of {:.2g} m: the "
+      "forces are those of the geometry as built",
+      displacement, smallest);
+}
+
+}  // namespace
+
 Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
   const Model model = make_model(scene, assembly);
   const State rest = state_at_rest(model);
@@ -20,15 +44,25 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
     symmetry = find_cyclic_symmetry(model, rest, contacts, scene.analysis.cyclic_sectors);
     options.symmetry = &*symmetry;
   }
-  const StaticSolution solution = solve_static(model, rest, contacts, memories, options);
+  const std::optional<double> wrench_error = scene.analysis.accuracy.wrench_error;
+  double wrench_error_reached = 0.0;
+  const StaticSolution solution = wrench_error
+                                      ? solve_static_to_wrench_error(model, rest, contacts, memories, options,
+                                                                     *wrench_error, &wrench_error_reached)
+                                      : solve_static(model, rest, contacts, memories, options);
 
   Summary summary;
   summary.solve_time_seconds = wall_seconds() - started;
   const Frame frame = static_frame(model, rest, contacts, memories, solution, options);
   summarize_frame(frame, model, &summary);
   summarize_static(solution, options.tolerance, &summary);
+  if (wrench_error) {
+    summary.accuracy_asked = *wrench_error;
+    if (solution.verdict != Verdict::moving) summary.accuracy_reached = wrench_error_reached;
+  }
   summary.analysis = "static";
   summary.unknowns /= scene.analysis.cyclic_sectors;
+  summary.message += linearity_note(assembly, summary.max_displacement_m);
   sinks.frame(frame);
   sinks.problem(solution.step.problem, solution.solution.gamma);
   return summary;

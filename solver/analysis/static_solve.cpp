@@ -82,17 +82,20 @@ SolveSummary solve_problem(const ContactProblem& problem, const CyclicSymmetry* 
 
 /// Solves at trial->h. What moves fast is not solved finer than its verdict needs: its impulses lose digits
 /// with h^2, and no answer to the full tolerance may exist in double precision.
+/// `share`: of the asked residual that is left to the solve.
 void solve_at(const Model& model, const State& start, const ContactSet& contacts,
               const ContactMemories& memories, const StaticOptions& options, double acceleration,
-              ContactSolver* solver, StaticSolution* trial) {
+              double share, ContactSolver* solver, StaticSolution* trial) {
   constexpr double kCoarse = 1e-4;
   constexpr int kAtOnce = 25;  // Newton iterations: an equilibrium that takes more is easier found by degrees
   ContactSolverOptions solve;
   solve.method = options.method;
   solve.law = options.law;
-  solve.max_iterations = tries_at_once(options) ? kAtOnce : 0;
+  solve.max_iterations = options.max_iterations > 0 ? options.max_iterations
+                         : tries_at_once(options)   ? kAtOnce
+                                                    : 0;
   solve.reference_speed = trial->h * acceleration;
-  const double fine = kSolveShare * options.tolerance;
+  const double fine = share * options.tolerance;
   trial->step = build_step_problem(model, start, contacts, memories, step_options(options, trial->h));
   trial->solution = {};
   for (const double tolerance : {std::max(fine, kCoarse), fine}) {
@@ -129,6 +132,9 @@ bool keeps_moving(const std::vector<SpeedTrial>& trials) {
 
 /// A ratio beyond what an equilibrium shows at the first h.
 constexpr double kFast = 3e-2;
+
+/// No mechanism is as slow, unless its load is within a millionth of what it can carry.
+constexpr double kAtRest = 1e-6;
 
 /// An h at which elastic displacements are a trifle: c m / h^2 = kRigid for the most compliant contact.
 double rigid_step(const Model& model, const State& start, const ContactSet& contacts) {
@@ -196,8 +202,9 @@ StaticSolution raise_step(const Model& model, const State& start, const ContactS
   trial.h = first_step(model, start, contacts, acceleration, options);
   std::vector<SpeedTrial> trials;
   bool moving = false;
+  double share = kSolveShare;
   for (int k = 0; k < kMaxSolves && !moving; ++k) {
-    solve_at(model, start, contacts, memories, options, acceleration, &solver, &trial);
+    solve_at(model, start, contacts, memories, options, acceleration, share, &solver, &trial);
     options.log(
         fmt::format("static  h {:9.3e} s  iterations {:3d}  momentum {:9.2e}  law {:9.2e}  "
                     "equilibrium {:9.2e}  |v|/(g h) {:9.2e}",
@@ -205,7 +212,9 @@ StaticSolution raise_step(const Model& model, const State& start, const ContactS
                     trial.balance.residual, trial.speed_ratio));
     const bool converged = trial.solve.ending == SolveEnding::converged;
     if (converged && trial.balance.residual <= options.tolerance) break;
-    if (!converged && !(trial.residuals.momentum <= known_to(trial.speed_ratio))) break;
+    // First-order methods balance momentum by construction: what they miss shows in the contact law.
+    const double missed = std::max(trial.residuals.momentum, trial.residuals.contact_law);
+    if (!converged && !(missed <= known_to(trial.speed_ratio))) break;
     trials.push_back({trial.h, trial.speed_ratio});
     const double rigid = rigid_step(model, start, contacts);
     if (!keeps_moving(trials)) {
@@ -214,6 +223,8 @@ StaticSolution raise_step(const Model& model, const State& start, const ContactS
       // Joints so soft that blocks nearly fall freely in h show nothing yet: ask once more, rigid. (Under
       // Coulomb's law the rigid problem is another one: it admits self-stress that no compliance builds up.)
       trial.h = rigid;
+    } else if (trial.speed_ratio <= kAtRest) {
+      share *= 0.1;  // rigid joints do not slow down with h: what moves is what the solve left over
     } else if (options.certify && k + 1 < kMaxSolves && needed_over_found(trial) < kProven) {
       // What the joints give way is less and less of the motion: the proof grows with h^2.
       trial.h *= std::clamp(std::sqrt(2.0 * kProven / needed_over_found(trial)), 2.0, 10.0);
@@ -242,7 +253,8 @@ std::string to_string(Verdict verdict) {
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
   StaticSolution answer = raise_step(model, start, contacts, memories, options);
-  if (options.may_move) return answer;
+  const bool budget = options.max_iterations > 0;  // it is used up
+  if (options.may_move || budget) return answer;
   // A mechanism, or joints that open and close in numbers: both show themselves at short h.
   StaticOptions by_degrees = options;
   by_degrees.may_move = true;

@@ -10,6 +10,7 @@
 #include "solver/collision/contact_file.hpp"
 #include "solver/collision/edge_contact.hpp"
 #include "solver/collision/face_clipping.hpp"
+#include "solver/collision/plane_contacts.hpp"
 
 namespace cupola {
 namespace {
@@ -173,6 +174,7 @@ void ContactDetector::update_broad_phase() {
 
 void ContactDetector::detect() {
   AnchoredContacts fresh = given_ ? *given_ : find_contacts();
+  if (options_.plane) merge_across_plane(1e3 * narrow_.tolerance, &fresh);
   std::set<ContactId> from_the_side = keep_identities(memory_.contacts, &fresh);
   // Overlaps as built are for the solver to judge; points that stand for areas yield as little as those are.
   if (memory_.num_detections == 0 || options_.points != PatchPoints::corners) from_the_side.clear();

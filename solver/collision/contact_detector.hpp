@@ -25,6 +25,9 @@ struct DetectionOptions {
   /// None: face clipping, with edges and vertices by separating axes. Else the paper's narrow phase.
   std::optional<PerturbedGjkOptions> perturbed_gjk;
 
+  /// The scene is plane (see plane_scene.hpp): two points that differ in y alone become one between them.
+  bool plane = false;
+
   /// File of contact points that are followed and never found anew; empty: none (see contact_file.hpp).
   std::string contact_file;
 

@@ -35,6 +35,7 @@ struct Contact {
   Vec3 normal = Vec3::UnitZ();  ///< unit, from a to b
   double gap = 0.0;             ///< m, (point_b - point_a) . normal, positive when apart
   double area = 0.0;            ///< m2 that the point stands for
+  int points = 1;               ///< contact points that it stands for: in a plane scene one for two
 };
 
 /// Overlap polygon of two faces.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/error.hpp"
 #include "solver/collision/face_clipping.hpp"
 #include "solver/collision/separating_axis.hpp"
 
@@ -64,6 +65,9 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
     Eigen::Isometry3d pose_ab = Eigen::Isometry3d::Identity();
     pose_ab.translation() = poses[b].p_WB - poses[a].p_WB;
     const double depth = -separation(model, i, k, pose_ab, any_width);
+    if (depth > detector.margin())
+      throw InputError(fmt::format("blocks {} and {} overlap by {:.3g} m, more than contact.margin = {:.3g} m",
+                                   a, b, depth, detector.margin()));
     if (depth > kOverlap * model.smallest_block) keep_largest(&overlaps, a, b, depth);
     for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width)) {
       const double width = polygon_width(patch.outline());

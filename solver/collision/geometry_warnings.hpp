@@ -13,6 +13,9 @@ namespace cupola {
 ///   and a block that lies inside another has none;
 /// - joints narrower than 1e-3 of the smallest block, which are left out;
 /// - parts thinner than the margin, through which contacts reach from the wrong side.
+///
+/// Throws InputError where two blocks overlap by more than the margin: they contradict each other, and forces
+/// that push them apart would mean nothing.
 std::vector<std::string> geometry_warnings(const Assembly& assembly, const DetectionOptions& options);
 
 }  // namespace cupola

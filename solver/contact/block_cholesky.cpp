@@ -1,9 +1,10 @@
 #include "solver/contact/block_cholesky.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
 #include <new>
 #include <numeric>
+#include <span>
 
 #include <cholmod.h>
 #include <dlfcn.h>
@@ -31,6 +32,13 @@ void use_one_thread() {
 }
 
 using Index = SuiteSparse_long;
+
+/// Rows of each block that are unknowns.
+std::span<const int> rows_of(const BlockPattern& pattern) {
+  static constexpr std::array kAll{0, 1, 2, 3, 4, 5};
+  static constexpr std::array kPlane{0, 2, 4};  // x, z, rot y
+  return pattern.plane ? std::span<const int>(kPlane) : std::span<const int>(kAll);
+}
 
 }  // namespace
 
@@ -92,32 +100,34 @@ std::vector<Index> BlockCholesky::Implementation::block_order() {
   return order;
 }
 
-/// Column 6 k + c holds rows c..5 of the diagonal block, then the six rows of each block below.
+/// Column m k + c, m rows per block, holds rows c..m-1 of the diagonal block, then the m rows of each block
+/// below.
 void BlockCholesky::Implementation::fill_structure() {
+  const Index m = std::ssize(rows_of(pattern));
   auto* p = static_cast<Index*>(A->p);
   auto* i = static_cast<Index*>(A->i);
   Index next = 0;
   for (int k = 0; k < pattern.num_blocks(); ++k) {
-    for (int c = 0; c < 6; ++c) {
-      p[6 * k + c] = next;
-      for (int r = c; r < 6; ++r) i[next++] = 6 * k + r;
+    for (Index c = 0; c < m; ++c) {
+      p[m * k + c] = next;
+      for (Index r = c; r < m; ++r) i[next++] = m * k + r;
       for (int q = pattern.column_start[k]; q < pattern.column_start[k + 1]; ++q) {
-        for (int r = 0; r < 6; ++r) i[next++] = 6 * Index{pattern.row[q]} + r;
+        for (Index r = 0; r < m; ++r) i[next++] = m * pattern.row[q] + r;
       }
     }
   }
-  p[6 * pattern.num_blocks()] = next;
+  p[m * pattern.num_blocks()] = next;
 }
 
 void BlockCholesky::Implementation::fill_values(const BlockMatrix& matrix) {
+  const std::span<const int> rows = rows_of(pattern);
   auto* x = static_cast<double*>(A->x);
   Index next = 0;
   for (int k = 0; k < pattern.num_blocks(); ++k) {
-    for (int c = 0; c < 6; ++c) {
-      for (int r = c; r < 6; ++r) x[next++] = matrix.diagonal[k](r, c);
+    for (std::size_t c = 0; c < rows.size(); ++c) {
+      for (std::size_t r = c; r < rows.size(); ++r) x[next++] = matrix.diagonal[k](rows[r], rows[c]);
       for (int q = pattern.column_start[k]; q < pattern.column_start[k + 1]; ++q) {
-        std::memcpy(x + next, matrix.lower[q].data() + 6 * c, 6 * sizeof(double));
-        next += 6;
+        for (const int r : rows) x[next++] = matrix.lower[q](r, rows[c]);
       }
     }
   }
@@ -126,15 +136,16 @@ void BlockCholesky::Implementation::fill_values(const BlockMatrix& matrix) {
 void BlockCholesky::Implementation::analyze(const BlockPattern& new_pattern) {
   release();
   pattern = new_pattern;
-  const Index n = 6 * Index{pattern.num_blocks()};
-  const Index num_entries = 21 * Index{pattern.num_blocks()} + 36 * Index{pattern.num_pairs()};
+  const Index m = std::ssize(rows_of(pattern));
+  const Index n = m * pattern.num_blocks();
+  const Index num_entries = m * (m + 1) / 2 * pattern.num_blocks() + m * m * pattern.num_pairs();
   A = cholmod_l_allocate_sparse(n, n, num_entries, 1, 1, -1, CHOLMOD_REAL, &common);
   throw_if_out_of_memory();
   fill_structure();
 
   std::vector<Index> order(n);
   const std::vector<Index> blocks = block_order();
-  for (Index k = 0; k < n; ++k) order[k] = 6 * blocks[k / 6] + k % 6;
+  for (Index k = 0; k < n; ++k) order[k] = m * blocks[k / m] + k % m;
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
   common.postorder = 1;
@@ -172,17 +183,24 @@ const BlockPattern& BlockCholesky::pattern() const {
 
 VecX BlockCholesky::solve(const VecX& rhs) const {
   Implementation& self = *implementation_;
-  CUPOLA_ASSERT(self.valid && rhs.size() == static_cast<Eigen::Index>(self.L->n));
+  const std::span<const int> rows = rows_of(self.pattern);
+  const auto m = static_cast<Eigen::Index>(rows.size());
+  CUPOLA_ASSERT(self.valid && rhs.size() == 6 * self.pattern.num_blocks());
   if (rhs.size() == 0) return rhs;
+  VecX unknowns(m * self.pattern.num_blocks());
+  for (Eigen::Index i = 0; i < unknowns.size(); ++i) unknowns[i] = rhs[6 * (i / m) + rows[i % m]];
   cholmod_dense B{};
-  B.nrow = B.nzmax = B.d = static_cast<std::size_t>(rhs.size());
+  B.nrow = B.nzmax = B.d = static_cast<std::size_t>(unknowns.size());
   B.ncol = 1;
-  B.x = const_cast<double*>(rhs.data());  // CHOLMOD reads it only
+  B.x = unknowns.data();
   B.xtype = CHOLMOD_REAL;
   B.dtype = CHOLMOD_DOUBLE;
   cholmod_l_solve2(CHOLMOD_A, self.L, &B, nullptr, &self.X, nullptr, &self.Y, &self.work, &self.common);
   self.throw_if_out_of_memory();
-  return Eigen::Map<const VecX>(static_cast<const double*>(self.X->x), rhs.size());
+  VecX x = rhs;  // what is no unknown has the identity for its rows
+  const auto* found = static_cast<const double*>(self.X->x);
+  for (Eigen::Index i = 0; i < unknowns.size(); ++i) x[6 * (i / m) + rows[i % m]] = found[i];
+  return x;
 }
 
 long long BlockCholesky::num_nonzeros() const {

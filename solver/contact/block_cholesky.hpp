@@ -9,6 +9,9 @@ namespace cupola {
 /// Sparse Cholesky factor of a BlockMatrix (CHOLMOD, supernodal). The fill-reducing order is METIS's on the
 /// graph of the blocks, expanded to their six rows each; it and the symbolic factor are kept while the
 /// pattern stays the same. BLAS is set to one thread: same bits on every run.
+///
+/// Of a plane pattern the rows x, z and rot y of each block are factorised alone: the others must be those of
+/// the identity, as they are in whitened problems.
 class BlockCholesky {
  public:
   BlockCholesky();

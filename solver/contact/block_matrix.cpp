@@ -28,6 +28,7 @@ ContactGraph contact_graph(const ContactProblem& problem) {
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 
   ContactGraph graph;
+  graph.pattern.plane = problem.plane;
   graph.pattern.column_start.assign(nb + 1, 0);
   graph.pattern.row.reserve(pairs.size());
   for (const auto& [column, row] : pairs) {

@@ -10,6 +10,7 @@ namespace cupola {
 struct BlockPattern {
   std::vector<int> column_start;  ///< (nb + 1)
   std::vector<int> row;           ///< row block, ascending within a column (num_pairs)
+  bool plane = false;             ///< see ContactProblem::plane
   int num_blocks() const { return static_cast<int>(column_start.size()) - 1; }
   int num_pairs() const { return static_cast<int>(row.size()); }
   bool operator==(const BlockPattern&) const = default;

@@ -37,6 +37,9 @@ struct ContactProblem {
   VecX E;                    ///< 1/kg: diag c / (h (h + alpha)); both tangents equal (3 nc)
   VecX mu;                   ///< friction coefficient (nc)
   double h = 0.0;            ///< s, step; only scales residuals (force = gamma / h)
+  /// Motion in the plane x-z: D is zero in the rows y, rot x, rot z, and M couples them with no others.
+  /// Factors then have three unknowns per block.
+  bool plane = false;
 
   int num_blocks() const { return static_cast<int>(M.size()); }
   int num_contacts() const { return static_cast<int>(block_a.size()); }

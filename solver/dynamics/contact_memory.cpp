@@ -1,10 +1,13 @@
 #include "solver/dynamics/contact_memory.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace cupola {
 
 ContactMemories match_memories(const ContactMemories& old, const std::vector<Contact>& contacts) {
+  const auto same_id = [](const ContactId& id, const Contact& contact) { return id == contact.id; };
+  if (std::equal(old.ids.begin(), old.ids.end(), contacts.begin(), contacts.end(), same_id)) return old;
   ContactMemories matched;
   matched.ids.reserve(contacts.size());
   matched.values.resize(contacts.size());

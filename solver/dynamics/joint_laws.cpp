@@ -77,13 +77,12 @@ JointTable::JointTable(const Joints& joints, int num_rings)
   }
 }
 
-JointLaw JointTable::law(const Assembly& assembly, const Patch& patch, double area) const {
+JointLaw JointTable::law(const Assembly& assembly, const Patch& patch, double area, int points) const {
   const std::vector<JointLaw>& rings = laws_[static_cast<int>(joint_sort(assembly, patch))];
   JointLaw law = rings[std::clamp(patch.ring, 0, static_cast<int>(rings.size()) - 1)];
-  if (per_area_) {
-    law.compliance_normal /= area;
-    law.compliance_tangential /= area;
-  }
+  const double share = per_area_ ? area : points;
+  law.compliance_normal /= share;
+  law.compliance_tangential /= share;
   return law;
 }
 

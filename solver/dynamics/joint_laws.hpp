@@ -27,8 +27,8 @@ class JointTable {
   JointTable() = default;
   explicit JointTable(const Joints& joints, int num_rings);
 
-  /// Law of a contact point of the patch that stands for `area` (m2), at full friction.
-  JointLaw law(const Assembly& assembly, const Patch& patch, double area) const;
+  /// Law of a contact point of the patch that stands for `area` (m2) and for `points`, at full friction.
+  JointLaw law(const Assembly& assembly, const Patch& patch, double area, int points = 1) const;
 
  private:
   std::array<std::vector<JointLaw>, kJointSorts> laws_;  // by sort, then ring

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "solver/dynamics/plane_scene.hpp"
+
 namespace cupola {
 
 Model make_model(const Case& scene, const Assembly& assembly) {
@@ -22,6 +24,8 @@ Model make_model(const Case& scene, const Assembly& assembly) {
   }
   model.free_weight = free_weight(assembly, scene.loads.gravity.norm());
   model.block_weight = model.num_free() > 0 ? model.free_weight / model.num_free() : 0.0;
+  model.plane = scene.analysis.plane;
+  if (model.plane) require_plane_scene(model, scene);
   return model;
 }
 
@@ -91,7 +95,8 @@ void integrate_positions(const Model& model, double h, double time_advance, Stat
 }
 
 JointLaw joint_law(const Model& model, const ContactSet& contacts, const Contact& contact, double time) {
-  JointLaw law = model.joints.law(*model.assembly, contacts.patches[contact.patch], contact.area);
+  JointLaw law =
+      model.joints.law(*model.assembly, contacts.patches[contact.patch], contact.area, contact.points);
   law.mu *= factor_at(model.friction_time, time);
   return law;
 }

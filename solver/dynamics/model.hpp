@@ -26,8 +26,10 @@ struct Model {
   std::vector<int> free_blocks;  ///< row block -> block (nb)
   double free_weight = 0.0;      ///< N, of the blocks that are not fixed, under full gravity
   double block_weight = 0.0;     ///< N, mean over the free blocks
+  bool plane = false;            ///< motion in x-z alone: unknowns x, z, rot y (see plane_scene.hpp)
 
   int num_free() const { return static_cast<int>(free_blocks.size()); }
+  int num_unknowns() const { return (plane ? 3 : 6) * num_free(); }
 };
 
 /// Builds the model of a case. The assembly must outlive it. Throws InputError when the case asks for loads,

@@ -10,6 +10,7 @@ DetectionOptions detection_options(const Case& scene) {
       scene.joints.compliance.per == Compliance::Per::area ? PatchPoints::quadrature : PatchPoints::corners;
   options.margin = scene.contact.margin;
   options.contact_file = scene.contact.file;
+  options.plane = scene.analysis.plane;
   if (!options.contact_file.empty() && scene.analysis.type != AnalysisType::static_)
     throw InputError(FileLocation{scene.file},
                      "contact.method file: contacts from a file serve a static analysis only");
@@ -26,6 +27,8 @@ ContactSolverOptions contact_solver_options(const Analysis& analysis) {
   options.tolerance = analysis.tolerance;
   options.method = analysis.method;
   options.law = analysis.friction_law;
+  options.max_iterations = analysis.max_iterations;
+  options.lag_factor = analysis.type == AnalysisType::dynamic;  // from step to step little changes
   return options;
 }
 

@@ -32,28 +32,61 @@ Simulation::Simulation(Model model, const SimulationOptions& options)
 }
 
 StepReport Simulation::advance(double h_max) {
-  constexpr double kTolerated = 4.0;  // times the asked error: a step this bad is taken again, shorter
-  StepReport report;
-  // 1. Where the blocks touch
   StepOptions step = options_.step;
   step.h = std::min(next_h_, h_max);
   const ContactSet& contacts = detector_.update(state_.poses, travel(step.h));
   memories_ = match_memories(memories_, contacts.contacts);
+  if (options_.sleep) {
+    std::vector<double> radius;
+    for (const int block : model_.free_blocks) radius.push_back(detector_.block_radius(block));
+    update_sleepers(*options_.sleep, islands_of(model_, contacts), radius, &state_, &sleepers_);
+    if (sleepers_.num_asleep() > 0) return advance_awake(contacts, step);
+  }
+  return solve_and_move(model_, contacts, step, &state_, &memories_);
+}
+
+StepReport Simulation::advance_awake(const ContactSet& contacts, const StepOptions& step) {
+  AwakePart part = awake_part(model_, state_, contacts, memories_, sleepers_);
+  StepReport report = solve_and_move(part.model, part.contacts, step, &part.state, &part.memories);
+  report.asleep = sleepers_.num_asleep();
+  // Sleepers go on carrying what they carried in their last step.
+  JointForces forces;
+  for (size_t i = 0; i < contacts.contacts.size(); ++i)
+    forces.contacts.push_back(contact_frame(contacts.contacts[i].normal) * memories_.values[i].impulse /
+                              options_.step.h);
+  for (size_t k = 0; k < part.contact_rows.size(); ++k) {
+    forces.contacts[part.contact_rows[k]] = report.forces.contacts[k];
+    memories_.values[part.contact_rows[k]] = part.memories.values[k];
+  }
+  report.forces = std::move(forces);
+  report.balance =
+      compute_equilibrium(model_, state_, contacts, report.forces, state_.time + 0.5 * step.advance());
+  state_.poses = std::move(part.state.poses);
+  state_.time = part.state.time;
+  for (int k = 0; k < part.model.num_free(); ++k)
+    state_.v.segment<6>(6 * model_.free_index[part.model.free_blocks[k]]) = part.state.v.segment<6>(6 * k);
+  return report;
+}
+
+StepReport Simulation::solve_and_move(const Model& model, const ContactSet& contacts, StepOptions step,
+                                      State* state, ContactMemories* memories) {
+  constexpr double kTolerated = 4.0;  // times the asked error: a step this bad is taken again, shorter
+  StepReport report;
   StepProblem problem;
   ContactSolution solution;
   while (true) {
-    // 2. The contact problem and its answer
-    problem = build_step_problem(model_, state_, contacts, memories_, step);
-    solution = warm_start(problem, state_, memories_);
+    // 1. The contact problem and its answer
+    problem = build_step_problem(model, *state, contacts, *memories, step);
+    solution = warm_start(problem, *state, *memories);
     ContactSolverOptions solve_options = options_.solve;
-    solve_options.reference_speed = step.h * reference_acceleration(model_, state_);
+    solve_options.reference_speed = step.h * reference_acceleration(model, *state);
     report.solve = solver_.solve(problem.problem, solve_options, &solution);
     report.residuals =
         compute_residuals(problem.problem, solution, solve_options.reference_speed, solve_options.law);
     if (!options_.adaptive) break;
 
-    // 3. Is the step short enough?
-    const double error = step_error(state_.v, solution.v, step.h);
+    // 2. Is the step short enough?
+    const double error = step_error(state->v, solution.v, step.h);
     next_h_ = next_step(*options_.adaptive, step.h, error);
     if (error <= kTolerated * options_.adaptive->displacement_error || next_h_ >= step.h) break;
     step.h = next_h_;
@@ -62,15 +95,15 @@ StepReport Simulation::advance(double h_max) {
   report.h = step.h;
   report.forces = joint_forces(contacts, solution.gamma, step.h);
   report.balance =
-      compute_equilibrium(model_, state_, contacts, report.forces, state_.time + 0.5 * step.advance());
+      compute_equilibrium(model, *state, contacts, report.forces, state->time + 0.5 * step.advance());
   report.slid_work = friction_dissipation(problem, solution);
 
-  // 4. Memory and motion
-  update_memories(problem, solution, state_, contacts, step, &memories_);
-  state_.v = solution.v;
+  // 3. Memory and motion
+  update_memories(problem, solution, *state, contacts, step, memories);
+  state->v = solution.v;
   report.problem = std::move(problem);
   report.solution = std::move(solution);
-  integrate_positions(model_, step.h, step.advance(), &state_);
+  integrate_positions(model, step.h, step.advance(), state);
   return report;
 }
 

@@ -9,6 +9,7 @@
 #include "solver/contact/solve_contact.hpp"
 #include "solver/dynamics/energy.hpp"
 #include "solver/dynamics/equilibrium.hpp"
+#include "solver/dynamics/islands.hpp"
 #include "solver/dynamics/time_step.hpp"
 
 namespace cupola {
@@ -24,12 +25,14 @@ struct StepReport {
   Equilibrium balance;     ///< of those forces; what is unbalanced accelerates
   double slid_work = 0.0;  ///< J, lost to friction in this step
   int rejected = 0;        ///< attempts at a larger h that the step control refused
+  int asleep = 0;          ///< free blocks that were left out
 };
 
 /// How a simulation is stepped.
 struct SimulationOptions {
   StepOptions step;
   std::optional<AdaptiveStep> adaptive;  ///< none: every step is step.h
+  std::optional<Sleep> sleep;            ///< none: every block is solved in every step
   DetectionOptions detection;
   ContactSolverOptions solve;  ///< the reference speed is set by each step
 };
@@ -46,11 +49,16 @@ class Simulation {
   Simulation(Model model, const SimulationOptions& options);
 
   /// One step: detect, build, solve, remember, integrate (paper eq. 8-15). h is that of the options, or, when
-  /// adaptive, what the last step's error allows; never more than `h_max` (s).
+  /// adaptive, what the last step's error allows; never more than `h_max` (s). Problem and solution of the
+  /// report are those of the blocks that are awake, its forces and balance those of all.
   StepReport advance(double h_max = std::numeric_limits<double>::infinity());
 
   /// Begins from an equilibrium instead of the unloaded assembly.
   void start_from(const LoadedState& loaded);
+
+  /// Drops the factor that the solver keeps from step to step. A restored simulation has none, so whoever
+  /// saves does this first: then both go on with the same bits.
+  void forget_factor() { solver_ = ContactSolver(); }
 
   /// Everything that later steps depend on, as bytes, and a simulation of the same scene going on from it
   /// with the same bits. restore() throws std::runtime_error when the bytes do not fit.
@@ -67,6 +75,10 @@ class Simulation {
   std::vector<Vec3> displacements() const;  ///< m, of the centroids since the assembly
 
  private:
+  /// The step from the contacts on, of a scene or of its part that is awake.
+  StepReport solve_and_move(const Model& model, const ContactSet& contacts, StepOptions step, State* state,
+                            ContactMemories* memories);
+  StepReport advance_awake(const ContactSet& contacts, const StepOptions& step);
   /// Farthest that a point of each block goes in a step of h at its present velocity, m.
   std::vector<double> travel(double h) const;
 
@@ -76,6 +88,7 @@ class Simulation {
   ContactDetector detector_;
   ContactMemories memories_;
   ContactSolver solver_;
+  Sleepers sleepers_;
   double next_h_;
 };
 

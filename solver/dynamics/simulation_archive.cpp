@@ -15,7 +15,7 @@ void visit(Archive& archive, ContactId& x) {
 }
 template <class Archive>
 void visit(Archive& archive, Contact& x) {
-  archive(x.id, x.block_a, x.block_b, x.patch, x.point_a, x.point_b, x.normal, x.gap, x.area);
+  archive(x.id, x.block_a, x.block_b, x.patch, x.point_a, x.point_b, x.normal, x.gap, x.area, x.points);
 }
 template <class Archive>
 void visit(Archive& archive, Patch& x) {
@@ -50,13 +50,19 @@ void visit(Archive& archive, State& x) {
   archive(x.time, x.poses, x.v);
 }
 
+template <class Archive>
+void visit(Archive& archive, Sleepers& x) {
+  archive(x.calm_since, x.asleep);
+}
+
 std::string Simulation::save() const {
   State state = state_;
   DetectionMemory detection = detector_.memory();
   ContactMemories memories = memories_;
+  Sleepers sleepers = sleepers_;
   double next_h = next_h_;
   ByteWriter archive;
-  archive(state, detection, memories, next_h);
+  archive(state, detection, memories, sleepers, next_h);
   return archive.bytes();
 }
 
@@ -64,7 +70,7 @@ void Simulation::restore(const std::string& bytes) {
   DetectionMemory detection;
   State state;
   ByteReader archive(bytes);
-  archive(state, detection, memories_, next_h_);
+  archive(state, detection, memories_, sleepers_, next_h_);
   if (!archive.at_end() || state.poses.size() != state_.poses.size() || state.v.size() != state_.v.size())
     throw std::runtime_error("is of another scene");
   state_ = std::move(state);

@@ -94,6 +94,14 @@ void set_tie_rows(const Model& model, const State& state, const StepOptions& opt
   }
 }
 
+/// Leaves only motion in the plane x-z to the rows.
+void drop_rows_out_of_plane(ContactProblem* problem) {
+  problem->plane = true;
+  for (std::vector<Mat63>* D : {&problem->D_a, &problem->D_b})
+    for (Mat63& rows : *D)
+      for (const int out : {1, 3, 5}) rows.row(out).setZero();
+}
+
 /// Adds the imposed velocities of supports to b.
 void add_support_velocities(const Model& model, const State& state, const ContactSet& contacts,
                             const StepOptions& options, StepProblem* step) {
@@ -134,6 +142,7 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
   set_free_velocities(model, state, options, &step.problem);
   set_contact_rows(model, state, contacts, memories, options, &step.problem);
   set_tie_rows(model, state, options, step.num_contacts, &step.problem);
+  if (model.plane) drop_rows_out_of_plane(&step.problem);
   if (!model.support_motions.empty()) add_support_velocities(model, state, contacts, options, &step);
   return step;
 }

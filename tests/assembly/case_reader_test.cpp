@@ -57,6 +57,29 @@ TEST(ReadCase, KeepsTheDefaultsOfTheStructs) {
   EXPECT_FALSE(c.geometry.stage);
 }
 
+TEST(ReadCase, APresetSettlesTheTolerance) {
+  const ScratchFolder scratch;
+  const std::string own = std::string(kWall) + "analysis: {tolerance: 1e-7}\n";
+  EXPECT_EQ(read_case(scratch.write("own.yaml", own)).analysis.tolerance, 1e-7);
+  double looser = 1.0;
+  for (const char* preset : {"draft", "standard", "reference"}) {
+    const Case c = read_case(scratch.file("own.yaml"), {std::string("analysis.accuracy=") + preset});
+    EXPECT_LT(c.analysis.tolerance, looser) << preset;
+    looser = c.analysis.tolerance;
+    const Case again = read_case(scratch.write("again.yaml", c.effective_yaml));
+    EXPECT_EQ(again.analysis.tolerance, c.analysis.tolerance) << preset;
+  }
+}
+
+TEST(ReadCase, AccuracyMayAskForAnErrorInsteadOfAPreset) {
+  const ScratchFolder scratch;
+  const Case c =
+      read_case(scratch.write("asked.yaml", std::string(kWall) + "analysis: {accuracy: {wrench_error: 1e-3}}\n"));
+  EXPECT_EQ(c.analysis.accuracy.wrench_error, 1e-3);
+  EXPECT_EQ(c.analysis.accuracy.preset, Accuracy::Preset::custom);
+  EXPECT_EQ(read_case(scratch.write("again.yaml", c.effective_yaml)).analysis.accuracy.wrench_error, 1e-3);
+}
+
 TEST(ReadCase, EffectiveYamlReadsBackToTheSameCase) {
   const ScratchFolder scratch;
   for (const char* text : {kDome, kWall}) {

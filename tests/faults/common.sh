@@ -9,7 +9,7 @@ post() { "$bin/cupola-post" analyse "$case_file" --quiet --assembly "$1/assembly
 
 # One line per file: name and checksum, without wall times and memory, which no two runs share.
 contents() {
-  local times='wall_time|solve_time|peak[_ ]memory' all file
+  local times='_time_seconds|solve_time|peak[_ ]memory' all file
   (cd "$1" && all=$(find . -type f ! -name '*.part*' ! -name '.*' | sort) && [ -n "$all" ] || return 0
     { for file in $(grep -laE "$times" $all); do echo "$(sed -E "/$times/d" "$file" | md5sum) $file"; done
       grep -LaE "$times" $all | xargs -r md5sum; } | awk '{print $NF, $1}' | sort)

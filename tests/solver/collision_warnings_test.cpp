@@ -32,15 +32,25 @@ TEST(GeometryWarnings, NoneForSoundScenes) {
 }
 
 TEST(GeometryWarnings, OverlapsNameBothBlocksAndTheDepth) {
-  const Assembly scene = make_boxes({{.fixed = true}, {.center = {0, 0, 0.98}}, {.center = {0, 0, 1.98}}});
-  EXPECT_EQ(only_warning(scene), "blocks 0 and 1 overlap by 0.02 m");
+  const Assembly scene = make_boxes({{.fixed = true}, {.center = {0, 0, 0.995}}, {.center = {0, 0, 1.995}}});
+  EXPECT_EQ(only_warning(scene), "blocks 0 and 1 overlap by 0.005 m");
   expect_sound_contacts(scene);
 }
 
-TEST(GeometryWarnings, CoincidentBlocks) {
-  const Assembly scene = make_boxes({{}, {}});
-  EXPECT_EQ(only_warning(scene), "blocks 0 and 1 overlap by 1 m");
-  expect_sound_contacts(scene);
+TEST(GeometryWarnings, RefuseOverlapsBeyondTheMargin) {
+  const auto message = [](const Assembly& scene) {
+    try {
+      geometry_warnings(scene, {});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const Assembly coincident = make_boxes({{}, {}});
+  EXPECT_EQ(message(coincident), "error: blocks 0 and 1 overlap by 1 m, more than contact.margin = 0.01 m");
+  EXPECT_EQ(message(make_boxes({{.fixed = true}, {.center = {0, 0, 0.98}}})),
+            "error: blocks 0 and 1 overlap by 0.02 m, more than contact.margin = 0.01 m");
+  expect_sound_contacts(coincident);
 }
 
 TEST(GeometryWarnings, CrossingBarsThatOnlyTheirEdgesPartDoNotOverlap) {

@@ -59,12 +59,13 @@ void expect_same_bits(const Recorder& expected, const Recorder& got) {
   }
 }
 
-/// Interrupts after `steps` steps, resumes from the checkpoint in a new analysis, and compares.
-void interrupt_and_resume(const Case& scene, const Assembly& assembly, int steps, const Recorder& whole) {
+/// Interrupts when asked for the `asked`th time (a run asks at its frames and every ten steps), resumes from
+/// the checkpoint in a new analysis, and compares.
+void interrupt_and_resume(const Case& scene, const Assembly& assembly, int asked, const Recorder& whole) {
   Recorder first;
   AnalysisSinks sinks = first.sinks();
   int seen = 0;
-  sinks.interrupted = [&] { return ++seen >= steps; };
+  sinks.interrupted = [&] { return ++seen >= asked; };
   ASSERT_FALSE(run_dynamic(scene, assembly, sinks));
   ASSERT_FALSE(first.checkpoint.empty());
 
@@ -84,7 +85,7 @@ TEST(Resume, EndsInTheSameBits) {
   Recorder whole;
   ASSERT_TRUE(run_dynamic(scene, wall, whole.sinks()));
   ASSERT_GT(whole.frames.back().blocks.displacement[5].norm(), 0.1) << "the wall must really move";
-  for (const int steps : {1, 10, 37, 119}) interrupt_and_resume(scene, wall, steps, whole);
+  for (const int asked : {1, 4, 11}) interrupt_and_resume(scene, wall, asked, whole);
 }
 
 TEST(Resume, EndsInTheSameBitsWithAdaptiveStepsAndAStaticStart) {
@@ -94,7 +95,7 @@ TEST(Resume, EndsInTheSameBitsWithAdaptiveStepsAndAStaticStart) {
   scene.analysis.start = Analysis::Start::static_;
   Recorder whole;
   ASSERT_TRUE(run_dynamic(scene, wall, whole.sinks()));
-  for (const int steps : {1, 40}) interrupt_and_resume(scene, wall, steps, whole);
+  for (const int asked : {1, 3}) interrupt_and_resume(scene, wall, asked, whole);
 }
 
 TEST(Checkpoint, ReadsBackAndRefusesDamage) {

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assembly/results.hpp"
+#include "postproc/table.hpp"
+#include "postproc/tradeoff/run_errors.hpp"
+#include "postproc/tradeoff/settings_file.hpp"
+
+namespace cupola {
+
+/// One run of the study with what it cost and how far it is from its reference.
+struct StudyRow {
+  StudyPoint point;
+  std::optional<Summary> summary;  ///< none: not run
+  ForceErrors errors;              ///< zero for a reference, and where one of the two is not run
+  /// Of limit analyses: relative error of the critical value. Their last frames are of different loads, so
+  /// that their wrenches are not compared.
+  std::optional<double> critical_error;
+
+  bool finished() const { return summary.has_value(); }
+  bool reached() const { return finished() && summary->status != Status::unconverged; }
+  /// What the study ranks by: of the critical value where there is one, else the wrenches' root mean square.
+  double error() const { return critical_error.value_or(errors.wrench_rms); }
+  double seconds() const { return summary ? summary->cpu_time_seconds : 0.0; }  ///< processor time
+};
+
+/// Measures the runs in the folders runs/NAME/results and runs/NAME/post. Runs whose own folder or whose
+/// reference's is not complete come back without a summary.
+std::vector<StudyRow> measure_study(const std::vector<StudyPoint>& points, const std::string& runs);
+
+/// Knobs in the order in which they first come.
+std::vector<std::string> knobs_of(const std::vector<StudyRow>& rows);
+/// Rows of a knob that are finished and not references, fastest first.
+std::vector<StudyRow> rows_of(const std::vector<StudyRow>& rows, const std::string& knob);
+/// Of rows sorted by time those that no faster one beats in wrench error, unreached ones left out.
+std::vector<StudyRow> pareto_front(const std::vector<StudyRow>& rows);
+
+/// tradeoff.csv: one row per run.
+Table study_table(const std::vector<StudyRow>& rows);
+
+}  // namespace cupola

@@ -1,0 +1,41 @@
+#include "solver/collision/plane_contacts.hpp"
+
+#include <cmath>
+
+namespace cupola {
+namespace {
+
+bool mirror_images(const Contact& p, const ContactAnchor& a, const Contact& q, const ContactAnchor& b,
+                   double tolerance) {
+  const Vec3 apart = a.r_a - b.r_a;
+  return p.patch == q.patch && std::hypot(apart.x(), apart.z()) <= tolerance;
+}
+
+}  // namespace
+
+void merge_across_plane(double tolerance, AnchoredContacts* contacts) {
+  std::vector<Contact>& all = contacts->set.contacts;
+  std::vector<ContactAnchor>& anchors = contacts->anchors;
+  size_t kept = 0;
+  for (size_t i = 0; i < all.size(); ++i) {
+    size_t partner = kept;  // a patch has a handful of points: look back through those kept
+    while (partner > 0 && all[partner - 1].patch == all[i].patch &&
+           !mirror_images(all[partner - 1], anchors[partner - 1], all[i], anchors[i], tolerance))
+      --partner;
+    if (partner > 0 && all[partner - 1].patch == all[i].patch) {
+      Contact& first = all[partner - 1];
+      ContactAnchor& anchor = anchors[partner - 1];
+      first.area += all[i].area;
+      first.points += all[i].points;
+      anchor.r_a.y() = 0.5 * (anchor.r_a.y() + anchors[i].r_a.y());
+      anchor.r_b.y() = 0.5 * (anchor.r_b.y() + anchors[i].r_b.y());
+      continue;
+    }
+    all[kept] = all[i];
+    anchors[kept++] = anchors[i];
+  }
+  all.resize(kept);
+  anchors.resize(kept);
+}
+
+}  // namespace cupola

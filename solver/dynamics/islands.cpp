@@ -1,0 +1,91 @@
+#include "solver/dynamics/islands.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "assembly/error.hpp"
+
+namespace cupola {
+namespace {
+
+int root_of(std::vector<int>* parent, int i) {
+  while ((*parent)[i] != i) i = (*parent)[i] = (*parent)[(*parent)[i]];
+  return i;
+}
+
+bool varies(const TimeFunction& time) {
+  return !std::holds_alternative<ConstantInTime>(time);
+}
+
+}  // namespace
+
+std::vector<int> islands_of(const Model& model, const ContactSet& contacts) {
+  std::vector<int> parent(model.num_free());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const Contact& contact : contacts.contacts) {
+    const int a = model.free_index[contact.block_a], b = model.free_index[contact.block_b];
+    if (a == ContactProblem::kFixed || b == ContactProblem::kFixed) continue;
+    // The smaller number becomes the root: the island's first block.
+    const int p = root_of(&parent, a), q = root_of(&parent, b);
+    parent[std::max(p, q)] = std::min(p, q);
+  }
+  for (int i = 0; i < model.num_free(); ++i) parent[i] = root_of(&parent, i);
+  return parent;
+}
+
+int Sleepers::num_asleep() const {
+  return static_cast<int>(std::count(asleep.begin(), asleep.end(), 1));
+}
+
+void update_sleepers(const Sleep& sleep, const std::vector<int>& islands, const std::vector<double>& radius,
+                     State* state, Sleepers* sleepers) {
+  const int nb = static_cast<int>(islands.size());
+  sleepers->calm_since.resize(nb, state->time);
+  sleepers->asleep.resize(nb, 0);
+  std::vector<double> restless = sleepers->calm_since;  // by island: when a block was last fast
+  for (int i = 0; i < nb; ++i) {
+    const auto v = state->v.segment<6>(6 * i);
+    if (v.head<3>().norm() + radius[i] * v.tail<3>().norm() > sleep.speed)
+      sleepers->calm_since[i] = state->time;
+    restless[islands[i]] = std::max(restless[islands[i]], sleepers->calm_since[i]);
+  }
+  for (int i = 0; i < nb; ++i) {
+    sleepers->asleep[i] = state->time - restless[islands[i]] >= sleep.time;
+    if (sleepers->asleep[i]) state->v.segment<6>(6 * i).setZero();
+  }
+}
+
+AwakePart awake_part(const Model& model, const State& state, const ContactSet& contacts,
+                     const ContactMemories& memories, const Sleepers& sleepers) {
+  AwakePart part{model, state, {}, {}, {}};
+  part.model.free_blocks.clear();
+  for (int i = 0; i < model.num_free(); ++i) {
+    int& index = part.model.free_index[model.free_blocks[i]];
+    index = sleepers.asleep[i] ? ContactProblem::kFixed : part.model.num_free();
+    if (!sleepers.asleep[i]) part.model.free_blocks.push_back(model.free_blocks[i]);
+  }
+  const auto awake = [&part](int block) { return part.model.free_index[block] != ContactProblem::kFixed; };
+  std::erase_if(part.model.loads.points, [&](const PointLoad& load) { return !awake(load.block); });
+  part.state.v.resize(6 * part.model.num_free());
+  for (int k = 0; k < part.model.num_free(); ++k)
+    part.state.v.segment<6>(6 * k) = state.v.segment<6>(6 * model.free_index[part.model.free_blocks[k]]);
+  part.contacts.patches = contacts.patches;
+  for (int i = 0; i < static_cast<int>(contacts.contacts.size()); ++i) {
+    if (!awake(contacts.contacts[i].block_a) && !awake(contacts.contacts[i].block_b)) continue;
+    part.contact_rows.push_back(i);
+    part.contacts.contacts.push_back(contacts.contacts[i]);
+    part.memories.ids.push_back(memories.ids[i]);
+    part.memories.values.push_back(memories.values[i]);
+  }
+  return part;
+}
+
+void require_sleepable(const Case& scene, const Model& model) {
+  bool varying = varies(scene.joints.friction_time) || varies(scene.loads.dead_load_time);
+  for (const TimeFunction& time : model.loads.times) varying = varying || varies(time);
+  if (varying || scene.supports.moving() || !model.ties.empty())
+    throw InputError(
+        "analysis.sleep: needs loads, friction and supports that do not vary in time, and no ties");
+}
+
+}  // namespace cupola

@@ -1,0 +1,67 @@
+#include "solver/dynamics/plane_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "assembly/error.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of the scene's size
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw InputError("analysis.plane: the scene is not plane: " + what);
+}
+
+/// The vertices of one part, each with its partner on the other side of the plane.
+bool symmetric(const Assembly& assembly, const Part& part, double middle, double tolerance) {
+  std::vector<std::array<double, 3>> here, mirrored;
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+    for (const int v : assembly.face(f)) {
+      const Vec3& x = assembly.vertices[v];
+      const auto rounded = [tolerance](double value) { return std::round(value / tolerance); };
+      here.push_back({rounded(x.x()), rounded(x.z()), rounded(x.y() - middle)});
+      mirrored.push_back({rounded(x.x()), rounded(x.z()), rounded(middle - x.y())});
+    }
+  std::sort(here.begin(), here.end());
+  std::sort(mirrored.begin(), mirrored.end());
+  return here == mirrored;
+}
+
+void require_plane_blocks(const Assembly& assembly, double middle, double tolerance) {
+  for (const Part& part : assembly.parts)
+    if (!symmetric(assembly, part, middle, tolerance))
+      refuse(fmt::format("block {} is not symmetric about y = {:g} m", part.block, middle));
+}
+
+void require_plane_actions(const Model& model, double tolerance) {
+  if (model.loads.gravity.y() != 0.0) refuse("gravity has a part along y");
+  for (const PointLoad& load : model.loads.points)
+    if (load.force.y() != 0.0 || std::abs(load.p_BP_B.y()) > tolerance)
+      refuse(fmt::format("a load on block {} acts outside the plane", load.block));
+  for (const Tie& tie : model.ties)
+    if (std::abs(tie.p_AP_A.y()) > tolerance || std::abs(tie.p_BP_B.y()) > tolerance)
+      refuse(fmt::format("the tie between blocks {} and {} lies outside it", tie.block_a, tie.block_b));
+  for (const SupportMotion& motion : model.support_motions)
+    if (motion.displacement.y() != 0.0 || motion.rotation.x() != 0.0 || motion.rotation.z() != 0.0)
+      refuse(fmt::format("support {} moves out of it", motion.block));
+}
+
+}  // namespace
+
+void require_plane_scene(const Model& model, const Case& scene) {
+  const Assembly& assembly = *model.assembly;
+  if (scene.contact.method != ContactDetection::Method::face_clipping)
+    throw InputError("analysis.plane: needs contact.method face_clipping");
+  double size = 0.0;
+  for (const Vec3& x : assembly.vertices) size = std::max(size, (x - assembly.vertices[0]).norm());
+  const double middle = model.num_free() > 0 ? assembly.blocks[model.free_blocks[0]].centroid.y() : 0.0;
+  require_plane_blocks(assembly, middle, kRounding * size);
+  require_plane_actions(model, kRounding * size);
+}
+
+}  // namespace cupola

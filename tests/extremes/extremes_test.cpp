@@ -1,0 +1,50 @@
+// Every row of the table of extremes is a test; the slow ones run with slow-test.
+
+#include <cctype>
+
+#include <gtest/gtest.h>
+
+#include "tests/extremes/extreme_scene.hpp"
+
+namespace cupola {
+namespace {
+
+std::vector<ExtremeScene> rows(bool slow) {
+  std::vector<ExtremeScene> chosen;
+  for (const ExtremeScene& scene : extreme_scenes())
+    if (scene.slow == slow) chosen.push_back(scene);
+  return chosen;
+}
+
+std::string test_name(const ExtremeScene& scene) {
+  std::string name;
+  for (const char c : scene.group + "_" + scene.name)
+    name += std::isalnum(static_cast<unsigned char>(c)) ? c : c == '-' ? 'm' : '_';
+  return name;
+}
+
+class ExtremeRow : public ::testing::TestWithParam<ExtremeScene> {};
+class ExtremeRowSlow : public ::testing::TestWithParam<ExtremeScene> {};
+
+TEST_P(ExtremeRow, IsMetOrShownAsNotMet) {
+  const ExtremeResult result = run_extreme(GetParam());
+  EXPECT_EQ(result.fault, "") << result.message;
+}
+TEST_P(ExtremeRowSlow, IsMetOrShownAsNotMet) {
+  const ExtremeResult result = run_extreme(GetParam());
+  EXPECT_EQ(result.fault, "") << result.message;
+}
+
+INSTANTIATE_TEST_SUITE_P(Extremes, ExtremeRow, ::testing::ValuesIn(rows(false)),
+                         [](const auto& row) { return test_name(row.param); });
+INSTANTIATE_TEST_SUITE_P(Extremes, ExtremeRowSlow, ::testing::ValuesIn(rows(true)),
+                         [](const auto& row) { return test_name(row.param); });
+
+}  // namespace
+
+/// What GoogleTest prints of a row.
+void PrintTo(const ExtremeScene& scene, std::ostream* out) {
+  *out << scene.group << ", " << scene.name;
+}
+
+}  // namespace cupola

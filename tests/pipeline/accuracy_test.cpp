@@ -1,0 +1,126 @@
+// `accuracy: {wrench_error: ...}`: what is certified holds against a reference, and every preset is within
+// its documented error.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "assembly/case/case_reader.hpp"
+#include "generators/generate.hpp"
+#include "solver/analysis/wrench_error.hpp"
+#include "solver/dynamics/scene_options.hpp"
+
+namespace cupola {
+namespace {
+
+/// A case set up for static solves.
+struct StaticScene {
+  Case input;
+  Assembly assembly;
+  Model model;
+  State rest;
+  ContactSet contacts;
+  ContactMemories memories;
+
+  StaticScene(const std::string& name, const std::vector<std::string>& settings)
+      : input(read_case(CUPOLA_SOURCE_DIR "/cases/" + name + ".yaml", settings)),
+        assembly(generate(input)),
+        model(make_model(input, assembly)),
+        rest(state_at_rest(model)),
+        contacts(ContactDetector(assembly, detection_options(input)).update(rest.poses)),
+        memories(match_memories({}, contacts.contacts)) {}
+
+  StaticSolution solve(double tolerance) const {
+    StaticOptions options;
+    options.tolerance = tolerance;
+    options.law = input.analysis.friction_law;
+    return solve_static(model, rest, contacts, memories, options);
+  }
+  StaticSolution solve_to(double wrench_error, double* reached,
+                          ContactMethod method = ContactMethod::newton) const {
+    StaticOptions options;
+    options.law = input.analysis.friction_law;
+    options.method = method;
+    return solve_static_to_wrench_error(model, rest, contacts, memories, options, wrench_error, reached);
+  }
+};
+
+const std::vector<std::string> kSmallDome{"geometry.bond.rings=12", "geometry.bond.blocks_per_ring=16"};
+
+TEST(WrenchError, WhatIsCertifiedHoldsAgainstAReference) {
+  const StaticScene dome("dome_circular", kSmallDome);
+  const StaticSolution exact = dome.solve(1e-11);
+  for (const double asked : {1e-1, 1e-2, 1e-3, 1e-5}) {
+    double reached = 0.0;
+    const StaticSolution solution = dome.solve_to(asked, &reached);
+    ASSERT_EQ(solution.verdict, Verdict::equilibrium) << solution.message;
+    EXPECT_LE(reached, asked);
+    EXPECT_NE(solution.message.find("certified"), std::string::npos) << solution.message;
+    EXPECT_LE(compared_wrench_error(dome.contacts, solution, exact), asked);
+  }
+}
+
+TEST(WrenchError, OfAnInexactMethodIsBoundedByItsCertificate) {
+  const StaticScene dome("dome_circular", kSmallDome);
+  StaticOptions options;
+  options.tolerance = 1e-2;
+  options.method = ContactMethod::admm;
+  const StaticSolution rough = solve_static(dome.model, dome.rest, dome.contacts, dome.memories, options);
+  options.method = ContactMethod::newton;
+  options.tolerance = 1e-2;
+  const std::optional<double> bound = certified_wrench_error(dome.contacts, rough);
+  ASSERT_TRUE(bound);
+  // The certificate speaks of the problem at this h: compare with Newton's answer to the same problem.
+  ContactSolverOptions tight;
+  tight.tolerance = 1e-12;
+  tight.reference_speed = rough.h * 9.81;
+  StaticSolution same = rough;
+  same.solution = {};
+  solve_contact(rough.step.problem, tight, &same.solution);
+  same.forces = joint_forces(dome.contacts, same.solution.gamma, rough.h);
+  EXPECT_LE(compared_wrench_error(dome.contacts, rough, same), *bound);
+  EXPECT_GT(compared_wrench_error(dome.contacts, rough, same), 0.0);
+}
+
+TEST(WrenchError, UnderCoulombsLawIsComparedAndSaysSo) {
+  std::vector<std::string> settings = kSmallDome;
+  settings.push_back("analysis.friction_law=coulomb");
+  const StaticScene dome("dome_circular", settings);
+  double reached = 0.0;
+  const StaticSolution solution = dome.solve_to(1e-2, &reached);
+  ASSERT_EQ(solution.verdict, Verdict::equilibrium) << solution.message;
+  EXPECT_NE(solution.message.find("no certificate exists"), std::string::npos) << solution.message;
+  EXPECT_LE(reached, 1e-2);
+}
+
+TEST(WrenchError, IsZeroBetweenASolutionAndItself) {
+  const StaticScene dome("dome_circular", kSmallDome);
+  const StaticSolution exact = dome.solve(1e-8);
+  EXPECT_EQ(compared_wrench_error(dome.contacts, exact, exact), 0.0);
+}
+
+/// Every case of the paper's statics.
+class PresetPromiseSlow : public ::testing::TestWithParam<const char*> {};
+
+/// Documented in the README, "Speed against accuracy".
+constexpr double kStandardError = 1e-4;
+
+TEST_P(PresetPromiseSlow, StandardIsWithinItsDocumentedWrenchError) {
+  const StaticScene scene(GetParam(), {});
+  const double standard = read_case(scene.input.file, {"analysis.accuracy=standard"}).analysis.tolerance;
+  const StaticSolution asked = scene.solve(standard);
+  ASSERT_EQ(asked.verdict, Verdict::equilibrium) << asked.message;
+  const StaticSolution exact = scene.solve(1e-9);
+  ASSERT_EQ(exact.verdict, Verdict::equilibrium) << exact.message;
+  const double error = compared_wrench_error(scene.contacts, asked, exact);
+  RecordProperty("wrench_error", std::to_string(error));
+  EXPECT_LE(error, kStandardError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paper, PresetPromiseSlow,
+                         ::testing::Values("wall_large", "wall_medium", "wall_small", "wall_herringbone",
+                                           "dome_circular", "dome_circular_herringbone", "octagon_planar",
+                                           "octagon_circular", "brunelleschi"));
+
+}  // namespace
+}  // namespace cupola

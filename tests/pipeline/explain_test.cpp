@@ -1,0 +1,71 @@
+// `--explain`: counts are those of the run; the estimate is within a factor of two (slow: it is timed).
+
+#include "solver/explain.hpp"
+
+#include <gtest/gtest.h>
+
+#include "assembly/case/case_reader.hpp"
+#include "assembly/program.hpp"
+#include "generators/generate.hpp"
+#include "solver/analysis/analysis.hpp"
+
+namespace cupola {
+namespace {
+
+Case case_of(const std::string& name, const std::vector<std::string>& settings) {
+  return read_case(CUPOLA_SOURCE_DIR "/cases/" + name + ".yaml", settings);
+}
+
+TEST(Explain, CountsWhatTheRunWillHave) {
+  const Case input = case_of("wall_large", {});
+  const Assembly wall = generate(input);
+  const ModelExplanation e = explain_model(input, wall);
+  const Summary run = run_analysis(input, wall, {}).value();
+  EXPECT_EQ(e.counts.free_blocks, run.free_blocks);
+  EXPECT_EQ(e.counts.unknowns, run.unknowns);
+  EXPECT_EQ(e.counts.contacts, run.contacts);
+  EXPECT_EQ(e.counts.joints, run.joints);
+  EXPECT_EQ(e.counts.force_rows, 3 * run.contacts);
+  EXPECT_EQ(e.counts.islands, 1);
+  EXPECT_GT(e.counts.factor_entries, 0);
+  for (const char* phrase : {"10 free, 1 fixed", "static", "friction    0.4", "estimate"})
+    EXPECT_NE(e.text.find(phrase), std::string::npos) << phrase << "\n" << e.text;
+}
+
+TEST(Explain, AFeatureThatTheCaseDoesNotNameIsNotThere) {
+  const Assembly wall = generate(case_of("wall_large", {}));
+  const ModelExplanation rough = explain_model(case_of("wall_large", {}), wall);
+  const ModelExplanation smooth = explain_model(case_of("wall_large", {"joints.friction=0"}), wall);
+  const ModelExplanation plane = explain_model(case_of("wall_large", {"analysis.plane=true"}), wall);
+  EXPECT_EQ(smooth.counts.force_rows, smooth.counts.contacts);
+  EXPECT_EQ(2 * plane.counts.unknowns, rough.counts.unknowns);
+  EXPECT_LT(plane.counts.contacts, rough.counts.contacts);
+  EXPECT_LT(3 * plane.counts.factor_entries, rough.counts.factor_entries);
+  EXPECT_EQ(rough.text.find("sleep"), std::string::npos);
+  EXPECT_EQ(rough.text.find("frames"), std::string::npos);
+  EXPECT_EQ(rough.text.find("plane"), std::string::npos);
+}
+
+class ExplainSlow : public ::testing::TestWithParam<std::pair<const char*, std::vector<std::string>>> {};
+
+TEST_P(ExplainSlow, EstimatesTimeWithinAFactorOfTwo) {
+  const Case input = case_of(GetParam().first, GetParam().second);
+  const Assembly assembly = generate(input);
+  const double estimated = explain_model(input, assembly).cost.seconds;
+  const double started = cpu_seconds();
+  run_analysis(input, assembly, {});
+  const double taken = cpu_seconds() - started;
+  EXPECT_LE(estimated, 2.0 * taken);
+  EXPECT_GE(estimated, 0.5 * taken);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, ExplainSlow,
+                         ::testing::Values(std::pair{"dome_circular", std::vector<std::string>{}},
+                                           std::pair{"brunelleschi", std::vector<std::string>{}},
+                                           std::pair{"octagon_circular", std::vector<std::string>{}},
+                                           std::pair{"wall_small", std::vector<std::string>{}},
+                                           std::pair{"dome_circular_dynamic",
+                                                     std::vector<std::string>{"analysis.duration=0.3"}}));
+
+}  // namespace
+}  // namespace cupola
