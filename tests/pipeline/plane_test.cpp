@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "assembly/case/case_reader.hpp"

@@ -38,8 +38,12 @@ std::string analysed_column(const std::string& name, const std::string& pvbatch 
   summary.status = status;
   if (status == Status::unconverged) summary.message = "equilibrium residual 0.1 > 1e-9 asked";
   writer.write_summary(summary);
-  AnalyseRequest request{
-      test::column_case(), folder + "/assembly.vtu", folder + "/results", folder + "/post", pvbatch, true};
+  const AnalyseRequest request{.scene = test::column_case(),
+                               .assembly_path = folder + "/assembly.vtu",
+                               .results_folder = folder + "/results",
+                               .output_folder = folder + "/post",
+                               .pvbatch = pvbatch,
+                               .quiet = true};
   EXPECT_EQ(analyse(request), ExitCode::done);
   return folder + "/post";
 }
