@@ -8,14 +8,14 @@
 #include "assembly/assembly_file.hpp"
 #include "assembly/atomic_file.hpp"
 #include "assembly/error.hpp"
-#include "postproc/evaluation.hpp"
-#include "postproc/figures.hpp"
-#include "postproc/mesh_output.hpp"
-#include "postproc/paraview_views.hpp"
-#include "postproc/post_summary.hpp"
-#include "postproc/report.hpp"
-#include "postproc/result_tables.hpp"
-#include "postproc/stages.hpp"
+#include "postproc/figures/figures.hpp"
+#include "postproc/output/mesh_output.hpp"
+#include "postproc/output/post_summary.hpp"
+#include "postproc/output/result_tables.hpp"
+#include "postproc/report/paraview_views.hpp"
+#include "postproc/report/report.hpp"
+#include "postproc/report/stages.hpp"
+#include "postproc/wrenches/evaluation.hpp"
 
 namespace cupola {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "postproc/html.hpp"
+#include "postproc/report/html.hpp"
 
 namespace cupola {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "postproc/claims/verdict.hpp"
-#include "postproc/table.hpp"
+#include "postproc/output/table.hpp"
 
 namespace cupola {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "postproc/claims/csv_file.hpp"
+#include "postproc/output/csv_file.hpp"
 
 namespace cupola {
 

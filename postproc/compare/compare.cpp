@@ -10,11 +10,11 @@
 
 #include "assembly/atomic_file.hpp"
 #include "assembly/error.hpp"
-#include "postproc/claims/csv_file.hpp"
 #include "postproc/compare/reading.hpp"
-#include "postproc/gnuplot.hpp"
-#include "postproc/html.hpp"
-#include "postproc/plot_style.hpp"
+#include "postproc/figures/gnuplot.hpp"
+#include "postproc/figures/plot_style.hpp"
+#include "postproc/output/csv_file.hpp"
+#include "postproc/report/html.hpp"
 
 namespace cupola {
 namespace {

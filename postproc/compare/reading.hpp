@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "postproc/post_summary.hpp"
-#include "postproc/table.hpp"
+#include "postproc/output/post_summary.hpp"
+#include "postproc/output/table.hpp"
 
 namespace cupola {
 

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "postproc/claims/run_files.hpp"
-#include "postproc/wrench.hpp"
+#include "postproc/wrenches/wrench.hpp"
 
 namespace cupola {
 

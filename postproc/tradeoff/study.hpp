@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "assembly/results.hpp"
-#include "postproc/table.hpp"
+#include "postproc/output/table.hpp"
 #include "postproc/tradeoff/run_errors.hpp"
 #include "postproc/tradeoff/settings_file.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "postproc/plot_style.hpp"
+#include "postproc/figures/plot_style.hpp"
 
 namespace cupola {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "postproc/gnuplot.hpp"
+#include "postproc/figures/gnuplot.hpp"
 #include "postproc/tradeoff/study.hpp"
 
 namespace cupola {

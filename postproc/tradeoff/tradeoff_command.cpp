@@ -7,7 +7,7 @@
 
 #include "assembly/atomic_file.hpp"
 #include "assembly/error.hpp"
-#include "postproc/html.hpp"
+#include "postproc/report/html.hpp"
 #include "postproc/tradeoff/study_figures.hpp"
 #include "postproc/tradeoff/study_text.hpp"
 

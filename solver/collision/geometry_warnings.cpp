@@ -66,8 +66,9 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
     pose_ab.translation() = poses[b].p_WB - poses[a].p_WB;
     const double depth = -separation(model, i, k, pose_ab, any_width);
     if (depth > detector.margin())
-      throw InputError(fmt::format("blocks {} and {} overlap by {:.3g} m, more than contact.margin = {:.3g} m",
-                                   a, b, depth, detector.margin()));
+      throw InputError(
+          fmt::format("blocks {} and {} overlap by {:.3g} m, more than contact.margin = {:.3g} m", a, b,
+                      depth, detector.margin()));
     if (depth > kOverlap * model.smallest_block) keep_largest(&overlaps, a, b, depth);
     for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width)) {
       const double width = polygon_width(patch.outline());

@@ -73,8 +73,8 @@ TEST(ReadCase, APresetSettlesTheTolerance) {
 
 TEST(ReadCase, AccuracyMayAskForAnErrorInsteadOfAPreset) {
   const ScratchFolder scratch;
-  const Case c =
-      read_case(scratch.write("asked.yaml", std::string(kWall) + "analysis: {accuracy: {wrench_error: 1e-3}}\n"));
+  const Case c = read_case(
+      scratch.write("asked.yaml", std::string(kWall) + "analysis: {accuracy: {wrench_error: 1e-3}}\n"));
   EXPECT_EQ(c.analysis.accuracy.wrench_error, 1e-3);
   EXPECT_EQ(c.analysis.accuracy.preset, Accuracy::Preset::custom);
   EXPECT_EQ(read_case(scratch.write("again.yaml", c.effective_yaml)).analysis.accuracy.wrench_error, 1e-3);

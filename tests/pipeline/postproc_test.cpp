@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "generators/generate.hpp"
-#include "postproc/evaluation.hpp"
+#include "postproc/wrenches/evaluation.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "tests/fresh_folder.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "assembly/error.hpp"
 #include "postproc/claims/claims_report.hpp"
-#include "postproc/claims/csv_file.hpp"
+#include "postproc/output/csv_file.hpp"
 #include "tests/assembly/case_scratch.hpp"
 
 namespace cupola {

@@ -1,4 +1,4 @@
-#include "postproc/evaluation.hpp"
+#include "postproc/wrenches/evaluation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 
 #include "assembly/atomic_file.hpp"
 #include "assembly/error.hpp"
-#include "postproc/mesh_output.hpp"
-#include "postproc/post_summary.hpp"
-#include "postproc/report.hpp"
-#include "postproc/stages.hpp"
+#include "postproc/output/mesh_output.hpp"
+#include "postproc/output/post_summary.hpp"
+#include "postproc/report/report.hpp"
+#include "postproc/report/stages.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola {

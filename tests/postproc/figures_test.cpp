@@ -1,6 +1,6 @@
 // What stands in the figures' data: resultants across beds, and the drawing to scale.
 
-#include "postproc/figures.hpp"
+#include "postproc/figures/figures.hpp"
 
 #include <cmath>
 #include <sstream>
@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "postproc/mesh_output.hpp"
+#include "postproc/output/mesh_output.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola {

@@ -1,4 +1,4 @@
-#include "postproc/planar_hull.hpp"
+#include "postproc/wrenches/planar_hull.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
-#include "postproc/plane_cut.hpp"
+#include "postproc/wrenches/plane_cut.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "postproc/figures.hpp"
-#include "postproc/mesh_output.hpp"
-#include "postproc/post_summary.hpp"
-#include "postproc/result_tables.hpp"
+#include "postproc/figures/figures.hpp"
+#include "postproc/output/mesh_output.hpp"
+#include "postproc/output/post_summary.hpp"
+#include "postproc/output/result_tables.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "postproc/evaluation.hpp"
+#include "postproc/wrenches/evaluation.hpp"
 #include "tests/postproc/models.hpp"
 
 namespace cupola::test {

@@ -1,4 +1,4 @@
-#include "postproc/table.hpp"
+#include "postproc/output/table.hpp"
 
 #include <cmath>
 #include <limits>
@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "assembly/atomic_file.hpp"
-#include "postproc/claims/csv_file.hpp"
-#include "postproc/gnuplot.hpp"
-#include "postproc/html.hpp"
+#include "postproc/figures/gnuplot.hpp"
+#include "postproc/output/csv_file.hpp"
+#include "postproc/report/html.hpp"
 #include "tests/postproc/models.hpp"
 
 namespace cupola {

@@ -1,4 +1,4 @@
-#include "postproc/thrust_line.hpp"
+#include "postproc/wrenches/thrust_line.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "postproc/wrench.hpp"
+#include "postproc/wrenches/wrench.hpp"
 
 #include <cmath>
 

@@ -1,0 +1,85 @@
+#include "postproc/figures/gnuplot.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "assembly/atomic_file.hpp"
+#include "postproc/figures/process.hpp"
+
+namespace cupola {
+namespace {
+
+std::string in_folder(const std::string& folder, const std::string& name) {
+  return (std::filesystem::path(folder) / name).string();
+}
+
+std::string last_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+std::string draw(const std::string& folder, const Figure& figure, const char* terminal, const char* ending) {
+  const std::string out = in_folder(folder, figure.name + ending);
+  const std::string script = in_folder(folder, "." + figure.name + ".run.gp");
+  const std::string log = in_folder(folder, "." + figure.name + ".log");
+  std::string problem;
+  write_atomically(out, [&](const std::string& side) {
+    const std::string head = fmt::format(
+        "set terminal {} size {},{} enhanced font 'DejaVu Sans,11' background '#ffffff'\n"
+        "set output '{}'\nset termoption noenhanced\n",
+        terminal, figure.width, figure.height, gnuplot_text(side));
+    write_text_atomically(script, head + figure.commands + "unset output\n");
+    const int status = run_process({"gnuplot", script}, log);
+    if (status == kNotFound) problem = "gnuplot is not installed";
+    if (status != 0 && status != kNotFound) problem = "gnuplot: " + last_line(read_text(log));
+    if (!problem.empty()) write_text_atomically(side, "");
+    return true;
+  });
+  std::filesystem::remove(script);
+  std::filesystem::remove(log);
+  if (!problem.empty()) std::filesystem::remove(out);
+  return problem;
+}
+
+}  // namespace
+
+std::vector<std::string> draw_figures(const std::string& folder, const std::vector<Figure>& figures) {
+  make_folder(folder);
+  std::vector<std::string> problems;
+  for (const Figure& figure : figures) {
+    write_text_atomically(in_folder(folder, figure.name + ".gp"),
+                          fmt::format("# {}\n# gnuplot -p {}.gp\n{}", gnuplot_text(figure.title), figure.name,
+                                      figure.commands));
+    std::string problem = draw(folder, figure, "pngcairo", ".png");
+    if (problem.empty() && figure.vector) problem = draw(folder, figure, "svg", ".svg");
+    if (!problem.empty()) problems.push_back(fmt::format("figure {} is not drawn: {}", figure.name, problem));
+  }
+  return problems;
+}
+
+std::string data_block(const std::string& name, const std::vector<std::vector<double>>& rows) {
+  fmt::memory_buffer out;
+  fmt::format_to(std::back_inserter(out), "${} << EOD\n", name);
+  for (const auto& row : rows) {
+    for (const double value : row)
+      if (std::isfinite(value))
+        fmt::format_to(std::back_inserter(out), "{:.9g} ", value);
+      else
+        fmt::format_to(std::back_inserter(out), "NaN ");
+    out.push_back('\n');
+  }
+  fmt::format_to(std::back_inserter(out), "EOD\n");
+  return fmt::to_string(out);
+}
+
+std::string gnuplot_text(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '\'') out += '\'';                            // doubled inside single quotes
+    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;  // a line end would begin a command
+  }
+  return out;
+}
+
+}  // namespace cupola

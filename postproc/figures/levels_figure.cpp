@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "postproc/figures/figures.hpp"
+#include "postproc/figures/plot_style.hpp"
+#include "postproc/output/mesh_output.hpp"
+
+namespace cupola {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+
+/// A parallel projection: what is right and what is up on the page, unit vectors.
+struct Projection {
+  Vec3 right, up;
+  std::vector<double> row(const Vec3& x) const { return {right.dot(x), up.dot(x)}; }
+};
+
+Projection projection_of(const Evaluation& e) {
+  if (!is_vault(e)) return {Vec3::UnitX(), Vec3::UnitZ()};
+  const double a = -60.0 / kDegrees, slant = 30.0 / kDegrees;  // seen from azimuth a, from above
+  return {Vec3(-std::sin(a), std::cos(a), 0.0),
+          Vec3(-std::sin(slant) * std::cos(a), -std::sin(slant) * std::sin(a), std::cos(slant))};
+}
+
+void add_outline(const Projection& page, const std::vector<Vec3>& corners, Rows* rows) {
+  for (const Vec3& x : corners) rows->push_back(page.row(x));
+  rows->push_back(page.row(corners.front()));
+  rows->push_back({});
+}
+
+/// Beds of the sections, facet by facet; a wall also shows every block's face.
+Rows outlines_of(const Evaluation& e, const Projection& page) {
+  Rows rows;
+  if (is_vault(e)) {
+    for (const SectionEvaluation& section : e.sections)
+      if (section.ring >= 0)
+        for (const BedFacet& f : e.shell.beds[section.ring])
+          add_outline(page, {f.intrados_a, f.intrados_b, f.extrados_b, f.extrados_a}, &rows);
+    return rows;
+  }
+  for (const Part& part : e.assembly.parts) {
+    if (e.assembly.blocks[part.block].fixed) continue;
+    for (int face = part.face_start; face < part.face_start + part.num_faces; ++face)
+      if (e.assembly.face_kinds[face] == FaceKind::intrados)
+        add_outline(page, face_points(e.assembly, face), &rows);
+  }
+  return rows;
+}
+
+/// Largest 1, 2 or 5 times a power of ten that does not exceed `value`.
+double round_below(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  return value >= 5.0 * power ? 5.0 * power : value >= 2.0 * power ? 2.0 * power : power;
+}
+
+}  // namespace
+
+Figure levels_figure(const Evaluation& e) {
+  const Projection page = projection_of(e);
+  double largest = 0.0;
+  for (const SectionEvaluation& section : e.sections)
+    for (const BedResultant& r : section.resultants) largest = std::max(largest, r.wrench.force.norm());
+  const double scale = segment_scale(e.assembly, largest);
+  const ForceUnit unit = force_unit(largest);
+
+  Rows flat, upright;
+  double lowest = 1e300, left = 1e300;
+  for (const SectionEvaluation& section : e.sections)
+    for (const BedResultant& r : section.resultants) {
+      const std::vector<double> from = page.row(r.point), along = page.row(scale * r.wrench.force);
+      Rows& rows = e.assembly.blocks[r.block].kind == BlockKind::herringbone ? upright : flat;
+      rows.push_back({from[0], from[1], along[0], along[1]});
+      lowest = std::min(lowest, from[1]);
+      left = std::min(left, from[0]);
+    }
+  const double sample = round_below(largest);  // N, drawn as the scale
+  const Rows measure = {{left, lowest - 0.6 * scale * largest, scale * sample, 0.0}};
+
+  Figure f;
+  f.name = "levels";
+  f.title = "Resultants across the beds, level by level";
+  f.caption = fmt::format(
+      "What each block passes on across the beds nearest to the sections, on the part above, drawn where it "
+      "acts to one scale (bottom left). Blue: blocks laid flat; orange: the narrow upright blocks of a "
+      "herringbone, of which several together have a block's width.");
+  f.width = 1000;
+  f.height = 760;
+  f.commands =
+      plot_style() + data_block("outlines", outlines_of(e, page)) + data_block("flat", flat) +
+      data_block("upright", upright) + data_block("measure", measure) +
+      fmt::format(
+          "set size ratio -1\nunset border\nunset tics\nunset grid\nunset key\n"
+          "set label '{:g} {}' at {},{} offset 0,-0.8\n"
+          "plot $outlines w l lc rgb '#bbbbbb' lw 0.8, $measure w vectors nohead lc rgb 'black' lw 2{}{}\n",
+          unit.per_newton * sample, unit.name, measure[0][0], measure[0][1],
+          flat.empty() ? "" : fmt::format(", $flat w vectors nohead lc rgb '{}' lw 2.5", kBlue),
+          upright.empty() ? "" : fmt::format(", $upright w vectors nohead lc rgb '{}' lw 2.5", kOrange));
+  return f;
+}
+
+}  // namespace cupola

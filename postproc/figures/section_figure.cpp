@@ -1,0 +1,94 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "postproc/figures/figures.hpp"
+#include "postproc/figures/plot_style.hpp"
+#include "postproc/output/mesh_output.hpp"
+
+namespace cupola {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+
+/// Outlines of the cut blocks, closed, with a blank row between.
+Rows outlines_of(const SectionEvaluation& section) {
+  Rows rows;
+  for (const CutPolygon& polygon : section.polygons) {
+    for (const Vec3& p : polygon.outline) rows.push_back({p.x(), p.y()});
+    rows.push_back({polygon.outline.front().x(), polygon.outline.front().y()});
+    rows.push_back({});
+  }
+  return rows;
+}
+
+/// The resultants of the section's ring: as segments in plan, and their norms along the ring.
+struct SectionForces {
+  Rows segments, norms;
+  double scale = 0.0;  // m per N
+  ForceUnit unit;
+};
+
+SectionForces forces_of(const Evaluation& e, const SectionEvaluation& section) {
+  SectionForces out;
+  if (section.ring < 0) return out;
+  double largest = 0.0;
+  for (const BedResultant& r : section.resultants) largest = std::max(largest, r.wrench.force.norm());
+  out.scale = segment_scale(e.assembly, largest);
+  out.unit = force_unit(largest);
+  for (const auto& [block, wrench, x, couple_length] : section.resultants) {
+    const Vec3& f = wrench.force;
+    out.segments.push_back({x.x(), x.y(), out.scale * f.x(), out.scale * f.y()});
+    out.norms.push_back({is_vault(e) ? azimuth(x) * kDegrees : x.x(), out.unit.per_newton * f.norm()});
+  }
+  std::sort(out.norms.begin(), out.norms.end());
+  return out;
+}
+
+std::string caption_of(const Evaluation& e, const SectionEvaluation& section, const SectionForces& forces) {
+  std::string caption = fmt::format("Blocks cut by the plane z = {:g} m.", section.height);
+  if (forces.segments.empty()) return caption;
+  const RingSum& ring = e.rings[section.ring];
+  const ForceUnit sum = force_unit(ring.load_above.norm());
+  return caption + fmt::format(
+                       " Segments: the horizontal part of the resultants that the blocks of the nearest ring "
+                       "({}) receive "
+                       "from below; 1 m stands for {:.3g} {}. The joints below this ring carry {:.5g} {}, "
+                       "the load above "
+                       "is {:.5g} {}, relative difference {:.1e}.",
+                       section.ring, forces.unit.per_newton / forces.scale, forces.unit.name,
+                       sum.per_newton * ring.joint_force.dot(e.up), sum.name,
+                       sum.per_newton * ring.load_above.dot(-e.up), sum.name, ring.relative_difference);
+}
+
+}  // namespace
+
+Figure section_figure(const Evaluation& e, const SectionEvaluation& section) {
+  const bool vault = is_vault(e);
+  const SectionForces forces = forces_of(e, section);
+  Figure f;
+  f.name = fmt::format("section_{:g}m", section.height);
+  f.title = fmt::format("Section at z = {:g} m", section.height);
+  f.caption = caption_of(e, section, forces);
+  f.width = 1100;
+  f.height = vault ? 560 : 760;
+  f.commands =
+      plot_style() + data_block("outlines", outlines_of(section)) + data_block("segments", forces.segments) +
+      data_block("norms", forces.norms) +
+      fmt::format(
+          "set multiplot layout {} margins 0.08,0.97,0.11,0.95 spacing 0.11\nset size ratio -1\n"
+          "set xlabel 'x (m)'\nset ylabel 'y (m)'\nunset key\nplot $outlines w l lc rgb '#999999' lw 0.8{}\n",
+          vault ? "1,2" : "2,1",
+          forces.segments.empty() ? ""
+                                  : fmt::format(", $segments w vectors nohead lc rgb '{}' lw 2", kOrange));
+  if (!forces.norms.empty())
+    f.commands += fmt::format(
+        "set size noratio\nset xlabel '{0}'\nset ylabel 'resultant of a block ({1})'\nset yrange [0:*]\n{2}"
+        "plot $norms w impulses lc rgb '{3}' lw 3, $norms w p lc rgb '{3}' pt 7 ps 0.6\n",
+        vault ? "azimuth (deg)" : "x (m)", forces.unit.name,
+        vault ? "set xrange [-180:180]\nset xtics 45\n" : "", kBlue);
+  f.commands += "unset multiplot\n";
+  return f;
+}
+
+}  // namespace cupola

@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "postproc/figures/figures.hpp"
+#include "postproc/figures/plot_style.hpp"
+
+namespace cupola {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+
+/// Lowest and highest value with a margin of 3 %, never an empty range.
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  void widen() {
+    const double margin = std::max(0.03 * (high - low), 1e-9);
+    low -= margin;
+    high += margin;
+  }
+};
+
+/// Abscissa of a profile: distance from the axis along the meridian, x in an arch.
+double abscissa(const ThrustLine& line, bool arch, const Vec3& p) {
+  const double angle = arch ? 0.0 : line.azimuth_deg / kDegrees;
+  return std::cos(angle) * p.x() + std::sin(angle) * p.y();
+}
+
+/// Data blocks of a thrust figure: skins, beds, thrust line, lines of action, envelope, graphs.
+std::string thrust_data(const ThrustLine& line, bool arch, const ForceUnit& unit) {
+  const auto at = [&](const Vec3& p) { return std::vector{abscissa(line, arch, p), p.z()}; };
+  Rows skins[2], beds, thrust, action, envelope, graphs;
+  double longest = 0.0;
+  for (const ThrustPoint& p : line.points) longest = std::max(longest, p.r);
+  for (const ThrustPoint& p : line.points) {
+    skins[0].push_back(at(p.intrados));
+    skins[1].push_back(at(p.extrados));
+    beds.insert(beds.end(), {at(p.intrados), at(p.extrados), {}});
+    if (p.is_placed()) {
+      thrust.push_back(at(p.point));
+      const double thickness = (p.extrados - p.intrados).norm();
+      const Vec3 reach = longest > 0.0 ? Vec3(1.5 * thickness / longest * p.force) : Vec3(Vec3::Zero());
+      action.insert(action.end(), {at(p.point - reach), at(p.point + reach), {}});
+    } else {
+      thrust.push_back({});  // the line is interrupted
+    }
+    graphs.push_back({arch ? 0.5 * (p.intrados.x() + p.extrados.x()) : p.height(), unit.per_newton * p.r,
+                      unit.per_newton * p.v, p.couple_length, p.face_distance});
+  }
+  for (const Vec3& p : line.envelope) envelope.push_back(at(p));
+  return data_block("intrados", skins[0]) + data_block("extrados", skins[1]) + data_block("beds", beds) +
+         data_block("thrust", thrust) + data_block("action", action) + data_block("envelope", envelope) +
+         data_block("graphs", graphs);
+}
+
+std::string profile_plot() {
+  return fmt::format(
+      "plot $beds w l lc rgb '#cccccc' lw 0.7 notitle, $intrados w l lc rgb 'black' lw 1.5 title 'intrados, "
+      "extrados',"
+      " $extrados w l lc rgb 'black' lw 1.5 notitle,"
+      " $action w l lc rgb '{2}' lw 1 title 'lines of action', $envelope w l lc rgb '{1}' lw 1.5 dt 2 title "
+      "'envelope',"
+      " $thrust w lp lc rgb '{0}' lw 2 pt 7 ps 0.5 title 'thrust line'\n",
+      kOrange, kGreen, kSky);
+}
+
+/// Four panels that share the height axis: profile, resultant, couple length, distance to the nearer face.
+std::string vault_panels(const ThrustLine& line, int width, int height, const ForceUnit& unit) {
+  Range x, z;
+  for (const ThrustPoint& p : line.points) {
+    for (const Vec3& q : {p.intrados, p.extrados, p.is_placed() ? p.point : p.intrados}) {
+      x.add(abscissa(line, false, q));
+      z.add(q.z());
+    }
+  }
+  z.widen();
+  x.widen();
+  // One metre is as long across as up: the panel's height in pixels sets its width.
+  constexpr double kBottom = 0.10, kTop = 0.93, kLeft = 0.07;
+  const double pixels_per_metre = (kTop - kBottom) * height / (z.high - z.low);
+  const double right = std::min(0.50, kLeft + (x.high - x.low) * pixels_per_metre / width);
+  x.high = std::max(x.high, x.low + (right - kLeft) * width / pixels_per_metre);
+  const double gap = 0.045, panel = (0.98 - right - 3 * gap) / 3;
+  const auto margins = [&](double left, double end) {
+    return fmt::format(
+        "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen "
+        "{}\n",
+        left, end, kBottom, kTop);
+  };
+  return fmt::format(
+             "set multiplot\n{}set xrange [{}:{}]\nset yrange [{}:{}]\nset xlabel 'distance from the axis "
+             "(m)'\n"
+             "set ylabel 'height (m)'\nset key at graph 0.02,0.02 left bottom\n",
+             margins(kLeft, right), x.low, x.high, z.low, z.high) +
+         profile_plot() + margins(right + gap, right + gap + panel) +
+         fmt::format(
+             "set xrange [0:*]\nset xlabel 'resultant ({2})'\nunset ylabel\n"
+             "plot $graphs using 2:1 w lp lc rgb '{0}' pt 7 ps 0.4 title 'r: norm', $graphs using 3:1 w l lc "
+             "rgb '{1}' dt 2 lw 2 title 'v: vertical'\n",
+             kBlue, kOrange, unit.name) +
+         margins(right + 2 * gap + panel, right + 2 * gap + 2 * panel) +
+         fmt::format(
+             "set xlabel 'couple length (m)'\nset xrange [0:*]\nset xtics 0,0.1\nif (couple < 0.2) {{set "
+             "xtics auto; set xrange [0:0.2]; set xtics 0.05}}\n"
+             "plot $graphs using 4:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle\n",
+             kPurple) +
+         margins(0.98 - panel, 0.98) +
+         fmt::format(
+             "set xlabel 'distance to the nearer face (m)'\nset xrange [*<0:*]\nset xtics auto\n"
+             "plot $graphs using 5:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle\nunset multiplot\n",
+             kGreen);
+}
+
+/// Profile above; resultant, couple length and distance to the nearer face below, over the arch's length.
+std::string arch_panels(const ForceUnit& unit) {
+  const auto band = [](double bottom, double top) {
+    return fmt::format("set bmargin at screen {}\nset tmargin at screen {}\n", bottom, top);
+  };
+  return "set multiplot\nset lmargin at screen 0.09\nset rmargin at screen 0.97\n" + band(0.57, 0.97) +
+         "set size ratio -1\nset ylabel 'height (m)'\nset key bottom center\n" + profile_plot() +
+         "set size noratio\nset key top center\n" + band(0.41, 0.51) +
+         fmt::format(
+             "set ylabel 'resultant ({2})'\nset yrange [0:*]\n"
+             "plot $graphs using 1:2 w lp lc rgb '{0}' pt 7 ps 0.4 title 'r: norm', $graphs using "
+             "1:(abs($3)) "
+             "w l lc rgb '{1}' dt 2 title 'v: vertical'\n",
+             kBlue, kOrange, unit.name) +
+         band(0.245, 0.345) +
+         fmt::format(
+             "set ylabel 'couple (m)'\nset yrange [0:0.001<*]\n"
+             "plot $graphs using 1:4 w lp lc rgb '{}' pt 7 ps 0.4 notitle\n",
+             kPurple) +
+         band(0.08, 0.18) +
+         fmt::format(
+             "set xlabel 'x (m)'\nset ylabel 'to the face (m)'\nset yrange [*<0:*]\n"
+             "plot $graphs using 1:5 w lp lc rgb '{}' pt 7 ps 0.4 notitle\nunset multiplot\n",
+             kGreen);
+}
+
+}  // namespace
+
+Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
+  const bool arch = std::holds_alternative<ArchSurface>(e.scene.geometry.surface);
+  const ThrustLine& line = m.thrust;
+  double couple = 0.0, largest = 0.0;
+  for (const ThrustPoint& p : line.points) {
+    couple = std::max(couple, p.couple_length);
+    largest = std::max(largest, p.r);
+  }
+  const ForceUnit unit = force_unit(largest);
+  Figure f;
+  f.name = "thrust_" + line.name;
+  f.title = arch ? "Thrust line of the arch"
+                 : fmt::format("Thrust line, meridian {} ({:g} deg)", line.name, line.azimuth_deg);
+  f.caption = fmt::format(
+      "The line {} between intrados and extrados; it comes within {:.3g} m of a face, geometric safety "
+      "{:.3g}{}. r is the "
+      "norm of the resultant that crosses the bed in one block's width, v its vertical component; the "
+      "largest couple "
+      "length is {:.3g} m.",
+      line.inside ? "stays" : "does not stay", line.least_face_distance, line.least_geometric_safety,
+      line.undefined == 0 ? ""
+                          : fmt::format(", {} beds left out whose resultant runs along them", line.undefined),
+      couple);
+  f.width = 1400;
+  f.height = arch ? 900 : 640;
+  f.commands = plot_style() + fmt::format("couple = {}\n", couple) + thrust_data(line, arch, unit) +
+               (arch ? arch_panels(unit) : vault_panels(line, f.width, f.height, unit));
+  return f;
+}
+
+}  // namespace cupola

@@ -1,0 +1,33 @@
+#include "postproc/output/mesh_parts.hpp"
+
+#include <algorithm>
+
+#include "assembly/program.hpp"
+#include "postproc/output/mesh_output.hpp"
+
+namespace cupola {
+
+int add_point(Mesh* mesh, const Vec3& p) {
+  return mesh->add_point(p.x(), p.y(), p.z());
+}
+
+void append(const Vec3& v, MeshDoubles* values) {
+  values->insert(values->end(), v.begin(), v.end());
+}
+
+std::vector<MeshArray> about(const Evaluation& e, double scale) {
+  return {{"title", 1, std::vector<std::string>{e.scene.title}},
+          {"program_version", 1, std::vector<std::string>{program_version()}},
+          {"status", 1, std::vector<std::string>{to_string(e.summary.status)}},
+          {"segment_scale_m_per_N", 1, MeshDoubles{scale}}};
+}
+
+double common_scale(const Evaluation& e) {
+  double largest = 0.0;
+  for (const Wrench& w : e.last.from_below) largest = std::max(largest, w.force.norm());
+  for (const JointWrench& joint : e.last.joints.joints)
+    largest = std::max(largest, joint.wrench.force.norm());
+  return segment_scale(e.assembly, largest);
+}
+
+}  // namespace cupola

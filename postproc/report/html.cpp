@@ -1,0 +1,130 @@
+#include "postproc/report/html.hpp"
+
+#include <cstdint>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "assembly/atomic_file.hpp"
+
+namespace cupola {
+namespace {
+
+// Dark text on white; every colour pair keeps a contrast of 4.5 or more. No scripts, no outside files.
+constexpr const char* kStyle = R"css(
+:root { color-scheme: light; }
+* { box-sizing: border-box; }
+body { margin: 0 auto; padding: 1rem 1.25rem 3rem; max-width: 70rem; color: #1a1a1a; background: #fff;
+  font: 1rem/1.5 system-ui, "DejaVu Sans", sans-serif; overflow-wrap: break-word; }
+h1 { font-size: 1.6rem; line-height: 1.25; margin: .5rem 0; }
+h2 { font-size: 1.25rem; margin: 2rem 0 .5rem; border-bottom: 1px solid #999; }
+h3 { font-size: 1.05rem; margin: 1.5rem 0 .25rem; }
+a { color: #00507d; }
+.verdict { border-left: .4rem solid #005f45; background: #f0f7f4; padding: .6rem 1rem; }
+.verdict.bad { border-color: #a34700; background: #fdf3ec; }
+.warning { border-left: .4rem solid #a34700; background: #fdf3ec; padding: .4rem 1rem; margin: .5rem 0; }
+.scroll { overflow-x: auto; max-width: 100%; }
+table { border-collapse: collapse; font-size: .875rem; margin: .5rem 0; font-variant-numeric: tabular-nums; }
+th, td { padding: .15rem .6rem; border-bottom: 1px solid #ddd; text-align: right; vertical-align: top; }
+th { border-bottom: 2px solid #777; font-weight: 600; }
+th small { display: block; font-weight: 400; color: #444; }
+td.text, th.text { text-align: left; }
+figure { margin: 1rem 0; }
+figure img { display: block; max-width: 100%; height: auto; }
+figcaption { font-size: .9rem; color: #333; max-width: 55rem; }
+pre { overflow-x: auto; background: #f5f5f5; padding: .75rem; font-size: .8rem; line-height: 1.35; }
+summary { cursor: pointer; }
+dl { display: grid; grid-template-columns: minmax(9rem, max-content) minmax(0, 1fr); gap: .1rem 1rem; margin: .5rem 0; }
+dt { color: #444; } dd { margin: 0; }
+.side { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 0 1rem; }
+@media (max-width: 600px) {
+  body { padding: .5rem .75rem 2rem; } h1 { font-size: 1.3rem; }
+  figure { overflow-x: auto; } figure img { max-width: none; width: 40rem; }
+  dl { grid-template-columns: minmax(0, 1fr); } dd { margin: 0 0 .4rem; }
+}
+@media print {
+  body { max-width: none; padding: 0; font-size: 10pt; } figure, .verdict, .warning, tr { break-inside: avoid; }
+  h2, h3 { break-after: avoid; } details > summary { display: none; } .scroll { overflow: visible; }
+  a { color: inherit; text-decoration: none; }
+}
+)css";
+
+std::string base64(const std::string& bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (size_t j = 0; j < 3; ++j)
+      group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    for (size_t j = 0; j < 4; ++j) out += i + j <= bytes.size() ? kDigits[group >> (18 - 6 * j) & 63] : '=';
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string html_text(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string html_picture(const std::string& path, const std::string& alternative) {
+  if (!std::filesystem::exists(path)) return "";
+  const bool svg = std::filesystem::path(path).extension() == ".svg";
+  return fmt::format("<img alt=\"{}\" src=\"data:image/{};base64,{}\">", html_text(alternative),
+                     svg ? "svg+xml" : "png", base64(read_text(path)));
+}
+
+std::string html_table(const Table& table) {
+  const auto is_text = [](const Table::Cell& cell) { return std::holds_alternative<std::string>(cell); };
+  std::string out = "<div class=\"scroll\" tabindex=\"0\"><table>\n<thead><tr>";
+  for (size_t i = 0; i < table.columns.size(); ++i) {
+    const Table::Column& column = table.columns[i];
+    const bool text = !table.rows.empty() && is_text(table.rows.front()[i]);
+    out +=
+        fmt::format("<th{}>{}<small>{}</small></th>", text ? " class=\"text\"" : "",
+                    html_text(column.meaning.empty() ? column.key : column.meaning), html_text(column.unit));
+  }
+  out += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : table.rows) {
+    out += "<tr>";
+    for (const Table::Cell& cell : row)
+      out +=
+          fmt::format("<td{}>{}</td>", is_text(cell) ? " class=\"text\"" : "", html_text(to_display(cell)));
+    out += "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+std::string html_page(const std::string& title, const std::string& body) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<link rel=\"icon\" "
+      "href=\"data:,\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
+      html_text(title), kStyle, body);
+}
+
+}  // namespace cupola

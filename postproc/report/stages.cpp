@@ -1,0 +1,59 @@
+#include "postproc/report/stages.hpp"
+
+#include <filesystem>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "postproc/figures/plot_style.hpp"
+#include "postproc/output/csv_file.hpp"
+
+namespace cupola {
+
+std::optional<Table> stage_table(const Evaluation& e, const std::string& results_folder) {
+  const std::filesystem::path path = std::filesystem::path(results_folder) / "stages.csv";
+  if (e.summary.analysis != "staged" || !std::filesystem::exists(path)) return std::nullopt;
+  const CsvFile csv = read_csv(path.string());
+  const size_t ring = csv.column("ring"), blocks = csv.column("blocks"), verdict = csv.column("verdict");
+  const size_t stands = csv.column("critical_stands"), moves = csv.column("critical_moves");
+  const auto number = [&csv](size_t row, size_t column) {  // empty where no bracket was found
+    return csv.rows[row][column].empty() ? std::numeric_limits<double>::quiet_NaN() : csv.number(row, column);
+  };
+  Table t{"stages", "Construction, ring by ring", {}, {}};
+  t.columns = {{"ring", "", "the ring just laid"},
+               {"height_m", "m", "mean height of its bed"},
+               {"blocks", "", "blocks laid so far"},
+               {"verdict", "", "with the fresh friction of the case"},
+               {"critical_friction", "", "fresh friction below which it does not stand"},
+               {"critical_stands", "", "stands here"},
+               {"critical_moves", "", "moves here"}};
+  for (size_t row = 0; row < csv.rows.size(); ++row) {
+    const int k = static_cast<int>(csv.number(row, ring));
+    const double low = number(row, moves), high = number(row, stands);
+    t.rows.push_back({k, e.rings.at(static_cast<size_t>(k)).height, static_cast<int>(csv.number(row, blocks)),
+                      csv.rows[row][verdict], 0.5 * (low + high), high, low});
+  }
+  return t;
+}
+
+Figure stage_figure(const Table& stages) {
+  std::vector<std::vector<double>> rows;
+  for (const auto& row : stages.rows) rows.push_back({std::get<double>(row[1]), std::get<double>(row[4])});
+  Figure f;
+  f.name = "stages";
+  f.title = "Construction: friction that the fresh mortar of each ring needs";
+  f.caption =
+      "The bed of the ring just laid has the friction of fresh mortar, all others that of the case. Drawn is "
+      "the "
+      "fresh friction below which the vault built so far does not stand.";
+  f.width = 900;
+  f.height = 480;
+  f.commands = plot_style() + data_block("stages", rows) +
+               fmt::format(
+                   "set xlabel 'height of the ring just laid (m)'\nset ylabel 'friction needed'\nset yrange "
+                   "[0:*]\nunset key\nplot $stages w lp lc rgb '{}' pt 7 ps 0.6 lw 2\n",
+                   kBlue);
+  return f;
+}
+
+}  // namespace cupola
