@@ -37,9 +37,11 @@ HistoryRow history_row(const Evaluation& e, const Frame& frame) {
   return row;
 }
 
-/// The displaced blocks of every readable frame, and what moves over time.
-std::vector<HistoryRow> write_frames(const Evaluation& e, const ResultsReader& results,
-                                     const std::string& folder) {
+/// The displaced blocks of every readable frame, and what moves over time. Frames that cannot be read become
+/// warnings.
+std::vector<HistoryRow> write_frames(const ResultsReader& results, const std::string& folder,
+                                     Evaluation* evaluation) {
+  const Evaluation& e = *evaluation;
   const DisplacedBlocks blocks(e.assembly);
   std::vector<PvdEntry> entries;
   std::vector<HistoryRow> history;
@@ -50,8 +52,11 @@ std::vector<HistoryRow> write_frames(const Evaluation& e, const ResultsReader& r
     } else {
       try {
         frame = evaluate_frame(e, results.read_frame(static_cast<int>(i)));
-      } catch (const InputError&) {
-        continue;  // the evaluation has said which frames are missing
+      } catch (const InputError& error) {
+        // The evaluation went back to the last frame it could read and has named those behind it.
+        const bool said = e.summary.analysis != "limit" && e.times[i] > e.last.frame.time;
+        if (!said) evaluation->warnings.push_back(fmt::format("frame {} is left out: {}", i, error.what()));
+        continue;
       }
     }
     const std::string name = fmt::format("blocks_{:04}.vtu", i);
@@ -94,7 +99,7 @@ struct Drawn {
 Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const std::optional<Table>& stages,
            Evaluation* e) {
   const std::string& folder = request.output_folder;
-  const std::vector<HistoryRow> history = write_frames(*e, results, folder);
+  const std::vector<HistoryRow> history = write_frames(results, folder, e);
   write_meshes(*e, folder);
   Drawn drawn{result_figures(*e, history), {}};
   if (stages) drawn.figures.insert(drawn.figures.begin(), stage_figure(*stages));
@@ -136,6 +141,8 @@ ExitCode analyse(const AnalyseRequest& request) {
   if (stages) tables.insert(tables.begin(), *stages);
   for (const Table& table : tables)
     write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
+  if (!std::filesystem::exists(in_folder(request.results_folder, "run.yaml")))
+    e.warnings.push_back("run.yaml is missing from the results: how they were solved cannot be repeated");
   Drawn drawn;
   if (!request.tables_only) drawn = draw(request, results, stages, &e);
   write_text_atomically(in_folder(folder, "summary.json"), post_summary_json(e));

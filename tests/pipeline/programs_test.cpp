@@ -145,6 +145,24 @@ TEST(Programs, AnalyseTheSmallestCase) {
     EXPECT_TRUE(std::filesystem::exists(folder.file(std::string("post/") + file))) << file;
 }
 
+TEST(Programs, SayWhichFramesAreMissing) {
+  const ProgramFolder folder;
+  const std::string motion =
+      " --set analysis.type=dynamic --set analysis.duration=0.04 --set output.frames_every=0.01";
+  solve_wall(folder, motion);
+  std::filesystem::remove(folder.file("results/blocks_0001.vtp"));
+  std::filesystem::remove(folder.file("results/contacts_0003.vtp"));
+  std::filesystem::remove(folder.file("results/run.yaml"));
+  const ProgramRun run = analyse(folder, "results", motion);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const std::string report = slurp(folder.file("post/report.html"));
+  for (const char* said : {"frame 1 is left out: ", "frame 3 is left out: ", "run.yaml is missing"}) {
+    EXPECT_NE(run.err.find(said), std::string::npos) << said << run.err;
+    EXPECT_EQ(run.err.find(said), run.err.rfind(said)) << "said once";
+    EXPECT_LT(report.find(said), report.find("<h2")) << said;
+  }
+}
+
 TEST(Programs, RefuseResultsThatDoNotBelongAndTouchNothing) {
   const ProgramFolder folder;
   solve_wall(folder, " --set geometry.surface.length=9");
