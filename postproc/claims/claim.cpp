@@ -76,22 +76,28 @@ void declare_claim(Section& s, Claim& claim) {
          "give `at_least`, `at_most` or `open`");
 }
 
-struct ClaimsFile {
-  std::string title;
-  std::vector<Claim> claims;
-};
+void declare_figure(Section& s, ClaimFigure& figure) {
+  s.text("source", figure.source, "figure of the publication");
+  s.text("shows", figure.shows, "what to look at, in words");
+  s.text("run", figure.run, "case or variant that it is a picture of");
+  s.text("picture", figure.picture, "file below the run's folder post/");
+  s.rule(!figure.source.empty(), "source", "must be given");
+  s.rule(!figure.run.empty(), "run", "must name a case");
+  s.rule(!figure.picture.empty(), "picture", "must name a file");
+}
 
 }  // namespace
 
-std::vector<Claim> read_claims(const std::string& path) {
+ClaimsFile read_claims(const std::string& path) {
   const CaseNode tree = load_case_tree(path, {});
   ClaimsFile file;
   Section root(&tree, "", tree.where, path);
   root.text("title", file.title, "of the publication");
   root.list("claims", file.claims, "one entry per sentence", declare_claim);
+  root.list("figures", file.figures, "one entry per picture", declare_figure);
   root.finish();
   if (file.claims.empty()) throw InputError(FileLocation{path}, "holds no claims");
-  return file.claims;
+  return file;
 }
 
 }  // namespace cupola

@@ -58,7 +58,21 @@ struct Claim {
   std::optional<double> at_least, at_most;
 };
 
+/// A figure of the publication and the picture of a run that stands for it.
+struct ClaimFigure {
+  std::string source;   ///< "Fig. 7b"
+  std::string shows;    ///< what to look at, in words
+  std::string run;      ///< name of a case or variant
+  std::string picture;  ///< below the run's folder post/
+};
+
+struct ClaimsFile {
+  std::string title;  ///< of the publication
+  std::vector<Claim> claims;
+  std::vector<ClaimFigure> figures;
+};
+
 /// Reads a claims file as strictly as a case file.
-std::vector<Claim> read_claims(const std::string& path);
+ClaimsFile read_claims(const std::string& path);
 
 }  // namespace cupola

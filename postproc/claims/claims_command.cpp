@@ -29,9 +29,10 @@ ExitCode run_claims(int argc, const char* const* argv) {
   }
 
   // 2. The claims
-  const std::vector<Claim> claims = read_claims(claims_path);
+  const ClaimsFile file = read_claims(claims_path);
+  const std::vector<Claim>& claims = file.claims;
   if (needs_only) {
-    for (const std::string& run : needed_runs(claims)) fmt::print("{}\n", run);
+    for (const std::string& run : needed_runs(file)) fmt::print("{}\n", run);
     return ExitCode::done;
   }
   if (runs_folder.empty()) throw InputError("--runs is missing; see cupola-post claims --help");
@@ -42,7 +43,7 @@ ExitCode run_claims(int argc, const char* const* argv) {
   if (output_folder.empty()) return ExitCode::done;
   make_folder(output_folder);
   write_text_atomically(output_folder + "/claims.csv", to_csv(claims_table(claims, results)));
-  write_text_atomically(output_folder + "/claims.html", claims_html(claims, results));
+  write_text_atomically(output_folder + "/claims.html", claims_html(file, results, runs_folder));
   return ExitCode::done;
 }
 

@@ -64,10 +64,27 @@ table {{ border-collapse: collapse }} td, th {{ padding: .35em .7em; border-bott
 text-align: left; vertical-align: top }} small {{ color: #666 }}
 .reproduced {{ color: #007a5a }} .not_reproduced {{ color: #b84300 }} .open {{ color: #555 }}
 .not_solved, .not_run {{ color: #999 }} td.verdict {{ white-space: nowrap; font-weight: bold }}
+figure {{ margin: 2em 0 }} figure img {{ max-width: 100% }} figcaption {{ color: #444 }}
 </style></head><body><h1>What was claimed, and what came out</h1><p>{}.</p>
 <table><tr><th>Source</th><th>Claim</th><th>Number</th><th>Value</th><th>Claimed</th><th>Verdict</th></tr>
-{}</table></body></html>
+{}</table>
+{}</body></html>
 )";
+
+/// The figures in their order, below a heading; "" without any.
+std::string figures_html(const std::vector<ClaimFigure>& figures, const std::string& runs) {
+  std::string out;
+  for (const ClaimFigure& figure : figures) {
+    const std::string path = fmt::format("{}/{}/post/{}", runs, figure.run, figure.picture);
+    std::string picture = html_picture(path, figure.shows);
+    if (picture.empty())
+      picture = html_text(fmt::format("Not made yet: {} of {}.", figure.picture, figure.run));
+    out += fmt::format(
+        "<figure>\n{}\n<figcaption><strong>{}</strong> {} <small>{}</small></figcaption>\n</figure>\n",
+        picture, html_text(figure.source), html_text(figure.shows), html_text(figure.run));
+  }
+  return out.empty() ? out : "<h1>Its figures, from our runs</h1>\n" + out;
+}
 
 }  // namespace
 
@@ -105,7 +122,9 @@ std::string claims_text(const std::vector<Claim>& claims, const std::vector<Clai
   return out + "\n" + counts(results) + "\n";
 }
 
-std::string claims_html(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results) {
+std::string claims_html(const ClaimsFile& file, const std::vector<ClaimResult>& results,
+                        const std::string& runs) {
+  const std::vector<Claim>& claims = file.claims;
   std::string rows;
   for (size_t i = 0; i < claims.size(); ++i) {
     const Claim& claim = claims[i];
@@ -120,7 +139,7 @@ std::string claims_html(const std::vector<Claim>& claims, const std::vector<Clai
         html_text(claim.number), html_text(shown_number(claim, results[i])), html_text(range(claim)), css,
         verdict);
   }
-  return fmt::format(kPage, counts(results), rows);
+  return fmt::format(kPage, counts(results), rows, figures_html(file.figures, runs));
 }
 
 }  // namespace cupola

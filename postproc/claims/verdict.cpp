@@ -121,12 +121,15 @@ std::string to_string(Verdict verdict) {
   return "";
 }
 
-std::vector<std::string> needed_runs(const std::vector<Claim>& claims) {
+std::vector<std::string> needed_runs(const ClaimsFile& file) {
   std::vector<std::string> runs;
-  for (const Claim& claim : claims)
+  const auto add = [&runs](const std::string& name) {
+    if (std::find(runs.begin(), runs.end(), name) == runs.end()) runs.push_back(name);
+  };
+  for (const Claim& claim : file.claims)
     for (const Quantity* quantity : quantities(claim))
-      for (const std::string& name : runs_of(*quantity))
-        if (std::find(runs.begin(), runs.end(), name) == runs.end()) runs.push_back(name);
+      for (const std::string& name : runs_of(*quantity)) add(name);
+  for (const ClaimFigure& figure : file.figures) add(figure.run);
   return runs;
 }
 

@@ -28,8 +28,8 @@ struct ClaimResult {
 /// column that a finished run does not have is an InputError.
 std::vector<ClaimResult> evaluate_claims(const std::vector<Claim>& claims, const std::string& out);
 
-/// Every run that the claims read, once, in the order of first use.
-std::vector<std::string> needed_runs(const std::vector<Claim>& claims);
+/// Every run that the claims and the figures draw on, once, in the order of first use.
+std::vector<std::string> needed_runs(const ClaimsFile& file);
 
 /// Reduces values, which must not be empty; `against` serves linearity.
 double reduce(Take take, const std::vector<double>& values, const std::vector<double>& against = {});

@@ -26,7 +26,7 @@ void write_run(const ScratchFolder& scratch, const std::string& name, const std:
 }
 
 ClaimResult verdict(const ScratchFolder& scratch, const std::string& body) {
-  return evaluate_claims(read_claims(scratch.write("claims.yaml", claim_file(body))), scratch.folder())
+  return evaluate_claims(read_claims(scratch.write("claims.yaml", claim_file(body))).claims, scratch.folder())
       .front();
 }
 
@@ -127,28 +127,36 @@ TEST(Claims, VerdictsSayWhatIsMissingOrNotSolved) {
 
 TEST(Claims, FileIsReadStrictly) {
   const ScratchFolder scratch;
-  for (const char* body : {"    value: {runs: a, key: x, status: stable}\n    at_least: 1\n",  // two sources
-                           "    value: {runs: a, table: t}\n    at_least: 1\n",                // no column
-                           "    value: {key: results.x}\n    at_least: 1\n",                   // no run
-                           "    value: {runs: a, key: results.x}\n",                           // no range
-                           "    value: {runs: a, key: results.x}\n    atleast: 1\n",           // unknown key
-                           "    value: {runs: a, table: t, column: c, take: linearity}\n    open: x\n"})
+  for (const char* body :
+       {"    value: {runs: a, key: x, status: stable}\n    at_least: 1\n",  // two sources
+        "    value: {runs: a, table: t}\n    at_least: 1\n",                // no column
+        "    value: {key: results.x}\n    at_least: 1\n",                   // no run
+        "    value: {runs: a, key: results.x}\n",                           // no range
+        "    value: {runs: a, key: results.x}\n    atleast: 1\n",           // unknown key
+        "    value: {runs: a, table: t, column: c, take: linearity}\n    open: x\n",
+        "    value: {runs: a, key: results.x}\n    open: x\nfigures: [{source: F, run: a}]\n"})
     EXPECT_THROW(read_claims(scratch.write("claims.yaml", claim_file(body))), InputError) << body;
 }
 
 TEST(Claims, ReportShowsEveryVerdictAndEscapesText) {
   const ScratchFolder scratch;
   write_run(scratch, "a", "stable", 2.0);
-  const auto claims = read_claims(
+  const ClaimsFile file = read_claims(
       scratch.write("claims.yaml",
                     "claims:\n  - {says: a < b, value: {runs: a, key: results.deep.list.1}, at_least: 1}\n"
-                    "  - {says: gone, value: {runs: b, key: results.x}, at_least: 1}\n"));
+                    "  - {says: gone, value: {runs: b, key: results.x}, at_least: 1}\n"
+                    "figures:\n  - {source: Fig. 1, shows: x > y, run: a, picture: figures/a.svg}\n"
+                    "  - {source: Fig. 2, run: c, picture: figures/c.svg}\n"));
+  scratch.write("a/post/figures/a.svg", "<svg/>");
+  const auto& claims = file.claims;
   const auto results = evaluate_claims(claims, scratch.folder());
-  const std::string html = claims_html(claims, results), text = claims_text(claims, results);
+  const std::string html = claims_html(file, results, scratch.folder()), text = claims_text(claims, results);
   EXPECT_NE(html.find("a &lt; b"), std::string::npos);
   EXPECT_NE(text.find("2 claims, 1 reproduced, 1 not run"), std::string::npos) << text;
   EXPECT_EQ(claims_table(claims, results).rows.size(), 2u);
-  EXPECT_EQ(needed_runs(claims), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(needed_runs(file), (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_NE(html.find("<img alt=\"x &gt; y\" src=\"data:image/svg"), std::string::npos);
+  EXPECT_NE(html.find("Not made yet: figures/c.svg of c."), std::string::npos);
 }
 
 }  // namespace
