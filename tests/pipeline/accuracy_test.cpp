@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "assembly/case/case_reader.hpp"
@@ -113,7 +114,7 @@ TEST_P(PresetPromiseSlow, StandardIsWithinItsDocumentedWrenchError) {
   const StaticSolution exact = scene.solve(1e-9);
   ASSERT_EQ(exact.verdict, Verdict::equilibrium) << exact.message;
   const double error = compared_wrench_error(scene.contacts, asked, exact);
-  RecordProperty("wrench_error", std::to_string(error));
+  RecordProperty("wrench_error", fmt::format("{:.1e}", error));
   EXPECT_LE(error, kStandardError);
 }
 
