@@ -126,6 +126,7 @@ std::string to_json(const Summary& summary) {
     json["critical_value"] = critical->value;
     json["bracket"] = {critical->stable, critical->moving};
   }
+  json["text_files"] = summary.text_files;
   return json.dump(2) + "\n";
 }
 
@@ -152,6 +153,11 @@ Summary summary_from_json(const std::string& text, const std::string& file) {
       throw InputError(FileLocation{file},
                        "critical_value: parameter or bracket is missing or has the wrong type");
     }
+  }
+  try {
+    if (json.contains("text_files")) json["text_files"].get_to(summary.text_files);
+  } catch (const std::exception&) {
+    throw InputError(FileLocation{file}, "text_files: must give a hash for each name");
   }
   return summary;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -103,7 +104,8 @@ struct Summary {
   std::int64_t peak_memory_bytes = 0;
   int threads = 1;
   double accuracy_asked = 0.0, accuracy_reached = 0.0;
-  std::optional<CriticalValue> critical;  ///< limit analysis only
+  std::optional<CriticalValue> critical;          ///< limit analysis only
+  std::map<std::string, std::string> text_files;  ///< of the results folder, by name: hash of the bytes
 };
 
 std::string to_json(const Summary& summary);

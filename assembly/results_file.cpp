@@ -7,6 +7,7 @@
 
 #include "assembly/atomic_file.hpp"
 #include "assembly/error.hpp"
+#include "assembly/hash.hpp"
 #include "assembly/mesh_file.hpp"
 #include "assembly/program.hpp"
 
@@ -174,12 +175,14 @@ void ResultsWriter::write_frame(const Frame& frame) {
   }
 }
 
-void ResultsWriter::write_summary(const Summary& summary) {
-  write_text("summary.json", to_json(summary));
-}
-
 void ResultsWriter::write_text(const std::string& name, const std::string& text) {
   write_text_atomically(in_folder(folder_, name), text);
+  text_files_[name] = hash_text(text);
+}
+
+void ResultsWriter::write_summary(Summary summary) {
+  summary.text_files = text_files_;
+  write_text_atomically(in_folder(folder_, "summary.json"), to_json(summary));
 }
 
 ResultsReader::ResultsReader(std::string folder, const std::string& assembly_hash)
@@ -207,6 +210,17 @@ Frame ResultsReader::read_frame(int index) const {
       read_blocks(read_frame_mesh(in_folder(folder_, frame_file("blocks", index)), assembly_hash_));
   check_frame(frame, contacts_path);
   return frame;
+}
+
+std::string ResultsReader::read_text_file(const std::string& name) const {
+  const std::string path = in_folder(folder_, name);
+  const auto written = summary_.text_files.find(name);
+  if (written == summary_.text_files.end())
+    throw InputError(FileLocation{path}, "is not named in summary.json: it is not of this run");
+  std::string text = read_text(path);
+  if (hash_text(text) != written->second)
+    throw InputError(FileLocation{path}, "is damaged or was edited: its hash in summary.json is another");
+  return text;
 }
 
 }  // namespace cupola

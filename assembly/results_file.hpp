@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,9 @@ class ResultsWriter {
   /// already when a run is resumed.
   ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times = {});
   void write_frame(const Frame& frame);
-  void write_summary(const Summary& summary);
   void write_text(const std::string& name, const std::string& text);  ///< run.yaml, history.csv
+  /// Last: a summary says that the folder is complete. It names every text file with its hash.
+  void write_summary(Summary summary);
 
   const std::string& folder() const { return folder_; }
 
@@ -24,6 +26,7 @@ class ResultsWriter {
   std::string folder_;
   std::string assembly_hash_;
   std::vector<double> times_;
+  std::map<std::string, std::string> text_files_;  ///< name to hash
 };
 
 /// A results folder, read frame by frame. Throws InputError naming the file when something is missing,
@@ -34,6 +37,7 @@ class ResultsReader {
   const Summary& summary() const { return summary_; }
   const std::vector<double>& times() const { return times_; }  ///< s, one per frame
   Frame read_frame(int index) const;
+  std::string read_text_file(const std::string& name) const;  ///< refuses other bytes than were written
 
  private:
   std::string folder_;

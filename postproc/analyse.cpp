@@ -37,8 +37,7 @@ HistoryRow history_row(const Evaluation& e, const Frame& frame) {
   return row;
 }
 
-/// The displaced blocks of every readable frame, and what moves over time. Frames that cannot be read become
-/// warnings.
+/// The displaced blocks of every readable frame, and what moves over time; other frames are left out.
 std::vector<HistoryRow> write_frames(const ResultsReader& results, const std::string& folder,
                                      Evaluation* evaluation) {
   const Evaluation& e = *evaluation;
@@ -53,9 +52,7 @@ std::vector<HistoryRow> write_frames(const ResultsReader& results, const std::st
       try {
         frame = evaluate_frame(e, results.read_frame(static_cast<int>(i)));
       } catch (const InputError& error) {
-        // The evaluation went back to the last frame it could read and has named those behind it.
-        const bool said = e.summary.analysis != "limit" && e.times[i] > e.last.frame.time;
-        if (!said) evaluation->warnings.push_back(fmt::format("frame {} is left out: {}", i, error.what()));
+        leave_out(fmt::format("frame {}", i), error.what(), evaluation);
         continue;
       }
     }
@@ -111,17 +108,33 @@ Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const st
 }
 
 void write_report(const AnalyseRequest& request, const std::vector<Table>& tables, const Drawn& drawn,
-                  const Evaluation& e) {
+                  const std::string& run_yaml, const Evaluation& e) {
   const std::string& folder = request.output_folder;
-  const std::string run_yaml = in_folder(request.results_folder, "run.yaml");
-  write_text_atomically(
-      in_folder(folder, "report.html"),
-      report_html({.evaluation = &e,
-                   .tables = tables,
-                   .figures = drawn.figures,
-                   .pictures = drawn.pictures,
-                   .figure_folder = in_folder(folder, "figures"),
-                   .run_yaml = std::filesystem::exists(run_yaml) ? read_text(run_yaml) : ""}));
+  write_text_atomically(in_folder(folder, "report.html"),
+                        report_html({.evaluation = &e,
+                                     .tables = tables,
+                                     .figures = drawn.figures,
+                                     .pictures = drawn.pictures,
+                                     .figure_folder = in_folder(folder, "figures"),
+                                     .run_yaml = run_yaml}));
+}
+
+/// "" where it cannot be read, which is noted.
+std::string readable_text(const ResultsReader& results, const std::string& name, Evaluation* e) {
+  try {
+    return results.read_text_file(name);
+  } catch (const InputError& error) {
+    leave_out(name, error.what(), e);
+    return "";
+  }
+}
+
+/// What was left out is said by the exit code too: make must not take the output for complete.
+void refuse_if_incomplete(const Evaluation& e, const std::string& output_folder) {
+  if (e.unreadable.empty()) return;
+  for (size_t i = 0; i + 1 < e.unreadable.size(); ++i)
+    fmt::print(stderr, "cupola-post: error: {}\n", e.unreadable[i]);
+  throw InputError(fmt::format("{}; {} holds what the rest gives", e.unreadable.back(), output_folder));
 }
 
 }  // namespace
@@ -137,22 +150,24 @@ ExitCode analyse(const AnalyseRequest& request) {
   // A summary says that a folder is complete: the old one goes before the first file is replaced.
   std::filesystem::remove(in_folder(folder, "summary.json"));
   std::vector<Table> tables = result_tables(e);
-  std::optional<Table> stages = stage_table(e, request.results_folder);
-  if (stages) tables.insert(tables.begin(), *stages);
+  std::optional<Table> stages;
+  if (e.summary.analysis == "staged")
+    if (const std::string text = readable_text(results, "stages.csv", &e); !text.empty())
+      stages = tables.emplace(tables.begin(), stage_table(e, parse_csv(text, "stages.csv")))[0];
   for (const Table& table : tables)
     write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
-  if (!std::filesystem::exists(in_folder(request.results_folder, "run.yaml")))
-    e.warnings.push_back("run.yaml is missing from the results: how they were solved cannot be repeated");
+  const std::string run_yaml = readable_text(results, "run.yaml", &e);
   Drawn drawn;
   if (!request.tables_only) drawn = draw(request, results, stages, &e);
   write_text_atomically(in_folder(folder, "summary.json"), post_summary_json(e));
-  if (!request.tables_only) write_report(request, tables, drawn, e);
+  if (!request.tables_only) write_report(request, tables, drawn, run_yaml, e);
 
   for (const std::string& warning : e.warnings) fmt::print(stderr, "cupola-post: warning: {}\n", warning);
   if (!request.quiet)
     fmt::print("{} tables, {} figures, {} pictures; read {}\n", tables.size(), drawn.figures.size(),
                drawn.pictures.size(),
                in_folder(folder, request.tables_only ? "summary.json" : "report.html"));
+  refuse_if_incomplete(e, folder);
   return ExitCode::done;
 }
 

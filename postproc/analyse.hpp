@@ -20,8 +20,10 @@ struct AnalyseRequest {
   bool force = false;  ///< take a run of another geometry, load, joint or analysis
 };
 
-/// Reads the run, evaluates it and writes the output folder (FORMAT.md lists its files). Figures that gnuplot
-/// cannot draw become warnings in the report; a run that is not an equilibrium is said in its first lines.
+/// Reads the run, evaluates it and writes the output folder (FORMAT.md lists its files). What is missing from
+/// the results or damaged is left out, then InputError: make must not take the folder for complete. Figures
+/// that gnuplot cannot draw become warnings in the report; a run that is not an equilibrium is said in its
+/// first lines.
 ExitCode analyse(const AnalyseRequest& request);
 
 }  // namespace cupola

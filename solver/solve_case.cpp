@@ -159,6 +159,8 @@ ExitCode solve_case(const SolveRequest& request) {
   summary->cpu_time_seconds = cpu_seconds();
   summary->peak_memory_bytes = peak_memory_bytes();
   writer.write_text("run.yaml", provenance(*summary) + request.scene.effective_yaml);
+  // Also where it was written before an interruption: the summary names what this run wrote.
+  if (!run.history.empty()) writer.write_text("history.csv", run.history);
   write_patches((std::filesystem::path(request.output_folder) / "patches.vtp").string(),
                 ContactDetector(assembly, detection_options(request.scene)).update(initial_poses(assembly)));
   writer.write_summary(*summary);

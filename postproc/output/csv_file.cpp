@@ -53,7 +53,11 @@ double CsvFile::number(size_t row, size_t column) const {
 }
 
 CsvFile read_csv(const std::string& path) {
-  std::istringstream stream(read_text(path));
+  return parse_csv(read_text(path), path);
+}
+
+CsvFile parse_csv(const std::string& text, const std::string& path) {
+  std::istringstream stream(text);
   CsvFile file;
   file.path = path;
   std::string line;

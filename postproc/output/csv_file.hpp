@@ -19,5 +19,6 @@ struct CsvFile {
 /// Reads a CSV with a header line; cells in quotes may hold commas and doubled quotes. InputError when a
 /// row is longer or shorter than the header.
 CsvFile read_csv(const std::string& path);
+CsvFile parse_csv(const std::string& text, const std::string& path);  ///< the same from bytes at hand
 
 }  // namespace cupola

@@ -126,8 +126,8 @@ std::string post_summary_json(const Evaluation& e) {
   json["case_hash"] = e.summary.case_hash;
   json["time_s"] = e.last.frame.time;
   json["frames"] = e.times.size();
-  json["lost_joints"] = e.lost_joints;
-  json["warnings"] = e.warnings;
+  json["lost_joints"] = e.lost_joints ? Json(*e.lost_joints) : Json();
+  json["warnings"] = said_first(e);
   json["thrust_lines"] = Json::array();
   for (const PostSummary::Line& line : s.thrust_lines)
     json["thrust_lines"].push_back({{"name", line.name},

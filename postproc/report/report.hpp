@@ -22,7 +22,7 @@ struct ReportInput {
   std::vector<Figure> figures;
   std::vector<Picture> pictures;  ///< of ParaView
   std::string figure_folder;      ///< where the figures' files are
-  std::string run_yaml;           ///< the options in force, "" when the run left none
+  std::string run_yaml;           ///< the options in force, "" where they cannot be read
 };
 
 /// report.html: one file with everything inside, in the order verdict, quality, model, geometry check,

@@ -1,19 +1,14 @@
 #include "postproc/report/stages.hpp"
 
-#include <filesystem>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "postproc/figures/plot_style.hpp"
-#include "postproc/output/csv_file.hpp"
 
 namespace cupola {
 
-std::optional<Table> stage_table(const Evaluation& e, const std::string& results_folder) {
-  const std::filesystem::path path = std::filesystem::path(results_folder) / "stages.csv";
-  if (e.summary.analysis != "staged" || !std::filesystem::exists(path)) return std::nullopt;
-  const CsvFile csv = read_csv(path.string());
+Table stage_table(const Evaluation& e, const CsvFile& csv) {
   const size_t ring = csv.column("ring"), blocks = csv.column("blocks"), verdict = csv.column("verdict");
   const size_t stands = csv.column("critical_stands"), moves = csv.column("critical_moves");
   const auto number = [&csv](size_t row, size_t column) {  // empty where no bracket was found

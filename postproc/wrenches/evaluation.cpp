@@ -54,16 +54,20 @@ void show_mechanism(const Assembly& assembly, Frame* frame) {
   }
 }
 
-/// The last frame that can be read; those after it are named in the warnings. Of a limit analysis, the last
-/// equilibrium, which comes before the mechanism.
-Frame evaluated_frame(const ResultsReader& results, std::vector<std::string>* warnings) {
+std::string frame_name(int index) {
+  return fmt::format("frame {}", index);
+}
+
+/// The last frame that can be read. Of a limit analysis, the last equilibrium, which comes before the
+/// mechanism.
+Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
   const bool limit = results.summary().analysis == "limit";
   for (int i = limit ? 0 : static_cast<int>(results.times().size()) - 1;; --i) {
     try {
       return results.read_frame(i);
     } catch (const InputError& error) {
       if (i == 0) throw;
-      warnings->push_back(fmt::format("frame {} is left out: {}", i, error.what()));
+      leave_out(frame_name(i), error.what(), e);
     }
   }
 }
@@ -92,15 +96,17 @@ int joints_lost_between(const ContactTable& first, const ContactTable& last) {
 }
 
 void count_lost_joints(const ResultsReader& results, Evaluation* e) {
+  e->lost_joints = 0;
   if (e->times.size() < 2 || e->summary.analysis != "dynamic") return;
   try {
     e->lost_joints = joints_lost_between(results.read_frame(0).contacts, e->last.frame.contacts);
   } catch (const InputError& error) {
-    e->warnings.push_back(fmt::format("joints lost are not counted: {}", error.what()));
+    e->lost_joints.reset();
+    leave_out(frame_name(0), error.what(), e);
   }
-  if (e->lost_joints > 0)
+  if (e->lost_joints.value_or(0) > 0)
     e->warnings.push_back(
-        fmt::format("{} joints of the first frame have parted completely in the last", e->lost_joints));
+        fmt::format("{} joints of the first frame have parted completely in the last", *e->lost_joints));
 }
 
 /// The applied forces at an instant.
@@ -170,6 +176,18 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e) {
 
 }  // namespace
 
+void leave_out(const std::string& part, const std::string& reason, Evaluation* e) {
+  std::string text = fmt::format("{} is left out: {}", part, reason);
+  if (std::find(e->unreadable.begin(), e->unreadable.end(), text) == e->unreadable.end())
+    e->unreadable.push_back(std::move(text));
+}
+
+std::vector<std::string> said_first(const Evaluation& e) {
+  std::vector<std::string> all = e.unreadable;
+  all.insert(all.end(), e.warnings.begin(), e.warnings.end());
+  return all;
+}
+
 FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   check_blocks(frame, e.assembly);
   FrameEvaluation out;
@@ -222,7 +240,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   if (!e.assembly.ties.empty() || !scene.ties.pairs.empty() || !scene.ties.chains.empty())
     e.warnings.push_back("ties carry forces too: ring sums and wrenches count the joints only");
 
-  e.last = evaluate_frame(e, evaluated_frame(results, &e.warnings));
+  e.last = evaluate_frame(e, evaluated_frame(results, &e));
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads);
   e.meridians = evaluate_meridians(e);
   e.sections = evaluate_sections(e);

@@ -63,12 +63,19 @@ struct Evaluation {
   std::vector<SectionEvaluation> sections;
   std::vector<PlaneCut> planes;
   std::optional<double> rib_over_mid_sail;  ///< mean ratio of r on the meridians `rib` and `mid_sail`
-  int lost_joints = 0;                      ///< loaded in the first frame, gone in the last
+  std::optional<int> lost_joints;           ///< loaded in the first frame, gone in the last; none: not known
   std::vector<std::string> warnings;        ///< what a reader must know before the numbers
+  std::vector<std::string> unreadable;      ///< what is missing from the results or damaged, once each
 };
 
-/// Evaluates the last readable frame. Frames that are missing or damaged become warnings, unless none is
-/// left: then InputError.
+/// Notes that a part of the results is left out, if that is not noted yet.
+void leave_out(const std::string& part, const std::string& reason, Evaluation* evaluation);
+
+/// What comes before all numbers: first what could not be read, then the warnings.
+std::vector<std::string> said_first(const Evaluation& evaluation);
+
+/// Evaluates the last readable frame. Frames that are missing or damaged are left out, unless none is left:
+/// then InputError.
 Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results);
 
 /// Evaluates one frame against an evaluation's assembly, loads and shell. The second frame of a limit

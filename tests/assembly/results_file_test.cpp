@@ -107,6 +107,33 @@ TEST(ResultsFile, FramesRoundTripExactly) {
   expect_equal(reader.read_frame(1), two_block_frame(1.0 / 3.0));
 }
 
+TEST(ResultsFile, TextFilesAreTheBytesThatWereWritten) {
+  const std::string folder = test::fresh_folder("texts"), hash = example_summary().assembly_hash;
+  ResultsWriter writer(folder, hash);
+  writer.write_frame(two_block_frame(0.0));
+  writer.write_text("history.csv", "t\n0\n");
+  writer.write_text("history.csv", "t\n0\n1\n");
+  writer.write_text("run.yaml", "title: x\n");
+  writer.write_summary(example_summary());
+  write_text_atomically(folder + "/stages.csv", "of an earlier run\n");
+  const ResultsReader reader(folder, hash);
+  EXPECT_EQ(reader.read_text_file("history.csv"), "t\n0\n1\n");
+  EXPECT_EQ(reader.read_text_file("run.yaml"), "title: x\n");
+  const auto error_of = [&reader](const std::string& name) -> std::string {
+    try {
+      reader.read_text_file(name);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  write_text_atomically(folder + "/history.csv", "t\n0\n");
+  EXPECT_NE(error_of("history.csv").find("history.csv: error: is damaged or was edited"), std::string::npos);
+  std::filesystem::remove(folder + "/run.yaml");
+  EXPECT_NE(error_of("run.yaml").find("run.yaml: error: does not exist"), std::string::npos);
+  EXPECT_NE(error_of("stages.csv").find("is not named in summary.json"), std::string::npos);
+}
+
 TEST(ResultsFile, JointsOfAFrame) {
   const auto joints = joints_of(two_block_frame(0.0).contacts);
   ASSERT_EQ(joints.size(), 2u);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/atomic_file.hpp"
+#include "assembly/hash.hpp"
 #include "postproc/analyse.hpp"
 #include "postproc/compare/compare.hpp"
 #include "tests/postproc/scene.hpp"
@@ -37,6 +38,7 @@ std::string analysed_column(const std::string& name, const std::string& pvbatch 
   Summary summary = test::column_summary(a);
   summary.status = status;
   if (status == Status::unconverged) summary.message = "equilibrium residual 0.1 > 1e-9 asked";
+  writer.write_text("run.yaml", "title: column\n");
   writer.write_summary(summary);
   const AnalyseRequest request{.scene = test::column_case(),
                                .assembly_path = folder + "/assembly.vtu",
@@ -110,6 +112,8 @@ TEST(Report, NoTextFromAFileBecomesMarkup) {
        {&summary.message, &summary.analysis, &summary.method, &summary.friction_law, &summary.tangential,
         &summary.program_version, &summary.case_hash, &summary.geometry_hash})
     *text = markup;
+  write_text_atomically(folder + "/results/run.yaml", markup);
+  summary.text_files["run.yaml"] = hash_text(markup);
   for (const Status status : {Status::stable, Status::unconverged}) {
     summary.status = status;
     write_text_atomically(folder + "/results/summary.json", to_json(summary));
