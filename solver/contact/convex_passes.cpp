@@ -33,13 +33,6 @@ VecX shift_at(const ContactProblem& p, const ContactSolution& x, const VecX& R, 
   return shift;
 }
 
-/// Worst of the residuals over what can be asked of it: <= 1 ends the passes.
-double excess(const Residuals& r, double tolerance) {
-  constexpr double kRoundingMargin = 16.0;  // several roundings add up
-  const double law = r.contact_law / std::max(tolerance, kRoundingMargin * r.contact_law_rounding);
-  return std::max({r.momentum / tolerance, law, r.rigid_contact_speed / tolerance});
-}
-
 void add_counts(const SolveSummary& pass, SolveSummary* total) {
   total->iterations += pass.iterations;
   total->factorizations += pass.factorizations;

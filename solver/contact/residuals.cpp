@@ -105,6 +105,13 @@ double cone_violation(const ContactProblem& p, const VecX& gamma) {
 
 }  // namespace
 
+double excess(const Residuals& residuals, double tolerance) {
+  constexpr double kRoundingMargin = 16.0;  // several roundings add up
+  const double law =
+      residuals.contact_law / std::max(tolerance, kRoundingMargin * residuals.contact_law_rounding);
+  return std::max({residuals.momentum / tolerance, law, residuals.rigid_contact_speed / tolerance});
+}
+
 double smallest_compliance(const ContactProblem& p) {
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < p.num_contacts(); ++i) {

@@ -36,6 +36,10 @@ struct Residuals {
 Residuals compute_residuals(const ContactProblem& problem, const ContactSolution& solution,
                             double reference_speed, FrictionLaw law = FrictionLaw::associated);
 
+/// Worst of the residuals over what can be asked of it at that tolerance: <= 1 is converged. Nobody can ask
+/// the contact law for more than rounding leaves.
+double excess(const Residuals& residuals, double tolerance);
+
 /// Smallest compliance that takes part, 1/kg: 0 where some contact is rigid, infinite without contacts.
 double smallest_compliance(const ContactProblem& problem);
 

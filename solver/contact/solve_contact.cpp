@@ -6,6 +6,7 @@
 #include "solver/contact/admm.hpp"
 #include "solver/contact/apgd.hpp"
 #include "solver/contact/convex_passes.hpp"
+#include "solver/contact/coulomb_newton.hpp"
 #include "solver/contact/interior_point.hpp"
 #include "solver/contact/nsgs.hpp"
 #include "solver/contact/spg.hpp"
@@ -119,6 +120,15 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
   } else {
     const double share = rigid && primal ? kProximalShare : 0.0;
     summary = solve_in_passes(problem, options, {options.law, share}, convex, solution);
+  }
+  const bool in_circles = options.law == FrictionLaw::coulomb && summary.ending == SolveEnding::stalled;
+  if (in_circles && options.max_iterations == 0) {
+    ContactSolution again = *solution;
+    const SolveSummary last = solve_coulomb_newton(problem, options, &again);
+    if (last.ending == SolveEnding::converged) {
+      *solution = again;
+      summary = combined(summary, last);
+    }
   }
   if (rigid && summary.usable()) summary.message += "; some compliance is zero: forces are not unique";
   return summary;

@@ -17,7 +17,8 @@ struct ContactSolverOptions : SolveOptions {
 /// calls what a method can use again (ordering, symbolic and numeric factor).
 ///
 /// newton: where the plain method does not converge within 25 iterations, interior point and Newton from
-/// there. Zero compliance (newton, interior_point) and the Coulomb law (all) go through convex_passes.hpp.
+/// there. Zero compliance (newton, interior_point) and the Coulomb law (all) go through convex_passes.hpp;
+/// where the passes of the Coulomb law stall, coulomb_newton.hpp is asked.
 class ContactSolver {
  public:
   SolveSummary solve(const ContactProblem& problem, const ContactSolverOptions& options,

@@ -284,13 +284,54 @@ TEST(Overhang, StandsUpToTheHarmonicSum) {
 }
 
 TEST(Wall, HorizontalLoadFactorOfFerrisAndTinLoi) {
-  const Case scene = limit_case(LimitSearch::Parameter::acceleration, 0.3, 0.9, 0.65);
-  const Summary half_first = run(scene, testing::ferris_wall(6, false));
-  ASSERT_TRUE(half_first.critical) << half_first.message;
-  EXPECT_NEAR(half_first.critical->value / 0.64286, 1.0, 5e-3);  // published .643
-  const Summary whole_first = run(scene, testing::ferris_wall(6, true));
-  ASSERT_TRUE(whole_first.critical) << whole_first.message;
-  EXPECT_NEAR(whole_first.critical->value / 0.65, 1.0, 5e-3);
+  struct Row {
+    int courses;
+    bool whole_first;
+    double lambda;
+  };
+  for (const Row& row : std::initializer_list<Row>{{6, false, .64286},  // published .643
+                                                   {6, true, .65000},
+                                                   {10, false, .58000},
+                                                   {10, true, .59282}}) {
+    const Case scene = limit_case(LimitSearch::Parameter::acceleration, 0.3, 0.9, 0.65);
+    const Summary summary = run(scene, testing::ferris_wall(row.courses, row.whole_first));
+    ASSERT_TRUE(summary.critical) << summary.message;
+    EXPECT_NEAR(summary.critical->value / row.lambda, 1.0, 5e-3) << row.courses << " courses";
+  }
+}
+
+/// Two cards that lean against each other at `phi` from the vertical on a floor: strips whose feet reach from
+/// a to a + w and which meet on a plumb face.
+struct Cards {
+  double phi, a = 0.5, w = 0.02;
+
+  double height(double x) const { return x / std::tan(phi); }
+  Assembly assembly() const {
+    Assembly cards = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true}});
+    const Eigen::Vector2d low(0, height(a)), high(0, height(a + w));
+    testing::add_voussoir({Eigen::Vector2d{-a - w, 0}, {-a, 0}, low, high}, 1.0, 1000.0, false, 0, &cards);
+    testing::add_voussoir({Eigen::Vector2d{a, 0}, {a + w, 0}, high, low}, 1.0, 1000.0, false, 0, &cards);
+    compute_mass_properties(&cards);
+    return cards;
+  }
+  /// The least thrust H keeps a card from falling inwards about the inner edge of its foot, from the top of
+  /// the face; by symmetry it is horizontal there, and the floor must give H <= mu W.
+  double least_friction() const {
+    const double k = (a + w) / a, centroid = a / 3.0 * (k * k * k - 1.0) / (k * k - 1.0);
+    return (a - centroid) / height(a + w);
+  }
+};
+
+TEST(Cards, NeedHalfTheTangentOfTheirLean) {
+  for (const double phi_deg : {15.0, 30.0, 45.0}) {
+    const Cards cards{.phi = phi_deg * std::numbers::pi / 180.0};
+    const Summary summary =
+        run(limit_case(LimitSearch::Parameter::friction, 0.02, 1.0, 0.5), cards.assembly());
+    ASSERT_TRUE(summary.critical) << summary.message;
+    EXPECT_NEAR(summary.critical->value / cards.least_friction(), 1.0, 2e-3) << phi_deg << " deg";
+    // tan(phi) / 2 where cards have no thickness: a share of w / a off.
+    EXPECT_NEAR(cards.least_friction() / (0.5 * std::tan(cards.phi)), 1.0, 2.0 * cards.w / cards.a);
+  }
 }
 
 // A springing that moves away: three hinges follow until a fourth forms. The arch of t/R = 0.15 stands a
