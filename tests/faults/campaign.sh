@@ -4,7 +4,8 @@
 #   1. the program ends with code 1 and one line that names a path (kill: by the signal);
 #   2. every file is the whole old one or the whole new one (one that grows with the frames: a whole shorter one),
 #      and the next program takes a whole set or refuses;
-#   3. the same command again gives the same bytes as if nothing had happened.
+#   3. the same command again gives the same bytes as if nothing had happened; a motion goes on from the last
+#      frame but one at the worst, so that no fault costs the checkpoint before it.
 #
 #   campaign.sh BIN_FOLDER SHIM.so [faults per program and kind, spread evenly; default: at every call]
 set -u
@@ -21,6 +22,16 @@ growing_files_are_whole() {
   [ ! -e "$run/results/history.csv" ] && return 0
   text=$(cat "$run/results/history.csv")
   [[ "$(cat "$work/new/results/history.csv")" == "$text"* || "$(cat "$work/old/results/history.csv")" == "$text"* ]]
+}
+# Whether the resumed run, whose words are in the file, went on from the last frame that lay there or the one before.
+goes_on() {
+  local lay=$1 from
+  from=$(sed -n 's/^resuming after frame \([0-9]*\) .*/\1/p' "$2")
+  [ "${from:-0}" -ge $((lay - 1)) ]
+}
+frames_of_new_run() { # those that the faulted run wrote itself
+  cmp -s "$run/results/blocks.pvd" "$start/results/blocks.pvd" && echo 0 && return
+  grep -c '<DataSet' "$run/results/blocks.pvd" 2> /dev/null
 }
 defect() { defects=$((defects + 1)); echo "DEFECT: $stage, $kind at call $at: $1"; }
 
@@ -55,8 +66,9 @@ for stage in generate solve post; do
       # A later stage must not take a mixture: what it accepts gives the new answer.
       if [ $stage = solve ] && post "$run" > /dev/null 2>&1; then
         contents "$run/post" | cmp -s - <(contents "$work/new/post") || defect "cupola-post accepted a mixture"; fi
-      again=; [ $stage = solve ] && again=--resume
-      $stage "$run" $again > /dev/null 2> "$work/err" || defect "does not run again: $(cat "$work/err")"
+      again=; frames=0; [ $stage = solve ] && again=--resume && frames=$(frames_of_new_run)
+      quiet=; $stage "$run" $again > "$work/said" 2> "$work/err" || defect "does not run again: $(cat "$work/err")"; unset quiet
+      goes_on "$frames" "$work/said" || defect "$frames frames lay there: $(head -n 1 "$work/said")"
       for part in assembly.vtu results post; do
         case $stage$part in generateresults|generatepost|solvepost) continue;; esac
         [ -e "$run/$part" ] && ! diff -q <(cd "$run"; contents . | grep "^./$part") <(grep "^./$part" "$work/new.txt") > /dev/null &&

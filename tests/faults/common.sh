@@ -1,10 +1,11 @@
 # For the scripts of this folder: the three programs on a small case, and what they leave. Expects $bin, makes $work.
+# They say little; `quiet= solve ...` says all.
 here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 work=$(mktemp -d); trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 case_file=$work/small.yaml; cp "$here/small.yaml" "$case_file"
 
 generate() { "$bin/cupola-generate" "$case_file" --quiet --output "$1/assembly.vtu" "${@:2}"; }
-solve() { "$bin/cupola-solve" "$case_file" --quiet --assembly "$1/assembly.vtu" --output "$1/results" "${@:2}"; }
+solve() { "$bin/cupola-solve" "$case_file" ${quiet---quiet} --assembly "$1/assembly.vtu" --output "$1/results" "${@:2}"; }
 post() { "$bin/cupola-post" analyse "$case_file" --quiet --assembly "$1/assembly.vtu" --results "$1/results" --output "$1/post" "${@:2}"; }
 
 # One line per file: name and checksum, without wall times and memory, which no two runs share.
