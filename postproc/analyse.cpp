@@ -99,7 +99,8 @@ Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const st
   const std::vector<HistoryRow> history = write_frames(results, folder, e);
   write_meshes(*e, folder);
   Drawn drawn{result_figures(*e, history), {}};
-  if (stages) drawn.figures.insert(drawn.figures.begin(), stage_figure(*stages));
+  if (const auto figure = stages ? stage_figure(*stages) : std::nullopt)
+    drawn.figures.insert(drawn.figures.begin(), *figure);
   for (std::string& problem : draw_figures(in_folder(folder, "figures"), drawn.figures))
     e->warnings.push_back(std::move(problem));
   write_views(folder);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "assembly/atomic_file.hpp"
+#include "assembly/error.hpp"
 #include "postproc/figures/process.hpp"
 
 namespace cupola {
@@ -15,29 +16,35 @@ std::string in_folder(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
 }
 
-std::string last_line(const std::string& text) {
-  return text.substr(0, text.find('\n'));
-}
+/// A file that goes when its user does, whatever happens.
+struct HelperFile {
+  std::string path;
+  ~HelperFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
 
 std::string draw(const std::string& folder, const Figure& figure, const char* terminal, const char* ending) {
   const std::string out = in_folder(folder, figure.name + ending);
-  const std::string script = in_folder(folder, "." + figure.name + ".run.gp");
-  const std::string log = in_folder(folder, "." + figure.name + ".log");
+  const HelperFile script{in_folder(folder, "." + figure.name + ".run.gp")};
+  const HelperFile log{in_folder(folder, "." + figure.name + ".log")};
   std::string problem;
   write_atomically(out, [&](const std::string& side) {
     const std::string head = fmt::format(
         "set terminal {} size {},{} enhanced font 'DejaVu Sans,11' background '#ffffff'\n"
         "set output '{}'\nset termoption noenhanced\n",
         terminal, figure.width, figure.height, gnuplot_text(side));
-    write_text_atomically(script, head + figure.commands + "unset output\n");
-    const int status = run_process({"gnuplot", script}, log);
+    write_text_atomically(script.path, head + figure.commands + "unset output\n");
+    const int status = run_process({"gnuplot", script.path}, log.path);
     if (status == kNotFound) problem = "gnuplot is not installed";
-    if (status != 0 && status != kNotFound) problem = "gnuplot: " + last_line(read_text(log));
+    if (status != 0 && status != kNotFound) problem = "gnuplot: " + last_line(read_text(log.path));
+    // Cairo, when it gets no memory, writes nothing and says nothing.
+    if (status == 0 && (!std::filesystem::exists(side) || std::filesystem::file_size(side) == 0))
+      throw SystemError(fmt::format("{}: gnuplot wrote nothing; is there enough memory?", out));
     if (!problem.empty()) write_text_atomically(side, "");
     return true;
   });
-  std::filesystem::remove(script);
-  std::filesystem::remove(log);
   if (!problem.empty()) std::filesystem::remove(out);
   return problem;
 }

@@ -1,12 +1,26 @@
 #include "postproc/figures/process.hpp"
 
+#include <cerrno>
+#include <cstring>
+
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
+
+#include "assembly/atomic_file.hpp"
+#include "assembly/error.hpp"
 
 extern char** environ;
 
 namespace cupola {
+
+std::string last_line(const std::string& text) {
+  const size_t end = text.find_last_not_of(" \t\n");
+  if (end == std::string::npos) return "";
+  const size_t before = text.rfind('\n', end), start = before == std::string::npos ? 0 : before + 1;
+  return text.substr(start, end + 1 - start);
+}
 
 int run_process(const std::vector<std::string>& words, const std::string& log) {
   std::vector<std::string> copies = words;
@@ -19,12 +33,21 @@ int run_process(const std::vector<std::string>& words, const std::string& log) {
   posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   posix_spawn_file_actions_adddup2(&actions, 1, 2);
   pid_t child = 0;
-  const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  const int error = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return kNotFound;
+  if (error == ENOENT) return kNotFound;
+  if (error != 0) throw SystemError(fmt::format("{}: cannot be started: {}", words[0], std::strerror(error)));
   int status = 0;
-  if (waitpid(child, &status, 0) != child) return kNotFound;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  if (waitpid(child, &status, 0) != child)
+    throw SystemError(fmt::format("{}: cannot be waited for: {}", words[0], std::strerror(errno)));
+  if (WIFSIGNALED(status))
+    throw SystemError(
+        fmt::format("{}: ended by signal {}; is there enough memory?", words[0], WTERMSIG(status)));
+  constexpr int kNotLoaded = 127;  // the loader's code, for want of memory or of a library
+  if (WEXITSTATUS(status) == kNotLoaded)
+    throw SystemError(fmt::format("{}: cannot be loaded, for want of memory or of a library: {}", words[0],
+                                  last_line(read_text(log))));
+  return WEXITSTATUS(status);
 }
 
 }  // namespace cupola

@@ -53,7 +53,9 @@ std::vector<Picture> draw_pictures(const std::string& folder, const std::string&
   std::vector<std::string> words = words_of(pvbatch);
   words.push_back((base / "views.py").string());
   const int code = run_process(words, log.string());
-  if (code != 0)
+  if (code == kNotFound)
+    problems->push_back(fmt::format("the 3-D pictures are not complete: there is no `{}`", pvbatch));
+  else if (code != 0)
     problems->push_back(
         fmt::format("the 3-D pictures are not complete: `{}` ended with {}, see views.log", pvbatch, code));
   else

@@ -1,5 +1,7 @@
 #include "postproc/report/stages.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -31,9 +33,11 @@ Table stage_table(const Evaluation& e, const CsvFile& csv) {
   return t;
 }
 
-Figure stage_figure(const Table& stages) {
+std::optional<Figure> stage_figure(const Table& stages) {
   std::vector<std::vector<double>> rows;
   for (const auto& row : stages.rows) rows.push_back({std::get<double>(row[1]), std::get<double>(row[4])});
+  if (std::none_of(rows.begin(), rows.end(), [](const auto& row) { return std::isfinite(row[1]); }))
+    return std::nullopt;
   Figure f;
   f.name = "stages";
   f.title = "Construction: friction that the fresh mortar of each ring needs";

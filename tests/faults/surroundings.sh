@@ -25,7 +25,7 @@ check() {
 }
 
 # --- memory: from what starts the program to what it needs, in equal steps of address space
-# OpenBLAS tries for ever when it starts with too little: hence the limit on seconds.
+# The limit on seconds is there for what would hang.
 needs() { # kB; the smallest multiple of 8 MB with which "$@" ends well
   local low=0 high=512 middle
   while [ $((high - low)) -gt 1 ]; do

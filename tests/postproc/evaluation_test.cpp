@@ -191,7 +191,10 @@ TEST(Evaluation, AStagedRunHasATableOfItsRings) {
   EXPECT_NEAR(std::get<double>(table.rows[0][1]), 0.5, 1e-12) << "the bed of ring 1";
   EXPECT_NEAR(std::get<double>(table.rows[0][4]), 0.115, 1e-15);
   EXPECT_TRUE(std::isnan(std::get<double>(table.rows[1][4])));
-  EXPECT_NE(stage_figure(table).commands.find("0.5 0.115"), std::string::npos);
+  Table without = table;
+  for (auto& row : without.rows) row[4] = std::nan("");
+  EXPECT_FALSE(stage_figure(without)) << "no critical friction was asked for";
+  EXPECT_NE(stage_figure(table)->commands.find("0.5 0.115"), std::string::npos);
 }
 
 TEST(Evaluation, CracksOutlineTheOpenPoints) {
