@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -169,9 +170,12 @@ double needed_over_found(const StaticSolution& trial) {
 /// From here on a motion counts as proven: no other forces of that size balance the loads either.
 constexpr double kProven = 10.0;
 
+constexpr const char* kNotCertified =
+    "not certified: other forces in the friction cones might balance the loads";
+
 std::string proof(const StaticSolution& trial) {
   const double needed = needed_over_found(trial);
-  if (needed < kProven) return "not certified: other forces in the friction cones might balance the loads";
+  if (needed < kProven) return kNotCertified;
   return fmt::format("an equilibrium would need normal forces {:.2g} times those found", needed);
 }
 
@@ -236,6 +240,20 @@ StaticSolution raise_step(const Model& model, const State& start, const ContactS
   return trial;
 }
 
+/// The motion under the associated law, if it proves that nothing holds the structure: where no forces in the
+/// cones balance the loads, none do by Coulomb's law, whose own solves tell it much later. (What slides by
+/// Coulomb's law proves nothing.)
+std::optional<StaticSolution> proven_motion(const Model& model, const State& start,
+                                            const ContactSet& contacts, const ContactMemories& memories,
+                                            StaticOptions options) {
+  options.law = FrictionLaw::associated;
+  options.may_move = options.certify = true;
+  StaticSolution answer = raise_step(model, start, contacts, memories, options);
+  if (answer.verdict != Verdict::moving || needed_over_found(answer) < kProven) return std::nullopt;
+  answer.message += "; " + proof(answer) + ", by whichever law";
+  return answer;
+}
+
 }  // namespace
 
 std::string to_string(Verdict verdict) {
@@ -252,26 +270,27 @@ std::string to_string(Verdict verdict) {
 
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
+  const bool coulomb = options.law == FrictionLaw::coulomb;
+  const auto motion = [&] { return proven_motion(model, start, contacts, memories, options); };
+  if (coulomb && options.may_move) {
+    if (std::optional<StaticSolution> moves = motion()) return *moves;
+  }
   StaticSolution answer = raise_step(model, start, contacts, memories, options);
   const bool budget = options.max_iterations > 0;  // it is used up
-  if (options.may_move || budget) return answer;
-  // A mechanism, or joints that open and close in numbers: both show themselves at short h.
-  StaticOptions by_degrees = options;
-  by_degrees.may_move = true;
-  by_degrees.certify = options.law == FrictionLaw::associated;  // what slides by Coulomb's law proves nothing
+  if (options.may_move || budget || answer.verdict == Verdict::equilibrium) return answer;
+  if (coulomb) {
+    if (std::optional<StaticSolution> moves = motion()) return *moves;
+  }
   if (answer.verdict == Verdict::unconverged) {
+    // A mechanism, or joints that open and close in numbers: both show themselves at short h.
+    StaticOptions by_degrees = options;
+    by_degrees.may_move = true;
+    by_degrees.certify = !coulomb;
     const int iterations = answer.iterations;
     answer = raise_step(model, start, contacts, memories, by_degrees);
     answer.iterations += iterations;
   }
-  if (answer.verdict != Verdict::moving) return answer;
-  if (options.law == FrictionLaw::associated) {
-    answer.message += "; " + proof(answer);
-  } else {  // where no forces in the cones balance the loads, none do by Coulomb's law
-    by_degrees.law = FrictionLaw::associated;
-    by_degrees.certify = true;
-    answer.message += "; " + proof(raise_step(model, start, contacts, memories, by_degrees));
-  }
+  if (answer.verdict == Verdict::moving) answer.message += "; " + (coulomb ? kNotCertified : proof(answer));
   return answer;
 }
 
