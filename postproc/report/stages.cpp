@@ -21,14 +21,15 @@ Table stage_table(const Evaluation& e, const CsvFile& csv) {
                {"height_m", "m", "mean height of its bed"},
                {"blocks", "", "blocks laid so far"},
                {"verdict", "", "with the fresh friction of the case"},
-               {"critical_friction", "", "fresh friction below which it does not stand"},
+               {"critical_friction", "", "fresh friction below which it does not stand; 0: it needs none"},
                {"critical_stands", "", "stands here"},
                {"critical_moves", "", "moves here"}};
   for (size_t row = 0; row < csv.rows.size(); ++row) {
     const int k = static_cast<int>(csv.number(row, ring));
     const double low = number(row, moves), high = number(row, stands);
+    const double critical = high == 0.0 ? 0.0 : 0.5 * (low + high);
     t.rows.push_back({k, e.rings.at(static_cast<size_t>(k)).height, static_cast<int>(csv.number(row, blocks)),
-                      csv.rows[row][verdict], 0.5 * (low + high), high, low});
+                      csv.rows[row][verdict], critical, high, low});
   }
   return t;
 }
@@ -43,8 +44,7 @@ std::optional<Figure> stage_figure(const Table& stages) {
   f.title = "Construction: friction that the fresh mortar of each ring needs";
   f.caption =
       "The bed of the ring just laid has the friction of fresh mortar, all others that of the case. Drawn is "
-      "the "
-      "fresh friction below which the vault built so far does not stand.";
+      "the fresh friction below which the vault built so far does not stand; 0 where it needs none.";
   f.width = 900;
   f.height = 480;
   f.commands = plot_style() + data_block("stages", rows) +

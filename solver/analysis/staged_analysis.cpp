@@ -23,6 +23,7 @@ struct StageResult {
   Verdict verdict = Verdict::unconverged;
   double speed_ratio = 0.0;
   std::optional<Bracket> critical;  // of the fresh friction
+  bool needs_none = false;          // stands on a bed without friction
 };
 
 /// One stage with its contacts, which do not depend on friction.
@@ -92,21 +93,35 @@ Bracket critical_friction(const Case& scene, StageRun* run) {
   });
 }
 
+/// Searches the fresh friction below which the stage does not stand, if there is one.
+void search_critical_friction(const Case& scene, StageRun* run, StageResult* stage) {
+  stage->needs_none = run->solve(0.0).verdict == Verdict::equilibrium;
+  if (!stage->needs_none) stage->critical = critical_friction(scene, run);
+}
+
+std::string note(const StageResult& stage) {
+  if (stage.needs_none) return "stands without any";
+  return stage.critical ? stage.critical->message : "";
+}
+
 std::string row(const StageResult& stage) {
   const bool found = stage.critical && stage.critical->found;
   return fmt::format(
       "{},{},{:.9g},{},{:.6e},{},\"{}\"\n", stage.ring, stage.blocks, stage.weight, to_string(stage.verdict),
       stage.speed_ratio,
-      found ? fmt::format("{:.9g},{:.9g}", stage.critical->stable.value, stage.critical->moving.value) : ",",
-      stage.critical ? stage.critical->message : "");
+      found ? fmt::format("{:.9g},{:.9g}", stage.critical->stable.value, stage.critical->moving.value)
+      : stage.needs_none ? "0,"
+                         : ",",
+      note(stage));
 }
 
 void judge(const std::vector<StageResult>& stages, double fresh_friction, Summary* summary) {
   const StageResult* worst = nullptr;
-  int falling = 0, unconverged = 0;
+  int falling = 0, unconverged = 0, need_none = 0;
   for (const StageResult& stage : stages) {
     falling += stage.verdict == Verdict::moving;
     unconverged += stage.verdict == Verdict::unconverged;
+    need_none += stage.needs_none;
     if (stage.critical && stage.critical->found &&
         (worst == nullptr || stage.critical->stable.value > worst->critical->stable.value))
       worst = &stage;
@@ -115,6 +130,7 @@ void judge(const std::vector<StageResult>& stages, double fresh_friction, Summar
   summary->message = fmt::format("{} of {} stages do not stand with fresh friction {:g}", falling,
                                  stages.size(), fresh_friction);
   if (unconverged > 0) summary->message += fmt::format(", {} did not converge", unconverged);
+  if (need_none > 0) summary->message += fmt::format("; {} stand without any", need_none);
   if (worst == nullptr) return;
   const Bracket& bracket = *worst->critical;
   summary->critical =
@@ -151,13 +167,12 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
     sinks.frame(frame);
     summarize_frame(frame, run.model(), &summary);
     summarize_static(solution, run.options().tolerance, &summary);
-    if (staged.critical_friction) stage.critical = critical_friction(scene, &run);
+    if (staged.critical_friction) search_critical_friction(scene, &run, &stage);
     table += row(stage);
     results.push_back(stage);
     sinks.table("stages.csv", table);
     sinks.log(fmt::format("ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}", ring, stage.blocks,
-                          to_string(stage.verdict), stage.speed_ratio,
-                          stage.critical ? stage.critical->message : ""));
+                          to_string(stage.verdict), stage.speed_ratio, note(stage)));
     sinks.progress(static_cast<double>(ring - staged.first_ring + 1) / (last - staged.first_ring + 1));
     if (sinks.interrupted()) return std::nullopt;
   }

@@ -185,12 +185,14 @@ TEST(Evaluation, AStagedRunHasATableOfItsRings) {
   const Evaluation e = evaluated(a, {frame}, summary, column_case(), folder);
   const Table table = stage_table(
       e, parse_csv("ring,blocks,weight_N,verdict,speed_ratio,critical_stands,critical_moves,note\n"
-                   "1,2,100,equilibrium,1e-9,0.12,0.11,narrow\n2,3,150,moving,0.3,,,no bracket\n",
+                   "1,2,100,equilibrium,1e-9,0.12,0.11,narrow\n2,3,150,moving,0.3,,,no bracket\n"
+                   "0,1,50,equilibrium,1e-9,0,,stands without any\n",
                    "stages.csv"));
-  ASSERT_EQ(table.rows.size(), 2u);
+  ASSERT_EQ(table.rows.size(), 3u);
   EXPECT_NEAR(std::get<double>(table.rows[0][1]), 0.5, 1e-12) << "the bed of ring 1";
   EXPECT_NEAR(std::get<double>(table.rows[0][4]), 0.115, 1e-15);
   EXPECT_TRUE(std::isnan(std::get<double>(table.rows[1][4])));
+  EXPECT_EQ(std::get<double>(table.rows[2][4]), 0.0);
   Table without = table;
   for (auto& row : without.rows) row[4] = std::nan("");
   EXPECT_FALSE(stage_figure(without)) << "no critical friction was asked for";

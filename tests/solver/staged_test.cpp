@@ -72,6 +72,19 @@ TEST(Staged, EveryCourseNeedsTheSlopeItLiesOn) {
       << slides.summary.message;
 }
 
+// On level ground no course slides, whatever it lies on.
+TEST(Staged, SaysWhereNoFrictionIsNeeded) {
+  const StagedResult built = run(staged_case(0.6, 0.1), testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 2));
+  EXPECT_EQ(built.summary.status, Status::stable) << built.summary.message;
+  EXPECT_NE(built.summary.message.find("; 2 stand without any"), std::string::npos) << built.summary.message;
+  EXPECT_FALSE(built.summary.critical);
+  for (const std::vector<std::string>& row : built.rows) {
+    EXPECT_EQ(row[5], "0");
+    EXPECT_EQ(row[6], "");
+    EXPECT_EQ(row[7], "\"stands without any\"");
+  }
+}
+
 // Frames count blocks as the complete assembly does; those not laid yet are where they will be, without
 // contacts.
 TEST(Staged, FramesShowTheCompleteAssembly) {

@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "generators/importer/import.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "tests/generators/shared_data.hpp"
+
+// The wall with a window of DigitalDynamicsLab/Masonry: 318 bricks, a lintel on two springs that only pull
+// and two rods, shaken along itself by ten seconds of a displacement record. Minutes, hence `slow`.
+
+namespace cupola {
+namespace {
+
+struct Shaking {
+  Summary summary;
+  std::vector<Frame> frames;
+  std::vector<std::vector<double>> history;  // rows without the header
+};
+
+// Columns of history.csv.
+constexpr size_t kTime = 0, kFrictionWork = 8, kReaction = 9, kMomentum = 12, kStep = 17, kTieForce = 18;
+
+Shaking shake(const Case& scene, const Assembly& assembly) {
+  Shaking result;
+  AnalysisSinks sinks;
+  sinks.frame = [&](const Frame& frame) { result.frames.push_back(frame); };
+  sinks.history = [&, header = true](const std::string& row) mutable {
+    if (!std::exchange(header, false)) {
+      std::istringstream cells(row);
+      std::vector<double>& numbers = result.history.emplace_back();
+      for (std::string cell; std::getline(cells, cell, ',');) numbers.push_back(std::stod(cell));
+    }
+  };
+  result.summary = run_dynamic(scene, assembly, sinks).value();
+  return result;
+}
+
+/// Second column of the record, one row per 5 ms.
+std::vector<double> ground_displacements(const std::string& path) {
+  std::vector<double> values;
+  std::ifstream in(path);
+  double time = 0.0, value = 0.0;
+  for (std::string line; std::getline(in, line);) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    if (std::istringstream(line) >> time >> value) values.push_back(value);
+  }
+  return values;
+}
+
+TEST(BaseMotionSlow, WallOfOthersIsShakenToTheEndOfItsRecord) {
+  if (shared_data().empty()) GTEST_SKIP() << "no shared data";
+  const std::string folder = shared_data() + "/masonry/";
+  ImportedBlocks source;
+  source.path = folder + "wall_brickfile.txt";
+  source.springs = folder + "wall_springfile.txt";
+  source.rods = folder + "wall_rigidrodfile.txt";
+  source.up = ImportedBlocks::UpAxis::y;
+  const Assembly assembly = import_blocks(source, 1800.0);
+  const double h = 0.005, duration = 10.0;
+  Case scene;
+  scene.joints.friction = 0.6;
+  scene.joints.compliance = {1e-9, 1e-9, Compliance::Per::point};
+  scene.supports.base_motion =
+      BaseMotion{folder + "wall_motionfile.txt", BaseMotion::Quantity::displacement, Vec3::UnitX()};
+  scene.analysis.type = AnalysisType::dynamic;
+  scene.analysis.tolerance = 1e-4;
+  scene.analysis.time_step = h;
+  scene.analysis.duration = duration;
+  scene.output.frames_every = 0.5;
+  const Shaking wall = shake(scene, assembly);
+
+  // Every step converged, to the last.
+  EXPECT_NE(wall.summary.status, Status::unconverged) << wall.summary.message;
+  ASSERT_EQ(wall.history.size(), 2000u);
+  EXPECT_NEAR(wall.history.back()[kTime], duration, 1e-9);
+
+  // The fixed blocks stand where the record says.
+  const std::vector<double> ground = ground_displacements(folder + "wall_motionfile.txt");
+  ASSERT_EQ(wall.frames.size(), 20u);
+  for (const Frame& frame : wall.frames) {
+    const auto row = static_cast<size_t>(std::llround(frame.time / h));
+    const double expected = row < ground.size() ? ground[row] : ground.back();
+    for (size_t block = 0; block < assembly.blocks.size(); ++block) {
+      if (!assembly.blocks[block].fixed) continue;
+      EXPECT_NEAR(
+          (frame.blocks.position[block] - assembly.blocks[block].centroid - expected * Vec3::UnitX()).norm(),
+          0.0, 1e-9)
+          << frame.time << " s";
+    }
+  }
+
+  // What the supports give is what the bricks gain, apart from what each step may leave unbalanced.
+  Vec3 gained = -Vec3(0, 0, duration * wall.summary.weight_N);
+  double friction_work = 0.0, tie_force = 0.0;
+  for (const std::vector<double>& row : wall.history) {
+    for (size_t k = 0; k < 3; ++k) gained[static_cast<Eigen::Index>(k)] += row[kStep] * row[kReaction + k];
+    EXPECT_GE(row[kFrictionWork], friction_work - 1e-9) << row[kTime] << " s";
+    friction_work = row[kFrictionWork];
+    tie_force = std::max(tie_force, row[kTieForce]);
+  }
+  const std::vector<double>& last = wall.history.back();
+  const Vec3 momentum(last[kMomentum], last[kMomentum + 1], last[kMomentum + 2]);
+  EXPECT_LT((gained - momentum).norm(), scene.analysis.tolerance * wall.summary.weight_N * duration);
+  EXPECT_GT(friction_work, 0.0);
+  EXPECT_GT(tie_force, 0.0) << "the springs hold the lintel";
+}
+
+}  // namespace
+}  // namespace cupola
