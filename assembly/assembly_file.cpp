@@ -239,7 +239,7 @@ void check(const Assembly& assembly, const std::string& path) {
 
 }  // namespace
 
-void write_assembly(const std::string& path, const Assembly& assembly) {
+void write_assembly(const std::string& path, const Assembly& assembly, const std::string& options) {
   Mesh mesh;
   mesh.points.reserve(3 * assembly.vertices.size());
   for (const Vec3& v : assembly.vertices) mesh.add_point(v.x(), v.y(), v.z());
@@ -247,6 +247,7 @@ void write_assembly(const std::string& path, const Assembly& assembly) {
   mesh.cell_data = part_arrays(assembly);
   mesh.field_data = field_arrays(assembly);
   add_tie_arrays(assembly.ties, &mesh.field_data);
+  if (!options.empty()) mesh.field_data.push_back({"options", 1, std::vector<std::string>{options}});
   write_mesh(path, mesh);
 }
 

@@ -50,7 +50,7 @@ ExitCode generate_assembly(int argc, char** argv) {
 
   // 4. The files
   make_parent(output);
-  write_assembly(output, assembly);
+  write_assembly(output, assembly, scene.effective_yaml);
   if (!report_file.empty()) {
     make_parent(report_file);
     write_text_atomically(report_file, report_file.ends_with(".json") ? report_json(assembly, report)

@@ -10,6 +10,7 @@
 #include "assembly/error.hpp"
 #include "postproc/figures/figures.hpp"
 #include "postproc/output/mesh_output.hpp"
+#include "postproc/output/mesh_parts.hpp"
 #include "postproc/output/post_summary.hpp"
 #include "postproc/output/result_tables.hpp"
 #include "postproc/report/paraview_views.hpp"
@@ -57,7 +58,9 @@ std::vector<HistoryRow> write_frames(const ResultsReader& results, const std::st
       }
     }
     const std::string name = fmt::format("blocks_{:04}.vtu", i);
-    write_mesh(in_folder(folder, name), blocks.at(frame));
+    Mesh mesh = blocks.at(frame);
+    for (MeshArray& array : about(e, 0.0)) mesh.field_data.push_back(std::move(array));
+    write_mesh(in_folder(folder, name), mesh);
     entries.push_back({e.times[i], name});
     history.push_back(history_row(e, frame.frame));
   }

@@ -162,7 +162,8 @@ ExitCode solve_case(const SolveRequest& request) {
   // Also where it was written before an interruption: the summary names what this run wrote.
   if (!run.history.empty()) writer.write_text("history.csv", run.history);
   write_patches((std::filesystem::path(request.output_folder) / "patches.vtp").string(),
-                ContactDetector(assembly, detection_options(request.scene)).update(initial_poses(assembly)));
+                ContactDetector(assembly, detection_options(request.scene)).update(initial_poses(assembly)),
+                assembly_hash);
   writer.write_summary(*summary);
   if (!request.quiet) print_summary(*summary);
   return summary->status == Status::unconverged ? ExitCode::accuracy_not_reached : ExitCode::done;

@@ -82,8 +82,7 @@ Mesh DisplacedBlocks::at(const FrameEvaluation& e) const {
   ints("block", [](const Part& p) { return p.block; });
   ints("ring", [](const Part& p) { return p.ring; });
   ints("kind", [&](const Part& p) { return static_cast<int>(assembly_.blocks[p.block].kind); });
-  mesh.field_data = {{"time_s", 1, MeshDoubles{e.frame.time}},
-                     {"program_version", 1, std::vector<std::string>{program_version()}}};
+  mesh.field_data = {{"time_s", 1, MeshDoubles{e.frame.time}}};
   return mesh;
 }
 

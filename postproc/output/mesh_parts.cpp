@@ -18,6 +18,12 @@ void append(const Vec3& v, MeshDoubles* values) {
 std::vector<MeshArray> about(const Evaluation& e, double scale) {
   return {{"title", 1, std::vector<std::string>{e.scene.title}},
           {"program_version", 1, std::vector<std::string>{program_version()}},
+          {"solver_version", 1, std::vector<std::string>{e.summary.program_version}},
+          {"case_hash", 1, std::vector<std::string>{e.summary.case_hash}},
+          {"assembly_hash", 1, std::vector<std::string>{e.summary.assembly_hash}},
+          {"threads", 1, MeshInts{e.summary.threads}},
+          {"equilibrium_residual", 1, MeshDoubles{e.summary.equilibrium_residual}},
+          {"accuracy_reached", 1, MeshDoubles{e.summary.accuracy_reached}},
           {"status", 1, std::vector<std::string>{to_string(e.summary.status)}},
           {"segment_scale_m_per_N", 1, MeshDoubles{scale}}};
 }

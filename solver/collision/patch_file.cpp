@@ -1,10 +1,11 @@
 #include "solver/collision/patch_file.hpp"
 
 #include "assembly/mesh_file.hpp"
+#include "assembly/program.hpp"
 
 namespace cupola {
 
-void write_patches(const std::string& path, const ContactSet& contacts) {
+void write_patches(const std::string& path, const ContactSet& contacts, const std::string& assembly_hash) {
   Mesh mesh;
   std::vector<std::int32_t> block_a, block_b, ring;
   std::vector<std::uint8_t> kind;
@@ -24,6 +25,8 @@ void write_patches(const std::string& path, const ContactSet& contacts) {
   }
   mesh.cell_data = {{"block_a", 1, block_a}, {"block_b", 1, block_b}, {"kind", 1, kind},
                     {"ring", 1, ring},       {"area_m2", 1, area},    {"centroid", 3, centroid}};
+  mesh.field_data = {{"program_version", 1, std::vector<std::string>{program_version()}},
+                     {"assembly_hash", 1, std::vector<std::string>{assembly_hash}}};
   write_mesh(path, mesh);
 }
 

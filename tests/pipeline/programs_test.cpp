@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/mesh_file.hpp"
 #include "assembly/results.hpp"
 #include "tests/pipeline/program_run.hpp"
 
@@ -188,6 +189,38 @@ TEST(Programs, RefuseResultsThatDoNotBelongAndTouchNothing) {
   expect_one_line(folder.run("cupola-post"), "a command is missing");
   expect_one_line(folder.run("cupola-post analise"), "is not a command");
   EXPECT_EQ(folder.contents(), before);
+}
+
+// Program, case, assembly, threads and residuals are in the file itself or, of a text table, in the summary
+// beside it.
+TEST(Programs, EveryFileSaysWhereItComesFrom) {
+  const ProgramFolder folder;
+  solve_wall(folder);
+  ASSERT_EQ(analyse(folder, "results").code, 0);
+  const Summary summary = summary_from_json(slurp(folder.file("results/summary.json")), "summary.json");
+  const Mesh assembly = read_mesh(folder.file("assembly.vtu"));
+  EXPECT_EQ(assembly.field<std::string>("geometry_hash"), summary.geometry_hash);
+  EXPECT_NE(assembly.field<std::string>("options").find("thickness: "), std::string::npos);
+  int meshes = 0;
+  for (const auto& [name, hash] : folder.contents()) {
+    if (!name.ends_with(".vtu") && !name.ends_with(".vtp")) continue;
+    const Mesh mesh = read_mesh(folder.file(std::filesystem::path(name).lexically_relative("work")));
+    EXPECT_EQ(mesh.field<std::string>("program_version"), summary.program_version) << name;
+    const std::string chained = name.ends_with("assembly.vtu") ? "content_hash" : "assembly_hash";
+    EXPECT_EQ(mesh.field<std::string>(chained), summary.assembly_hash) << name;
+    if (name.find("/post/") == std::string::npos) continue;
+    EXPECT_EQ(mesh.field<std::string>("case_hash"), summary.case_hash) << name;
+    EXPECT_EQ(mesh.field<std::int32_t>("threads"), summary.threads) << name;
+    EXPECT_EQ(mesh.field<double>("equilibrium_residual"), summary.equilibrium_residual) << name;
+    ++meshes;
+  }
+  EXPECT_EQ(meshes, 6) << "blocks, joints, wrenches, thrust lines, sections, cracks";
+  const std::string run_yaml = slurp(folder.file("results/run.yaml"));
+  const std::string post = slurp(folder.file("post/summary.json")) + slurp(folder.file("post/report.html"));
+  for (const std::string& said : {summary.program_version, summary.case_hash, summary.assembly_hash}) {
+    EXPECT_NE(run_yaml.find(said), std::string::npos) << said;
+    EXPECT_NE(post.find(said), post.rfind(said)) << said << ": in the summary and in the report";
+  }
 }
 
 TEST(Programs, TakeWhatDoesNotBelongWhenForced) {

@@ -108,7 +108,7 @@ TEST_F(ContactFile, ComplainsWithFileAndLine) {
 TEST_F(ContactFile, PatchesAreWrittenAsPolygons) {
   const Assembly wall = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 3);
   const ContactSet set = ContactDetector(wall, {}).update(initial_poses(wall));
-  write_patches(path("patches.vtp"), set);
+  write_patches(path("patches.vtp"), set, "hash");
   const Mesh mesh = read_mesh(path("patches.vtp"));
   ASSERT_EQ(mesh.num_cells(), static_cast<int>(set.patches.size()));
   const auto& area = mesh.array<double>(mesh.cell_data, "area_m2", 1);
