@@ -4,6 +4,7 @@
 //   cupola-post analyse cases/dome_circular.yaml --assembly assembly.vtu --results results/ --output post/
 //   cupola-post compare out/A/post out/B/post --output comparison/
 //   cupola-post claims cases/claims.yaml --runs out/ --output out/paper/
+//   cupola-post sweep cases/friction_sweep.yaml --runs out/ --output out/friction_sweep/
 //   cupola-post tradeoff cases/tradeoff.txt --runs out/tradeoff/dome_circular --output study/
 
 #include <cstring>
@@ -15,6 +16,7 @@
 #include "postproc/analyse.hpp"
 #include "postproc/claims/claims_command.hpp"
 #include "postproc/compare/compare.hpp"
+#include "postproc/sweep/sweep.hpp"
 #include "postproc/tradeoff/tradeoff_command.hpp"
 
 namespace {
@@ -26,6 +28,7 @@ constexpr const char* kUsage =
     "  cupola-post analyse CASE.yaml --assembly FILE --results FOLDER --output FOLDER\n"
     "  cupola-post compare POST POST ... --output FOLDER\n"
     "  cupola-post claims CLAIMS.yaml --runs FOLDER --output FOLDER\n"
+    "  cupola-post sweep CASE.yaml --runs FOLDER --output FOLDER\n"
     "  cupola-post tradeoff STUDY.txt --runs FOLDER --output FOLDER\n\n"
     "`cupola-post COMMAND --help` tells the options.\n";
 
@@ -58,6 +61,7 @@ ExitCode run(int argc, char** argv) {
   if (command == "analyse") return run_analyse(argc - 1, argv + 1);
   if (command == "compare") return run_compare(argc - 1, argv + 1);
   if (command == "claims") return run_claims(argc - 1, argv + 1);
+  if (command == "sweep") return run_sweep(argc - 1, argv + 1);
   if (command == "tradeoff") return run_tradeoff(argc - 1, argv + 1);
   if (command == "--version") {
     fmt::print("cupola-post {}\n", program_version());
@@ -67,9 +71,9 @@ ExitCode run(int argc, char** argv) {
     fmt::print("{}", kUsage);
     return ExitCode::done;
   }
-  if (command.empty()) throw InputError("a command is missing: analyse, compare, claims or tradeoff");
-  throw InputError(
-      fmt::format("`{}` is not a command; the commands are: analyse, compare, claims, tradeoff", command));
+  if (command.empty()) throw InputError("a command is missing: analyse, compare, claims, sweep or tradeoff");
+  throw InputError(fmt::format(
+      "`{}` is not a command; the commands are: analyse, compare, claims, sweep, tradeoff", command));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "assembly/case/geometry.hpp"
 #include "assembly/case/joints.hpp"
 #include "assembly/case/loads.hpp"
+#include "assembly/case/sweep.hpp"
 
 namespace cupola {
 
@@ -72,9 +73,10 @@ struct Case {
   Analysis analysis;
   Output output;
   Postproc postproc;
+  std::vector<SweptKey> sweep;  ///< what a study of this case varies; its own run does not
 
-  std::string file;            ///< path as given on the command line
-  std::string hash;            ///< of everything but title and postproc, which change no number of a run
+  std::string file;  ///< path as given on the command line
+  std::string hash;  ///< of everything but title, postproc and sweep, which change no number of a run
   std::string geometry_hash;   ///< of the sections the generator reads: geometry, material
   std::string effective_yaml;  ///< every key with the value in force
 };

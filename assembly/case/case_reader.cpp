@@ -23,7 +23,7 @@ bool generator_reads(const std::string& name) {
 
 /// Another title or figure keeps the run.
 bool solver_reads(const std::string& name) {
-  return name != "title" && name != "postproc";
+  return name != "title" && name != "postproc" && name != "sweep";
 }
 
 }  // namespace

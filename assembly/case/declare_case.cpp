@@ -1,6 +1,16 @@
 #include "assembly/case/declare.hpp"
 
 namespace cupola {
+namespace {
+
+void declare_swept_key(Section& s, SweptKey& swept) {
+  s.text("key", swept.key, "path of a key of this case, as after --set");
+  s.texts("values", swept.values, "what it takes in turn");
+  s.rule(!swept.key.empty(), "key", "must be given");
+  s.rule(!swept.values.empty(), "values", "must hold at least one value");
+}
+
+}  // namespace
 
 void declare_case(Section& s, Case& the_case) {
   s.text("title", the_case.title, "one line for reports and pictures");
@@ -16,6 +26,8 @@ void declare_case(Section& s, Case& the_case) {
   s.section("analysis", the_case.analysis, "what is computed", declare_analysis);
   s.section("output", the_case.output, "what is written while solving", declare_output);
   s.section("postproc", the_case.postproc, "what is drawn and tabulated", declare_postproc);
+  s.list("sweep", the_case.sweep, "a study: keys that take several values, each with each",
+         declare_swept_key);
 }
 
 }  // namespace cupola
