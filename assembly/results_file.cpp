@@ -185,7 +185,7 @@ void ResultsWriter::write_summary(Summary summary) {
   write_text_atomically(in_folder(folder_, "summary.json"), to_json(summary));
 }
 
-ResultsReader::ResultsReader(std::string folder, const std::string& assembly_hash)
+ResultsReader::ResultsReader(std::string folder, const std::string& assembly_hash, bool force)
     : folder_(std::move(folder)), assembly_hash_(assembly_hash) {
   if (!std::filesystem::is_directory(folder_))
     throw InputError(FileLocation{folder_}, "results folder does not exist");
@@ -193,9 +193,11 @@ ResultsReader::ResultsReader(std::string folder, const std::string& assembly_has
   if (!std::filesystem::exists(summary_path))
     throw InputError(FileLocation{summary_path}, "does not exist: the run has not finished");
   summary_ = summary_from_json(read_text(summary_path), summary_path);
+  if (force) assembly_hash_ = summary_.assembly_hash;
   if (summary_.assembly_hash != assembly_hash_)
     throw InputError(FileLocation{summary_path},
-                     fmt::format("belongs to another assembly (hash {}, the assembly given has {})",
+                     fmt::format("belongs to another assembly (hash {}, the assembly given has {}); "
+                                 "--force takes it",
                                  summary_.assembly_hash, assembly_hash_));
   for (const PvdEntry& entry : read_pvd(in_folder(folder_, "contacts.pvd"))) times_.push_back(entry.time);
   if (times_.empty()) throw InputError(FileLocation{in_folder(folder_, "contacts.pvd")}, "lists no frame");

@@ -33,7 +33,8 @@ class ResultsWriter {
 /// truncated, or belongs to another assembly.
 class ResultsReader {
  public:
-  ResultsReader(std::string folder, const std::string& assembly_hash);
+  /// `force`: takes results of another assembly, as long as they are all of the same one.
+  ResultsReader(std::string folder, const std::string& assembly_hash, bool force = false);
   const Summary& summary() const { return summary_; }
   const std::vector<double>& times() const { return times_; }  ///< s, one per frame
   Frame read_frame(int index) const;

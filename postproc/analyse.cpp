@@ -145,7 +145,7 @@ void refuse_if_incomplete(const Evaluation& e, const std::string& output_folder)
 
 ExitCode analyse(const AnalyseRequest& request) {
   Assembly assembly = read_assembly(request.assembly_path);
-  const ResultsReader results(request.results_folder, content_hash(assembly));
+  const ResultsReader results(request.results_folder, content_hash(assembly), request.force);
   check_provenance(request, assembly, results.summary());
   Evaluation e = evaluate(request.scene, std::move(assembly), results);
 

@@ -101,7 +101,7 @@ BondPattern pattern_of(const std::vector<std::vector<int>>& joints, const Lattic
   for (const auto& ring : joints) used.insert(used.end(), ring.begin(), ring.end());
   if (!lattice.closed) used.push_back(0);
   std::ranges::sort(used);
-  used.erase(std::ranges::unique(used).begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
   used.push_back(lattice.closed ? used.front() + lattice.num_units : lattice.num_units);
 
   BondPattern pattern;

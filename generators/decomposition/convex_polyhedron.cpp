@@ -109,7 +109,7 @@ ConvexPolyhedron clip(const ConvexPolyhedron& solid, const Plane& plane, double 
       if (v >= static_cast<int>(height.size()) || height[v] == 0.0) cap.push_back(v);
   }
   std::ranges::sort(cap);
-  cap.erase(std::ranges::unique(cap).begin(), cap.end());
+  cap.erase(std::unique(cap.begin(), cap.end()), cap.end());
   if (cap.size() >= 3) {
     result.faces.push_back(cap_loop(result.vertices, cap, plane.normal));
     result.planes.push_back(plane);

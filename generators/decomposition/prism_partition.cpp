@@ -75,7 +75,7 @@ std::optional<CrossSection> cross_section(const TriangleMesh& mesh, const std::v
   const auto aside = [&](const Vec3& p) { return Vec3(p - axis.dot(p) * axis); };
   const auto nearest =
       std::ranges::min_element(upper, {}, [&](const Vec3& p) { return (aside(p) - aside(lower[0])).norm(); });
-  std::ranges::rotate(upper, nearest);
+  std::rotate(upper.begin(), nearest, upper.end());
   const double low = -facets[caps.lower].plane.offset, high = facets[caps.upper].plane.offset;
   CrossSection section;
   for (size_t i = 0; i < lower.size(); ++i) {

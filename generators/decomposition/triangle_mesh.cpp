@@ -138,7 +138,8 @@ std::vector<int> facet_loop(const TriangleMesh& mesh, const Facet& facet) {
   std::map<int, int> num_triangles;
   for (int t : facet.triangles)
     for (int v : mesh.triangles[t]) ++num_triangles[v];
-  std::ranges::rotate(loop, std::ranges::max_element(loop, {}, [&](int v) { return num_triangles[v]; }));
+  const auto busiest = std::ranges::max_element(loop, {}, [&](int v) { return num_triangles[v]; });
+  std::rotate(loop.begin(), busiest, loop.end());
   return loop;
 }
 

@@ -115,7 +115,7 @@ int snap_facets(std::vector<TriangleMesh>* blocks, double facet_angle, double di
     for (int t : f.facet.triangles)
       for (int v : (*blocks)[f.block].triangles[t]) vertices.push_back(v);
     std::ranges::sort(vertices);
-    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     for (int v : vertices) {
       planes[f.block][v].push_back(f.facet.plane);
       if (f.moved) touched[f.block][v] = 1;

@@ -123,7 +123,7 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
     islands.join(a, b);
   });
   std::ranges::sort(joints);
-  joints.erase(std::ranges::unique(joints).begin(), joints.end());
+  joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
   report->num_joints = static_cast<int>(joints.size());
   std::vector<char> has_joint(assembly.blocks.size(), 0);
   for (const auto& [a, b] : joints) has_joint[a] = has_joint[b] = 1;

@@ -47,7 +47,7 @@ ConvexShape convex_shape(const Assembly& assembly, const Part& part) {
     }
   }
   std::ranges::sort(vertex_ids);
-  vertex_ids.erase(std::ranges::unique(vertex_ids).begin(), vertex_ids.end());
+  vertex_ids.erase(std::unique(vertex_ids.begin(), vertex_ids.end()), vertex_ids.end());
   for (int v : vertex_ids) shape.vertices.push_back(assembly.vertices[v]);
   return shape;
 }

@@ -236,6 +236,8 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
     e.warnings.push_back("the case's geometry has changed since the assembly was made or solved");
   else if (e.summary.case_hash != scene.hash)
     e.warnings.push_back("the case has changed since the run: loads, joints or analysis may differ");
+  if (e.summary.assembly_hash != content_hash(e.assembly))
+    e.warnings.push_back("the results are of another assembly: what is drawn need not fit them");
 
   if (!e.assembly.ties.empty() || !scene.ties.pairs.empty() || !scene.ties.chains.empty())
     e.warnings.push_back("ties carry forces too: ring sums and wrenches count the joints only");

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -125,8 +126,9 @@ std::vector<int> SymmetryFinder::turned_contacts(const std::vector<int>& blocks,
   for (int i = 0; i < static_cast<int>(contacts.size()); ++i) {
     const Contact& contact = contacts[i];
     const int row_a = turned_row(contact.block_a);
-    const auto candidates = std::ranges::equal_range(
-        by_pair, std::pair<int, int>(std::minmax(row_a, turned_row(contact.block_b))), {}, key);
+    const std::pair<int, int> rows(std::minmax(row_a, turned_row(contact.block_b)));
+    const auto first = std::ranges::lower_bound(by_pair, rows, {}, key);
+    const std::span<const int> candidates(first, std::ranges::upper_bound(by_pair, rows, {}, key));
     const Vec3 point = turn_ * point_of(contact);
     const double size =
         size_of(std::max(model_.free_index[contact.block_a], model_.free_index[contact.block_b]));

@@ -234,6 +234,18 @@ TEST(Programs, TakeWhatDoesNotBelongWhenForced) {
   const ProgramRun drawn = analyse(folder, "results", " --force --set joints.friction=0.3");
   EXPECT_EQ(drawn.code, 0) << drawn.err;
   EXPECT_NE(drawn.err.find("warning"), std::string::npos) << drawn.err;
+  // The results of one assembly with another: of as many blocks, then of fewer.
+  const auto other = [&folder](const std::string& set) {
+    EXPECT_EQ(folder.run("cupola-generate " + kWall + " --output other.vtu --quiet" + set).code, 0);
+    const std::string call =
+        "cupola-post analyse " + kWall + " --assembly other.vtu --results results --output post";
+    expect_one_line(folder.run(call + set), "belongs to another assembly");
+    return folder.run(call + " --quiet --force" + set);
+  };
+  const ProgramRun heavier = other(" --set material.density=2500");
+  EXPECT_EQ(heavier.code, 0) << heavier.err;
+  EXPECT_NE(heavier.err.find("the results are of another assembly"), std::string::npos) << heavier.err;
+  expect_one_line(other(" --set geometry.bond.rings=3"), "blocks, the assembly");
   // What is drawn is not what is computed: another figure needs no other run.
   EXPECT_EQ(analyse(folder, "results", " --set postproc.sections=[1.5] --set title=other").code, 0);
 }
