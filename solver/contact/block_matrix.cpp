@@ -1,7 +1,10 @@
 #include "solver/contact/block_matrix.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
+
+#include "solver/contact/threads.hpp"
 
 namespace cupola {
 
@@ -49,23 +52,30 @@ ContactGraph contact_graph(const ContactProblem& problem) {
 BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& graph,
                              const std::vector<Mat3>& G) {
   BlockMatrix H{problem.M, std::vector<Mat6>(graph.pattern.num_pairs(), Mat6::Zero())};
-  for (int i = 0; i < problem.num_contacts(); ++i) {
-    if (G[i].isZero(0.0)) continue;
-    const int a = problem.block_a[i], b = problem.block_b[i];
-    const Mat63 &D_a = problem.D_a[i], &D_b = problem.D_b[i];
-    if (a != ContactProblem::kFixed) {
-      const Mat63 DG = D_a.lazyProduct(G[i]);
-      H.diagonal[a] += DG.lazyProduct(D_a.transpose());
+  // Each thread goes through all contacts and adds to its own range of blocks: the order of the sums stays.
+  run_team([&](Team& team, int thread) {
+    const auto nb = static_cast<std::int64_t>(problem.num_blocks());
+    const auto first = static_cast<int>(nb * thread / team.size());
+    const auto last = static_cast<int>(nb * (thread + 1) / team.size());
+    const auto mine = [&](int block) { return first <= block && block < last; };  // kFixed is nobody's
+    for (int i = 0; i < problem.num_contacts(); ++i) {
+      if (G[i].isZero(0.0)) continue;
+      const int a = problem.block_a[i], b = problem.block_b[i];
+      const Mat63 &D_a = problem.D_a[i], &D_b = problem.D_b[i];
+      if (mine(a)) {
+        const Mat63 DG = D_a.lazyProduct(G[i]);
+        H.diagonal[a] += DG.lazyProduct(D_a.transpose());
+      }
+      if (mine(b)) {
+        const Mat63 DG = D_b.lazyProduct(G[i]);
+        H.diagonal[b] += DG.lazyProduct(D_b.transpose());
+      }
+      const int pair = graph.pair_of_contact[i];
+      if (pair < 0 || !mine(std::min(a, b))) continue;
+      const Mat63 DG = (a > b ? D_a : D_b).lazyProduct(G[i]);
+      H.lower[pair] += DG.lazyProduct((a > b ? D_b : D_a).transpose());
     }
-    if (b != ContactProblem::kFixed) {
-      const Mat63 DG = D_b.lazyProduct(G[i]);
-      H.diagonal[b] += DG.lazyProduct(D_b.transpose());
-    }
-    const int pair = graph.pair_of_contact[i];
-    if (pair < 0) continue;
-    const Mat63 DG = (a > b ? D_a : D_b).lazyProduct(G[i]);
-    H.lower[pair] += DG.lazyProduct((a > b ? D_b : D_a).transpose());
-  }
+  });
   return H;
 }
 

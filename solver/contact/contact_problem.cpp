@@ -79,26 +79,14 @@ std::string ContactProblem::defect() const {
 }
 
 VecX relative_velocity(const ContactProblem& problem, const VecX& v) {
-  const int nc = problem.num_contacts();
-  VecX u(3 * nc);
-  for (int i = 0; i < nc; ++i) {
-    const int a = problem.block_a[i], b = problem.block_b[i];
-    Vec3 u_i = Vec3::Zero();
-    if (a != ContactProblem::kFixed) u_i.noalias() += problem.D_a[i].transpose() * v.segment<6>(6 * a);
-    if (b != ContactProblem::kFixed) u_i.noalias() += problem.D_b[i].transpose() * v.segment<6>(6 * b);
-    u.segment<3>(3 * i) = u_i;
-  }
+  VecX u(3 * problem.num_contacts());
+  for (int i = 0; i < problem.num_contacts(); ++i) u.segment<3>(3 * i) = relative_velocity(problem, i, v);
   return u;
 }
 
 VecX generalized_impulse(const ContactProblem& problem, const VecX& gamma) {
   VecX impulse = VecX::Zero(6 * problem.num_blocks());
-  for (int i = 0; i < problem.num_contacts(); ++i) {
-    const int a = problem.block_a[i], b = problem.block_b[i];
-    const Vec3 gamma_i = gamma.segment<3>(3 * i);
-    if (a != ContactProblem::kFixed) impulse.segment<6>(6 * a).noalias() += problem.D_a[i] * gamma_i;
-    if (b != ContactProblem::kFixed) impulse.segment<6>(6 * b).noalias() += problem.D_b[i] * gamma_i;
-  }
+  for (int i = 0; i < problem.num_contacts(); ++i) add_impulse(problem, i, gamma.segment<3>(3 * i), &impulse);
   return impulse;
 }
 

@@ -51,6 +51,21 @@ struct ContactProblem {
   std::string defect() const;
 };
 
+/// D_i^T v of one contact.
+inline Vec3 relative_velocity(const ContactProblem& problem, int i, const VecX& v) {
+  const int a = problem.block_a[i], b = problem.block_b[i];
+  Vec3 u = Vec3::Zero();
+  if (a != ContactProblem::kFixed) u.noalias() += problem.D_a[i].transpose() * v.segment<6>(6 * a);
+  if (b != ContactProblem::kFixed) u.noalias() += problem.D_b[i].transpose() * v.segment<6>(6 * b);
+  return u;
+}
+/// Adds D_i gamma_i of one contact to the impulses on its blocks.
+inline void add_impulse(const ContactProblem& problem, int i, const Vec3& gamma, VecX* impulse) {
+  const int a = problem.block_a[i], b = problem.block_b[i];
+  if (a != ContactProblem::kFixed) impulse->segment<6>(6 * a).noalias() += problem.D_a[i] * gamma;
+  if (b != ContactProblem::kFixed) impulse->segment<6>(6 * b).noalias() += problem.D_b[i] * gamma;
+}
+
 /// D^T v, relative velocities in the contact frames (3 nc).
 VecX relative_velocity(const ContactProblem& problem, const VecX& v);
 /// D gamma, generalised impulses on the blocks (6 nb).

@@ -1,6 +1,7 @@
 #include "solver/contact/convex_passes.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -12,15 +13,19 @@ namespace cupola {
 
 namespace {
 
-/// Proximal compliance R (3 nc) of the contacts that need one.
+/// Proximal compliance R (3 nc) of the contacts that need one. Where every contact has some compliance, R is
+/// in proportion to it: self-stress, which E alone determines, is then right from the first pass on.
 VecX proximal_compliance(const ContactProblem& p, double share) {
   VecX R = VecX::Zero(p.E.size());
   if (share == 0.0) return R;
+  double largest_ratio = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {
     const double wanted = share * delassus_trace(p, i) / 3.0;
     R.segment<3>(3 * i) = (wanted - p.E.segment<3>(3 * i).array()).cwiseMax(0.0);
+    largest_ratio =
+        std::max(largest_ratio, (R.segment<3>(3 * i).array() / p.E.segment<3>(3 * i).array()).maxCoeff());
   }
-  return R;
+  return std::isfinite(largest_ratio) ? VecX(largest_ratio * p.E) : R;
 }
 
 /// b' - b = s n - R gamma at the pair (v, gamma), with De Saxce's s = mu |y_t|, y = D^T v + b + E gamma (3
@@ -50,6 +55,7 @@ class Passes {
         passes_(passes),
         convex_(problem),
         x_(guess),
+        accelerated_(passes.law == FrictionLaw::coulomb || smallest_compliance(problem) > 0.0),
         anderson_(kDepth) {
     if (x_.gamma.size() != problem.b.size()) x_.gamma = VecX::Zero(problem.b.size());
     if (x_.v.size() != problem.v_star.size()) x_.v = VecX(0);
@@ -70,6 +76,7 @@ class Passes {
   const PassOptions& passes_;
   ContactProblem convex_;  ///< with E' and b'
   ContactSolution x_;
+  const bool accelerated_;
   Anderson anderson_;
   double share_ = 0.0;
   VecX R_, shift_;
@@ -124,10 +131,11 @@ void Passes::run(const ConvexSolve& solve, ContactSolution* best_solution, Solve
       *best_solution = x_;
     }
 
-    // 3. The next one. The proximal map contracts by itself; only De Saxce's is worth accelerating.
+    // 3. The next one. The proximal map of rigid contacts contracts by itself. De Saxce's is worth
+    // accelerating, and so is the proximal one where compliance decides between impulses that balance.
     const VecX next = shift_at(problem_, x_, R_, passes_.law);
     if ((pass - best_pass) % kRetry == kRetry - 1) anderson_.forget();
-    shift_ = passes_.law == FrictionLaw::coulomb ? anderson_.next(shift_, next) : next;
+    shift_ = accelerated_ ? anderson_.next(shift_, next) : next;
     adapt_share(residuals, error, last);
     last = error;
   }

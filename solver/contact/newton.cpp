@@ -38,6 +38,7 @@ struct NewtonLoop {
   double residual_scale;  ///< momentum residual of one unit of block gradient
   NewtonDirection& solver;
   SolveSummary& summary;
+  bool lag_failed = false;  ///< a kept factor was not near enough
 
   double residual(const PrimalPoint& point) const { return point.largest_block_gradient * residual_scale; }
 
@@ -63,10 +64,17 @@ bool NewtonLoop::all_stick_start(VecX* w) {
 
 bool NewtonLoop::direction(const PrimalPoint& point, VecX* d) {
   const BlockMatrix H = assemble_hessian(p, graph, stiffnesses(p, point.y));
-  if (!options.lag_factor) return solver.solve_directly(graph.pattern, H, -point.gradient, d, &summary);
-  // As many digits as the tolerance still wants, but no more than a step between two active sets is worth.
-  const double forcing = std::clamp(0.1 * options.tolerance / residual(point), 1e-3, 0.1);
-  return solver.solve_lagged(graph.pattern, H, -point.gradient, forcing, d, &summary);
+  // The first Hessian of a cold start has all contacts stick: from the second on, factors can be kept.
+  const int affordable = options.lag_factor                      ? NewtonDirection::kMaxConjugateGradients
+                         : summary.iterations > 1 && !lag_failed ? solver.affordable_gradients()
+                                                                 : 0;
+  if (affordable > 0) {
+    // As many digits as the tolerance still wants, but no more than a step between two active sets is worth.
+    const double forcing = std::clamp(0.3 * options.tolerance / residual(point), 1e-3, 0.1);
+    if (solver.solve_lagged(graph.pattern, H, -point.gradient, forcing, affordable, d, &summary)) return true;
+    lag_failed = true;
+  }
+  return solver.solve_directly(graph.pattern, H, -point.gradient, d, &summary);
 }
 
 bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain) {
@@ -103,11 +111,12 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
   constexpr double kCostRounding = 4e-16;
   constexpr double kExactSlope = 1e-6;   // the next Newton step gains more than further digits here
   constexpr double kInexactSlope = 0.1;  // an inexact direction is not worth more
-  PrimalPoint best = point;
+  VecX best_w = point.w;
+  double best = residual(point);
   int iterations_without_gain = 0;
   while (true) {
     summary.residual_history.push_back(residual(point));
-    if (should_stop(point, residual(best), iterations_without_gain)) break;
+    if (should_stop(point, best, iterations_without_gain)) break;
 
     // 1. Newton direction, or steepest descent should rounding have spoiled it
     ++summary.iterations;
@@ -116,24 +125,30 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
       summary.ending = SolveEnding::failed;
       summary.message = fmt::format("the Hessian is not positive definite in double precision (iteration {})",
                                     summary.iterations);
-      return best;
+      break;
     }
     if (!(d.dot(point.gradient) < 0.0)) d = -point.gradient;
 
-    // 2. Step
-    const LineSearchResult search =
-        exact_line_search(p, point, d, options.lag_factor ? kInexactSlope : kExactSlope);
-    summary.line_search_evaluations += search.evaluations;
-    PrimalPoint next = primal_point(p, point.w + search.t * d);
+    // 2. Step: the whole direction where the cost is level at its end
+    const double level = options.lag_factor ? kInexactSlope : kExactSlope;
+    PrimalPoint next = primal_point(p, point.w + d);
+    if (!(std::abs(d.dot(next.gradient)) <= level * std::abs(d.dot(point.gradient)))) {
+      const LineSearchResult search = exact_line_search(p, point, d, level);
+      summary.line_search_evaluations += search.evaluations;
+      if (search.t != 1.0) next = primal_point(p, point.w + search.t * d);
+    }
 
     // 3. Progress
     const bool cost_fell = next.cost < point.cost * (1.0 - kCostRounding);
-    const bool residual_fell = residual(next) < 0.9 * residual(best);
+    const bool residual_fell = residual(next) < 0.9 * best;
     iterations_without_gain = cost_fell || residual_fell ? 0 : iterations_without_gain + 1;
     point = std::move(next);
-    if (point.largest_block_gradient < best.largest_block_gradient) best = point;
+    if (residual(point) < best) {
+      best = residual(point);
+      best_w = point.w;
+    }
   }
-  return summary.ending == SolveEnding::converged ? point : best;
+  return residual(point) == best ? point : primal_point(p, std::move(best_w));
 }
 
 SolveSummary failed(const std::string& message) {

@@ -16,6 +16,9 @@ namespace cupola {
 /// differ in using the exact cone projection with its kinks (no smoothing of friction), in whitening with
 /// full 6x6 blocks, and in starting cold from the solve in which every closed contact sticks.
 ///
+/// Where a factorisation costs more than ten solves, as from about 10,000 blocks on, directions after the
+/// second factor come from conjugate gradients with that factor.
+///
 /// The solver object keeps ordering and symbolic factor while the same pairs of blocks touch.
 ///
 /// `tolerance` bounds Residuals::momentum. 1e-10 leaves equilibrium exact to ten digits; below about 1e-13

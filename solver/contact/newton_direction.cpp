@@ -1,5 +1,7 @@
 #include "solver/contact/newton_direction.hpp"
 
+#include <algorithm>
+
 namespace cupola {
 
 bool NewtonDirection::solve_directly(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
@@ -10,24 +12,22 @@ bool NewtonDirection::solve_directly(const BlockPattern& pattern, const BlockMat
   return true;
 }
 
-bool NewtonDirection::solve_lagged(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
-                                   double forcing, VecX* d, SolveSummary* summary) {
-  if (factor_.has_factor() && factor_.pattern() == pattern &&
-      conjugate_gradients(pattern, H, rhs, forcing, d, summary)) {
-    return true;
-  }
-  return solve_directly(pattern, H, rhs, d, summary);
+int NewtonDirection::affordable_gradients() const {
+  constexpr int kWorthTrying = 8;
+  const int affordable = static_cast<int>(0.8 * factor_.solves_per_factorization());
+  return affordable < kWorthTrying ? 0 : std::min(affordable, kMaxConjugateGradients);
 }
 
-bool NewtonDirection::conjugate_gradients(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
-                                          double forcing, VecX* d, SolveSummary* summary) const {
+bool NewtonDirection::solve_lagged(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
+                                   double forcing, int max_gradients, VecX* d, SolveSummary* summary) const {
+  if (!factor_.has_factor() || factor_.pattern() != pattern) return false;
   VecX r = rhs;
   VecX z = factor_.solve(r);
   VecX p = z;
   double rz = r.dot(z);
   const double target = forcing * forcing * rz;
   d->setZero(rhs.size());
-  for (int k = 0; k < kMaxConjugateGradients; ++k) {
+  for (int k = 0; k < max_gradients; ++k) {
     ++summary->conjugate_gradients;
     const VecX Hp = multiply(pattern, H, p);
     const double alpha = rz / p.dot(Hp);

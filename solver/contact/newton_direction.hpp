@@ -15,14 +15,15 @@ class NewtonDirection {
   [[nodiscard]] bool solve_directly(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
                                     VecX* d, SolveSummary* summary);
 
+  /// Conjugate gradients that cost less than a factorisation of the last pattern; 0: too few to try.
+  int affordable_gradients() const;
+
   /// Conjugate gradients to |H d - rhs| <= forcing |rhs| (in the norm of the inverse preconditioner) with the
-  /// factor at hand; where there is none for this pattern, or they need too many iterations, a direct solve.
+  /// factor at hand. False where there is none for this pattern, or they need more than max_gradients.
   [[nodiscard]] bool solve_lagged(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
-                                  double forcing, VecX* d, SolveSummary* summary);
+                                  double forcing, int max_gradients, VecX* d, SolveSummary* summary) const;
 
  private:
-  bool conjugate_gradients(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs, double forcing,
-                           VecX* d, SolveSummary* summary) const;
   BlockCholesky factor_;
 };
 

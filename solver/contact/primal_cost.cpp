@@ -11,16 +11,21 @@ namespace cupola {
 PrimalPoint primal_point(const ContactProblem& p, VecX w) {
   PrimalPoint point;
   point.w = std::move(w);
-  point.y = relative_velocity(p, point.w) + p.b;
-  point.gamma = contact_impulses(p, point.y);
+  point.y.resize(p.b.size());
+  point.gamma.resize(p.b.size());
   const VecX momentum = point.w - p.v_star;
-  point.gradient = momentum - generalized_impulse(p, point.gamma);
   point.cost = 0.5 * momentum.squaredNorm();
-  for (int i = 0; i < p.num_contacts(); ++i) {
-    const Vec3 gamma = point.gamma.segment<3>(3 * i);
+  VecX impulse = VecX::Zero(momentum.size());
+  for (int i = 0; i < p.num_contacts(); ++i) {  // one pass: D is what there is most of
+    const Vec3 y = relative_velocity(p, i, point.w) + p.b.segment<3>(3 * i);
+    const Vec3 gamma = contact_impulse(contact_law(p, i), y);
+    add_impulse(p, i, gamma, &impulse);
+    point.y.segment<3>(3 * i) = y;
+    point.gamma.segment<3>(3 * i) = gamma;
     point.cost += 0.5 * p.E[3 * i] * gamma[0] * gamma[0];
     if (p.mu[i] > 0.0) point.cost += 0.5 * p.E[3 * i + 1] * gamma.tail<2>().squaredNorm();
   }
+  point.gradient = momentum - impulse;
   for (int k = 0; k < p.num_blocks(); ++k) {
     const double norm = point.gradient.segment<6>(6 * k).norm();
     if (!(norm <= point.largest_block_gradient)) point.largest_block_gradient = norm;  // lets NaN through

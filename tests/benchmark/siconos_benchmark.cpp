@@ -6,7 +6,10 @@
 // `error` is Siconos' own measure of each answer, computed by its routine; `force` compares with our answer
 // at 1e-11 (where the forces are unique).
 //
-//   siconos_benchmark [tolerance] [iterations] [static|rigid]     1e-8, 10000, both
+// Each method of Siconos runs in a process of its own, which is stopped after so many CPU seconds or at 8 GB;
+// `error` is then that of the impulses it had reached (NSGS; the others write theirs when they end).
+//
+//   siconos_benchmark [tolerance] [CPU seconds per method] [static|rigid]     1e-8, 120, both
 
 #include <cmath>
 #include <cstdlib>
@@ -14,6 +17,10 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 extern "C" {
 #include <FrictionContactProblem.h>
@@ -36,6 +43,7 @@ namespace cupola {
 namespace {
 
 constexpr double kGravity = 9.81;
+constexpr int kUnlimited = 1'000'000;  // iterations: CPU time is what stops a method
 
 NumericsMatrix* to_numerics(const Eigen::SparseMatrix<double>& A) {
   NumericsMatrix* matrix = NM_create(NM_SPARSE, static_cast<int>(A.rows()), static_cast<int>(A.cols()));
@@ -59,23 +67,44 @@ ContactProblem scaled(const ContactProblem& problem, double mass, double speed) 
   return p;
 }
 
-struct Peer {
-  std::string name;
-  std::function<int(VecX* gamma, VecX* u)> solve;  ///< returns iterations
-};
+/// Zeros that a child process shares with its parent.
+double* shared_zeros(std::size_t n) {
+  void* memory = mmap(nullptr, n * sizeof(double), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  return static_cast<double*>(memory);
+}
+
+/// Runs `work` in a child process of at most so many CPU seconds and 8 GB. Whether it came to its end.
+bool run_capped(double seconds, const std::function<void()>& work) {
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    const auto limit = [](auto resource, double most) {
+      const rlimit both{static_cast<rlim_t>(most), static_cast<rlim_t>(most)};
+      setrlimit(resource, &both);
+    };
+    limit(RLIMIT_CPU, seconds);
+    limit(RLIMIT_AS, 8e9);
+    limit(RLIMIT_CORE, 0);
+    work();
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
 
 class Comparison {
  public:
-  Comparison(const std::string& name, const ContactProblem& problem, double tolerance, int max_iterations)
-      : problem_(problem),
-        local_(make_delassus(problem)),
-        tolerance_(tolerance),
-        max_iterations_(max_iterations) {
+  Comparison(const std::string& name, const ContactProblem& problem, double tolerance, double cap)
+      : problem_(problem), local_(make_delassus(problem)), tolerance_(tolerance), cap_(cap) {
     W_ = to_numerics(local_.W);
     fc_ =
         frictionContactProblem_new_with_data(3, local_.num_contacts(), W_, local_.q.data(), local_.mu.data());
     fmt::print("\n{}: {} contacts, tolerance {:.0e}\n{:<28} {:>10} {:>9} {:>10} {:>9} {:>9}\n", name,
                local_.num_contacts(), tolerance, "solver", "CPU s", "iter", "error", "force", "ratio");
+    impulses_ = shared_zeros(local_.q.size());
+    spent_ = shared_zeros(2);
   }
   void run_cupola();
   void run_siconos_local(const std::string& name, int solver, bool blocks);
@@ -96,13 +125,17 @@ class Comparison {
                siconos_error(gamma), force, cpu / cupola_cpu_);
     std::fflush(stdout);
   }
+  /// `solve` fills impulses_ and tells its iterations.
+  void run_peer(const std::string& name, const std::function<int()>& solve);
 
   ContactProblem problem_;
   DelassusProblem local_;
   double tolerance_;
-  int max_iterations_;
+  double cap_;  ///< CPU s
   NumericsMatrix* W_ = nullptr;
   FrictionContactProblem* fc_ = nullptr;
+  double* impulses_ = nullptr;  ///< of the peer (3 nc)
+  double* spent_ = nullptr;     ///< CPU s, iterations
   VecX reference_;
   double cupola_cpu_ = 1.0;
 };
@@ -127,6 +160,24 @@ void Comparison::run_cupola() {
   }
 }
 
+void Comparison::run_peer(const std::string& name, const std::function<int()>& solve) {
+  Eigen::Map<VecX> gamma(impulses_, local_.q.size());
+  gamma.setZero();
+  const bool ended = run_capped(cap_, [&] {
+    const double start = cpu_seconds();
+    spent_[1] = solve();
+    spent_[0] = cpu_seconds() - start;
+  });
+  if (ended) {
+    print(name, spent_[0], static_cast<int>(spent_[1]), gamma);
+  } else if (gamma.isZero(0.0)) {
+    fmt::print("{:<28} {:>10} {:>9} {:>10} {:>9} {:>9}\n", name, fmt::format("> {:.0f}", cap_), "stopped",
+               "none", "none", fmt::format("> {:.0f}", cap_ / cupola_cpu_));
+  } else {
+    print(name + ", stopped", cap_, 0, gamma);
+  }
+}
+
 void Comparison::run_siconos_local(const std::string& name, int solver, bool blocks) {
   FrictionContactProblem problem = *fc_;
   if (blocks) {
@@ -136,11 +187,12 @@ void Comparison::run_siconos_local(const std::string& name, int solver, bool blo
   }
   SolverOptions* options = solver_options_create(solver);
   options->dparam[SICONOS_DPARAM_TOL] = tolerance_;
-  options->iparam[SICONOS_IPARAM_MAX_ITER] = max_iterations_;
-  VecX gamma = VecX::Zero(local_.q.size()), u = gamma;
-  const double start = cpu_seconds();
-  fc3d_driver(&problem, gamma.data(), u.data(), options);
-  print(name, cpu_seconds() - start, options->iparam[SICONOS_IPARAM_ITER_DONE], gamma);
+  options->iparam[SICONOS_IPARAM_MAX_ITER] = kUnlimited;
+  run_peer(name, [&] {
+    VecX u = VecX::Zero(local_.q.size());
+    fc3d_driver(&problem, impulses_, u.data(), options);
+    return options->iparam[SICONOS_IPARAM_ITER_DONE];
+  });
   solver_options_delete(options);
 }
 
@@ -178,22 +230,25 @@ void Comparison::run_siconos_global() {
   global->mu = mu.data();
   SolverOptions* options = solver_options_create(SICONOS_GLOBAL_FRICTION_3D_ADMM);
   options->dparam[SICONOS_DPARAM_TOL] = tolerance_;
-  options->iparam[SICONOS_IPARAM_MAX_ITER] = max_iterations_;
-  VecX gamma = VecX::Zero(m), u = gamma, v = VecX::Zero(n);
-  const double start = cpu_seconds();
-  gfc3d_driver(global, gamma.data(), u.data(), v.data(), options);
-  print("siconos global ADMM", cpu_seconds() - start, options->iparam[SICONOS_IPARAM_ITER_DONE], gamma);
+  options->iparam[SICONOS_IPARAM_MAX_ITER] = kUnlimited;
+  run_peer("siconos global ADMM", [&] {
+    VecX u = VecX::Zero(m), v = VecX::Zero(n);
+    gfc3d_driver(global, impulses_, u.data(), v.data(), options);
+    return options->iparam[SICONOS_IPARAM_ITER_DONE];
+  });
   solver_options_delete(options);
 }
 
-void compare(const std::string& name, const DomeProblem& dome, double tolerance, int max_iterations) {
+void compare(const std::string& name, const DomeProblem& dome, double tolerance, double cap) {
   const ContactProblem problem = make_problem(dome);
   const double mass = std::pow(root_mean_mass(problem), 2);
-  Comparison comparison(name, scaled(problem, mass, kGravity * dome.h), tolerance, max_iterations);
+  Comparison comparison(name, scaled(problem, mass, kGravity * dome.h), tolerance, cap);
   comparison.run_cupola();
   if (dome.compliance == 0.0) comparison.run_siconos_global();
   comparison.run_siconos_local("siconos ADMM", SICONOS_FRICTION_3D_ADMM, false);
   comparison.run_siconos_local("siconos NSGS", SICONOS_FRICTION_3D_NSGS, true);
+  comparison.run_siconos_local("siconos NSN, Alart-Curnier", SICONOS_FRICTION_3D_NSN_AC, false);
+  comparison.run_siconos_local("siconos NSN, Fischer-Burm.", SICONOS_FRICTION_3D_NSN_FB, false);
 }
 
 }  // namespace
@@ -201,14 +256,14 @@ void compare(const std::string& name, const DomeProblem& dome, double tolerance,
 
 int main(int argc, char** argv) {
   const double tolerance = argc > 1 ? std::atof(argv[1]) : 1e-8;
-  const int max_iterations = argc > 2 ? std::atoi(argv[2]) : 10000;
+  const double cap = argc > 2 ? std::atof(argv[2]) : 120.0;
   cupola::DomeProblem dome;
   dome.slices_per_block = 2;
   const std::string only = argc > 3 ? argv[3] : "";
   dome.h = 1.0;
-  if (only != "rigid") cupola::compare("static-elastic dome, kappa 1e-8", dome, tolerance, max_iterations);
+  if (only != "rigid") cupola::compare("static-elastic dome, kappa 1e-8", dome, tolerance, cap);
   dome.h = 0.01;
   dome.compliance = 0.0;
-  if (only != "static") cupola::compare("rigid dome, h = 0.01 s", dome, tolerance, max_iterations);
+  if (only != "static") cupola::compare("rigid dome, h = 0.01 s", dome, tolerance, cap);
   return 0;
 }

@@ -162,24 +162,28 @@ inline ContactProblem groove(double phi, double theta, double h, const Joint& jo
   return scene.problem();
 }
 
-/// Arch of n polygonal voussoirs (flat faces, vertices on the radii R +- t/2), half embrace beta, springings
-/// fixed, one metre deep, R = 1 m, in the x-z plane; gravity tilted by `tilt` towards x (VERIFICATION 2).
-inline ContactProblem arch(int n, double thickness, double beta, double tilt, double h, const Joint& joint) {
+/// Arch of n voussoirs, half embrace beta, springings fixed, one metre deep, R = 1 m, in the x-z plane;
+/// gravity tilted by `tilt` towards x (VERIFICATION 2). Intrados and extrados of a voussoir are chains of
+/// `facets` flat faces with vertices on the radii R +- t/2: one for the polygonal voussoirs of the tables,
+/// many for their exact sectors.
+inline ContactProblem arch(int n, double thickness, double beta, double tilt, double h, const Joint& joint,
+                           int facets = 1) {
   Scene scene(h, kGravity * Vec3(std::sin(tilt), 0, -std::cos(tilt)));
-  const auto corner = [&](int k, double r) {  // angle from the crown, from -beta to beta
+  const auto corner = [&](double k, double r) {  // angle from the crown, from -beta to beta
     const double angle = -beta + 2 * beta * k / n;
     return Vec3(r * std::sin(angle), 0, r * std::cos(angle));
   };
   const double inner = 1.0 - thickness / 2, outer = 1.0 + thickness / 2, density = 2000.0;
   for (int k = 0; k < n; ++k) {
-    const std::array<Vec3, 4> quad{corner(k, inner), corner(k, outer), corner(k + 1, outer),
-                                   corner(k + 1, inner)};
-    // Area, first and second moments by triangles from the first corner, plane (x, z).
+    std::vector<Vec3> polygon;
+    for (int j = 0; j <= facets; ++j) polygon.push_back(corner(k + 1.0 * j / facets, outer));
+    for (int j = facets; j >= 0; --j) polygon.push_back(corner(k + 1.0 * j / facets, inner));
+    // Area, first and second moments by signed triangles from the first corner, plane (x, z).
     double area = 0.0, xx = 0.0, zz = 0.0, xz = 0.0;
     Vec3 first = Vec3::Zero();
-    for (int j = 1; j < 3; ++j) {
-      const Vec3 a = quad[j] - quad[0], b = quad[j + 1] - quad[0];
-      const double twice = std::abs(a[0] * b[2] - a[2] * b[0]);
+    for (size_t j = 1; j + 1 < polygon.size(); ++j) {
+      const Vec3 a = polygon[j] - polygon[0], b = polygon[j + 1] - polygon[0];
+      const double twice = a[2] * b[0] - a[0] * b[2];  // the polygon runs clockwise
       area += twice / 2;
       first += twice / 6 * (a + b);
       xx += twice / 12 * (a[0] * a[0] + a[0] * b[0] + b[0] * b[0]);
@@ -193,7 +197,7 @@ inline ContactProblem arch(int n, double thickness, double beta, double tilt, do
     const double yy = area / 12;  // depth 1 m
     Mat3 inertia;
     inertia << yy + zz, 0, -xz, 0, xx + zz, 0, -xz, 0, xx + yy;
-    scene.add_block(quad[0] + c, density * area, density * inertia);
+    scene.add_block(polygon[0] + c, density * area, density * inertia);
   }
   for (int k = 0; k <= n; ++k) {
     const double angle = -beta + 2 * beta * k / n;

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <atomic>
+#include <barrier>
+#include <thread>
+#include <vector>
+
+namespace cupola {
+
+/// Threads that the loops of the contact solvers may use, >= 1; 1 until set. Results do not depend on it.
+int num_threads();
+void set_num_threads(int count);
+
+/// A few threads that go through the same program together, loop after loop.
+class Team {
+ public:
+  explicit Team(int size) : barrier_(size, Reset{this}), size_(size) {}
+  int size() const { return size_; }
+
+  /// body(i) for i in [0, count), each by whichever thread is free; all wait for the last.
+  template <class Body>
+  void share(int count, const Body& body) {
+    for (int i = next_++; i < count; i = next_++) body(i);
+    barrier_.arrive_and_wait();
+  }
+
+ private:
+  struct Reset {
+    Team* team;
+    void operator()() const noexcept { team->next_ = 0; }
+  };
+  std::atomic<int> next_ = 0;
+  std::barrier<Reset> barrier_;
+  int size_;
+};
+
+/// Runs program(team, thread) on num_threads() threads, this one among them. It must not throw.
+template <class Program>
+void run_team(const Program& program) {
+  Team team(num_threads());
+  std::vector<std::jthread> others;
+  for (int thread = 1; thread < team.size(); ++thread)
+    others.emplace_back([&program, &team, thread] { program(team, thread); });
+  program(team, 0);
+}
+
+}  // namespace cupola
