@@ -32,6 +32,8 @@ ExitCode solve(int argc, char** argv) {
   line.flag("--explain", &explain, "print the model that would be solved, and stop");
   line.flag("--force", &request.force, "take an assembly that was made from another geometry or material");
   line.flag("--resume", &request.resume, "go on from the checkpoint in the output folder, if there is one");
+  line.optional("--threads", &request.threads, 1,
+                "threads of assembly and factorisation (default 1); the results are the same to the bit");
   line.optional("--dump-fclib", &request.dump_fclib, "FILE",
                 "write the contact problem of the static solve or of the last step (HDF5)");
   line.instead_of_case("--fclib", &fclib_path, "FILE", "solve a problem of the frictional contact library");

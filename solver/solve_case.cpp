@@ -15,6 +15,7 @@
 #include "solver/collision/geometry_warnings.hpp"
 #include "solver/collision/patch_file.hpp"
 #include "solver/contact/fclib_file.hpp"
+#include "solver/contact/threads.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/explain.hpp"
 #include "solver/run_control.hpp"
@@ -140,6 +141,7 @@ ExitCode solve_case(const SolveRequest& request) {
   std::filesystem::remove(std::filesystem::path(request.output_folder) / "summary.json");
 
   // 2. The analysis
+  set_num_threads(request.threads);
   const StopRequest stop;
   ProgressBar progress;
   std::optional<Summary> summary = run_analysis(
@@ -155,6 +157,7 @@ ExitCode solve_case(const SolveRequest& request) {
   summary->case_hash = request.scene.hash;
   summary->geometry_hash = request.scene.geometry_hash;
   summary->assembly_hash = assembly_hash;
+  summary->threads = request.threads;
   summary->wall_time_seconds = wall_seconds() - started;
   summary->cpu_time_seconds = cpu_seconds();
   summary->peak_memory_bytes = peak_memory_bytes();

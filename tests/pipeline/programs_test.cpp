@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <map>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "assembly/mesh_file.hpp"
@@ -87,10 +88,14 @@ TEST(Programs, WriteTheSameBytesOnOneAndTwoThreads) {
       setenv(name, std::to_string(threads).c_str(), 1);
     const ProgramFolder folder;
     ASSERT_EQ(folder.run("cupola-generate " + dome + " --output assembly.vtu --quiet").code, 0);
-    ASSERT_EQ(folder.run("cupola-solve " + dome + " --assembly assembly.vtu --output results --quiet").code,
+    ASSERT_EQ(folder
+                  .run("cupola-solve " + dome +
+                       fmt::format(" --assembly assembly.vtu --output results --quiet --threads {}", threads))
+                  .code,
               0);
     files[threads - 1] = folder.contents();
     files[threads - 1].erase("work/results/summary.json");  // holds wall time and memory
+    files[threads - 1].erase("work/results/run.yaml");      // holds the number of threads
   }
   for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) unsetenv(name);
   EXPECT_GT(files[0].size(), 4u);
