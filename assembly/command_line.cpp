@@ -8,6 +8,18 @@
 
 namespace cupola {
 
+std::optional<ExitCode> parse_arguments(CLI::App& app, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    app.exit(help_or_version);
+    return ExitCode::done;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{}; see {} --help", error.what(), app.get_name()));
+  }
+  return std::nullopt;
+}
+
 CommandLine::CommandLine(const std::string& name, const std::string& description,
                          const std::string& sample_runs)
     : app_(std::make_unique<CLI::App>(description, name)) {
@@ -51,14 +63,7 @@ void CommandLine::flag(const std::string& option, bool* value, const std::string
 }
 
 std::optional<ExitCode> CommandLine::parse(int argc, const char* const* argv) {
-  try {
-    app_->parse(argc, argv);
-  } catch (const CLI::Success& help_or_version) {
-    app_->exit(help_or_version);
-    return ExitCode::done;
-  } catch (const CLI::ParseError& error) {
-    throw InputError(fmt::format("{}; see {} --help", error.what(), app_->get_name()));
-  }
+  if (const auto ended = parse_arguments(*app_, argc, argv)) return ended;
   if (schema_) {
     fmt::print("{}", case_schema());
     return ExitCode::done;

@@ -15,6 +15,10 @@ class App;
 
 namespace cupola {
 
+/// Parses the arguments. Returns how the command ends when it need not go on: --help and --version print and
+/// end with `done`. Throws InputError for bad usage, naming the option.
+std::optional<ExitCode> parse_arguments(CLI::App& app, int argc, const char* const* argv);
+
 /// Command line of one program: CASE.yaml and the options that all programs share, plus its own.
 ///
 ///     CommandLine line("cupola-generate", "Cuts a case's vault into blocks.", "cupola-generate a.yaml ...");

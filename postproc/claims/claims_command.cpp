@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "assembly/atomic_file.hpp"
+#include "assembly/command_line.hpp"
 #include "assembly/error.hpp"
 #include "postproc/claims/claims_report.hpp"
 
@@ -19,14 +20,7 @@ ExitCode run_claims(int argc, const char* const* argv) {
   app.add_option("--output", output_folder, "folder to write claims.csv and claims.html to")
       ->type_name("FOLDER");
   app.add_flag("--needs", needs_only, "print the runs that the claims need, and stop");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    app.exit(help);
-    return ExitCode::done;
-  } catch (const CLI::ParseError& error) {
-    throw InputError(fmt::format("{}; see cupola-post claims --help", error.what()));
-  }
+  if (const auto ended = parse_arguments(app, argc, argv)) return *ended;
 
   // 2. The claims
   const ClaimsFile file = read_claims(claims_path);

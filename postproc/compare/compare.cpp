@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "assembly/atomic_file.hpp"
+#include "assembly/command_line.hpp"
 #include "assembly/error.hpp"
 #include "postproc/compare/reading.hpp"
 #include "postproc/figures/gnuplot.hpp"
@@ -185,14 +186,7 @@ ExitCode run_compare(int argc, const char* const* argv) {
   app.add_option("--output", output, "folder to write")->type_name("FOLDER")->required();
   app.add_flag("--quiet", quiet, "print errors only");
   app.footer("Sample runs:\n  cupola-post compare out/A/post out/B/post --output comparison/");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    app.exit(help);
-    return ExitCode::done;
-  } catch (const CLI::ParseError& error) {
-    throw InputError(fmt::format("{}; see cupola-post compare --help", error.what()));
-  }
+  if (const auto ended = parse_arguments(app, argc, argv)) return *ended;
   if (folders.size() < 2) throw InputError("a comparison needs two folders or more");
   return compare(folders, output, quiet);
 }

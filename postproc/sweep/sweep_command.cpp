@@ -6,6 +6,7 @@
 
 #include "assembly/atomic_file.hpp"
 #include "assembly/case/case_reader.hpp"
+#include "assembly/command_line.hpp"
 #include "assembly/error.hpp"
 #include "postproc/report/html.hpp"
 #include "postproc/sweep/sweep.hpp"
@@ -41,14 +42,7 @@ ExitCode run_sweep(int argc, const char* const* argv) {
   app.add_option("--runs", runs_folder, "folder that holds one folder per run")->type_name("FOLDER");
   app.add_option("--output", output_folder, "folder to write sweep.csv and sweep.html to")
       ->type_name("FOLDER");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    app.exit(help);
-    return ExitCode::done;
-  } catch (const CLI::ParseError& error) {
-    throw InputError(fmt::format("{}; see cupola-post sweep --help", error.what()));
-  }
+  if (const auto ended = parse_arguments(app, argc, argv)) return *ended;
 
   // 2. The members
   const Case scene = read_case(case_path, {});

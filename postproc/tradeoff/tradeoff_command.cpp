@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "assembly/atomic_file.hpp"
-#include "assembly/error.hpp"
+#include "assembly/command_line.hpp"
 #include "postproc/report/html.hpp"
 #include "postproc/tradeoff/study_figures.hpp"
 #include "postproc/tradeoff/study_text.hpp"
@@ -54,14 +54,7 @@ ExitCode run_tradeoff(int argc, const char* const* argv) {
   app.add_flag("--quiet", quiet, "print errors only");
   app.footer(
       "Sample runs:\n  cupola-post tradeoff cases/tradeoff.txt --runs out/tradeoff/dome --output study/");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    app.exit(help);
-    return ExitCode::done;
-  } catch (const CLI::ParseError& error) {
-    throw InputError(fmt::format("{}; see cupola-post tradeoff --help", error.what()));
-  }
+  if (const auto ended = parse_arguments(app, argc, argv)) return *ended;
   const std::vector<StudyRow> rows = measure_study(read_study(study_paths), runs_folder);
   write_study(rows, output_folder);
   if (!quiet)
