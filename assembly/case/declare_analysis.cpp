@@ -77,9 +77,9 @@ double preset_tolerance(Accuracy::Preset preset, AnalysisType type) {
     case Accuracy::Preset::draft:
       return moves ? 1e-3 : 1e-2;
     case Accuracy::Preset::standard:
-      return moves ? 1e-5 : 1e-5;
+      return 1e-5;
     case Accuracy::Preset::reference:
-      return moves ? 1e-10 : 1e-10;
+      return 1e-10;
     case Accuracy::Preset::custom:
       break;
   }
