@@ -32,8 +32,8 @@ std::string linearity_note(const Assembly& assembly, double displacement) {
 Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
   const Model model = make_model(scene, assembly);
   const State rest = state_at_rest(model);
-  ContactDetector detector(assembly, detection_options(scene));
-  const ContactSet& contacts = detector.update(rest.poses);
+  // The detector goes at once: of a large model it is as big as the contact problem.
+  const ContactSet contacts = ContactDetector(assembly, detection_options(scene)).update(rest.poses);
   const ContactMemories memories = match_memories({}, contacts.contacts);
 
   StaticOptions options = static_options(scene.analysis);

@@ -47,7 +47,7 @@ double first_step(const Model& model, const State& start, const ContactSet& cont
   const double displacement =
       courses * compliance * load / std::max(1, at_supports) + imposed_displacement(model, start, options);
   if (displacement == 0.0) return 1.0;
-  return 2.0 * std::sqrt(displacement / (acceleration * tolerance));
+  return 2.5 * std::sqrt(displacement / (acceleration * tolerance));
 }
 
 StepOptions step_options(const StaticOptions& options, double h) {

@@ -169,7 +169,7 @@ bool BlockCholesky::factorize(const BlockPattern& pattern, const BlockMatrix& ma
   std::atomic<bool> sound = std::all_of(matrix.diagonal.begin(), matrix.diagonal.end(), finite) &&
                             std::all_of(matrix.lower.begin(), matrix.lower.end(), finite);
   if (sound) {
-    run_team([&](Team& team, int thread) {
+    run_team(m_ * m_ * m_ * structure_.work, [&](Team& team, int thread) {
       std::vector<double>* product = &products_[thread];
       team.share(static_cast<int>(structure_.subtrees.size()), [&](int i) {
         const FactorStructure::Subtree& tree = structure_.subtrees[i];

@@ -53,7 +53,8 @@ BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& 
                              const std::vector<Mat3>& G) {
   BlockMatrix H{problem.M, std::vector<Mat6>(graph.pattern.num_pairs(), Mat6::Zero())};
   // Each thread goes through all contacts and adds to its own range of blocks: the order of the sums stays.
-  run_team([&](Team& team, int thread) {
+  constexpr double kPerContact = 1000.0;  // multiplications and additions
+  run_team(kPerContact * problem.num_contacts(), [&](Team& team, int thread) {
     const auto nb = static_cast<std::int64_t>(problem.num_blocks());
     const auto first = static_cast<int>(nb * thread / team.size());
     const auto last = static_cast<int>(nb * (thread + 1) / team.size());

@@ -1,7 +1,7 @@
 #include "solver/contact/convex_passes.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -13,19 +13,22 @@ namespace cupola {
 
 namespace {
 
-/// Proximal compliance R (3 nc) of the contacts that need one. Where every contact has some compliance, R is
-/// in proportion to it: self-stress, which E alone determines, is then right from the first pass on.
+/// Proximal compliance R (3 nc) of the contacts that need one. Where every contact has some compliance and
+/// masses are alike, R is in proportion to it: self-stress, which E alone determines, is then right from the
+/// first pass on.
 VecX proximal_compliance(const ContactProblem& p, double share) {
+  constexpr double kMostShare = 0.1;  // more would leave a heavy block's contact to many passes
   VecX R = VecX::Zero(p.E.size());
   if (share == 0.0) return R;
-  double largest_ratio = 0.0;
+  double ratio = 0.0, most = std::numeric_limits<double>::infinity();
   for (int i = 0; i < p.num_contacts(); ++i) {
-    const double wanted = share * delassus_trace(p, i) / 3.0;
-    R.segment<3>(3 * i) = (wanted - p.E.segment<3>(3 * i).array()).cwiseMax(0.0);
-    largest_ratio =
-        std::max(largest_ratio, (R.segment<3>(3 * i).array() / p.E.segment<3>(3 * i).array()).maxCoeff());
+    const double N = delassus_trace(p, i) / 3.0;
+    const auto E = p.E.segment<3>(3 * i).array();
+    R.segment<3>(3 * i) = (share * N - E).cwiseMax(0.0);
+    ratio = std::max(ratio, (R.segment<3>(3 * i).array() / E).maxCoeff());
+    most = std::min(most, kMostShare * N / E.maxCoeff());
   }
-  return std::isfinite(largest_ratio) ? VecX(largest_ratio * p.E) : R;
+  return ratio <= most ? VecX(ratio * p.E) : R;
 }
 
 /// b' - b = s n - R gamma at the pair (v, gamma), with De Saxce's s = mu |y_t|, y = D^T v + b + E gamma (3

@@ -38,6 +38,7 @@ struct NewtonLoop {
   double residual_scale;  ///< momentum residual of one unit of block gradient
   NewtonDirection& solver;
   SolveSummary& summary;
+  bool warm = false;        ///< started from a guess
   bool lag_failed = false;  ///< a kept factor was not near enough
 
   double residual(const PrimalPoint& point) const { return point.largest_block_gradient * residual_scale; }
@@ -64,10 +65,11 @@ bool NewtonLoop::all_stick_start(VecX* w) {
 
 bool NewtonLoop::direction(const PrimalPoint& point, VecX* d) {
   const BlockMatrix H = assemble_hessian(p, graph, stiffnesses(p, point.y));
-  // The first Hessian of a cold start has all contacts stick: from the second on, factors can be kept.
-  const int affordable = options.lag_factor                      ? NewtonDirection::kMaxConjugateGradients
-                         : summary.iterations > 1 && !lag_failed ? solver.affordable_gradients()
-                                                                 : 0;
+  // A cold start has left the factor in which all contacts stick: too far from the first Hessian.
+  const bool near = !lag_failed && (warm || summary.iterations > 1);
+  const int affordable = options.lag_factor ? NewtonDirection::kMaxConjugateGradients
+                         : near             ? solver.affordable_gradients()
+                                            : 0;
   if (affordable > 0) {
     // As many digits as the tolerance still wants, but no more than a step between two active sets is worth.
     const double forcing = std::clamp(0.3 * options.tolerance / residual(point), 1e-3, 0.1);
@@ -177,6 +179,7 @@ SolveSummary NewtonSolver::solve(const ContactProblem& problem, const SolveOptio
   VecX w;
   if (solution->v.size() == problem.v_star.size()) {
     w = white.to_w(solution->v);
+    loop.warm = true;
   } else if (problem.num_contacts() == 0) {
     w = white.problem.v_star;
   } else if (!loop.all_stick_start(&w)) {

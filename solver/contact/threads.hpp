@@ -34,10 +34,12 @@ class Team {
   int size_;
 };
 
-/// Runs program(team, thread) on num_threads() threads, this one among them. It must not throw.
+/// Runs program(team, thread) on num_threads() threads, this one among them, or on this one alone where the
+/// work (operations) is not worth a second one. It must not throw.
 template <class Program>
-void run_team(const Program& program) {
-  Team team(num_threads());
+void run_team(double work, const Program& program) {
+  constexpr double kWorthATeam = 1e8;  // some hundredths of a second
+  Team team(work < kWorthATeam ? 1 : num_threads());
   std::vector<std::jthread> others;
   for (int thread = 1; thread < team.size(); ++thread)
     others.emplace_back([&program, &team, thread] { program(team, thread); });

@@ -223,5 +223,22 @@ TEST(Newton, SameBitsOnEveryRun) {
   EXPECT_EQ(first.x.gamma, second.x.gamma);
 }
 
+// One sector whose neighbours are its own images stands for the whole dome: same forces at its contacts.
+TEST(Newton, SectorOfACyclicDome) {
+  scenes::DomeShape shape;
+  shape.rings = 8;
+  shape.blocks_per_ring = 16;
+  const Solved whole = solve(scenes::dome(shape, 1.0, {0.4, 1e-8, 1e-8}), 1e-12);
+  shape.sectors = 4;
+  const ContactProblem problem = scenes::dome(shape, 1.0, {0.4, 1e-8, 1e-8});
+  const Solved sector = solve(problem, 1e-12);
+  ASSERT_EQ(problem.num_blocks(), 8 * 4);
+  for (int ring = 0; ring < 8; ++ring) {
+    const Eigen::Index size = 4 * 12 * 3;  // slots, contacts, rows: the first sector of each ring
+    const VecX expected = whole.x.gamma.segment(ring * 4 * size, size);
+    EXPECT_LE((sector.x.gamma.segment(ring * size, size) - expected).norm(), 1e-9 * expected.norm()) << ring;
+  }
+}
+
 }  // namespace
 }  // namespace cupola

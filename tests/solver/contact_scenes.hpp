@@ -47,17 +47,23 @@ class Scene {
     return add_block(centroid, mass, R_WB * inertia.asDiagonal() * R_WB.transpose());
   }
 
-  /// Contact at a point, normal from a to b; `first_tangent` fixes the frame when given.
+  /// Contact at a point, normal from a to b; `first_tangent` fixes the frame when given. Of a cyclic scene a
+  /// and b may be images of their blocks, turned by turn_a and turn_b.
   void add_contact(int a, int b, const Vec3& point, const Vec3& normal, const Joint& joint, double gap = 0.0,
-                   const Vec3& first_tangent = Vec3::Zero()) {
+                   const Vec3& first_tangent = Vec3::Zero(), const Mat3& turn_a = Mat3::Identity(),
+                   const Mat3& turn_b = Mat3::Identity()) {
     Mat3 frame;
     frame.col(0) = normal.normalized();
     frame.col(1) = first_tangent.isZero() ? frame.col(0).unitOrthogonal() : first_tangent.normalized();
     frame.col(2) = frame.col(0).cross(frame.col(1));
     problem_.block_a.push_back(a);
     problem_.block_b.push_back(b);
-    problem_.D_a.push_back(a == kGround ? Mat63(Mat63::Zero()) : Mat63(-lever(centroids_[a], point, frame)));
-    problem_.D_b.push_back(b == kGround ? Mat63(Mat63::Zero()) : lever(centroids_[b], point, frame));
+    const auto columns = [&](int block, const Mat3& turn) -> Mat63 {
+      if (block == kGround) return Mat63::Zero();
+      return lever(centroids_[block], turn.transpose() * point, turn.transpose() * frame);
+    };
+    problem_.D_a.push_back(-columns(a, turn_a));
+    problem_.D_b.push_back(columns(b, turn_b));
     const double h = problem_.h;
     b_.push_back({gap / h, 0.0, 0.0});
     E_.push_back(Vec3(joint.c_n, joint.c_t, joint.c_t) / (h * h));
@@ -216,6 +222,7 @@ struct DomeShape {
   double radius = 25.0, thickness = 2.2, top_angle = std::numbers::pi / 3;  ///< m, m, rad from the springing
   double gap = 0.0;  ///< m: largest random gap, uniform in [0, gap] per contact
   unsigned seed = 1;
+  int sectors = 1;  ///< > 1: the blocks of one sector, their neighbours the images of its own
 };
 
 inline ContactProblem dome(const DomeShape& shape, double h, const Joint& joint) {
@@ -228,13 +235,16 @@ inline ContactProblem dome(const DomeShape& shape, double h, const Joint& joint)
   const auto around = [](double p) { return Vec3(-sin(p), cos(p), 0); };
   const auto random_gap = [&] { return shape.gap * (random() / 4294967296.0); };
   const std::array radii{shape.radius - shape.thickness / 2, shape.radius + shape.thickness / 2};
-  const auto index = [&](int ring, int slot) {
-    return ring * shape.blocks_per_ring + slot % shape.blocks_per_ring;
+  const int slots = shape.blocks_per_ring / shape.sectors;
+  const auto index = [&](int ring, int slot) { return ring * slots + (slot + slots) % slots; };
+  const auto turn = [&](int slot) -> Mat3 {  // of the sector that holds the slot, -1 <= slot <= slots
+    const int turns = slot < 0 ? -1 : slot / slots;
+    return Eigen::AngleAxisd(2 * std::numbers::pi * turns / shape.sectors, Vec3::UnitZ()).toRotationMatrix();
   };
 
   for (int i = 0; i < shape.rings; ++i) {
     const double t = (i + 0.5) * dt;
-    for (int j = 0; j < shape.blocks_per_ring; ++j) {
+    for (int j = 0; j < slots; ++j) {
       const double p = (j + 0.5 + 0.5 * (i % 2)) * dp;
       Mat3 R_WB;
       R_WB << radial(t, p), around(p), up(t, p);
@@ -243,21 +253,23 @@ inline ContactProblem dome(const DomeShape& shape, double h, const Joint& joint)
     }
   }
   for (int i = 0; i < shape.rings; ++i) {
-    for (int j = 0; j < shape.blocks_per_ring; ++j) {
+    for (int j = 0; j < slots; ++j) {
       const double p = (j + 0.5 * (i % 2)) * dp;  // first head of the block
       for (const double half : {0.0, 0.5}) {      // bed below: two half blocks
-        const int below =
-            i == 0 ? kGround : index(i - 1, j + (i % 2) + (half == 0.0 ? shape.blocks_per_ring - 1 : 0));
+        const int slot = j + (i % 2) - (half == 0.0 ? 1 : 0);
+        const int below = i == 0 ? kGround : index(i - 1, slot);
         for (const double q : {p + half * dp, p + (half + 0.5) * dp}) {
           for (const double r : radii) {
-            scene.add_contact(below, index(i, j), r * radial(i * dt, q), up(i * dt, q), joint, random_gap());
+            scene.add_contact(below, index(i, j), r * radial(i * dt, q), up(i * dt, q), joint, random_gap(),
+                              Vec3::Zero(), turn(slot));
           }
         }
       }
       for (const double t : {i * dt, (i + 1) * dt}) {  // head towards the next block
         for (const double r : radii) {
           const double q = p + dp;
-          scene.add_contact(index(i, j), index(i, j + 1), r * radial(t, q), around(q), joint, random_gap());
+          scene.add_contact(index(i, j), index(i, j + 1), r * radial(t, q), around(q), joint, random_gap(),
+                            Vec3::Zero(), Mat3::Identity(), turn(j + 1));
         }
       }
     }

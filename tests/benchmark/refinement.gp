@@ -1,0 +1,16 @@
+# Largest change of a macro-block's wrench against the finest bricks, by bricks along an edge.
+set terminal svg size 760,480 font 'Helvetica,12' background 'white'
+set output folder.'/refinement.svg'
+set datafile separator ','
+set logscale xy 2
+set format y '%.0e'
+set xlabel 'bricks along an edge of a macro-block (bond.refine)'
+set ylabel 'largest change against the finest, relative'
+set title 'Wrench of a macro-block against the sum over its bricks, circular dome'
+set key outside right
+set grid
+file = folder.'/refinement.csv'
+plot for [level in '0 10 20 30'] file using (column(1) == level && column(6) > 0 ? column(2) : NaN):6 \
+       with linespoints title 'force, course '.level, \
+     for [level in '0 10 20 30'] file using (column(1) == level && column(7) > 0 ? column(2) : NaN):7 \
+       with linespoints dashtype 2 title 'moment, course '.level
