@@ -1,6 +1,7 @@
 #include "solver/contact/convex_passes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -28,7 +29,7 @@ VecX proximal_compliance(const ContactProblem& p, double share) {
     ratio = std::max(ratio, (R.segment<3>(3 * i).array() / E).maxCoeff());
     most = std::min(most, kMostShare * N / E.maxCoeff());
   }
-  return ratio <= most ? VecX(ratio * p.E) : R;
+  return std::isfinite(ratio) && ratio <= most ? VecX(ratio * p.E) : R;
 }
 
 /// b' - b = s n - R gamma at the pair (v, gamma), with De Saxce's s = mu |y_t|, y = D^T v + b + E gamma (3
