@@ -2,6 +2,9 @@
 
 #include <atomic>
 #include <barrier>
+#include <exception>
+#include <latch>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -9,7 +12,7 @@ namespace cupola {
 
 /// Threads that the loops of the contact solvers may use, >= 1; 1 until set. Results do not depend on it.
 int num_threads();
-void set_num_threads(int count);
+void set_num_threads(int count);  ///< SystemError where there is no address space for so many
 
 /// A few threads that go through the same program together, loop after loop.
 class Team {
@@ -35,15 +38,27 @@ class Team {
 };
 
 /// Runs program(team, thread) on num_threads() threads, this one among them, or on this one alone where the
-/// work (operations) is not worth a second one. It must not throw.
+/// work (operations) is not worth a second one; on as many as the system gives where limits of memory and
+/// processes stop it on the way. The program must not throw.
 template <class Program>
 void run_team(double work, const Program& program) {
   constexpr double kWorthATeam = 1e8;  // some hundredths of a second
-  Team team(work < kWorthATeam ? 1 : num_threads());
-  std::vector<std::jthread> others;
-  for (int thread = 1; thread < team.size(); ++thread)
-    others.emplace_back([&program, &team, thread] { program(team, thread); });
-  program(team, 0);
+  const int size = work < kWorthATeam ? 1 : num_threads();
+  std::optional<Team> team;
+  std::latch complete(1);
+  std::vector<std::jthread> others;  // joined before the team goes
+  others.reserve(static_cast<std::size_t>(size));
+  try {
+    for (int thread = 1; thread < size; ++thread)
+      others.emplace_back([&program, &team, &complete, thread] {
+        complete.wait();
+        program(*team, thread);
+      });
+  } catch (const std::exception&) {  // no thread or no memory for one: those that came do the work
+  }
+  team.emplace(1 + static_cast<int>(others.size()));
+  complete.count_down();
+  program(*team, 0);
 }
 
 }  // namespace cupola

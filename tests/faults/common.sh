@@ -9,8 +9,9 @@ solve() { "$bin/cupola-solve" "$case_file" ${quiet---quiet} --assembly "$1/assem
 post() { "$bin/cupola-post" analyse "$case_file" --quiet --assembly "$1/assembly.vtu" --results "$1/results" --output "$1/post" "${@:2}"; }
 
 # One line per file: name and checksum, without wall times and memory, which no two runs share.
+# contents FOLDER [MORE LINES TO LEAVE OUT]
 contents() {
-  local times='_time_seconds|solve_time|peak[_ ]memory' all file
+  local times="_time_seconds|solve_time|peak[_ ]memory${2:+|$2}" all file
   (cd "$1" && all=$(find . -type f ! -name '*.part*' ! -name '.*' | sort) && [ -n "$all" ] || return 0
     { for file in $(grep -laE "$times" $all); do echo "$(sed -E "/$times/d" "$file" | md5sum) $file"; done
       grep -LaE "$times" $all | xargs -r md5sum; } | awk '{print $NF, $1}' | sort)

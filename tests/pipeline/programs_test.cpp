@@ -277,6 +277,21 @@ TEST(Programs, TooLittleAddressSpaceIsSaid) {
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
+// A hundred threads do not fit into this address space; OpenBLAS would wait for its buffers for ever.
+TEST(Programs, TooManyThreadsForTheAddressSpaceAreRefused) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take all the address space";
+#endif
+  const ProgramFolder folder;
+  solve_wall(folder);
+  const ProgramRun run =
+      folder.run("sh -c 'ulimit -v 700000; ulimit -t 10; OPENBLAS_NUM_THREADS=1 exec cupola-solve " + kWall +
+                 " --assembly assembly.vtu --output many --quiet --threads 100'");
+  EXPECT_EQ(run.code, 1) << run.err;
+  EXPECT_NE(run.err.find("out of memory: 100 threads need"), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
 TEST(Programs, ACutRunYamlIsNotTaken) {
   const ProgramFolder folder;
   solve_wall(folder);
