@@ -61,23 +61,6 @@ std::pair<int, int> blocks_of(const CollisionModel& model, const PartPair& pair)
   return {model.parts[pair.first].block, model.parts[pair.second].block};
 }
 
-/// Whether a face of part a has all of part b farther than `margin` in front of it. Boxes of slender bricks
-/// that lie askew overlap by hundreds.
-bool lies_apart(const CollisionModel& model, int part_a, int part_b, const Eigen::Isometry3d& pose_ab,
-                double margin) {
-  const CollisionPart& a = model.parts[part_a];
-  const CollisionPart& b = model.parts[part_b];
-  for (const CollisionFace& face : model.faces_of(a)) {
-    const Vec3 normal = pose_ab.linear().transpose() * face.normal;  // axes of b
-    const double level = face.normal.dot(face.centroid - pose_ab.translation());
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int v = b.vertex_start; v < b.vertex_start + b.num_vertices; ++v)
-      nearest = std::min(nearest, normal.dot(model.vertices[v]) - level);
-    if (nearest > margin) return true;
-  }
-  return false;
-}
-
 /// All patches between two blocks by face clipping.
 std::vector<JointPatch> clip_blocks(const CollisionModel& model, std::span<const PartPair> pairs,
                                     const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& options) {

@@ -118,6 +118,21 @@ JointPatch clip_faces(const CollisionModel& model, const CollisionFace& face_a, 
   return patch;
 }
 
+bool lies_apart(const CollisionModel& model, int part_a, int part_b, const Eigen::Isometry3d& pose_ab,
+                double margin) {
+  const CollisionPart& a = model.parts[part_a];
+  const CollisionPart& b = model.parts[part_b];
+  for (const CollisionFace& face : model.faces_of(a)) {
+    const Vec3 normal = pose_ab.linear().transpose() * face.normal;  // axes of b
+    const double level = face.normal.dot(face.centroid - pose_ab.translation());
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int v = b.vertex_start; v < b.vertex_start + b.num_vertices; ++v)
+      nearest = std::min(nearest, normal.dot(model.vertices[v]) - level);
+    if (nearest > margin) return true;
+  }
+  return false;
+}
+
 std::vector<JointPatch> clip_opposed_faces(const CollisionModel& model, int part_a, int part_b,
                                            const Eigen::Isometry3d& pose_ab,
                                            const NarrowPhaseOptions& options) {

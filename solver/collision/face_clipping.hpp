@@ -23,4 +23,10 @@ JointPatch clip_faces(const CollisionModel& model, const CollisionFace& face_a, 
                       const Eigen::Isometry3d& pose_ab, const Vec3& normal,
                       const NarrowPhaseOptions& options);
 
+/// Whether a face of part a has all of part b farther than `margin` in front of it. Boxes of slender bricks
+/// that lie askew overlap by hundreds.
+/// `pose_ab` takes coordinates of b's block to those of a's.
+bool lies_apart(const CollisionModel& model, int part_a, int part_b, const Eigen::Isometry3d& pose_ab,
+                double margin);
+
 }  // namespace cupola

@@ -64,6 +64,7 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
     const int b = model.parts[k].block;
     Eigen::Isometry3d pose_ab = Eigen::Isometry3d::Identity();
     pose_ab.translation() = poses[b].p_WB - poses[a].p_WB;
+    if (lies_apart(model, i, k, pose_ab, any_width.margin)) continue;
     const double depth = -separation(model, i, k, pose_ab, any_width);
     if (depth > detector.margin())
       throw InputError(
