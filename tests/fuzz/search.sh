@@ -15,16 +15,16 @@ for fuzzer in "$build"/bin/fuzz_*; do
   seeds=$source/tests/fuzz/seeds/$name
   [ "$name" != case ] || seeds="$source/cases $source/tests/invalid_input"
   mkdir -p "$build/corpus/$name"; log=$build/corpus/$name.log; : > "$log"; cpu=0; code=0
-  while [ $code -eq 0 ] && [ "$cpu" -lt "$seconds" ]; do
+  while [ $code -eq 0 ] && [ "$cpu" -lt $((1000 * seconds)) ]; do
     # Leaks of VTK's singletons are not ours to mend. -timeout and -rss_limit_mb are the promises of the project.
     used=$( { time (cd "$build/corpus/$name" && ASAN_OPTIONS=detect_leaks=0 "$fuzzer" . $seeds \
-      -max_total_time=$((seconds - cpu + 1)) -timeout=10 -rss_limit_mb=1024 -max_len=65536 -print_final_stats=1 \
-      >> "$log" 2>&1 || echo failed >> "$log"); } 2>&1 | awk '{printf "%d", $1 + $2}')
+      -max_total_time=$((seconds - cpu / 1000 + 1)) -timeout=10 -rss_limit_mb=1024 -max_len=65536 -print_final_stats=1 \
+      >> "$log" 2>&1 || echo failed >> "$log"); } 2>&1 | awk '{printf "%d", 1000 * ($1 + $2)}') # ms
     [ "$(tail -n 1 "$log")" != failed ] || code=1
     cpu=$((cpu + used))
   done
   [ $code -eq 0 ] || failed=1
-  spent=$((spent + cpu)); inputs=$((inputs + $(total executed_units sum)))
+  cpu=$(((cpu + 500) / 1000)); spent=$((spent + cpu)); inputs=$((inputs + $(total executed_units sum)))
   echo "$name: $(total executed_units sum) inputs in $cpu CPU s, slowest $(total slowest_unit max) s," \
     "$(total peak_rss max) MB$([ $code -eq 0 ] || echo "; FAILED, see $log")"
 done
