@@ -36,6 +36,16 @@ Summary read_summary(const std::string& runs, const std::string& name) {
 
 }  // namespace
 
+bool StudyRow::by_the_clock() const {
+  return std::any_of(point.settings.begin(), point.settings.end(),
+                     [](const std::string& setting) { return setting.starts_with("--threads="); });
+}
+
+double StudyRow::seconds() const {
+  if (!summary) return 0.0;
+  return by_the_clock() ? summary->wall_time_seconds : summary->cpu_time_seconds;
+}
+
 std::vector<StudyRow> measure_study(const std::vector<StudyPoint>& points, const std::string& runs) {
   const RunCache cache(runs);
   ForceCache forces(runs);
@@ -90,6 +100,8 @@ Table study_table(const std::vector<StudyRow>& rows) {
                {"settings", "", "keys changed"},
                {"status", "", "of the run; not run where its files are missing"},
                {"cpu_time_s", "s", "processor time of cupola-solve"},
+               {"wall_time_s", "s", "of cupola-solve"},
+               {"threads", "", "of cupola-solve"},
                {"memory_MB", "MB", "peak"},
                {"contacts", "", ""},
                {"steps", "", ""},
@@ -111,13 +123,26 @@ Table study_table(const std::vector<StudyRow>& rows) {
     const auto force_error = [&](double value) {
       return row.finished() && !row.critical_error ? value : none;
     };
-    t.rows.push_back({row.point.knob, row.point.name, row.point.reference, settings,
+    t.rows.push_back({row.point.knob,
+                      row.point.name,
+                      row.point.reference,
+                      settings,
                       row.finished() ? to_string(s.status) : std::string("not run"),
-                      error(s.cpu_time_seconds), error(static_cast<double>(s.peak_memory_bytes) / 1e6),
-                      s.contacts, s.steps, s.iterations, error(s.accuracy_asked), error(s.accuracy_reached),
-                      s.certified_force_error.value_or(none), force_error(row.errors.wrench_rms),
-                      force_error(row.errors.wrench_worst), force_error(row.errors.thrust_line),
-                      force_error(row.errors.base_thrust), row.critical_error.value_or(none)});
+                      error(s.cpu_time_seconds),
+                      error(s.wall_time_seconds),
+                      s.threads,
+                      error(static_cast<double>(s.peak_memory_bytes) / 1e6),
+                      s.contacts,
+                      s.steps,
+                      s.iterations,
+                      error(s.accuracy_asked),
+                      error(s.accuracy_reached),
+                      s.certified_force_error.value_or(none),
+                      force_error(row.errors.wrench_rms),
+                      force_error(row.errors.wrench_worst),
+                      force_error(row.errors.thrust_line),
+                      force_error(row.errors.base_thrust),
+                      row.critical_error.value_or(none)});
   }
   return t;
 }

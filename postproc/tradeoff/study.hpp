@@ -24,7 +24,10 @@ struct StudyRow {
   bool reached() const { return finished() && summary->status != Status::unconverged; }
   /// What the study ranks by: of the critical value where there is one, else the wrenches' root mean square.
   double error() const { return critical_error.value_or(errors.wrench_rms); }
-  double seconds() const { return summary ? summary->cpu_time_seconds : 0.0; }  ///< processor time
+  /// Threads share the work: what they save shows on the clock alone.
+  bool by_the_clock() const;
+  /// Processor time, or wall time where threads are the knob.
+  double seconds() const;
 };
 
 /// Measures the runs in the folders runs/NAME/results and runs/NAME/post. Runs whose own folder or whose

@@ -57,11 +57,11 @@ std::string end_of_name(const std::string& name) {
 
 std::string axes(const std::vector<StudyRow>& rows) {
   const bool critical = !rows.empty() && rows.front().critical_error;
+  const bool by_the_clock = !rows.empty() && rows.front().by_the_clock();
   return fmt::format("set ylabel '{}'\n",
                      critical ? "error of the critical value" : "error of the bed-joint wrenches, rms") +
-         "set logscale xy\nset format y '10^{%T}'\nset termoption enhanced\n"
-         "set xlabel 'processor time of cupola-solve (s)'\n"
-         "set key noenhanced\n";
+         fmt::format("set xlabel '{} time of cupola-solve (s)'\n", by_the_clock ? "wall" : "processor") +
+         "set logscale xy\nset format y '10^{%T}'\nset termoption enhanced\nset key noenhanced\n";
 }
 
 /// Adds a series to the data and to the plot command: a line, filled points where it was reached, hollow
@@ -122,7 +122,8 @@ Figure overall_figure(const std::vector<StudyRow>& all) {
   size_t number = 0;
   for (const std::string& knob : knobs_of(all)) {
     const std::vector<StudyRow> rows = rows_of(all, knob);
-    if (!rows.empty() && rows.front().critical_error) continue;  // another sort of error
+    // Another sort of error or of time
+    if (!rows.empty() && (rows.front().critical_error || rows.front().by_the_clock())) continue;
     if (knob == "method") {
       for (const Series& series : series_of(rows, true)) add_series(series, number++, true, &data, &plot);
     } else if (!rows.empty()) {

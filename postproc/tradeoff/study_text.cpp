@@ -14,7 +14,8 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 std::string with_cost(const StudyRow& row) {
-  return fmt::format("{} ({:.2g} s, {:.1e})", row.point.name, row.seconds(), row.error());
+  return fmt::format("{} ({:.2g} s{}, {:.1e})", row.point.name, row.seconds(),
+                     row.by_the_clock() ? " by the clock" : "", row.error());
 }
 
 /// The fastest run for each of a few errors that users ask for.
@@ -77,9 +78,10 @@ std::vector<std::string> study_text(const std::vector<StudyRow>& rows) {
   for (const StudyRow& row : rows)
     if (row.point.is_reference() && row.finished())
       paragraphs.push_back(fmt::format(
-          "Reference {}: {:.2g} s, {:.0f} MB, {} contacts, status {}, certified force error {}.",
-          row.point.name, row.seconds(), static_cast<double>(row.summary->peak_memory_bytes) / 1e6,
-          row.summary->contacts, to_string(row.summary->status),
+          "Reference {}: {:.2g} s{}, {:.0f} MB, {} contacts, status {}, certified force error {}.",
+          row.point.name, row.seconds(), row.by_the_clock() ? " by the clock" : "",
+          static_cast<double>(row.summary->peak_memory_bytes) / 1e6, row.summary->contacts,
+          to_string(row.summary->status),
           row.summary->certified_force_error ? fmt::format("{:.1e}", *row.summary->certified_force_error)
                                              : std::string("none")));
   for (const std::string& knob : knobs_of(rows))

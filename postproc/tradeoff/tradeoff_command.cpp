@@ -46,7 +46,8 @@ ExitCode run_tradeoff(int argc, const char* const* argv) {
   std::string runs_folder, output_folder;
   bool quiet = false;
   CLI::App app("Measures what runs cost and how far each is from its reference.", "cupola-post tradeoff");
-  app.add_option("STUDY", study_paths, "files of lines KNOB NAME REFERENCE key.path=value ...")->required();
+  app.add_option("STUDY", study_paths, "files of lines KNOB NAME REFERENCE key.path=value ... --threads=N")
+      ->required();
   app.add_option("--runs", runs_folder, "folder that holds one folder per run")
       ->type_name("FOLDER")
       ->required();

@@ -40,6 +40,15 @@ TEST(StudyFile, ReadsKnobNameReferenceAndSettings) {
   EXPECT_EQ(points[1].settings, (std::vector<std::string>{"c=2", "d=[1,2]"}));
 }
 
+TEST(StudyRow, CountsWallTimeWhereThreadsAreTheKnob) {
+  const std::vector<StudyPoint> points = read_study({written("t one one --threads=1\nm two two a=1\n")});
+  Summary summary;
+  summary.cpu_time_seconds = 2.0;
+  summary.wall_time_seconds = 1.25;
+  EXPECT_EQ((StudyRow{points[0], summary, {}, {}}).seconds(), 1.25);
+  EXPECT_EQ((StudyRow{points[1], summary, {}, {}}).seconds(), 2.0);
+}
+
 TEST(StudyFile, NamesTheLineThatIsWrong) {
   EXPECT_EQ(error_of("a b\n"), "study.txt:1: error: a line is KNOB NAME REFERENCE key.path=value ...");
   EXPECT_EQ(error_of("a b b x\n"), "study.txt:1: error: x: must be key.path=value");
