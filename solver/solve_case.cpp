@@ -15,10 +15,10 @@
 #include "solver/collision/geometry_warnings.hpp"
 #include "solver/collision/patch_file.hpp"
 #include "solver/contact/fclib_file.hpp"
-#include "solver/contact/threads.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/explain.hpp"
 #include "solver/run_control.hpp"
+#include "solver/threads.hpp"
 
 namespace cupola {
 namespace {
@@ -124,6 +124,7 @@ ExitCode solve_case(const SolveRequest& request) {
   const std::string assembly_hash = content_hash(assembly);
   const std::string checkpoint_path = (std::filesystem::path(request.output_folder) / "checkpoint").string();
 
+  set_num_threads(request.threads);
   print_warnings(geometry_warnings(assembly, detection_options(request.scene)));
 
   // 1. Where the run stands
@@ -141,11 +142,16 @@ ExitCode solve_case(const SolveRequest& request) {
   std::filesystem::remove(std::filesystem::path(request.output_folder) / "summary.json");
 
   // 2. The analysis
-  set_num_threads(request.threads);
   const StopRequest stop;
   ProgressBar progress;
-  std::optional<Summary> summary = run_analysis(
-      request.scene, assembly, make_sinks(request, checkpoint_path, stop, &writer, &run, &progress));
+  AnalysisSinks sinks = make_sinks(request, checkpoint_path, stop, &writer, &run, &progress);
+  const std::string patches_path = (std::filesystem::path(request.output_folder) / "patches.vtp").string();
+  bool patches_written = false;
+  sinks.as_built = [&](const ContactSet& contacts) {
+    write_patches(patches_path, contacts, assembly_hash);
+    patches_written = true;
+  };
+  std::optional<Summary> summary = run_analysis(request.scene, assembly, sinks);
   progress.finish();
   if (!summary) {
     fmt::print(stderr, "interrupted; go on with --resume\n");
@@ -164,9 +170,9 @@ ExitCode solve_case(const SolveRequest& request) {
   writer.write_text("run.yaml", provenance(*summary) + request.scene.effective_yaml);
   // Also where it was written before an interruption: the summary names what this run wrote.
   if (!run.history.empty()) writer.write_text("history.csv", run.history);
-  write_patches((std::filesystem::path(request.output_folder) / "patches.vtp").string(),
-                ContactDetector(assembly, detection_options(request.scene)).update(initial_poses(assembly)),
-                assembly_hash);
+  if (!patches_written)
+    sinks.as_built(
+        ContactDetector(assembly, detection_options(request.scene)).update(initial_poses(assembly)));
   writer.write_summary(*summary);
   if (!request.quiet) print_summary(*summary);
   return summary->status == Status::unconverged ? ExitCode::accuracy_not_reached : ExitCode::done;

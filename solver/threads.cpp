@@ -1,4 +1,4 @@
-#include "solver/contact/threads.hpp"
+#include "solver/threads.hpp"
 
 #include <vector>
 

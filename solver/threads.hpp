@@ -10,7 +10,8 @@
 
 namespace cupola {
 
-/// Threads that the loops of the contact solvers may use, >= 1; 1 until set. Results do not depend on it.
+/// Threads that the loops of contact detection and of the contact solvers may use, >= 1; 1 until set. Results
+/// do not depend on it.
 int num_threads();
 void set_num_threads(int count);  ///< SystemError where there is no address space for so many
 
@@ -59,6 +60,24 @@ void run_team(double work, const Program& program) {
   team.emplace(1 + static_cast<int>(others.size()));
   complete.count_down();
   program(*team, 0);
+}
+
+/// body(i) for i in [0, count), on as many threads as the work (operations) is worth. Of what the bodies
+/// throw the first, by i, is thrown again when all are done.
+template <class Body>
+void share_loop(double work, int count, const Body& body) {
+  std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(count));
+  run_team(work, [&](Team& team, int) {
+    team.share(count, [&](int i) {
+      try {
+        body(i);
+      } catch (...) {
+        thrown[i] = std::current_exception();
+      }
+    });
+  });
+  for (const std::exception_ptr& error : thrown)
+    if (error) std::rethrow_exception(error);
 }
 
 }  // namespace cupola

@@ -7,6 +7,7 @@
 #include "assembly/assembly.hpp"
 #include "assembly/case/case.hpp"
 #include "assembly/results.hpp"
+#include "solver/collision/contact_set.hpp"
 #include "solver/contact/contact_problem.hpp"
 
 namespace cupola {
@@ -30,6 +31,8 @@ struct AnalysisSinks {
   std::function<void(const std::string& bytes)> checkpoint = [](const std::string&) {};
   /// True when the user wants to stop: the analysis finishes its step, hands over a checkpoint and returns.
   std::function<bool()> interrupted = [] { return false; };
+  /// Contacts of the assembly as built, from analyses that keep no others; not called by the rest.
+  std::function<void(const ContactSet&)> as_built = [](const ContactSet&) {};
   std::string resume_from = {};  ///< bytes of a checkpoint; empty: from the start
 };
 

@@ -34,6 +34,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   const State rest = state_at_rest(model);
   // The detector goes at once: of a large model it is as big as the contact problem.
   const ContactSet contacts = ContactDetector(assembly, detection_options(scene)).update(rest.poses);
+  sinks.as_built(contacts);
   const ContactMemories memories = match_memories({}, contacts.contacts);
 
   StaticOptions options = static_options(scene.analysis);

@@ -11,6 +11,7 @@
 #include "solver/collision/edge_contact.hpp"
 #include "solver/collision/face_clipping.hpp"
 #include "solver/collision/plane_contacts.hpp"
+#include "solver/threads.hpp"
 
 namespace cupola {
 namespace {
@@ -19,6 +20,10 @@ constexpr double kDefaultMargin = 0.01;  // of the smallest block
 // Of the smallest block. A block that sinks into its bed by the joint's compliance overlaps the sides of its
 // neighbours by that much: such slivers are no joints.
 constexpr double kSliverWidth = 1e-3;
+// Narrow phase on threads: pieces small enough to even out, and what a pair of parts costs, some
+// microseconds.
+constexpr std::size_t kPairsPerPiece = 1000;
+constexpr double kOperationsPerPair = 1e4;
 constexpr double kCornerTolerance = 1e-10;  // of the smallest block; a hundred roundings of its corners
 
 Eigen::Isometry3d isometry(const Pose& pose) {
@@ -111,17 +116,30 @@ const ContactSet& ContactDetector::update(std::span<const Pose> poses, std::span
   CUPOLA_ASSERT(poses.size() == model_.block_radius.size());
   CUPOLA_ASSERT(travel.empty() || travel.size() == poses.size());
   Reach& now = memory_.now;
-  const bool unmoved = std::equal(poses.begin(), poses.end(), now.poses.begin(), now.poses.end(), same_pose);
-  now.poses.assign(poses.begin(), poses.end());
-  now.travel.assign(poses.size(), 0.0);
-  // A block that would cross its own size in one step is beyond what detection can promise.
-  for (std::size_t b = 0; b < travel.size(); ++b) now.travel[b] = std::min(travel[b], model_.block_radius[b]);
-  if (memory_.num_detections == 0 || needs_detection()) {
+  now.poses.resize(poses.size());
+  now.travel.resize(poses.size());
+  std::vector<char> moved(poses.size(), 0);
+  std::vector<int> changed;
+  for (std::size_t b = 0; b < poses.size(); ++b) {
+    // A block that would cross its own size in one step is beyond what detection can promise.
+    const double goes = travel.empty() ? 0.0 : std::min(travel[b], model_.block_radius[b]);
+    moved[b] = !same_pose(poses[b], now.poses[b]);
+    if (moved[b] || goes != now.travel[b]) changed.push_back(static_cast<int>(b));
+    now.poses[b] = poses[b];
+    now.travel[b] = goes;
+  }
+  if (memory_.num_detections == 0 || needs_detection(changed)) {
     detect();
-  } else if (!unmoved) {
-    move_contacts(poses, &memory_.contacts);
+  } else {
+    carry_contacts(moved);
   }
   return memory_.contacts.set;
+}
+
+void ContactDetector::carry_contacts(const std::vector<char>& moved) {
+  if (moved != moved_) moved_contacts_ = moved_contacts(memory_.contacts.set, moved);
+  moved_ = moved;
+  move_contacts(memory_.now.poses, moved_contacts_, &memory_.contacts);
 }
 
 bool ContactDetector::still_reaches(const Reach& reach, int block) const {
@@ -129,10 +147,10 @@ bool ContactDetector::still_reaches(const Reach& reach, int block) const {
   return moved + memory_.now.travel[block] <= reach.travel[block] + options_.moved_fraction * options_.margin;
 }
 
-bool ContactDetector::needs_detection() const {
+bool ContactDetector::needs_detection(const std::vector<int>& changed) const {
   if (given_) return false;
-  for (std::size_t b = 0; b < memory_.now.poses.size(); ++b) {
-    if (!still_reaches(memory_.detection, static_cast<int>(b))) return true;
+  for (const int b : changed) {
+    if (!still_reaches(memory_.detection, b)) return true;
     // A block that has come to rest need not keep the distant contacts of its flight.
     if (memory_.detection.travel[b] - memory_.now.travel[b] > options_.margin) return true;
   }
@@ -180,7 +198,8 @@ void ContactDetector::detect() {
   // Overlaps as built are for the solver to judge; points that stand for areas yield as little as those are.
   if (memory_.num_detections == 0 || options_.points != PatchPoints::corners) from_the_side.clear();
   memory_.contacts = std::move(fresh);
-  move_contacts(memory_.now.poses, &memory_.contacts);
+  moved_.clear();  // its list was of the old contacts
+  carry_contacts(std::vector<char>(memory_.now.poses.size(), 1));
   settle_rest_gaps(from_the_side, &memory_.contacts);
   memory_.detection = memory_.now;
   ++memory_.num_detections;
@@ -188,24 +207,44 @@ void ContactDetector::detect() {
 
 AnchoredContacts ContactDetector::find_contacts() {
   update_broad_phase();
-  const Reach& now = memory_.now;
-  AnchoredContacts fresh;
-  fresh.set.contacts.reserve(memory_.contacts.set.contacts.size());
-  fresh.anchors.reserve(memory_.contacts.anchors.size());
-  const double nominal_area = model_.smallest_block * model_.smallest_block / 12.0;
   std::vector<PartPair> pairs = broad_phase_->overlapping_pairs();
   const auto by_blocks = [&](const PartPair& p, const PartPair& q) {
     return blocks_of(model_, p) < blocks_of(model_, q);
   };
-  std::stable_sort(pairs.begin(), pairs.end(), by_blocks);
+  // Blocks of one part each have it so already.
+  if (!std::is_sorted(pairs.begin(), pairs.end(), by_blocks))
+    std::stable_sort(pairs.begin(), pairs.end(), by_blocks);
+
+  // All pairs of parts of two blocks in one piece
+  std::vector<std::size_t> starts{0};
+  while (starts.back() < pairs.size()) {
+    std::size_t next = std::min(starts.back() + kPairsPerPiece, pairs.size());
+    while (next < pairs.size() && !by_blocks(pairs[next - 1], pairs[next])) ++next;
+    starts.push_back(next);
+  }
+  std::vector<AnchoredContacts> pieces(starts.size() - 1);
+  share_loop(kOperationsPerPair * static_cast<double>(pairs.size()), static_cast<int>(pieces.size()),
+             [&](int i) {
+               pieces[i] = find_contacts(std::span(pairs).subspan(starts[i], starts[i + 1] - starts[i]));
+             });
+  AnchoredContacts fresh;
+  for (AnchoredContacts& piece : pieces) append(std::move(piece), &fresh);
+  return fresh;
+}
+
+AnchoredContacts ContactDetector::find_contacts(std::span<const std::pair<int, int>> pairs) const {
+  const Reach& now = memory_.now;
+  const double nominal_area = model_.smallest_block * model_.smallest_block / 12.0;
+  AnchoredContacts fresh;
   NarrowPhaseOptions narrow = narrow_;
-  for (auto first = pairs.begin(); first != pairs.end();) {
-    const auto last = std::upper_bound(first, pairs.end(), *first, by_blocks);
-    const auto [a, b] = blocks_of(model_, *first);
+  for (std::size_t first = 0; first < pairs.size();) {
+    const auto [a, b] = blocks_of(model_, pairs[first]);
+    std::size_t last = first + 1;
+    while (last < pairs.size() && blocks_of(model_, pairs[last]) == std::pair(a, b)) ++last;
     const Eigen::Isometry3d pose_ab = relative_pose(now.poses[a], now.poses[b]);
     const double reach = now.travel[a] + now.travel[b];
     narrow.margin = options_.margin + reach;
-    const std::span<const PartPair> parts(first, last);
+    const std::span<const PartPair> parts = pairs.subspan(first, last - first);
     for (const JointPatch& patch : perturbed_gjk_
                                        ? perturb_blocks(*perturbed_gjk_, model_, parts, pose_ab, reach)
                                        : clip_blocks(model_, parts, pose_ab, narrow))
@@ -226,6 +265,7 @@ void ContactDetector::count_gaps_from(std::span<const double> gaps) {
 
 void ContactDetector::restore(DetectionMemory memory) {
   memory_ = std::move(memory);
+  moved_.clear();
   if (memory_.num_detections > 0 && !given_) make_broad_phase(Reach(memory_.boxes));
 }
 

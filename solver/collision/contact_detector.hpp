@@ -89,9 +89,13 @@ class ContactDetector {
   void make_broad_phase(const Reach& reach);
   void update_broad_phase();
   bool still_reaches(const Reach& reach, int block) const;
-  bool needs_detection() const;
+  /// Given that no detection was needed before these blocks changed.
+  bool needs_detection(const std::vector<int>& changed) const;
+  void carry_contacts(const std::vector<char>& moved);
   void detect();
   AnchoredContacts find_contacts();
+  /// Contacts of pairs of parts, those of two blocks side by side.
+  AnchoredContacts find_contacts(std::span<const std::pair<int, int>> pairs) const;
 
   DetectionOptions options_;
   CollisionModel model_;
@@ -100,6 +104,8 @@ class ContactDetector {
   std::optional<BroadPhase> broad_phase_;
   std::optional<AnchoredContacts> given_;  ///< from the contact file
   DetectionMemory memory_;
+  std::vector<char> moved_;       ///< per block: in the last update that carried contacts along
+  MovedContacts moved_contacts_;  ///< of those blocks
 };
 
 }  // namespace cupola

@@ -9,17 +9,21 @@
 #include "assembly/error.hpp"
 #include "solver/collision/face_clipping.hpp"
 #include "solver/collision/separating_axis.hpp"
+#include "solver/threads.hpp"
 
 namespace cupola {
 namespace {
 
 constexpr double kOverlap = 1e-6;  // of the smallest block; ten thousand times the clipping tolerance
+// On threads: pieces small enough to even out, and what a pair of parts costs, some microseconds.
+constexpr std::size_t kPairsPerPiece = 1000;
+constexpr double kOperationsPerPair = 1e4;
 
 /// Largest value met per pair of blocks.
 using PairValues = std::map<std::pair<int, int>, double>;
 
-void keep_largest(PairValues* values, int a, int b, double value) {
-  double& largest = values->try_emplace({a, b}, value).first->second;
+void keep_largest(PairValues* values, std::pair<int, int> pair, double value) {
+  double& largest = values->try_emplace(pair, value).first->second;
   largest = std::max(largest, value);
 }
 
@@ -36,6 +40,36 @@ std::vector<std::pair<int, int>> touching_parts(const CollisionModel& model, con
     groups.push_back(part.fixed ? -1 : part.block);
   }
   return BroadPhase(boxes, groups).overlapping_pairs();
+}
+
+/// What is wrong between blocks.
+struct BadJoints {
+  PairValues overlaps;  // m
+  PairValues slivers;   // m
+};
+
+BadJoints examine(const ContactDetector& detector, const std::vector<Pose>& poses,
+                  const NarrowPhaseOptions& any_width, std::span<const std::pair<int, int>> pairs) {
+  const CollisionModel& model = detector.model();
+  BadJoints bad;
+  for (const auto& [i, k] : pairs) {
+    const int a = model.parts[i].block;
+    const int b = model.parts[k].block;
+    Eigen::Isometry3d pose_ab = Eigen::Isometry3d::Identity();
+    pose_ab.translation() = poses[b].p_WB - poses[a].p_WB;
+    if (lies_apart(model, i, k, pose_ab, any_width.margin)) continue;
+    const double depth = -separation(model, i, k, pose_ab, any_width);
+    if (depth > detector.margin())
+      throw InputError(
+          fmt::format("blocks {} and {} overlap by {:.3g} m, more than contact.margin = {:.3g} m", a, b,
+                      depth, detector.margin()));
+    if (depth > kOverlap * model.smallest_block) keep_largest(&bad.overlaps, {a, b}, depth);
+    for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width)) {
+      const double width = polygon_width(patch.outline());
+      if (width < detector.narrow_phase().min_width) keep_largest(&bad.slivers, {a, b}, width);
+    }
+  }
+  return bad;
 }
 
 /// Smallest distance between a face and the vertex farthest behind it.
@@ -58,23 +92,18 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
   NarrowPhaseOptions any_width = detector.narrow_phase();
   any_width.min_width = 10.0 * any_width.tolerance;
 
+  const std::vector<std::pair<int, int>> pairs = touching_parts(model, poses, any_width.tolerance);
+  std::vector<BadJoints> pieces((pairs.size() + kPairsPerPiece - 1) / kPairsPerPiece);
+  share_loop(kOperationsPerPair * static_cast<double>(pairs.size()), static_cast<int>(pieces.size()),
+             [&](int i) {
+               const std::size_t start = i * kPairsPerPiece;
+               const std::size_t count = std::min(kPairsPerPiece, pairs.size() - start);
+               pieces[i] = examine(detector, poses, any_width, std::span(pairs).subspan(start, count));
+             });
   PairValues overlaps, slivers;
-  for (const auto& [i, k] : touching_parts(model, poses, any_width.tolerance)) {
-    const int a = model.parts[i].block;
-    const int b = model.parts[k].block;
-    Eigen::Isometry3d pose_ab = Eigen::Isometry3d::Identity();
-    pose_ab.translation() = poses[b].p_WB - poses[a].p_WB;
-    if (lies_apart(model, i, k, pose_ab, any_width.margin)) continue;
-    const double depth = -separation(model, i, k, pose_ab, any_width);
-    if (depth > detector.margin())
-      throw InputError(
-          fmt::format("blocks {} and {} overlap by {:.3g} m, more than contact.margin = {:.3g} m", a, b,
-                      depth, detector.margin()));
-    if (depth > kOverlap * model.smallest_block) keep_largest(&overlaps, a, b, depth);
-    for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width)) {
-      const double width = polygon_width(patch.outline());
-      if (width < detector.narrow_phase().min_width) keep_largest(&slivers, a, b, width);
-    }
+  for (const BadJoints& piece : pieces) {
+    for (const auto& [pair, depth] : piece.overlaps) keep_largest(&overlaps, pair, depth);
+    for (const auto& [pair, width] : piece.slivers) keep_largest(&slivers, pair, width);
   }
 
   std::vector<std::string> warnings;

@@ -1,6 +1,7 @@
 #include "solver/collision/patch_contacts.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -161,6 +162,18 @@ void sort_patch(Range range, AnchoredContacts* contacts) {
 
 }  // namespace
 
+void append(AnchoredContacts more, AnchoredContacts* contacts) {
+  const auto take = [](auto* to, auto& from) {
+    to->insert(to->end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+  };
+  const int patches_before = static_cast<int>(contacts->set.patches.size());
+  for (Contact& contact : more.set.contacts) contact.patch += patches_before;
+  take(&contacts->set.contacts, more.set.contacts);
+  take(&contacts->set.patches, more.set.patches);
+  take(&contacts->anchors, more.anchors);
+  take(&contacts->patch_polygons, more.patch_polygons);
+}
+
 void append_patch(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
                   double margin, PatchPoints points, double nominal_area, AnchoredContacts* contacts) {
   const int block_a = model.parts[patch.part_a].block;
@@ -200,11 +213,29 @@ void append_patch(const CollisionModel& model, const JointPatch& patch, const Ei
   contacts->patch_polygons.push_back(std::move(polygon));
 }
 
-void move_contacts(std::span<const Pose> poses, AnchoredContacts* contacts) {
-  std::vector<Mat3> R_WB;
-  R_WB.reserve(poses.size());
-  for (const Pose& pose : poses) R_WB.push_back(pose.q_WB.toRotationMatrix());
-  for (std::size_t i = 0; i < contacts->anchors.size(); ++i) {
+MovedContacts moved_contacts(const ContactSet& set, const std::vector<char>& moved) {
+  MovedContacts found;
+  std::vector<char> needed(moved.size(), 0);
+  for (std::size_t i = 0; i < set.contacts.size(); ++i) {
+    const Contact& contact = set.contacts[i];
+    if (!moved[contact.block_a] && !moved[contact.block_b]) continue;
+    found.contacts.push_back(static_cast<int>(i));
+    needed[contact.block_a] = needed[contact.block_b] = 1;
+  }
+  for (std::size_t p = 0; p < set.patches.size(); ++p) {
+    if (!moved[set.patches[p].block_a]) continue;
+    found.patches.push_back(static_cast<int>(p));
+    needed[set.patches[p].block_a] = 1;
+  }
+  for (std::size_t b = 0; b < needed.size(); ++b)
+    if (needed[b]) found.blocks.push_back(static_cast<int>(b));
+  return found;
+}
+
+void move_contacts(std::span<const Pose> poses, const MovedContacts& moved, AnchoredContacts* contacts) {
+  std::vector<Mat3> R_WB(poses.size());
+  for (const int b : moved.blocks) R_WB[b] = poses[b].q_WB.toRotationMatrix();
+  for (const int i : moved.contacts) {
     const ContactAnchor& anchor = contacts->anchors[i];
     Contact& contact = contacts->set.contacts[i];
     const int a = contact.block_a;
@@ -219,7 +250,7 @@ void move_contacts(std::span<const Pose> poses, AnchoredContacts* contacts) {
     // The centroids are subtracted first: far from the origin the points themselves have lost digits.
     contact.gap = contact.normal.dot((poses[b].p_WB - poses[a].p_WB) + (r_b - r_a)) - anchor.rest_gap;
   }
-  for (std::size_t p = 0; p < contacts->patch_polygons.size(); ++p) {
+  for (const int p : moved.patches) {
     Patch& patch = contacts->set.patches[p];
     patch.polygon.clear();
     for (const Vec3& r_a : contacts->patch_polygons[p])

@@ -25,14 +25,27 @@ struct AnchoredContacts {
   std::vector<std::vector<Vec3>> patch_polygons;  ///< m, one per patch, axes of block a
 };
 
+/// Appends all contacts and patches of `more`.
+void append(AnchoredContacts more, AnchoredContacts* contacts);
+
 /// Appends a patch and its contact points within the margin; `pose_ab` as for the patch. An edge or a vertex
 /// has no area: each of its points stands for `nominal_area` (m2), unless the patch knows better. Positions
 /// in the world are left to move_contacts().
 void append_patch(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
                   double margin, PatchPoints points, double nominal_area, AnchoredContacts* contacts);
 
-/// Places points, normals, gaps and patch polygons for the given poses of the blocks.
-void move_contacts(std::span<const Pose> poses, AnchoredContacts* contacts);
+/// What goes along when some blocks move.
+struct MovedContacts {
+  std::vector<int> contacts;  ///< at least one of whose blocks moves
+  std::vector<int> patches;   ///< whose block a does
+  std::vector<int> blocks;    ///< of those contacts and patches, moved or not
+};
+/// `moved`: 1 or 0 per block.
+MovedContacts moved_contacts(const ContactSet& set, const std::vector<char>& moved);
+
+/// Places points, normals, gaps and patch polygons of the contacts that moved for the given poses of all
+/// blocks.
+void move_contacts(std::span<const Pose> poses, const MovedContacts& moved, AnchoredContacts* contacts);
 
 /// Gives every new contact the name and the rest gap of the nearest old one of the same sort (corner or inner
 /// point) in the patch that its own continues, nearest pairs first; those left over get free numbers. Both

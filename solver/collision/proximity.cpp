@@ -22,7 +22,7 @@ void set_box(const Box& box, fcl::Boxd* shape, fcl::CollisionObjectd* object) {
 
 struct PairCollector {
   std::span<const int> groups;
-  std::vector<std::pair<int, int>> pairs;
+  std::vector<std::vector<int>> partners;  ///< of each box those after it
 };
 
 int index_of(const fcl::CollisionObjectd* object) {
@@ -33,7 +33,8 @@ bool collect_pair(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data
   auto* collector = static_cast<PairCollector*>(data);
   const int i = index_of(a);
   const int j = index_of(b);
-  if (collector->groups[i] != collector->groups[j]) collector->pairs.emplace_back(std::minmax(i, j));
+  if (collector->groups[i] != collector->groups[j])
+    collector->partners[std::min(i, j)].push_back(std::max(i, j));
   return false;  // go on
 }
 
@@ -76,10 +77,14 @@ void BroadPhase::move(std::span<const int> indices, std::span<const Box> boxes) 
 }
 
 std::vector<std::pair<int, int>> BroadPhase::overlapping_pairs() const {
-  PairCollector collector{tree_->groups, {}};
+  PairCollector collector{tree_->groups, std::vector<std::vector<int>>(tree_->groups.size())};
   tree_->manager.collide(&collector, collect_pair);
-  std::sort(collector.pairs.begin(), collector.pairs.end());
-  return collector.pairs;
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t i = 0; i < collector.partners.size(); ++i) {
+    std::sort(collector.partners[i].begin(), collector.partners[i].end());
+    for (const int j : collector.partners[i]) pairs.emplace_back(static_cast<int>(i), j);
+  }
+  return pairs;
 }
 
 struct ConvexBody::Shape {

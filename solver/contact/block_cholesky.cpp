@@ -8,7 +8,7 @@
 #include <cblas.h>
 
 #include "assembly/error.hpp"
-#include "solver/contact/threads.hpp"
+#include "solver/threads.hpp"
 
 extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "solver/contact/threads.hpp"
+#include "solver/threads.hpp"
 
 namespace cupola {
 

@@ -27,7 +27,21 @@ BlockForces applied_loads(const Model& model, const State& state, double time) {
   return sum;
 }
 
+double inertia_share(const Equilibrium& balance) {
+  const double applied = balance.applied_load.squaredNorm();
+  return applied > 0.0 ? 1.0 + balance.support_reaction.dot(balance.applied_load) / applied : 0.0;
+}
+
 }  // namespace
+
+Equilibrium joined(const Equilibrium& a, const Equilibrium& b) {
+  Equilibrium both = a.residual <= b.residual ? b : a;  // NaN counts as the worst
+  if (std::isnan(b.residual)) both = b;
+  both.applied_load = a.applied_load + b.applied_load;
+  both.support_reaction = a.support_reaction + b.support_reaction;
+  both.inertia_share = inertia_share(both);
+  return both;
+}
 
 JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, double h) {
   JointForces forces;
@@ -77,9 +91,7 @@ Equilibrium compute_equilibrium(const Model& model, const State& state, const Co
       balance.worst_block = block;
     }
   }
-  const double applied = balance.applied_load.squaredNorm();
-  if (applied > 0.0)
-    balance.inertia_share = 1.0 + balance.support_reaction.dot(balance.applied_load) / applied;
+  balance.inertia_share = inertia_share(balance);
   return balance;
 }
 

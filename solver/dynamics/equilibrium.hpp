@@ -24,6 +24,9 @@ struct Equilibrium {
   double inertia_share = 0.0;            ///< part of the applied load, along it, that no support carries
 };
 
+/// Balance of two parts of a scene that have no joint with each other, together.
+Equilibrium joined(const Equilibrium& a, const Equilibrium& b);
+
 /// `time`: s, at which the loads are taken.
 Equilibrium compute_equilibrium(const Model& model, const State& state, const ContactSet& contacts,
                                 const JointForces& forces, double time);

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "assembly/error.hpp"
+#include "solver/dynamics/time_step.hpp"
 
 namespace cupola {
 namespace {
@@ -15,6 +16,32 @@ int root_of(std::vector<int>* parent, int i) {
 
 bool varies(const TimeFunction& time) {
   return !std::holds_alternative<ConstantInTime>(time);
+}
+
+/// The part of the free blocks whose `chosen` is `which`.
+ScenePart part_of(const Model& model, const State& state, const ContactSet& contacts,
+                  const ContactMemories& memories, const std::vector<char>& chosen, char which) {
+  ScenePart part{model, state, {}, {}, {}};
+  part.model.free_blocks.clear();
+  for (int i = 0; i < model.num_free(); ++i) {
+    int& index = part.model.free_index[model.free_blocks[i]];
+    index = chosen[i] == which ? part.model.num_free() : ContactProblem::kFixed;
+    if (chosen[i] == which) part.model.free_blocks.push_back(model.free_blocks[i]);
+  }
+  const auto in_part = [&part](int block) { return part.model.free_index[block] != ContactProblem::kFixed; };
+  std::erase_if(part.model.loads.points, [&](const PointLoad& load) { return !in_part(load.block); });
+  part.state.v.resize(6 * part.model.num_free());
+  for (int k = 0; k < part.model.num_free(); ++k)
+    part.state.v.segment<6>(6 * k) = state.v.segment<6>(6 * model.free_index[part.model.free_blocks[k]]);
+  part.contacts.patches = contacts.patches;
+  for (int i = 0; i < static_cast<int>(contacts.contacts.size()); ++i) {
+    if (!in_part(contacts.contacts[i].block_a) && !in_part(contacts.contacts[i].block_b)) continue;
+    part.contact_rows.push_back(i);
+    part.contacts.contacts.push_back(contacts.contacts[i]);
+    part.memories.ids.push_back(memories.ids[i]);
+    part.memories.values.push_back(memories.values[i]);
+  }
+  return part;
 }
 
 }  // namespace
@@ -37,7 +64,7 @@ int Sleepers::num_asleep() const {
   return static_cast<int>(std::count(asleep.begin(), asleep.end(), 1));
 }
 
-void update_sleepers(const Sleep& sleep, const std::vector<int>& islands, const std::vector<double>& radius,
+bool update_sleepers(const Sleep& sleep, const std::vector<int>& islands, const std::vector<double>& radius,
                      State* state, Sleepers* sleepers) {
   const int nb = static_cast<int>(islands.size());
   sleepers->calm_since.resize(nb, state->time);
@@ -49,35 +76,28 @@ void update_sleepers(const Sleep& sleep, const std::vector<int>& islands, const 
       sleepers->calm_since[i] = state->time;
     restless[islands[i]] = std::max(restless[islands[i]], sleepers->calm_since[i]);
   }
+  bool changed = false;
   for (int i = 0; i < nb; ++i) {
-    sleepers->asleep[i] = state->time - restless[islands[i]] >= sleep.time;
-    if (sleepers->asleep[i]) state->v.segment<6>(6 * i).setZero();
+    const char asleep = state->time - restless[islands[i]] >= sleep.time ? 1 : 0;
+    if (asleep == sleepers->asleep[i]) continue;
+    changed = true;
+    sleepers->asleep[i] = asleep;
+    if (asleep) state->v.segment<6>(6 * i).setZero();
   }
+  return changed;
 }
 
-AwakePart awake_part(const Model& model, const State& state, const ContactSet& contacts,
-                     const ContactMemories& memories, const Sleepers& sleepers) {
-  AwakePart part{model, state, {}, {}, {}};
-  part.model.free_blocks.clear();
-  for (int i = 0; i < model.num_free(); ++i) {
-    int& index = part.model.free_index[model.free_blocks[i]];
-    index = sleepers.asleep[i] ? ContactProblem::kFixed : part.model.num_free();
-    if (!sleepers.asleep[i]) part.model.free_blocks.push_back(model.free_blocks[i]);
-  }
-  const auto awake = [&part](int block) { return part.model.free_index[block] != ContactProblem::kFixed; };
-  std::erase_if(part.model.loads.points, [&](const PointLoad& load) { return !awake(load.block); });
-  part.state.v.resize(6 * part.model.num_free());
-  for (int k = 0; k < part.model.num_free(); ++k)
-    part.state.v.segment<6>(6 * k) = state.v.segment<6>(6 * model.free_index[part.model.free_blocks[k]]);
-  part.contacts.patches = contacts.patches;
-  for (int i = 0; i < static_cast<int>(contacts.contacts.size()); ++i) {
-    if (!awake(contacts.contacts[i].block_a) && !awake(contacts.contacts[i].block_b)) continue;
-    part.contact_rows.push_back(i);
-    part.contacts.contacts.push_back(contacts.contacts[i]);
-    part.memories.ids.push_back(memories.ids[i]);
-    part.memories.values.push_back(memories.values[i]);
-  }
-  return part;
+SleepingScene put_to_sleep(const Model& model, const State& state, const ContactSet& contacts,
+                           const ContactMemories& memories, const Sleepers& sleepers, double h) {
+  SleepingScene scene{part_of(model, state, contacts, memories, sleepers.asleep, 0), {}, {}};
+  for (size_t i = 0; i < contacts.contacts.size(); ++i)
+    scene.forces.contacts.push_back(contact_frame(contacts.contacts[i].normal) * memories.values[i].impulse /
+                                    h);
+  const ScenePart asleep = part_of(model, state, contacts, memories, sleepers.asleep, 1);
+  JointForces carried;
+  for (const int row : asleep.contact_rows) carried.contacts.push_back(scene.forces.contacts[row]);
+  scene.balance = compute_equilibrium(asleep.model, asleep.state, asleep.contacts, carried, state.time);
+  return scene;
 }
 
 void require_sleepable(const Case& scene, const Model& model) {

@@ -29,42 +29,49 @@ Simulation::Simulation(Model model, const SimulationOptions& options)
       detector_(*model_.assembly, options.detection),
       next_h_(options.step.h) {
   memories_.tie_impulses.assign(model_.ties.size(), 0.0);
+  for (const int block : model_.free_blocks) radius_.push_back(detector_.block_radius(block));
 }
 
 StepReport Simulation::advance(double h_max) {
   StepOptions step = options_.step;
   step.h = std::min(next_h_, h_max);
   const ContactSet& contacts = detector_.update(state_.poses, travel(step.h));
-  memories_ = match_memories(memories_, contacts.contacts);
+  if (detections_followed_ != detector_.num_detections()) follow_detection(contacts);
   if (options_.sleep) {
-    std::vector<double> radius;
-    for (const int block : model_.free_blocks) radius.push_back(detector_.block_radius(block));
-    update_sleepers(*options_.sleep, islands_of(model_, contacts), radius, &state_, &sleepers_);
+    if (update_sleepers(*options_.sleep, islands_, radius_, &state_, &sleepers_)) sleeping_.reset();
     if (sleepers_.num_asleep() > 0) return advance_awake(contacts, step);
   }
   return solve_and_move(model_, contacts, step, &state_, &memories_);
 }
 
+void Simulation::follow_detection(const ContactSet& contacts) {
+  detections_followed_ = detector_.num_detections();
+  memories_ = match_memories(memories_, contacts.contacts);
+  if (options_.sleep) islands_ = islands_of(model_, contacts);
+  sleeping_.reset();
+}
+
 StepReport Simulation::advance_awake(const ContactSet& contacts, const StepOptions& step) {
-  AwakePart part = awake_part(model_, state_, contacts, memories_, sleepers_);
+  if (!sleeping_) sleeping_ = put_to_sleep(model_, state_, contacts, memories_, sleepers_, step.h);
+  ScenePart& part = sleeping_->awake;
+  for (size_t k = 0; k < part.contact_rows.size(); ++k)
+    part.contacts.contacts[k] = contacts.contacts[part.contact_rows[k]];
   StepReport report = solve_and_move(part.model, part.contacts, step, &part.state, &part.memories);
   report.asleep = sleepers_.num_asleep();
-  // Sleepers go on carrying what they carried in their last step.
-  JointForces forces;
-  for (size_t i = 0; i < contacts.contacts.size(); ++i)
-    forces.contacts.push_back(contact_frame(contacts.contacts[i].normal) * memories_.values[i].impulse /
-                              options_.step.h);
+
+  // What the awake ones did, in the whole
   for (size_t k = 0; k < part.contact_rows.size(); ++k) {
-    forces.contacts[part.contact_rows[k]] = report.forces.contacts[k];
+    sleeping_->forces.contacts[part.contact_rows[k]] = report.forces.contacts[k];
     memories_.values[part.contact_rows[k]] = part.memories.values[k];
   }
-  report.forces = std::move(forces);
-  report.balance =
-      compute_equilibrium(model_, state_, contacts, report.forces, state_.time + 0.5 * step.advance());
-  state_.poses = std::move(part.state.poses);
+  report.forces = sleeping_->forces;
+  report.balance = joined(report.balance, sleeping_->balance);
   state_.time = part.state.time;
-  for (int k = 0; k < part.model.num_free(); ++k)
-    state_.v.segment<6>(6 * model_.free_index[part.model.free_blocks[k]]) = part.state.v.segment<6>(6 * k);
+  for (int k = 0; k < part.model.num_free(); ++k) {
+    const int block = part.model.free_blocks[k];
+    state_.poses[block] = part.state.poses[block];
+    state_.v.segment<6>(6 * model_.free_index[block]) = part.state.v.segment<6>(6 * k);
+  }
   return report;
 }
 
@@ -129,8 +136,8 @@ std::vector<double> Simulation::travel(double h) const {
   std::vector<double> distance(state_.poses.size(), 0.0);
   for (int i = 0; i < model_.num_free(); ++i) {
     const int block = model_.free_blocks[i];
-    distance[block] = h * (state_.v.segment<3>(6 * i).norm() +
-                           detector_.block_radius(block) * state_.v.segment<3>(6 * i + 3).norm());
+    distance[block] =
+        h * (state_.v.segment<3>(6 * i).norm() + radius_[i] * state_.v.segment<3>(6 * i + 3).norm());
   }
   return distance;
 }

@@ -67,7 +67,10 @@ class Simulation {
 
   const Model& model() const { return model_; }
   const State& state() const { return state_; }
-  State* mutable_state() { return &state_; }
+  State* mutable_state() {
+    sleeping_.reset();
+    return &state_;
+  }
   const ContactSet& contacts() const { return detector_.contacts(); }
   const ContactMemories& memories() const { return memories_; }
   Energy energy() const { return compute_energy(model_, state_, contacts(), memories_); }
@@ -79,6 +82,8 @@ class Simulation {
   StepReport solve_and_move(const Model& model, const ContactSet& contacts, StepOptions step, State* state,
                             ContactMemories* memories);
   StepReport advance_awake(const ContactSet& contacts, const StepOptions& step);
+  /// After contacts were found anew: memories and islands of the new ones.
+  void follow_detection(const ContactSet& contacts);
   /// Farthest that a point of each block goes in a step of h at its present velocity, m.
   std::vector<double> travel(double h) const;
 
@@ -88,7 +93,11 @@ class Simulation {
   ContactDetector detector_;
   ContactMemories memories_;
   ContactSolver solver_;
+  int detections_followed_ = 0;
+  std::vector<double> radius_;  ///< m, of each free block
+  std::vector<int> islands_;
   Sleepers sleepers_;
+  std::optional<SleepingScene> sleeping_;  ///< none where nobody sleeps, or not yet made
   double next_h_;
 };
 

@@ -75,6 +75,8 @@ void Simulation::restore(const std::string& bytes) {
     throw std::runtime_error("is of another scene");
   state_ = std::move(state);
   detector_.restore(std::move(detection));
+  detections_followed_ = 0;  // the islands are not kept
+  sleeping_.reset();
 }
 
 }  // namespace cupola

@@ -17,8 +17,8 @@
 #include "solver/contact/cone.hpp"
 #include "solver/contact/residuals.hpp"
 #include "solver/contact/solve_contact.hpp"
-#include "solver/contact/threads.hpp"
 #include "solver/contact/whitening.hpp"
+#include "solver/threads.hpp"
 #include "tests/benchmark/dome_problem.hpp"
 #include "tests/solver/contact_scenes.hpp"
 

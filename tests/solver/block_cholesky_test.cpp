@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include "solver/contact/threads.hpp"
+#include "solver/threads.hpp"
 #include "tests/solver/contact_scenes.hpp"
 
 namespace cupola {

@@ -7,6 +7,7 @@
 
 #include "assembly/error.hpp"
 #include "solver/collision/contact_detector.hpp"
+#include "solver/threads.hpp"
 #include "tests/solver/scenes.hpp"
 
 namespace cupola {
@@ -345,6 +346,48 @@ TEST(ContactDetector, SinkingBesideACompressedJointKeepsItsContacts) {
     poses = initial_poses(columns);
     for (const Contact& contact : detector.update(poses).contacts) EXPECT_NEAR(contact.gap, 0.0, 1e-12);
   }
+}
+
+// 60 x 60 bricks: some 20,000 pairs of boxes, work for several threads.
+TEST(ContactDetector, SameBitsOnAnyNumberOfThreads) {
+  std::vector<BoxSpec> boxes{{.center = {30, 0, -0.5}, .size = {100, 3, 1}, .fixed = true}};
+  for (int course = 0; course < 60; ++course)
+    for (int k = 0; k < 60; ++k)
+      boxes.push_back({.center = {k + 0.5 * (course % 2), 0, 0.3 * course + 0.15}, .size = {1, 1, 0.3}});
+  const Assembly assembly = make_boxes(boxes);
+  for (const bool gjk : {false, true}) {
+    DetectionOptions options;
+    if (gjk) options.perturbed_gjk = PerturbedGjkOptions{.perturbations = 4};
+    std::vector<ContactSet> found;
+    for (const int threads : {1, 3}) {
+      set_num_threads(threads);
+      found.push_back(ContactDetector(assembly, options).update(initial_poses(assembly)));
+    }
+    set_num_threads(1);
+    ASSERT_EQ(found[0].contacts.size(), found[1].contacts.size());
+    ASSERT_GT(found[0].contacts.size(), 4u * 3600u);
+    for (std::size_t i = 0; i < found[0].contacts.size(); ++i) {
+      const Contact &one = found[0].contacts[i], &three = found[1].contacts[i];
+      EXPECT_TRUE(one.id == three.id && one.patch == three.patch && one.point_a == three.point_a &&
+                  one.normal == three.normal && one.gap == three.gap && one.area == three.area)
+          << "contact " << i << (gjk ? " by GJK" : " by clipping");
+    }
+  }
+}
+
+// What a thread meets is told as if there were one: of several faults the first.
+TEST(ShareLoop, ThrowsTheFirstOfWhatItsBodiesThrow) {
+  set_num_threads(3);
+  try {
+    share_loop(1e12, 100, [](int i) {
+      if (i % 10 == 7) throw InputError(std::to_string(i));
+    });
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find('7'), std::string::npos);
+    EXPECT_EQ(std::string(error.what()).find("17"), std::string::npos);
+  }
+  set_num_threads(1);
 }
 
 }  // namespace
