@@ -49,7 +49,7 @@ double first_step(const Model& model, const State& start, const ContactSet& cont
   if (displacement == 0.0) return 1.0;
   // Shells sink by more than their columns shorten, thin ones of many blocks by tens of times as much. Where
   // nothing moves a larger h costs nothing, and a second solve as much as the first.
-  const double margin = options.may_move ? 2.5 : 5.0;
+  const double margin = options.may_move ? 2.5 : 6.0;
   return margin * std::sqrt(displacement / (acceleration * tolerance));
 }
 
@@ -158,8 +158,8 @@ double raise_of_h(const std::vector<SpeedTrial>& trials, double residual, const 
   constexpr double kByDegrees = 6.0;
   constexpr double kFarthest = 100.0;
   const size_t n = trials.size();
-  const bool slows_down =
-      n >= 2 ? !falls_slowly(trials[n - 2], trials[n - 1]) : options.may_move && trials[0].ratio < kFast;
+  const bool slows_down = n >= 2 ? !falls_slowly(trials[n - 2], trials[n - 1])
+                                 : trials[0].ratio < (options.may_move ? kFast : kAtRest);
   const double leap = options.may_move ? kByDegrees : kFarthest;
   return std::clamp(2.0 * std::sqrt(residual / options.tolerance), kCareful, slows_down ? leap : kCareful);
 }
