@@ -42,6 +42,12 @@ struct ContactTable {
   std::vector<double> slip;          ///< m, accumulated plastic sliding
 
   int size() const { return static_cast<int>(joint.size()); }
+  void reserve(std::size_t contacts) {
+    for (std::vector<int>* v : {&joint, &block_a, &block_b, &ring}) v->reserve(contacts);
+    for (std::vector<Vec3>* v : {&point, &normal, &force}) v->reserve(contacts);
+    for (std::vector<double>* v : {&gap, &normal_force, &friction_use, &area, &slip}) v->reserve(contacts);
+    kind.reserve(contacts);
+  }
 };
 
 /// Blocks of one instant, one row per block, at its centroid (blocks_*.vtp).

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/mman.h>
 
 #include "assembly/error.hpp"
@@ -30,6 +31,12 @@ bool has_room_for_blas(int threads) {
 
 int num_threads() {
   return count_of_threads;
+}
+
+void release_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 void set_num_threads(int count) {

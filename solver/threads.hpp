@@ -62,6 +62,10 @@ void run_team(double work, const Program& program) {
   program(*team, 0);
 }
 
+/// Gives back to the system what threads that are gone have freed: each took its memory from a heap of its
+/// own.
+void release_freed_memory();
+
 /// body(i) for i in [0, count), on as many threads as the work (operations) is worth. Of what the bodies
 /// throw the first, by i, is thrown again when all are done.
 template <class Body>

@@ -45,6 +45,7 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
   frame.time = state.time;
   ContactTable& table = frame.contacts;
   table.joint = number_joints(contacts).of_contact;
+  table.reserve(contacts.contacts.size());
   for (size_t i = 0; i < contacts.contacts.size(); ++i) {
     const Contact& contact = contacts.contacts[i];
     const Patch& patch = contacts.patches[contact.patch];
@@ -113,12 +114,13 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   std::vector<Vec3> displacement(loaded.state.poses.size());
   for (size_t block = 0; block < displacement.size(); ++block)
     displacement[block] = loaded.state.poses[block].p_WB - model.assembly->blocks[block].centroid;
-  ContactSet ended = contacts;
+  Frame frame =
+      make_frame(model, loaded.state, contacts, solution.forces.contacts, loaded.memories, displacement);
   const VecX u =
       relative_velocity(solution.step.problem, solution.solution.v) + solution.step.support_velocity;
-  for (size_t i = 0; i < ended.contacts.size(); ++i)
-    ended.contacts[i].gap += solution.h * u[3 * static_cast<Eigen::Index>(i)];
-  return make_frame(model, loaded.state, ended, solution.forces.contacts, loaded.memories, displacement);
+  for (size_t i = 0; i < frame.contacts.gap.size(); ++i)
+    frame.contacts.gap[i] += solution.h * u[3 * static_cast<Eigen::Index>(i)];
+  return frame;
 }
 
 StaticOptions static_options(const Analysis& analysis) {

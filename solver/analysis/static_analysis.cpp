@@ -10,6 +10,7 @@
 #include "solver/analysis/static_solve.hpp"
 #include "solver/analysis/wrench_error.hpp"
 #include "solver/dynamics/scene_options.hpp"
+#include "solver/threads.hpp"
 
 namespace cupola {
 namespace {
@@ -35,6 +36,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   // The detector goes at once: of a large model it is as big as the contact problem.
   const ContactSet contacts = ContactDetector(assembly, detection_options(scene)).update(rest.poses);
   sinks.as_built(contacts);
+  release_freed_memory();
   const ContactMemories memories = match_memories({}, contacts.contacts);
 
   StaticOptions options = static_options(scene.analysis);
@@ -47,10 +49,10 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   }
   const std::optional<double> wrench_error = scene.analysis.accuracy.wrench_error;
   double wrench_error_reached = 0.0;
-  const StaticSolution solution = wrench_error
-                                      ? solve_static_to_wrench_error(model, rest, contacts, memories, options,
-                                                                     *wrench_error, &wrench_error_reached)
-                                      : solve_static(model, rest, contacts, memories, options);
+  StaticSolution solution = wrench_error
+                                ? solve_static_to_wrench_error(model, rest, contacts, memories, options,
+                                                               *wrench_error, &wrench_error_reached)
+                                : solve_static(model, rest, contacts, memories, options);
 
   Summary summary;
   summary.solve_time_seconds = wall_seconds() - started;
@@ -64,8 +66,9 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   summary.analysis = "static";
   summary.unknowns /= scene.analysis.cyclic_sectors;
   summary.message += linearity_note(assembly, summary.max_displacement_m);
-  sinks.frame(frame);
   sinks.problem(solution.step.problem, solution.solution.gamma);
+  solution.step = {};  // of a large model it is as big as the frame, and what is written takes as much again
+  sinks.frame(frame);
   return summary;
 }
 

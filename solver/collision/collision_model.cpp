@@ -87,6 +87,10 @@ CollisionModel make_collision_model(const Assembly& assembly) {
   CollisionModel model;
   model.block_radius.resize(assembly.blocks.size(), 0.0);
   for (const Part& part : assembly.parts) add_part(assembly, part, &model);
+  model.faces.shrink_to_fit();
+  model.corners.shrink_to_fit();
+  model.vertices.shrink_to_fit();
+  model.edges.shrink_to_fit();
   double smallest = std::numeric_limits<double>::infinity();
   for (const Block& block : assembly.blocks)
     if (!block.fixed) smallest = std::min(smallest, block.volume);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -23,6 +24,7 @@ constexpr double kSliverWidth = 1e-3;
 // Narrow phase on threads: pieces small enough to even out, and what a pair of parts costs, some
 // microseconds.
 constexpr std::size_t kPairsPerPiece = 1000;
+constexpr std::size_t kPiecesAtOnce = 256;
 constexpr double kOperationsPerPair = 1e4;
 constexpr double kCornerTolerance = 1e-10;  // of the smallest block; a hundred roundings of its corners
 
@@ -222,13 +224,23 @@ AnchoredContacts ContactDetector::find_contacts() {
     while (next < pairs.size() && !by_blocks(pairs[next - 1], pairs[next])) ++next;
     starts.push_back(next);
   }
-  std::vector<AnchoredContacts> pieces(starts.size() - 1);
-  share_loop(kOperationsPerPair * static_cast<double>(pairs.size()), static_cast<int>(pieces.size()),
-             [&](int i) {
-               pieces[i] = find_contacts(std::span(pairs).subspan(starts[i], starts[i + 1] - starts[i]));
-             });
+  // Not all pieces at once: of a large model they would hold as much as what they become.
   AnchoredContacts fresh;
-  for (AnchoredContacts& piece : pieces) append(std::move(piece), &fresh);
+  for (std::size_t first = 0; first + 1 < starts.size(); first += kPiecesAtOnce) {
+    const std::size_t last = std::min(first + kPiecesAtOnce, starts.size() - 1);
+    std::vector<AnchoredContacts> pieces(last - first);
+    share_loop(kOperationsPerPair * static_cast<double>(starts[last] - starts[first]),
+               static_cast<int>(pieces.size()), [&](int i) {
+                 const std::size_t start = starts[first + i], end = starts[first + i + 1];
+                 pieces[i] = find_contacts(std::span(pairs).subspan(start, end - start));
+               });
+    for (AnchoredContacts& piece : pieces) append(std::move(piece), &fresh);
+    if (first > 0) continue;
+    // The rest will be like the first; what is reserved and not used takes no memory.
+    const std::size_t expected = fresh.anchors.size() * pairs.size() / std::max<std::size_t>(1, starts[last]);
+    fresh.set.contacts.reserve(expected + expected / 4);
+    fresh.anchors.reserve(expected + expected / 4);
+  }
   return fresh;
 }
 

@@ -79,7 +79,10 @@ void BroadPhase::move(std::span<const int> indices, std::span<const Box> boxes) 
 std::vector<std::pair<int, int>> BroadPhase::overlapping_pairs() const {
   PairCollector collector{tree_->groups, std::vector<std::vector<int>>(tree_->groups.size())};
   tree_->manager.collide(&collector, collect_pair);
+  std::size_t count = 0;
+  for (const std::vector<int>& partners : collector.partners) count += partners.size();
   std::vector<std::pair<int, int>> pairs;
+  pairs.reserve(count);
   for (std::size_t i = 0; i < collector.partners.size(); ++i) {
     std::sort(collector.partners[i].begin(), collector.partners[i].end());
     for (const int j : collector.partners[i]) pairs.emplace_back(static_cast<int>(i), j);
