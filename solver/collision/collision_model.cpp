@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -86,7 +87,13 @@ void add_part(const Assembly& assembly, const Part& part, CollisionModel* model)
 CollisionModel make_collision_model(const Assembly& assembly) {
   CollisionModel model;
   model.block_radius.resize(assembly.blocks.size(), 0.0);
-  for (const Part& part : assembly.parts) add_part(assembly, part, &model);
+  model.part_start.resize(assembly.blocks.size() + 1, 0);
+  for (const Part& part : assembly.parts) {
+    CUPOLA_ASSERT(model.parts.empty() || part.block >= model.parts.back().block);
+    add_part(assembly, part, &model);
+    ++model.part_start[part.block + 1];
+  }
+  std::partial_sum(model.part_start.begin(), model.part_start.end(), model.part_start.begin());
   model.faces.shrink_to_fit();
   model.corners.shrink_to_fit();
   model.vertices.shrink_to_fit();

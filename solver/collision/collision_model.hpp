@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ranges>
 #include <span>
 #include <vector>
 
@@ -41,11 +42,12 @@ struct CollisionPart {
 /// The assembly as contact detection sees it: every block in its own axes, so that neither a motion nor a
 /// place far from the origin costs digits.
 struct CollisionModel {
-  std::vector<CollisionPart> parts;  ///< same order as the assembly's
+  std::vector<CollisionPart> parts;  ///< same order as the assembly's: those of a block one after another
   std::vector<CollisionFace> faces;
   std::vector<Vec3> corners;  ///< m, of the faces, counter-clockwise seen from outside
   std::vector<CollisionEdge> edges;
   std::vector<Vec3> vertices;        ///< m, of the parts, each once
+  std::vector<int> part_start;       ///< per block its first part, and the end (num_blocks + 1)
   std::vector<double> block_radius;  ///< m, largest distance of a vertex from the centroid
   double smallest_block = 0.0;       ///< m, cube root of the smallest volume of a free block
   double rounding = 0.0;             ///< m, rounding of the assembly's coordinates
@@ -58,6 +60,10 @@ struct CollisionModel {
   }
   std::span<const Vec3> vertices_of(const CollisionPart& part) const {
     return {vertices.data() + part.vertex_start, static_cast<std::size_t>(part.num_vertices)};
+  }
+  /// Indices of its parts.
+  std::ranges::iota_view<int, int> parts_of_block(int block) const {
+    return {part_start[block], part_start[block + 1]};
   }
   std::span<const CollisionEdge> edges_of(const CollisionPart& part) const {
     return {edges.data() + part.edge_start, static_cast<std::size_t>(part.num_edges)};

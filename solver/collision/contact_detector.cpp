@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,11 +22,10 @@ constexpr double kDefaultMargin = 0.01;  // of the smallest block
 // Of the smallest block. A block that sinks into its bed by the joint's compliance overlaps the sides of its
 // neighbours by that much: such slivers are no joints.
 constexpr double kSliverWidth = 1e-3;
-// Narrow phase on threads: pieces small enough to even out, and what a pair of parts costs, some
-// microseconds.
-constexpr std::size_t kPairsPerPiece = 1000;
-constexpr std::size_t kPiecesAtOnce = 256;
-constexpr double kOperationsPerPair = 1e4;
+// On threads: pieces small enough to even out, and what the joints of a block cost, some tens of microseconds.
+constexpr int kBlocksPerPiece = 64;
+constexpr int kPiecesAtOnce = 256;
+constexpr double kOperationsPerBlock = 1e5;
 constexpr double kCornerTolerance = 1e-10;  // of the smallest block; a hundred roundings of its corners
 
 Eigen::Isometry3d isometry(const Pose& pose) {
@@ -63,10 +63,6 @@ Box part_box(const CollisionModel& model, const CollisionPart& part, const Pose&
 }
 
 using PartPair = std::pair<int, int>;
-
-std::pair<int, int> blocks_of(const CollisionModel& model, const PartPair& pair) {
-  return {model.parts[pair.first].block, model.parts[pair.second].block};
-}
 
 /// All patches between two blocks by face clipping.
 std::vector<JointPatch> clip_blocks(const CollisionModel& model, std::span<const PartPair> pairs,
@@ -209,59 +205,46 @@ void ContactDetector::detect() {
 
 AnchoredContacts ContactDetector::find_contacts() {
   update_broad_phase();
-  std::vector<PartPair> pairs = broad_phase_->overlapping_pairs();
-  const auto by_blocks = [&](const PartPair& p, const PartPair& q) {
-    return blocks_of(model_, p) < blocks_of(model_, q);
-  };
-  // Blocks of one part each have it so already.
-  if (!std::is_sorted(pairs.begin(), pairs.end(), by_blocks))
-    std::stable_sort(pairs.begin(), pairs.end(), by_blocks);
-
-  // All pairs of parts of two blocks in one piece
-  std::vector<std::size_t> starts{0};
-  while (starts.back() < pairs.size()) {
-    std::size_t next = std::min(starts.back() + kPairsPerPiece, pairs.size());
-    while (next < pairs.size() && !by_blocks(pairs[next - 1], pairs[next])) ++next;
-    starts.push_back(next);
-  }
-  // Not all pieces at once: of a large model they would hold as much as what they become.
+  // Pieces of some blocks each; not all at once: of a large model they would hold as much as what they
+  // become.
+  const int num_blocks = static_cast<int>(model_.block_radius.size());
+  const int num_pieces = (num_blocks + kBlocksPerPiece - 1) / kBlocksPerPiece;
   AnchoredContacts fresh;
-  for (std::size_t first = 0; first + 1 < starts.size(); first += kPiecesAtOnce) {
-    const std::size_t last = std::min(first + kPiecesAtOnce, starts.size() - 1);
-    std::vector<AnchoredContacts> pieces(last - first);
-    share_loop(kOperationsPerPair * static_cast<double>(starts[last] - starts[first]),
-               static_cast<int>(pieces.size()), [&](int i) {
-                 const std::size_t start = starts[first + i], end = starts[first + i + 1];
-                 pieces[i] = find_contacts(std::span(pairs).subspan(start, end - start));
-               });
+  for (int first = 0; first < num_pieces; first += kPiecesAtOnce) {
+    const int count = std::min(kPiecesAtOnce, num_pieces - first);
+    std::vector<AnchoredContacts> pieces(count);
+    share_loop(kOperationsPerBlock * kBlocksPerPiece * count, count, [&](int i) {
+      const int start = (first + i) * kBlocksPerPiece;
+      pieces[i] = find_contacts(start, std::min(start + kBlocksPerPiece, num_blocks));
+    });
     for (AnchoredContacts& piece : pieces) append(std::move(piece), &fresh);
     if (first > 0) continue;
     // The rest will be like the first; what is reserved and not used takes no memory.
-    const std::size_t expected = fresh.anchors.size() * pairs.size() / std::max<std::size_t>(1, starts[last]);
+    const std::size_t expected = fresh.anchors.size() * num_pieces / count;
     fresh.set.contacts.reserve(expected + expected / 4);
     fresh.anchors.reserve(expected + expected / 4);
   }
   return fresh;
 }
 
-AnchoredContacts ContactDetector::find_contacts(std::span<const std::pair<int, int>> pairs) const {
+AnchoredContacts ContactDetector::find_contacts(int block_start, int block_end) const {
   const Reach& now = memory_.now;
   const double nominal_area = model_.smallest_block * model_.smallest_block / 12.0;
   AnchoredContacts fresh;
   NarrowPhaseOptions narrow = narrow_;
-  for (std::size_t first = 0; first < pairs.size();) {
-    const auto [a, b] = blocks_of(model_, pairs[first]);
-    std::size_t last = first + 1;
-    while (last < pairs.size() && blocks_of(model_, pairs[last]) == std::pair(a, b)) ++last;
-    const Eigen::Isometry3d pose_ab = relative_pose(now.poses[a], now.poses[b]);
-    const double reach = now.travel[a] + now.travel[b];
-    narrow.margin = options_.margin + reach;
-    const std::span<const PartPair> parts = pairs.subspan(first, last - first);
-    for (const JointPatch& patch : perturbed_gjk_
-                                       ? perturb_blocks(*perturbed_gjk_, model_, parts, pose_ab, reach)
-                                       : clip_blocks(model_, parts, pose_ab, narrow))
-      append_patch(model_, patch, pose_ab, narrow.margin, options_.points, nominal_area, &fresh);
-    first = last;
+  for (int a = block_start; a < block_end; ++a) {
+    std::map<int, std::vector<PartPair>> touching;  // by the other block
+    for (const int i : model_.parts_of_block(a))
+      for (const int j : broad_phase_->partners(i)) touching[model_.parts[j].block].emplace_back(i, j);
+    for (const auto& [b, parts] : touching) {
+      const Eigen::Isometry3d pose_ab = relative_pose(now.poses[a], now.poses[b]);
+      const double reach = now.travel[a] + now.travel[b];
+      narrow.margin = options_.margin + reach;
+      for (const JointPatch& patch : perturbed_gjk_
+                                         ? perturb_blocks(*perturbed_gjk_, model_, parts, pose_ab, reach)
+                                         : clip_blocks(model_, parts, pose_ab, narrow))
+        append_patch(model_, patch, pose_ab, narrow.margin, options_.points, nominal_area, &fresh);
+    }
   }
   return fresh;
 }

@@ -94,8 +94,8 @@ class ContactDetector {
   void carry_contacts(const std::vector<char>& moved);
   void detect();
   AnchoredContacts find_contacts();
-  /// Contacts of pairs of parts, those of two blocks side by side.
-  AnchoredContacts find_contacts(std::span<const std::pair<int, int>> pairs) const;
+  /// Contacts of the blocks [block_start, block_end) with later ones.
+  AnchoredContacts find_contacts(int block_start, int block_end) const;
 
   DetectionOptions options_;
   CollisionModel model_;

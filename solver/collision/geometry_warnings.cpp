@@ -15,9 +15,9 @@ namespace cupola {
 namespace {
 
 constexpr double kOverlap = 1e-6;  // of the smallest block; ten thousand times the clipping tolerance
-// On threads: pieces small enough to even out, and what a pair of parts costs, some microseconds.
-constexpr std::size_t kPairsPerPiece = 1000;
-constexpr double kOperationsPerPair = 1e4;
+// On threads: pieces small enough to even out, and what the joints of a part cost, some tens of microseconds.
+constexpr int kPartsPerPiece = 64;
+constexpr double kOperationsPerPart = 1e5;
 
 /// Largest value met per pair of blocks.
 using PairValues = std::map<std::pair<int, int>, double>;
@@ -27,8 +27,7 @@ void keep_largest(PairValues* values, std::pair<int, int> pair, double value) {
   largest = std::max(largest, value);
 }
 
-std::vector<std::pair<int, int>> touching_parts(const CollisionModel& model, const std::vector<Pose>& poses,
-                                                double tolerance) {
+BroadPhase broad_phase(const CollisionModel& model, const std::vector<Pose>& poses, double tolerance) {
   std::vector<Box> boxes;
   std::vector<int> groups;
   for (const CollisionPart& part : model.parts) {
@@ -39,7 +38,7 @@ std::vector<std::pair<int, int>> touching_parts(const CollisionModel& model, con
     boxes.push_back(box);
     groups.push_back(part.fixed ? -1 : part.block);
   }
-  return BroadPhase(boxes, groups).overlapping_pairs();
+  return {boxes, groups};
 }
 
 /// What is wrong between blocks.
@@ -48,11 +47,11 @@ struct BadJoints {
   PairValues slivers;   // m
 };
 
-BadJoints examine(const ContactDetector& detector, const std::vector<Pose>& poses,
-                  const NarrowPhaseOptions& any_width, std::span<const std::pair<int, int>> pairs) {
+/// Part i against those after it.
+void examine(const ContactDetector& detector, const std::vector<Pose>& poses,
+             const NarrowPhaseOptions& any_width, int i, const std::vector<int>& partners, BadJoints* bad) {
   const CollisionModel& model = detector.model();
-  BadJoints bad;
-  for (const auto& [i, k] : pairs) {
+  for (const int k : partners) {
     const int a = model.parts[i].block;
     const int b = model.parts[k].block;
     Eigen::Isometry3d pose_ab = Eigen::Isometry3d::Identity();
@@ -63,13 +62,12 @@ BadJoints examine(const ContactDetector& detector, const std::vector<Pose>& pose
       throw InputError(
           fmt::format("blocks {} and {} overlap by {:.3g} m, more than contact.margin = {:.3g} m", a, b,
                       depth, detector.margin()));
-    if (depth > kOverlap * model.smallest_block) keep_largest(&bad.overlaps, {a, b}, depth);
+    if (depth > kOverlap * model.smallest_block) keep_largest(&bad->overlaps, {a, b}, depth);
     for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width)) {
       const double width = polygon_width(patch.outline());
-      if (width < detector.narrow_phase().min_width) keep_largest(&bad.slivers, {a, b}, width);
+      if (width < detector.narrow_phase().min_width) keep_largest(&bad->slivers, {a, b}, width);
     }
   }
-  return bad;
 }
 
 /// Smallest distance between a face and the vertex farthest behind it.
@@ -92,14 +90,14 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
   NarrowPhaseOptions any_width = detector.narrow_phase();
   any_width.min_width = 10.0 * any_width.tolerance;
 
-  const std::vector<std::pair<int, int>> pairs = touching_parts(model, poses, any_width.tolerance);
-  std::vector<BadJoints> pieces((pairs.size() + kPairsPerPiece - 1) / kPairsPerPiece);
-  share_loop(kOperationsPerPair * static_cast<double>(pairs.size()), static_cast<int>(pieces.size()),
-             [&](int i) {
-               const std::size_t start = i * kPairsPerPiece;
-               const std::size_t count = std::min(kPairsPerPiece, pairs.size() - start);
-               pieces[i] = examine(detector, poses, any_width, std::span(pairs).subspan(start, count));
-             });
+  const BroadPhase near = broad_phase(model, poses, any_width.tolerance);
+  const int num_parts = static_cast<int>(model.parts.size());
+  std::vector<BadJoints> pieces((num_parts + kPartsPerPiece - 1) / kPartsPerPiece);
+  share_loop(kOperationsPerPart * num_parts, static_cast<int>(pieces.size()), [&](int piece) {
+    const int start = piece * kPartsPerPiece;
+    for (int i = start; i < std::min(start + kPartsPerPiece, num_parts); ++i)
+      examine(detector, poses, any_width, i, near.partners(i), &pieces[piece]);
+  });
   PairValues overlaps, slivers;
   for (const BadJoints& piece : pieces) {
     for (const auto& [pair, depth] : piece.overlaps) keep_largest(&overlaps, pair, depth);

@@ -20,21 +20,21 @@ void set_box(const Box& box, fcl::Boxd* shape, fcl::CollisionObjectd* object) {
   object->computeAABB();
 }
 
-struct PairCollector {
+struct PartnerCollector {
   std::span<const int> groups;
-  std::vector<std::vector<int>> partners;  ///< of each box those after it
+  int of = 0;
+  std::vector<int> partners;
 };
 
 int index_of(const fcl::CollisionObjectd* object) {
   return static_cast<int>(reinterpret_cast<std::intptr_t>(object->getUserData()));
 }
 
-bool collect_pair(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
-  auto* collector = static_cast<PairCollector*>(data);
-  const int i = index_of(a);
-  const int j = index_of(b);
-  if (collector->groups[i] != collector->groups[j])
-    collector->partners[std::min(i, j)].push_back(std::max(i, j));
+bool collect_partner(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
+  auto* collector = static_cast<PartnerCollector*>(data);
+  const int j = index_of(a) == collector->of ? index_of(b) : index_of(a);
+  if (j > collector->of && collector->groups[j] != collector->groups[collector->of])
+    collector->partners.push_back(j);
   return false;  // go on
 }
 
@@ -76,18 +76,11 @@ void BroadPhase::move(std::span<const int> indices, std::span<const Box> boxes) 
   if (!moved.empty()) tree_->manager.update(moved);
 }
 
-std::vector<std::pair<int, int>> BroadPhase::overlapping_pairs() const {
-  PairCollector collector{tree_->groups, std::vector<std::vector<int>>(tree_->groups.size())};
-  tree_->manager.collide(&collector, collect_pair);
-  std::size_t count = 0;
-  for (const std::vector<int>& partners : collector.partners) count += partners.size();
-  std::vector<std::pair<int, int>> pairs;
-  pairs.reserve(count);
-  for (std::size_t i = 0; i < collector.partners.size(); ++i) {
-    std::sort(collector.partners[i].begin(), collector.partners[i].end());
-    for (const int j : collector.partners[i]) pairs.emplace_back(static_cast<int>(i), j);
-  }
-  return pairs;
+std::vector<int> BroadPhase::partners(int i) const {
+  PartnerCollector collector{tree_->groups, i, {}};
+  tree_->manager.collide(tree_->objects[i].get(), &collector, collect_partner);
+  std::sort(collector.partners.begin(), collector.partners.end());
+  return std::move(collector.partners);
 }
 
 struct ConvexBody::Shape {

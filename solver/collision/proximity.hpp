@@ -26,8 +26,9 @@ class BroadPhase {
   /// Replaces the boxes of the given indices.
   void move(std::span<const int> indices, std::span<const Box> boxes);
 
-  /// All pairs (i < j) whose boxes overlap, sorted.
-  std::vector<std::pair<int, int>> overlapping_pairs() const;
+  /// The boxes after box i that overlap it, sorted. Threads may ask at the same time. There is no list of all
+  /// pairs: boxes of slender bricks that stand askew overlap by thousands.
+  std::vector<int> partners(int i) const;
 
  private:
   struct Tree;
