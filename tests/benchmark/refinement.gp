@@ -1,9 +1,10 @@
 # Largest change of a macro-block's wrench against the finest bricks, by bricks along an edge.
-set terminal svg size 760,480 font 'Helvetica,12' background 'white'
-set output folder.'/refinement.svg'
+set terminal pngcairo size 760,480 font 'Helvetica,11' background 'white'
+set output folder.'/refinement.png'
 set datafile separator ','
-set logscale xy 2
-set format y '%.0e'
+set logscale x 2
+set logscale y
+set format y '10^{%T}'
 set xlabel 'bricks along an edge of a macro-block (bond.refine)'
 set ylabel 'largest change against the finest, relative'
 set title 'Wrench of a macro-block against the sum over its bricks, circular dome'

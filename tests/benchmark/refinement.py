@@ -2,8 +2,8 @@
 
     refinement.py FOLDER N N ...    FOLDER/N/post/joints.csv for bond.refine = N, the finest last
 
-Prints one row per refinement and level: thrust (horizontal over vertical force), its distance from the
-mid-surface, and how far force and moment lie from those of the finest bricks. Beds are those of the courses
+Prints one row per refinement and level: thrust (horizontal over vertical force), how far its line of action
+passes outside the centre of pressure of the finest bricks, and how far force and moment lie from theirs. Beds are those of the courses
 of macro-blocks; all macro-blocks of a course are compared, the row tells the largest difference.
 """
 
@@ -43,6 +43,7 @@ def macro_joints(path, refine):
 
 
 def centre(joints):
+    """Of pressure: that is the point of a row of joints.csv."""
     area = sum(joint[0] for joint in joints)
     return [sum(joint[0] * joint[1][k] for joint in joints) / area for k in range(3)]
 
@@ -63,7 +64,7 @@ def main():
     folder, refinements = sys.argv[1], [int(n) for n in sys.argv[2:]]
     runs = {n: macro_joints(f"{folder}/{n}/post/joints.csv", n) for n in refinements}
     finest = runs[refinements[-1]]
-    print("level,refine,bricks_per_block,thrust,eccentricity_m,force_change,moment_change")
+    print("level,refine,bricks_per_block,thrust,thrust_shift_m,force_change,moment_change")
     for level in LEVELS:
         for n in refinements:
             force_change = moment_change = 0.0

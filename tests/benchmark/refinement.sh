@@ -1,6 +1,6 @@
 #!/bin/bash
 # What a macro-block's bed joint carries against the sum over the bricks that it stands for, as bond.refine
-# grows: the circular dome, compliance per area. Writes refinement.csv and refinement.svg.
+# grows: the circular dome, compliance per area. Writes refinement.csv and refinement.png.
 #
 #   tests/benchmark/refinement.sh build/bin out/refinement [1 2 4 8]
 set -euo pipefail

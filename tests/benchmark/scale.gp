@@ -1,6 +1,6 @@
 # Time and memory of the static Brunelleschi model over its blocks.
-set terminal svg size 720,480 font 'Helvetica,12' background 'white'
-set output folder.'/scale.svg'
+set terminal pngcairo size 720,480 font 'Helvetica,11' background 'white'
+set output folder.'/scale.png'
 set datafile separator ','
 set logscale xy
 set xlabel 'blocks'

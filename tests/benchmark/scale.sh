@@ -1,6 +1,6 @@
 #!/bin/bash
 # The static Brunelleschi model from macro-blocks to bricks: blocks, time, memory and residual of
-# cupola-solve. Writes scale.csv and scale.svg. The largest of these takes 14 GB.
+# cupola-solve. Writes scale.csv and scale.png. The largest of these takes 14 GB.
 #
 #   tests/benchmark/scale.sh build/bin out/scale [1 3 8 16]
 set -euo pipefail
