@@ -4,6 +4,7 @@
 
 #include "assembly/atomic_file.hpp"
 #include "assembly/error.hpp"
+#include "assembly/markup.hpp"
 
 namespace cupola {
 namespace {
@@ -14,26 +15,6 @@ constexpr const char* type_name() {
   if constexpr (std::is_same_v<T, std::int32_t>) return "Int32";
   if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
   return "String";
-}
-
-std::string escaped_attribute(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 }  // namespace
@@ -96,7 +77,7 @@ void write_pvd(const std::string& path, const std::vector<PvdEntry>& entries) {
       "  <Collection>\n";
   for (const PvdEntry& entry : entries)
     text += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", entry.time,
-                        escaped_attribute(entry.file));
+                        markup_text(entry.file));
   text += "  </Collection>\n</VTKFile>\n";
   write_text_atomically(path, text);
 }

@@ -78,10 +78,10 @@ std::string figures_html(const std::vector<ClaimFigure>& figures, const std::str
     const std::string path = fmt::format("{}/{}/post/{}", runs, figure.run, figure.picture);
     std::string picture = html_picture(path, figure.shows);
     if (picture.empty())
-      picture = html_text(fmt::format("Not made yet: {} of {}.", figure.picture, figure.run));
+      picture = markup_text(fmt::format("Not made yet: {} of {}.", figure.picture, figure.run));
     out += fmt::format(
         "<figure>\n{}\n<figcaption><strong>{}</strong> {} <small>{}</small></figcaption>\n</figure>\n",
-        picture, html_text(figure.source), html_text(figure.shows), html_text(figure.run));
+        picture, markup_text(figure.source), markup_text(figure.shows), markup_text(figure.run));
   }
   return out.empty() ? out : "<h1>Its figures, from our runs</h1>\n" + out;
 }
@@ -135,9 +135,9 @@ std::string claims_html(const ClaimsFile& file, const std::vector<ClaimResult>& 
     rows += fmt::format(
         "<tr><td>{}</td><td>{}<br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td>"
         "<td class=\"verdict {}\">{}</td></tr>\n",
-        html_text(claim.source), html_text(claim.says), html_text(remark(claim, results[i])),
-        html_text(claim.number), html_text(shown_number(claim, results[i])), html_text(range(claim)), css,
-        verdict);
+        markup_text(claim.source), markup_text(claim.says), markup_text(remark(claim, results[i])),
+        markup_text(claim.number), markup_text(shown_number(claim, results[i])), markup_text(range(claim)),
+        css, verdict);
   }
   return fmt::format(kPage, counts(results), rows, figures_html(file.figures, runs));
 }

@@ -117,10 +117,10 @@ std::string side_by_side(const std::string& name, const std::vector<std::string>
     const std::string picture = html_picture((fs::exists(svg) ? svg : png).string(), name + ", " + labels[i]);
     if (!picture.empty())
       pictures +=
-          fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", picture, html_text(labels[i]));
+          fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", picture, markup_text(labels[i]));
   }
   if (pictures.empty()) return "";
-  return fmt::format("<h3>{}</h3>\n<div class=\"side\">\n{}</div>\n", html_text(name), pictures);
+  return fmt::format("<h3>{}</h3>\n<div class=\"side\">\n{}</div>\n", markup_text(name), pictures);
 }
 
 std::string comparison_html(const std::vector<PostSummary>& runs, const std::vector<std::string>& folders,
@@ -129,20 +129,20 @@ std::string comparison_html(const std::vector<PostSummary>& runs, const std::vec
   const std::vector<std::string> labels = run_labels(runs.size());
   std::string body = "<h1>Comparison</h1>\n<dl>\n";
   for (size_t i = 0; i < runs.size(); ++i)
-    body += fmt::format("<dt>{}</dt><dd>{} <small>({}, {})</small></dd>\n", html_text(labels[i]),
-                        html_text(runs[i].title), html_text(runs[i].status), html_text(folders[i]));
+    body += fmt::format("<dt>{}</dt><dd>{} <small>({}, {})</small></dd>\n", markup_text(labels[i]),
+                        markup_text(runs[i].title), markup_text(runs[i].status), markup_text(folders[i]));
   body += "</dl>\n";
   for (const std::string& problem : problems)
-    body += "<p class=\"warning\"><strong>Warning:</strong> " + html_text(problem) + "</p>\n";
+    body += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(problem) + "</p>\n";
   body += "<h2>Reading</h2>\n<p>";
-  for (const std::string& sentence : reading(runs)) body += html_text(sentence) + " ";
+  for (const std::string& sentence : reading(runs)) body += markup_text(sentence) + " ";
   body += "</p>\n<h2>Numbers</h2>\n" + html_table(plain_table(runs));
   body += "<h2>Graphs</h2>\n<div class=\"side\">\n";
   for (const Figure& figure : figures)
     body +=
         fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
                     html_picture((fs::path(figure_folder) / (figure.name + ".svg")).string(), figure.title),
-                    html_text(figure.title));
+                    markup_text(figure.title));
   body += "</div>\n<h2>Side by side</h2>\n";
   std::vector<std::string> figure_folders;
   for (const std::string& folder : folders) figure_folders.push_back((fs::path(folder) / "figures").string());

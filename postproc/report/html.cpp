@@ -64,36 +64,10 @@ std::string base64(const std::string& bytes) {
 
 }  // namespace
 
-std::string html_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::string html_picture(const std::string& path, const std::string& alternative) {
   if (!std::filesystem::exists(path)) return "";
   const bool svg = std::filesystem::path(path).extension() == ".svg";
-  return fmt::format("<img alt=\"{}\" src=\"data:image/{};base64,{}\">", html_text(alternative),
+  return fmt::format("<img alt=\"{}\" src=\"data:image/{};base64,{}\">", markup_text(alternative),
                      svg ? "svg+xml" : "png", base64(read_text(path)));
 }
 
@@ -103,16 +77,16 @@ std::string html_table(const Table& table) {
   for (size_t i = 0; i < table.columns.size(); ++i) {
     const Table::Column& column = table.columns[i];
     const bool text = !table.rows.empty() && is_text(table.rows.front()[i]);
-    out +=
-        fmt::format("<th{}>{}<small>{}</small></th>", text ? " class=\"text\"" : "",
-                    html_text(column.meaning.empty() ? column.key : column.meaning), html_text(column.unit));
+    out += fmt::format("<th{}>{}<small>{}</small></th>", text ? " class=\"text\"" : "",
+                       markup_text(column.meaning.empty() ? column.key : column.meaning),
+                       markup_text(column.unit));
   }
   out += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
     out += "<tr>";
     for (const Table::Cell& cell : row)
       out +=
-          fmt::format("<td{}>{}</td>", is_text(cell) ? " class=\"text\"" : "", html_text(to_display(cell)));
+          fmt::format("<td{}>{}</td>", is_text(cell) ? " class=\"text\"" : "", markup_text(to_display(cell)));
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
@@ -124,7 +98,7 @@ std::string html_page(const std::string& title, const std::string& body) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<link rel=\"icon\" "
       "href=\"data:,\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-      html_text(title), kStyle, body);
+      markup_text(title), kStyle, body);
 }
 
 }  // namespace cupola

@@ -2,12 +2,10 @@
 
 #include <string>
 
+#include "assembly/markup.hpp"
 #include "postproc/output/table.hpp"
 
 namespace cupola {
-
-/// Text made safe between tags and inside double-quoted attributes.
-std::string html_text(const std::string& text);
 
 /// A picture as an <img> that needs no other file; "" when the file is not there.
 std::string html_picture(const std::string& path, const std::string& alternative);

@@ -18,16 +18,16 @@ std::string force_text(double newtons) {
 }
 
 std::string paragraph(const std::string& text) {
-  return "<p>" + html_text(text) + "</p>\n";
+  return "<p>" + markup_text(text) + "</p>\n";
 }
 
 std::string verdict_section(const Evaluation& e) {
   std::string out;
   for (const std::string& warning : said_first(e))
-    out += "<p class=\"warning\"><strong>Warning:</strong> " + html_text(warning) + "</p>\n";
+    out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
   const bool good = e.summary.status == Status::stable;
   return out + fmt::format("<p class=\"verdict{}\"><strong>{}</strong> {}</p>\n", good ? "" : " bad",
-                           html_text(verdict_text(e.summary)), html_text(e.summary.message + "."));
+                           markup_text(verdict_text(e.summary)), markup_text(e.summary.message + "."));
 }
 
 std::string thrust_text(const ThrustLine& line) {
@@ -45,7 +45,7 @@ std::string thrust_text(const ThrustLine& line) {
 std::string findings_section(const Evaluation& e) {
   const PostSummary s = post_summary(e);
   std::string out = "<h2>What the forces say</h2>\n<ul>\n";
-  const auto item = [&out](const std::string& text) { out += "<li>" + html_text(text) + "</li>\n"; };
+  const auto item = [&out](const std::string& text) { out += "<li>" + markup_text(text) + "</li>\n"; };
   for (const MeridianEvaluation& m : e.meridians) item(thrust_text(m.thrust));
   for (const PlaneCut& cut : e.planes)
     item(fmt::format("Across the plane {} the joints press with {} on what lies beyond.", cut.name,
@@ -78,7 +78,7 @@ std::string findings_section(const Evaluation& e) {
 std::string model_section(const Evaluation& e) {
   std::string out = "<h2>What was modelled</h2>\n<dl>\n";
   const auto row = [&out](const std::string& name, const std::string& value) {
-    out += "<dt>" + html_text(name) + "</dt><dd>" + html_text(value) + "</dd>\n";
+    out += "<dt>" + markup_text(name) + "</dt><dd>" + markup_text(value) + "</dd>\n";
   };
   const Summary& s = e.summary;
   row("Case", e.scene.title);
@@ -95,13 +95,13 @@ std::string model_section(const Evaluation& e) {
   row("Joint compliance", fmt::format("normal {:g}, tangential {:g} {}", c.normal, c.tangential, unit));
   row("Instant", fmt::format("{:g} s, frame {} of {}", e.last.frame.time, e.times.size(), e.times.size()));
   return out + "</dl>\n<details><summary>Every key of the case</summary><pre>" +
-         html_text(e.scene.effective_yaml) + "</pre></details>\n";
+         markup_text(e.scene.effective_yaml) + "</pre></details>\n";
 }
 
 std::string figure_html(const std::string& picture, const std::string& title, const std::string& caption) {
   if (picture.empty()) return "";
   return fmt::format("<figure>\n{}\n<figcaption><strong>{}</strong> {}</figcaption>\n</figure>\n", picture,
-                     html_text(title), html_text(caption));
+                     markup_text(title), markup_text(caption));
 }
 
 std::string figures_section(const ReportInput& input) {
@@ -122,13 +122,13 @@ std::string tables_section(const std::vector<Table>& tables) {
   constexpr size_t kMostRows = 200;  // more are for the CSV
   std::string out = "<h2>Tables</h2>\n";
   for (const Table& table : tables) {
-    const std::string link = fmt::format("<a href=\"{0}.csv\">{0}.csv</a>", html_text(table.name));
+    const std::string link = fmt::format("<a href=\"{0}.csv\">{0}.csv</a>", markup_text(table.name));
     if (table.rows.size() > kMostRows) {
-      out += fmt::format("<p>{}: {} rows in {}.</p>\n", html_text(table.title), table.rows.size(), link);
+      out += fmt::format("<p>{}: {} rows in {}.</p>\n", markup_text(table.title), table.rows.size(), link);
       continue;
     }
     out += fmt::format("<details><summary>{}</summary>\n{}<p>All digits: {}.</p></details>\n",
-                       html_text(table.title), html_table(table), link);
+                       markup_text(table.title), html_table(table), link);
   }
   return out;
 }
@@ -159,7 +159,7 @@ std::string run_section(const ReportInput& input) {
       s.program_version, s.wall_time_seconds, s.solve_time_seconds, s.threads, s.threads == 1 ? "" : "s",
       1e-6 * static_cast<double>(s.peak_memory_bytes), program_version(), s.case_hash, s.assembly_hash));
   if (!input.run_yaml.empty())
-    out += "<details><summary>run.yaml: the options in force</summary><pre>" + html_text(input.run_yaml) +
+    out += "<details><summary>run.yaml: the options in force</summary><pre>" + markup_text(input.run_yaml) +
            "</pre></details>\n";
   return out;
 }
@@ -208,13 +208,13 @@ std::string quality_text(const Summary& s) {
 
 std::string report_html(const ReportInput& input) {
   const Evaluation& e = *input.evaluation;
-  std::string body = "<h1>" + html_text(e.scene.title) + "</h1>\n";
+  std::string body = "<h1>" + markup_text(e.scene.title) + "</h1>\n";
   body += verdict_section(e);
   body += "<h2>How good the answer is</h2>\n" + paragraph(quality_text(e.summary));
   body += findings_section(e);
   body += model_section(e);
   if (!e.assembly.check_report.empty())
-    body += "<h2>Geometry check</h2>\n<pre>" + html_text(e.assembly.check_report) + "</pre>\n";
+    body += "<h2>Geometry check</h2>\n<pre>" + markup_text(e.assembly.check_report) + "</pre>\n";
   body += figures_section(input);
   body += tables_section(input.tables);
   body += files_section();

@@ -66,7 +66,7 @@ ExitCode run_sweep(int argc, const char* const* argv) {
     write_text_atomically((folder / "sweep.csv").string(), to_csv(table));
     write_text_atomically(
         (folder / "sweep.html").string(),
-        html_page(scene.title, fmt::format("<h1>{}</h1>\n<p>{}.</p>\n{}", html_text(scene.title), verdict,
+        html_page(scene.title, fmt::format("<h1>{}</h1>\n<p>{}.</p>\n{}", markup_text(scene.title), verdict,
                                            html_table(table))));
   }
   return missing > 0 ? ExitCode::failed : ExitCode::done;

@@ -19,12 +19,12 @@ namespace fs = std::filesystem;
 std::string study_html(const std::vector<StudyRow>& rows, const std::vector<Figure>& figures,
                        const std::string& figure_folder) {
   std::string body = "<h1>Speed against accuracy</h1>\n";
-  for (const std::string& paragraph : study_text(rows)) body += "<p>" + html_text(paragraph) + "</p>\n";
+  for (const std::string& paragraph : study_text(rows)) body += "<p>" + markup_text(paragraph) + "</p>\n";
   for (const Figure& figure : figures)
-    body +=
-        fmt::format("<h2>{}</h2>\n<figure>{}<figcaption>{}</figcaption></figure>\n", html_text(figure.title),
-                    html_picture((fs::path(figure_folder) / (figure.name + ".svg")).string(), figure.title),
-                    html_text(figure.caption));
+    body += fmt::format(
+        "<h2>{}</h2>\n<figure>{}<figcaption>{}</figcaption></figure>\n", markup_text(figure.title),
+        html_picture((fs::path(figure_folder) / (figure.name + ".svg")).string(), figure.title),
+        markup_text(figure.caption));
   return html_page("Speed against accuracy", body + "<h2>Numbers</h2>\n" + html_table(study_table(rows)));
 }
 

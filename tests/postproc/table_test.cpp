@@ -47,7 +47,7 @@ TEST(Table, NumbersForAReader) {
 }
 
 TEST(Html, EverythingFromOutsideIsEscaped) {
-  EXPECT_EQ(html_text("<script>\"&'"), "&lt;script&gt;&quot;&amp;&#39;");
+  EXPECT_EQ(markup_text("<script>\"&'"), "&lt;script&gt;&quot;&amp;&#39;");
   const std::string table = html_table(example());
   EXPECT_EQ(table.find("<b>&"), std::string::npos);
   EXPECT_NE(table.find("&lt;b&gt;&amp;"), std::string::npos);
