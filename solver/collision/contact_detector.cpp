@@ -22,7 +22,8 @@ constexpr double kDefaultMargin = 0.01;  // of the smallest block
 // Of the smallest block. A block that sinks into its bed by the joint's compliance overlaps the sides of its
 // neighbours by that much: such slivers are no joints.
 constexpr double kSliverWidth = 1e-3;
-// On threads: pieces small enough to even out, and what the joints of a block cost, some tens of microseconds.
+// On threads: pieces small enough to even out, and what the joints of a block cost, some tens of
+// microseconds.
 constexpr int kBlocksPerPiece = 64;
 constexpr int kPiecesAtOnce = 256;
 constexpr double kOperationsPerBlock = 1e5;
