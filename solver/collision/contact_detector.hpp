@@ -67,10 +67,10 @@ class ContactDetector {
   /// meet no surface unseen. The reference stays valid until the next call.
   const ContactSet& update(std::span<const Pose> poses, std::span<const double> travel = {});
 
-  /// Contacts at the poses of the last update.
   /// From now on the gap of contact i counts such that it is `gaps[i]` (m, one per contact).
   void count_gaps_from(std::span<const double> gaps);
 
+  /// Contacts at the poses of the last update.
   const ContactSet& contacts() const { return memory_.contacts.set; }
 
   /// What a checkpoint keeps, and how a new detector takes it over.
