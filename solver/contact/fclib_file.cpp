@@ -1,11 +1,14 @@
 #include "solver/contact/fclib_file.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 extern "C" {
 #include <fclib.h>
@@ -122,11 +125,7 @@ std::optional<VecX> read_impulses(const Hdf5Reader& file, Eigen::Index size) {
   return impulses;
 }
 
-}  // namespace
-
-// libfclib reads into arrays of the sizes that a file states, whatever the arrays in the file are, and ends
-// the process when a name is missing: good for writing, but not for reading files of others.
-FclibProblem read_fclib(const std::string& path) {
+FclibProblem read_problem(const std::string& path) {
   const Hdf5Reader file(path);
   FclibProblem problem;
   if (file.has("/fclib_local")) {
@@ -139,6 +138,34 @@ FclibProblem read_fclib(const std::string& path) {
     reject(path, "neither /fclib_local nor /fclib_global is there");
   }
   return problem;
+}
+
+/// Damaged files end the process within HDF5 itself (1.10: a null pointer in its cache of metadata). So a
+/// child reads first, and its end is what the file is judged by.
+void require_survivable(const std::string& path) {
+  const pid_t child = fork();
+  if (child < 0) throw SystemError(path + ": no process to try it in");
+  if (child == 0) {
+    try {
+      read_problem(path);
+    } catch (...) {  // the parent will meet it, too, and say so
+    }
+    _exit(0);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    reject(path, "is damaged: the HDF5 library does not survive reading it");
+}
+
+}  // namespace
+
+// libfclib reads into arrays of the sizes that a file states, whatever the arrays in the file are, and ends
+// the process when a name is missing: good for writing, but not for reading files of others.
+FclibProblem read_fclib(const std::string& path) {
+  require_survivable(path);
+  return read_problem(path);
 }
 
 void write_fclib(const std::string& path, const std::string& title, const DelassusProblem& problem,

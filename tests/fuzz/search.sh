@@ -13,6 +13,7 @@ for fuzzer in "$build"/bin/fuzz_*; do
   name=$(basename "$fuzzer" | sed 's/^fuzz_//')
   [ $# -eq 0 ] || [[ " $* " == *" $name "* ]] || continue
   seeds=$source/tests/fuzz/seeds/$name
+  [ -d "$seeds" ] || seeds= # some readers begin from nothing
   [ "$name" != case ] || seeds="$source/cases $source/tests/invalid_input"
   mkdir -p "$build/corpus/$name"; log=$build/corpus/$name.log; : > "$log"; cpu=0; code=0
   while [ $code -eq 0 ] && [ "$cpu" -lt $((1000 * seconds)) ]; do
