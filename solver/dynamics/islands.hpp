@@ -30,8 +30,8 @@ bool update_sleepers(const Sleep& sleep, const std::vector<int>& islands, const 
 struct ScenePart {
   Model model;
   State state;
-  ContactSet
-      contacts;  ///< patches as they were when the part was made: who reads their polygons asks the whole
+  /// Patches as they were when the part was made: who reads their polygons asks the whole.
+  ContactSet contacts;
   ContactMemories memories;
   std::vector<int> contact_rows;  ///< row in the whole of each of its contacts
 };
