@@ -48,7 +48,8 @@ double first_step(const Model& model, const State& start, const ContactSet& cont
       courses * compliance * load / std::max(1, at_supports) + imposed_displacement(model, start, options);
   if (displacement == 0.0) return 1.0;
   // Shells sink by more than their columns shorten, thin ones of many blocks by tens of times as much. Where
-  // nothing moves a larger h costs nothing, and a second solve as much as the first.
+  // nothing moves a larger h costs nothing, and a second solve as much as the first: with 6 the inertia share
+  // of a dome of 330,000 bricks is a quarter of the tolerance.
   const double margin = options.may_move ? 2.5 : 6.0;
   return margin * std::sqrt(displacement / (acceleration * tolerance));
 }
