@@ -82,7 +82,43 @@ void add_part(const Assembly& assembly, const Part& part, CollisionModel* model)
   model->parts.push_back(shape);
 }
 
+/// The smallest of the boxes that lie on an outer face, along its longest edge: exact for a brick.
+OrientedBox closest_box(const CollisionModel& model, int block) {
+  if (model.parts_of_block(block).empty()) return {};
+  const CollisionPart& first = model.parts[model.part_start[block]];
+  const CollisionPart& last = model.parts[model.part_start[block + 1] - 1];
+  OrientedBox closest;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int f = first.face_start; f < last.face_start + last.num_faces; ++f) {
+    const CollisionFace& face = model.faces[f];
+    if (face.kind == FaceKind::internal) continue;
+    const auto corners = model.face_corners(face);
+    Vec3 longest = Vec3::Zero();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec3 edge = corners[(i + 1) % corners.size()] - corners[i];
+      if (edge.squaredNorm() > longest.squaredNorm()) longest = edge;
+    }
+    Mat3 axes;
+    axes.col(0) = face.normal;
+    axes.col(1) = (longest - longest.dot(face.normal) * face.normal).normalized();
+    axes.col(2) = axes.col(0).cross(axes.col(1));
+    Eigen::AlignedBox3d extent;
+    for (int v = first.vertex_start; v < last.vertex_start + last.num_vertices; ++v)
+      extent.extend(Vec3(axes.transpose() * model.vertices[v]));
+    if (!(extent.volume() < smallest)) continue;
+    smallest = extent.volume();
+    closest = {axes, axes * extent.center(), 0.5 * extent.sizes()};
+  }
+  return closest;
+}
+
 }  // namespace
+
+OrientedBox CollisionModel::box_at(int block, const Pose& pose, double padding) const {
+  const Mat3 R_WB = pose.q_WB.toRotationMatrix();
+  const OrientedBox& box = block_box[block];
+  return {R_WB * box.axes, R_WB * box.center + pose.p_WB, box.half_sizes.array() + padding};
+}
 
 CollisionModel make_collision_model(const Assembly& assembly) {
   CollisionModel model;
@@ -94,6 +130,8 @@ CollisionModel make_collision_model(const Assembly& assembly) {
     ++model.part_start[part.block + 1];
   }
   std::partial_sum(model.part_start.begin(), model.part_start.end(), model.part_start.begin());
+  for (int block = 0; block < model.num_blocks(); ++block)
+    model.block_box.push_back(closest_box(model, block));
   model.faces.shrink_to_fit();
   model.corners.shrink_to_fit();
   model.vertices.shrink_to_fit();
@@ -107,6 +145,14 @@ CollisionModel make_collision_model(const Assembly& assembly) {
     largest_coordinate = std::max(largest_coordinate, x.cwiseAbs().maxCoeff());
   model.rounding = std::numeric_limits<double>::epsilon() * largest_coordinate;
   return model;
+}
+
+std::vector<int> collision_groups(const CollisionModel& model) {
+  std::vector<int> groups(model.num_blocks());
+  std::iota(groups.begin(), groups.end(), 0);
+  for (const CollisionPart& part : model.parts)
+    if (part.fixed) groups[part.block] = -1;
+  return groups;
 }
 
 std::vector<Pose> initial_poses(const Assembly& assembly) {

@@ -6,6 +6,7 @@
 
 #include "assembly/assembly.hpp"
 #include "solver/collision/contact_set.hpp"
+#include "solver/collision/oriented_box.hpp"
 
 namespace cupola {
 
@@ -46,11 +47,12 @@ struct CollisionModel {
   std::vector<CollisionFace> faces;
   std::vector<Vec3> corners;  ///< m, of the faces, counter-clockwise seen from outside
   std::vector<CollisionEdge> edges;
-  std::vector<Vec3> vertices;        ///< m, of the parts, each once
-  std::vector<int> part_start;       ///< per block its first part, and the end (num_blocks + 1)
-  std::vector<double> block_radius;  ///< m, largest distance of a vertex from the centroid
-  double smallest_block = 0.0;       ///< m, cube root of the smallest volume of a free block
-  double rounding = 0.0;             ///< m, rounding of the assembly's coordinates
+  std::vector<Vec3> vertices;          ///< m, of the parts, each once
+  std::vector<int> part_start;         ///< per block its first part, and the end (num_blocks + 1)
+  std::vector<double> block_radius;    ///< m, largest distance of a vertex from the centroid
+  std::vector<OrientedBox> block_box;  ///< around all parts of the block, in its axes
+  double smallest_block = 0.0;         ///< m, cube root of the smallest volume of a free block
+  double rounding = 0.0;               ///< m, rounding of the assembly's coordinates
 
   std::span<const Vec3> face_corners(const CollisionFace& face) const {
     return {corners.data() + face.corner_start, static_cast<std::size_t>(face.num_corners)};
@@ -61,6 +63,9 @@ struct CollisionModel {
   std::span<const Vec3> vertices_of(const CollisionPart& part) const {
     return {vertices.data() + part.vertex_start, static_cast<std::size_t>(part.num_vertices)};
   }
+  int num_blocks() const { return static_cast<int>(block_radius.size()); }
+  /// Boxes of two blocks overlap where they may be nearer to each other than their paddings (m) together.
+  OrientedBox box_at(int block, const Pose& pose, double padding) const;
   /// Indices of its parts.
   std::ranges::iota_view<int, int> parts_of_block(int block) const {
     return {part_start[block], part_start[block + 1]};
@@ -72,6 +77,9 @@ struct CollisionModel {
 
 /// Throws InputError naming block and face when a face has no area.
 CollisionModel make_collision_model(const Assembly& assembly);
+
+/// One per block, for the broad phase: blocks of one group need not be told apart. All fixed ones are one.
+std::vector<int> collision_groups(const CollisionModel& model);
 
 /// Poses of all blocks as the assembly was made.
 std::vector<Pose> initial_poses(const Assembly& assembly);

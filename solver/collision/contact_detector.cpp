@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,13 +28,6 @@ constexpr int kPiecesAtOnce = 256;
 constexpr double kOperationsPerBlock = 1e5;
 constexpr double kCornerTolerance = 1e-10;  // of the smallest block; a hundred roundings of its corners
 
-Eigen::Isometry3d isometry(const Pose& pose) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = pose.q_WB.toRotationMatrix();
-  X.translation() = pose.p_WB;
-  return X;
-}
-
 /// Takes coordinates in b's axes to a's. The centroids are subtracted first, far from the origin.
 Eigen::Isometry3d relative_pose(const Pose& a, const Pose& b) {
   const Mat3 R_AW = a.q_WB.toRotationMatrix().transpose();
@@ -54,39 +46,34 @@ bool same_pose(const Pose& p, const Pose& q) {
   return p.p_WB == q.p_WB && p.q_WB.coeffs() == q.q_WB.coeffs();
 }
 
-Box part_box(const CollisionModel& model, const CollisionPart& part, const Pose& pose, double padding) {
-  const Eigen::Isometry3d X_WB = isometry(pose);
-  Box box;
-  for (const Vec3& r : model.vertices_of(part)) box.extend(X_WB * r);
-  box.min().array() -= padding;
-  box.max().array() += padding;
-  return box;
-}
-
-using PartPair = std::pair<int, int>;
-
 /// All patches between two blocks by face clipping.
-std::vector<JointPatch> clip_blocks(const CollisionModel& model, std::span<const PartPair> pairs,
+std::vector<JointPatch> clip_blocks(const CollisionModel& model, int block_a, int block_b,
                                     const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& options) {
   std::vector<JointPatch> patches;
-  for (const auto& [a, b] : pairs) {
-    if (lies_apart(model, a, b, pose_ab, options.margin)) continue;
-    const std::vector<JointPatch> faces = clip_opposed_faces(model, a, b, pose_ab, options);
-    patches.insert(patches.end(), faces.begin(), faces.end());
-    if (!faces.empty()) continue;
-    if (const auto edge = find_edge_contact(model, a, b, pose_ab, options)) patches.push_back(*edge);
+  for (const int a : model.parts_of_block(block_a)) {
+    for (const int b : model.parts_of_block(block_b)) {
+      if (lies_apart(model, a, b, pose_ab, options.margin)) continue;
+      const std::vector<JointPatch> faces = clip_opposed_faces(model, a, b, pose_ab, options);
+      patches.insert(patches.end(), faces.begin(), faces.end());
+      if (!faces.empty()) continue;
+      if (const auto edge = find_edge_contact(model, a, b, pose_ab, options)) patches.push_back(*edge);
+    }
   }
   merge_coplanar(&patches, 10.0 * options.tolerance);
   return patches;
 }
 
 /// All patches between two blocks by the paper's method.
-std::vector<JointPatch> perturb_blocks(const PerturbedGjk& gjk, const CollisionModel& model,
-                                       std::span<const PartPair> pairs, const Eigen::Isometry3d& pose_ab,
+std::vector<JointPatch> perturb_blocks(const PerturbedGjk& gjk, const CollisionModel& model, int block_a,
+                                       int block_b, const Eigen::Isometry3d& pose_ab, double margin,
                                        double reach) {
   std::vector<JointPatch> patches;
-  for (const auto& [a, b] : pairs)
-    if (auto patch = gjk.find(model, a, b, pose_ab, reach)) patches.push_back(std::move(*patch));
+  for (const int a : model.parts_of_block(block_a)) {
+    for (const int b : model.parts_of_block(block_b)) {
+      if (lies_apart(model, a, b, pose_ab, margin + reach)) continue;
+      if (auto patch = gjk.find(model, a, b, pose_ab, reach)) patches.push_back(std::move(*patch));
+    }
+  }
   return patches;
 }
 
@@ -156,35 +143,30 @@ bool ContactDetector::needs_detection(const std::vector<int>& changed) const {
   return false;
 }
 
-Box ContactDetector::padded_box(const CollisionPart& part, const Reach& reach) const {
-  // Two parts within the margin overlap by half of it each; the rest lasts while the block still reaches.
-  const double padding = (0.5 + options_.moved_fraction) * options_.margin + reach.travel[part.block];
-  return part_box(model_, part, reach.poses[part.block], padding);
+Box ContactDetector::padded_box(const Reach& reach, int block) const {
+  // Two blocks within the margin overlap by half of it each; the rest lasts while the block still reaches.
+  const double padding = (0.5 + options_.moved_fraction) * options_.margin + reach.travel[block];
+  return upright_box(model_.box_at(block, reach.poses[block], padding));
 }
 
 void ContactDetector::make_broad_phase(const Reach& reach) {
   std::vector<Box> boxes;
-  std::vector<int> groups;
-  for (const CollisionPart& part : model_.parts) {
-    boxes.push_back(padded_box(part, reach));
-    groups.push_back(part.fixed ? -1 : part.block);
-  }
-  broad_phase_.emplace(boxes, groups);
+  for (int block = 0; block < model_.num_blocks(); ++block) boxes.push_back(padded_box(reach, block));
+  broad_phase_.emplace(boxes, collision_groups(model_));
   memory_.boxes = reach;
 }
 
 void ContactDetector::update_broad_phase() {
   if (!broad_phase_) return make_broad_phase(memory_.now);
-  std::vector<int> indices;
+  std::vector<int> blocks;
   std::vector<Box> boxes;
-  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
-    if (still_reaches(memory_.boxes, model_.parts[p].block)) continue;
-    indices.push_back(static_cast<int>(p));
-    boxes.push_back(padded_box(model_.parts[p], memory_.now));
+  for (int block = 0; block < model_.num_blocks(); ++block) {
+    if (still_reaches(memory_.boxes, block)) continue;
+    blocks.push_back(block);
+    boxes.push_back(padded_box(memory_.now, block));
   }
-  broad_phase_->move(indices, boxes);
-  for (int p : indices) {
-    const int block = model_.parts[p].block;
+  broad_phase_->move(blocks, boxes);
+  for (const int block : blocks) {
     memory_.boxes.poses[block] = memory_.now.poses[block];
     memory_.boxes.travel[block] = memory_.now.travel[block];
   }
@@ -208,7 +190,7 @@ AnchoredContacts ContactDetector::find_contacts() {
   update_broad_phase();
   // Pieces of some blocks each; not all at once: of a large model they would hold as much as what they
   // become.
-  const int num_blocks = static_cast<int>(model_.block_radius.size());
+  const int num_blocks = model_.num_blocks();
   const int num_pieces = (num_blocks + kBlocksPerPiece - 1) / kBlocksPerPiece;
   AnchoredContacts fresh;
   for (int first = 0; first < num_pieces; first += kPiecesAtOnce) {
@@ -233,17 +215,19 @@ AnchoredContacts ContactDetector::find_contacts(int block_start, int block_end) 
   const double nominal_area = model_.smallest_block * model_.smallest_block / 12.0;
   AnchoredContacts fresh;
   NarrowPhaseOptions narrow = narrow_;
+  const auto box = [&](int block) {
+    return model_.box_at(block, now.poses[block], 0.5 * options_.margin + now.travel[block]);
+  };
   for (int a = block_start; a < block_end; ++a) {
-    std::map<int, std::vector<PartPair>> touching;  // by the other block
-    for (const int i : model_.parts_of_block(a))
-      for (const int j : broad_phase_->partners(i)) touching[model_.parts[j].block].emplace_back(i, j);
-    for (const auto& [b, parts] : touching) {
+    const OrientedBox box_a = box(a);
+    for (const int b : broad_phase_->partners(a)) {
+      if (!overlap(box_a, box(b))) continue;
       const Eigen::Isometry3d pose_ab = relative_pose(now.poses[a], now.poses[b]);
       const double reach = now.travel[a] + now.travel[b];
       narrow.margin = options_.margin + reach;
-      for (const JointPatch& patch : perturbed_gjk_
-                                         ? perturb_blocks(*perturbed_gjk_, model_, parts, pose_ab, reach)
-                                         : clip_blocks(model_, parts, pose_ab, narrow))
+      for (const JointPatch& patch :
+           perturbed_gjk_ ? perturb_blocks(*perturbed_gjk_, model_, a, b, pose_ab, options_.margin, reach)
+                          : clip_blocks(model_, a, b, pose_ab, narrow))
         append_patch(model_, patch, pose_ab, narrow.margin, options_.points, nominal_area, &fresh);
     }
   }

@@ -85,7 +85,7 @@ class ContactDetector {
   double block_radius(int block) const { return model_.block_radius[block]; }
 
  private:
-  Box padded_box(const CollisionPart& part, const Reach& reach) const;
+  Box padded_box(const Reach& reach, int block) const;
   void make_broad_phase(const Reach& reach);
   void update_broad_phase();
   bool still_reaches(const Reach& reach, int block) const;

@@ -15,9 +15,10 @@ namespace cupola {
 namespace {
 
 constexpr double kOverlap = 1e-6;  // of the smallest block; ten thousand times the clipping tolerance
-// On threads: pieces small enough to even out, and what the joints of a part cost, some tens of microseconds.
-constexpr int kPartsPerPiece = 64;
-constexpr double kOperationsPerPart = 1e5;
+// On threads: pieces small enough to even out, and what the joints of a block cost, some tens of
+// microseconds.
+constexpr int kBlocksPerPiece = 64;
+constexpr double kOperationsPerBlock = 1e5;
 
 /// Largest value met per pair of blocks.
 using PairValues = std::map<std::pair<int, int>, double>;
@@ -27,46 +28,41 @@ void keep_largest(PairValues* values, std::pair<int, int> pair, double value) {
   largest = std::max(largest, value);
 }
 
-BroadPhase broad_phase(const CollisionModel& model, const std::vector<Pose>& poses, double tolerance) {
-  std::vector<Box> boxes;
-  std::vector<int> groups;
-  for (const CollisionPart& part : model.parts) {
-    Box box;
-    for (const Vec3& r : model.vertices_of(part)) box.extend(Vec3(poses[part.block].p_WB + r));
-    box.min().array() -= tolerance;
-    box.max().array() += tolerance;
-    boxes.push_back(box);
-    groups.push_back(part.fixed ? -1 : part.block);
-  }
-  return {boxes, groups};
-}
-
 /// What is wrong between blocks.
 struct BadJoints {
   PairValues overlaps;  // m
   PairValues slivers;   // m
 };
 
-/// Part i against those after it.
-void examine(const ContactDetector& detector, const std::vector<Pose>& poses,
-             const NarrowPhaseOptions& any_width, int i, const std::vector<int>& partners, BadJoints* bad) {
+/// A pair of parts.
+void examine(const ContactDetector& detector, const Eigen::Isometry3d& pose_ab,
+             const NarrowPhaseOptions& any_width, int i, int k, BadJoints* bad) {
   const CollisionModel& model = detector.model();
-  for (const int k : partners) {
-    const int a = model.parts[i].block;
-    const int b = model.parts[k].block;
+  if (lies_apart(model, i, k, pose_ab, any_width.margin)) return;
+  const int a = model.parts[i].block, b = model.parts[k].block;
+  const double depth = -separation(model, i, k, pose_ab, any_width);
+  if (depth > detector.margin())
+    throw InputError(fmt::format("blocks {} and {} overlap by {:.3g} m, more than contact.margin = {:.3g} m",
+                                 a, b, depth, detector.margin()));
+  if (depth > kOverlap * model.smallest_block) keep_largest(&bad->overlaps, {a, b}, depth);
+  for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width)) {
+    const double width = polygon_width(patch.outline());
+    if (width < detector.narrow_phase().min_width) keep_largest(&bad->slivers, {a, b}, width);
+  }
+}
+
+/// Block a against those after it.
+void examine_block(const ContactDetector& detector, const std::vector<Pose>& poses, const BroadPhase& near,
+                   const NarrowPhaseOptions& any_width, int a, BadJoints* bad) {
+  const CollisionModel& model = detector.model();
+  const auto box = [&](int block) { return model.box_at(block, poses[block], 0.5 * any_width.margin); };
+  const OrientedBox box_a = box(a);
+  for (const int b : near.partners(a)) {
+    if (!overlap(box_a, box(b))) continue;
     Eigen::Isometry3d pose_ab = Eigen::Isometry3d::Identity();
     pose_ab.translation() = poses[b].p_WB - poses[a].p_WB;
-    if (lies_apart(model, i, k, pose_ab, any_width.margin)) continue;
-    const double depth = -separation(model, i, k, pose_ab, any_width);
-    if (depth > detector.margin())
-      throw InputError(
-          fmt::format("blocks {} and {} overlap by {:.3g} m, more than contact.margin = {:.3g} m", a, b,
-                      depth, detector.margin()));
-    if (depth > kOverlap * model.smallest_block) keep_largest(&bad->overlaps, {a, b}, depth);
-    for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width)) {
-      const double width = polygon_width(patch.outline());
-      if (width < detector.narrow_phase().min_width) keep_largest(&bad->slivers, {a, b}, width);
-    }
+    for (const int i : model.parts_of_block(a))
+      for (const int k : model.parts_of_block(b)) examine(detector, pose_ab, any_width, i, k, bad);
   }
 }
 
@@ -90,13 +86,15 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
   NarrowPhaseOptions any_width = detector.narrow_phase();
   any_width.min_width = 10.0 * any_width.tolerance;
 
-  const BroadPhase near = broad_phase(model, poses, any_width.tolerance);
-  const int num_parts = static_cast<int>(model.parts.size());
-  std::vector<BadJoints> pieces((num_parts + kPartsPerPiece - 1) / kPartsPerPiece);
-  share_loop(kOperationsPerPart * num_parts, static_cast<int>(pieces.size()), [&](int piece) {
-    const int start = piece * kPartsPerPiece;
-    for (int i = start; i < std::min(start + kPartsPerPiece, num_parts); ++i)
-      examine(detector, poses, any_width, i, near.partners(i), &pieces[piece]);
+  std::vector<Box> boxes;
+  for (int block = 0; block < model.num_blocks(); ++block)
+    boxes.push_back(upright_box(model.box_at(block, poses[block], 0.5 * any_width.margin)));
+  const BroadPhase near(boxes, collision_groups(model));
+  std::vector<BadJoints> pieces((model.num_blocks() + kBlocksPerPiece - 1) / kBlocksPerPiece);
+  share_loop(kOperationsPerBlock * model.num_blocks(), static_cast<int>(pieces.size()), [&](int piece) {
+    const int start = piece * kBlocksPerPiece;
+    for (int block = start; block < std::min(start + kBlocksPerPiece, model.num_blocks()); ++block)
+      examine_block(detector, poses, near, any_width, block, &pieces[piece]);
   });
   PairValues overlaps, slivers;
   for (const BadJoints& piece : pieces) {
