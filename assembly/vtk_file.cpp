@@ -33,6 +33,7 @@
 #include <vtkZLibDataCompressor.h>
 
 #include "assembly/atomic_file.hpp"
+#include "assembly/declared_sizes.hpp"
 #include "assembly/error.hpp"
 #include "assembly/hash.hpp"
 #include "assembly/mesh_file.hpp"
@@ -247,6 +248,8 @@ void check_bytes(const std::string& path) {
   const size_t digits = text.size() - kChecksumEnd.size() - start - kChecksumStart.size();
   if (hash_text(text.substr(0, start)) != text.substr(start + kChecksumStart.size(), digits))
     reject(path, "is damaged or was edited: its bytes do not match the checksum in its last line");
+  // A checksum can be forged.
+  if (const std::string why = oversized(text); !why.empty()) reject(path, why);
 }
 
 MeshArray from_vtk(const std::string& path, vtkAbstractArray* array) {

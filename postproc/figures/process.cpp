@@ -7,11 +7,10 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include "assembly/atomic_file.hpp"
 #include "assembly/error.hpp"
-
-extern char** environ;
 
 namespace cupola {
 

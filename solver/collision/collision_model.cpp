@@ -84,7 +84,7 @@ void add_part(const Assembly& assembly, const Part& part, CollisionModel* model)
 
 /// The smallest of the boxes that lie on an outer face, along its longest edge: exact for a brick.
 OrientedBox closest_box(const CollisionModel& model, int block) {
-  if (model.parts_of_block(block).empty()) return {};
+  if (model.part_start[block] == model.part_start[block + 1]) return {};
   const CollisionPart& first = model.parts[model.part_start[block]];
   const CollisionPart& last = model.parts[model.part_start[block + 1] - 1];
   OrientedBox closest;

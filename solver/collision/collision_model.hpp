@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -66,10 +65,6 @@ struct CollisionModel {
   int num_blocks() const { return static_cast<int>(block_radius.size()); }
   /// Boxes of two blocks overlap where they may be nearer to each other than their paddings (m) together.
   OrientedBox box_at(int block, const Pose& pose, double padding) const;
-  /// Indices of its parts.
-  std::ranges::iota_view<int, int> parts_of_block(int block) const {
-    return {part_start[block], part_start[block + 1]};
-  }
   std::span<const CollisionEdge> edges_of(const CollisionPart& part) const {
     return {edges.data() + part.edge_start, static_cast<std::size_t>(part.num_edges)};
   }

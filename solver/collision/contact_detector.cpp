@@ -50,8 +50,8 @@ bool same_pose(const Pose& p, const Pose& q) {
 std::vector<JointPatch> clip_blocks(const CollisionModel& model, int block_a, int block_b,
                                     const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& options) {
   std::vector<JointPatch> patches;
-  for (const int a : model.parts_of_block(block_a)) {
-    for (const int b : model.parts_of_block(block_b)) {
+  for (int a = model.part_start[block_a]; a < model.part_start[block_a + 1]; ++a) {
+    for (int b = model.part_start[block_b]; b < model.part_start[block_b + 1]; ++b) {
       if (lies_apart(model, a, b, pose_ab, options.margin)) continue;
       const std::vector<JointPatch> faces = clip_opposed_faces(model, a, b, pose_ab, options);
       patches.insert(patches.end(), faces.begin(), faces.end());
@@ -68,8 +68,8 @@ std::vector<JointPatch> perturb_blocks(const PerturbedGjk& gjk, const CollisionM
                                        int block_b, const Eigen::Isometry3d& pose_ab, double margin,
                                        double reach) {
   std::vector<JointPatch> patches;
-  for (const int a : model.parts_of_block(block_a)) {
-    for (const int b : model.parts_of_block(block_b)) {
+  for (int a = model.part_start[block_a]; a < model.part_start[block_a + 1]; ++a) {
+    for (int b = model.part_start[block_b]; b < model.part_start[block_b + 1]; ++b) {
       if (lies_apart(model, a, b, pose_ab, margin + reach)) continue;
       if (auto patch = gjk.find(model, a, b, pose_ab, reach)) patches.push_back(std::move(*patch));
     }

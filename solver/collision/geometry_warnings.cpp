@@ -61,8 +61,9 @@ void examine_block(const ContactDetector& detector, const std::vector<Pose>& pos
     if (!overlap(box_a, box(b))) continue;
     Eigen::Isometry3d pose_ab = Eigen::Isometry3d::Identity();
     pose_ab.translation() = poses[b].p_WB - poses[a].p_WB;
-    for (const int i : model.parts_of_block(a))
-      for (const int k : model.parts_of_block(b)) examine(detector, pose_ab, any_width, i, k, bad);
+    for (int i = model.part_start[a]; i < model.part_start[a + 1]; ++i)
+      for (int k = model.part_start[b]; k < model.part_start[b + 1]; ++k)
+        examine(detector, pose_ab, any_width, i, k, bad);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "assembly/atomic_file.hpp"
 #include "assembly/error.hpp"
+#include "assembly/hash.hpp"
 #include "tests/assembly/scene.hpp"
 
 namespace cupola {
@@ -157,6 +158,37 @@ TEST(MeshFile, EditedCountsAreRefused) {
     write_text_atomically(folder + "/bad.vtu", changed.substr(0, changed.rfind("<!--")));
     EXPECT_NE(read_error(folder + "/bad.vtu").find("was not written by Cupola"), std::string::npos) << value;
   }
+}
+
+/// What reading says of the file when its start is followed by other text (to the next quote, or as long),
+/// with a right checksum below.
+std::string error_of_forged(const std::string& text, const std::string& start, const std::string& other) {
+  const std::string path = test::fresh_folder("forged") + "/forged.vtu";
+  std::string body = text.substr(0, text.rfind("<!--"));
+  const size_t at = body.find(start) + start.size();
+  body.replace(at, start.ends_with('"') ? body.find('"', at) - at : other.size(), other);
+  write_text_atomically(path, body + "<!-- xxh3-128 " + hash_text(body) + " -->\n");
+  return read_error(path);
+}
+
+// VTK takes the memory that a file declares before it reads on.
+TEST(MeshFile, DeclaredSizesAreCheckedEvenUnderARightChecksum) {
+  const std::string path = test::fresh_folder("a") + "/mesh.vtu";
+  write_mesh(path, solid_mesh());
+  const std::string text = read_text(path);
+  EXPECT_EQ(error_of_forged(text, "NumberOfPoints=\"", "12"), "");  // as it was
+  for (const std::string value : {"99999999999999", "-1", "1e308", "nan", "many"}) {
+    for (const std::string attribute : {"NumberOfPoints", "NumberOfCells", "offset"}) {
+      const std::string error = error_of_forged(text, attribute + "=\"", value);
+      EXPECT_NE(error.find("declares more data than its"), std::string::npos) << attribute << ": " << error;
+    }
+  }
+  // Headers of packed data: 2^56 blocks; one block of 2^56 bytes; and one block, the last of 2^56 bytes.
+  const std::string data = "<AppendedData encoding=\"base64\">\n   _";
+  ASSERT_NE(text.find(data), std::string::npos);
+  for (const std::string header : {"AAAAAAAAAAEAgAAAAAAAAAgAAAAAAAAA", "AQAAAAAAAAAAAAAAAAAAAQgAAAAAAAAA",
+                                   "AQAAAAAAAAAAgAAAAAAAAAAAAAAAAAAB"})
+    EXPECT_NE(error_of_forged(text, data, header).find("declares more data"), std::string::npos) << header;
 }
 
 TEST(MeshFile, MissingOrForeignFileIsNamed) {

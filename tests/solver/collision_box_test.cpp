@@ -36,7 +36,7 @@ TEST(OrientedBox, HoldsEveryVertexAtEveryPose) {
     const double padding = 0.01;
     const OrientedBox box = model.box_at(block, pose, padding);
     const Eigen::AlignedBox3d upright = upright_box(box);
-    for (const int part : model.parts_of_block(block)) {
+    for (int part = model.part_start[block]; part < model.part_start[block + 1]; ++part) {
       for (const Vec3& r : model.vertices_of(model.parts[part])) {
         const Vec3 x = pose.q_WB * r + pose.p_WB;
         const Vec3 inside = (box.axes.transpose() * (x - box.center)).cwiseAbs();
