@@ -7,5 +7,7 @@ template <class... Ts>
 struct Overloaded : Ts... {
   using Ts::operator()...;
 };
+template <class... Ts>  // clang-tidy's compiler needs it said
+Overloaded(Ts...) -> Overloaded<Ts...>;
 
 }  // namespace cupola

@@ -132,7 +132,8 @@ void check(const HerringboneBond& bond, const BondGrid& grid, double phase_units
 double phase_in_verticals(const HerringboneBond& bond, const BondGrid& grid) {
   if (bond.phase) return *bond.phase * bond.verticals_per_block * bond.refine;
   if (grid.corners.empty()) return 0.0;
-  return bond.verticals_per_block * kCornerPhase + (bond.refine - 1) / 2;
+  const int half_refined = (bond.refine - 1) / 2;  // whole verticals
+  return bond.verticals_per_block * kCornerPhase + half_refined;
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ Vec3 GridPoints::point(double bed_shift, double cut_shift, int bed, int cut, Ski
   const int column = grid_.wrap(cut);
   const double b = bed + bed_noise_[bed] + bed_shift;
   const double a = grid_.bond.cuts[column] + cut_noise_[column] + cut_shift;
-  const Vec3 p = grid_.surface.point(b, a, skin);
+  Vec3 p = grid_.surface.point(b, a, skin);
   if (noise_ == 0.0) return p;
   const Vec3 across = grid_.surface.point(b, a, Skin::extrados) - grid_.surface.point(b, a, Skin::intrados);
   const size_t corner = (static_cast<size_t>(bed) * num_columns_ + column) * 2 + static_cast<size_t>(skin);

@@ -94,8 +94,8 @@ void add_plate(const SurfaceMap& surface, const std::vector<double>& cuts, int b
   for (int i = 0; i < 4; ++i) top_ids[i] = add_vertex(corners[i], assembly);
   for (int i = 0; i < 4; ++i) bottom_ids[i] = add_vertex(corners[i] - width * up, assembly);
   start_part(static_cast<int>(assembly->blocks.size()) - 1, 0, assembly);
-  using enum FaceKind;
-  add_hexahedron(top_ids, bottom_ids, {free, free, free, free}, assembly);
+  constexpr FaceKind kFree = FaceKind::free;
+  add_hexahedron(top_ids, bottom_ids, {kFree, kFree, kFree, kFree}, assembly);
 }
 
 }  // namespace

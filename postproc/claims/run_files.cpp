@@ -83,7 +83,7 @@ std::vector<std::string> RunFiles::table_names(const std::string& start) const {
   std::vector<std::string> names;
   std::error_code none_there;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ + "/post", none_there)) {
-    const std::filesystem::path path = entry.path();
+    const std::filesystem::path& path = entry.path();
     if (path.extension() == ".csv" && path.stem().string().starts_with(start))
       names.push_back(path.stem().string());
   }

@@ -80,7 +80,7 @@ SolveSummary solve_problem(const ContactProblem& problem, const CyclicSymmetry* 
                            ContactSolution* solution) {
   if (!symmetry) return solver->solve(problem, options, solution);
   ContactSolution sector = restrict(*solution, *symmetry);
-  const SolveSummary summary = solver->solve(reduce(problem, *symmetry), options, &sector);
+  SolveSummary summary = solver->solve(reduce(problem, *symmetry), options, &sector);
   *solution = expand(sector, problem, *symmetry);
   return summary;
 }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "assembly/program.hpp"
+#include "solver/contact/block_descent.hpp"
 #include "solver/contact/cone.hpp"
 #include "solver/contact/primal_cost.hpp"
 #include "solver/contact/residuals.hpp"
@@ -38,13 +40,21 @@ struct NewtonLoop {
   double residual_scale;  ///< momentum residual of one unit of block gradient
   NewtonDirection& solver;
   SolveSummary& summary;
-  bool warm = false;        ///< started from a guess
-  bool lag_failed = false;  ///< a kept factor was not near enough
+  bool warm = false;                              ///< started from a guess
+  bool lag_failed = false;                        ///< a kept factor was not near enough
+  std::vector<ContactRegion> regions{};           ///< of the contacts, kept where a factor is dear
+  std::vector<ContactRegion> factored_regions{};  ///< when the factor was made
+  std::optional<BlockDescent> descent{};
 
   double residual(const PrimalPoint& point) const { return point.largest_block_gradient * residual_scale; }
 
+  /// A factorisation costs so much that gradients with a kept factor, and passes over the blocks, are cheap.
+  bool factor_is_dear() const { return !options.lag_factor && solver.affordable_gradients() > 0; }
+  /// Where they are cheap, so are two more digits: what equilibrium of a large structure then has to spare.
+  double tolerance() const { return (factor_is_dear() ? 1e-2 : 1.0) * options.tolerance; }
   int max_iterations() const { return options.max_iterations > 0 ? options.max_iterations : 100; }
   bool all_stick_start(VecX* w);
+  bool factor_is_near(int affordable) const;
   bool direction(const PrimalPoint& point, VecX* d);
   PrimalPoint run(PrimalPoint point);
   bool should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain);
@@ -63,29 +73,48 @@ bool NewtonLoop::all_stick_start(VecX* w) {
          w->allFinite();
 }
 
+/// Whether the kept factor is near enough to be worth a try with that many gradients.
+bool NewtonLoop::factor_is_near(int affordable) const {
+  constexpr int kContactsPerGradient = 4;  // those that change lie together, and share what they change
+  if (options.lag_factor) return true;
+  if (affordable == 0) return false;
+  // A cold start has left the factor in which all contacts stick: too far from the first Hessian.
+  if (!lag_failed && (warm || summary.iterations > 1)) return true;
+  if (factored_regions.empty()) return false;
+  int changed = 0;
+  for (std::size_t i = 0; i < regions.size(); ++i) changed += regions[i] != factored_regions[i];
+  return changed <= kContactsPerGradient * affordable;
+}
+
 bool NewtonLoop::direction(const PrimalPoint& point, VecX* d) {
   const BlockMatrix H = assemble_hessian(p, graph, stiffnesses(p, point.y));
-  // A cold start has left the factor in which all contacts stick: too far from the first Hessian.
-  const bool near = !lag_failed && (warm || summary.iterations > 1);
-  const int affordable = options.lag_factor ? NewtonDirection::kMaxConjugateGradients
-                         : near             ? solver.affordable_gradients()
-                                            : 0;
-  if (affordable > 0) {
+  const int affordable =
+      options.lag_factor ? NewtonDirection::kMaxConjugateGradients : solver.affordable_gradients();
+  if (factor_is_dear()) {
+    regions.resize(p.num_contacts());
+    for (int i = 0; i < p.num_contacts(); ++i)
+      regions[i] = contact_region(contact_law(p, i), point.y.segment<3>(3 * i));
+  }
+  if (factor_is_near(affordable)) {
     // As many digits as the tolerance still wants, but no more than a step between two active sets is worth.
-    const double forcing = std::clamp(0.3 * options.tolerance / residual(point), 1e-3, 0.1);
+    const double forcing =
+        std::clamp(0.3 * tolerance() / residual(point), options.lag_factor ? 1e-3 : 1e-6, 0.1);
     if (solver.solve_lagged(graph.pattern, H, -point.gradient, forcing, affordable, d, &summary)) return true;
     lag_failed = true;
   }
+  factored_regions = regions;
   return solver.solve_directly(graph.pattern, H, -point.gradient, d, &summary);
 }
 
 bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain) {
   constexpr int kPatience =
       12;  // residuals of a sound run may rise while the cost falls, but not this long at rounding
-  if (residual(point) <= options.tolerance) {
+  const bool in_vain = iterations_without_gain >= kPatience || summary.iterations >= max_iterations();
+  if (residual(point) <= tolerance() || (in_vain && best_residual <= options.tolerance)) {
     summary.ending = SolveEnding::converged;
-    summary.message = fmt::format("momentum residual {:.2e} <= tolerance {:.2e} after {} iterations",
-                                  residual(point), options.tolerance, summary.iterations);
+    summary.message =
+        fmt::format("momentum residual {:.2e} <= tolerance {:.2e} after {} iterations",
+                    std::min(residual(point), best_residual), options.tolerance, summary.iterations);
     return true;
   }
   if (!std::isfinite(residual(point)) || !std::isfinite(point.cost)) {
@@ -113,6 +142,7 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
   constexpr double kCostRounding = 4e-16;
   constexpr double kExactSlope = 1e-6;   // the next Newton step gains more than further digits here
   constexpr double kInexactSlope = 0.1;  // an inexact direction is not worth more
+  constexpr double kSettled = 0.1;       // of the tolerance
   VecX best_w = point.w;
   double best = residual(point);
   int iterations_without_gain = 0;
@@ -140,7 +170,13 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
       if (search.t != 1.0) next = primal_point(p, point.w + search.t * d);
     }
 
-    // 3. Progress
+    // 3. Where a factor is dear: blocks settle on their own what holds up few of them
+    if (factor_is_dear() && residual(next) > options.tolerance) {
+      if (!descent) descent.emplace(p);
+      next = descent->descend(std::move(next), kSettled * options.tolerance / residual_scale);
+    }
+
+    // 4. Progress
     const bool cost_fell = next.cost < point.cost * (1.0 - kCostRounding);
     const bool residual_fell = residual(next) < 0.9 * best;
     iterations_without_gain = cost_fell || residual_fell ? 0 : iterations_without_gain + 1;
