@@ -1,7 +1,7 @@
 #include "solver/collision/proximity.hpp"
 
 #include <algorithm>
-#include <cstdint>
+#include <numeric>
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
@@ -27,7 +27,7 @@ struct PartnerCollector {
 };
 
 int index_of(const fcl::CollisionObjectd* object) {
-  return static_cast<int>(reinterpret_cast<std::intptr_t>(object->getUserData()));
+  return *static_cast<const int*>(object->getUserData());
 }
 
 bool collect_partner(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
@@ -42,6 +42,7 @@ bool collect_partner(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* d
 
 struct BroadPhase::Tree {
   std::vector<int> groups;
+  std::vector<int> indices;  ///< 0, 1, 2, ...: what the objects point to
   std::vector<std::shared_ptr<fcl::Boxd>> shapes;
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
   fcl::DynamicAABBTreeCollisionManagerd manager;
@@ -50,12 +51,14 @@ struct BroadPhase::Tree {
 BroadPhase::BroadPhase(std::span<const Box> boxes, std::span<const int> groups)
     : tree_(std::make_unique<Tree>()) {
   tree_->groups.assign(groups.begin(), groups.end());
+  tree_->indices.resize(boxes.size());
+  std::iota(tree_->indices.begin(), tree_->indices.end(), 0);
   std::vector<fcl::CollisionObjectd*> registered;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     tree_->shapes.push_back(std::make_shared<fcl::Boxd>());
     tree_->objects.push_back(std::make_unique<fcl::CollisionObjectd>(tree_->shapes.back()));
     set_box(boxes[i], tree_->shapes.back().get(), tree_->objects.back().get());
-    tree_->objects.back()->setUserData(reinterpret_cast<void*>(static_cast<std::intptr_t>(i)));
+    tree_->objects.back()->setUserData(&tree_->indices[i]);
     registered.push_back(tree_->objects.back().get());
   }
   tree_->manager.registerObjects(registered);

@@ -29,7 +29,7 @@ Vec3 solve_local_contact(const Mat3& A, const Vec3& r, double mu, const Vec3& gu
   double last_error = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMaxIterations; ++k) {
     const Vec3 y = A * gamma + r - B * gamma;
-    const Vec3 projected = contact_impulse(metric, y);
+    Vec3 projected = contact_impulse(metric, y);
     const Vec3 F = gamma - projected;
     const double error = F.norm();
     if (error <= 1e-15 * projected.norm() || error == 0.0) return projected;

@@ -16,8 +16,10 @@ namespace cupola {
 /// differ in using the exact cone projection with its kinks (no smoothing of friction), in whitening with
 /// full 6x6 blocks, and in starting cold from the solve in which every closed contact sticks.
 ///
-/// Where a factorisation costs more than ten solves, as from about 10,000 blocks on, directions after the
-/// second factor come from conjugate gradients with that factor.
+/// Where a factorisation costs more than ten solves, as it does from some ten thousands of blocks on,
+/// directions come from conjugate gradients with the last factor while it serves, and after every step the
+/// blocks settle one by one (BlockDescent): of a million bricks a few that still change would otherwise hold
+/// up all others.
 ///
 /// The solver object keeps ordering and symbolic factor while the same pairs of blocks touch.
 ///

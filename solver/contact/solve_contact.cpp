@@ -49,7 +49,7 @@ SolveSummary ContactSolver::interior_point_then_newton(const ContactProblem& pro
   SolveOptions near = options;
   near.tolerance = kHandOver;
   near.max_iterations = 0;
-  const SolveSummary first = solve_interior_point(problem, near, solution);
+  SolveSummary first = solve_interior_point(problem, near, solution);
   if (!first.usable()) return first;
   SolveSummary last = combined(first, newton_.solve(problem, options, solution));
   last.message = "interior point, then Newton: " + last.message;
@@ -63,10 +63,10 @@ SolveSummary ContactSolver::newton_with_fall_back(const ContactProblem& problem,
   SolveOptions plain = options;
   const int limit = options.max_iterations > 0 ? options.max_iterations : 100;
   plain.max_iterations = std::min(limit, kPlainIterations);
-  const SolveSummary first = newton_.solve(problem, plain, solution);
+  SolveSummary first = newton_.solve(problem, plain, solution);
   if (first.ending != SolveEnding::max_iterations || limit <= kPlainIterations) return first;
   ContactSolution again;
-  const SolveSummary last = combined(first, interior_point_then_newton(problem, options, &again));
+  SolveSummary last = combined(first, interior_point_then_newton(problem, options, &again));
   if (!last.usable() || last.residual_history.back() > first.residual_history.back()) return first;
   *solution = again;
   return last;
@@ -100,14 +100,14 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
     return solve_convex(p, o, options.method, x);
   };
   if (!rigid && options.law == FrictionLaw::associated) {
-    const SolveSummary first = convex(problem, options, solution);
+    SolveSummary first = convex(problem, options, solution);
     if (!first.usable() || first.ending == SolveEnding::converged || !primal) return first;
     if (options.max_iterations > 0) return first;  // the caller has set a limit to the work
     // Sliding on tiny compliance leaves impulses below the rounding of D^T v / E; and what defeats both
     // methods is easier on a larger compliance that is then taken away.
     const bool near = !first.residual_history.empty() && first.residual_history.back() < kNearRounding;
     ContactSolution polished = near ? *solution : ContactSolution{};
-    const SolveSummary last =
+    SolveSummary last =
         solve_in_passes(problem, options, {options.law, kProximalShare, kRescuePasses}, convex, &polished);
     const bool better = last.usable() && last.residual_history.back() < first.residual_history.back();
     if (last.ending != SolveEnding::converged && !better) return first;
@@ -124,7 +124,7 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
   const bool in_circles = options.law == FrictionLaw::coulomb && summary.ending == SolveEnding::stalled;
   if (in_circles && options.max_iterations == 0) {
     ContactSolution again = *solution;
-    const SolveSummary last = solve_coulomb_newton(problem, options, &again);
+    SolveSummary last = solve_coulomb_newton(problem, options, &again);
     if (last.ending == SolveEnding::converged) {
       *solution = again;
       summary = combined(summary, last);

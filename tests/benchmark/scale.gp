@@ -6,9 +6,13 @@ set logscale xy
 set xlabel 'blocks'
 set ylabel 'CPU s, GB'
 set title 'Static solve of the Brunelleschi model, reading and writing included'
-set key top left
+set key outside bottom center maxrows 3
 set grid
 file = folder.'/scale.csv'
-plot file skip 1 using 2:5 with linespoints title 'CPU seconds', \
-     file skip 1 using 2:6 with linespoints title 'GB', \
-     file skip 1 using 2:(column(2) / 1e3) with lines dashtype 3 title 'in proportion to the blocks'
+sector(n) = column(2) == 8 ? column(n) : NaN
+full(n) = column(2) == 1 ? column(n) : NaN
+plot file skip 1 using 3:(full(6)) with linespoints title 'CPU seconds', \
+     file skip 1 using 3:(full(7)) with linespoints title 'GB', \
+     file skip 1 using 3:(sector(6)) with linespoints title 'CPU seconds, by one of eight sectors', \
+     file skip 1 using 3:(sector(7)) with linespoints title 'GB, by one of eight sectors', \
+     file skip 1 using 3:(full(3) / 1e3) with lines dashtype 3 linecolor 'gray40' title 'in proportion to the blocks'
