@@ -11,8 +11,8 @@ set grid
 file = folder.'/scale.csv'
 sector(n) = column(2) == 8 ? column(n) : NaN
 full(n) = column(2) == 1 ? column(n) : NaN
-plot file skip 1 using 3:(full(6)) with linespoints title 'CPU seconds', \
+plot file skip 1 using 3:(full(6)) with linespoints title 'CPU s', \
      file skip 1 using 3:(full(7)) with linespoints title 'GB', \
-     file skip 1 using 3:(sector(6)) with linespoints title 'CPU seconds, by one of eight sectors', \
-     file skip 1 using 3:(sector(7)) with linespoints title 'GB, by one of eight sectors', \
-     file skip 1 using 3:(full(3) / 1e3) with lines dashtype 3 linecolor 'gray40' title 'in proportion to the blocks'
+     file skip 1 using 3:(sector(6)) with linespoints title 'CPU s, one of 8 sectors', \
+     file skip 1 using 3:(sector(7)) with linespoints title 'GB, one of 8 sectors', \
+     file skip 1 using 3:(full(3) / 1e3) with lines dashtype 3 linecolor 'gray40' title 'proportional'
