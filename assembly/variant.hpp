@@ -8,6 +8,6 @@ struct Overloaded : Ts... {
   using Ts::operator()...;
 };
 template <class... Ts>  // clang-tidy's compiler needs it said
-Overloaded(Ts...) -> Overloaded<Ts...>;
+Overloaded(Ts...)->Overloaded<Ts...>;
 
 }  // namespace cupola
