@@ -140,8 +140,8 @@ FclibProblem read_problem(const std::string& path) {
   return problem;
 }
 
-/// Damaged files end the process within HDF5 itself (1.10: a null pointer in its cache of metadata). So a
-/// child reads first, and its end is what the file is judged by.
+/// Damaged files end the process within HDF5 itself (1.10: null pointers in its cache of metadata, and when it
+/// tidies up at the process' end). So a child reads first, and its end is what the file is judged by.
 void require_survivable(const std::string& path) {
   const pid_t child = fork();
   if (child < 0) throw SystemError(path + ": no process to try it in");
@@ -150,6 +150,7 @@ void require_survivable(const std::string& path) {
       read_problem(path);
     } catch (...) {  // the parent will meet it, too, and say so
     }
+    close_hdf5();
     _exit(0);
   }
   int status = 0;

@@ -59,6 +59,10 @@ Hdf5Reader::~Hdf5Reader() {
   H5Fclose(file_);
 }
 
+void close_hdf5() {
+  H5close();
+}
+
 bool Hdf5Reader::has(const std::string& name) const {
   for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
     const std::string part = name.substr(0, end);

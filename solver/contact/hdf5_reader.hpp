@@ -32,4 +32,7 @@ class Hdf5Reader {
   std::int64_t file_;  // HDF5's handle
 };
 
+/// What HDF5 does at the end of the process: closes what is open, and gives its memory back.
+void close_hdf5();
+
 }  // namespace cupola
