@@ -33,7 +33,7 @@
 #include <vtkZLibDataCompressor.h>
 
 #include "assembly/atomic_file.hpp"
-#include "assembly/declared_sizes.hpp"
+#include "assembly/vtk_layout.hpp"
 #include "assembly/error.hpp"
 #include "assembly/hash.hpp"
 #include "assembly/mesh_file.hpp"
@@ -249,7 +249,7 @@ void check_bytes(const std::string& path) {
   if (hash_text(text.substr(0, start)) != text.substr(start + kChecksumStart.size(), digits))
     reject(path, "is damaged or was edited: its bytes do not match the checksum in its last line");
   // A checksum can be forged.
-  if (const std::string why = oversized(text); !why.empty()) reject(path, why);
+  if (const std::string why = layout_defect(text); !why.empty()) reject(path, why);
 }
 
 MeshArray from_vtk(const std::string& path, vtkAbstractArray* array) {

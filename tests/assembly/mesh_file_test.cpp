@@ -191,6 +191,32 @@ TEST(MeshFile, DeclaredSizesAreCheckedEvenUnderARightChecksum) {
     EXPECT_NE(error_of_forged(text, data, header).find("declares more data"), std::string::npos) << header;
 }
 
+// VTK ends the process where some elements or attributes are missing.
+TEST(MeshFile, LayoutIsCheckedEvenUnderARightChecksum) {
+  const std::string path = test::fresh_folder("a") + "/mesh.vtu";
+  write_mesh(path, solid_mesh());
+  const std::string text = read_text(path);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    const size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return error_of_forged(text.substr(0, at) + to + text.substr(at + from.size()), "<?xml version=\"",
+                           "1.0");
+  };
+  EXPECT_EQ(with("Name=\"id\"", "Name=\"it\""), "");
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"DataArray type", "DataArray t2ype"},
+                                                        {"type=\"Int32\"", "type=\"Bit\""},
+                                                        {"<Points>", "<Cells>"},
+                                                        {"</Points>", ""},
+                                                        {"<Piece ", "<Piece NumberOfPoints=\"1\" "},
+                                                        {"NumberOfCells", "NumberOfVerts"},
+                                                        {"UnstructuredGrid\"", "PolyData\""},
+                                                        {"<Points>", "<FieldData></FieldData><Points>"},
+                                                        {"vtkZLib", "vtkLZ4"},
+                                                        {"<AppendedData", "<Appended"}})
+    EXPECT_NE(with(from, to).find(" element"), std::string::npos) << from << ": " << with(from, to);
+}
+
 TEST(MeshFile, MissingOrForeignFileIsNamed) {
   const std::string folder = test::fresh_folder("a");
   EXPECT_NE(read_error(folder + "/none.vtu").find("none.vtu: error: does not exist"), std::string::npos);
