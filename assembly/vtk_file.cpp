@@ -33,10 +33,10 @@
 #include <vtkZLibDataCompressor.h>
 
 #include "assembly/atomic_file.hpp"
-#include "assembly/vtk_layout.hpp"
 #include "assembly/error.hpp"
 #include "assembly/hash.hpp"
 #include "assembly/mesh_file.hpp"
+#include "assembly/vtk_layout.hpp"
 
 namespace cupola {
 namespace {

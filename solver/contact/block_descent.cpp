@@ -69,7 +69,7 @@ void BlockDescent::move_block(int block, double small, VecX* w, std::vector<Vec3
   own += t * d;
 }
 
-PrimalPoint BlockDescent::descend(PrimalPoint point, double small) const {
+PrimalPoint BlockDescent::descend(const PrimalPoint& point, double small) const {
   int most = 0;
   for (int block = 0; block < problem_.num_blocks(); ++block)
     most = std::max(most, start_[block + 1] - start_[block]);

@@ -17,7 +17,7 @@ class BlockDescent {
 
   /// Passes over all blocks in order and back; blocks whose gradient is at most `small` stay. Lowers the
   /// cost.
-  PrimalPoint descend(PrimalPoint point, double small) const;
+  PrimalPoint descend(const PrimalPoint& point, double small) const;
 
  private:
   void move_block(int block, double small, VecX* w, std::vector<Vec3>* y) const;

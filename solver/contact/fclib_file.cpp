@@ -140,8 +140,8 @@ FclibProblem read_problem(const std::string& path) {
   return problem;
 }
 
-/// Damaged files end the process within HDF5 itself (1.10: null pointers in its cache of metadata, and when it
-/// tidies up at the process' end). So a child reads first, and its end is what the file is judged by.
+/// Damaged files end the process within HDF5 itself (1.10: null pointers in its cache of metadata, and when
+/// it tidies up at the process' end). So a child reads first, and its end is what the file is judged by.
 void require_survivable(const std::string& path) {
   const pid_t child = fork();
   if (child < 0) throw SystemError(path + ": no process to try it in");

@@ -173,7 +173,7 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
     // 3. Where a factor is dear: blocks settle on their own what holds up few of them
     if (factor_is_dear() && residual(next) > options.tolerance) {
       if (!descent) descent.emplace(p);
-      next = descent->descend(std::move(next), kSettled * options.tolerance / residual_scale);
+      next = descent->descend(next, kSettled * options.tolerance / residual_scale);
     }
 
     // 4. Progress

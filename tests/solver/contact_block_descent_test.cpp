@@ -27,7 +27,7 @@ TEST(BlockDescent, SolvesWhatIsOneBlock) {
     const PrimalPoint answer = answer_of(problem, white);
     const BlockDescent descent(white.problem);
     PrimalPoint point = primal_point(white.problem, white.problem.v_star);
-    for (int k = 0; k < 20; ++k) point = descent.descend(std::move(point), 0.0);
+    for (int k = 0; k < 20; ++k) point = descent.descend(point, 0.0);
     EXPECT_LT((point.w - answer.w).norm(), 1e-10 * white.problem.v_star.norm()) << slope;
   }
 }
@@ -41,7 +41,7 @@ TEST(BlockDescent, LowersTheCostAndNotBelowTheAnswers) {
   const double first = point.cost;
   for (int k = 0; k < 50; ++k) {
     const double before = point.cost;
-    point = descent.descend(std::move(point), 0.0);
+    point = descent.descend(point, 0.0);
     EXPECT_LE(point.cost, before * (1.0 + 1e-15));  // rounding of a sum
     EXPECT_GE(point.cost, answer.cost * (1.0 - 1e-12));
   }
