@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kMostPacked = 1032.0;
 constexpr double kNonsense = std::numeric_limits<double>::infinity();
+constexpr std::string_view kStart = "<?xml version=\"1.0\"?>\n";
 constexpr std::string_view kAppended = "<AppendedData encoding=\"base64\">\n   _";
 constexpr std::string_view kSpace = " \n";
 
@@ -40,7 +41,8 @@ std::optional<Tag> parse_tag(std::string_view text) {
     return found;
   };
   skip(1);
-  if (text.starts_with('/')) tag.closes = true, skip(1);
+  tag.closes = text.starts_with('/');
+  if (tag.closes) skip(1);
   tag.name = word();
   while (true) {
     skip(std::min(text.find_first_not_of(kSpace), text.size()));
@@ -102,8 +104,8 @@ class Layout {
 
   std::string defect() {
     if (data_ == std::string_view::npos) return "lacks the element of packed data that Cupola writes";
-    const size_t start = std::min(text_.find("<VTKFile "), data_);
-    for (size_t open = start; open < data_; open = text_.find('<', open + 1)) {
+    if (!text_.starts_with(kStart)) return "does not begin as Cupola writes";
+    for (size_t open = kStart.size(); open < data_; open = text_.find('<', open + 1)) {
       const std::optional<Tag> tag = parse_tag(text_.substr(open, data_ - open));
       if (!tag) return fmt::format("has a broken element at byte {}", open);
       if (std::string why = visit(*tag); !why.empty()) return why;
@@ -155,10 +157,9 @@ class Layout {
       return has_all({"NumberOfPoints"}) &&
              (has_all({"NumberOfCells"}) ||
               has_all({"NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys"}));
-    if (tag.name == "Array") return one_of("type", {"String"}) && has_all({"Name", "format", "offset"});
-    if (tag.name == "DataArray")
-      return one_of("type", {"Float64", "Int32", "Int64", "UInt8"}) && one_of("format", {"appended"}) &&
-             has_all({"Name", "offset"});
+    const bool appended = one_of("format", {"appended"}) && has_all({"Name", "offset"});
+    if (tag.name == "Array") return appended && one_of("type", {"String"});
+    if (tag.name == "DataArray") return appended && one_of("type", {"Float64", "Int32", "Int64", "UInt8"});
     return tag.attributes.empty();
   }
 
