@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "solver/analysis/record.hpp"
 #include "solver/contact/block_cholesky.hpp"
 #include "solver/contact/cone.hpp"
+#include "solver/contact/newton.hpp"
 #include "solver/contact/whitening.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/simulation.hpp"
@@ -19,6 +21,8 @@ namespace {
 /// Newton's method on a sound static problem: all-stick start and four iterations with one trial of h, then
 /// residuals and the frame, together the time of so many factorisations with their assembly.
 constexpr double kStaticSolves = 6.0;
+/// The same of many blocks: a dozen iterations and a start, each with a pass over the blocks.
+constexpr double kManyBlocksSolves = 16.0;
 constexpr int kTimedSteps = 3;  // of a motion; the last of them stands for all that follow
 
 int count_islands(const Model& model, const ContactSet& contacts) {
@@ -34,11 +38,9 @@ int count_force_rows(const StepProblem& step, int rows_with_friction) {
   return rows;
 }
 
-/// One assembly and factorisation of the Hessian in which every contact sticks. Returns processor seconds.
-double time_factorization(const ContactProblem& problem, BlockCholesky* factor) {
-  const double started = cpu_seconds();
-  const WhitenedProblem white = whiten(problem);
-  const ContactGraph graph = contact_graph(white.problem);
+/// The Hessian in which every contact sticks.
+BlockMatrix sticking_hessian(const ContactProblem& problem, const WhitenedProblem& white,
+                             const ContactGraph& graph) {
   std::vector<Mat3> G;
   for (int i = 0; i < problem.num_contacts(); ++i) {
     ContactLaw law = contact_law(problem, i);
@@ -47,8 +49,32 @@ double time_factorization(const ContactProblem& problem, BlockCholesky* factor) 
     law.e_t = law.e_t > 0.0 ? law.e_t : 1e-4;
     G.push_back(contact_stiffness(law, -Vec3::UnitX()));
   }
-  if (factor->factorize(graph.pattern, assemble_hessian(white.problem, graph, G)))
+  return assemble_hessian(white.problem, graph, G);
+}
+
+/// One assembly and factorisation. Returns processor seconds.
+double time_factorization(const ContactProblem& problem, BlockCholesky* factor) {
+  const double started = cpu_seconds();
+  const WhitenedProblem white = whiten(problem);
+  const ContactGraph graph = contact_graph(white.problem);
+  if (factor->factorize(graph.pattern, sticking_hessian(problem, white, graph)))
     factor->solve(white.problem.v_star);
+  return cpu_seconds() - started;
+}
+
+/// One assembly and one direction by a hierarchy; nothing where none can be made.
+std::optional<double> time_direction(const ContactProblem& problem) {
+  constexpr double kForcing = 0.1;
+  const double started = cpu_seconds();
+  const WhitenedProblem white = whiten(problem);
+  const ContactGraph graph = contact_graph(white.problem);
+  const RigidMotions motions = rigid_motions(problem, graph, white.L);
+  VecX d;
+  SolveSummary summary;
+  if (motions.empty() ||
+      !NewtonDirection().solve_by_hierarchy(graph.pattern, sticking_hessian(problem, white, graph), motions,
+                                            white.problem.v_star, kForcing, &d, &summary))
+    return std::nullopt;
   return cpu_seconds() - started;
 }
 
@@ -114,11 +140,18 @@ double num_equilibria(const Analysis& analysis, int num_rings) {
 
 CostEstimate estimate_static(const Case& scene, const Built& built, ModelCounts* counts) {
   CostEstimate cost;
+  const double equilibria = num_equilibria(scene.analysis, built.model.assembly->num_rings);
+  if (scene.analysis.method == ContactMethod::newton && has_many_blocks(built.step.problem)) {
+    if (const std::optional<double> once = time_direction(built.step.problem)) {
+      cost.seconds = equilibria * kManyBlocksSolves * num_passes(scene) * *once;
+      cost.basis = fmt::format("one direction by the hierarchy, {:.3g} s", *once);
+      return cost;
+    }
+  }
   BlockCholesky factor;
   const double once = time_factorization(built.step.problem, &factor);
   counts->factor_entries = factor.num_nonzeros();
-  cost.seconds = num_equilibria(scene.analysis, built.model.assembly->num_rings) * kStaticSolves *
-                 num_passes(scene) * once;
+  cost.seconds = equilibria * kStaticSolves * num_passes(scene) * once;
   cost.basis = fmt::format("one factorisation, {:.3g} s", once);
   return cost;
 }

@@ -8,6 +8,7 @@
 
 #include "solver/analysis/cyclic_reduction.hpp"
 #include "solver/contact/kinematic_bound.hpp"
+#include "solver/contact/newton.hpp"
 
 namespace cupola {
 namespace {
@@ -85,6 +86,12 @@ SolveSummary solve_problem(const ContactProblem& problem, const CyclicSymmetry* 
   return summary;
 }
 
+/// Equilibrium counts in mean block weights, a solve in the largest acceleration that a load gives to a
+/// block: far more where the load stays and the blocks are made smaller.
+double weight_over_load(const Model& model, double acceleration) {
+  return model.block_weight > 0.0 ? model.loads.gravity.norm() / acceleration : 1.0;
+}
+
 /// Solves at trial->h. What moves fast is not solved finer than its verdict needs: its impulses lose digits
 /// with h^2, and no answer to the full tolerance may exist in double precision.
 /// `share`: of the asked residual that is left to the solve.
@@ -92,17 +99,19 @@ void solve_at(const Model& model, const State& start, const ContactSet& contacts
               const ContactMemories& memories, const StaticOptions& options, double acceleration,
               double share, ContactSolver* solver, StaticSolution* trial) {
   constexpr double kCoarse = 1e-4;
-  constexpr int kAtOnce = 25;  // Newton iterations: an equilibrium that takes more is easier found by degrees
+  constexpr double kRounding = 1e-12;  // of what a load needs, no more is asked
   ContactSolverOptions solve;
   solve.method = options.method;
   solve.law = options.law;
-  solve.max_iterations = options.max_iterations > 0 ? options.max_iterations
-                         : tries_at_once(options)   ? kAtOnce
-                                                    : 0;
   solve.reference_speed = trial->h * acceleration;
-  const double fine = share * options.tolerance;
+  const double own = share * options.tolerance;
+  const double fine = std::max(own * weight_over_load(model, acceleration), std::min(own, kRounding));
   trial->step = build_step_problem(model, start, contacts, memories, step_options(options, trial->h));
   trial->solution = {};
+  // An equilibrium that takes more iterations than most is easier found by degrees.
+  solve.max_iterations = options.max_iterations > 0 ? options.max_iterations
+                         : tries_at_once(options)   ? iterations_of_sound_problem(trial->step.problem)
+                                                    : 0;
   for (const double tolerance : {std::max(fine, kCoarse), fine}) {
     solve.tolerance = tolerance;
     trial->solve = solve_problem(trial->step.problem, options.symmetry, solve, solver, &trial->solution);

@@ -236,13 +236,6 @@ VecX BlockCholesky::solve(const VecX& rhs) const {
   return solution;
 }
 
-double BlockCholesky::solves_per_factorization() const {
-  constexpr double kFlopsPerEntry =
-      50.0;  // that a solve's memory traffic is worth, measured at 5,000 to 80,000 blocks
-  if (values_.empty()) return 0.0;
-  return m_ * m_ * m_ * structure_.work / (kFlopsPerEntry * static_cast<double>(values_.size()));
-}
-
 long long BlockCholesky::num_nonzeros() const {
   return static_cast<long long>(values_.size());
 }

@@ -27,8 +27,6 @@ class BlockCholesky {
   const BlockPattern& pattern() const { return pattern_; }  ///< of the last factorisation
   VecX solve(const VecX& rhs) const;                        ///< needs has_factor()
   long long num_nonzeros() const;                           ///< of the factor
-  /// Estimate of how many solves take the time of one factorisation.
-  double solves_per_factorization() const;
 
  private:
   struct Tile {

@@ -58,13 +58,12 @@ SolveSummary ContactSolver::interior_point_then_newton(const ContactProblem& pro
 
 SolveSummary ContactSolver::newton_with_fall_back(const ContactProblem& problem, const SolveOptions& options,
                                                   ContactSolution* solution) {
-  constexpr int kPlainIterations =
-      25;  // sound problems take 4 to 20; interior point and Newton together about 27
+  const int plain_iterations = iterations_of_sound_problem(problem);  // interior point takes about 27
   SolveOptions plain = options;
   const int limit = options.max_iterations > 0 ? options.max_iterations : 100;
-  plain.max_iterations = std::min(limit, kPlainIterations);
+  plain.max_iterations = std::min(limit, plain_iterations);
   SolveSummary first = newton_.solve(problem, plain, solution);
-  if (first.ending != SolveEnding::max_iterations || limit <= kPlainIterations) return first;
+  if (first.ending != SolveEnding::max_iterations || limit <= plain_iterations) return first;
   ContactSolution again;
   SolveSummary last = combined(first, interior_point_then_newton(problem, options, &again));
   if (!last.usable() || last.residual_history.back() > first.residual_history.back()) return first;

@@ -12,8 +12,7 @@ struct SolveOptions {
   int max_iterations = 0;  ///< >= 0; 0: the method's own default
   /// Newton only: keep a factor from step to step as preconditioner of conjugate gradients and renew it when
   /// they need more than 25 iterations. Faster while few contacts change state; the answer's accuracy is the
-  /// same. (Within a solve, problems of more than about 10,000 blocks keep theirs anyway: there solves are
-  /// cheap.)
+  /// same.
   bool lag_factor = false;
 
   /// Throws std::invalid_argument with name, value and rule.

@@ -56,21 +56,18 @@ TEST(BlockDescent, LeavesBlocksInBalanceAlone) {
   EXPECT_EQ(same.w, answer.w);
 }
 
-// A dome whose factor is dear, with random gaps: passes over the blocks and gradients with a kept factor lead
-// to the forces that come out without them. 1e-6: c = 1e-8 m/N, both to a momentum residual of 1e-11.
+// A dome of many blocks with random gaps: passes over the blocks and directions by a hierarchy lead to the
+// forces that come out without them. 1e-6: c = 1e-8 m/N, both to a momentum residual of 1e-11.
 TEST(BlockDescentSlow, LeadsALargeDomeToTheSameForces) {
   const ContactProblem problem =
       scenes::dome({.rings = 160, .blocks_per_ring = 128, .gap = 1e-5}, 100.0, kJoint);
   SolveOptions options;
-  options.tolerance = 1e-9;  // two more digits where a factor is dear
+  options.tolerance = 1e-11;
   options.reference_speed = scenes::kGravity * problem.h;
   ContactSolution settled, plain;
   const SolveSummary with = NewtonSolver().solve(problem, options, &settled);
   ASSERT_EQ(with.ending, SolveEnding::converged) << with.message;
-  EXPECT_GT(with.conjugate_gradients, 0);
-  EXPECT_LT(with.factorizations, with.iterations);
-  EXPECT_LE(with.residual_history.back(), 1e-11);
-  options.tolerance = 1e-11;
+  EXPECT_EQ(with.factorizations, 0);
   options.lag_factor = true;  // neither
   const SolveSummary without = NewtonSolver().solve(problem, options, &plain);
   ASSERT_EQ(without.ending, SolveEnding::converged) << without.message;
