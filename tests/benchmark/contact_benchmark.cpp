@@ -242,7 +242,7 @@ void threads() {
   fmt::print("{:>8} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8} {:>5} {:>8} {:>8} {:>8} {:>8} {:>10} {:>8}\n",
              "blocks", "assembly 1", "2", "speed-up", "factor 1", "2", "speed-up", "bits", "solve", "Jacobi",
              "wall s", "built s", "hierarchy", "wall s");
-  for (const int refine : {1, 2, 4, 8}) {
+  for (const int refine : {2, 4, 8}) {
     scenes::DomeShape shape;
     shape.rings = 40 * refine;
     shape.blocks_per_ring = 32 * refine;
