@@ -56,23 +56,5 @@ TEST(BlockDescent, LeavesBlocksInBalanceAlone) {
   EXPECT_EQ(same.w, answer.w);
 }
 
-// A dome of many blocks with random gaps: passes over the blocks and directions by a hierarchy lead to the
-// forces that come out without them. 1e-6: c = 1e-8 m/N, both to a momentum residual of 1e-11.
-TEST(BlockDescentSlow, LeadsALargeDomeToTheSameForces) {
-  const ContactProblem problem =
-      scenes::dome({.rings = 160, .blocks_per_ring = 128, .gap = 1e-5}, 100.0, kJoint);
-  SolveOptions options;
-  options.tolerance = 1e-11;
-  options.reference_speed = scenes::kGravity * problem.h;
-  ContactSolution settled, plain;
-  const SolveSummary with = NewtonSolver().solve(problem, options, &settled);
-  ASSERT_EQ(with.ending, SolveEnding::converged) << with.message;
-  EXPECT_EQ(with.factorizations, 0);
-  options.lag_factor = true;  // neither
-  const SolveSummary without = NewtonSolver().solve(problem, options, &plain);
-  ASSERT_EQ(without.ending, SolveEnding::converged) << without.message;
-  EXPECT_LT((settled.gamma - plain.gamma).norm(), 1e-6 * plain.gamma.norm());
-}
-
 }  // namespace
 }  // namespace cupola
