@@ -172,12 +172,12 @@ TEST(NewtonByHierarchy, FindsTheForcesThatFactorsFind) {
   expect_same_forces(scenes::dome({.rings = 100, .blocks_per_ring = 104, .gap = 1e-5}, 100.0, kJoint));
 }
 
-TEST(NewtonByHierarchy, FindsThemInASector) {
+TEST(NewtonByHierarchySlow, FindsThemInASector) {
   expect_same_forces(scenes::dome({.rings = 128, .blocks_per_ring = 640, .sectors = 8}, 100.0, kJoint));
 }
 
 // Contacts whose directions are not orthonormal tell nothing of where blocks lie: factors it is.
-TEST(NewtonByHierarchy, LeavesOtherLeversToAFactor) {
+TEST(NewtonByHierarchySlow, LeavesOtherLeversToAFactor) {
   ContactProblem problem = scenes::dome({.rings = 100, .blocks_per_ring = 104}, 100.0, kJoint);
   for (Mat63& D : problem.D_a) D *= 2.0;
   for (Mat63& D : problem.D_b) D *= 2.0;
