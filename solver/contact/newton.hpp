@@ -7,8 +7,8 @@
 
 namespace cupola {
 
-/// So many blocks that directions by a hierarchy are ahead of those by a factor: twice as fast at 20,000,
-/// equally fast at 10,000. Not in the plane, where factors are small.
+/// So many blocks that directions by a hierarchy are ahead of those by a factor: a static solve is two thirds
+/// of the time at 11,568 blocks and two fifths at 82,048. Not in the plane, where factors are small.
 bool has_many_blocks(const ContactProblem& problem);
 
 /// Within so many iterations a sound problem is solved: 4 to 20 by factors, 10 to 30, each of which costs

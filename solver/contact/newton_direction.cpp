@@ -18,6 +18,7 @@ double conjugate_gradients(const Multiply& multiply, const Precondition& precond
   double rz = r.dot(z);
   const double first = rz;
   d->setZero(rhs.size());
+  if (first == 0.0) return 0.0;  // nothing to solve
   for (int k = 0; k < max_gradients && rz > forcing * forcing * first; ++k) {
     ++summary->conjugate_gradients;
     const VecX Hp = multiply(p);
@@ -26,7 +27,8 @@ double conjugate_gradients(const Multiply& multiply, const Precondition& precond
     *d += alpha * p;
     r -= alpha * Hp;
     z = precondition(r);
-    const double rz_new = std::max(0.0, r.dot(z));
+    if (!z.allFinite()) return 1.0;
+    const double rz_new = std::max(0.0, r.dot(z));  // rounding may leave less than nothing
     p = z + (rz_new / rz) * p;
     rz = rz_new;
   }

@@ -3,7 +3,7 @@
 //
 //   contact_benchmark                                    all but the two largest sizes
 //   contact_benchmark methods | gaps | stepping | scale  one table
-//   contact_benchmark threads                            factor and assembly on two threads, and without
+//   contact_benchmark threads                            factor and assembly on two threads, and without a
 //   factor contact_benchmark large                              scale to 81,920 and 327,680 blocks (10 GB)
 //   contact_benchmark million                            1,024,000 blocks by one of eight sectors
 
