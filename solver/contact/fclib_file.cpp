@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
@@ -146,6 +147,8 @@ void require_survivable(const std::string& path) {
   const pid_t child = fork();
   if (child < 0) throw SystemError(path + ": no process to try it in");
   if (child == 0) {
+    // A handler of the caller's, such as a sanitizer's, would report the library's end as ours.
+    for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(signal, SIG_DFL);
     try {
       read_problem(path);
     } catch (...) {  // the parent will meet it, too, and say so
