@@ -7,6 +7,14 @@
 
 namespace cupola {
 
+/// The value after the given one; the highest whole number is followed by the lowest.
+template <class T>
+T next_value(T value) {
+  if constexpr (std::is_integral_v<T>)
+    return static_cast<T>(static_cast<std::make_unsigned_t<T>>(value) + 1U);
+  return static_cast<T>(value + 1);
+}
+
 /// Spoils a mesh as the bytes say and keeps it writable: values, cell ids, names, missing and resized field
 /// arrays. The writer puts a right checksum below it, so that the reader's own checks are tested.
 inline void edit_mesh(ByteSource bytes, Mesh* mesh) {
@@ -21,7 +29,7 @@ inline void edit_mesh(ByteSource bytes, Mesh* mesh) {
                            std::numeric_limits<T>::lowest(),
                            std::numeric_limits<T>::quiet_NaN(),
                            std::numeric_limits<T>::infinity(),
-                           T(value + 1),
+                           next_value(value),
                            bytes.template take<T>()};
       value = special[bytes.index(std::size(special))];
     }

@@ -8,6 +8,8 @@ cd "$(dirname "$0")/../.." || exit 1
 source=$PWD; build=$(realpath "$1"); seconds=$2; shift 2; failed=0
 # All lines of a log count: on a busy machine a search takes several rounds.
 total() { awk -v key="$1" -v how="$2" '$1 ~ key {x = how == "sum" ? x + $2 : ($2 > x ? $2 : x)} END {print x + 0}' "$log"; }
+# Leaks of VTK's singletons are not ours to mend; undefined behaviour ends a search as a bad address does.
+export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 TIMEFORMAT='%U %S'; spent=0; inputs=0
 for fuzzer in "$build"/bin/fuzz_*; do
   name=$(basename "$fuzzer" | sed 's/^fuzz_//')
@@ -17,8 +19,8 @@ for fuzzer in "$build"/bin/fuzz_*; do
   [ "$name" != case ] || seeds="$source/cases $source/tests/invalid_input"
   mkdir -p "$build/corpus/$name"; log=$build/corpus/$name.log; : > "$log"; cpu=0; code=0
   while [ $code -eq 0 ] && [ "$cpu" -lt $((1000 * seconds)) ]; do
-    # Leaks of VTK's singletons are not ours to mend. -timeout and -rss_limit_mb are the promises of the project.
-    used=$( { time (cd "$build/corpus/$name" && ASAN_OPTIONS=detect_leaks=0 "$fuzzer" . $seeds \
+    # -timeout and -rss_limit_mb are the promises of the project.
+    used=$( { time (cd "$build/corpus/$name" && "$fuzzer" . $seeds \
       -max_total_time=$((seconds - cpu / 1000 + 1)) -timeout=10 -rss_limit_mb=1024 -max_len=65536 -print_final_stats=1 \
       >> "$log" 2>&1 || echo failed >> "$log"); } 2>&1 | awk '{printf "%d", 1000 * ($1 + $2)}') # ms
     [ "$(tail -n 1 "$log")" != failed ] || code=1
