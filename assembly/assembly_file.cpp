@@ -204,11 +204,12 @@ void check(const Assembly& assembly, const std::string& path) {
   const int num_vertices = static_cast<int>(assembly.vertices.size());
   for (size_t v = 0; v < assembly.vertices.size(); ++v)
     require(assembly.vertices[v].allFinite(), "vertex", v);
-  require(!assembly.face_vertex_start.empty() && assembly.face_vertex_start.front() == 0 &&
-              assembly.face_vertex_start.back() == static_cast<int>(assembly.face_vertices.size()),
-          "face range", 0);
+  const std::vector<int>& start = assembly.face_vertex_start;
+  const int num_corners = static_cast<int>(assembly.face_vertices.size());
+  require(!start.empty() && start.front() == 0 && start.back() == num_corners, "face range", 0);
+  // A start is known to lie within the list before the next one is compared with it: no sum overflows.
   for (size_t f = 0; f < assembly.face_kinds.size(); ++f)
-    require(assembly.face_vertex_start[f + 1] - assembly.face_vertex_start[f] >= 3 &&
+    require(start[f + 1] <= num_corners && start[f + 1] >= start[f] + 3 &&
                 assembly.face_kinds[f] <= FaceKind::free,
             "face", f);
   for (const int v : assembly.face_vertices) require(v >= 0 && v < num_vertices, "face vertex id", v);

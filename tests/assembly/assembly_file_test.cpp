@@ -153,7 +153,16 @@ TEST(AssemblyFile, InconsistentContentIsNamed) {
   EXPECT_TRUE(
       has(error_with<int>("face_vertices", false, [](Ints* v) { (*v)[3] = 18; }), "face vertex id 18"));
   EXPECT_TRUE(has(error_with<int>("face_vertices", false, [](Ints* v) { (*v)[3] = -1; }), "face vertex id"));
-  EXPECT_TRUE(has(error_with<int>("face_vertex_start", false, [](Ints* v) { (*v)[1] = 1 << 30; }), "face 1"));
+  EXPECT_TRUE(has(error_with<int>("face_vertex_start", false, [](Ints* v) { (*v)[1] = 1 << 30; }), "face 0"));
+  // Faces whose numbers of corners are positive only because their differences overflow.
+  EXPECT_TRUE(has(error_with<int>("face_vertex_start", false,
+                                  [](Ints* v) {
+                                    (*v)[1] = 1'500'000'000;
+                                    (*v)[2] = -1'294'967'296;
+                                    for (size_t f = 3; f + 1 < v->size(); ++f)
+                                      (*v)[f] = 3 * static_cast<int>(f);
+                                  }),
+                  "face 0"));
   EXPECT_TRUE(
       has(error_with<int>("format_version", false, [](Ints* v) { (*v)[0] = 99; }), "format version 99"));
   EXPECT_TRUE(has(error_with<double>("block_density", false, [](Doubles* v) { (*v)[1] = -1; }),
