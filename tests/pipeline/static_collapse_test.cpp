@@ -31,7 +31,7 @@ TEST(StaticCollapse, DomeWithoutFrictionEnoughMovesAndIsProvenTo) {
 }
 
 // No forces in the cones balance the loads: that proves it for Coulomb's law too.
-TEST(StaticCollapse, DomeMovesUnderCoulombsLaw) {
+TEST(StaticCollapseSlow, DomeMovesUnderCoulombsLaw) {
   Case scene = dome(0.05);
   scene.geometry.bond = RunningBond{.rings = 6, .blocks_per_ring = 12, .slices_per_block = 2};
   scene.analysis.friction_law = FrictionLaw::coulomb;

@@ -1,0 +1,185 @@
+// The commands around the three stages, run as a user runs them: reports, bond maps, problems of the
+// frictional contact library, sweeps, claims, studies, pictures.
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/pipeline/program_run.hpp"
+
+namespace cupola {
+namespace {
+
+const std::string kWall = CUPOLA_SOURCE_DIR "/cases/wall_large.yaml";
+
+/// 48 blocks, and a title that is not to be taken for markup.
+constexpr const char* kSmallDome = R"(title: Six rings <b>& a crown
+geometry:
+  surface: {type: dome, span: 45, radius_ratio: 0.8, thickness: 2.2, crown_angle_deg: 60}
+  bond: {type: running, rings: 6, blocks_per_ring: 8, slices_per_block: 2}
+material: {unit_weight: 18000}
+joints: {friction: 0.4, compliance: {normal: 1e-8, tangential: 1e-8, per: point}}
+sweep:
+  - {key: joints.friction, values: [0.4, 0.5]}
+postproc:
+  meridians: [{name: east, azimuth_deg: 0}]
+  sections: [10]
+)";
+
+/// A folder with the dome's case in it.
+struct DomeFolder : ProgramFolder {
+  DomeFolder() { std::ofstream(file("dome.yaml")) << kSmallDome; }
+};
+
+/// The three stages into runs/NAME.
+void run_dome(const ProgramFolder& folder, const std::string& name, const std::string& set) {
+  const std::string run = "runs/" + name, dome = " dome.yaml --quiet " + set;
+  for (const std::string& stage :
+       {"cupola-generate" + dome + " --output " + run + "/assembly.vtu",
+        "cupola-solve" + dome + " --assembly " + run + "/assembly.vtu --output " + run + "/results",
+        "cupola-post analyse" + dome + " --assembly " + run + "/assembly.vtu --results " + run +
+            "/results --output " + run + "/post"}) {
+    const ProgramRun done = folder.run(stage);
+    ASSERT_EQ(done.code, 0) << stage << "\n" << done.err;
+  }
+}
+
+size_t count(const std::string& text, const std::string& part) {
+  size_t found = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++found;
+  return found;
+}
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Commands, ReportTheStereotomy) {
+  const ProgramFolder folder;
+  const std::string generate = "cupola-generate " + kWall + " --output wall.vtu --quiet";
+  ASSERT_EQ(folder.run(generate + " --report new/wall.json").code, 0);
+  const auto report = nlohmann::json::parse(slurp(folder.file("new/wall.json")));
+  EXPECT_EQ(report["blocks"], 10);
+  EXPECT_EQ(report["volume_m3"], 12.0 * 6.0 * 1.0);  // to the bit: every side is a whole number of quarters
+  EXPECT_EQ(report["sizes_by_kind"]["standard"]["mean_m3"], 7.2);
+  int blocks = 0;
+  for (const auto& ring : report["sizes_by_ring"]) blocks += ring["blocks"].get<int>();
+  EXPECT_EQ(blocks, 10);
+  ASSERT_EQ(folder.run(generate + " --report wall.txt").code, 0);
+  const std::string text = slurp(folder.file("wall.txt"));
+  for (const char* part : {"Wall of large blocks", "10 blocks", "standard", "ring 3"})
+    EXPECT_TRUE(says(text, part)) << part << " in\n" << text;
+}
+
+TEST(Commands, MapTheBond) {
+  const DomeFolder folder;
+  // Background and clip path; a block each; in a closed ring, what the seam cuts comes at both ends.
+  ASSERT_EQ(folder.run("cupola-generate " + kWall + " --output wall.vtu --quiet --bond-map wall.svg").code,
+            0);
+  EXPECT_EQ(count(slurp(folder.file("wall.svg")), "<rect "), 2u + 10u);
+  ASSERT_EQ(folder.run("cupola-generate dome.yaml --output dome.vtu --quiet --bond-map dome.svg").code, 0);
+  EXPECT_EQ(count(slurp(folder.file("dome.svg")), "<rect "), 2u + 48u + 3u) << "every other ring is shifted";
+}
+
+TEST(Commands, OnlyImportedBlocksBringInterfaces) {
+  const ProgramFolder folder;
+  const ProgramRun run = folder.run("cupola-generate " + kWall + " --output w.vtu --contacts c.csv");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_TRUE(says(run.err, "generated blocks bring no interfaces")) << run.err;
+}
+
+TEST(Commands, SolveTheProblemThatTheyWrote) {
+  const DomeFolder folder;
+  const std::string step = " --set analysis.type=dynamic --set analysis.duration=0.01";
+  ASSERT_EQ(folder.run("cupola-generate dome.yaml --output dome.vtu --quiet").code, 0);
+  ASSERT_EQ(
+      folder
+          .run("cupola-solve dome.yaml --assembly dome.vtu --output results --quiet --dump-fclib dome.hdf5" +
+               step)
+          .code,
+      0);
+  const ProgramRun run = folder.run("cupola-solve --fclib dome.hdf5");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.out.find("converged: "), 0u) << run.out;
+  EXPECT_TRUE(says(run.out, "576 contacts, local form")) << run.out;
+  EXPECT_TRUE(says(run.out, "the file's own solution has FCLIB merit")) << run.out;
+  EXPECT_EQ(folder.run("cupola-solve --quiet --fclib dome.hdf5").out, "");
+  EXPECT_EQ(folder.run("cupola-solve --fclib dome.yaml").code, 2);
+}
+
+TEST(Commands, TabulateASweepAndSayWhatIsMissing) {
+  const DomeFolder folder;
+  ASSERT_EQ(folder.run("cupola-post sweep dome.yaml --members members.txt").code, 0);
+  std::istringstream members(slurp(folder.file("members.txt")));
+  std::string first, second, case_name, setting;
+  members >> first >> case_name >> setting >> second;
+  EXPECT_EQ(case_name + " " + setting, "dome joints.friction=0.4");
+  run_dome(folder, first, "--set " + setting);
+  const std::string tabulate = "cupola-post sweep dome.yaml --runs runs --output table";
+  const ProgramRun half = folder.run(tabulate);
+  EXPECT_EQ(half.code, 1) << half.err;
+  EXPECT_TRUE(says(half.out, "1 of 2 members are finished, 1 missing")) << half.out;
+  EXPECT_TRUE(says(half.out, "no assembly: its own output says why")) << half.out;
+  run_dome(folder, second, "--set joints.friction=0.5");
+  EXPECT_EQ(folder.run(tabulate).code, 0);
+  EXPECT_EQ(count(slurp(folder.file("table/sweep.csv")), ",stable,"), 2u);
+  const std::string page = slurp(folder.file("table/sweep.html"));
+  EXPECT_TRUE(says(page, "Six rings &lt;b&gt;&amp; a crown"));
+  EXPECT_FALSE(says(page, "Six rings <b>"));
+  EXPECT_EQ(folder.run("cupola-post sweep dome.yaml").code, 2);
+}
+
+TEST(Commands, TestClaims) {
+  const DomeFolder folder;
+  run_dome(folder, "low", "");
+  std::ofstream(folder.file("claims.yaml")) << R"(claims:
+  - says: All blocks <i>are there.
+    value: {runs: low, key: results.free_blocks}
+    at_least: 48
+    at_most: 48
+  - says: Friction holds without wedging.
+    value: {runs: low high, key: results.max_displacement_m}
+    at_least: 1
+)";
+  EXPECT_EQ(folder.run("cupola-post claims claims.yaml --needs").out, "low\nhigh\n");
+  const ProgramRun run = folder.run("cupola-post claims claims.yaml --runs runs --output told");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(says(run.out, "reproduced")) << run.out;
+  EXPECT_TRUE(says(run.out, "high")) << "the run that is missing\n" << run.out;
+  EXPECT_TRUE(says(slurp(folder.file("told/claims.csv")), "reproduced"));
+  EXPECT_TRUE(says(slurp(folder.file("told/claims.html")), "All blocks &lt;i&gt;are there."));
+  EXPECT_EQ(folder.run("cupola-post claims claims.yaml").code, 2);
+}
+
+TEST(Commands, MeasureAStudyAgainstItsReference) {
+  const DomeFolder folder;
+  run_dome(folder, "exact", "--set analysis.tolerance=1e-10");
+  run_dome(folder, "coarse", "--set analysis.tolerance=1e-2");
+  std::ofstream(folder.file("study.txt")) << "method exact exact analysis.tolerance=1e-10\n"
+                                          << "method coarse exact analysis.tolerance=1e-2\n"
+                                          << "method absent exact analysis.tolerance=1e-4\n";
+  const ProgramRun run = folder.run("cupola-post tradeoff study.txt --runs runs --output study");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.file("study/tradeoff.html")));
+  std::istringstream table(slurp(folder.file("study/tradeoff.csv")));
+  std::vector<std::string> rows;
+  for (std::string row; std::getline(table, row);) rows.push_back(row);
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_TRUE(says(rows[2], ",stable,")) << rows[2];
+  EXPECT_TRUE(says(rows[3], ",not run,")) << rows[3];
+}
+
+TEST(Commands, DrawWhatIsAskedFor) {
+  const DomeFolder folder;
+  run_dome(folder, "drawn", "");
+  for (const char* figure : {"thrust_east", "hoop_east", "levels", "rings", "section_10m", "map_forces"}) {
+    const std::string picture = slurp(folder.file(std::string("runs/drawn/post/figures/") + figure + ".svg"));
+    EXPECT_TRUE(says(picture, "</svg>")) << figure;
+    EXPECT_FALSE(says(picture, "nan")) << figure;
+  }
+  const std::string report = slurp(folder.file("runs/drawn/post/report.html"));
+  EXPECT_TRUE(says(report, "Six rings &lt;b&gt;&amp; a crown"));
+  EXPECT_FALSE(says(report, "Six rings <b>"));
+}
+
+}  // namespace
+}  // namespace cupola
