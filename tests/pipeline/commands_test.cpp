@@ -168,6 +168,49 @@ TEST(Commands, MeasureAStudyAgainstItsReference) {
   EXPECT_TRUE(says(rows[3], ",not run,")) << rows[3];
 }
 
+TEST(Commands, CompareRuns) {
+  const DomeFolder folder;
+  run_dome(folder, "thick", "");
+  run_dome(folder, "thin", "--set geometry.surface.thickness=2");
+  const std::string compare = "cupola-post compare runs/thick/post ";
+  const ProgramRun run = folder.run(compare + "runs/thin/post --output both");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(says(run.out, "B: Six rings <b>& a crown (runs/thin/post)")) << run.out;
+  EXPECT_TRUE(says(run.out, "The least geometric safety of the thrust lines is")) << run.out;
+  const std::string page = slurp(folder.file("both/comparison.html"));
+  EXPECT_TRUE(says(page, "Six rings &lt;b&gt;&amp; a crown"));
+  EXPECT_FALSE(says(page, "Six rings <b>"));
+  EXPECT_EQ(folder.run(compare + "--output one").code, 2);
+  EXPECT_EQ(folder.run(compare + "runs/none/post --output one").code, 2);
+}
+
+TEST(Commands, ExplainWhatWouldBeSolved) {
+  const DomeFolder folder;
+  ASSERT_EQ(folder.run("cupola-generate dome.yaml --output dome.vtu --quiet").code, 0);
+  const auto explained = [&folder](const std::string& set) {
+    const ProgramRun run = folder.run("cupola-solve dome.yaml --assembly dome.vtu --explain" + set);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.out;
+  };
+  const std::string statics = explained("");
+  for (const char* part :
+       {"48 free, 1 fixed", "288 velocities, 1728 force components at 576 contacts in 136 joints",
+        "static, newton", "friction    0.4, associated", "one factorisation"})
+    EXPECT_TRUE(says(statics, part)) << part << " in\n" << statics;
+  const std::string motion = explained(
+      " --set analysis.type=dynamic --set analysis.duration=0.1 --set joints.friction=0 "
+      "--set contact.method=perturbed_gjk");
+  for (const char* part : {"none: normal forces only", "dynamic, newton: 10 steps of 0.01 s",
+                           "perturbed GJK, 16 queries", "3 steps, the last"})
+    EXPECT_TRUE(says(motion, part)) << part << " in\n" << motion;
+  // Ends, then halvings of 0.3 down to a hundredth of 0.4.
+  const std::string limit = explained(
+      " --set analysis.type=limit --set analysis.limit.parameter=friction --set analysis.limit.low=0.1 "
+      "--set analysis.limit.high=0.4 --set analysis.limit.relative_width=0.01");
+  EXPECT_TRUE(says(limit, "limit, newton: about 9 equilibria between 0.1 and 0.4")) << limit;
+  EXPECT_EQ(folder.contents().size(), 2u) << "case and assembly";
+}
+
 TEST(Commands, DrawWhatIsAskedFor) {
   const DomeFolder folder;
   run_dome(folder, "drawn", "");
