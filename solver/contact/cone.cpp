@@ -103,12 +103,4 @@ Vec3 project_on_cone(const ContactLaw& metric, const Vec3& x) {
   return contact_impulse(metric, Vec3(-metric.e_n * x[0], -metric.e_t * x[1], -metric.e_t * x[2]));
 }
 
-VecX contact_impulses(const ContactProblem& problem, const VecX& y) {
-  VecX gamma(y.size());
-  for (int i = 0; i < problem.num_contacts(); ++i) {
-    gamma.segment<3>(3 * i) = contact_impulse(contact_law(problem, i), y.segment<3>(3 * i));
-  }
-  return gamma;
-}
-
 }  // namespace cupola

@@ -43,7 +43,4 @@ Mat3 coulomb_stiffness(const ContactLaw& law, const Vec3& y);
 /// Projection of x on Y in the norm of diag(e_n, e_t, e_t): argmin over Y of (g - x)^T E (g - x).
 Vec3 project_on_cone(const ContactLaw& metric, const Vec3& x);
 
-/// gamma(y) of every contact (3 nc).
-VecX contact_impulses(const ContactProblem& problem, const VecX& y);
-
 }  // namespace cupola

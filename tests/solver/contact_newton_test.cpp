@@ -191,6 +191,18 @@ TEST(Newton, UnsoundInputFailsWithASentence) {
   p.M[0](5, 5) = -1.0;
   EXPECT_NE(message_of(p).find("not positive definite"), std::string::npos);
   p = good;
+  p.M[0](0, 5) = 1e3;
+  EXPECT_NE(message_of(p).find("the mass matrix of block 0 is not symmetric"), std::string::npos);
+  p = good;
+  p.D_b[3](2, 1) = std::nan("");
+  EXPECT_NE(message_of(p).find("D_b of contact 3 is not finite"), std::string::npos);
+  p = good;
+  p.E[3] = -1e-8;
+  EXPECT_NE(message_of(p).find("E of contact 1 = (-1e-08, "), std::string::npos);
+  p = good;
+  p.E[5] *= 2.0;
+  EXPECT_NE(message_of(p).find("E of contact 1 differs between the tangents"), std::string::npos);
+  p = good;
   p.E[4] = p.E[5] = 0.0;
   EXPECT_NE(message_of(p).find("contact 1 has zero compliance"), std::string::npos);
   p = good;
