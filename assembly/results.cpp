@@ -1,7 +1,9 @@
 #include "assembly/results.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -91,8 +93,16 @@ void from_value(const Json& json, Status* status) {
   if (at == kStatusNames.end()) throw InputError("unknown status");
   *status = static_cast<Status>(at - kStatusNames.begin());
 }
-template <class T>
+void from_value(const Json& json, std::string* value) {
+  json.get_to(*value);
+}
+/// The library would cut fractions, and numbers beyond the type, to something else.
+template <std::integral T>
 void from_value(const Json& json, T* value) {
+  const bool fits = json.is_number_unsigned()
+                        ? std::in_range<T>(json.get<std::uint64_t>())
+                        : json.is_number_integer() && std::in_range<T>(json.get<std::int64_t>());
+  if (!fits) throw InputError("no whole number of this size");
   json.get_to(*value);
 }
 

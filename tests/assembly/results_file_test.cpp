@@ -247,6 +247,9 @@ TEST(SummaryJson, BadTextIsNamed) {
             "r/summary.json: error: status = \"dancing\": has the wrong type");
   EXPECT_EQ(error_of(with("\"blocks\": 3", "\"blocks\": \"3\"")),
             "r/summary.json: error: blocks = \"3\": has the wrong type");
+  for (const std::string count : {"3.5", "1e+85", "4294967299", "-4294967293", "18446744073709551615"})
+    EXPECT_EQ(error_of(with("\"blocks\": 3", "\"blocks\": " + count)),
+              "r/summary.json: error: blocks = " + count + ": has the wrong type");
 }
 
 }  // namespace
