@@ -1,6 +1,6 @@
 #include "generators/generate.hpp"
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 #include "generators/bond/make_bond.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
 #include "generators/surface/make_surface.hpp"

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "assembly/assembly.hpp"
 #include "assembly/case/case.hpp"
+#include "assembly/model/assembly.hpp"
 #include "generators/importer/import.hpp"
 #include "generators/stereotomy/model_checks.hpp"
 

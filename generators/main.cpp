@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "assembly/assembly_file.hpp"
-#include "assembly/atomic_file.hpp"
-#include "assembly/command_line.hpp"
+#include "assembly/files/assembly_file.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/program/command_line.hpp"
 #include "generators/generate.hpp"
+#include "generators/generate_report.hpp"
 #include "generators/stereotomy/bond_map.hpp"
-#include "generators/stereotomy/report.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-"""Pictures of an assembly: postproc/report/pvbatch.sh generators/pictures.py ASSEMBLY.vtu PREFIX [HEIGHT ...]
+"""Pictures of an assembly: postproc/pictures/pvbatch.sh generators/pictures.py ASSEMBLY.vtu PREFIX [HEIGHT ...]
 
 Writes PREFIX_outside.png, PREFIX_inside.png (the half behind the x-z plane) and, for each height in metres,
 PREFIX_section_HEIGHT.png (the level cut seen from above, supports left out). Blocks are coloured by what they

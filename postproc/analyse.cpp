@@ -5,18 +5,19 @@
 
 #include <fmt/format.h>
 
-#include "assembly/assembly_file.hpp"
-#include "assembly/atomic_file.hpp"
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/files/assembly_file.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/files/content_hash.hpp"
+#include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/figures.hpp"
-#include "postproc/output/mesh_output.hpp"
-#include "postproc/output/mesh_parts.hpp"
-#include "postproc/output/post_summary.hpp"
-#include "postproc/output/result_tables.hpp"
-#include "postproc/report/paraview_views.hpp"
+#include "postproc/pictures/paraview_views.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/report/stages.hpp"
-#include "postproc/wrenches/evaluation.hpp"
+#include "postproc/tables/mesh_output.hpp"
+#include "postproc/tables/mesh_parts.hpp"
+#include "postproc/tables/post_summary.hpp"
+#include "postproc/tables/result_tables.hpp"
 
 namespace cupola {
 namespace {

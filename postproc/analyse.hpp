@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "assembly/case/case.hpp"
-#include "assembly/program.hpp"
+#include "assembly/program/program.hpp"
 
 namespace cupola {
 

@@ -11,13 +11,14 @@
 
 #include <fmt/format.h>
 
-#include "assembly/command_line.hpp"
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/base/process.hpp"
+#include "assembly/program/command_line.hpp"
 #include "postproc/analyse.hpp"
 #include "postproc/claims/claims_command.hpp"
 #include "postproc/compare/compare.hpp"
-#include "postproc/sweep/sweep.hpp"
-#include "postproc/tradeoff/tradeoff_command.hpp"
+#include "postproc/studies/sweep.hpp"
+#include "postproc/studies/tradeoff_command.hpp"
 
 namespace {
 

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "assembly/program.hpp"
+#include "assembly/base/process.hpp"
 #include "solver/analysis/record.hpp"
-#include "solver/contact/block_cholesky.hpp"
-#include "solver/contact/cone.hpp"
-#include "solver/contact/newton.hpp"
-#include "solver/contact/whitening.hpp"
+#include "solver/contact/blocks/block_cholesky.hpp"
+#include "solver/contact/methods/newton.hpp"
+#include "solver/contact/problem/cone.hpp"
+#include "solver/contact/problem/whitening.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/simulation.hpp"
 

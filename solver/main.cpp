@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "assembly/command_line.hpp"
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/program/command_line.hpp"
+#include "solver/fclib/solve_fclib.hpp"
 #include "solver/solve_case.hpp"
-#include "solver/solve_fclib.hpp"
 
 namespace {
 

@@ -6,19 +6,21 @@
 
 #include <fmt/format.h>
 
-#include "assembly/assembly_file.hpp"
-#include "assembly/error.hpp"
-#include "assembly/results_file.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/base/process.hpp"
+#include "assembly/files/assembly_file.hpp"
+#include "assembly/files/content_hash.hpp"
+#include "assembly/files/results_file.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record.hpp"
-#include "solver/checkpoint.hpp"
 #include "solver/collision/geometry_warnings.hpp"
 #include "solver/collision/patch_file.hpp"
-#include "solver/contact/fclib_file.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/explain.hpp"
-#include "solver/run_control.hpp"
-#include "solver/threads.hpp"
+#include "solver/fclib/fclib_file.hpp"
+#include "solver/runtime/checkpoint.hpp"
+#include "solver/runtime/run_control.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "assembly/case/case.hpp"
-#include "assembly/program.hpp"
+#include "assembly/program/program.hpp"
 
 namespace cupola {
 

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "assembly/case/joints.hpp"
-#include "assembly/contact_choices.hpp"
+#include "assembly/model/choices.hpp"
+#include "assembly/model/joint_laws.hpp"
 
 namespace cupola {
 

@@ -5,9 +5,10 @@
 
 #include "assembly/case/analysis.hpp"
 #include "assembly/case/geometry.hpp"
-#include "assembly/case/joints.hpp"
-#include "assembly/case/loads.hpp"
 #include "assembly/case/sweep.hpp"
+#include "assembly/model/joint_laws.hpp"
+#include "assembly/model/loads.hpp"
+#include "assembly/model/section_planes.hpp"
 
 namespace cupola {
 
@@ -39,19 +40,6 @@ struct ContactDetection {
 
 struct Output {
   double frames_every = 0.1;  ///< s between frames of a dynamic analysis, > 0
-};
-
-/// A meridian is the half-plane at an azimuth; walls have none.
-struct Meridian {
-  std::string name;
-  double azimuth_deg = 0.0;
-};
-
-/// Any plane, by a point and a normal of any length; the blocks that the normal points to lie beyond it.
-struct CutPlane {
-  std::string name;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m
-  Eigen::Vector3d normal{1.0, 0.0, 0.0};
 };
 
 struct Postproc {

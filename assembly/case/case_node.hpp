@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 

@@ -2,7 +2,7 @@
 
 #include "assembly/case/case_tree.hpp"
 #include "assembly/case/declare.hpp"
-#include "assembly/hash.hpp"
+#include "assembly/files/hash.hpp"
 
 namespace cupola {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "assembly/atomic_file.hpp"
 #include "assembly/case/yaml_text.hpp"
+#include "assembly/files/atomic_file.hpp"
 
 namespace cupola {
 namespace {

@@ -1,4 +1,5 @@
 #include "assembly/case/declare.hpp"
+#include "assembly/files/time_table.hpp"
 
 namespace cupola {
 namespace {

@@ -13,8 +13,8 @@
 #include <Eigen/Core>
 
 #include "assembly/case/case_node.hpp"
-#include "assembly/case/scalar.hpp"
 #include "assembly/case/schema_table.hpp"
+#include "assembly/files/number_text.hpp"
 
 namespace cupola {
 

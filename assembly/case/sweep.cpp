@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 namespace {

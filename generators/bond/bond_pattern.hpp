@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "assembly/assembly.hpp"
+#include "assembly/model/assembly.hpp"
 
 namespace cupola {
 

@@ -5,19 +5,19 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 namespace {
 
-constexpr double kCornerPhase =
+constexpr double kRunningCornerPhase =
     0.25;  // block widths: joints of even and odd rings stay equally far from corners
 
 /// Phase in widths of the refined blocks. Whole blocks keep their joints where that leaves none on a corner.
 double phase_of(std::optional<double> phase, int refine, const BondGrid& grid) {
   if (phase) return std::fmod(*phase * refine, 1.0);
   if (grid.corners.empty()) return 0.0;
-  return refine % 2 == 1 ? std::fmod(kCornerPhase * refine, 1.0) : kCornerPhase;
+  return refine % 2 == 1 ? std::fmod(kRunningCornerPhase * refine, 1.0) : kRunningCornerPhase;
 }
 
 template <class Courses>

@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 namespace {
 
-constexpr double kCornerPhase =
+constexpr double kHerringboneCornerPhase =
     1.0 / 6.0;  // block widths: with three verticals per block no joint meets a corner
 
 /// The bond in slices, `slices_per_vertical` of them to a vertical's width. A band is what the case calls a
@@ -133,7 +133,7 @@ double phase_in_verticals(const HerringboneBond& bond, const BondGrid& grid) {
   if (bond.phase) return *bond.phase * bond.verticals_per_block * bond.refine;
   if (grid.corners.empty()) return 0.0;
   const int half_refined = (bond.refine - 1) / 2;  // whole verticals
-  return bond.verticals_per_block * kCornerPhase + half_refined;
+  return bond.verticals_per_block * kHerringboneCornerPhase + half_refined;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "generators/bond/make_bond.hpp"
 
-#include "assembly/variant.hpp"
+#include "assembly/base/variant.hpp"
 #include "generators/bond/courses.hpp"
 #include "generators/bond/fill.hpp"
 #include "generators/bond/herringbone.hpp"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 #include "generators/decomposition/plane_voting.hpp"
 #include "generators/decomposition/prism_partition.hpp"
 #include "generators/stereotomy/separation.hpp"

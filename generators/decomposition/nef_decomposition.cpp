@@ -9,9 +9,9 @@
 namespace cupola {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Polyhedron = CGAL::Polyhedron_3<Kernel>;
-using Nef = CGAL::Nef_polyhedron_3<Kernel>;
+using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Polyhedron = CGAL::Polyhedron_3<ExactKernel>;
+using Nef = CGAL::Nef_polyhedron_3<ExactKernel>;
 
 template <class HalfedgeStructure>
 class MeshBuilder : public CGAL::Modifier_base<HalfedgeStructure> {

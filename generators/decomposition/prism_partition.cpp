@@ -16,9 +16,9 @@
 namespace cupola {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point2 = Kernel::Point_2;
-using Traits = CGAL::Partition_traits_2<Kernel, CGAL::Pointer_property_map<Point2>::const_type>;
+using InexactKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point2 = InexactKernel::Point_2;
+using Traits = CGAL::Partition_traits_2<InexactKernel, CGAL::Pointer_property_map<Point2>::const_type>;
 
 constexpr size_t kMostForOptimum = 150;  // corners; its time grows with their fourth power
 
@@ -88,8 +88,8 @@ std::optional<CrossSection> cross_section(const TriangleMesh& mesh, const std::v
 
 /// Convex pieces of a simple counter-clockwise polygon, as corner numbers; nothing when it crosses itself.
 std::vector<std::vector<int>> convex_pieces(const std::vector<Point2>& corners) {
-  if (!CGAL::is_simple_2(corners.begin(), corners.end(), Kernel())) return {};
-  if (CGAL::orientation_2(corners.begin(), corners.end(), Kernel()) != CGAL::COUNTERCLOCKWISE) return {};
+  if (!CGAL::is_simple_2(corners.begin(), corners.end(), InexactKernel())) return {};
+  if (CGAL::orientation_2(corners.begin(), corners.end(), InexactKernel()) != CGAL::COUNTERCLOCKWISE) return {};
   std::list<std::size_t> numbers;
   for (size_t i = 0; i < corners.size(); ++i) numbers.push_back(i);
   const Traits traits(CGAL::make_property_map(corners));

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "assembly/atomic_file.hpp"
+#include "assembly/files/atomic_file.hpp"
 #include "generators/importer/readers.hpp"
 
 namespace cupola {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "assembly/assembly.hpp"
 #include "assembly/case/geometry.hpp"
+#include "assembly/model/assembly.hpp"
 #include "generators/stereotomy/model_checks.hpp"
 
 namespace cupola {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "assembly/atomic_file.hpp"
+#include "assembly/files/atomic_file.hpp"
 #include "generators/importer/binary_bytes.hpp"
 #include "generators/importer/readers.hpp"
 #include "generators/importer/text_lines.hpp"

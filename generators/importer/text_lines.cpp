@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "assembly/atomic_file.hpp"
+#include "assembly/files/atomic_file.hpp"
 
 namespace cupola {
 namespace {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "assembly/assembly.hpp"
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/model/assembly.hpp"
 
 namespace cupola {
 

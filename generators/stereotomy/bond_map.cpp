@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 #include "generators/bond/make_bond.hpp"
 #include "generators/stereotomy/cell_grid.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "assembly/assembly.hpp"
 #include "assembly/case/geometry.hpp"
+#include "assembly/model/assembly.hpp"
 #include "generators/bond/bond_pattern.hpp"
 #include "generators/surface/surface_map.hpp"
 

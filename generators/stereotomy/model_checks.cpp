@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
-#include "generators/mesh_checks.hpp"
+#include "assembly/base/error.hpp"
+#include "generators/stereotomy/mesh_checks.hpp"
 #include "generators/stereotomy/separation.hpp"
 
 namespace cupola {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "assembly/assembly.hpp"
+#include "assembly/base/error.hpp"
 #include "assembly/case/geometry.hpp"
-#include "assembly/error.hpp"
+#include "assembly/model/assembly.hpp"
 
 namespace cupola {
 

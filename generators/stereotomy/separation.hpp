@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "assembly/assembly.hpp"
+#include "assembly/model/assembly.hpp"
 
 namespace cupola {
 

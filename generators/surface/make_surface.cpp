@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "assembly/variant.hpp"
+#include "assembly/base/variant.hpp"
 #include "generators/surface/arch.hpp"
 #include "generators/surface/dome.hpp"
 #include "generators/surface/vault_circular.hpp"

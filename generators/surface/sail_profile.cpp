@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 #include "generators/surface/surface_map.hpp"
 
 namespace cupola {

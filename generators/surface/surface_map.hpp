@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "assembly/assembly.hpp"
 #include "assembly/case/geometry.hpp"
+#include "assembly/model/assembly.hpp"
 
 namespace cupola {
 

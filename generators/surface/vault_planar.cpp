@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 #include "generators/surface/sail_profile.hpp"
 #include "generators/surface/secant.hpp"
 

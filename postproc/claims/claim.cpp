@@ -2,9 +2,9 @@
 
 #include <sstream>
 
+#include "assembly/base/error.hpp"
 #include "assembly/case/case_tree.hpp"
 #include "assembly/case/section.hpp"
-#include "assembly/error.hpp"
 
 namespace cupola {
 namespace {

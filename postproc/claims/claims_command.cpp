@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "assembly/atomic_file.hpp"
-#include "assembly/command_line.hpp"
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/program/command_line.hpp"
 #include "postproc/claims/claims_report.hpp"
 
 namespace cupola {

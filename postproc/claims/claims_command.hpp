@@ -1,6 +1,6 @@
 #pragma once
 
-#include "assembly/program.hpp"
+#include "assembly/program/program.hpp"
 
 namespace cupola {
 

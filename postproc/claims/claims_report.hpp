@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "postproc/claims/verdict.hpp"
-#include "postproc/output/table.hpp"
+#include "postproc/tables/table.hpp"
 
 namespace cupola {
 

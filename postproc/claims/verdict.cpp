@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
-#include "postproc/claims/run_files.hpp"
+#include "assembly/base/error.hpp"
+#include "postproc/tables/run_files.hpp"
 
 namespace cupola {
 namespace {

@@ -8,14 +8,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "assembly/atomic_file.hpp"
-#include "assembly/command_line.hpp"
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/program/command_line.hpp"
 #include "postproc/compare/reading.hpp"
 #include "postproc/figures/gnuplot.hpp"
 #include "postproc/figures/plot_style.hpp"
-#include "postproc/output/csv_file.hpp"
 #include "postproc/report/html.hpp"
+#include "postproc/tables/csv_file.hpp"
 
 namespace cupola {
 namespace {

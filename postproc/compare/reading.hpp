@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "postproc/output/post_summary.hpp"
-#include "postproc/output/table.hpp"
+#include "postproc/tables/post_summary.hpp"
+#include "postproc/tables/table.hpp"
 
 namespace cupola {
 

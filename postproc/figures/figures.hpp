@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/gnuplot.hpp"
-#include "postproc/wrenches/evaluation.hpp"
 
 namespace cupola {
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "assembly/atomic_file.hpp"
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
 #include "postproc/figures/process.hpp"
 
 namespace cupola {

@@ -5,7 +5,7 @@
 
 #include "postproc/figures/figures.hpp"
 #include "postproc/figures/plot_style.hpp"
-#include "postproc/output/mesh_output.hpp"
+#include "postproc/tables/mesh_output.hpp"
 
 namespace cupola {
 namespace {

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <string>
 
-#include "postproc/wrenches/evaluation.hpp"
+#include "postproc/evaluation/evaluation.hpp"
 
 namespace cupola {
 

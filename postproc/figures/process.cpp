@@ -9,8 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "assembly/atomic_file.hpp"
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
 
 namespace cupola {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "assembly/markup.hpp"
-#include "postproc/output/table.hpp"
+#include "assembly/files/markup.hpp"
+#include "postproc/tables/table.hpp"
 
 namespace cupola {
 

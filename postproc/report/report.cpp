@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "assembly/program.hpp"
+#include "assembly/base/process.hpp"
 #include "postproc/figures/plot_style.hpp"
-#include "postproc/output/post_summary.hpp"
 #include "postproc/report/html.hpp"
+#include "postproc/tables/post_summary.hpp"
 
 namespace cupola {
 namespace {

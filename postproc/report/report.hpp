@@ -3,17 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/gnuplot.hpp"
-#include "postproc/output/table.hpp"
-#include "postproc/wrenches/evaluation.hpp"
+#include "postproc/pictures/paraview_views.hpp"
+#include "postproc/tables/table.hpp"
 
 namespace cupola {
-
-/// A picture with the words below it.
-struct Picture {
-  std::string path;  ///< of the PNG
-  std::string caption;
-};
 
 /// What a report is made of besides the evaluation.
 struct ReportInput {

@@ -2,10 +2,10 @@
 
 #include <optional>
 
+#include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/gnuplot.hpp"
-#include "postproc/output/csv_file.hpp"
-#include "postproc/output/table.hpp"
-#include "postproc/wrenches/evaluation.hpp"
+#include "postproc/tables/csv_file.hpp"
+#include "postproc/tables/table.hpp"
 
 namespace cupola {
 

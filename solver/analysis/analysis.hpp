@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "assembly/assembly.hpp"
 #include "assembly/case/case.hpp"
-#include "assembly/results.hpp"
+#include "assembly/model/assembly.hpp"
+#include "assembly/model/results.hpp"
 #include "solver/collision/contact_set.hpp"
-#include "solver/contact/contact_problem.hpp"
+#include "solver/contact/problem/contact_problem.hpp"
 
 namespace cupola {
 

@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "assembly/byte_archive.hpp"
-#include "assembly/error.hpp"
-#include "assembly/program.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/base/process.hpp"
+#include "assembly/files/byte_archive.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/dynamic_history.hpp"
 #include "solver/analysis/record.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "assembly/program.hpp"
+#include "assembly/base/process.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/limit_parameter.hpp"
 #include "solver/analysis/limit_search.hpp"

@@ -8,7 +8,7 @@
 namespace cupola {
 namespace {
 
-constexpr double kAtRest = 1e-3;  // of the fastest block: slower is not moving
+constexpr double kStopped = 1e-3;  // of the fastest block: slower is not moving
 
 int root_of(std::vector<int>& parent, int block) {
   while (parent[block] != block) block = parent[block] = parent[parent[block]];
@@ -31,15 +31,15 @@ std::vector<MovingJoint> joint_motions(const ContactSet& contacts, const VecX& u
     const Vec3 at_point = u.segment<3>(3 * static_cast<Eigen::Index>(i)) / fastest;
     joint.opening = std::max(joint.opening, at_point[0]);
     // Under the associated law a sliding point lifts off by mu |u_t|: it counts as closed.
-    if (at_point[0] <= std::max(kAtRest, at_point.tail<2>().norm())) {
+    if (at_point[0] <= std::max(kStopped, at_point.tail<2>().norm())) {
       any_closed[j] = true;
       joint.sliding = std::max(joint.sliding, at_point.tail<2>().norm());
     }
   }
   for (size_t j = 0; j < joints.size(); ++j) {
     MovingJoint& joint = joints[j];
-    const bool slides = joint.sliding > kAtRest;
-    const bool opens = joint.opening > kAtRest;
+    const bool slides = joint.sliding > kStopped;
+    const bool opens = joint.opening > kStopped;
     if (slides && any_closed[j] && joint.sliding >= joint.opening)
       joint.motion = JointMotion::sliding;
     else if (opens)
@@ -58,7 +58,7 @@ void find_groups(const Model& model, Mechanism* mechanism) {
       parent[root_of(parent, joint.block_a)] = root_of(parent, joint.block_b);
   const auto moves = [&](int block) {
     const int i = model.free_index[block];
-    return i != ContactProblem::kFixed && mechanism->v.segment<3>(6 * i).norm() > kAtRest;
+    return i != ContactProblem::kFixed && mechanism->v.segment<3>(6 * i).norm() > kStopped;
   };
   std::vector<bool> group_moves(num_blocks, false);
   for (int block = 0; block < num_blocks; ++block)

@@ -2,7 +2,7 @@
 
 #include "solver/analysis/static_solve.hpp"
 #include "solver/collision/contact_set.hpp"
-#include "solver/contact/contact_problem.hpp"
+#include "solver/contact/problem/contact_problem.hpp"
 #include "solver/dynamics/contact_memory.hpp"
 #include "solver/dynamics/model.hpp"
 

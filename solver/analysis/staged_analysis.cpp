@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
-#include "assembly/program.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/base/process.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/limit_search.hpp"
 #include "solver/analysis/record.hpp"

@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
-#include "assembly/program.hpp"
+#include "assembly/base/process.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/analysis/static_solve.hpp"
 #include "solver/analysis/wrench_error.hpp"
 #include "solver/dynamics/scene_options.hpp"
-#include "solver/threads.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "solver/analysis/cyclic_reduction.hpp"
-#include "solver/contact/kinematic_bound.hpp"
-#include "solver/contact/newton.hpp"
+#include "solver/contact/methods/newton.hpp"
+#include "solver/contact/problem/kinematic_bound.hpp"
 
 namespace cupola {
 namespace {

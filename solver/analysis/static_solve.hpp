@@ -4,8 +4,8 @@
 #include <string>
 
 #include "solver/analysis/cyclic_symmetry.hpp"
-#include "solver/contact/residuals.hpp"
-#include "solver/contact/solve_contact.hpp"
+#include "solver/contact/methods/solve_contact.hpp"
+#include "solver/contact/problem/residuals.hpp"
 #include "solver/dynamics/equilibrium.hpp"
 #include "solver/dynamics/simulation.hpp"
 #include "solver/dynamics/time_step.hpp"

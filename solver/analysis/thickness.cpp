@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "assembly/assembly.hpp"
+#include "assembly/model/assembly.hpp"
 
 namespace cupola {
 

@@ -3,11 +3,16 @@
 #include <span>
 #include <vector>
 
-#include "assembly/assembly.hpp"
+#include "assembly/model/assembly.hpp"
 #include "solver/collision/contact_set.hpp"
 #include "solver/collision/oriented_box.hpp"
 
 namespace cupola {
+
+/// Multithreaded loops over blocks: piece size, small enough to balance the load, and cost per block in
+/// floating-point operations (finding the joints of one block takes some tens of microseconds).
+constexpr int kBlocksPerPiece = 64;
+constexpr double kOperationsPerBlock = 1e5;
 
 /// Face of a convex part in the axes of its block, relative to the block's centroid.
 struct CollisionFace {

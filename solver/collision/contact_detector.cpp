@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 #include "solver/collision/contact_file.hpp"
 #include "solver/collision/edge_contact.hpp"
 #include "solver/collision/face_clipping.hpp"
 #include "solver/collision/plane_contacts.hpp"
-#include "solver/threads.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {
@@ -21,11 +21,7 @@ constexpr double kDefaultMargin = 0.01;  // of the smallest block
 // Of the smallest block. A block that sinks into its bed by the joint's compliance overlaps the sides of its
 // neighbours by that much: such slivers are no joints.
 constexpr double kSliverWidth = 1e-3;
-// On threads: pieces small enough to even out, and what the joints of a block cost, some tens of
-// microseconds.
-constexpr int kBlocksPerPiece = 64;
 constexpr int kPiecesAtOnce = 256;
-constexpr double kOperationsPerBlock = 1e5;
 constexpr double kCornerTolerance = 1e-10;  // of the smallest block; a hundred roundings of its corners
 
 /// Takes coordinates in b's axes to a's. The centroids are subtracted first, far from the origin.

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "assembly/atomic_file.hpp"
-#include "assembly/case/scalar.hpp"
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/files/number_text.hpp"
 
 namespace cupola {
 namespace {

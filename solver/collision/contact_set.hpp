@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include "assembly/assembly.hpp"
-#include "assembly/results.hpp"
+#include "assembly/model/assembly.hpp"
+#include "assembly/model/results.hpp"
 
 namespace cupola {
 

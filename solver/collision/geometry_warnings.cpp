@@ -6,19 +6,15 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 #include "solver/collision/face_clipping.hpp"
 #include "solver/collision/separating_axis.hpp"
-#include "solver/threads.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {
 
 constexpr double kOverlap = 1e-6;  // of the smallest block; ten thousand times the clipping tolerance
-// On threads: pieces small enough to even out, and what the joints of a block cost, some tens of
-// microseconds.
-constexpr int kBlocksPerPiece = 64;
-constexpr double kOperationsPerBlock = 1e5;
 
 /// Largest value met per pair of blocks.
 using PairValues = std::map<std::pair<int, int>, double>;

@@ -1,7 +1,7 @@
 #include "solver/collision/patch_file.hpp"
 
-#include "assembly/mesh_file.hpp"
-#include "assembly/program.hpp"
+#include "assembly/base/process.hpp"
+#include "assembly/files/mesh_file.hpp"
 
 namespace cupola {
 

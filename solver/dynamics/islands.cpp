@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 #include "solver/dynamics/time_step.hpp"
 
 namespace cupola {

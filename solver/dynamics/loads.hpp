@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "assembly/applied_loads.hpp"
+#include "assembly/model/applied_loads.hpp"
 
 namespace cupola {
 

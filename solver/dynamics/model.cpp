@@ -25,7 +25,7 @@ Model make_model(const Case& scene, const Assembly& assembly) {
   model.free_weight = free_weight(assembly, scene.loads.gravity.norm());
   model.block_weight = model.num_free() > 0 ? model.free_weight / model.num_free() : 0.0;
   model.plane = scene.analysis.plane;
-  if (model.plane) require_plane_scene(model, scene);
+  if (model.plane) require_plane_scene(scene, assembly, {model.loads, model.ties, model.support_motions});
   return model;
 }
 

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "assembly/assembly.hpp"
 #include "assembly/case/case.hpp"
+#include "assembly/model/assembly.hpp"
 #include "solver/collision/contact_set.hpp"
-#include "solver/contact/contact_problem.hpp"
+#include "solver/contact/problem/contact_problem.hpp"
 #include "solver/dynamics/joint_laws.hpp"
 #include "solver/dynamics/loads.hpp"
 #include "solver/dynamics/supports.hpp"

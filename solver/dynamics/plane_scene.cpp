@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 namespace {
@@ -38,30 +38,31 @@ void require_plane_blocks(const Assembly& assembly, double middle, double tolera
       refuse(fmt::format("block {} is not symmetric about y = {:g} m", part.block, middle));
 }
 
-void require_plane_actions(const Model& model, double tolerance) {
-  if (model.loads.gravity.y() != 0.0) refuse("gravity has a part along y");
-  for (const PointLoad& load : model.loads.points)
+void require_plane_actions(const PlaneActions& actions, double tolerance) {
+  if (actions.loads.gravity.y() != 0.0) refuse("gravity has a part along y");
+  for (const PointLoad& load : actions.loads.points)
     if (load.force.y() != 0.0 || std::abs(load.p_BP_B.y()) > tolerance)
       refuse(fmt::format("a load on block {} acts outside the plane", load.block));
-  for (const Tie& tie : model.ties)
+  for (const Tie& tie : actions.ties)
     if (std::abs(tie.p_AP_A.y()) > tolerance || std::abs(tie.p_BP_B.y()) > tolerance)
       refuse(fmt::format("the tie between blocks {} and {} lies outside it", tie.block_a, tie.block_b));
-  for (const SupportMotion& motion : model.support_motions)
+  for (const SupportMotion& motion : actions.support_motions)
     if (motion.displacement.y() != 0.0 || motion.rotation.x() != 0.0 || motion.rotation.z() != 0.0)
       refuse(fmt::format("support {} moves out of it", motion.block));
 }
 
 }  // namespace
 
-void require_plane_scene(const Model& model, const Case& scene) {
-  const Assembly& assembly = *model.assembly;
+void require_plane_scene(const Case& scene, const Assembly& assembly, const PlaneActions& actions) {
   if (scene.contact.method != ContactDetection::Method::face_clipping)
     throw InputError("analysis.plane: needs contact.method face_clipping");
   double size = 0.0;
   for (const Vec3& x : assembly.vertices) size = std::max(size, (x - assembly.vertices[0]).norm());
-  const double middle = model.num_free() > 0 ? assembly.blocks[model.free_blocks[0]].centroid.y() : 0.0;
+  const auto free = std::find_if(assembly.blocks.begin(), assembly.blocks.end(),
+                                 [](const Block& block) { return !block.fixed; });
+  const double middle = free != assembly.blocks.end() ? free->centroid.y() : 0.0;
   require_plane_blocks(assembly, middle, kRounding * size);
-  require_plane_actions(model, kRounding * size);
+  require_plane_actions(actions, kRounding * size);
 }
 
 }  // namespace cupola

@@ -1,6 +1,6 @@
 #include "solver/dynamics/scene_options.hpp"
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 

@@ -2,7 +2,7 @@
 
 #include "assembly/case/case.hpp"
 #include "solver/collision/contact_detector.hpp"
-#include "solver/contact/solve_contact.hpp"
+#include "solver/contact/methods/solve_contact.hpp"
 
 namespace cupola {
 

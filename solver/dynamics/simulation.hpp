@@ -5,8 +5,8 @@
 #include <string>
 
 #include "solver/collision/contact_detector.hpp"
-#include "solver/contact/residuals.hpp"
-#include "solver/contact/solve_contact.hpp"
+#include "solver/contact/methods/solve_contact.hpp"
+#include "solver/contact/problem/residuals.hpp"
 #include "solver/dynamics/energy.hpp"
 #include "solver/dynamics/equilibrium.hpp"
 #include "solver/dynamics/islands.hpp"

@@ -1,4 +1,4 @@
-#include "assembly/byte_archive.hpp"
+#include "assembly/files/byte_archive.hpp"
 #include "solver/dynamics/simulation.hpp"
 
 namespace cupola {

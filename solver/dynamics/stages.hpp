@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "assembly/assembly.hpp"
 #include "assembly/case/case.hpp"
+#include "assembly/model/assembly.hpp"
 
 namespace cupola {
 

@@ -4,7 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/files/time_table.hpp"
 
 namespace cupola {
 namespace {

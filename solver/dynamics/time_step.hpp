@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "solver/contact/contact_problem.hpp"
+#include "solver/contact/problem/contact_problem.hpp"
 #include "solver/dynamics/contact_memory.hpp"
 #include "solver/dynamics/model.hpp"
 

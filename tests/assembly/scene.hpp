@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "assembly/assembly.hpp"
+#include "assembly/model/assembly.hpp"
 #include "tests/fresh_folder.hpp"
 
 namespace cupola::test {

@@ -12,16 +12,16 @@
 
 #include <fmt/format.h>
 
-#include "assembly/program.hpp"
-#include "solver/contact/block_cholesky.hpp"
-#include "solver/contact/block_hierarchy.hpp"
-#include "solver/contact/cone.hpp"
-#include "solver/contact/residuals.hpp"
-#include "solver/contact/solve_contact.hpp"
-#include "solver/contact/whitening.hpp"
-#include "solver/threads.hpp"
+#include "assembly/base/process.hpp"
+#include "solver/contact/blocks/block_cholesky.hpp"
+#include "solver/contact/blocks/multigrid.hpp"
+#include "solver/contact/methods/solve_contact.hpp"
+#include "solver/contact/problem/cone.hpp"
+#include "solver/contact/problem/residuals.hpp"
+#include "solver/contact/problem/whitening.hpp"
+#include "solver/runtime/threads.hpp"
 #include "tests/benchmark/dome_problem.hpp"
-#include "tests/solver/contact_scenes.hpp"
+#include "tests/solver/contact/contact_scenes.hpp"
 
 namespace cupola {
 namespace {

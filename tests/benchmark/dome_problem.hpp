@@ -3,6 +3,7 @@
 #include <ctime>
 #include <random>
 
+#include "assembly/base/process.hpp"
 #include "generators/generate.hpp"
 #include "solver/collision/contact_detector.hpp"
 #include "solver/dynamics/model.hpp"

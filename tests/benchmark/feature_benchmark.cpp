@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/process.hpp"
 #include "assembly/case/case_reader.hpp"
-#include "assembly/program.hpp"
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/dynamics/scene_options.hpp"

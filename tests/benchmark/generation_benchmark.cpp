@@ -3,7 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "assembly/program.hpp"
+#include "assembly/base/process.hpp"
 #include "generators/decomposition/decompose.hpp"
 #include "generators/generate.hpp"
 #include "tests/generators/meshes.hpp"

@@ -34,9 +34,10 @@ extern "C" {
 #include <fc3d_compute_error.h>
 }
 
-#include "solver/contact/delassus.hpp"
-#include "solver/contact/residuals.hpp"
-#include "solver/contact/solve_contact.hpp"
+#include "assembly/base/process.hpp"
+#include "solver/contact/methods/solve_contact.hpp"
+#include "solver/contact/problem/delassus.hpp"
+#include "solver/contact/problem/residuals.hpp"
 #include "tests/benchmark/dome_problem.hpp"
 
 namespace cupola {

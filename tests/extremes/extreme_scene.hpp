@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "assembly/assembly.hpp"
 #include "assembly/case/case.hpp"
-#include "assembly/results.hpp"
+#include "assembly/model/assembly.hpp"
+#include "assembly/model/results.hpp"
 
 namespace cupola {
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "assembly/atomic_file.hpp"
-#include "assembly/error.hpp"
-#include "assembly/program.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/program/program.hpp"
 #include "tests/extremes/extreme_scene.hpp"
 
 namespace {

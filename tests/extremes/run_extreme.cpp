@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "assembly/error.hpp"
-#include "assembly/program.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/base/process.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/collision/geometry_warnings.hpp"
 #include "solver/dynamics/scene_options.hpp"

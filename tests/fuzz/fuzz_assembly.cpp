@@ -1,7 +1,7 @@
 // assembly.vtu with a right checksum and spoilt contents. Promise: every index of an accepted assembly is in
 // range and every coordinate finite.
 
-#include "assembly/assembly_file.hpp"
+#include "assembly/files/assembly_file.hpp"
 #include "tests/fuzz/mesh_edits.hpp"
 #include "tests/fuzz/small_model.hpp"
 

@@ -1,9 +1,9 @@
 // Checkpoints: raw bytes, and bytes below a right first line and checksum, so that the archive's own checks
 // are tested. Promise: an accepted checkpoint is written back to the same bytes.
 
-#include "assembly/atomic_file.hpp"
-#include "assembly/hash.hpp"
-#include "solver/checkpoint.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/files/hash.hpp"
+#include "solver/runtime/checkpoint.hpp"
 #include "tests/fuzz/reader_under_test.hpp"
 
 namespace cupola {

@@ -1,7 +1,7 @@
 // FCLIB problems (HDF5) as bytes. Promise: an accepted problem has matching sizes, finite numbers and
 // friction coefficients >= 0.
 
-#include "solver/contact/fclib_file.hpp"
+#include "solver/fclib/fclib_file.hpp"
 #include "tests/fuzz/reader_under_test.hpp"
 
 namespace cupola {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "assembly/atomic_file.hpp"
-#include "assembly/results_file.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/files/results_file.hpp"
 #include "tests/fuzz/mesh_edits.hpp"
 
 namespace cupola {

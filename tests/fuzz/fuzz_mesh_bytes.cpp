@@ -1,6 +1,6 @@
 // assembly.vtu as raw bytes: damaged files. Promise: only a file that is whole gets past the checksum.
 
-#include "assembly/assembly_file.hpp"
+#include "assembly/files/assembly_file.hpp"
 #include "tests/fuzz/reader_under_test.hpp"
 
 namespace cupola {

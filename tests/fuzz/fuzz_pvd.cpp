@@ -1,6 +1,6 @@
 // ParaView collections (.pvd) as text.
 
-#include "assembly/mesh_file.hpp"
+#include "assembly/files/mesh_file.hpp"
 #include "tests/fuzz/reader_under_test.hpp"
 
 namespace cupola {

@@ -1,6 +1,7 @@
 // results/summary.json. Promise: an accepted summary is written and read back to the same text.
 
-#include "assembly/results.hpp"
+#include "assembly/files/summary_file.hpp"
+#include "assembly/model/results.hpp"
 #include "tests/fuzz/reader_under_test.hpp"
 
 namespace cupola {

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "assembly/time_function.hpp"
+#include "assembly/files/time_table.hpp"
+#include "assembly/model/time_function.hpp"
 #include "tests/fuzz/reader_under_test.hpp"
 
 namespace cupola {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "assembly/mesh_file.hpp"
+#include "assembly/files/mesh_file.hpp"
 #include "tests/fuzz/reader_under_test.hpp"
 
 namespace cupola {

@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 

@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "assembly/atomic_file.hpp"
-#include "assembly/program.hpp"
+#include "assembly/base/process.hpp"
+#include "assembly/files/atomic_file.hpp"
 #include "tests/fuzz/reader_under_test.hpp"
 
 namespace {

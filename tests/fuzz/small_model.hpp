@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "assembly/assembly.hpp"
+#include "assembly/model/assembly.hpp"
 
 namespace cupola {
 

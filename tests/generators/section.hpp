@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "assembly/assembly.hpp"
+#include "assembly/model/assembly.hpp"
 
 namespace cupola {
 

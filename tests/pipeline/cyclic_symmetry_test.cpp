@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "assembly/error.hpp"
+#include "assembly/base/error.hpp"
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/base/process.hpp"
 #include "assembly/case/case_reader.hpp"
-#include "assembly/program.hpp"
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "assembly/base/error.hpp"
 #include "assembly/case/case_reader.hpp"
-#include "assembly/error.hpp"
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 

@@ -5,8 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/files/content_hash.hpp"
 #include "generators/generate.hpp"
-#include "postproc/wrenches/evaluation.hpp"
+#include "postproc/evaluation/evaluation.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "tests/fresh_folder.hpp"
 

@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "assembly/hash.hpp"
+#include "assembly/files/hash.hpp"
 
 namespace cupola {
 

@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "assembly/mesh_file.hpp"
-#include "assembly/results.hpp"
+#include "assembly/files/content_hash.hpp"
+#include "assembly/files/mesh_file.hpp"
+#include "assembly/files/summary_file.hpp"
+#include "assembly/model/results.hpp"
 #include "tests/pipeline/program_run.hpp"
 
 namespace cupola {

@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include "assembly/assembly_file.hpp"
-#include "assembly/results_file.hpp"
+#include "assembly/files/assembly_file.hpp"
+#include "assembly/files/results_file.hpp"
 #include "tests/fresh_folder.hpp"
 
 namespace cupola::test {

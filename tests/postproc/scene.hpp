@@ -1,6 +1,6 @@
 #pragma once
 
-#include "postproc/wrenches/evaluation.hpp"
+#include "postproc/evaluation/evaluation.hpp"
 #include "tests/postproc/models.hpp"
 
 namespace cupola::test {

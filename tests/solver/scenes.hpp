@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "assembly/assembly.hpp"
+#include "assembly/model/assembly.hpp"
 
 namespace cupola::testing {
 

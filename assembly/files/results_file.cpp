@@ -1,0 +1,229 @@
+#include "assembly/files/results_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/base/process.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/files/hash.hpp"
+#include "assembly/files/mesh_file.hpp"
+#include "assembly/files/summary_file.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr std::int32_t kFrameFormatVersion = 1;
+
+std::string in_folder(const std::string& folder, const std::string& name) {
+  return (std::filesystem::path(folder) / name).string();
+}
+
+std::string frame_file(const char* what, int index) {
+  return fmt::format("{}_{:04}.vtp", what, index);
+}
+
+template <class Vector>
+std::vector<double> flat(const std::vector<Vector>& vectors) {
+  std::vector<double> values;
+  values.reserve(vectors.size() * Vector::SizeAtCompileTime);
+  for (const Vector& v : vectors) values.insert(values.end(), v.begin(), v.end());
+  return values;
+}
+
+template <class Vector>
+std::vector<Vector> unflat(const std::vector<double>& values) {
+  std::vector<Vector> vectors;
+  vectors.reserve(values.size() / Vector::SizeAtCompileTime);
+  for (size_t i = 0; i < values.size(); i += Vector::SizeAtCompileTime)
+    vectors.emplace_back(values.data() + i);
+  return vectors;
+}
+
+/// One vertex cell per point, so that ParaView draws the points as they come.
+Mesh point_mesh(const std::vector<Vec3>& points, double time, const std::string& assembly_hash) {
+  Mesh mesh;
+  mesh.points = flat(points);
+  for (int i = 0; i < mesh.num_points(); ++i) mesh.add_cell(Mesh::CellType::vertex, {i});
+  mesh.field_data = {{"format_version", 1, std::vector<std::int32_t>{kFrameFormatVersion}},
+                     {"program_version", 1, std::vector<std::string>{program_version()}},
+                     {"assembly_hash", 1, std::vector<std::string>{assembly_hash}},
+                     {"time_s", 1, std::vector<double>{time}}};
+  return mesh;
+}
+
+Mesh contacts_mesh(const Frame& frame, const std::string& assembly_hash) {
+  const ContactTable& c = frame.contacts;
+  Mesh mesh = point_mesh(c.point, frame.time, assembly_hash);
+  std::vector<std::uint8_t> kinds;
+  for (const JointKind kind : c.kind) kinds.push_back(static_cast<std::uint8_t>(kind));
+  mesh.point_data = {{"joint", 1, c.joint},
+                     {"block_a", 1, c.block_a},
+                     {"block_b", 1, c.block_b},
+                     {"kind", 1, std::move(kinds)},
+                     {"ring", 1, c.ring},
+                     {"normal", 3, flat(c.normal)},
+                     {"gap_m", 1, c.gap},
+                     {"force_N", 3, flat(c.force)},
+                     {"normal_force_N", 1, c.normal_force},
+                     {"friction_use", 1, c.friction_use},
+                     {"area_m2", 1, c.area},
+                     {"slip_m", 1, c.slip}};
+  return mesh;
+}
+
+Mesh blocks_mesh(const Frame& frame, const std::string& assembly_hash) {
+  const BlockTable& b = frame.blocks;
+  Mesh mesh = point_mesh(b.position, frame.time, assembly_hash);
+  std::vector<std::int32_t> ids(b.position.size());
+  for (size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int32_t>(i);
+  mesh.point_data = {{"block", 1, std::move(ids)},
+                     {"quaternion_wxyz", 4, flat(b.quaternion_wxyz)},
+                     {"velocity_m_per_s", 3, flat(b.velocity)},
+                     {"angular_velocity_rad_per_s", 3, flat(b.angular_velocity)},
+                     {"displacement_m", 3, flat(b.displacement)}};
+  return mesh;
+}
+
+/// Reads a frame's file and checks that it belongs to this assembly.
+Mesh read_frame_mesh(const std::string& path, const std::string& assembly_hash) {
+  Mesh mesh = read_mesh(path);
+  const int version = mesh.field<std::int32_t>("format_version");
+  if (version != kFrameFormatVersion)
+    throw InputError(FileLocation{path},
+                     fmt::format("has format version {}, this program reads {}", version, kFrameFormatVersion));
+  if (mesh.field<std::string>("assembly_hash") != assembly_hash)
+    throw InputError(FileLocation{path}, "belongs to another assembly");
+  return mesh;
+}
+
+ContactTable read_contacts(const Mesh& mesh) {
+  const auto ints = [&mesh](const char* name) { return mesh.array<std::int32_t>(mesh.point_data, name, 1); };
+  const auto doubles = [&mesh](const char* name) { return mesh.array<double>(mesh.point_data, name, 1); };
+  const auto vectors = [&mesh](const char* name) {
+    return unflat<Vec3>(mesh.array<double>(mesh.point_data, name, 3));
+  };
+  ContactTable c;
+  c.joint = ints("joint");
+  c.block_a = ints("block_a");
+  c.block_b = ints("block_b");
+  for (const std::uint8_t kind : mesh.array<std::uint8_t>(mesh.point_data, "kind", 1)) {
+    if (kind > static_cast<std::uint8_t>(JointKind::other))
+      throw InputError(FileLocation{mesh.file}, fmt::format("joint kind {} is unknown", kind));
+    c.kind.push_back(static_cast<JointKind>(kind));
+  }
+  c.ring = ints("ring");
+  c.point = unflat<Vec3>(mesh.points);
+  c.normal = vectors("normal");
+  c.gap = doubles("gap_m");
+  c.force = vectors("force_N");
+  c.normal_force = doubles("normal_force_N");
+  c.friction_use = doubles("friction_use");
+  c.area = doubles("area_m2");
+  c.slip = doubles("slip_m");
+  return c;
+}
+
+BlockTable read_blocks(const Mesh& mesh) {
+  const auto vectors = [&mesh](const char* name) {
+    return unflat<Vec3>(mesh.array<double>(mesh.point_data, name, 3));
+  };
+  BlockTable b;
+  b.position = unflat<Vec3>(mesh.points);
+  b.quaternion_wxyz = unflat<Eigen::Vector4d>(mesh.array<double>(mesh.point_data, "quaternion_wxyz", 4));
+  b.velocity = vectors("velocity_m_per_s");
+  b.angular_velocity = vectors("angular_velocity_rad_per_s");
+  b.displacement = vectors("displacement_m");
+  return b;
+}
+
+/// Joint ids index arrays of later stages, block ids the assembly's blocks: neither may point outside.
+void check_frame(const Frame& frame, const std::string& path) {
+  const int num_blocks = frame.blocks.size();
+  for (int i = 0; i < frame.contacts.size(); ++i) {
+    const int a = frame.contacts.block_a[i];
+    const int b = frame.contacts.block_b[i];
+    const int joint = frame.contacts.joint[i];
+    if (a < 0 || b <= a || b >= num_blocks || joint < 0 || joint >= frame.contacts.size())
+      throw InputError(
+          FileLocation{path},
+          fmt::format("contact {} between blocks {} and {} of joint {} is invalid", i, a, b, joint));
+    if (!frame.contacts.force[i].allFinite() || !frame.contacts.point[i].allFinite())
+      throw InputError(FileLocation{path}, fmt::format("contact {} is not finite", i));
+  }
+}
+
+}  // namespace
+
+ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times)
+    : folder_(std::move(folder)), assembly_hash_(std::move(assembly_hash)), times_(std::move(times)) {
+  make_folder(folder_);
+}
+
+void ResultsWriter::write_frame(const Frame& frame) {
+  const int index = static_cast<int>(times_.size());
+  // The summary of an earlier run does not describe the frames that follow.
+  if (index == 0) std::filesystem::remove(in_folder(folder_, "summary.json"));
+  times_.push_back(frame.time);
+  write_mesh(in_folder(folder_, frame_file("contacts", index)), contacts_mesh(frame, assembly_hash_));
+  write_mesh(in_folder(folder_, frame_file("blocks", index)), blocks_mesh(frame, assembly_hash_));
+  for (const char* what : {"contacts", "blocks"}) {
+    std::vector<PvdEntry> entries;
+    for (int i = 0; i <= index; ++i) entries.push_back({times_[i], frame_file(what, i)});
+    write_pvd(in_folder(folder_, fmt::format("{}.pvd", what)), entries);
+  }
+}
+
+void ResultsWriter::write_text(const std::string& name, const std::string& text) {
+  write_text_atomically(in_folder(folder_, name), text);
+  text_files_[name] = hash_text(text);
+}
+
+void ResultsWriter::write_summary(Summary summary) {
+  summary.text_files = text_files_;
+  write_text_atomically(in_folder(folder_, "summary.json"), to_json(summary));
+}
+
+ResultsReader::ResultsReader(std::string folder, const std::string& assembly_hash, bool force)
+    : folder_(std::move(folder)), assembly_hash_(assembly_hash) {
+  if (!std::filesystem::is_directory(folder_))
+    throw InputError(FileLocation{folder_}, "results folder does not exist");
+  const std::string summary_path = in_folder(folder_, "summary.json");
+  if (!std::filesystem::exists(summary_path))
+    throw InputError(FileLocation{summary_path}, "does not exist: the run has not finished");
+  summary_ = summary_from_json(read_text(summary_path), summary_path);
+  if (force) assembly_hash_ = summary_.assembly_hash;
+  if (summary_.assembly_hash != assembly_hash_)
+    throw InputError(FileLocation{summary_path},
+                     fmt::format("belongs to another assembly (hash {}, the assembly given has {}); "
+                                 "--force takes it",
+                                 summary_.assembly_hash, assembly_hash_));
+  for (const PvdEntry& entry : read_pvd(in_folder(folder_, "contacts.pvd"))) times_.push_back(entry.time);
+  if (times_.empty()) throw InputError(FileLocation{in_folder(folder_, "contacts.pvd")}, "lists no frame");
+}
+
+Frame ResultsReader::read_frame(int index) const {
+  const std::string contacts_path = in_folder(folder_, frame_file("contacts", index));
+  Frame frame;
+  frame.time = times_.at(static_cast<size_t>(index));
+  frame.contacts = read_contacts(read_frame_mesh(contacts_path, assembly_hash_));
+  frame.blocks =
+      read_blocks(read_frame_mesh(in_folder(folder_, frame_file("blocks", index)), assembly_hash_));
+  check_frame(frame, contacts_path);
+  return frame;
+}
+
+std::string ResultsReader::read_text_file(const std::string& name) const {
+  const std::string path = in_folder(folder_, name);
+  const auto written = summary_.text_files.find(name);
+  if (written == summary_.text_files.end())
+    throw InputError(FileLocation{path}, "is not named in summary.json: it is not of this run");
+  std::string text = read_text(path);
+  if (hash_text(text) != written->second)
+    throw InputError(FileLocation{path}, "is damaged or was edited: its hash in summary.json is another");
+  return text;
+}
+
+}  // namespace cupola

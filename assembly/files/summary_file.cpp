@@ -1,0 +1,155 @@
+#include "assembly/files/summary_file.hpp"
+
+#include <algorithm>
+#include <concepts>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "assembly/base/error.hpp"
+
+namespace cupola {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSummaryFormatVersion = 1;
+constexpr const char* kNotCertified = "not certified";
+
+/// The one list of the keys of summary.json, for writing and for reading.
+template <class SummaryType, class Visit>
+void for_each_field(SummaryType& s, Visit visit) {
+  visit("status", s.status);
+  visit("message", s.message);
+  visit("analysis", s.analysis);
+  visit("method", s.method);
+  visit("friction_law", s.friction_law);
+  visit("tangential", s.tangential);
+  visit("program_version", s.program_version);
+  visit("case_hash", s.case_hash);
+  visit("geometry_hash", s.geometry_hash);
+  visit("assembly_hash", s.assembly_hash);
+  visit("blocks", s.blocks);
+  visit("free_blocks", s.free_blocks);
+  visit("joints", s.joints);
+  visit("contacts", s.contacts);
+  visit("unknowns", s.unknowns);
+  visit("weight_N", s.weight_N);
+  visit("applied_load_N", s.applied_load_N);
+  visit("support_reaction_N", s.support_reaction_N);
+  visit("time_step_s", s.time_step_s);
+  visit("momentum_residual", s.momentum_residual);
+  visit("equilibrium_residual", s.equilibrium_residual);
+  visit("inertia_share", s.inertia_share);
+  visit("contact_law_residual", s.contact_law_residual);
+  visit("certified_force_error", s.certified_force_error);
+  visit("friction_cone_violation", s.friction_cone_violation);
+  visit("max_penetration_m", s.max_penetration_m);
+  visit("max_displacement_m", s.max_displacement_m);
+  visit("max_speed_m_per_s", s.max_speed_m_per_s);
+  visit("slipping_contacts", s.slipping_contacts);
+  visit("steps", s.steps);
+  visit("iterations", s.iterations);
+  visit("solve_time_seconds", s.solve_time_seconds);
+  visit("wall_time_seconds", s.wall_time_seconds);
+  visit("cpu_time_seconds", s.cpu_time_seconds);
+  visit("peak_memory_bytes", s.peak_memory_bytes);
+  visit("threads", s.threads);
+  visit("accuracy_asked", s.accuracy_asked);
+  visit("accuracy_reached", s.accuracy_reached);
+}
+
+template <class T>
+Json to_value(const T& value) {
+  return value;
+}
+Json to_value(Status status) {
+  return to_string(status);
+}
+Json to_value(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+Json to_value(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(kNotCertified);
+}
+
+/// JSON has no infinities: what is not finite is written as null and read back as NaN.
+void from_value(const Json& json, double* value) {
+  *value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+void from_value(const Json& json, Vec3* v) {
+  for (int i = 0; i < 3; ++i) from_value(json.at(static_cast<size_t>(i)), &(*v)[i]);
+}
+void from_value(const Json& json, std::optional<double>* value) {
+  value->reset();
+  if (json == kNotCertified) return;
+  from_value(json, &value->emplace());
+}
+void from_value(const Json& json, Status* status) {
+  const auto at = std::find(kStatusNames.begin(), kStatusNames.end(), json.get<std::string>());
+  if (at == kStatusNames.end()) throw InputError("unknown status");
+  *status = static_cast<Status>(at - kStatusNames.begin());
+}
+void from_value(const Json& json, std::string* value) {
+  json.get_to(*value);
+}
+/// The library would cut fractions, and numbers beyond the type, to something else.
+template <std::integral T>
+void from_value(const Json& json, T* value) {
+  const bool fits = json.is_number_unsigned()
+                        ? std::in_range<T>(json.get<std::uint64_t>())
+                        : json.is_number_integer() && std::in_range<T>(json.get<std::int64_t>());
+  if (!fits) throw InputError("no whole number of this size");
+  json.get_to(*value);
+}
+
+}  // namespace
+
+std::string to_json(const Summary& summary) {
+  Json json;
+  json["format_version"] = kSummaryFormatVersion;
+  for_each_field(summary, [&json](const char* key, const auto& value) { json[key] = to_value(value); });
+  if (const auto& critical = summary.critical) {
+    json["critical_parameter"] = critical->parameter;
+    json["critical_value"] = critical->value;
+    json["bracket"] = {critical->stable, critical->moving};
+  }
+  json["text_files"] = summary.text_files;
+  return json.dump(2) + "\n";
+}
+
+Summary summary_from_json(const std::string& text, const std::string& file) {
+  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) throw InputError(FileLocation{file}, "is not a complete JSON object");
+  if (const Json version = json.value("format_version", Json()); version != kSummaryFormatVersion)
+    throw InputError(FileLocation{file}, fmt::format("has format_version {}, this program reads {}",
+                                                     version.dump(), kSummaryFormatVersion));
+  Summary summary;
+  for_each_field(summary, [&](const char* key, auto& value) {
+    if (!json.contains(key)) throw InputError(FileLocation{file}, fmt::format("key `{}` is missing", key));
+    try {
+      from_value(json[key], &value);
+    } catch (const std::exception&) {
+      throw InputError(FileLocation{file}, fmt::format("{} = {}: has the wrong type", key, json[key].dump()));
+    }
+  });
+  if (json.contains("critical_value")) {
+    try {
+      summary.critical = CriticalValue{json.at("critical_parameter"), json.at("critical_value"),
+                                       json.at("bracket").at(0), json.at("bracket").at(1)};
+    } catch (const std::exception&) {
+      throw InputError(FileLocation{file},
+                       "critical_value: parameter or bracket is missing or has the wrong type");
+    }
+  }
+  try {
+    if (json.contains("text_files")) json["text_files"].get_to(summary.text_files);
+  } catch (const std::exception&) {
+    throw InputError(FileLocation{file}, "text_files: must give a hash for each name");
+  }
+  return summary;
+}
+
+}  // namespace cupola

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assembly/model/assembly.hpp"
+#include "assembly/model/time_function.hpp"
+
+namespace cupola {
+
+/// Beyond every ring: the upper end of a range left open.
+constexpr int kLastRing = 1 << 20;
+
+/// Weight spread over the top faces by their area, as vertical forces at the face centroids. The lantern of
+/// a dome and the load on a wall are the same thing under two names.
+struct TopLoad {
+  double weight_fraction = 0.0;  ///< of the weight of the free blocks, >= 0
+};
+
+/// A force of constant direction at a point of a block.
+struct BlockForce {
+  int block = 0;
+  std::optional<Vec3> point;  ///< m, world, as built; none: the centroid
+  Vec3 force = Vec3::Zero();  ///< N
+  TimeFunction time;
+};
+
+/// A traction of constant direction, or a pressure against the faces as built, on all faces of one kind.
+struct FaceLoad {
+  FaceKind faces = FaceKind::extrados;
+  int from_ring = 0, to_ring = kLastRing;  ///< of the part, both included
+  Vec3 traction = Vec3::Zero();            ///< N/m2, world
+  double pressure = 0.0;                   ///< N/m2, pushes into the block
+  TimeFunction time;
+};
+
+struct Loads {
+  Vec3 gravity{0.0, 0.0, -9.81};  ///< m/s2
+  std::optional<TopLoad> lantern;
+  std::optional<TopLoad> top_load;
+  /// Factor on gravity, lantern and top load: a ramp applies the dead load gradually.
+  TimeFunction dead_load_time;
+  std::vector<BlockForce> forces;
+  std::vector<FaceLoad> faces;
+};
+
+/// A tie between two points of two blocks, as built. It pulls when longer than its natural length and hangs
+/// slack when shorter.
+struct PairTie {
+  int block_a = 0, block_b = 0;
+  std::optional<Vec3> point_a, point_b;  ///< m, world; none: the centroid
+  double stiffness = 1e8;                ///< N/m, > 0
+  double prestress = 0.0;                ///< N, force as built, >= 0
+};
+
+/// A closed chain around a dome: a tie from the centroid of each block of the ring to the next.
+struct ChainTie {
+  int ring = 0;
+  double stiffness = 1e8;  ///< N/m of each link, > 0
+  double prestress = 0.0;  ///< N, force as built, >= 0
+};
+
+/// Ties that the case adds to those of the assembly (imported springs and rods).
+struct Ties {
+  std::vector<PairTie> pairs;
+  std::vector<ChainTie> chains;
+  double rod_stiffness = 1e10;  ///< N/m, > 0: stands for the infinite one of imported rigid rods
+};
+
+/// All fixed blocks move together, as the ground in an earthquake.
+struct BaseMotion {
+  enum class Quantity { displacement, acceleration };
+  std::string file;  ///< two columns: time (s) and value (m or m/s2)
+  Quantity quantity = Quantity::displacement;
+  Vec3 direction{1.0, 0.0, 0.0};  ///< m per unit of the file
+};
+
+/// A displacement and a rotation imposed on some fixed blocks.
+struct SupportMove {
+  std::vector<int> blocks;           ///< empty: all fixed ones
+  Vec3 displacement = Vec3::Zero();  ///< m
+  Vec3 rotation_deg = Vec3::Zero();  ///< deg, rotation vector about `pivot`
+  Vec3 pivot = Vec3::Zero();         ///< m
+  TimeFunction time;
+};
+
+struct Supports {
+  std::optional<BaseMotion> base_motion;
+  std::vector<SupportMove> moves;
+  bool moving() const { return base_motion.has_value() || !moves.empty(); }
+};
+
+}  // namespace cupola

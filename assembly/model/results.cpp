@@ -1,0 +1,25 @@
+#include "assembly/model/results.hpp"
+
+#include <algorithm>
+
+namespace cupola {
+std::string to_string(JointKind kind) {
+  static constexpr std::array names{"bed", "head", "base", "other"};
+  return names[static_cast<size_t>(kind)];
+}
+
+std::string to_string(Status status) {
+  return kStatusNames[static_cast<size_t>(status)];
+}
+
+std::vector<Joint> joints_of(const ContactTable& contacts) {
+  const int num_joints =
+      contacts.joint.empty() ? 0 : 1 + *std::max_element(contacts.joint.begin(), contacts.joint.end());
+  std::vector<Joint> joints(static_cast<size_t>(num_joints));
+  for (int i = 0; i < contacts.size(); ++i)
+    joints[contacts.joint[i]] = {contacts.block_a[i], contacts.block_b[i], contacts.kind[i],
+                                 contacts.ring[i]};
+  return joints;
+}
+
+}  // namespace cupola

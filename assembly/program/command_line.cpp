@@ -1,0 +1,87 @@
+#include "assembly/program/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/base/process.hpp"
+#include "assembly/case/case_reader.hpp"
+
+namespace cupola {
+
+std::optional<ExitCode> parse_arguments(CLI::App& app, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    app.exit(help_or_version);
+    return ExitCode::done;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{}; see {} --help", error.what(), app.get_name()));
+  }
+  return std::nullopt;
+}
+
+CommandLine::CommandLine(const std::string& name, const std::string& description,
+                         const std::string& sample_runs)
+    : app_(std::make_unique<CLI::App>(description, name)) {
+  app_->footer("Sample runs:\n" + sample_runs);
+  app_->set_version_flag("--version", name + " " + program_version());
+  // Required options are checked in parse(), because --schema needs none of them.
+  app_->add_option("CASE", case_path_, "case file (.yaml)");
+  app_->add_option("--set", set_options_, "change one key of the case, e.g. --set joints.friction=0.3")
+      ->type_name("KEY.PATH=VALUE")
+      ->allow_extra_args(false);
+  app_->add_flag("--check", check_only_, "validate the input and stop");
+  app_->add_flag("--schema", schema_, "print every key of the case file: type, unit, range, default");
+  app_->add_flag("--quiet", quiet_, "print errors only");
+}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::required(const std::string& option, std::string* value, const std::string& what,
+                           const std::string& help) {
+  optional(option, value, what, help + " (required)");
+  required_.emplace_back(option, value);
+}
+
+void CommandLine::optional(const std::string& option, std::string* value, const std::string& what,
+                           const std::string& help) {
+  app_->add_option(option, *value, help)->type_name(what);
+}
+
+void CommandLine::optional(const std::string& option, int* value, int smallest, const std::string& help) {
+  app_->add_option(option, *value, help)->check(CLI::Range(smallest, 1 << 20))->capture_default_str();
+}
+
+void CommandLine::instead_of_case(const std::string& option, std::string* value, const std::string& what,
+                                  const std::string& help) {
+  optional(option, value, what, help);
+  instead_of_case_.push_back(value);
+}
+
+void CommandLine::flag(const std::string& option, bool* value, const std::string& help) {
+  app_->add_flag(option, *value, help);
+}
+
+std::optional<ExitCode> CommandLine::parse(int argc, const char* const* argv) {
+  if (const auto ended = parse_arguments(*app_, argc, argv)) return ended;
+  if (schema_) {
+    fmt::print("{}", case_schema());
+    return ExitCode::done;
+  }
+  for (const std::string* value : instead_of_case_)
+    if (!value->empty()) return std::nullopt;
+  if (case_path_.empty())
+    throw InputError(fmt::format("CASE.yaml is missing; see {} --help", app_->get_name()));
+  if (check_only_) return std::nullopt;
+  for (const auto& [option, value] : required_)
+    if (value->empty())
+      throw InputError(fmt::format("{} is missing; see {} --help", option, app_->get_name()));
+  return std::nullopt;
+}
+
+Case CommandLine::read_case() const {
+  return cupola::read_case(case_path_, set_options_);
+}
+
+}  // namespace cupola

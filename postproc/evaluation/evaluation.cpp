@@ -1,0 +1,262 @@
+#include "postproc/evaluation/evaluation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/files/content_hash.hpp"
+
+namespace cupola {
+namespace {
+
+/// Joints between blocks that move apart by less than this share of the largest displacement belong to one
+/// body of the mechanism.
+constexpr double kGroupShare = 0.02;
+
+double largest_displacement(const Frame& frame) {
+  double largest = 0.0;
+  for (const Vec3& d : frame.blocks.displacement) largest = std::max(largest, d.norm());
+  return largest;
+}
+
+void check_blocks(const Frame& frame, const Assembly& assembly) {
+  if (frame.blocks.position.size() != assembly.blocks.size())
+    throw InputError(fmt::format("the results hold {} blocks, the assembly {}", frame.blocks.size(),
+                                 assembly.blocks.size()));
+}
+
+bool is_mechanism(const Summary& summary, const Frame& frame) {
+  return summary.analysis == "limit" && frame.time > 0.0;
+}
+
+/// Moves the blocks of a mechanism along its velocities, until the fastest has gone a twentieth of the model.
+void show_mechanism(const Assembly& assembly, Frame* frame) {
+  constexpr double kShown = 0.05;
+  Eigen::AlignedBox3d box;
+  for (const Block& block : assembly.blocks)
+    if (!block.fixed) box.extend(block.centroid);
+  BlockTable& blocks = frame->blocks;
+  double fastest = 0.0;
+  for (const Vec3& v : blocks.velocity) fastest = std::max(fastest, v.norm());
+  if (fastest == 0.0) return;
+  const double time =
+      kShown * std::max(box.diagonal().norm(), std::cbrt(assembly.blocks.front().volume)) / fastest;
+  for (size_t b = 0; b < blocks.position.size(); ++b) {
+    const Vec3 turn = time * blocks.angular_velocity[b];
+    const Eigen::Quaterniond q(Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()));
+    blocks.position[b] += time * blocks.velocity[b];
+    blocks.displacement[b] += time * blocks.velocity[b];
+    blocks.quaternion_wxyz[b] = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
+  }
+}
+
+std::string frame_name(int index) {
+  return fmt::format("frame {}", index);
+}
+
+/// The last frame that can be read. Of a limit analysis, the last equilibrium, which comes before the
+/// mechanism.
+Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
+  const bool limit = results.summary().analysis == "limit";
+  for (int i = limit ? 0 : static_cast<int>(results.times().size()) - 1;; --i) {
+    try {
+      return results.read_frame(i);
+    } catch (const InputError& error) {
+      if (i == 0) throw;
+      leave_out(frame_name(i), error.what(), e);
+    }
+  }
+}
+
+void add_status_warnings(const Summary& summary, std::vector<std::string>* warnings) {
+  if (summary.status == Status::unconverged)
+    warnings->push_back(
+        "the solver did not reach the accuracy asked: the forces below are not to be trusted. " +
+        summary.message);
+  if (summary.status == Status::moving)
+    warnings->push_back(
+        "the structure is moving, its forces are those of an instant, not of an equilibrium. " +
+        summary.message);
+  if (summary.status == Status::collapsed)
+    warnings->push_back("the structure has collapsed. " + summary.message);
+}
+
+int joints_lost_between(const ContactTable& first, const ContactTable& last) {
+  std::set<std::pair<int, int>> present;
+  for (int i = 0; i < last.size(); ++i) present.emplace(last.block_a[i], last.block_b[i]);
+  std::set<std::pair<int, int>> lost;
+  for (int i = 0; i < first.size(); ++i)
+    if (first.normal_force[i] > 0.0 && !present.contains({first.block_a[i], first.block_b[i]}))
+      lost.emplace(first.block_a[i], first.block_b[i]);
+  return static_cast<int>(lost.size());
+}
+
+void count_lost_joints(const ResultsReader& results, Evaluation* e) {
+  e->lost_joints = 0;
+  if (e->times.size() < 2 || e->summary.analysis != "dynamic") return;
+  try {
+    e->lost_joints = joints_lost_between(results.read_frame(0).contacts, e->last.frame.contacts);
+  } catch (const InputError& error) {
+    e->lost_joints.reset();
+    leave_out(frame_name(0), error.what(), e);
+  }
+  if (e->lost_joints.value_or(0) > 0)
+    e->warnings.push_back(
+        fmt::format("{} joints of the first frame have parted completely in the last", *e->lost_joints));
+}
+
+/// The applied forces at an instant.
+std::vector<PointForce> loads_at(const Evaluation& e, double time) {
+  const std::vector<TimeFunction> times = load_times(e.scene.loads);
+  std::vector<PointForce> loads = e.loads;
+  for (PointForce& load : loads)
+    load.force *=
+        factor_at(load.time == PointForce::kDeadLoad ? e.scene.loads.dead_load_time : times[load.time], time);
+  return loads;
+}
+
+ThrustInput thrust_input(const Evaluation& e) {
+  return {&e.assembly, &e.shell, &e.last.frame.contacts, &e.last.joints, e.last.from_below, e.last.gravity};
+}
+
+/// Every block that a bed touches from below or runs through, uprights included. Where an upright is one
+/// convex part (walls), nothing tells what crosses it half-way up: it counts with the wrench at its own foot.
+std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput& input, int bed) {
+  std::set<int> blocks;
+  for (const BedFacet& facet : e.shell.beds[bed]) blocks.insert(facet.block);
+  std::vector<BedResultant> resultants;
+  for (int b = 0; b < static_cast<int>(e.assembly.blocks.size()); ++b) {
+    const Block& block = e.assembly.blocks[b];
+    const bool on_bed = blocks.contains(b);
+    if (block.fixed || (!on_bed && (block.ring >= bed || block.ring + block.num_rings <= bed))) continue;
+    const Wrench wrench = on_bed ? wrench_at_bed(input, b, bed) : e.last.from_below[b];
+    const CentralAxis axis = central_axis(wrench);
+    const double height = e.rings[on_bed ? bed : block.ring].height;
+    if (axis.exists)
+      resultants.push_back(
+          {b, wrench, axis_in_plane(axis, wrench.force, {e.up, height}), axis.couple_length});
+  }
+  return resultants;
+}
+
+std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {
+  std::vector<MeridianEvaluation> meridians;
+  const ThrustInput input = thrust_input(e);
+  const Surface& surface = e.scene.geometry.surface;
+  if (std::holds_alternative<ArchSurface>(surface))
+    meridians.push_back({thrust_line(input, "arch", std::nullopt), {}});
+  if (std::holds_alternative<ArchSurface>(surface) || std::holds_alternative<WallSurface>(surface))
+    return meridians;
+  for (const Meridian& meridian : e.scene.postproc.meridians)
+    meridians.push_back({thrust_line(input, meridian.name, meridian.azimuth_deg),
+                         hoop_forces(e.assembly, e.last.joints, meridian.azimuth_deg)});
+  return meridians;
+}
+
+std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e) {
+  const ThrustInput input = thrust_input(e);
+  std::vector<SectionEvaluation> sections;
+  for (const double height : e.scene.postproc.sections) {
+    SectionEvaluation section{height, -1, cut_by_plane(e.assembly, {Vec3::UnitZ(), height}), {}};
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const RingSum& ring : e.rings) {
+      if (std::abs(ring.height - height) >= nearest) continue;
+      nearest = std::abs(ring.height - height);
+      section.ring = ring.ring;
+    }
+    if (section.ring >= 0) section.resultants = bed_resultants(e, input, section.ring);
+    sections.push_back(std::move(section));
+  }
+  return sections;
+}
+
+}  // namespace
+
+void leave_out(const std::string& part, const std::string& reason, Evaluation* e) {
+  std::string text = fmt::format("{} is left out: {}", part, reason);
+  if (std::find(e->unreadable.begin(), e->unreadable.end(), text) == e->unreadable.end())
+    e->unreadable.push_back(std::move(text));
+}
+
+std::vector<std::string> said_first(const Evaluation& e) {
+  std::vector<std::string> all = e.unreadable;
+  all.insert(all.end(), e.warnings.begin(), e.warnings.end());
+  return all;
+}
+
+FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
+  check_blocks(frame, e.assembly);
+  FrameEvaluation out;
+  out.frame = std::move(frame);
+  const bool mechanism = is_mechanism(e.summary, out.frame);
+  if (mechanism) show_mechanism(e.assembly, &out.frame);
+  const Loads& loads = e.scene.loads;
+  out.gravity = factor_at(loads.dead_load_time, out.frame.time) * loads.gravity;
+  out.loads = loads_at(e, out.frame.time);
+  out.joints = joint_wrenches(e.assembly, out.frame.contacts, e.shell);
+  out.from_below = wrenches_from_below(e.assembly, out.joints);
+  out.fields = block_fields(e.assembly, out.frame, out.joints, out.from_below, out.loads, e.axes);
+  if (e.summary.status == Status::stable && !mechanism)
+    out.groups.assign(e.assembly.blocks.size(), 0);
+  else
+    out.groups =
+        mechanism_groups(e.assembly, out.frame, out.joints, kGroupShare * largest_displacement(out.frame));
+  return out;
+}
+
+std::optional<double> mean_ratio(const ThrustLine& numerator, const ThrustLine& denominator) {
+  double sum = 0.0;
+  int count = 0;
+  for (const ThrustPoint& p : numerator.points)
+    for (const ThrustPoint& q : denominator.points)
+      if (p.bed == q.bed && q.r > 0.0) {
+        sum += p.r / q.r;
+        ++count;
+      }
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
+Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results) {
+  Evaluation e;
+  e.scene = scene;
+  e.assembly = std::move(assembly);
+  e.summary = results.summary();
+  e.times = results.times();
+  if (scene.loads.gravity.norm() > 0.0) e.up = -scene.loads.gravity.normalized();
+  e.loads = applied_loads(scene.loads, e.assembly);
+  e.shell = shell_of(e.assembly, e.up);
+  e.axes = shell_axes(e.assembly, e.shell);
+  add_status_warnings(e.summary, &e.warnings);
+  if (e.summary.geometry_hash != scene.geometry_hash || e.assembly.geometry_hash != scene.geometry_hash)
+    e.warnings.push_back("the case's geometry has changed since the assembly was made or solved");
+  else if (e.summary.case_hash != scene.hash)
+    e.warnings.push_back("the case has changed since the run: loads, joints or analysis may differ");
+  if (e.summary.assembly_hash != content_hash(e.assembly))
+    e.warnings.push_back("the results are of another assembly: what is drawn need not fit them");
+
+  if (!e.assembly.ties.empty() || !scene.ties.pairs.empty() || !scene.ties.chains.empty())
+    e.warnings.push_back("ties carry forces too: ring sums and wrenches count the joints only");
+
+  e.last = evaluate_frame(e, evaluated_frame(results, &e));
+  e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads);
+  e.meridians = evaluate_meridians(e);
+  e.sections = evaluate_sections(e);
+  for (const CutPlane& plane : scene.postproc.planes)
+    e.planes.push_back(plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads));
+  count_lost_joints(results, &e);
+  const MeridianEvaluation *rib = nullptr, *mid_sail = nullptr;
+  for (const MeridianEvaluation& m : e.meridians) {
+    if (m.thrust.name == "rib") rib = &m;
+    if (m.thrust.name == "mid_sail") mid_sail = &m;
+  }
+  if (rib && mid_sail) e.rib_over_mid_sail = mean_ratio(rib->thrust, mid_sail->thrust);
+  return e;
+}
+
+}  // namespace cupola

@@ -1,0 +1,100 @@
+#include "postproc/mechanics/block_fields.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+namespace cupola {
+namespace {
+
+std::vector<Mat3> mean_stresses(const Assembly& assembly, const Frame& frame,
+                                const std::vector<PointForce>& loads) {
+  std::vector<Mat3> stress(assembly.blocks.size(), Mat3::Zero());
+  const ContactTable& c = frame.contacts;
+  for (int i = 0; i < c.size(); ++i) {
+    stress[c.block_b[i]] += (c.point[i] - frame.blocks.position[c.block_b[i]]) * c.force[i].transpose();
+    stress[c.block_a[i]] -= (c.point[i] - frame.blocks.position[c.block_a[i]]) * c.force[i].transpose();
+  }
+  for (const PointForce& load : loads)
+    stress[load.block] += (load.point - assembly.blocks[load.block].centroid) * load.force.transpose();
+  for (size_t b = 0; b < stress.size(); ++b) stress[b] /= assembly.blocks[b].volume;
+  return stress;
+}
+
+/// Displacement of a block's material point that lies at `point` now.
+Vec3 displacement_at(const Assembly& assembly, const BlockTable& blocks, int block, const Vec3& point) {
+  const Eigen::Vector4d& q = blocks.quaternion_wxyz[block];
+  const Mat3 R = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+  const Vec3 at_start = assembly.blocks[block].centroid + R.transpose() * (point - blocks.position[block]);
+  return point - at_start;
+}
+
+int root(std::vector<int>* parent, int i) {
+  while ((*parent)[i] != i) i = (*parent)[i] = (*parent)[(*parent)[i]];
+  return i;
+}
+
+}  // namespace
+
+std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& frame,
+                                      const JointWrenches& joints, const std::vector<Wrench>& from_below,
+                                      const std::vector<PointForce>& loads,
+                                      const std::vector<ShellAxes>& axes) {
+  std::vector<BlockFields> fields(assembly.blocks.size());
+  const std::vector<Mat3> stress = mean_stresses(assembly, frame, loads);
+  for (size_t b = 0; b < fields.size(); ++b) {
+    fields[b].resultant = from_below[b].force.norm();
+    fields[b].couple_length = central_axis(from_below[b]).couple_length;
+    if (!axes[b].exists || assembly.blocks[b].fixed) continue;
+    fields[b].meridional_force = -axes[b].m.dot(stress[b] * axes[b].m) * axes[b].thickness;
+    fields[b].hoop_force = -axes[b].t.dot(stress[b] * axes[b].t) * axes[b].thickness;
+  }
+  for (const JointWrench& joint : joints.joints) {
+    for (const int b : {joint.joint.block_a, joint.joint.block_b}) {
+      fields[b].friction_use = std::max(fields[b].friction_use, joint.friction_use);
+      if (joint.upper >= 0) fields[b].kern = std::max(fields[b].kern, joint.kern);
+      fields[b].opening = std::max(fields[b].opening, joint.opening);
+      fields[b].slip = std::max(fields[b].slip, joint.slip);
+    }
+  }
+  return fields;
+}
+
+std::vector<int> mechanism_groups(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
+                                  double threshold) {
+  std::vector<int> parent(assembly.blocks.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto unite = [&parent](int a, int b) {
+    const int i = root(&parent, a), j = root(&parent, b);
+    parent[std::max(i, j)] = std::min(i, j);  // the smallest block stays the root
+  };
+  int first_fixed = -1;
+  for (size_t b = 0; b < parent.size(); ++b) {
+    if (!assembly.blocks[b].fixed) continue;
+    if (first_fixed >= 0) unite(first_fixed, static_cast<int>(b));
+    first_fixed = first_fixed < 0 ? static_cast<int>(b) : first_fixed;
+  }
+  for (const JointWrench& joint : joints.joints) {
+    double relative = 0.0;
+    for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
+      const Vec3& point = frame.contacts.point[joints.contacts[i]];
+      const Vec3 difference = displacement_at(assembly, frame.blocks, joint.joint.block_b, point) -
+                              displacement_at(assembly, frame.blocks, joint.joint.block_a, point);
+      relative = std::max(relative, difference.norm());
+    }
+    if (relative <= threshold) unite(joint.joint.block_a, joint.joint.block_b);
+  }
+  // Numbers in the order of the groups' first blocks, the supports' group first.
+  std::vector<int> number(parent.size(), -1), group(parent.size());
+  int count = 0;
+  if (first_fixed >= 0) number[root(&parent, first_fixed)] = count++;
+  for (size_t b = 0; b < parent.size(); ++b) {
+    int& n = number[root(&parent, static_cast<int>(b))];
+    if (n < 0) n = count++;
+    group[b] = n;
+  }
+  return group;
+}
+
+}  // namespace cupola

@@ -1,0 +1,61 @@
+#include "postproc/mechanics/cuts.hpp"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace cupola {
+
+std::vector<CutPolygon> cut_by_plane(const Assembly& assembly, const Plane& plane) {
+  std::vector<CutPolygon> polygons;
+  std::vector<Vec3> crossings;
+  for (size_t p = 0; p < assembly.parts.size(); ++p) {
+    const Part& part = assembly.parts[p];
+    crossings.clear();
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const auto face = assembly.face(f);
+      for (size_t i = 0; i < face.size(); ++i) {
+        const Vec3& a = assembly.vertices[face[i]];
+        const Vec3& b = assembly.vertices[face[(i + 1) % face.size()]];
+        const double s = plane.normal.dot(a) - plane.offset, t = plane.normal.dot(b) - plane.offset;
+        // Every edge is met from both of its faces; the one that rises through the plane counts.
+        if (s < 0.0 && t >= 0.0) crossings.push_back(a + s / (s - t) * (b - a));
+      }
+    }
+    if (crossings.size() < 3) continue;
+    const PlanarHull hull = planar_hull(crossings, plane.normal);
+    if (hull.outline.size() < 3) continue;
+    CutPolygon polygon{static_cast<int>(p), part.block, part.ring, {}};
+    for (const Eigen::Vector2d& corner : hull.outline) polygon.outline.push_back(hull.position(corner));
+    polygons.push_back(std::move(polygon));
+  }
+  return polygons;
+}
+
+std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& joints, double azimuth_deg) {
+  const double angle = azimuth_deg * std::numbers::pi / 180.0;
+  const Vec3 outwards(std::cos(angle), std::sin(angle), 0.0);
+  const Vec3 along(-std::sin(angle), std::cos(angle), 0.0);
+  const auto positive = [&](int block) { return along.dot(assembly.blocks[block].centroid) > 0.0; };
+  std::map<int, HoopRow> rows;
+  std::map<int, int> counts;
+  for (const JointWrench& joint : joints.joints) {
+    const int a = joint.joint.block_a, b = joint.joint.block_b;
+    if (assembly.blocks[a].fixed || assembly.blocks[b].fixed || positive(a) == positive(b)) continue;
+    if (outwards.dot(joint.patch.centroid) <= 0.0) continue;  // the half-plane on the other side of the axis
+    const double force = along.dot(wrench_on(joint, positive(b) ? b : a).force);
+    HoopRow& row = rows[joint.joint.ring];
+    row.ring = joint.joint.ring;
+    row.height += joint.patch.centroid.z();
+    ++counts[joint.joint.ring];
+    (joint.joint.kind == JointKind::head ? row.head_force : row.bed_force) += force;
+  }
+  std::vector<HoopRow> out;
+  for (auto& [ring, row] : rows) {
+    row.height /= counts[ring];
+    out.push_back(row);
+  }
+  return out;
+}
+
+}  // namespace cupola

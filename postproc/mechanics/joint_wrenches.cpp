@@ -1,0 +1,97 @@
+#include "postproc/mechanics/joint_wrenches.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+namespace cupola {
+namespace {
+
+/// Course whose direction tells a joint's upper side; a support has none of its own.
+int course(const Assembly& assembly, const Joint& joint) {
+  const Block &a = assembly.blocks[joint.block_a], &b = assembly.blocks[joint.block_b];
+  if (a.fixed == b.fixed) return joint.ring;
+  return a.fixed ? b.ring : a.ring;
+}
+
+/// Sums over the points of one joint.
+void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrench* joint) {
+  const auto begin = rows.begin() + joint->contact_start;
+  const auto end = begin + joint->num_contacts;
+  std::vector<Vec3> points;
+  Vec3 normal = Vec3::Zero();
+  for (auto row = begin; row != end; ++row) {
+    points.push_back(contacts.point[*row]);
+    normal += contacts.area[*row] * contacts.normal[*row];
+  }
+  if (normal.norm() == 0.0) normal = contacts.normal[*begin];
+  joint->patch = planar_hull(points, normal.normalized());
+
+  Vec3 weighted = Vec3::Zero();
+  double friction = 0.0, area = 0.0, open_area = 0.0;
+  for (auto row = begin; row != end; ++row) {
+    const double n = contacts.normal_force[*row];
+    joint->normal_force += n;
+    weighted += n * (contacts.point[*row] - joint->patch.centroid);
+    friction += n * contacts.friction_use[*row];
+    area += contacts.area[*row];
+    if (n <= 0.0) open_area += contacts.area[*row];
+    joint->opening = std::max(joint->opening, contacts.gap[*row]);
+    joint->slip = std::max(joint->slip, contacts.slip[*row]);
+  }
+  joint->centre_of_pressure = joint->patch.centroid;
+  if (joint->normal_force > 0.0) {
+    joint->centre_of_pressure += weighted / joint->normal_force;
+    joint->friction_use = friction / joint->normal_force;
+  }
+  if (area > 0.0) joint->open_share = open_area / area;
+
+  const Eigen::Vector2d in_patch = joint->patch.coordinates(joint->centre_of_pressure);
+  joint->eccentricity = in_patch.norm();
+  joint->edge_distance = distance_to_outline(joint->patch, in_patch);
+  joint->kern = kern_use(joint->patch, in_patch);
+  joint->wrench.point = joint->centre_of_pressure;
+  for (auto row = begin; row != end; ++row)
+    joint->wrench.add_force(contacts.point[*row], contacts.force[*row]);
+  joint->axis = central_axis(joint->wrench);
+}
+
+}  // namespace
+
+JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell) {
+  JointWrenches out;
+  for (const Joint& joint : joints_of(contacts)) out.joints.emplace_back().joint = joint;
+  out.contacts.resize(static_cast<size_t>(contacts.size()));
+  std::iota(out.contacts.begin(), out.contacts.end(), 0);
+  std::stable_sort(out.contacts.begin(), out.contacts.end(),
+                   [&](int i, int j) { return contacts.joint[i] < contacts.joint[j]; });
+  for (int i = 0; i < contacts.size(); ++i) {
+    JointWrench& joint = out.joints[contacts.joint[out.contacts[i]]];
+    if (joint.num_contacts++ == 0) joint.contact_start = i;
+  }
+  std::erase_if(out.joints, [](const JointWrench& joint) { return joint.num_contacts == 0; });
+  for (JointWrench& joint : out.joints) {
+    fill(contacts, out.contacts, &joint);
+    if (joint.joint.kind != JointKind::bed && joint.joint.kind != JointKind::base) continue;
+    joint.upper = joint.joint.block_b;
+    joint.lower = joint.joint.block_a;
+    if (joint.patch.plane.normal.dot(shell.direction(course(assembly, joint.joint))) < 0.0)
+      std::swap(joint.upper, joint.lower);
+  }
+  return out;
+}
+
+Wrench wrench_on(const JointWrench& joint, int block) {
+  return block == joint.joint.block_b ? joint.wrench : -1.0 * joint.wrench;
+}
+
+std::vector<Wrench> wrenches_from_below(const Assembly& assembly, const JointWrenches& joints) {
+  std::vector<Wrench> wrenches(assembly.blocks.size());
+  for (size_t b = 0; b < wrenches.size(); ++b) wrenches[b].point = assembly.blocks[b].centroid;
+  for (const JointWrench& joint : joints.joints)
+    if (joint.upper >= 0) wrenches[joint.upper].add(wrench_on(joint, joint.upper));
+  return wrenches;
+}
+
+}  // namespace cupola

@@ -1,0 +1,45 @@
+#include "postproc/mechanics/plane_cut.hpp"
+
+namespace cupola {
+
+Vec3 force_beyond(const PlaneCut& cut, const Assembly& assembly, const JointWrench& joint) {
+  const int b = joint.joint.block_b;
+  const bool b_beyond = !assembly.blocks[b].fixed && cut.is_beyond(assembly.blocks[b].centroid);
+  return wrench_on(joint, b_beyond ? b : joint.joint.block_a).force;
+}
+
+PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointWrenches& joints,
+                   const Vec3& gravity, const std::vector<PointForce>& loads) {
+  PlaneCut cut;
+  cut.name = plane.name;
+  cut.point = cut.across.point = plane.point;
+  cut.normal = plane.normal.normalized();
+  cut.polygons = cut_by_plane(assembly, {cut.normal, cut.normal.dot(cut.point)});
+
+  std::vector<bool> beyond(assembly.blocks.size());
+  for (size_t b = 0; b < beyond.size(); ++b) {
+    beyond[b] = !assembly.blocks[b].fixed && cut.is_beyond(assembly.blocks[b].centroid);
+    if (beyond[b]) cut.load_beyond += assembly.blocks[b].mass * gravity;
+  }
+  for (const PointForce& load : loads)
+    if (beyond[load.block]) cut.load_beyond += load.force;
+
+  for (size_t j = 0; j < joints.joints.size(); ++j) {
+    const JointWrench& joint = joints.joints[j];
+    const int a = joint.joint.block_a, b = joint.joint.block_b;
+    if (beyond[a] == beyond[b]) continue;
+    const Wrench wrench = wrench_on(joint, beyond[b] ? b : a);
+    if (assembly.blocks[a].fixed || assembly.blocks[b].fixed) {
+      cut.from_supports += wrench.force;
+    } else {
+      cut.across.add(wrench);
+      cut.joints.push_back(static_cast<int>(j));
+    }
+  }
+  if (cut.load_beyond.norm() > 0.0)
+    cut.relative_difference =
+        (cut.across.force + cut.from_supports + cut.load_beyond).norm() / cut.load_beyond.norm();
+  return cut;
+}
+
+}  // namespace cupola

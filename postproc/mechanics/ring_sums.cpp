@@ -1,0 +1,122 @@
+#include "postproc/mechanics/ring_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cupola {
+namespace {
+
+int first_ring(const Assembly& assembly, int block) {
+  const Block& b = assembly.blocks[block];
+  return b.fixed ? -1 : std::max(b.ring, 0);
+}
+
+/// Sums that need one entry per ring and hold for all cuts at or below it.
+void accumulate_downwards(std::vector<RingSum>* rings) {
+  for (size_t k = rings->size(); k-- > 1;) (*rings)[k - 1].load_above += (*rings)[k].load_above;
+}
+
+void add_loads(const Assembly& assembly, const Vec3& gravity, const std::vector<PointForce>& loads,
+               std::vector<RingSum>* rings) {
+  for (size_t b = 0; b < assembly.blocks.size(); ++b) {
+    if (assembly.blocks[b].fixed) continue;
+    RingSum& ring = (*rings)[first_ring(assembly, static_cast<int>(b))];
+    ring.load_above += assembly.blocks[b].mass * gravity;
+    ++ring.blocks;
+  }
+  for (const PointForce& load : loads) {
+    if (assembly.blocks[load.block].fixed) continue;
+    (*rings)[first_ring(assembly, load.block)].load_above += load.force;
+  }
+  accumulate_downwards(rings);
+}
+
+/// A joint between first rings p < q is cut by the cuts p + 1 .. q: added where they begin, removed after.
+void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, std::vector<RingSum>* rings) {
+  std::vector<Vec3> change(rings->size() + 1, Vec3::Zero());
+  for (const JointWrench& joint : joints.joints) {
+    const int a = first_ring(assembly, joint.joint.block_a);
+    const int b = first_ring(assembly, joint.joint.block_b);
+    if (a == b) continue;
+    const Vec3 on_upper = b > a ? joint.wrench.force : Vec3(-joint.wrench.force);
+    change[std::min(a, b) + 1] += on_upper;
+    change[std::max(a, b) + 1] -= on_upper;
+  }
+  Vec3 force = Vec3::Zero();
+  for (size_t k = 0; k < rings->size(); ++k) {
+    force += change[k];
+    (*rings)[k].joint_force = force;
+  }
+}
+
+/// What tells how evenly a ring's blocks are loaded.
+void add_block_spread(const Assembly& assembly, const JointWrenches& joints,
+                      const std::vector<Wrench>& from_below, std::vector<RingSum>* rings) {
+  std::vector<double> normal_force(from_below.size(), 0.0), area(from_below.size(), 0.0);
+  std::vector<double> ring_area(rings->size(), 0.0);
+  for (const JointWrench& joint : joints.joints) {
+    if (joint.upper < 0 || assembly.blocks[joint.upper].fixed) continue;
+    normal_force[joint.upper] += joint.normal_force;
+    area[joint.upper] += joint.patch.area;
+    const int k = first_ring(assembly, joint.upper);
+    RingSum& ring = (*rings)[k];
+    ring.height += joint.patch.area * joint.patch.centroid.z();
+    ring_area[k] += joint.patch.area;
+    ring.largest_friction_use = std::max(ring.largest_friction_use, joint.friction_use);
+    ring.largest_kern = std::max(ring.largest_kern, joint.kern);
+    const Eigen::Vector2d outward = joint.patch.centroid.head<2>().stableNormalized();
+    ring.radial_thrust -= outward.dot(wrench_on(joint, joint.upper).force.head<2>());
+  }
+  std::vector<std::vector<double>> resultants(rings->size()), pressures(rings->size());
+  for (size_t b = 0; b < from_below.size(); ++b) {
+    if (assembly.blocks[b].fixed || area[b] <= 0.0) continue;
+    const int k = first_ring(assembly, static_cast<int>(b));
+    resultants[k].push_back(from_below[b].force.norm());
+    pressures[k].push_back(normal_force[b] / area[b]);
+    RingSum& ring = (*rings)[k];
+    ring.mean_resultant += resultants[k].back();
+    ring.largest_couple_length =
+        std::max(ring.largest_couple_length, central_axis(from_below[b]).couple_length);
+  }
+  for (size_t k = 0; k < rings->size(); ++k) {
+    RingSum& ring = (*rings)[k];
+    if (ring_area[k] > 0.0) ring.height /= ring_area[k];
+    if (!resultants[k].empty()) ring.mean_resultant /= static_cast<double>(resultants[k].size());
+    ring.cv_resultant = coefficient_of_variation(resultants[k]);
+    ring.cv_pressure = coefficient_of_variation(pressures[k]);
+  }
+}
+
+}  // namespace
+
+double coefficient_of_variation(const std::vector<double>& values) {
+  if (values.size() < 2) return 0.0;
+  double mean = 0.0;
+  for (const double v : values) mean += v / static_cast<double>(values.size());
+  if (mean == 0.0) return 0.0;
+  double variance = 0.0;
+  for (const double v : values) variance += (v - mean) * (v - mean) / static_cast<double>(values.size());
+  return std::sqrt(variance) / std::abs(mean);
+}
+
+std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
+                               const std::vector<Wrench>& from_below, const Vec3& gravity,
+                               const std::vector<PointForce>& loads) {
+  int num_rings = 0;
+  if (assembly.num_rings > 0)
+    for (const Block& block : assembly.blocks)
+      if (!block.fixed) num_rings = std::max(num_rings, block.ring + 1);
+  std::vector<RingSum> rings(static_cast<size_t>(num_rings));
+  if (rings.empty()) return rings;
+  for (int k = 0; k < num_rings; ++k) rings[k].ring = k;
+  add_loads(assembly, gravity, loads, &rings);
+  add_joint_forces(assembly, joints, &rings);
+  add_block_spread(assembly, joints, from_below, &rings);
+  for (RingSum& ring : rings) {
+    const double load = ring.load_above.norm();
+    if (load > 0.0) ring.relative_difference = (ring.joint_force + ring.load_above).norm() / load;
+  }
+  return rings;
+}
+
+}  // namespace cupola

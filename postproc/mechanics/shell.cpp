@@ -1,0 +1,155 @@
+#include "postproc/mechanics/shell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+namespace cupola {
+namespace {
+
+int rings_present(const Assembly& assembly) {
+  int rings = 0;
+  if (assembly.num_rings == 0) return 0;
+  for (const Part& part : assembly.parts) rings = std::max(rings, part.ring + 1);
+  return rings;
+}
+
+/// Direction from ring to ring: up in a vault and a wall, along the line of pressure in an arch.
+std::vector<Vec3> progress_directions(const Assembly& assembly, int num_rings, const Vec3& up) {
+  std::vector<Vec3> centroid(static_cast<size_t>(num_rings), Vec3::Zero());
+  std::vector<double> volume(centroid.size(), 0.0);
+  for (const Part& part : assembly.parts) {
+    if (part.ring < 0) continue;
+    const SolidProperties solid = solid_properties(assembly, part);
+    centroid[part.ring] += solid.volume * solid.centroid;
+    volume[part.ring] += solid.volume;
+  }
+  for (size_t k = 0; k < centroid.size(); ++k) centroid[k] /= volume[k];
+  std::vector<Vec3> progress(centroid.size(), up);
+  for (size_t k = 0; k < centroid.size() && centroid.size() > 1; ++k) {
+    const Vec3 d = centroid[std::min(k + 1, centroid.size() - 1)] - centroid[k > 0 ? k - 1 : 0];
+    if (d.norm() > 0.0) progress[k] = d.normalized();
+  }
+  return progress;
+}
+
+/// The edge of a face that it shares with a face of the given kind in the same part, as its position in the
+/// face.
+std::optional<size_t> edge_on(const Assembly& assembly, const Part& part, std::span<const int> face,
+                              FaceKind kind) {
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+    if (assembly.face_kinds[f] != kind) continue;
+    const auto skin = assembly.face(f);
+    for (size_t i = 0; i < face.size(); ++i)
+      for (size_t j = 0; j < skin.size(); ++j)  // neighbours run along a common edge in opposite senses
+        if (face[i] == skin[(j + 1) % skin.size()] && face[(i + 1) % face.size()] == skin[j]) return i;
+  }
+  return std::nullopt;
+}
+
+/// Adds a part's face to a bed when it touches both skins.
+void add_facet(const Assembly& assembly, const Part& part, int f, std::vector<BedFacet>* bed) {
+  const auto face = assembly.face(f);
+  const auto inner = edge_on(assembly, part, face, FaceKind::intrados);
+  const auto outer = edge_on(assembly, part, face, FaceKind::extrados);
+  if (!inner || !outer) return;
+  const auto vertex = [&](size_t i) { return assembly.vertices[face[i % face.size()]]; };
+  // Around the face the two edges run against each other.
+  bed->push_back({part.block, vertex(*inner), vertex(*inner + 1), vertex(*outer + 1), vertex(*outer),
+                  assembly.face_kinds[f] == FaceKind::internal});
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double standard_width(const Assembly& assembly, const Shell& shell) {
+  std::map<int, double> widths;  // block -> azimuth it covers on its own bed
+  for (const auto& bed : shell.beds)
+    for (const BedFacet& facet : bed)
+      if (!facet.internal && &bed != &shell.beds.back() &&
+          assembly.blocks[facet.block].kind == BlockKind::standard)
+        widths[facet.block] += std::abs(wrapped(azimuth(facet.intrados_b) - azimuth(facet.intrados_a)));
+  std::vector<double> values;
+  for (const auto& [block, width] : widths) values.push_back(width);
+  return median(std::move(values));
+}
+
+}  // namespace
+
+double azimuth(const Vec3& point) {
+  return std::atan2(point.y(), point.x());
+}
+
+double wrapped(double angle) {
+  return std::remainder(angle, 2.0 * std::numbers::pi);
+}
+
+const Vec3& Shell::direction(int ring) const {
+  return progress.empty() ? up : progress[std::clamp(ring, 0, num_rings() - 1)];
+}
+
+Shell shell_of(const Assembly& assembly, const Vec3& up) {
+  Shell shell;
+  shell.up = up;
+  const int num_rings = rings_present(assembly);
+  if (num_rings == 0) return shell;
+  shell.progress = progress_directions(assembly, num_rings, up);
+  shell.beds.resize(static_cast<size_t>(num_rings) + 1);
+  for (const Part& part : assembly.parts) {
+    if (part.ring < 0) continue;
+    const Block& block = assembly.blocks[part.block];
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const FaceKind kind = assembly.face_kinds[f];
+      const bool joint = kind == FaceKind::bed || kind == FaceKind::top;
+      const bool inside = kind == FaceKind::internal && block.num_rings > 1 && part.ring > block.ring;
+      if (!joint && !inside) continue;
+      const double along = polygon_plane(face_points(assembly, f)).normal.dot(shell.progress[part.ring]);
+      constexpr double kSideways = 0.1;  // internal faces towards the next slice are at right angles
+      if (along < -kSideways) add_facet(assembly, part, f, &shell.beds[part.ring]);
+      if (along > kSideways && joint && part.ring == num_rings - 1)
+        add_facet(assembly, part, f, &shell.beds.back());
+    }
+  }
+  shell.block_width_rad = standard_width(assembly, shell);
+  return shell;
+}
+
+std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell) {
+  std::vector<ShellAxes> axes(assembly.blocks.size());
+  std::vector<double> skin_area(axes.size(), 0.0);
+  if (shell.num_rings() == 0) return axes;
+  for (const Part& part : assembly.parts) {
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const FaceKind kind = assembly.face_kinds[f];
+      if (kind != FaceKind::intrados && kind != FaceKind::extrados) continue;
+      const std::vector<Vec3> polygon = face_points(assembly, f);
+      const double area = polygon_area(polygon);
+      axes[part.block].n += (kind == FaceKind::extrados ? area : -area) * polygon_plane(polygon).normal;
+      skin_area[part.block] += area;
+    }
+  }
+  for (size_t b = 0; b < axes.size(); ++b) {
+    const Block& block = assembly.blocks[b];
+    ShellAxes& a = axes[b];
+    if (block.ring < 0 || a.n.norm() == 0.0) continue;
+    a.n.normalize();
+    const Vec3& progress = shell.direction(block.ring);
+    a.m = progress - progress.dot(a.n) * a.n;
+    if (a.m.norm() == 0.0) continue;
+    a.m.normalize();
+    a.t = a.m.cross(a.n);
+    a.thickness = 2.0 * block.volume / skin_area[b];
+    a.exists = true;
+  }
+  return axes;
+}
+
+}  // namespace cupola

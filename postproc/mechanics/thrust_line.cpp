@@ -1,0 +1,244 @@
+#include "postproc/mechanics/thrust_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+namespace cupola {
+namespace {
+
+/// A resultant that presses on its bed with less than this share of itself runs along the bed: its line of
+/// action meets the bed's plane far outside, or anywhere. Dry joints stay above it up to a friction of 10.
+constexpr double kLeastPressing = 0.1;
+/// A resultant below this share of the line's largest is what the solver's residual leaves.
+constexpr double kLeastResultant = 1e-6;
+
+/// The facets of one block on one bed, the azimuths they cover, and their mean plane.
+struct BlockBed {
+  std::vector<const BedFacet*> facets;
+  double from = 0.0, to = 0.0;  // rad, unwrapped
+  Plane plane;
+};
+
+std::map<int, BlockBed> blocks_on(const std::vector<BedFacet>& bed) {
+  std::map<int, BlockBed> blocks;
+  for (const BedFacet& facet : bed) {
+    const auto [entry, is_new] = blocks.try_emplace(facet.block);
+    BlockBed& block = entry->second;
+    const double a = azimuth(facet.intrados_a);
+    if (is_new) block.from = block.to = a;
+    for (const Vec3& corner : {facet.intrados_a, facet.intrados_b}) {
+      const double angle = block.from + wrapped(azimuth(corner) - block.from);
+      block.from = std::min(block.from, angle);
+      block.to = std::max(block.to, angle);
+    }
+    block.facets.push_back(&facet);
+  }
+  for (auto& [id, block] : blocks) {
+    Vec3 normal = Vec3::Zero(), mean = Vec3::Zero();
+    for (const BedFacet* f : block.facets) {
+      normal += (f->intrados_b - f->extrados_a).cross(f->extrados_b - f->intrados_a);
+      mean += 0.25 * (f->intrados_a + f->intrados_b + f->extrados_a + f->extrados_b);
+    }
+    normal.normalize();
+    block.plane = {normal, normal.dot(mean) / static_cast<double>(block.facets.size())};
+  }
+  return blocks;
+}
+
+double overlap(const BlockBed& block, double center, double width) {
+  const double middle = 0.5 * (block.from + block.to);
+  const double offset = wrapped(center - middle);
+  const double half = 0.5 * (block.to - block.from);
+  const double common = std::min(half, offset + width / 2) - std::max(-half, offset - width / 2);
+  return half > 0.0 ? std::max(0.0, common) / (2.0 * half) : 0.0;
+}
+
+/// Position through the thickness of a point of the bed plane: distances to the two edges of its facet.
+double position_in(const BlockBed& block, const Vec3& x) {
+  const BedFacet* facet = block.facets.front();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const BedFacet* f : block.facets) {
+    const double distance =
+        (0.25 * (f->intrados_a + f->intrados_b + f->extrados_a + f->extrados_b) - x).squaredNorm();
+    if (distance < nearest) {
+      nearest = distance;
+      facet = f;
+    }
+  }
+  const auto from_edge = [&](const Vec3& a, const Vec3& b, const Vec3& inside) {
+    const Vec3 along = (b - a).normalized();
+    const auto rejection = [&](const Vec3& p) { return Vec3(p - a - along.dot(p - a) * along); };
+    return rejection(x).dot(rejection(inside).normalized());
+  };
+  const double inner = from_edge(facet->intrados_a, facet->intrados_b, facet->extrados_a);
+  const double outer = from_edge(facet->extrados_a, facet->extrados_b, facet->intrados_a);
+  return inner / (inner + outer);
+}
+
+/// Wrench on the piece of a block above an inner bed: it balances the piece's weight and contacts.
+Wrench wrench_through(const ThrustInput& in, int block, int bed) {
+  Wrench w;
+  w.point = in.assembly->blocks[block].centroid;
+  for (const Part& part : in.assembly->parts) {
+    if (part.block != block || part.ring < bed) continue;
+    const SolidProperties solid = solid_properties(*in.assembly, part);
+    w.add_force(solid.centroid, -in.assembly->blocks[block].density * solid.volume * in.gravity);
+  }
+  const ContactTable& c = *in.contacts;
+  for (const JointWrench& joint : in.joints->joints) {
+    if (joint.joint.block_a != block && joint.joint.block_b != block) continue;
+    const double sign = joint.joint.block_b == block ? -1.0 : 1.0;
+    for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
+      const int row = in.joints->contacts[i];
+      const int course = joint.lower == block ? c.ring[row] - 1 : c.ring[row];
+      if (course >= bed) w.add_force(c.point[row], sign * c.force[row]);
+    }
+  }
+  return w;
+}
+
+/// What a block passes upwards through the last bed: a support's joint in an arch, nothing under free loads.
+Wrench wrench_onwards(const ThrustInput& in, int block) {
+  Wrench w;
+  w.point = in.assembly->blocks[block].centroid;
+  for (const JointWrench& joint : in.joints->joints)
+    if (joint.lower == block) w.add(wrench_on(joint, joint.upper));
+  return w;
+}
+
+/// The wrench turned about the z axis.
+Wrench turned(const Wrench& w, double angle) {
+  const Mat3 R = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+  return {R * w.point, R * w.force, R * w.moment};
+}
+
+/// Where the bed's skins meet the meridian plane; an arch takes the middle of its width.
+bool find_skins(const std::vector<BedFacet>& bed, std::optional<double> meridian, ThrustPoint* point) {
+  if (!meridian) {
+    point->intrados = point->extrados = Vec3::Zero();
+    const double n = static_cast<double>(bed.size());
+    for (const BedFacet& f : bed) {
+      point->intrados += (f.intrados_a + f.intrados_b) / (2.0 * n);
+      point->extrados += (f.extrados_a + f.extrados_b) / (2.0 * n);
+    }
+    return !bed.empty();
+  }
+  const Vec3 across(-std::sin(*meridian), std::cos(*meridian), 0.0);
+  const Vec3 outwards(std::cos(*meridian), std::sin(*meridian), 0.0);
+  for (const BedFacet& f : bed) {
+    const double a = across.dot(f.intrados_a), b = across.dot(f.intrados_b);
+    if (a * b > 0.0 || a == b || outwards.dot(f.intrados_a) <= 0.0) continue;
+    const auto meet = [&](const Vec3& p, const Vec3& q) {
+      const double s = across.dot(p), t = across.dot(q);
+      return s == t ? p : Vec3(p + s / (s - t) * (q - p));
+    };
+    point->intrados = meet(f.intrados_a, f.intrados_b);
+    point->extrados = meet(f.extrados_a, f.extrados_b);
+    return true;
+  }
+  return false;
+}
+
+/// Sums the strip's blocks on one bed. False when nothing presses there.
+///
+/// The strip's position is the mean of the blocks' own, weighted by how hard each presses on its bed: so the
+/// moments of the normal forces add up, and a force along the bed, whose line meets it anywhere, counts for
+/// nothing.
+bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, ThrustPoint* point) {
+  Wrench sum;
+  sum.point = 0.5 * (point->intrados + point->extrados);
+  double weighted_position = 0.0, pressing = 0.0;
+  const Vec3& onwards = in.shell->direction(bed);
+  for (const auto& [id, block] : blocks_on(in.shell->beds[bed])) {
+    const double share = meridian ? overlap(block, *meridian, in.shell->block_width_rad) : 1.0;
+    if (share <= 0.0) continue;
+    const Wrench w = wrench_at_bed(in, id, bed);
+    if (w.force.norm() == 0.0) continue;
+    const Vec3 x = axis_in_plane(central_axis(w), w.force, block.plane);
+    const double turn = meridian ? *meridian - 0.5 * (block.from + block.to) : 0.0;
+    sum.add(share * turned(w, turn));
+    const double normal =
+        std::copysign(1.0, block.plane.normal.dot(onwards)) * block.plane.normal.dot(w.force);
+    weighted_position += share * normal * position_in(block, x);
+    pressing += share * normal;
+    ++point->blocks;
+  }
+  if (point->blocks == 0) return false;
+  if (pressing > kLeastPressing * sum.force.norm()) point->position = weighted_position / pressing;
+  point->force = sum.force;
+  point->r = sum.force.norm();
+  point->v = sum.force.z();
+  point->couple_length = central_axis(sum).couple_length;
+  return true;
+}
+
+/// Places the resultant in the thickness; NaN all through where its position is not defined.
+void measure(ThrustPoint* point, double largest_resultant) {
+  if (point->r <= kLeastResultant * largest_resultant)
+    point->position = std::numeric_limits<double>::quiet_NaN();
+  const Vec3 through = point->extrados - point->intrados;
+  point->point = point->intrados + point->position * through;
+  point->face_distance = through.norm() * (0.5 - std::abs(point->position - 0.5));
+  point->geometric_safety = 0.5 / std::abs(point->position - 0.5);
+}
+
+/// Where two lines of action meet in the plane spanned by `outwards` and z: none where they run so parallel
+/// that the point lies more than twice their distance away.
+std::optional<Vec3> meeting(const ThrustPoint& p, const ThrustPoint& q, const Vec3& outwards) {
+  const auto flat = [&outwards](const Vec3& x) { return Eigen::Vector2d(outwards.dot(x), x.z()); };
+  const Eigen::Vector2d d = flat(p.force), e = flat(q.force), offset = flat(q.point - p.point);
+  const double denominator = d.x() * e.y() - d.y() * e.x();
+  if (denominator == 0.0) return std::nullopt;
+  const double s = (offset.x() * e.y() - offset.y() * e.x()) / denominator;
+  const Vec3 meet = p.point + s * (d.x() * outwards + d.y() * Vec3::UnitZ());
+  if ((meet - 0.5 * (p.point + q.point)).norm() > 2.0 * (p.point - q.point).norm()) return std::nullopt;
+  return meet;
+}
+
+}  // namespace
+
+Wrench wrench_at_bed(const ThrustInput& in, int block, int bed) {
+  if (bed == in.shell->num_rings()) return wrench_onwards(in, block);
+  return in.assembly->blocks[block].ring == bed ? in.from_below[block] : wrench_through(in, block, bed);
+}
+
+ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg) {
+  ThrustLine line;
+  line.name = name;
+  line.azimuth_deg = azimuth_deg.value_or(0.0);
+  std::optional<double> meridian;
+  if (azimuth_deg) meridian = *azimuth_deg * std::numbers::pi / 180.0;
+  for (int bed = 0; bed <= input.shell->num_rings(); ++bed) {
+    ThrustPoint point;
+    point.bed = bed;
+    if (!find_skins(input.shell->beds[bed], meridian, &point)) continue;
+    if (sum_strip(input, bed, meridian, &point)) line.points.push_back(point);
+  }
+  double largest = 0.0;
+  for (const ThrustPoint& point : line.points) largest = std::max(largest, point.r);
+  for (ThrustPoint& point : line.points) measure(&point, largest);
+  line.undefined = static_cast<int>(std::count_if(line.points.begin(), line.points.end(),
+                                                  [](const ThrustPoint& p) { return !p.is_placed(); }));
+  line.inside = line.undefined < static_cast<int>(line.points.size());
+  line.least_face_distance = line.least_geometric_safety = std::numeric_limits<double>::infinity();
+  for (const ThrustPoint& point : line.points) {
+    if (!point.is_placed()) continue;
+    line.inside = line.inside && point.face_distance >= 0.0;
+    line.least_face_distance = std::min(line.least_face_distance, point.face_distance);
+    line.least_geometric_safety = std::min(line.least_geometric_safety, point.geometric_safety);
+  }
+  const Vec3 outwards = meridian ? Vec3(std::cos(*meridian), std::sin(*meridian), 0.0) : Vec3::UnitX();
+  for (size_t i = 1; i < line.points.size(); ++i) {
+    if (!line.points[i - 1].is_placed() || !line.points[i].is_placed()) continue;
+    if (const auto meet = meeting(line.points[i - 1], line.points[i], outwards))
+      line.envelope.push_back(*meet);
+  }
+  return line;
+}
+
+}  // namespace cupola

@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/case/case_reader.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/program/command_line.hpp"
+#include "postproc/report/html.hpp"
+#include "postproc/studies/sweep.hpp"
+
+namespace cupola {
+namespace {
+
+/// Columns as wide as their widest cell.
+std::string aligned_text(const Table& table) {
+  std::vector<size_t> width;
+  for (const Table::Column& column : table.columns) width.push_back(column.key.size());
+  for (const auto& row : table.rows)
+    for (size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], to_display(row[k]).size());
+  std::string out;
+  for (size_t k = 0; k < width.size(); ++k) out += fmt::format("{:<{}}  ", table.columns[k].key, width[k]);
+  out += "\n";
+  for (const auto& row : table.rows) {
+    for (size_t k = 0; k < row.size(); ++k) out += fmt::format("{:<{}}  ", to_display(row[k]), width[k]);
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+ExitCode run_sweep(int argc, const char* const* argv) {
+  // 1. What is asked
+  std::string case_path, members_file, runs_folder, output_folder;
+  CLI::App app("Lists the runs of a case's sweep, or tabulates those that are finished.",
+               "cupola-post sweep");
+  app.add_option("CASE", case_path, "case file with a `sweep` (.yaml)")->required();
+  app.add_option("--members", members_file, "list to write, one run per line, and stop")->type_name("FILE");
+  app.add_option("--runs", runs_folder, "folder that holds one folder per run")->type_name("FOLDER");
+  app.add_option("--output", output_folder, "folder to write sweep.csv and sweep.html to")
+      ->type_name("FOLDER");
+  if (const auto ended = parse_arguments(app, argc, argv)) return *ended;
+
+  // 2. The members
+  const Case scene = read_case(case_path, {});
+  const std::string name = std::filesystem::path(case_path).stem().string();
+  const std::vector<SweepMember> members = members_of(scene.sweep, name);
+  if (!members_file.empty()) {
+    write_text_atomically(members_file, members_text(members, name));
+    return ExitCode::done;
+  }
+  if (runs_folder.empty()) throw InputError("--runs is missing; see cupola-post sweep --help");
+
+  // 3. The table
+  const Table table = sweep_table(scene.sweep, members, runs_folder);
+  const int missing = num_missing(table);
+  const std::string verdict = fmt::format("{} of {} members are finished, {} missing",
+                                          members.size() - missing, members.size(), missing);
+  fmt::print("{}\n{}\n", aligned_text(table), verdict);
+  if (!output_folder.empty()) {
+    make_folder(output_folder);
+    const std::filesystem::path folder(output_folder);
+    write_text_atomically((folder / "sweep.csv").string(), to_csv(table));
+    write_text_atomically(
+        (folder / "sweep.html").string(),
+        html_page(scene.title, fmt::format("<h1>{}</h1>\n<p>{}.</p>\n{}", markup_text(scene.title), verdict,
+                                           html_table(table))));
+  }
+  return missing > 0 ? ExitCode::failed : ExitCode::done;
+}
+
+}  // namespace cupola

@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "postproc/studies/sweep.hpp"
+#include "postproc/tables/run_files.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr const char* kMissing = "missing";
+
+/// A number of results/summary.json; empty where the analysis writes none.
+Table::Cell number_or_nothing(RunFiles& run, const std::string& key) {
+  try {
+    return run.number("results." + key);
+  } catch (const InputError&) {
+    return std::string();
+  }
+}
+
+std::string how_far(const std::string& folder) {
+  const auto there = [&](const char* file) { return std::filesystem::exists(folder + "/" + file); };
+  if (there("results/checkpoint")) return "interrupted: the same command goes on";
+  if (there("assembly.vtu")) return "no results: its own output says why";
+  return "no assembly: its own output says why";
+}
+
+}  // namespace
+
+std::string members_text(const std::vector<SweepMember>& members, const std::string& case_name) {
+  std::string out;
+  for (const SweepMember& member : members)
+    out += fmt::format("{} {} {}\n", member.name, case_name, fmt::join(member.settings, " "));
+  return out;
+}
+
+Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMember>& members,
+                  const std::string& runs_folder) {
+  Table t{"sweep", "The members of the sweep", {{"member", "", "name of the run"}}, {}};
+  for (const SweptKey& swept : sweep) t.columns.push_back({swept.key, "", "what was set"});
+  t.columns.push_back({"status", "", "how the run ended"});
+  t.columns.push_back({"remark", "", "what a missing member lacks"});
+  const std::vector<Table::Column> numbers = {
+      {"equilibrium_residual", "", "largest unbalanced force over a block's weight"},
+      {"max_displacement_m", "m", "largest displacement of a block"},
+      {"critical_value", "", "middle of the bracket of a limit analysis"},
+      {"cpu_time_seconds", "s", "processor time of the solver"}};
+  t.columns.insert(t.columns.end(), numbers.begin(), numbers.end());
+  for (const SweepMember& member : members) {
+    std::vector<Table::Cell> row = {member.name};
+    for (const std::string& setting : member.settings)
+      row.emplace_back(setting.substr(setting.find('=') + 1));
+    const std::string folder = fmt::format("{}/{}", runs_folder, member.name);
+    if (std::filesystem::exists(folder + "/results/summary.json")) {
+      RunFiles run(folder);
+      row.emplace_back(run.status());
+      row.emplace_back(std::string());
+      for (const Table::Column& column : numbers) row.push_back(number_or_nothing(run, column.key));
+    } else {
+      row.emplace_back(std::string(kMissing));
+      row.emplace_back(how_far(folder));
+      row.resize(t.columns.size(), std::string());
+    }
+    t.rows.push_back(std::move(row));
+  }
+  return t;
+}
+
+int num_missing(const Table& table) {
+  const auto status = std::find_if(table.columns.begin(), table.columns.end(),
+                                   [](const Table::Column& column) { return column.key == "status"; });
+  const auto at = status - table.columns.begin();
+  return static_cast<int>(std::count_if(table.rows.begin(), table.rows.end(), [at](const auto& row) {
+    return row[at] == Table::Cell(std::string(kMissing));
+  }));
+}
+
+}  // namespace cupola

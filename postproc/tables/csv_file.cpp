@@ -1,0 +1,76 @@
+#include "postproc/tables/csv_file.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
+
+namespace cupola {
+namespace {
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+      cells.back() += '"';
+      ++i;
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+size_t CsvFile::column(const std::string& name) const {
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  if (found != columns.end()) return static_cast<size_t>(found - columns.begin());
+  const std::string near = nearest_name(name, columns);
+  throw InputError(
+      FileLocation{path},
+      fmt::format("has no column {}{}", name, near.empty() ? "" : fmt::format(", did you mean {}?", near)));
+}
+
+double CsvFile::number(size_t row, size_t column) const {
+  const std::string& cell = rows[row][column];
+  char* end = nullptr;
+  const double value = std::strtod(cell.c_str(), &end);  // admits inf, which tables hold
+  if (cell.empty() || *end != '\0')
+    throw InputError(FileLocation{path, static_cast<int>(row) + 2, 0},
+                     fmt::format("{} = {}: is not a number", columns[column], cell));
+  return value;
+}
+
+CsvFile read_csv(const std::string& path) {
+  return parse_csv(read_text(path), path);
+}
+
+CsvFile parse_csv(const std::string& text, const std::string& path) {
+  std::istringstream stream(text);
+  CsvFile file;
+  file.path = path;
+  std::string line;
+  if (!std::getline(stream, line)) throw InputError(FileLocation{path}, "has no header line");
+  file.columns = cells_of(line);
+  while (std::getline(stream, line)) {
+    file.rows.push_back(cells_of(line));
+    if (file.rows.back().size() != file.columns.size())
+      throw InputError(
+          FileLocation{path, static_cast<int>(file.rows.size()) + 1, 0},
+          fmt::format("{} cells under {} columns", file.rows.back().size(), file.columns.size()));
+  }
+  return file;
+}
+
+}  // namespace cupola

@@ -1,0 +1,179 @@
+#include "postproc/tables/post_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "assembly/base/error.hpp"
+#include "assembly/base/process.hpp"
+#include "assembly/files/atomic_file.hpp"
+
+namespace cupola {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kFormatVersion = 1;
+
+/// The one list of the keys that describe a run, for writing and for reading.
+template <class SummaryType, class Visit>
+void for_each_field(SummaryType& s, Visit visit) {
+  visit("title", s.title);
+  visit("status", s.status);
+  visit("friction_law", s.friction_law);
+  visit("program_version", s.program_version);
+  visit("blocks", s.blocks);
+  visit("weight_N", s.weight_N);
+  visit("block_size_m", s.block_size_m);
+  visit("friction", s.friction);
+  visit("equilibrium_residual", s.equilibrium_residual);
+  visit("largest_ring_difference", s.largest_ring_difference);
+  visit("mean_cv_pressure", s.mean_cv_pressure);
+  visit("largest_cv_pressure", s.largest_cv_pressure);
+  visit("rib_over_mid_sail", s.rib_over_mid_sail);
+  visit("largest_couple_length_m", s.largest_couple_length_m);
+  visit("largest_friction_use", s.largest_friction_use);
+  visit("mean_kern_use", s.mean_kern_use);
+  visit("thrust_over_weight", s.thrust_over_weight);
+  visit("max_displacement_m", s.max_displacement_m);
+  visit("critical_value", s.critical_value);
+}
+
+Json to_value(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+template <class T>
+Json to_value(const T& value) {
+  return value;
+}
+
+void from_value(const Json& json, std::optional<double>* value) {
+  value->reset();
+  if (!json.is_null()) *value = json.get<double>();
+}
+void from_value(const Json& json, double* value) {
+  *value = json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+}
+template <class T>
+void from_value(const Json& json, T* value) {
+  json.get_to(*value);
+}
+
+Json rings_json(const Evaluation& e) {
+  Json rings = Json::array();
+  for (const RingSum& r : e.rings)
+    rings.push_back({{"ring", r.ring},
+                     {"height_m", r.height},
+                     {"joint_force_N", {r.joint_force.x(), r.joint_force.y(), r.joint_force.z()}},
+                     {"load_above_N", r.load_above.dot(-e.up)},
+                     {"relative_difference", r.relative_difference},
+                     {"cv_resultant", r.cv_resultant},
+                     {"cv_pressure", r.cv_pressure}});
+  return rings;
+}
+
+}  // namespace
+
+PostSummary post_summary(const Evaluation& e) {
+  PostSummary s;
+  s.title = e.scene.title;
+  s.status = to_string(e.summary.status);
+  s.friction_law = e.summary.friction_law;
+  s.program_version = program_version();
+  s.blocks = e.summary.free_blocks;
+  s.weight_N = e.summary.weight_N;
+  double volume = 0.0;
+  for (const Block& block : e.assembly.blocks) volume += block.fixed ? 0.0 : block.volume;
+  if (s.blocks > 0) s.block_size_m = std::cbrt(volume / s.blocks);
+  s.friction = e.scene.joints.friction;
+  s.equilibrium_residual = e.summary.equilibrium_residual;
+  if (e.summary.critical) s.critical_value = e.summary.critical->value;
+  s.max_displacement_m = e.summary.max_displacement_m;
+  s.rib_over_mid_sail = e.rib_over_mid_sail;
+  for (const RingSum& r : e.rings) {
+    s.largest_ring_difference = std::max(s.largest_ring_difference, r.relative_difference);
+    s.mean_cv_pressure += r.cv_pressure / static_cast<double>(e.rings.size());
+    s.largest_cv_pressure = std::max(s.largest_cv_pressure, r.cv_pressure);
+  }
+  double kern = 0.0, force = 0.0;
+  for (const JointWrench& joint : e.last.joints.joints) {
+    s.largest_friction_use = std::max(s.largest_friction_use, joint.friction_use);
+    if (joint.upper < 0) continue;
+    kern += joint.normal_force * joint.kern;
+    force += joint.normal_force;
+  }
+  if (force > 0.0) s.mean_kern_use = kern / force;
+  for (const BlockFields& f : e.last.fields)
+    s.largest_couple_length_m = std::max(s.largest_couple_length_m, f.couple_length);
+  if (!e.rings.empty() && e.summary.weight_N > 0.0)
+    s.thrust_over_weight = e.rings.front().radial_thrust / e.summary.weight_N;
+  for (const MeridianEvaluation& m : e.meridians)
+    s.thrust_lines.push_back({m.thrust.name, m.thrust.undefined, m.thrust.inside,
+                              m.thrust.least_face_distance, m.thrust.least_geometric_safety});
+  return s;
+}
+
+std::string post_summary_json(const Evaluation& e) {
+  const PostSummary s = post_summary(e);
+  Json json;
+  json["format_version"] = kFormatVersion;
+  for_each_field(s, [&json](const char* key, const auto& value) { json[key] = to_value(value); });
+  json["assembly_hash"] = e.summary.assembly_hash;
+  json["case_hash"] = e.summary.case_hash;
+  json["time_s"] = e.last.frame.time;
+  json["frames"] = e.times.size();
+  json["lost_joints"] = e.lost_joints ? Json(*e.lost_joints) : Json();
+  json["warnings"] = said_first(e);
+  json["thrust_lines"] = Json::array();
+  for (const PostSummary::Line& line : s.thrust_lines)
+    json["thrust_lines"].push_back({{"name", line.name},
+                                    {"undefined_beds", line.undefined},
+                                    {"inside", line.inside},
+                                    {"least_face_distance_m", line.least_face_distance_m},
+                                    {"least_geometric_safety", line.least_geometric_safety}});
+  json["planes"] = Json::array();
+  for (const PlaneCut& cut : e.planes)
+    json["planes"].push_back(
+        {{"name", cut.name},
+         {"through_N", cut.across.force.dot(cut.normal)},
+         {"along_N", (cut.across.force - cut.across.force.dot(cut.normal) * cut.normal).norm()},
+         {"relative_difference", cut.relative_difference}});
+  json["rings"] = rings_json(e);
+  return json.dump(2) + "\n";
+}
+
+PostSummary read_post_summary(const std::string& folder) {
+  const std::string path = (std::filesystem::path(folder) / "summary.json").string();
+  if (!std::filesystem::exists(path))
+    throw InputError(FileLocation{path}, "does not exist: is this a folder of `cupola-post analyse`?");
+  const Json json = Json::parse(read_text(path), nullptr, /*allow_exceptions=*/false);
+  PostSummary s;
+  s.folder = folder;
+  if (!json.is_object()) throw InputError(FileLocation{path}, "is not a complete JSON object");
+  if (json.value("format_version", 0) != kFormatVersion || !json.contains("thrust_lines"))
+    throw InputError(FileLocation{path}, "is not a summary of `cupola-post analyse`, or of another version");
+  const auto read = [&path](const Json& from, const char* key, auto* value) {
+    try {
+      from_value(from.at(key), value);
+    } catch (const std::exception&) {
+      throw InputError(FileLocation{path}, fmt::format("key `{}` is missing or has the wrong type", key));
+    }
+  };
+  for_each_field(s, [&](const char* key, auto& value) { read(json, key, &value); });
+  for (const Json& entry : json["thrust_lines"]) {
+    PostSummary::Line line;
+    read(entry, "name", &line.name);
+    read(entry, "undefined_beds", &line.undefined);
+    read(entry, "inside", &line.inside);
+    read(entry, "least_face_distance_m", &line.least_face_distance_m);
+    read(entry, "least_geometric_safety", &line.least_geometric_safety);
+    s.thrust_lines.push_back(std::move(line));
+  }
+  return s;
+}
+
+}  // namespace cupola

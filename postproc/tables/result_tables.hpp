@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "postproc/evaluation/evaluation.hpp"
+#include "postproc/tables/table.hpp"
+
+namespace cupola {
+
+Table ring_table(const Evaluation& evaluation);
+Table joint_table(const Evaluation& evaluation);
+Table block_table(const Evaluation& evaluation);
+Table thrust_table(const ThrustLine& line);
+Table hoop_table(const MeridianEvaluation& meridian);
+Table section_table(const Evaluation& evaluation, const SectionEvaluation& section);
+Table plane_table(const Evaluation& evaluation, const PlaneCut& cut);
+
+/// All of them, in the order of the report.
+std::vector<Table> result_tables(const Evaluation& evaluation);
+
+}  // namespace cupola

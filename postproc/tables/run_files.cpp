@@ -1,0 +1,104 @@
+#include "postproc/tables/run_files.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
+
+namespace cupola {
+namespace {
+
+using UnorderedJson = nlohmann::json;
+
+UnorderedJson read_json(const std::string& path) {
+  UnorderedJson json = UnorderedJson::parse(read_text(path), nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) throw InputError(FileLocation{path}, "is not a complete JSON object");
+  return json;
+}
+
+/// nullptr where the path ends nowhere.
+const UnorderedJson* descend(const UnorderedJson& root, const std::string& key) {
+  const UnorderedJson* at = &root;
+  for (size_t start = 0; start <= key.size();) {
+    const size_t dot = std::min(key.find('.', start), key.size());
+    const std::string name = key.substr(start, dot - start);
+    if (at->is_object() && at->contains(name)) {
+      at = &(*at)[name];
+    } else if (at->is_array() && !name.empty() && name.find_first_not_of("0123456789") == std::string::npos &&
+               name.size() < 8 && std::stoul(name) < at->size()) {
+      at = &(*at)[std::stoul(name)];
+    } else {
+      return nullptr;
+    }
+    start = dot + 1;
+  }
+  return at;
+}
+
+}  // namespace
+
+struct RunFiles::Summaries {
+  std::optional<UnorderedJson> results, post;
+};
+
+RunFiles::RunFiles(std::string folder)
+    : folder_(std::move(folder)), summaries_(std::make_unique<Summaries>()) {}
+RunFiles::~RunFiles() = default;
+
+std::string RunFiles::status() {
+  const std::string path = folder_ + "/results/summary.json";
+  if (!summaries_->results) summaries_->results = read_json(path);
+  const UnorderedJson* status = descend(*summaries_->results, "status");
+  if (!status || !status->is_string()) throw InputError(FileLocation{path}, "has no status");
+  return status->get<std::string>();
+}
+
+double RunFiles::number(const std::string& key) {
+  const bool of_results = key.starts_with("results.");
+  if (!of_results && !key.starts_with("post."))
+    throw InputError(fmt::format("claims: key {}: must begin with results. or post.", key));
+  const std::string path = folder_ + (of_results ? "/results/" : "/post/") + "summary.json";
+  std::optional<UnorderedJson>& json = of_results ? summaries_->results : summaries_->post;
+  if (!json) json = read_json(path);
+  const std::string inner = key.substr(key.find('.') + 1);
+  const UnorderedJson* value = descend(*json, inner);
+  if (value && value->is_boolean()) return value->get<bool>() ? 1.0 : 0.0;
+  if (!value || !value->is_number())
+    throw InputError(FileLocation{path}, fmt::format("has no number {}", inner));
+  return value->get<double>();
+}
+
+const CsvFile& RunFiles::table(const std::string& name) {
+  const auto found = tables_.find(name);
+  if (found != tables_.end()) return found->second;
+  return tables_.emplace(name, read_csv(fmt::format("{}/post/{}.csv", folder_, name))).first->second;
+}
+
+std::vector<std::string> RunFiles::table_names(const std::string& start) const {
+  std::vector<std::string> names;
+  std::error_code none_there;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ + "/post", none_there)) {
+    const std::filesystem::path& path = entry.path();
+    if (path.extension() == ".csv" && path.stem().string().starts_with(start))
+      names.push_back(path.stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+bool RunCache::finished(const std::string& name) const {
+  const std::filesystem::path folder = std::filesystem::path(out_) / name;
+  return std::filesystem::exists(folder / "post" / "summary.json") &&
+         std::filesystem::exists(folder / "results" / "summary.json");
+}
+
+RunFiles& RunCache::run(const std::string& name) {
+  return runs_.try_emplace(name, (std::filesystem::path(out_) / name).string()).first->second;
+}
+
+}  // namespace cupola

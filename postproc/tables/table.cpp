@@ -1,0 +1,48 @@
+#include "postproc/tables/table.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace cupola {
+namespace {
+
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string csv_cell(const Table::Cell& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return fmt::format("{}", *number);
+  if (const auto* count = std::get_if<int>(&cell)) return fmt::format("{}", *count);
+  return csv_text(std::get<std::string>(cell));
+}
+
+}  // namespace
+
+std::string to_csv(const Table& table) {
+  fmt::memory_buffer out;
+  const auto end_of = [](size_t i, size_t n) { return i + 1 == n ? '\n' : ','; };
+  for (size_t i = 0; i < table.columns.size(); ++i)
+    fmt::format_to(std::back_inserter(out), "{}{}", table.columns[i].key, end_of(i, table.columns.size()));
+  for (const auto& row : table.rows)
+    for (size_t i = 0; i < row.size(); ++i)
+      fmt::format_to(std::back_inserter(out), "{}{}", csv_cell(row[i]), end_of(i, row.size()));
+  return fmt::to_string(out);
+}
+
+std::string to_display(const Table::Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* count = std::get_if<int>(&cell)) return fmt::format("{}", *count);
+  const double value = std::get<double>(cell);
+  const double size = std::abs(value);
+  if (value == 0.0) return "0";
+  if (!std::isfinite(value)) return std::isnan(value) ? "not a number" : value > 0 ? "∞" : "-∞";
+  if (size >= 1000.0 && size < 1e7) return fmt::format("{:.0f}", value);
+  if (size >= 1e-3 && size < 1e7) return fmt::format("{:.4g}", value);
+  return fmt::format("{:.2e}", value);
+}
+
+}  // namespace cupola

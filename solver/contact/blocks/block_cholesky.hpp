@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/contact/blocks/factor_structure.hpp"
+
+namespace cupola {
+
+/// Sparse Cholesky factor H = L L^T of a BlockMatrix, by panels (factor_structure.hpp), each from the left:
+///
+///     L_p <- H_p - sum over earlier panels q of L_q L_q^T;   its own rows by LAPACK, those below by L_p^-T
+///
+/// The structure is kept while the pattern stays the same. Works on num_threads() threads: first on subtrees,
+/// then, panel by panel, on tiles of rows. BLAS itself runs one thread, the tiles do not depend on the number
+/// of threads and the sum follows the order of the panels: same bits on every run. (CHOLMOD's own numeric
+/// phase leaves threads to BLAS, whose sums then depend on their number.)
+///
+/// Of a plane pattern the rows x, z and rot y of each block are factorised alone: the others must be those of
+/// the identity, as they are in whitened problems.
+class BlockCholesky {
+ public:
+  /// False when the matrix is not positive definite in double precision or holds NaN; the factor is then
+  /// void. Throws std::bad_alloc when memory runs out.
+  [[nodiscard]] bool factorize(const BlockPattern& pattern, const BlockMatrix& matrix);
+
+  bool has_factor() const { return valid_; }
+  const BlockPattern& pattern() const { return pattern_; }  ///< of the last factorisation
+  VecX solve(const VecX& rhs) const;                        ///< needs has_factor()
+  long long num_nonzeros() const;                           ///< of the factor
+
+ private:
+  struct Tile {
+    int first = 0, last = 0;  ///< rows first to last - 1 of a panel
+  };
+  static std::vector<Tile> tiles(int num_rows);
+  double* values(int panel) { return values_.data() + m_ * m_ * structure_.value_start[panel]; }
+  const double* values(int panel) const { return values_.data() + m_ * m_ * structure_.value_start[panel]; }
+
+  void fill(const BlockMatrix& matrix, int panel, const Tile& tile);
+  void update(int panel, const Tile& tile, std::vector<double>* product);
+  bool factorize_own_rows(int panel);
+  void divide(int panel, const Tile& tile);
+  bool factorize_panel(const BlockMatrix& matrix, int panel, std::vector<double>* product);
+
+  BlockPattern pattern_;
+  FactorStructure structure_;
+  int m_ = 6;                                  ///< unknowns per block
+  std::vector<double> values_;                 ///< of the panels, by columns
+  std::vector<std::vector<double>> products_;  ///< room of each thread
+  bool valid_ = false;
+};
+
+}  // namespace cupola

@@ -1,0 +1,98 @@
+#include "solver/contact/blocks/block_matrix.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "solver/runtime/threads.hpp"
+
+namespace cupola {
+
+namespace {
+
+bool joins_two_free(const ContactProblem& p, int i) {
+  return p.block_a[i] != ContactProblem::kFixed && p.block_b[i] != ContactProblem::kFixed;
+}
+
+std::pair<int, int> column_and_row(const ContactProblem& p, int i) {
+  return std::minmax(p.block_a[i], p.block_b[i]);
+}
+
+}  // namespace
+
+ContactGraph contact_graph(const ContactProblem& problem) {
+  const int nb = problem.num_blocks(), nc = problem.num_contacts();
+  std::vector<std::pair<int, int>> pairs;
+  pairs.reserve(nc);
+  for (int i = 0; i < nc; ++i) {
+    if (joins_two_free(problem, i)) pairs.push_back(column_and_row(problem, i));
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+
+  ContactGraph graph;
+  graph.pattern.plane = problem.plane;
+  graph.pattern.column_start.assign(nb + 1, 0);
+  graph.pattern.row.reserve(pairs.size());
+  for (const auto& [column, row] : pairs) {
+    ++graph.pattern.column_start[column + 1];
+    graph.pattern.row.push_back(row);
+  }
+  for (int k = 0; k < nb; ++k) graph.pattern.column_start[k + 1] += graph.pattern.column_start[k];
+
+  graph.pair_of_contact.assign(nc, -1);
+  for (int i = 0; i < nc; ++i) {
+    if (!joins_two_free(problem, i)) continue;
+    const auto position = std::lower_bound(pairs.begin(), pairs.end(), column_and_row(problem, i));
+    graph.pair_of_contact[i] = static_cast<int>(position - pairs.begin());
+  }
+  return graph;
+}
+
+BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& graph,
+                             const std::vector<Mat3>& G) {
+  BlockMatrix H{problem.M, std::vector<Mat6>(graph.pattern.num_pairs(), Mat6::Zero())};
+  // Each thread goes through all contacts and adds to its own range of blocks: the order of the sums stays.
+  constexpr double kPerContact = 1000.0;  // multiplications and additions
+  run_team(kPerContact * problem.num_contacts(), [&](Team& team, int thread) {
+    const auto nb = static_cast<std::int64_t>(problem.num_blocks());
+    const auto first = static_cast<int>(nb * thread / team.size());
+    const auto last = static_cast<int>(nb * (thread + 1) / team.size());
+    const auto mine = [&](int block) { return first <= block && block < last; };  // kFixed is nobody's
+    for (int i = 0; i < problem.num_contacts(); ++i) {
+      if (G[i].isZero(0.0)) continue;
+      const int a = problem.block_a[i], b = problem.block_b[i];
+      const Mat63 &D_a = problem.D_a[i], &D_b = problem.D_b[i];
+      if (mine(a)) {
+        const Mat63 DG = D_a.lazyProduct(G[i]);
+        H.diagonal[a] += DG.lazyProduct(D_a.transpose());
+      }
+      if (mine(b)) {
+        const Mat63 DG = D_b.lazyProduct(G[i]);
+        H.diagonal[b] += DG.lazyProduct(D_b.transpose());
+      }
+      const int pair = graph.pair_of_contact[i];
+      if (pair < 0 || !mine(std::min(a, b))) continue;
+      const Mat63 DG = (a > b ? D_a : D_b).lazyProduct(G[i]);
+      H.lower[pair] += DG.lazyProduct((a > b ? D_b : D_a).transpose());
+    }
+  });
+  return H;
+}
+
+VecX multiply(const BlockPattern& pattern, const BlockMatrix& matrix, const VecX& x) {
+  VecX result(x.size());
+  for (int k = 0; k < pattern.num_blocks(); ++k) {
+    result.segment<6>(6 * k).noalias() = matrix.diagonal[k] * x.segment<6>(6 * k);
+  }
+  for (int column = 0; column < pattern.num_blocks(); ++column) {
+    for (int p = pattern.column_start[column]; p < pattern.column_start[column + 1]; ++p) {
+      const int row = pattern.row[p];
+      result.segment<6>(6 * row).noalias() += matrix.lower[p] * x.segment<6>(6 * column);
+      result.segment<6>(6 * column).noalias() += matrix.lower[p].transpose() * x.segment<6>(6 * row);
+    }
+  }
+  return result;
+}
+
+}  // namespace cupola

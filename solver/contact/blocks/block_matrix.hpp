@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/contact/problem/contact_problem.hpp"
+
+namespace cupola {
+
+/// Which pairs of blocks touch: the strict lower triangle of a symmetric matrix of 6x6 blocks, by columns.
+struct BlockPattern {
+  std::vector<int> column_start;  ///< (nb + 1)
+  std::vector<int> row;           ///< row block, ascending within a column (num_pairs)
+  bool plane = false;             ///< see ContactProblem::plane
+  int num_blocks() const { return static_cast<int>(column_start.size()) - 1; }
+  int num_pairs() const { return static_cast<int>(row.size()); }
+  bool operator==(const BlockPattern&) const = default;
+};
+
+/// Symmetric matrix of 6x6 blocks over a pattern.
+struct BlockMatrix {
+  std::vector<Mat6> diagonal;  ///< (nb)
+  std::vector<Mat6> lower;     ///< block (row, column), row > column, of each pair (num_pairs)
+};
+
+/// The pattern of D D^T and, for each contact, the pair it adds to (-1 when one side is fixed).
+struct ContactGraph {
+  BlockPattern pattern;
+  std::vector<int> pair_of_contact;  ///< (nc)
+};
+ContactGraph contact_graph(const ContactProblem& problem);
+
+/// M + sum_i D_i G_i D_i^T, summed in the order of the contacts.
+BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& graph,
+                             const std::vector<Mat3>& G);
+
+/// Matrix times vector (6 nb).
+VecX multiply(const BlockPattern& pattern, const BlockMatrix& matrix, const VecX& x);
+
+}  // namespace cupola

@@ -1,0 +1,155 @@
+#include "solver/contact/blocks/block_rows.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+#include "solver/runtime/threads.hpp"
+
+namespace cupola {
+
+namespace {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+/// body(first, last) over pieces of the rows, on as many threads as the work (operations) is worth.
+template <class Body>
+void share_rows(double work, int num_rows, const Body& body) {
+  constexpr int kPieces = 64;
+  const int pieces = std::min(num_rows, kPieces);
+  share_loop(work, pieces, [&](int k) {
+    const auto bound = [&](int piece) { return static_cast<int>(std::int64_t{num_rows} * piece / pieces); };
+    body(bound(k), bound(k + 1));
+  });
+}
+
+/// Marks the columns that row i of A B holds; returns them ascending.
+void columns_of_product(const BlockRows& A, const BlockRows& B, int i, std::vector<int>* seen_in,
+                        std::vector<int>* columns) {
+  columns->clear();
+  for (int k = A.start[i]; k < A.start[i + 1]; ++k) {
+    const int row = A.column[k];
+    for (int q = B.start[row]; q < B.start[row + 1]; ++q) {
+      int& seen = (*seen_in)[B.column[q]];
+      if (seen == i) continue;
+      seen = i;
+      columns->push_back(B.column[q]);
+    }
+  }
+  std::sort(columns->begin(), columns->end());
+}
+
+template <class Scalar>
+VecX product(const BlockRowsOf<Scalar>& A, const VecX& x) {
+  VecX y(6 * A.num_rows());
+  share_rows(72.0 * static_cast<double>(A.value.size()), A.num_rows(), [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      Vec6 sum = Vec6::Zero();
+      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+        sum.noalias() += A.value[k].template cast<double>() * x.segment<6>(6 * A.column[k]);
+      y.segment<6>(6 * i) = sum;
+    }
+  });
+  return y;
+}
+
+}  // namespace
+
+BlockRows both_triangles(const BlockPattern& pattern, const BlockMatrix& matrix) {
+  const int n = pattern.num_blocks();
+  BlockRows A;
+  A.num_columns = n;
+  A.start.assign(n + 1, 0);
+  for (int column = 0; column < n; ++column) {
+    A.start[column + 1] += 1 + pattern.column_start[column + 1] - pattern.column_start[column];
+    for (int p = pattern.column_start[column]; p < pattern.column_start[column + 1]; ++p)
+      ++A.start[pattern.row[p] + 1];
+  }
+  std::partial_sum(A.start.begin(), A.start.end(), A.start.begin());
+  A.column.resize(A.start.back());
+  A.value.resize(A.start.back());
+  std::vector<int> next(A.start.begin(), A.start.end() - 1);
+  const auto put = [&](int row, int column, const auto& block) {
+    A.column[next[row]] = column;
+    A.value[next[row]++] = block;
+  };
+  for (int column = 0; column < n; ++column) {  // what lies left of a diagonal comes before it
+    put(column, column, matrix.diagonal[column]);
+    for (int p = pattern.column_start[column]; p < pattern.column_start[column + 1]; ++p) {
+      put(column, pattern.row[p], matrix.lower[p].transpose());
+      put(pattern.row[p], column, matrix.lower[p]);
+    }
+  }
+  return A;
+}
+
+VecX multiply(const BlockRows& A, const VecX& x) {
+  return product(A, x);
+}
+
+VecX multiply(const SingleBlockRows& A, const VecX& x) {
+  return product(A, x);
+}
+
+BlockRows multiply(const BlockRows& A, const BlockRows& B) {
+  constexpr double kPerEntry = 3000.0;  // multiplications and additions: each meets a row of B
+  const double work = kPerEntry * static_cast<double>(A.value.size());
+  BlockRows C;
+  C.num_columns = B.num_columns;
+  C.start.assign(A.num_rows() + 1, 0);
+  share_rows(work, A.num_rows(), [&](int first, int last) {
+    std::vector<int> seen_in(B.num_columns, -1), columns;
+    for (int i = first; i < last; ++i) {
+      columns_of_product(A, B, i, &seen_in, &columns);
+      C.start[i + 1] = static_cast<int>(columns.size());
+    }
+  });
+  std::partial_sum(C.start.begin(), C.start.end(), C.start.begin());
+  C.column.resize(C.start.back());
+  C.value.resize(C.start.back());
+  share_rows(work, A.num_rows(), [&](int first, int last) {
+    std::vector<int> seen_in(B.num_columns, -1), columns, entry(B.num_columns);
+    for (int i = first; i < last; ++i) {
+      columns_of_product(A, B, i, &seen_in, &columns);
+      for (int k = C.start[i]; k < C.start[i + 1]; ++k) {
+        C.column[k] = columns[k - C.start[i]];
+        C.value[k].setZero();
+        entry[C.column[k]] = k;
+      }
+      for (int k = A.start[i]; k < A.start[i + 1]; ++k) {
+        const int row = A.column[k];
+        for (int q = B.start[row]; q < B.start[row + 1]; ++q)
+          C.value[entry[B.column[q]]] += A.value[k].lazyProduct(B.value[q]);
+      }
+    }
+  });
+  return C;
+}
+
+BlockRows transpose(const BlockRows& A) {
+  BlockRows T;
+  T.num_columns = A.num_rows();
+  T.start.assign(A.num_columns + 1, 0);
+  for (const int column : A.column) ++T.start[column + 1];
+  std::partial_sum(T.start.begin(), T.start.end(), T.start.begin());
+  T.column.resize(A.column.size());
+  T.value.resize(A.value.size());
+  std::vector<int> next(T.start.begin(), T.start.end() - 1);
+  for (int i = 0; i < A.num_rows(); ++i) {
+    for (int k = A.start[i]; k < A.start[i + 1]; ++k) {
+      const int at = next[A.column[k]]++;
+      T.column[at] = i;
+      T.value[at] = A.value[k].transpose();
+    }
+  }
+  return T;
+}
+
+SingleBlockRows in_single_precision(const BlockRows& A) {
+  SingleBlockRows S{A.start, A.column, {}, A.num_columns};
+  S.value.reserve(A.value.size());
+  for (const Mat6& block : A.value) S.value.push_back(block.cast<float>());
+  return S;
+}
+
+}  // namespace cupola

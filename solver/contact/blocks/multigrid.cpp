@@ -1,0 +1,218 @@
+#include "solver/contact/blocks/multigrid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+#include "solver/contact/blocks/aggregation.hpp"
+#include "solver/runtime/threads.hpp"
+
+namespace cupola {
+
+namespace {
+
+constexpr int kCoarsest = 1500;     // blocks: their factor takes some hundredths of a second
+constexpr int kPiece = 4096;        // rows that a sweep goes through in order
+constexpr double kPerEntry = 72.0;  // multiplications and additions
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+/// Inverses of the diagonal blocks; empty where one is not positive definite.
+std::vector<Mat6> inverse_diagonal(const BlockRows& A) {
+  std::vector<Mat6> inverse(A.num_rows());
+  for (int i = 0; i < A.num_rows(); ++i) {
+    int k = A.start[i];
+    while (A.column[k] != i) ++k;
+    const Eigen::LLT<Mat6> factor(A.value[k]);
+    if (factor.info() != Eigen::Success) return {};
+    inverse[i] = factor.solve(Mat6::Identity());
+    if (!inverse[i].allFinite()) return {};
+  }
+  return inverse;
+}
+
+/// Largest eigenvalue of D^-1 A by power iteration, a little more for what that misses.
+double largest_eigenvalue(const BlockRows& A, const std::vector<Mat6>& inverse) {
+  constexpr int kIterations = 10;
+  constexpr double kMargin = 1.1;
+  VecX x(6 * A.num_rows());
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1.5 + std::sin(static_cast<double>(i));  // no mode alone
+  double eigenvalue = 1.0;
+  for (int k = 0; k < kIterations; ++k) {
+    const VecX y = multiply(A, x / x.norm());
+    for (int i = 0; i < A.num_rows(); ++i) x.segment<6>(6 * i).noalias() = inverse[i] * y.segment<6>(6 * i);
+    eigenvalue = x.norm();
+  }
+  return kMargin * eigenvalue;
+}
+
+/// Orthonormal motions of the members of each group, T, and what they are of the group's own, by Cholesky QR.
+struct GroupMotions {
+  BlockRows T;
+  RigidMotions of_groups;
+};
+
+std::optional<GroupMotions> group_motions(const RigidMotions& motions, const BlockGroups& groups) {
+  constexpr int kPasses = 2;  // the second repairs what the first lost to rounding
+  const int n = static_cast<int>(groups.group.size()), num_groups = groups.num_groups();
+  GroupMotions result;
+  RigidMotions& coarse = result.of_groups;
+  coarse.motion.assign(num_groups, Mat6::Identity());
+  coarse.reach.assign(num_groups, 0.0);
+  for (const int centre : groups.centre) coarse.centre.push_back(motions.centre[centre]);
+  std::vector<Mat6> Q(n);
+  for (int i = 0; i < n; ++i) {
+    const int group = groups.group[i];
+    Q[i] = motions.motion[i] * moved_centre(coarse.centre[group], motions.centre[i]);
+    const double distance = (motions.centre[i] - coarse.centre[group]).norm();
+    coarse.reach[group] = std::max(coarse.reach[group], distance + motions.reach[i]);
+  }
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::vector<Mat6> R(num_groups, Mat6::Zero());
+    for (int i = 0; i < n; ++i) R[groups.group[i]] += Q[i].transpose() * Q[i];
+    for (int k = 0; k < num_groups; ++k) {
+      const Eigen::LLT<Mat6> factor(R[k]);
+      if (factor.info() != Eigen::Success) return std::nullopt;
+      R[k] = factor.matrixU();
+      coarse.motion[k] = (R[k] * coarse.motion[k]).eval();
+    }
+    for (int i = 0; i < n; ++i)
+      R[groups.group[i]].triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(Q[i]);
+  }
+  result.T.num_columns = num_groups;
+  result.T.column = groups.group;
+  result.T.value = std::move(Q);
+  for (int i = 0; i < n; ++i) result.T.start.push_back(i + 1);
+  return result;
+}
+
+/// P = (1 - 4/3 / lambda D^-1 A) T: motions of neighbouring groups flow into each other.
+BlockRows smoothed(const BlockRows& A, const std::vector<Mat6>& inverse, const BlockRows& T, double lambda) {
+  BlockRows P = multiply(A, T);
+  for (int i = 0; i < A.num_rows(); ++i) {
+    for (int k = P.start[i]; k < P.start[i + 1]; ++k) {
+      P.value[k] = (-4.0 / 3.0 / lambda * inverse[i] * P.value[k]).eval();
+      if (P.column[k] == T.column[i]) P.value[k] += T.value[i];
+    }
+  }
+  return P;
+}
+
+/// body(first, last) over the pieces of a sweep.
+template <class Body>
+void share_pieces(const SingleBlockRows& A, const Body& body) {
+  const int n = A.num_rows();
+  share_loop(kPerEntry * static_cast<double>(A.value.size()), (n + kPiece - 1) / kPiece,
+             [&](int piece) { body(piece * kPiece, std::min(n, (piece + 1) * kPiece)); });
+}
+
+/// A sweep forth from x = 0: each piece as if the others were at rest.
+VecX sweep_forth(const SingleBlockRows& A, const std::vector<Mat6>& inverse, const VecX& r) {
+  VecX x(r.size());
+  share_pieces(A, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      Vec6 sum = r.segment<6>(6 * i);
+      for (int k = A.start[i]; A.column[k] < i; ++k)
+        if (A.column[k] >= first) sum.noalias() -= A.value[k].cast<double>() * x.segment<6>(6 * A.column[k]);
+      x.segment<6>(6 * i).noalias() = inverse[i] * sum;
+    }
+  });
+  return x;
+}
+
+/// r - A x after a sweep forth: what it has not seen.
+VecX rest_after_sweep(const SingleBlockRows& A, const VecX& x) {
+  VecX rest(x.size());
+  share_pieces(A, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      Vec6 sum = Vec6::Zero();
+      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+        if (A.column[k] > i || A.column[k] < first)
+          sum.noalias() -= A.value[k].cast<double>() * x.segment<6>(6 * A.column[k]);
+      rest.segment<6>(6 * i) = sum;
+    }
+  });
+  return rest;
+}
+
+/// The transpose of sweep_forth, on what x leaves of r.
+void sweep_back(const SingleBlockRows& A, const std::vector<Mat6>& inverse, const VecX& r, VecX* x) {
+  const VecX before = *x;
+  share_pieces(A, [&](int first, int last) {
+    for (int i = last - 1; i >= first; --i) {
+      Vec6 sum = r.segment<6>(6 * i);
+      for (int k = A.start[i]; k < A.start[i + 1]; ++k) {
+        const int j = A.column[k];
+        if (j == i) continue;
+        const VecX& from = first <= j && j < last ? *x : before;
+        sum.noalias() -= A.value[k].cast<double>() * from.segment<6>(6 * j);
+      }
+      x->segment<6>(6 * i).noalias() = inverse[i] * sum;
+    }
+  });
+}
+
+}  // namespace
+
+bool BlockHierarchy::build(const BlockPattern& pattern, const BlockMatrix& matrix,
+                           const RigidMotions& motions_of_blocks) {
+  constexpr double kTouching = 2.0;  // bound of lambda: a contact touches two blocks
+  constexpr double kGathered = 0.7;  // groups per block from which on a level is not worth its while
+  levels_.clear();
+  BlockRows A = both_triangles(pattern, matrix);
+  RigidMotions motions = motions_of_blocks;
+  while (A.num_rows() > kCoarsest) {
+    Level level;
+    level.inverse = inverse_diagonal(A);
+    const BlockGroups groups = gather(A, motions);
+    if (level.inverse.empty() || groups.num_groups() > kGathered * A.num_rows()) return false;
+    std::optional<GroupMotions> group = group_motions(motions, groups);
+    if (!group) return false;
+    const double lambda = levels_.empty() ? kTouching : largest_eigenvalue(A, level.inverse);
+    const BlockRows P = smoothed(A, level.inverse, group->T, lambda), P_transposed = transpose(P);
+    BlockRows coarse = cupola::multiply(P_transposed, cupola::multiply(A, P));
+    level.A = in_single_precision(A);
+    level.P = in_single_precision(P);
+    level.P_transposed = in_single_precision(P_transposed);
+    if (levels_.empty()) matrix_ = std::move(A);
+    A = std::move(coarse);
+    levels_.push_back(std::move(level));
+    motions = std::move(group->of_groups);
+  }
+  return !levels_.empty() && factorize_coarsest(A);
+}
+
+bool BlockHierarchy::factorize_coarsest(const BlockRows& A) {
+  BlockPattern pattern;
+  BlockMatrix matrix;
+  pattern.column_start = {0};
+  for (int column = 0; column < A.num_rows(); ++column) {
+    for (int k = A.start[column]; k < A.start[column + 1]; ++k) {
+      if (A.column[k] == column) matrix.diagonal.push_back(A.value[k]);
+      if (A.column[k] <= column) continue;
+      pattern.row.push_back(A.column[k]);
+      matrix.lower.push_back(A.value[k].transpose());
+    }
+    pattern.column_start.push_back(pattern.num_pairs());
+  }
+  return coarsest_.factorize(pattern, matrix);
+}
+
+VecX BlockHierarchy::multiply(const VecX& x) const {
+  return cupola::multiply(matrix_, x);
+}
+
+VecX BlockHierarchy::cycle(std::size_t index, const VecX& r) const {
+  if (index == levels_.size()) return coarsest_.solve(r);
+  const Level& level = levels_[index];
+  VecX x = sweep_forth(level.A, level.inverse, r);
+  const VecX coarse = cupola::multiply(level.P_transposed, rest_after_sweep(level.A, x));
+  x += cupola::multiply(level.P, cycle(index + 1, coarse));
+  sweep_back(level.A, level.inverse, r, &x);
+  return x;
+}
+
+}  // namespace cupola

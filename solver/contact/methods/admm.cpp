@@ -1,0 +1,128 @@
+#include "solver/contact/methods/admm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "assembly/base/process.hpp"
+#include "solver/contact/blocks/block_cholesky.hpp"
+#include "solver/contact/problem/cone.hpp"
+#include "solver/contact/problem/residuals.hpp"
+#include "solver/contact/problem/whitening.hpp"
+
+namespace cupola {
+
+namespace {
+
+struct AlternatingDirections {
+  const ContactProblem& p;  ///< whitened
+  ContactGraph graph;
+  BlockCholesky factor;
+  VecX base;  ///< E + 1e-4 trace N_ii / 3 (3 nc): R = rho / base
+  double rho = 1.0;
+  VecX w, y, gamma, z;
+
+  explicit AlternatingDirections(const ContactProblem& whitened);
+  bool factorize();
+  void iterate();
+  /// sqrt of primal over dual residual, both in units of impulse: > 1 calls for a larger rho.
+  double imbalance = 1.0;
+};
+
+AlternatingDirections::AlternatingDirections(const ContactProblem& whitened)
+    : p(whitened), graph(contact_graph(whitened)), base(whitened.E) {
+  constexpr double kShare = 1e-4;
+  for (int i = 0; i < p.num_contacts(); ++i)
+    base.segment<3>(3 * i).array() += kShare * delassus_trace(p, i) / 3.0;
+}
+
+bool AlternatingDirections::factorize() {
+  std::vector<Mat3> R(p.num_contacts());
+  for (int i = 0; i < p.num_contacts(); ++i)
+    R[i] = (rho / base.segment<3>(3 * i).array()).matrix().asDiagonal();
+  return factor.factorize(graph.pattern, assemble_hessian(p, graph, R));
+}
+
+void AlternatingDirections::iterate() {
+  constexpr double kOverRelaxation = 1.6;
+  const VecX R = rho * base.cwiseInverse();
+  w = factor.solve(p.v_star + generalized_impulse(p, gamma + R.cwiseProduct(z - p.b)));
+  y = relative_velocity(p, w) + p.b;
+  const VecX relaxed = kOverRelaxation * y + (1.0 - kOverRelaxation) * z;
+  const VecX shifted = relaxed - gamma.cwiseQuotient(R);
+  VecX next(gamma.size());
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const ContactLaw law{p.E[3 * i] + 1.0 / R[3 * i], p.E[3 * i + 1] + 1.0 / R[3 * i + 1], p.mu[i]};
+    next.segment<3>(3 * i) = contact_impulse(law, shifted.segment<3>(3 * i));
+  }
+  const VecX z_next = relaxed + (next - gamma).cwiseQuotient(R);
+  const double primal = R.cwiseProduct(y - z_next).norm(), dual = R.cwiseProduct(z_next - z).norm();
+  imbalance = std::sqrt(primal / std::max(dual, std::numeric_limits<double>::min()));
+  gamma = next;
+  z = z_next;
+}
+
+double measure(const ContactProblem& p, const ContactSolution& x, const SolveOptions& options) {
+  const Residuals r = compute_residuals(p, x, options.reference_speed);
+  // Rounding of the momentum balance alone keeps the certificate above 1e-9 where E is tiny.
+  const double residual = std::max(r.momentum, r.contact_law);
+  return std::min(r.certified_force_error.value_or(residual), residual);
+}
+
+}  // namespace
+
+SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& options,
+                        ContactSolution* solution) {
+  constexpr int kIterationsPerCheck = 5;
+  constexpr int kIterationsPerBalance = 20;
+  constexpr double kImbalance = 3.0;  // smaller corrections of rho do not pay for a factorisation
+  const double start = wall_seconds();
+  options.validate();
+  SolveSummary summary;
+  if (summary.message = problem.defect(); !summary.message.empty()) return summary;
+  const int max_iterations = options.max_iterations > 0 ? options.max_iterations : 2000;
+
+  const WhitenedProblem white = whiten(problem);
+  AlternatingDirections admm(white.problem);
+  const bool warm = solution->gamma.size() == problem.b.size() && solution->v.size() == problem.v_star.size();
+  admm.gamma = warm ? solution->gamma : VecX::Zero(problem.b.size());
+  admm.w = warm ? white.to_w(solution->v) : white.problem.v_star;
+  admm.z = warm ? VecX(relative_velocity(white.problem, admm.w) + problem.b) : problem.b;
+
+  double best = std::numeric_limits<double>::infinity();
+  bool sound = admm.factorize();
+  ++summary.factorizations;
+  while (sound && best > options.tolerance && summary.iterations < max_iterations) {
+    admm.iterate();
+    ++summary.iterations;
+    if (summary.iterations % kIterationsPerCheck == 0 || summary.iterations == max_iterations) {
+      const ContactSolution x{white.to_v(admm.w), admm.gamma};
+      const double now = measure(problem, x, options);
+      summary.residual_history.push_back(now);
+      if (now < best) {
+        best = now;
+        *solution = x;
+      }
+    }
+    const bool unbalanced = admm.imbalance > kImbalance || admm.imbalance < 1.0 / kImbalance;
+    if (summary.iterations % kIterationsPerBalance == 0 && unbalanced && best > options.tolerance) {
+      admm.rho *= std::clamp(admm.imbalance, 0.1, 10.0);
+      sound = admm.factorize();
+      ++summary.factorizations;
+    }
+  }
+  summary.time_seconds = wall_seconds() - start;
+  if (!sound || !std::isfinite(best)) {
+    summary.message =
+        fmt::format("the penalised mass matrix is not positive definite (iteration {})", summary.iterations);
+    return summary;
+  }
+  const bool converged = best <= options.tolerance;
+  summary.ending = converged ? SolveEnding::converged : SolveEnding::max_iterations;
+  summary.message = fmt::format("force error {:.2e} {} tolerance {:.2e} after {} iterations", best,
+                                converged ? "<=" : ">", options.tolerance, summary.iterations);
+  return summary;
+}
+
+}  // namespace cupola

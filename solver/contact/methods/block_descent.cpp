@@ -1,0 +1,85 @@
+#include "solver/contact/methods/block_descent.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+#include "solver/contact/problem/cone.hpp"
+
+namespace cupola {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+BlockDescent::BlockDescent(const ContactProblem& whitened)
+    : problem_(whitened), start_(whitened.num_blocks() + 1, 0) {
+  const auto for_each_side = [&](const auto& action) {
+    for (int i = 0; i < problem_.num_contacts(); ++i) {
+      for (const int block : {problem_.block_a[i], problem_.block_b[i]})
+        if (block != ContactProblem::kFixed) action(block, i);
+    }
+  };
+  for_each_side([&](int block, int) { ++start_[block + 1]; });
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  contacts_.resize(start_.back());
+  std::vector<int> next(start_.begin(), start_.end() - 1);
+  for_each_side([&](int block, int i) { contacts_[next[block]++] = i; });
+}
+
+/// The block's Newton step d, shortened by secants until the slope along it has all but gone: the cost is
+/// convex, so it has fallen wherever the slope is not yet positive.
+void BlockDescent::move_block(int block, double small, VecX* w, std::vector<Vec3>* y) const {
+  constexpr double kLevel = 0.1;
+  constexpr int kMaxSecants = 4;
+  const auto column = [&](int i) -> const Mat63& {
+    return problem_.block_a[i] == block ? problem_.D_a[i] : problem_.D_b[i];
+  };
+  const int start = start_[block], count = start_[block + 1] - start;
+  auto own = w->segment<6>(6 * block);
+  const Vec6 momentum = own - problem_.v_star.segment<6>(6 * block);
+  Vec6 gradient = momentum;
+  for (int k = 0; k < count; ++k) {
+    const int i = contacts_[start + k];
+    (*y)[k] = relative_velocity(problem_, i, *w) + problem_.b.segment<3>(3 * i);
+    gradient.noalias() -= column(i) * contact_impulse(contact_law(problem_, i), (*y)[k]);
+  }
+  if (!(gradient.norm() > small)) return;
+  Mat6 H = Mat6::Identity();
+  for (int k = 0; k < count; ++k) {
+    const int i = contacts_[start + k];
+    const Mat63 DG = column(i) * contact_stiffness(contact_law(problem_, i), (*y)[k]);
+    H.noalias() += DG * column(i).transpose();
+  }
+  const Vec6 d = -H.llt().solve(gradient);
+  const double slope_start = d.dot(gradient);
+  if (!(slope_start < 0.0)) return;
+  double t = 1.0;
+  for (int secants = 0; secants < kMaxSecants; ++secants) {
+    Vec6 next = momentum + t * d;
+    for (int k = 0; k < count; ++k) {
+      const int i = contacts_[start + k];
+      const Vec3 there = (*y)[k] + t * (column(i).transpose() * d);
+      next.noalias() -= column(i) * contact_impulse(contact_law(problem_, i), there);
+    }
+    const double slope = d.dot(next);
+    if (slope <= -kLevel * slope_start) break;
+    t *= slope_start / (slope_start - slope);
+  }
+  own += t * d;
+}
+
+PrimalPoint BlockDescent::descend(const PrimalPoint& point, double small) const {
+  int most = 0;
+  for (int block = 0; block < problem_.num_blocks(); ++block)
+    most = std::max(most, start_[block + 1] - start_[block]);
+  std::vector<Vec3> y(most);
+  VecX w = point.w;
+  for (int block = 0; block < problem_.num_blocks(); ++block) move_block(block, small, &w, &y);
+  for (int block = problem_.num_blocks() - 1; block >= 0; --block) move_block(block, small, &w, &y);
+  constexpr double kRounding = 1e-15;
+  PrimalPoint next = primal_point(problem_, std::move(w));
+  return next.cost <= point.cost * (1.0 + kRounding) ? next : point;
+}
+
+}  // namespace cupola

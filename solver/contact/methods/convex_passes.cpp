@@ -1,0 +1,168 @@
+#include "solver/contact/methods/convex_passes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "assembly/base/process.hpp"
+#include "solver/contact/methods/anderson.hpp"
+#include "solver/contact/problem/residuals.hpp"
+
+namespace cupola {
+
+namespace {
+
+/// Proximal compliance R (3 nc) of the contacts that need one. Where every contact has some compliance and
+/// masses are alike, R is in proportion to it: self-stress, which E alone determines, is then right from the
+/// first pass on.
+VecX proximal_compliance(const ContactProblem& p, double share) {
+  constexpr double kMostShare = 0.1;  // more would leave a heavy block's contact to many passes
+  VecX R = VecX::Zero(p.E.size());
+  if (share == 0.0) return R;
+  double ratio = 0.0, most = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const double N = delassus_trace(p, i) / 3.0;
+    const auto E = p.E.segment<3>(3 * i).array();
+    R.segment<3>(3 * i) = (share * N - E).cwiseMax(0.0);
+    ratio = std::max(ratio, (R.segment<3>(3 * i).array() / E).maxCoeff());
+    most = std::min(most, kMostShare * N / E.maxCoeff());
+  }
+  return std::isfinite(ratio) && ratio <= most ? VecX(ratio * p.E) : R;
+}
+
+/// b' - b = s n - R gamma at the pair (v, gamma), with De Saxce's s = mu |y_t|, y = D^T v + b + E gamma (3
+/// nc).
+VecX shift_at(const ContactProblem& p, const ContactSolution& x, const VecX& R, FrictionLaw law) {
+  VecX shift = -R.cwiseProduct(x.gamma);
+  if (law == FrictionLaw::associated) return shift;
+  const VecX y = relative_velocity(p, x.v) + p.b + p.E.cwiseProduct(x.gamma);
+  for (int i = 0; i < p.num_contacts(); ++i) shift[3 * i] += p.mu[i] * y.segment<2>(3 * i + 1).norm();
+  return shift;
+}
+
+void add_counts(const SolveSummary& pass, SolveSummary* total) {
+  total->iterations += pass.iterations;
+  total->factorizations += pass.factorizations;
+  total->conjugate_gradients += pass.conjugate_gradients;
+  total->line_search_evaluations += pass.line_search_evaluations;
+}
+
+/// State of the passes.
+class Passes {
+ public:
+  Passes(const ContactProblem& problem, const SolveOptions& options, const PassOptions& passes,
+         const ContactSolution& guess)
+      : problem_(problem),
+        options_(options),
+        passes_(passes),
+        convex_(problem),
+        x_(guess),
+        accelerated_(passes.law == FrictionLaw::coulomb || smallest_compliance(problem) > 0.0),
+        anderson_(kDepth) {
+    if (x_.gamma.size() != problem.b.size()) x_.gamma = VecX::Zero(problem.b.size());
+    if (x_.v.size() != problem.v_star.size()) x_.v = VecX(0);
+    set_share(passes.proximal_share);
+  }
+  void run(const ConvexSolve& solve, ContactSolution* best_solution, SolveSummary* summary);
+
+ private:
+  static constexpr int kDepth = 10;     // differences that Anderson combines
+  static constexpr int kPatience = 80;  // passes without a new best before giving up
+  static constexpr int kRetry = 16;     // passes without a new best before Anderson starts afresh
+
+  void set_share(double share);
+  void adapt_share(const Residuals& residuals, double error, double last_error);
+
+  const ContactProblem& problem_;
+  const SolveOptions& options_;
+  const PassOptions& passes_;
+  ContactProblem convex_;  ///< with E' and b'
+  ContactSolution x_;
+  const bool accelerated_;
+  Anderson anderson_;
+  double share_ = 0.0;
+  VecX R_, shift_;
+};
+
+void Passes::set_share(double share) {
+  share_ = share;
+  R_ = proximal_compliance(problem_, share);
+  convex_.E = problem_.E + R_;
+  shift_ = x_.v.size() > 0 ? shift_at(problem_, x_, R_, passes_.law) : VecX(-R_.cwiseProduct(x_.gamma));
+  anderson_.forget();
+}
+
+/// A smaller R contracts faster where impulses are hardly determined; a larger one leaves them more digits.
+void Passes::adapt_share(const Residuals& residuals, double error, double last_error) {
+  constexpr double kSmallest = 1e-9, kLargest = 1e-2;
+  constexpr double kSlow = 0.2;  // a pass that gains less than this factor is not worth its solve
+  if (share_ == 0.0) return;
+  if (residuals.momentum > options_.tolerance && share_ < kLargest) {
+    set_share(10.0 * share_);
+  } else if (residuals.momentum <= 0.1 * options_.tolerance && error > kSlow * last_error &&
+             share_ > kSmallest) {
+    set_share(0.1 * share_);
+  }
+}
+
+void Passes::run(const ConvexSolve& solve, ContactSolution* best_solution, SolveSummary* summary) {
+  SolveOptions inner = options_;
+  inner.tolerance = 0.5 * options_.tolerance;
+  double best = std::numeric_limits<double>::infinity(), last = best;
+  Residuals best_residuals;
+  int best_pass = 0, pass = 0;
+  while (best > 1.0 && pass < passes_.max_passes && pass - best_pass < kPatience) {
+    // 1. A convex problem, solved
+    summary->passes = ++pass;
+    convex_.b = problem_.b + shift_;
+    const SolveSummary solved = solve(convex_, inner, &x_);
+    add_counts(solved, summary);
+    if (!solved.usable()) {
+      summary->message = fmt::format("pass {}: {}", pass, solved.message);
+      break;
+    }
+
+    // 2. What it is worth on the given problem
+    const Residuals residuals = compute_residuals(problem_, x_, options_.reference_speed, passes_.law);
+    summary->residual_history.push_back(std::max(residuals.momentum, residuals.contact_law));
+    const double error = excess(residuals, options_.tolerance);
+    if (error < best) {
+      best = error;
+      best_pass = pass;
+      best_residuals = residuals;
+      *best_solution = x_;
+    }
+
+    // 3. The next one. The proximal map of rigid contacts contracts by itself. De Saxce's is worth
+    // accelerating, and so is the proximal one where compliance decides between impulses that balance.
+    const VecX next = shift_at(problem_, x_, R_, passes_.law);
+    if ((pass - best_pass) % kRetry == kRetry - 1) anderson_.forget();
+    shift_ = accelerated_ ? anderson_.next(shift_, next) : next;
+    adapt_share(residuals, error, last);
+    last = error;
+  }
+  if (best_pass == 0) return;  // failed in the first pass
+  summary->ending = best <= 1.0                  ? SolveEnding::converged
+                    : pass >= passes_.max_passes ? SolveEnding::max_iterations
+                                                 : SolveEnding::stalled;
+  summary->message =
+      fmt::format("momentum residual {:.2e}, contact-law residual {:.2e}, tolerance {:.2e} after {} passes",
+                  best_residuals.momentum, best_residuals.contact_law, options_.tolerance, pass);
+}
+
+}  // namespace
+
+SolveSummary solve_in_passes(const ContactProblem& problem, const SolveOptions& options,
+                             const PassOptions& passes, const ConvexSolve& solve, ContactSolution* solution) {
+  const double start = wall_seconds();
+  options.validate();
+  SolveSummary summary;
+  if (summary.message = problem.defect(); !summary.message.empty()) return summary;
+  Passes(problem, options, passes, *solution).run(solve, solution, &summary);
+  summary.time_seconds = wall_seconds() - start;
+  return summary;
+}
+
+}  // namespace cupola

@@ -1,0 +1,80 @@
+#include "solver/contact/methods/dual_problem.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/contact/problem/cone.hpp"
+#include "solver/contact/problem/residuals.hpp"
+
+namespace cupola {
+
+VecX DualProblem::times(const VecX& gamma) const {
+  const ContactProblem& p = white.problem;
+  return relative_velocity(p, generalized_impulse(p, gamma)) + p.E.cwiseProduct(gamma);
+}
+
+VecX DualProblem::project(const VecX& x) const {
+  VecX result(x.size());
+  for (int i = 0; i < white.problem.num_contacts(); ++i) {
+    const ContactLaw metric{B[3 * i], B[3 * i + 1], white.problem.mu[i]};
+    result.segment<3>(3 * i) = project_on_cone(metric, x.segment<3>(3 * i));
+  }
+  return result;
+}
+
+VecX DualProblem::velocities(const VecX& gamma) const {
+  return white.to_v(white.problem.v_star + generalized_impulse(white.problem, gamma));
+}
+
+DualProblem make_dual_problem(const ContactProblem& problem) {
+  DualProblem dual{whiten(problem), {}, {}};
+  const ContactProblem& p = dual.white.problem;
+  dual.q = relative_velocity(p, p.v_star) + p.b;
+  dual.B = p.E;
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    Vec3 diagonal = Vec3::Zero();
+    if (p.block_a[i] != ContactProblem::kFixed) diagonal += p.D_a[i].colwise().squaredNorm().transpose();
+    if (p.block_b[i] != ContactProblem::kFixed) diagonal += p.D_b[i].colwise().squaredNorm().transpose();
+    diagonal[1] = diagonal[2] = 0.5 * (diagonal[1] + diagonal[2]);
+    dual.B.segment<3>(3 * i) += diagonal;
+  }
+  return dual;
+}
+
+double dual_accuracy(const DualProblem& dual, const VecX& gamma, const VecX& g) {
+  const ContactProblem& p = dual.white.problem;
+  const double norm = gamma.norm();
+  const double min_E = smallest_compliance(p);
+  double sum = 0.0;
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const Vec3 gamma_i = gamma.segment<3>(3 * i), g_i = g.segment<3>(3 * i);
+    ContactLaw law = contact_law(p, i);
+    if (min_E > 0.0) {
+      const Vec3 y = g_i - Vec3(law.e_n, law.e_t, law.e_t).cwiseProduct(gamma_i);
+      sum += 2.0 * contact_duality_gap(law, y, gamma_i) / min_E;
+    } else {
+      law.e_n = law.e_t = delassus_trace(p, i);
+      sum += (gamma_i - contact_impulse(law, Vec3(g_i - law.e_n * gamma_i))).squaredNorm();
+    }
+  }
+  if (sum == 0.0) return 0.0;
+  return norm > 0.0 ? std::sqrt(sum) / norm : 1.0;
+}
+
+VecX first_impulses(const DualProblem& dual, const ContactSolution& guess) {
+  if (guess.gamma.size() != dual.q.size()) return VecX::Zero(dual.q.size());
+  return dual.project(guess.gamma);
+}
+
+void finish_dual(double accuracy, const SolveOptions& options, bool stalled, SolveSummary* summary) {
+  const bool converged = accuracy <= options.tolerance;
+  summary->ending = converged ? SolveEnding::converged
+                    : stalled ? SolveEnding::stalled
+                              : SolveEnding::max_iterations;
+  if (!std::isfinite(accuracy)) summary->ending = SolveEnding::failed;
+  summary->message = fmt::format("force error {:.2e} {} tolerance {:.2e} after {} iterations", accuracy,
+                                 converged ? "<=" : ">", options.tolerance, summary->iterations);
+}
+
+}  // namespace cupola

@@ -1,0 +1,321 @@
+#include "solver/contact/methods/interior_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+#include "assembly/base/process.hpp"
+#include "solver/contact/problem/residuals.hpp"
+#include "solver/contact/problem/second_order_cone.hpp"
+#include "solver/contact/problem/whitening.hpp"
+
+namespace cupola {
+
+namespace {
+
+constexpr double kToBoundary = 0.99;  // share of the step to the boundary that is taken
+
+/// A contact in the coordinates where Y and Y* are the same cone K: gamma^ = (mu gamma_n, gamma_t),
+/// z^ = (z_n / mu, z_t). At mu = 0 only the first component is used, unscaled.
+struct ConicContact {
+  bool frictionless = false;
+  Vec3 to_cone = Vec3::Ones();  ///< diagonal S: gamma^ = S gamma, z^ = S^-1 z
+  Vec3 E = Vec3::Zero();
+  Vec3 gamma = Vec3::UnitX();  ///< gamma^, interior of K
+  Vec3 z = Vec3::UnitX();      ///< z^, interior of K
+  NesterovTodd nt;
+  Mat3 G = Mat3::Zero();  ///< (S W^2 S + E)^-1
+
+  void scale();
+  Vec3 d(double target, const Vec3& affine_gamma, const Vec3& affine_z) const;
+  double largest_step(const Vec3& d_gamma, const Vec3& d_z) const;
+};
+
+void ConicContact::scale() {
+  if (frictionless) {
+    const double w = std::sqrt(z[0] / gamma[0]);
+    nt.W = Vec3(w, 0, 0).asDiagonal();
+    nt.W_inverse = Vec3(1 / w, 0, 0).asDiagonal();
+    nt.W_squared = Vec3(w * w, 0, 0).asDiagonal();
+    nt.lambda = Vec3(std::sqrt(z[0] * gamma[0]), 0, 0);
+    G = Vec3(1.0 / (w * w + E[0]), 0, 0).asDiagonal();
+    return;
+  }
+  nt = nesterov_todd(z, gamma);
+  Mat3 A = to_cone.asDiagonal() * nt.W_squared * to_cone.asDiagonal();
+  A.diagonal() += E;
+  G = A.llt().solve(Mat3::Identity());
+}
+
+/// Scaled right-hand side lambda \ (target e - lambda o lambda - (W^-1 dz) o (W dgamma)) of a previous affine
+/// step.
+Vec3 ConicContact::d(double target, const Vec3& affine_gamma, const Vec3& affine_z) const {
+  const Vec3 a = nt.W_inverse * affine_z, c = nt.W * affine_gamma;
+  if (frictionless) return Vec3((target - nt.lambda[0] * nt.lambda[0] - a[0] * c[0]) / nt.lambda[0], 0, 0);
+  return jordan_quotient(nt.lambda, Vec3(target * Vec3::UnitX() - jordan_product(a, c))) - nt.lambda;
+}
+
+double ConicContact::largest_step(const Vec3& d_gamma, const Vec3& d_z) const {
+  if (!frictionless) return std::min(step_to_boundary(gamma, d_gamma, 10.0), step_to_boundary(z, d_z, 10.0));
+  double t = 10.0;
+  if (d_gamma[0] < 0.0) t = std::min(t, -gamma[0] / d_gamma[0]);
+  if (d_z[0] < 0.0) t = std::min(t, -z[0] / d_z[0]);
+  return t;
+}
+
+struct Step {
+  VecX w, gamma, z;  ///< gamma and z in cone coordinates
+  double length = 0.0;
+};
+
+class InteriorPoint {
+ public:
+  InteriorPoint(const ContactProblem& p, const SolveOptions& options, SolveSummary* summary)
+      : p_(p), options_(options), summary_(*summary), graph_(contact_graph(p)) {}
+
+  bool start();  ///< all-stick velocities, impulses and slacks moved into their cones
+  void run();
+  const VecX& w() const { return w_; }
+  VecX gamma() const;
+
+ private:
+  bool factorize();
+  Step direction(const std::vector<Vec3>& d) const;
+  void update_residuals();
+  double mean_complementarity() const;
+  double mean_elastic_work() const;
+  bool should_stop();
+
+  const ContactProblem& p_;
+  const SolveOptions& options_;
+  SolveSummary& summary_;
+  ContactGraph graph_;
+  BlockCholesky factor_;
+  std::vector<ConicContact> contacts_;
+  VecX w_;
+  VecX r_d_;  ///< w - w_star - J gamma (6 nb)
+  VecX r_p_;  ///< J^T w + b + E gamma - z (3 nc)
+};
+
+VecX InteriorPoint::gamma() const {
+  VecX gamma(p_.b.size());
+  for (int i = 0; i < p_.num_contacts(); ++i) {
+    gamma.segment<3>(3 * i) = contacts_[i].gamma.cwiseQuotient(contacts_[i].to_cone);
+    if (contacts_[i].frictionless) gamma.segment<2>(3 * i + 1).setZero();
+  }
+  return gamma;
+}
+
+/// x pushed along the cone's axis until its margin is at least `margin`.
+Vec3 pushed_inside(Vec3 x, double margin) {
+  x[0] = std::max(x[0], x.tail<2>().norm() + margin);
+  return x;
+}
+
+bool InteriorPoint::start() {
+  const int nc = p_.num_contacts();
+  contacts_.resize(nc);
+  std::vector<Mat3> G(nc);
+  VecX impulse(3 * nc);
+  const double mean_N =
+      1.0;  // unit mass, whitened: a contact of compliance 1 moves its blocks as much as itself
+  for (int i = 0; i < nc; ++i) {
+    ConicContact& contact = contacts_[i];
+    contact.frictionless = p_.mu[i] == 0.0;
+    contact.to_cone = contact.frictionless ? Vec3(1, 0, 0) : Vec3(p_.mu[i], 1, 1);
+    contact.E = p_.E.segment<3>(3 * i);
+    Vec3 stiffness = Vec3::Constant(mean_N);
+    for (int k = 0; k < 3; ++k) {
+      if (contact.E[k] > 0.0) stiffness[k] = 1.0 / contact.E[k];
+    }
+    if (contact.frictionless) stiffness.tail<2>().setZero();
+    G[i] = stiffness.asDiagonal();
+    impulse.segment<3>(3 * i) = -G[i] * p_.b.segment<3>(3 * i);
+  }
+  ++summary_.factorizations;
+  if (!factor_.factorize(graph_.pattern, assemble_hessian(p_, graph_, G))) return false;
+  w_ = factor_.solve(p_.v_star + generalized_impulse(p_, impulse));
+
+  const VecX y = relative_velocity(p_, w_) + p_.b;
+  double mean_gamma = 0.0, mean_y = 0.0;
+  for (int i = 0; i < nc; ++i) {
+    mean_gamma += (G[i] * y.segment<3>(3 * i)).norm() / nc;
+    mean_y += y.segment<3>(3 * i).norm() / nc;
+  }
+  const double tiny = std::numeric_limits<double>::min();
+  for (int i = 0; i < nc; ++i) {
+    ConicContact& contact = contacts_[i];
+    const Vec3 gamma = -G[i] * y.segment<3>(3 * i);
+    contact.gamma = pushed_inside(contact.to_cone.cwiseProduct(gamma), mean_gamma + tiny);
+    contact.z = Vec3(std::max(mean_y, std::abs(y[3 * i])) + tiny, 0.0, 0.0);
+  }
+  return w_.allFinite();
+}
+
+void InteriorPoint::update_residuals() {
+  const VecX impulses = gamma();
+  r_d_ = w_ - p_.v_star - generalized_impulse(p_, impulses);
+  r_p_ = relative_velocity(p_, w_) + p_.b + p_.E.cwiseProduct(impulses);
+  for (int i = 0; i < p_.num_contacts(); ++i) {
+    const ConicContact& contact = contacts_[i];
+    if (contact.frictionless) {
+      r_p_.segment<2>(3 * i + 1).setZero();
+      r_p_[3 * i] -= contact.z[0];
+    } else {
+      r_p_.segment<3>(3 * i) -= contact.to_cone.cwiseProduct(contact.z);
+    }
+  }
+}
+
+bool InteriorPoint::factorize() {
+  std::vector<Mat3> G(contacts_.size());
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    contacts_[i].scale();
+    G[i] = contacts_[i].G;
+  }
+  ++summary_.factorizations;
+  return factor_.factorize(graph_.pattern, assemble_hessian(p_, graph_, G));
+}
+
+/// Newton direction of the scaled system for the right-hand sides d, and the longest step it allows.
+Step InteriorPoint::direction(const std::vector<Vec3>& d) const {
+  VecX rhs(p_.b.size());  // S W d - r_p
+  for (int i = 0; i < p_.num_contacts(); ++i) {
+    rhs.segment<3>(3 * i) =
+        contacts_[i].to_cone.cwiseProduct(contacts_[i].nt.W * d[i]) - r_p_.segment<3>(3 * i);
+  }
+  VecX G_rhs(rhs.size());
+  for (int i = 0; i < p_.num_contacts(); ++i)
+    G_rhs.segment<3>(3 * i) = contacts_[i].G * rhs.segment<3>(3 * i);
+  Step step{factor_.solve(generalized_impulse(p_, G_rhs) - r_d_), VecX(rhs.size()), VecX(rhs.size()), 10.0};
+  const VecX dy = relative_velocity(p_, step.w);
+  for (int i = 0; i < p_.num_contacts(); ++i) {
+    const ConicContact& contact = contacts_[i];
+    const Vec3 d_gamma = contact.to_cone.cwiseProduct(contact.G * (rhs - dy).segment<3>(3 * i));
+    const Vec3 d_z = contact.nt.W * (d[i] - contact.nt.W * d_gamma);
+    step.gamma.segment<3>(3 * i) = d_gamma;
+    step.z.segment<3>(3 * i) = d_z;
+    step.length = std::min(step.length, contact.largest_step(d_gamma, d_z));
+  }
+  return step;
+}
+
+double InteriorPoint::mean_complementarity() const {
+  double sum = 0.0;
+  for (const ConicContact& contact : contacts_) sum += contact.nt.lambda.squaredNorm();
+  return sum / static_cast<double>(contacts_.size());
+}
+
+double InteriorPoint::mean_elastic_work() const {
+  const VecX impulses = gamma();
+  const double work = impulses.dot(p_.E.cwiseProduct(impulses));
+  const double floor = 1e-12 * impulses.norm() * std::sqrt(1.0 * impulses.size()) * options_.reference_speed;
+  return std::max(work, floor) / static_cast<double>(contacts_.size());
+}
+
+bool InteriorPoint::should_stop() {
+  constexpr int kDefaultIterations = 80;
+  const int limit = options_.max_iterations > 0 ? options_.max_iterations : kDefaultIterations;
+  const double relative = mean_complementarity() / mean_elastic_work();
+  summary_.residual_history.push_back(relative);
+  if (!std::isfinite(relative)) {
+    summary_.ending = SolveEnding::failed;
+    summary_.message =
+        fmt::format("complementarity became {} in iteration {}", relative, summary_.iterations);
+    return true;
+  }
+  if (relative <= options_.tolerance) {
+    summary_.ending = SolveEnding::converged;
+    summary_.message =
+        fmt::format("complementarity {:.2e} <= tolerance {:.2e} of the elastic work after {} iterations",
+                    relative, options_.tolerance, summary_.iterations);
+    return true;
+  }
+  if (summary_.iterations >= limit) {
+    summary_.ending = SolveEnding::max_iterations;
+    summary_.message =
+        fmt::format("complementarity {:.2e} > tolerance {:.2e} of the elastic work after {} iterations",
+                    relative, options_.tolerance, summary_.iterations);
+    return true;
+  }
+  return false;
+}
+
+void InteriorPoint::run() {
+  constexpr double kSmallestStep = 1e-6;
+  const int nc = p_.num_contacts();
+  while (true) {
+    update_residuals();
+    if (!factorize()) {
+      summary_.ending = SolveEnding::stalled;
+      summary_.message = fmt::format("the scaled Hessian is no longer positive definite (iteration {})",
+                                     summary_.iterations);
+      return;
+    }
+    if (should_stop()) return;
+    ++summary_.iterations;
+
+    // 1. Predictor: straight for complementarity zero
+    const double mu_c = mean_complementarity();
+    std::vector<Vec3> d(nc);
+    for (int i = 0; i < nc; ++i) d[i] = -contacts_[i].nt.lambda;
+    const Step affine = direction(d);
+    const double reach = std::min(1.0, affine.length);
+    double predicted = 0.0;
+    for (int i = 0; i < nc; ++i) {
+      predicted += (contacts_[i].gamma + reach * affine.gamma.segment<3>(3 * i))
+                       .dot(contacts_[i].z + reach * affine.z.segment<3>(3 * i)) /
+                   nc;
+    }
+    const double sigma = std::pow(std::clamp(predicted / mu_c, 0.0, 1.0), 3);
+
+    // 2. Corrector: towards the central path
+    for (int i = 0; i < nc; ++i) {
+      d[i] = contacts_[i].d(sigma * mu_c, affine.gamma.segment<3>(3 * i), affine.z.segment<3>(3 * i));
+    }
+    const Step step = direction(d);
+    const double t = std::min(1.0, kToBoundary * step.length);
+    if (!(t > kSmallestStep)) {
+      summary_.ending = SolveEnding::stalled;
+      summary_.message = fmt::format("step of {:.1e} in iteration {}: rounding has reached the scaling", t,
+                                     summary_.iterations);
+      return;
+    }
+    w_ += t * step.w;
+    for (int i = 0; i < nc; ++i) {
+      contacts_[i].gamma += t * step.gamma.segment<3>(3 * i);
+      contacts_[i].z += t * step.z.segment<3>(3 * i);
+    }
+  }
+}
+
+}  // namespace
+
+SolveSummary solve_interior_point(const ContactProblem& problem, const SolveOptions& options,
+                                  ContactSolution* solution) {
+  const double start = wall_seconds();
+  options.validate();
+  SolveSummary summary;
+  if (summary.message = problem.defect(); !summary.message.empty()) return summary;
+  const WhitenedProblem white = whiten(problem);
+  InteriorPoint method(white.problem, options, &summary);
+  if (problem.num_contacts() == 0) {
+    *solution = {problem.v_star, VecX(0)};
+    summary.ending = SolveEnding::converged;
+    summary.message = "no contacts";
+    return summary;
+  }
+  if (!method.start()) {
+    summary.message = "the Hessian of the sticking contacts is not positive definite in double precision";
+    return summary;
+  }
+  method.run();
+  solution->v = white.to_v(method.w());
+  solution->gamma = method.gamma();
+  summary.time_seconds = wall_seconds() - start;
+  return summary;
+}
+
+}  // namespace cupola

@@ -1,0 +1,242 @@
+#include "solver/contact/methods/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "assembly/base/process.hpp"
+#include "solver/contact/methods/block_descent.hpp"
+#include "solver/contact/methods/primal_cost.hpp"
+#include "solver/contact/problem/cone.hpp"
+#include "solver/contact/problem/residuals.hpp"
+#include "solver/contact/problem/whitening.hpp"
+
+namespace cupola {
+
+namespace {
+
+std::string rigid_contact(const ContactProblem& p) {
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    if (p.E[3 * i] > 0.0 && (p.mu[i] == 0.0 || p.E[3 * i + 1] > 0.0)) continue;
+    return fmt::format("contact {} has zero compliance, which Newton's method cannot take: use `proximal`",
+                       i);
+  }
+  return {};
+}
+
+std::vector<Mat3> stiffnesses(const ContactProblem& p, const VecX& y) {
+  std::vector<Mat3> G(p.num_contacts());
+  for (int i = 0; i < p.num_contacts(); ++i) G[i] = contact_stiffness(contact_law(p, i), y.segment<3>(3 * i));
+  return G;
+}
+
+/// State of one solve: what the numbered stages of the loop share.
+struct NewtonLoop {
+  const ContactProblem& p;  ///< whitened
+  const SolveOptions& options;
+  ContactGraph graph;
+  double residual_scale;  ///< momentum residual of one unit of block gradient
+  NewtonDirection& solver;
+  SolveSummary& summary;
+  RigidMotions motions{};  ///< of the blocks, where there are so many that a hierarchy is worth its while
+  std::optional<BlockDescent> descent{};
+
+  double residual(const PrimalPoint& point) const { return point.largest_block_gradient * residual_scale; }
+
+  /// Gradients with a hierarchy, and passes over the blocks, cost less than a factorisation.
+  bool many_blocks() const { return has_many_blocks(p) && !options.lag_factor; }
+  int max_iterations() const { return options.max_iterations > 0 ? options.max_iterations : 100; }
+  bool all_stick_start(VecX* w);
+  bool solve(const BlockMatrix& H, const VecX& rhs, double forcing, VecX* x);
+  double forcing(double residual, double last_residual) const;
+  bool direction(const PrimalPoint& point, double last_residual, VecX* d);
+  PrimalPoint run(PrimalPoint point);
+  bool should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain);
+};
+
+/// Solves as if every contact stuck to what it touches or hovers over. With open gaps this is far better than
+/// letting the blocks fall first: a static dome with gaps of 1e-4 m takes 19 iterations instead of 61.
+bool NewtonLoop::all_stick_start(VecX* w) {
+  constexpr double kStart = 1e-2;
+  VecX closing = VecX::Zero(p.b.size());  // straight into the contact: it sticks
+  for (int i = 0; i < p.num_contacts(); ++i) closing[3 * i] = -1.0;
+  const std::vector<Mat3> G = stiffnesses(p, closing);
+  VecX impulse(p.b.size());
+  for (int i = 0; i < p.num_contacts(); ++i) impulse.segment<3>(3 * i) = -G[i] * p.b.segment<3>(3 * i);
+  const VecX rhs = p.v_star + generalized_impulse(p, impulse);
+  return solve(assemble_hessian(p, graph, G), rhs, kStart, w) && w->allFinite();
+}
+
+bool NewtonLoop::solve(const BlockMatrix& H, const VecX& rhs, double forcing, VecX* x) {
+  if (!motions.empty()) {
+    if (solver.solve_by_hierarchy(graph.pattern, H, motions, rhs, forcing, x, &summary)) return true;
+    motions = {};  // nor will it serve later
+  }
+  return solver.solve_directly(graph.pattern, H, rhs, x, &summary);
+}
+
+/// How many digits a direction by gradients is worth: none beyond what the tolerance still wants, few while
+/// the residual falls slowly, and from one active set to the next never more than two.
+double NewtonLoop::forcing(double residual, double last_residual) const {
+  constexpr double kMost = 0.1, kTwoDigits = 1e-2, kThreeDigits = 1e-3, kShare = 0.3;
+  const double wanted = kShare * options.tolerance / residual;
+  if (options.lag_factor) return std::clamp(wanted, kThreeDigits, kMost);
+  const double fall = residual / last_residual;
+  return std::clamp(std::max(wanted, 0.5 * fall * fall), kTwoDigits, kMost);
+}
+
+bool NewtonLoop::direction(const PrimalPoint& point, double last_residual, VecX* d) {
+  const BlockMatrix H = assemble_hessian(p, graph, stiffnesses(p, point.y));
+  const double digits = forcing(residual(point), last_residual);
+  if (options.lag_factor && solver.solve_lagged(graph.pattern, H, -point.gradient, digits, d, &summary))
+    return true;
+  return solve(H, -point.gradient, digits, d);
+}
+
+bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain) {
+  constexpr int kPatience =
+      12;  // residuals of a sound run may rise while the cost falls, but not this long at rounding
+  if (residual(point) <= options.tolerance) {
+    summary.ending = SolveEnding::converged;
+    summary.message = fmt::format("momentum residual {:.2e} <= tolerance {:.2e} after {} iterations",
+                                  residual(point), options.tolerance, summary.iterations);
+    return true;
+  }
+  if (!std::isfinite(residual(point)) || !std::isfinite(point.cost)) {
+    summary.ending = SolveEnding::failed;
+    summary.message = fmt::format("the cost became {} in iteration {}", point.cost, summary.iterations);
+    return true;
+  }
+  if (iterations_without_gain >= kPatience) {
+    summary.ending = SolveEnding::stalled;
+    summary.message =
+        fmt::format("cost and momentum residual {:.2e} no longer fall; tolerance {:.2e} is not met",
+                    best_residual, options.tolerance);
+    return true;
+  }
+  if (summary.iterations >= max_iterations()) {
+    summary.ending = SolveEnding::max_iterations;
+    summary.message = fmt::format("momentum residual {:.2e} > tolerance {:.2e} after {} iterations",
+                                  best_residual, options.tolerance, summary.iterations);
+    return true;
+  }
+  return false;
+}
+
+PrimalPoint NewtonLoop::run(PrimalPoint point) {
+  constexpr double kCostRounding = 4e-16;
+  constexpr double kExactSlope = 1e-6;   // the next Newton step gains more than further digits here
+  constexpr double kInexactSlope = 0.1;  // an inexact direction is not worth more
+  constexpr double kSettled = 0.1;       // of the tolerance
+  constexpr int kInVain =
+      15;  // the hierarchy misses what is soft: bricks of a dome stay above their best for six
+  VecX best_w = point.w;
+  double best = residual(point), last_residual = best;
+  int iterations_without_gain = 0, iterations_since_best = 0;
+  while (true) {
+    summary.residual_history.push_back(residual(point));
+    if (should_stop(point, best, iterations_without_gain)) break;
+    if (!motions.empty() && iterations_since_best >= kInVain) {
+      motions = {};
+      summary.ending = SolveEnding::stalled;
+      summary.message = "directions by a hierarchy lead nowhere";
+      break;
+    }
+
+    // 1. Newton direction, or steepest descent should rounding have spoiled it
+    ++summary.iterations;
+    VecX d;
+    if (!direction(point, last_residual, &d)) {
+      summary.ending = SolveEnding::failed;
+      summary.message = fmt::format("the Hessian is not positive definite in double precision (iteration {})",
+                                    summary.iterations);
+      break;
+    }
+    if (!(d.dot(point.gradient) < 0.0)) d = -point.gradient;
+
+    // 2. Step: the whole direction where the cost is level at its end
+    const double level = options.lag_factor || !motions.empty() ? kInexactSlope : kExactSlope;
+    PrimalPoint next = primal_point(p, point.w + d);
+    if (!(std::abs(d.dot(next.gradient)) <= level * std::abs(d.dot(point.gradient)))) {
+      const LineSearchResult search = exact_line_search(p, point, d, level);
+      summary.line_search_evaluations += search.evaluations;
+      if (search.t != 1.0) next = primal_point(p, point.w + search.t * d);
+    }
+
+    // 3. Of many blocks some settle on their own what would hold up all
+    if (!motions.empty() && residual(next) > options.tolerance) {
+      if (!descent) descent.emplace(p);
+      next = descent->descend(next, kSettled * options.tolerance / residual_scale);
+    }
+
+    // 4. Progress
+    const bool cost_fell = next.cost < point.cost * (1.0 - kCostRounding);
+    const bool residual_fell = residual(next) < 0.9 * best;
+    iterations_without_gain = cost_fell || residual_fell ? 0 : iterations_without_gain + 1;
+    ++iterations_since_best;
+    last_residual = residual(point);
+    point = std::move(next);
+    if (residual(point) < best) {
+      iterations_since_best = 0;
+      best = residual(point);
+      best_w = point.w;
+    }
+  }
+  return residual(point) == best ? point : primal_point(p, std::move(best_w));
+}
+
+SolveSummary failed(const std::string& message) {
+  SolveSummary summary;
+  summary.message = message;
+  return summary;
+}
+
+}  // namespace
+
+bool has_many_blocks(const ContactProblem& problem) {
+  constexpr int kMany = 10000;
+  return problem.num_blocks() >= kMany && !problem.plane;
+}
+
+int iterations_of_sound_problem(const ContactProblem& problem) {
+  return has_many_blocks(problem) ? 60 : 25;
+}
+
+SolveSummary NewtonSolver::solve(const ContactProblem& problem, const SolveOptions& options,
+                                 ContactSolution* solution) {
+  const double start = wall_seconds();
+  options.validate();
+  if (const std::string defect = problem.defect(); !defect.empty()) return failed(defect);
+  if (const std::string rigid = rigid_contact(problem); !rigid.empty()) return failed(rigid);
+
+  const WhitenedProblem white = whiten(problem);
+  SolveSummary summary;
+  NewtonLoop loop{white.problem,
+                  options,
+                  contact_graph(problem),
+                  1.0 / (root_mean_mass(problem) * options.reference_speed),
+                  direction_,
+                  summary};
+  if (loop.many_blocks()) loop.motions = rigid_motions(problem, loop.graph, white.L);
+  VecX w;
+  const auto set_start = [&] {
+    const bool warm = solution->v.size() == problem.v_star.size();
+    if (warm) w = white.to_w(solution->v);
+    if (!warm && problem.num_contacts() == 0) w = white.problem.v_star;
+    return warm || problem.num_contacts() == 0 || loop.all_stick_start(&w);
+  };
+  if (!set_start())
+    return failed("the Hessian of the sticking contacts is not positive definite in double precision");
+  const bool by_hierarchy = !loop.motions.empty();
+  PrimalPoint point = loop.run(primal_point(white.problem, w));
+  if (by_hierarchy && loop.motions.empty() && summary.ending == SolveEnding::stalled && set_start())
+    point = loop.run(primal_point(white.problem, std::move(w)));  // once more with factors
+  solution->v = white.to_v(point.w);
+  solution->gamma = point.gamma;
+  summary.time_seconds = wall_seconds() - start;
+  return summary;
+}
+
+}  // namespace cupola

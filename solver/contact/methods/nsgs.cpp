@@ -1,0 +1,70 @@
+#include "solver/contact/methods/nsgs.hpp"
+
+#include "assembly/base/process.hpp"
+#include "solver/contact/methods/dual_problem.hpp"
+#include "solver/contact/methods/local_contact.hpp"
+
+namespace cupola {
+
+namespace {
+
+/// N_ii + E_i of every contact of the whitened problem.
+std::vector<Mat3> local_matrices(const ContactProblem& p) {
+  std::vector<Mat3> A(p.num_contacts(), Mat3::Zero());
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    if (p.block_a[i] != ContactProblem::kFixed) A[i] += p.D_a[i].transpose() * p.D_a[i];
+    if (p.block_b[i] != ContactProblem::kFixed) A[i] += p.D_b[i].transpose() * p.D_b[i];
+    A[i].diagonal() += p.E.segment<3>(3 * i);
+  }
+  return A;
+}
+
+/// One sweep over the contacts; w = v_star + J gamma throughout.
+void sweep(const ContactProblem& p, const std::vector<Mat3>& A, VecX* gamma, VecX* w) {
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const int a = p.block_a[i], b = p.block_b[i];
+    const Vec3 old = gamma->segment<3>(3 * i);
+    Vec3 y = p.b.segment<3>(3 * i) + p.E.segment<3>(3 * i).cwiseProduct(old);
+    if (a != ContactProblem::kFixed) y += p.D_a[i].transpose() * w->segment<6>(6 * a);
+    if (b != ContactProblem::kFixed) y += p.D_b[i].transpose() * w->segment<6>(6 * b);
+    const Vec3 fresh = solve_local_contact(A[i], y - A[i] * old, p.mu[i], old);
+    const Vec3 change = fresh - old;
+    if (change.isZero(0.0)) continue;
+    gamma->segment<3>(3 * i) = fresh;
+    if (a != ContactProblem::kFixed) w->segment<6>(6 * a) += p.D_a[i] * change;
+    if (b != ContactProblem::kFixed) w->segment<6>(6 * b) += p.D_b[i] * change;
+  }
+}
+
+}  // namespace
+
+SolveSummary solve_nsgs(const ContactProblem& problem, const SolveOptions& options,
+                        ContactSolution* solution) {
+  constexpr int kSweepsPerCheck = 10;
+  const double start = wall_seconds();
+  options.validate();
+  SolveSummary summary;
+  if (summary.message = problem.defect(); !summary.message.empty()) return summary;
+  const int max_iterations = options.max_iterations > 0 ? options.max_iterations : 5000;
+
+  const DualProblem dual = make_dual_problem(problem);
+  const ContactProblem& p = dual.white.problem;
+  const std::vector<Mat3> A = local_matrices(p);
+  VecX gamma = first_impulses(dual, *solution);
+  double accuracy = dual_accuracy(dual, gamma, dual.times(gamma) + dual.q);
+  summary.residual_history.push_back(accuracy);
+  while (accuracy > options.tolerance && summary.iterations < max_iterations) {
+    VecX w = p.v_star + generalized_impulse(p, gamma);  // afresh, to shed the rounding of the updates
+    for (int k = 0; k < kSweepsPerCheck && summary.iterations < max_iterations; ++k, ++summary.iterations) {
+      sweep(p, A, &gamma, &w);
+    }
+    accuracy = dual_accuracy(dual, gamma, dual.times(gamma) + dual.q);
+    summary.residual_history.push_back(accuracy);
+  }
+  *solution = {dual.velocities(gamma), gamma};
+  finish_dual(accuracy, options, false, &summary);
+  summary.time_seconds = wall_seconds() - start;
+  return summary;
+}
+
+}  // namespace cupola

@@ -1,0 +1,104 @@
+#include "solver/contact/methods/primal_cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/contact/problem/cone.hpp"
+
+namespace cupola {
+
+PrimalPoint primal_point(const ContactProblem& p, VecX w) {
+  PrimalPoint point;
+  point.w = std::move(w);
+  point.y.resize(p.b.size());
+  point.gamma.resize(p.b.size());
+  const VecX momentum = point.w - p.v_star;
+  point.cost = 0.5 * momentum.squaredNorm();
+  VecX impulse = VecX::Zero(momentum.size());
+  for (int i = 0; i < p.num_contacts(); ++i) {  // one pass: D is what there is most of
+    const Vec3 y = relative_velocity(p, i, point.w) + p.b.segment<3>(3 * i);
+    const Vec3 gamma = contact_impulse(contact_law(p, i), y);
+    add_impulse(p, i, gamma, &impulse);
+    point.y.segment<3>(3 * i) = y;
+    point.gamma.segment<3>(3 * i) = gamma;
+    point.cost += 0.5 * p.E[3 * i] * gamma[0] * gamma[0];
+    if (p.mu[i] > 0.0) point.cost += 0.5 * p.E[3 * i + 1] * gamma.tail<2>().squaredNorm();
+  }
+  point.gradient = momentum - impulse;
+  for (int k = 0; k < p.num_blocks(); ++k) {
+    const double norm = point.gradient.segment<6>(6 * k).norm();
+    if (!(norm <= point.largest_block_gradient)) point.largest_block_gradient = norm;  // lets NaN through
+  }
+  return point;
+}
+
+namespace {
+
+/// Slope and curvature of the cost along the line. The slope is taken as a change from t = 0, so that the
+/// large terms which balance each other at the start do not cancel in every evaluation.
+class Line {
+ public:
+  Line(const ContactProblem& p, const PrimalPoint& point, const VecX& d)
+      : p_(p),
+        point_(point),
+        dy_(relative_velocity(p, d)),
+        slope0_(d.dot(point.gradient)),
+        dd_(d.squaredNorm()) {}
+
+  double slope0() const { return slope0_; }
+
+  double slope(double t) const {
+    double slope = slope0_ + t * dd_;
+    for (int i = 0; i < p_.num_contacts(); ++i) {
+      const Vec3 dy = dy_.segment<3>(3 * i);
+      const Vec3 y = point_.y.segment<3>(3 * i) + t * dy;
+      slope -= (contact_impulse(contact_law(p_, i), y) - point_.gamma.segment<3>(3 * i)).dot(dy);
+    }
+    return slope;
+  }
+
+  double curvature(double t) const {
+    double curvature = dd_;
+    for (int i = 0; i < p_.num_contacts(); ++i) {
+      const Vec3 dy = dy_.segment<3>(3 * i);
+      const Vec3 y = point_.y.segment<3>(3 * i) + t * dy;
+      curvature += dy.dot(contact_stiffness(contact_law(p_, i), y) * dy);
+    }
+    return curvature;
+  }
+
+ private:
+  const ContactProblem& p_;
+  const PrimalPoint& point_;
+  VecX dy_;
+  double slope0_;
+  double dd_;
+};
+
+}  // namespace
+
+LineSearchResult exact_line_search(const ContactProblem& p, const PrimalPoint& point, const VecX& d,
+                                   double slope_reduction) {
+  constexpr int kMaxEvaluations = 60;  // bisection alone resolves a bracket to double precision within this
+  const Line line(p, point, d);
+  double low = 0.0, high = std::numeric_limits<double>::infinity();
+  LineSearchResult result{1.0, 0};
+  while (result.evaluations < kMaxEvaluations) {
+    const double slope = line.slope(result.t);
+    ++result.evaluations;
+    if (!(std::abs(slope) > slope_reduction * std::abs(line.slope0()))) break;
+    (slope > 0.0 ? high : low) = result.t;
+    double next = result.t - slope / line.curvature(result.t);
+    if (std::isinf(high)) {
+      next = std::clamp(next, 1.5 * result.t, 10.0 * result.t);
+    } else if (!(next > low + 0.01 * (high - low) && next < high - 0.01 * (high - low))) {
+      next = 0.5 * (low + high);
+    }
+    if (next == result.t || high - low <= 1e-14 * high) break;
+    result.t = next;
+  }
+  return result;
+}
+
+}  // namespace cupola

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "solver/contact/problem/contact_problem.hpp"
+
+namespace cupola {
+
+/// The primal objective of a whitened problem (M = I, all E > 0) at one point, after Castro et al. (2022):
+///
+///     cost(w) = 1/2 |w - w_star|^2 + sum_i 1/2 gamma_i^T E_i gamma_i,   gamma_i = gamma(J_i^T w + b_i)
+///
+/// It is strongly convex and once differentiable; at its minimum the momentum balance holds.
+struct PrimalPoint {
+  VecX w;         ///< (6 nb)
+  VecX y;         ///< J^T w + b (3 nc)
+  VecX gamma;     ///< gamma(y), in the cone by construction (3 nc)
+  VecX gradient;  ///< w - w_star - J gamma: the unbalanced impulse (6 nb)
+  double cost = 0.0;
+  double largest_block_gradient = 0.0;  ///< max over blocks of |gradient_k|
+};
+
+PrimalPoint primal_point(const ContactProblem& whitened, VecX w);
+
+struct LineSearchResult {
+  double t = 0.0;
+  int evaluations = 0;
+};
+
+/// The t > 0 that minimises cost(w + t d), to |slope| <= slope_reduction |slope at 0| or to rounding.
+/// Safeguarded Newton on the slope, which is monotone. d . gradient must be negative.
+LineSearchResult exact_line_search(const ContactProblem& whitened, const PrimalPoint& point, const VecX& d,
+                                   double slope_reduction);
+
+}  // namespace cupola

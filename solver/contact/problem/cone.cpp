@@ -1,0 +1,106 @@
+#include "solver/contact/problem/cone.hpp"
+
+#include <algorithm>
+
+namespace cupola {
+
+ContactRegion contact_region(const ContactLaw& law, const Vec3& y) {
+  const double y_t = y.tail<2>().norm();
+  if (y[0] >= law.mu * y_t) return ContactRegion::separation;
+  if (law.mu > 0.0 && y_t * law.e_n <= -law.mu * y[0] * law.e_t) return ContactRegion::stick;
+  return ContactRegion::slip;
+}
+
+namespace {
+
+/// Direction of sliding; any unit vector will do where mu = 0 takes its factor away.
+Eigen::Vector2d slip_direction(const Vec3& y) {
+  const double y_t = y.tail<2>().norm();
+  return y_t > 0.0 ? Eigen::Vector2d(y.tail<2>() / y_t) : Eigen::Vector2d::UnitX();
+}
+
+/// Normal impulse of a slipping contact.
+double slip_impulse(const ContactLaw& law, const Vec3& y) {
+  return (law.mu * y.tail<2>().norm() - y[0]) / (law.e_n + law.mu * law.mu * law.e_t);
+}
+
+/// At mu = 0 the tangential compliance plays no part and may be anything, even infinite.
+ContactLaw without_idle_compliance(ContactLaw law) {
+  if (law.mu == 0.0) law.e_t = 0.0;
+  return law;
+}
+
+}  // namespace
+
+Vec3 contact_impulse(const ContactLaw& given, const Vec3& y) {
+  const ContactLaw law = without_idle_compliance(given);
+  switch (contact_region(law, y)) {
+    case ContactRegion::separation:
+      return Vec3::Zero();
+    case ContactRegion::stick:
+      return {-y[0] / law.e_n, -y[1] / law.e_t, -y[2] / law.e_t};
+    case ContactRegion::slip:
+      break;
+  }
+  const double a = slip_impulse(law, y);
+  const Eigen::Vector2d t = slip_direction(y);
+  return {a, -law.mu * a * t[0], -law.mu * a * t[1]};
+}
+
+Mat3 contact_stiffness(const ContactLaw& given, const Vec3& y) {
+  const ContactLaw law = without_idle_compliance(given);
+  Mat3 G = Mat3::Zero();
+  switch (contact_region(law, y)) {
+    case ContactRegion::separation:
+      return G;
+    case ContactRegion::stick:
+      G.diagonal() << 1.0 / law.e_n, 1.0 / law.e_t, 1.0 / law.e_t;
+      return G;
+    case ContactRegion::slip:
+      break;
+  }
+  const Eigen::Vector2d t = slip_direction(y);
+  const Vec3 ray(1.0, -law.mu * t[0], -law.mu * t[1]);  // gamma = a ray
+  G.noalias() = ray * ray.transpose() / (law.e_n + law.mu * law.mu * law.e_t);
+  const double y_t = y.tail<2>().norm();
+  if (y_t > 0.0) {  // the ray turns with y_t
+    const Eigen::Vector2d s(-t[1], t[0]);
+    const Eigen::Matrix2d across = s * s.transpose();
+    G.bottomRightCorner<2, 2>() += (law.mu * slip_impulse(law, y) / y_t) * across;
+  }
+  return G;
+}
+
+Vec3 coulomb_impulse(const ContactLaw& law, const Vec3& y) {
+  if (y[0] >= 0.0) return Vec3::Zero();
+  const double gamma_n = -y[0] / law.e_n;
+  const double y_t = y.tail<2>().norm();
+  Vec3 gamma(gamma_n, 0.0, 0.0);
+  if (law.mu == 0.0 || y_t == 0.0) return gamma;
+  const double gamma_t = std::min(y_t / law.e_t, law.mu * gamma_n);
+  gamma.tail<2>() = -gamma_t / y_t * y.tail<2>();
+  return gamma;
+}
+
+Mat3 coulomb_stiffness(const ContactLaw& law, const Vec3& y) {
+  Mat3 G = Mat3::Zero();
+  if (y[0] >= 0.0) return G;
+  const double gamma_n = -y[0] / law.e_n;
+  const double y_t = y.tail<2>().norm();
+  G(0, 0) = 1.0 / law.e_n;
+  if (law.mu == 0.0) return G;
+  if (y_t <= law.mu * gamma_n * law.e_t) {
+    G(1, 1) = G(2, 2) = 1.0 / law.e_t;
+    return G;
+  }
+  const Eigen::Vector2d t = y.tail<2>() / y_t, s(-t[1], t[0]);
+  G.bottomLeftCorner<2, 1>() = -law.mu / law.e_n * t;
+  G.bottomRightCorner<2, 2>() = (law.mu * gamma_n / y_t) * Eigen::Matrix2d(s * s.transpose());
+  return G;
+}
+
+Vec3 project_on_cone(const ContactLaw& metric, const Vec3& x) {
+  return contact_impulse(metric, Vec3(-metric.e_n * x[0], -metric.e_t * x[1], -metric.e_t * x[2]));
+}
+
+}  // namespace cupola

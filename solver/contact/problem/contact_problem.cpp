@@ -1,0 +1,93 @@
+#include "solver/contact/problem/contact_problem.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+namespace cupola {
+
+namespace {
+
+[[noreturn]] void reject(const std::string& message) {
+  throw std::invalid_argument("contact problem: " + message);
+}
+
+void check_sizes(const ContactProblem& p) {
+  const auto check = [](std::string_view name, std::ptrdiff_t size, std::ptrdiff_t expected) {
+    if (size != expected) reject(fmt::format("{} has {} entries, expected {}", name, size, expected));
+  };
+  const std::ptrdiff_t nb = p.num_blocks(), nc = p.num_contacts();
+  check("v_star", p.v_star.size(), 6 * nb);
+  check("block_b", std::ssize(p.block_b), nc);
+  check("D_a", std::ssize(p.D_a), nc);
+  check("D_b", std::ssize(p.D_b), nc);
+  check("b", p.b.size(), 3 * nc);
+  check("E", p.E.size(), 3 * nc);
+  check("mu", p.mu.size(), nc);
+}
+
+void check_block(const ContactProblem& p, int k) {
+  const Mat6& M = p.M[k];
+  if (!M.allFinite()) reject(fmt::format("the mass matrix of block {} is not finite", k));
+  if (!M.isApprox(M.transpose(), 1e-12))
+    reject(fmt::format("the mass matrix of block {} is not symmetric", k));
+  if (M.llt().info() != Eigen::Success) {
+    reject(fmt::format("the mass matrix of block {} is not positive definite", k));
+  }
+  if (!p.v_star.segment<6>(6 * k).allFinite()) reject(fmt::format("v_star of block {} is not finite", k));
+}
+
+void check_contact(const ContactProblem& p, int i) {
+  const int a = p.block_a[i], b = p.block_b[i];
+  const auto in_range = [&p](int k) { return k >= ContactProblem::kFixed && k < p.num_blocks(); };
+  if (!in_range(a) || !in_range(b)) reject(fmt::format("contact {} joins unknown blocks {}, {}", i, a, b));
+  if (a == b) reject(fmt::format("contact {} joins block {} to itself", i, a));
+  if (a != ContactProblem::kFixed && !p.D_a[i].allFinite())
+    reject(fmt::format("D_a of contact {} is not finite", i));
+  if (b != ContactProblem::kFixed && !p.D_b[i].allFinite())
+    reject(fmt::format("D_b of contact {} is not finite", i));
+  if (!p.b.segment<3>(3 * i).allFinite()) reject(fmt::format("b of contact {} is not finite", i));
+  const Vec3 E = p.E.segment<3>(3 * i);
+  if (!E.allFinite() || E.minCoeff() < 0.0) {
+    reject(fmt::format("E of contact {} = ({}, {}, {}): must be finite and >= 0", i, E[0], E[1], E[2]));
+  }
+  if (E[1] != E[2])
+    reject(fmt::format("E of contact {} differs between the tangents: {}, {}", i, E[1], E[2]));
+  if (!std::isfinite(p.mu[i]) || p.mu[i] < 0.0) {
+    reject(fmt::format("mu of contact {} = {}: must be finite and >= 0", i, p.mu[i]));
+  }
+}
+
+}  // namespace
+
+void ContactProblem::validate() const {
+  check_sizes(*this);
+  for (int k = 0; k < num_blocks(); ++k) check_block(*this, k);
+  for (int i = 0; i < num_contacts(); ++i) check_contact(*this, i);
+  if (!std::isfinite(h) || h <= 0.0) reject(fmt::format("h = {}: must be finite and > 0", h));
+}
+
+std::string ContactProblem::defect() const {
+  try {
+    validate();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+VecX relative_velocity(const ContactProblem& problem, const VecX& v) {
+  VecX u(3 * problem.num_contacts());
+  for (int i = 0; i < problem.num_contacts(); ++i) u.segment<3>(3 * i) = relative_velocity(problem, i, v);
+  return u;
+}
+
+VecX generalized_impulse(const ContactProblem& problem, const VecX& gamma) {
+  VecX impulse = VecX::Zero(6 * problem.num_blocks());
+  for (int i = 0; i < problem.num_contacts(); ++i) add_impulse(problem, i, gamma.segment<3>(3 * i), &impulse);
+  return impulse;
+}
+
+}  // namespace cupola

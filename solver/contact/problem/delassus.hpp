@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include "assembly/model/choices.hpp"
+#include "solver/contact/problem/contact_problem.hpp"
+
+namespace cupola {
+
+/// A contact problem reduced to its impulses, the local form of FCLIB (there W, r; here N or N + E, gamma):
+///
+///     u = W gamma + q,   gamma in Y  _|_  u + s n in Y*,   s = mu |u_t| (coulomb) or 0 (associated)
+///
+/// W may have full 3x3 blocks, be singular, and even be slightly unsymmetric, as the problems of other codes
+/// are.
+struct DelassusProblem {
+  Eigen::SparseMatrix<double> W;  ///< 1/kg (3 nc x 3 nc)
+  VecX q;                         ///< m/s (3 nc)
+  VecX mu;                        ///< (nc)
+  int num_contacts() const { return static_cast<int>(mu.size()); }
+};
+
+/// W = D^T M^-1 D + diag(E), q = D^T v_star + b.
+DelassusProblem make_delassus(const ContactProblem& problem);
+
+/// FCLIB's merit function 1 of impulses gamma, for either law: |gamma - P(gamma - (u + s n))| / (1 +
+/// sqrt(|q|)), P the Euclidean projection on the cone. It mixes N s and m/s: quote it beside a residual that
+/// does not.
+double fclib_merit(const DelassusProblem& problem, const VecX& gamma, FrictionLaw law);
+
+/// |gamma - P(gamma - rho (u + s n))| / |gamma| with rho_i = 3 / trace W_ii: the contact-law residual without
+/// units.
+double scaled_merit(const DelassusProblem& problem, const VecX& gamma, FrictionLaw law);
+
+/// trace(W_ii) / 3 of every contact, 1/kg (nc).
+VecX mean_diagonal(const DelassusProblem& problem);
+
+}  // namespace cupola

@@ -1,0 +1,184 @@
+#include "solver/contact/problem/residuals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+
+namespace cupola {
+
+double delassus_trace(const ContactProblem& p, int i) {
+  double trace = 0.0;
+  const auto add = [&](int k, const Mat63& D) {
+    if (k != ContactProblem::kFixed) trace += (D.transpose() * p.M[k].llt().solve(D)).trace();
+  };
+  add(p.block_a[i], p.D_a[i]);
+  add(p.block_b[i], p.D_b[i]);
+  return trace;
+}
+
+namespace {
+
+/// 1/2 sum and largest of the blocks' squared M^-1 norms of r = M (v - v_star) - D gamma.
+struct MomentumError {
+  double half_squared_norm = 0.0;
+  double largest = 0.0;
+};
+
+MomentumError momentum_error(const ContactProblem& p, const ContactSolution& x) {
+  const VecX impulse = generalized_impulse(p, x.gamma);
+  MomentumError error;
+  for (int k = 0; k < p.num_blocks(); ++k) {
+    const Eigen::Matrix<double, 6, 1> r =
+        p.M[k] * (x.v - p.v_star).segment<6>(6 * k) - impulse.segment<6>(6 * k);
+    const double squared = p.M[k].llt().matrixL().solve(r).squaredNorm();
+    error.half_squared_norm += 0.5 * squared;
+    error.largest = std::max(error.largest, std::sqrt(squared));
+    if (std::isnan(squared)) error.largest = squared;
+  }
+  return error;
+}
+
+/// The tangential compliance of a frictionless contact plays no part.
+bool is_rigid(const ContactLaw& law) {
+  return law.e_n == 0.0 || (law.mu > 0.0 && law.e_t == 0.0);
+}
+
+/// Sets contact_law and rigid_contact_speed.
+void measure_contact_law(const ContactProblem& p, const ContactSolution& x, const VecX& y0, FrictionLaw kind,
+                         double reference_speed, Residuals* residuals) {
+  double squared_error = 0.0;
+  VecX expected(x.gamma.size());
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const Vec3 gamma = x.gamma.segment<3>(3 * i);
+    Vec3 y = y0.segment<3>(3 * i);
+    ContactLaw law = contact_law(p, i);
+    const Vec3 elastic(law.e_n * gamma[0], law.e_t * gamma[1], law.e_t * gamma[2]);
+    if (kind == FrictionLaw::coulomb) y[0] += law.mu * (y + elastic).tail<2>().norm();
+    const bool rigid = is_rigid(law);
+    if (rigid) {  // gamma - rho (y + E gamma) as the impulse of a contact of compliance 1/rho
+      law.e_n = law.e_t = delassus_trace(p, i);
+      y += elastic - law.e_n * gamma;
+    }
+    expected.segment<3>(3 * i) = contact_impulse(law, y);
+    const double error = (gamma - expected.segment<3>(3 * i)).norm();
+    squared_error += error * error;
+    if (rigid) {
+      residuals->rigid_contact_speed =
+          std::max(residuals->rigid_contact_speed, law.e_n * error / reference_speed);
+    }
+  }
+  if (squared_error == 0.0) return;
+  residuals->contact_law = std::sqrt(squared_error) / std::max(x.gamma.norm(), expected.norm());
+}
+
+double contact_law_rounding(const ContactProblem& p, const ContactSolution& x) {
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
+  double squared = 0.0;
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    if (x.gamma.segment<3>(3 * i).isZero(0.0)) continue;  // an open contact is not near any kink
+    double speed = p.b.segment<3>(3 * i).norm();
+    const auto add = [&](int k, const Mat63& D) {
+      if (k != ContactProblem::kFixed)
+        speed += (D.cwiseAbs().transpose() * x.v.segment<6>(6 * k).cwiseAbs()).norm();
+    };
+    add(p.block_a[i], p.D_a[i]);
+    add(p.block_b[i], p.D_b[i]);
+    const ContactLaw law = contact_law(p, i);
+    const double compliance = is_rigid(law) ? delassus_trace(p, i) : law.e_n;
+    squared += std::pow(kEps * speed / compliance, 2);
+  }
+  return squared > 0.0 ? std::sqrt(squared) / x.gamma.norm() : 0.0;
+}
+
+double cone_violation(const ContactProblem& p, const VecX& gamma) {
+  double worst = 0.0, largest = 0.0;
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const double gamma_n = gamma[3 * i];
+    const double gamma_t = gamma.segment<2>(3 * i + 1).norm();
+    worst = std::max({worst, gamma_t - p.mu[i] * gamma_n, -gamma_n});
+    largest = std::max(largest, std::abs(gamma_n));
+  }
+  return worst > 0.0 ? worst / std::max(largest, std::numeric_limits<double>::min()) : 0.0;
+}
+
+}  // namespace
+
+double excess(const Residuals& residuals, double tolerance) {
+  constexpr double kRoundingMargin = 16.0;  // several roundings add up
+  const double law =
+      residuals.contact_law / std::max(tolerance, kRoundingMargin * residuals.contact_law_rounding);
+  return std::max({residuals.momentum / tolerance, law, residuals.rigid_contact_speed / tolerance});
+}
+
+double smallest_compliance(const ContactProblem& p) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    smallest = std::min(smallest, p.E[3 * i]);
+    if (p.mu[i] > 0.0) smallest = std::min(smallest, p.E[3 * i + 1]);
+  }
+  return smallest;
+}
+
+double contact_duality_gap(const ContactLaw& law, const Vec3& y, const Vec3& gamma) {
+  const Vec3 gamma_v = contact_impulse(law, y);
+  const double e_t = law.mu > 0.0 ? law.e_t : 0.0;
+  const Vec3 E(law.e_n, e_t, e_t);
+  Vec3 z = Vec3::Zero();  // y + E gamma(v), by regions so that nothing cancels
+  switch (contact_region(law, y)) {
+    case ContactRegion::separation:
+      z = y;
+      break;
+    case ContactRegion::stick:
+      break;
+    case ContactRegion::slip:
+      z.tail<2>() = y.tail<2>() + e_t * gamma_v.tail<2>();
+      z[0] = law.mu * z.tail<2>().norm();
+      break;
+  }
+  const Vec3 difference = gamma - gamma_v;
+  return 0.5 * difference.dot(E.cwiseProduct(difference)) + std::max(0.0, gamma.dot(z));
+}
+
+double largest_unbalanced_impulse(const ContactProblem& problem, const ContactSolution& solution) {
+  return momentum_error(problem, solution).largest;
+}
+
+double root_mean_mass(const ContactProblem& problem) {
+  if (problem.num_blocks() == 0) return 1.0;
+  double mass = 0.0;
+  for (const Mat6& M : problem.M) mass += M.topLeftCorner<3, 3>().trace() / 3.0;
+  return std::sqrt(mass / problem.num_blocks());
+}
+
+double duality_gap(const ContactProblem& problem, const ContactSolution& solution) {
+  const VecX y = relative_velocity(problem, solution.v) + problem.b;
+  double gap = momentum_error(problem, solution).half_squared_norm;
+  for (int i = 0; i < problem.num_contacts(); ++i) {
+    gap +=
+        contact_duality_gap(contact_law(problem, i), y.segment<3>(3 * i), solution.gamma.segment<3>(3 * i));
+  }
+  return gap;
+}
+
+Residuals compute_residuals(const ContactProblem& problem, const ContactSolution& solution,
+                            double reference_speed, FrictionLaw law) {
+  const VecX y0 = relative_velocity(problem, solution.v) + problem.b;
+  Residuals residuals;
+  residuals.momentum =
+      largest_unbalanced_impulse(problem, solution) / (root_mean_mass(problem) * reference_speed);
+  measure_contact_law(problem, solution, y0, law, reference_speed, &residuals);
+  residuals.contact_law_rounding = contact_law_rounding(problem, solution);
+  residuals.cone_violation = cone_violation(problem, solution.gamma);
+
+  constexpr double kRounding = 1e-14;  // |gamma_t| = mu gamma_n is met to a few eps
+  const double min_E = smallest_compliance(problem);
+  const double norm = solution.gamma.norm();
+  if (law == FrictionLaw::associated && min_E > 0.0 && norm > 0.0 && residuals.cone_violation <= kRounding) {
+    residuals.certified_force_error = std::sqrt(2.0 * duality_gap(problem, solution) / min_E) / norm;
+  }
+  return residuals;
+}
+
+}  // namespace cupola

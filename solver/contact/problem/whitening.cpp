@@ -1,0 +1,52 @@
+#include "solver/contact/problem/whitening.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace cupola {
+
+VecX WhitenedProblem::to_w(const VecX& v) const {
+  VecX w(v.size());
+  for (int k = 0; k < static_cast<int>(L.size()); ++k) {
+    w.segment<6>(6 * k).noalias() = L[k].triangularView<Eigen::Lower>().transpose() * v.segment<6>(6 * k);
+  }
+  return w;
+}
+
+VecX WhitenedProblem::to_v(const VecX& w) const {
+  VecX v(w.size());
+  for (int k = 0; k < static_cast<int>(L.size()); ++k) {
+    v.segment<6>(6 * k).noalias() = L_inverse[k].transpose() * w.segment<6>(6 * k);
+  }
+  return v;
+}
+
+WhitenedProblem whiten(const ContactProblem& problem) {
+  const int nb = problem.num_blocks(), nc = problem.num_contacts();
+  WhitenedProblem white;
+  white.L.reserve(nb);
+  white.L_inverse.reserve(nb);
+  for (const Mat6& M : problem.M) {
+    white.L.push_back(M.llt().matrixL());
+    white.L_inverse.push_back(white.L.back().triangularView<Eigen::Lower>().solve(Mat6::Identity()));
+  }
+  ContactProblem& p = white.problem;
+  p.M.assign(nb, Mat6::Identity());
+  p.block_a = problem.block_a;
+  p.block_b = problem.block_b;
+  p.b = problem.b;
+  p.E = problem.E;
+  p.mu = problem.mu;
+  p.h = problem.h;
+  p.plane = problem.plane;
+  p.v_star = white.to_w(problem.v_star);
+  p.D_a.resize(nc);
+  p.D_b.resize(nc);
+  for (int i = 0; i < nc; ++i) {
+    const int a = p.block_a[i], b = p.block_b[i];
+    if (a != ContactProblem::kFixed) p.D_a[i] = white.L_inverse[a].lazyProduct(problem.D_a[i]);
+    if (b != ContactProblem::kFixed) p.D_b[i] = white.L_inverse[b].lazyProduct(problem.D_b[i]);
+  }
+  return white;
+}
+
+}  // namespace cupola

@@ -1,0 +1,199 @@
+#include "solver/fclib/fclib_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <vector>
+
+#include <Eigen/SparseCholesky>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern "C" {
+#include <fclib.h>
+}
+
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "solver/fclib/hdf5_reader.hpp"
+
+namespace cupola {
+
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+[[noreturn]] void reject(const std::string& path, const std::string& what) {
+  throw InputError(FileLocation{path}, "FCLIB: " + what);
+}
+
+/// Reads W, M or H of `rows` x `columns`, sizes that the vectors beside it confirm.
+Sparse read_matrix(const Hdf5Reader& file, const std::string& name, Eigen::Index rows, Eigen::Index columns) {
+  const int m = file.integer(name + "/m"), n = file.integer(name + "/n"), nz = file.integer(name + "/nz");
+  if (m != rows || n != columns)
+    reject(file.path(), fmt::format("{} is {} x {}, its vectors say {} x {}", name, m, n, rows, columns));
+  const std::vector<int> p = file.integers(name + "/p"), i = file.integers(name + "/i");
+  const std::vector<double> x = file.numbers(name + "/x");
+  const bool triplets = nz >= 0, by_rows = nz == -2;
+  if (nz < -2) reject(file.path(), fmt::format("{}/nz = {} is no storage scheme", name, nz));
+  const std::size_t majors = static_cast<std::size_t>(by_rows ? m : n);
+  if (p.size() < (triplets ? static_cast<std::size_t>(nz) : majors + 1))
+    reject(file.path(), fmt::format("{}/p has {} elements", name, p.size()));
+
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](std::size_t k, int row, int column) {
+    if (row < 0 || row >= m || column < 0 || column >= n || !std::isfinite(x[k])) {
+      reject(file.path(),
+             fmt::format("{} has an entry ({}, {}) = {} outside its {} x {}", name, row, column, x[k], m, n));
+    }
+    entries.emplace_back(row, column, x[k]);
+  };
+  const auto check_entry = [&](long long k) {
+    const auto stored = static_cast<long long>(std::min(i.size(), x.size()));
+    if (k < 0 || k >= stored)
+      reject(file.path(), fmt::format("{} points to entry {} of {}", name, k, stored));
+    return static_cast<std::size_t>(k);
+  };
+  if (triplets) {
+    for (int k = 0; k < nz; ++k) add(check_entry(k), i[check_entry(k)], p[static_cast<std::size_t>(k)]);
+  } else {
+    for (std::size_t major = 0; major < majors; ++major) {
+      if (p[major + 1] < p[major]) reject(file.path(), name + "/p decreases");
+      for (int k = p[major]; k < p[major + 1]; ++k) {
+        const std::size_t at = check_entry(k);
+        const int here = static_cast<int>(major);
+        add(at, by_rows ? here : i[at], by_rows ? i[at] : here);
+      }
+    }
+  }
+  Sparse matrix(m, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+VecX read_vector(const Hdf5Reader& file, const std::string& name) {
+  const std::vector<double> values = file.numbers(name);
+  VecX vector = Eigen::Map<const VecX>(values.data(), static_cast<Eigen::Index>(values.size()));
+  if (!vector.allFinite()) reject(file.path(), fmt::format("{} is not finite", name));
+  return vector;
+}
+
+void check_contacts(const Hdf5Reader& file, int spacedim, Eigen::Index rows, const VecX& mu) {
+  if (spacedim != 3) reject(file.path(), fmt::format("space dimension {}: only 3 is solved here", spacedim));
+  if (rows == 0 || rows != 3 * mu.size())
+    reject(file.path(), fmt::format("{} contact rows for {} contacts", rows, mu.size()));
+  if (mu.minCoeff() < 0.0) reject(file.path(), fmt::format("mu = {} < 0", mu.minCoeff()));
+}
+
+DelassusProblem read_local(const Hdf5Reader& file) {
+  if (file.has("/fclib_local/V")) reject(file.path(), "equality constraints (V, R) are not solved here");
+  DelassusProblem local;
+  local.q = read_vector(file, "/fclib_local/vectors/q");
+  local.mu = read_vector(file, "/fclib_local/vectors/mu");
+  check_contacts(file, file.integer("/fclib_local/spacedim"), local.q.size(), local.mu);
+  local.W = read_matrix(file, "/fclib_local/W", local.q.size(), local.q.size());
+  return local;
+}
+
+/// W = H^T M^-1 H, q = H^T M^-1 f + w.
+DelassusProblem read_global(const Hdf5Reader& file) {
+  if (file.has("/fclib_global/G")) reject(file.path(), "equality constraints (G) are not solved here");
+  const VecX f = read_vector(file, "/fclib_global/vectors/f"),
+             w = read_vector(file, "/fclib_global/vectors/w");
+  DelassusProblem local;
+  local.mu = read_vector(file, "/fclib_global/vectors/mu");
+  check_contacts(file, file.integer("/fclib_global/spacedim"), w.size(), local.mu);
+  const Sparse M = read_matrix(file, "/fclib_global/M", f.size(), f.size());
+  const Sparse H = read_matrix(file, "/fclib_global/H", f.size(), w.size());
+  const Eigen::SimplicialLDLT<Sparse> factor(M);
+  if (factor.info() != Eigen::Success) reject(file.path(), "M cannot be factorised: not positive definite");
+  local.W = Sparse(H.transpose() * Sparse(factor.solve(H)));
+  local.q = H.transpose() * factor.solve(f) + w;
+  const bool finite = local.q.allFinite() && local.W.coeffs().allFinite();
+  if (!finite) reject(file.path(), "M is singular in double precision");
+  return local;
+}
+
+/// Of a local problem; libfclib writes those of a global one with sizes that contradict each other. Public
+/// problems declare solutions that nobody has written.
+std::optional<VecX> read_impulses(const Hdf5Reader& file, Eigen::Index size) {
+  if (!file.written("/solution/r")) return std::nullopt;
+  VecX impulses = read_vector(file, "/solution/r");
+  if (impulses.size() != size)
+    reject(file.path(), fmt::format("/solution/r has {} elements, not {}", impulses.size(), size));
+  return impulses;
+}
+
+FclibProblem read_problem(const std::string& path) {
+  const Hdf5Reader file(path);
+  FclibProblem problem;
+  if (file.has("/fclib_local")) {
+    problem.local = read_local(file);
+    problem.impulses = read_impulses(file, problem.local.q.size());
+  } else if (file.has("/fclib_global")) {
+    problem.local = read_global(file);
+    problem.was_global = true;
+  } else {
+    reject(path, "neither /fclib_local nor /fclib_global is there");
+  }
+  return problem;
+}
+
+/// Damaged files end the process within HDF5 itself (1.10: null pointers in its cache of metadata, and when
+/// it tidies up at the process' end). So a child reads first, and its end is what the file is judged by.
+void require_survivable(const std::string& path) {
+  const pid_t child = fork();
+  if (child < 0) throw SystemError(path + ": no process to try it in");
+  if (child == 0) {
+    // A handler of the caller's, such as a sanitizer's, would report the library's end as ours.
+    for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(signal, SIG_DFL);
+    try {
+      read_problem(path);
+    } catch (...) {  // the parent will meet it, too, and say so
+    }
+    close_hdf5();
+    _exit(0);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    reject(path, "is damaged: the HDF5 library does not survive reading it");
+}
+
+}  // namespace
+
+// libfclib reads into arrays of the sizes that a file states, whatever the arrays in the file are, and ends
+// the process when a name is missing: good for writing, but not for reading files of others.
+FclibProblem read_fclib(const std::string& path) {
+  require_survivable(path);
+  return read_problem(path);
+}
+
+void write_fclib(const std::string& path, const std::string& title, const DelassusProblem& problem,
+                 const VecX& gamma) {
+  Sparse W = problem.W;
+  W.makeCompressed();
+  VecX q = problem.q, mu = problem.mu, r = gamma;
+  VecX u = r.size() == 0 ? VecX() : VecX(W * r + q);
+  std::string title_text = title, description = "written by cupola-solve", math = "W = D^T M^-1 D + E";
+  fclib_info info{title_text.data(), description.data(), math.data()};
+  const int n = static_cast<int>(W.rows());
+  fclib_matrix matrix{
+      static_cast<int>(W.nonZeros()), n, n, W.outerIndexPtr(), W.innerIndexPtr(), W.valuePtr(), -1, nullptr};
+  fclib_local local{};
+  local.W = &matrix;
+  local.mu = mu.data();
+  local.q = q.data();
+  local.spacedim = 3;
+  local.info = &info;
+  fclib_solution solution{nullptr, u.data(), r.data(), nullptr};
+  write_atomically(path, [&](const std::string& side_path) {
+    return fclib_write_local(&local, side_path.c_str()) != 0 &&
+           (r.size() == 0 || fclib_write_solution(&solution, side_path.c_str()) != 0);
+  });
+}
+
+}  // namespace cupola

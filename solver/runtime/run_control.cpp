@@ -1,0 +1,75 @@
+#include "solver/runtime/run_control.hpp"
+
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "assembly/base/process.hpp"
+
+namespace cupola {
+namespace {
+
+volatile std::sig_atomic_t stop_requested = 0;
+
+void request_stop(int signal) {
+  stop_requested = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+StopRequest::StopRequest() {
+  stop_requested = 0;
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+}
+
+StopRequest::~StopRequest() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+bool StopRequest::made() const {
+  return stop_requested != 0;
+}
+
+void ProgressBar::show(double share) {
+  constexpr int kWidth = 30;
+  constexpr double kEvery = 0.2;  // s
+  const double now = wall_seconds();
+  if (first_share_ < 0.0) {
+    first_share_ = share;
+    first_time_ = now;
+  }
+  if (share < 1.0 && now - last_time_ < kEvery) return;
+  last_time_ = now;
+  const int filled = static_cast<int>(std::floor(share * kWidth));
+  const double done = share - first_share_;
+  const std::string left =
+      done > 0.0 ? format_duration((now - first_time_) * (1.0 - share) / done) + " left" : "";
+  fmt::print("\r[{:<{}}] {:5.1f} %  {:<14}", std::string(static_cast<std::size_t>(filled), '#'), kWidth,
+             100.0 * share, left);
+  std::fflush(stdout);
+  shown_ = true;
+}
+
+void ProgressBar::finish() {
+  if (shown_) fmt::print("\n");
+  shown_ = false;
+}
+
+bool stdout_is_terminal() {
+  return ::isatty(STDOUT_FILENO) == 1;
+}
+
+std::string format_duration(double seconds) {
+  const auto total = static_cast<long long>(std::llround(seconds));
+  const long long hours = total / 3600, minutes = total / 60 % 60;
+  return hours > 0 ? fmt::format("{}:{:02}:{:02}", hours, minutes, total % 60)
+                   : fmt::format("{}:{:02}", minutes, total % 60);
+}
+
+}  // namespace cupola

@@ -1,0 +1,51 @@
+#include "solver/runtime/threads.hpp"
+
+#include <vector>
+
+#include <fmt/format.h>
+#include <malloc.h>
+#include <sys/mman.h>
+
+#include "assembly/base/error.hpp"
+
+namespace cupola {
+
+namespace {
+
+int count_of_threads = 1;
+
+/// OpenBLAS maps a buffer for every thread that calls it, and tries for ever where it gets none.
+bool has_room_for_blas(int threads) {
+  constexpr std::size_t kEach = 144U << 20U;  // its 128 MB and what a thread takes beside them
+  std::vector<void*> probes;
+  while (static_cast<int>(probes.size()) < threads) {
+    void* probe = mmap(nullptr, kEach, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (probe == MAP_FAILED) break;
+    probes.push_back(probe);
+  }
+  for (void* probe : probes) munmap(probe, kEach);
+  return static_cast<int>(probes.size()) == threads;
+}
+
+}  // namespace
+
+int num_threads() {
+  return count_of_threads;
+}
+
+void release_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+void set_num_threads(int count) {
+  CUPOLA_ASSERT(count >= 1);
+  if (count > 1 && !has_room_for_blas(count))
+    throw SystemError(fmt::format(
+        "out of memory: {} threads need {} MB of address space; ask for fewer or raise the limit (ulimit -v)",
+        count, 144 * count));
+  count_of_threads = count;
+}
+
+}  // namespace cupola

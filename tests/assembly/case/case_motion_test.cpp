@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/case/case_reader.hpp"
+#include "assembly/files/time_table.hpp"
+#include "tests/assembly/case/case_scratch.hpp"
+
+namespace cupola {
+namespace {
+
+const char* const kWall = R"(geometry:
+  surface: {type: wall, length: 3}
+  bond: {type: running, rings: 2, blocks_per_ring: 2}
+)";
+
+TEST(ReadMotion, TakesJointLawsPerKindAndRing) {
+  const ScratchFolder scratch;
+  const Case c = read_case(scratch.write("a.yaml", std::string(kWall) + R"(joints:
+  compliance: {per: point}
+  bed: {friction: 0.3}
+  herringbone: {normal: 2e-8}
+  rings:
+    - {from: 3, friction: 0.1}
+    - {from: 1, to: 2, kind: head, tangential: 1e-7}
+  friction_time: {type: ramp, from: 1, to: 0.5, duration: 2}
+)"));
+  EXPECT_EQ(c.joints.bed->friction, 0.3);
+  EXPECT_FALSE(c.joints.bed->normal);
+  EXPECT_FALSE(c.joints.head);
+  EXPECT_EQ(c.joints.herringbone->normal, 2e-8);
+  ASSERT_EQ(c.joints.rings.size(), 2u);
+  EXPECT_EQ(c.joints.rings[0].to, 3);
+  EXPECT_EQ(c.joints.rings[0].law.friction, 0.1);
+  EXPECT_EQ(c.joints.rings[1].sort, RingJoints::Sort::head);
+  EXPECT_DOUBLE_EQ(factor_at(c.joints.friction_time, 1.0), 0.75);
+}
+
+TEST(ReadMotion, TakesLoadsTiesAndSupports) {
+  const ScratchFolder scratch;
+  scratch.write("shake.csv", "0 0\n1 2\n");
+  const Case c = read_case(scratch.write("a.yaml", std::string(kWall) + R"(joints: {compliance: {per: point}}
+loads:
+  dead_load_time: {type: ramp, duration: 2}
+  forces: [{block: 3, point: [1, 2, 3], force: [0, 0, -5], time: {type: harmonic, frequency: 0.25}}]
+  faces: [{kind: extrados, from_ring: 1, pressure: 500}]
+ties:
+  pairs: [{block_a: 1, block_b: 2, stiffness: 1e6, prestress: 10}]
+  chains: [{ring: 4, stiffness: 2e6}]
+supports:
+  base_motion: {file: shake.csv, direction: [0, 1, 0]}
+  moves: [{blocks: [0], displacement: [0.1, 0, 0], time: {type: table, times: [0, 2], values: [0, 1]}}]
+analysis: {type: dynamic, start: static, adaptive: {largest: 0.02}, stop: {settled_time: 0.5}}
+)"));
+  EXPECT_DOUBLE_EQ(factor_at(c.loads.dead_load_time, 1.0), 0.5);
+  EXPECT_EQ(*c.loads.forces[0].point, Vec3(1, 2, 3));
+  EXPECT_NEAR(factor_at(c.loads.forces[0].time, 1.0), 1.0, 1e-15);
+  EXPECT_EQ(c.loads.faces[0].pressure, 500.0);
+  EXPECT_EQ(c.ties.pairs[0].prestress, 10.0);
+  EXPECT_EQ(c.ties.chains[0].ring, 4);
+  EXPECT_EQ(read_time_table(c.supports.base_motion->file).values[1], 2.0);
+  EXPECT_DOUBLE_EQ(factor_at(c.supports.moves[0].time, 1.0), 0.5);
+  EXPECT_EQ(c.analysis.start, Analysis::Start::static_);
+  EXPECT_EQ(c.analysis.adaptive->largest, 0.02);
+  EXPECT_EQ(c.analysis.stop.settled_time, 0.5);
+}
+
+/// What run.yaml keeps is the same case again.
+TEST(ReadMotion, EffectiveOptionsReadBack) {
+  const ScratchFolder scratch;
+  const Case c = read_case(scratch.write(
+      "a.yaml", std::string(kWall) + R"(joints: {compliance: {per: point}, base: {friction: 0.7}}
+loads: {forces: [{block: 3, force: [0, 0, -5]}]}
+supports: {moves: [{displacement: [0.1, 0, 0]}]}
+)"));
+  const Case again = read_case(scratch.write("b.yaml", c.effective_yaml));
+  EXPECT_EQ(again.effective_yaml, c.effective_yaml);
+  EXPECT_EQ(again.hash, c.hash);
+}
+
+struct BadMotion {
+  const char* text;
+  const char* phrase;
+};
+
+TEST(ReadMotion, SaysWhatIsWrong) {
+  const ScratchFolder scratch;
+  scratch.write("bad.csv", "0 0\n0 1\n");
+  for (const BadMotion& bad : std::initializer_list<BadMotion>{
+           {"supports: {base_motion: {file: absent.csv}}", "no such file"},
+           {"supports: {base_motion: {quantity: displacement}}", "supports.base_motion.file: must be given"},
+           {"supports: {moves: [{time: {type: table, file: bad.csv}}]}", "times must increase"},
+           {"supports: {moves: [{time: {type: table, times: [0, 0], values: [1, 2]}}]}", "must increase"},
+           {"supports: {moves: [{blocks: [0.5]}]}", "must be a whole number"},
+           {"loads: {forces: [{force: [0, 0, 1]}]}", "loads.forces[0].block is missing"},
+           {"ties: {pairs: [{block_a: 1, block_b: 2, stiffness: 0}]}",
+            "ties.pairs[0].stiffness = 0: must be > 0"},
+           {"analysis: {adaptive: {smallest: 1, largest: 0.1}}", "must be >= smallest"}}) {
+    try {
+      read_case(
+          scratch.write("a.yaml", std::string(kWall) + "joints: {compliance: {per: point}}\n" + bad.text));
+      ADD_FAILURE() << bad.text << " was accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(bad.phrase), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cupola

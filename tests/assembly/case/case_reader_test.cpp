@@ -1,0 +1,175 @@
+#include "assembly/case/case_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "tests/assembly/case/case_scratch.hpp"
+
+namespace cupola {
+namespace {
+
+const char* const kDome = R"(title: "A dome: 40 x 32"
+geometry:
+  surface: {type: dome, span: 45, thickness: 2.2}
+  bond: {type: running, rings: 40, blocks_per_ring: 32}
+joints:
+  friction: 0.3
+  compliance: {normal: 1e-8, tangential: 2e-8, per: point}
+loads: {gravity: [0, 0, -9.80665], lantern: {weight_fraction: 0.02}}
+postproc:
+  meridians: [{name: east, azimuth_deg: 0}]
+  sections: [14.5, 22.5]
+)";
+
+const char* const kWall = R"(geometry:
+  surface: {type: wall, length: 3}
+  bond: {type: running, rings: 2, blocks_per_ring: 2}
+joints: {compliance: {per: area}}
+)";
+
+TEST(ReadCase, TakesEveryValueOfTheFile) {
+  const ScratchFolder scratch;
+  const Case c = read_case(scratch.write("dome.yaml", kDome));
+  EXPECT_EQ(c.title, "A dome: 40 x 32");
+  const auto& dome = std::get<DomeSurface>(c.geometry.surface);
+  EXPECT_EQ(dome.span, 45.0);
+  EXPECT_EQ(dome.thickness, 2.2);
+  EXPECT_EQ(std::get<RunningBond>(c.geometry.bond).rings, 40);
+  EXPECT_EQ(c.joints.friction, 0.3);
+  EXPECT_EQ(c.joints.compliance.tangential, 2e-8);
+  EXPECT_EQ(c.joints.compliance.per, Compliance::Per::point);
+  EXPECT_EQ(c.loads.gravity.z(), -9.80665);
+  ASSERT_TRUE(c.loads.lantern);
+  EXPECT_EQ(c.loads.lantern->weight_fraction, 0.02);
+  EXPECT_FALSE(c.loads.top_load);
+  ASSERT_EQ(c.postproc.meridians.size(), 1u);
+  EXPECT_EQ(c.postproc.meridians[0].name, "east");
+  EXPECT_EQ(c.postproc.sections, (std::vector<double>{14.5, 22.5}));
+}
+
+TEST(ReadCase, KeepsTheDefaultsOfTheStructs) {
+  const ScratchFolder scratch;
+  const Case c = read_case(scratch.write("wall.yaml", kWall));
+  EXPECT_EQ(std::get<WallSurface>(c.geometry.surface).height, WallSurface{}.height);
+  EXPECT_EQ(c.joints.friction, Joints{}.friction);
+  EXPECT_EQ(c.analysis.time_step, Analysis{}.time_step);
+  EXPECT_EQ(c.analysis.type, AnalysisType::static_);
+  EXPECT_FALSE(c.geometry.stage);
+}
+
+TEST(ReadCase, APresetSettlesTheTolerance) {
+  const ScratchFolder scratch;
+  const std::string own = std::string(kWall) + "analysis: {tolerance: 1e-7}\n";
+  EXPECT_EQ(read_case(scratch.write("own.yaml", own)).analysis.tolerance, 1e-7);
+  double looser = 1.0;
+  for (const char* preset : {"draft", "standard", "reference"}) {
+    const Case c = read_case(scratch.file("own.yaml"), {std::string("analysis.accuracy=") + preset});
+    EXPECT_LT(c.analysis.tolerance, looser) << preset;
+    looser = c.analysis.tolerance;
+    const Case again = read_case(scratch.write("again.yaml", c.effective_yaml));
+    EXPECT_EQ(again.analysis.tolerance, c.analysis.tolerance) << preset;
+  }
+}
+
+TEST(ReadCase, AccuracyMayAskForAnErrorInsteadOfAPreset) {
+  const ScratchFolder scratch;
+  const Case c = read_case(
+      scratch.write("asked.yaml", std::string(kWall) + "analysis: {accuracy: {wrench_error: 1e-3}}\n"));
+  EXPECT_EQ(c.analysis.accuracy.wrench_error, 1e-3);
+  EXPECT_EQ(c.analysis.accuracy.preset, Accuracy::Preset::custom);
+  EXPECT_EQ(read_case(scratch.write("again.yaml", c.effective_yaml)).analysis.accuracy.wrench_error, 1e-3);
+}
+
+TEST(ReadCase, EffectiveYamlReadsBackToTheSameCase) {
+  const ScratchFolder scratch;
+  for (const char* text : {kDome, kWall}) {
+    const Case first = read_case(scratch.write("first.yaml", text));
+    const Case again = read_case(scratch.write("again.yaml", first.effective_yaml));
+    EXPECT_EQ(first.effective_yaml, again.effective_yaml);
+    EXPECT_EQ(first.hash, again.hash);
+    EXPECT_EQ(first.geometry_hash, again.geometry_hash);
+  }
+}
+
+TEST(ReadCase, TextSurvivesTheEffectiveYaml) {
+  const ScratchFolder scratch;
+  const Case first =
+      read_case(scratch.write("a.yaml", std::string(kWall) + "title: \"<b>\\\"x\\\" \\\\ # é\\n: yes\"\n"));
+  EXPECT_EQ(first.title, "<b>\"x\" \\ # é\n: yes");
+  EXPECT_EQ(read_case(scratch.write("b.yaml", first.effective_yaml)).title, first.title);
+}
+
+TEST(ReadCase, DensityIsUnitWeightOverStandardGravity) {
+  const ScratchFolder scratch;
+  const std::string path = scratch.write("wall.yaml", kWall);
+  const Case c = read_case(path, {"material.density=1800"});
+  EXPECT_DOUBLE_EQ(c.material.density(), 1800.0);  // one product and one quotient: 2 ulp
+  EXPECT_DOUBLE_EQ(c.material.unit_weight, 17658.0);
+}
+
+TEST(ReadCase, HashSeesValuesNotSpelling) {
+  const ScratchFolder scratch;
+  const std::string path = scratch.write("dome.yaml", kDome);
+  const Case plain = read_case(path);
+  EXPECT_EQ(plain.hash, read_case(path, {"joints.friction=3.0e-1"}).hash);
+  const Case other = read_case(path, {"joints.friction=0.31"});
+  EXPECT_NE(plain.hash, other.hash);
+  EXPECT_EQ(plain.geometry_hash, other.geometry_hash);
+  EXPECT_NE(plain.geometry_hash, read_case(path, {"geometry.surface.span=46"}).geometry_hash);
+  EXPECT_NE(plain.geometry_hash, read_case(path, {"material.density=1800"}).geometry_hash);
+}
+
+TEST(ReadCase, SetOptionsOverrideInOrderAndTakeYaml) {
+  const ScratchFolder scratch;
+  const std::string path = scratch.write("dome.yaml", kDome);
+  const Case c = read_case(path, {"joints.friction=0.1", "joints.friction=0.2", "loads.gravity=[1, 0, -9]",
+                                  "geometry.stage={rings: 26}", "loads.lantern=null"});
+  EXPECT_EQ(c.joints.friction, 0.2);
+  EXPECT_EQ(c.loads.gravity.x(), 1.0);
+  ASSERT_TRUE(c.geometry.stage);
+  EXPECT_EQ(c.geometry.stage->rings, 26);
+  EXPECT_FALSE(c.loads.lantern);
+}
+
+TEST(ReadCase, AnotherTypeReplacesTheKeysOfTheFirst) {
+  const ScratchFolder scratch;
+  const std::string path = scratch.write("dome.yaml", kDome);
+  const Case c = read_case(path, {"geometry.surface.length=5", "geometry.surface.type=wall"});
+  EXPECT_EQ(std::get<WallSurface>(c.geometry.surface).length, 5.0);
+  EXPECT_EQ(std::get<WallSurface>(c.geometry.surface).thickness, WallSurface{}.thickness);
+  const Case dynamic = read_case(path, {"analysis={tolerance: 1e-6, type: dynamic}"});
+  EXPECT_EQ(dynamic.analysis.tolerance, 1e-6);
+}
+
+TEST(Extends, ChangesWhatIsNamedAndKeepsTheRest) {
+  const ScratchFolder scratch;
+  scratch.write("base/dome.yaml", kDome);
+  scratch.write("middle.yaml", "extends: base/dome.yaml\njoints: {friction: 0.5}\n");
+  const Case c = read_case(scratch.write("top.yaml", "extends: middle.yaml\nanalysis: {type: dynamic}\n"));
+  EXPECT_EQ(c.joints.friction, 0.5);
+  EXPECT_EQ(c.joints.compliance.tangential, 2e-8);
+  EXPECT_EQ(c.analysis.type, AnalysisType::dynamic);
+}
+
+TEST(Extends, ErrorNamesTheFileThatSaysIt) {
+  const ScratchFolder scratch;
+  scratch.write("dome.yaml", std::string(kDome) + "output: {frames_every: 0}\n");
+  const std::string top = scratch.write("top.yaml", "extends: dome.yaml\n");
+  try {
+    read_case(top);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              scratch.file("dome.yaml") + ":12:24: error: output.frames_every = 0: must be > 0");
+  }
+}
+
+TEST(Schema, NamesEveryKeyOnceWithItsDefault) {
+  const std::string schema = case_schema();
+  for (const char* expected : {"| joints.friction ", "| required ", "geometry.surface.span (type: dome)",
+                               "geometry.surface.length (type: wall)", "postproc.meridians[].azimuth_deg"})
+    EXPECT_NE(schema.find(expected), std::string::npos) << expected;
+}
+
+}  // namespace
+}  // namespace cupola

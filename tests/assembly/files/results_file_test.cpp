@@ -1,0 +1,257 @@
+#include "assembly/files/results_file.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/files/summary_file.hpp"
+#include "tests/assembly/scene.hpp"
+
+namespace cupola {
+namespace {
+
+Frame two_block_frame(double time) {
+  Frame frame;
+  frame.time = time;
+  for (int i = 0; i < 3; ++i) {
+    ContactTable& c = frame.contacts;
+    c.joint.push_back(i / 2);
+    c.block_a.push_back(0);
+    c.block_b.push_back(1 + i / 2);
+    c.kind.push_back(i == 2 ? JointKind::head : JointKind::base);
+    c.ring.push_back(i);
+    c.point.emplace_back(0.1 * i, 1.0 / 3.0, time);
+    c.normal.emplace_back(0.6, 0.0, 0.8);
+    c.gap.push_back(-1e-9 / 3 * i);
+    c.force.emplace_back(1e6 / 3.0, -2e-7, 5e6 + i);
+    c.normal_force.push_back(4e6 / 3.0);
+    c.friction_use.push_back(0.1 * i);
+    c.area.push_back(1.0 / 7.0);
+    c.slip.push_back(1e-12 * i);
+  }
+  for (int b = 0; b < 3; ++b) {
+    frame.blocks.position.emplace_back(b, 1.0 / 3.0, time);
+    frame.blocks.quaternion_wxyz.emplace_back(std::cos(0.1), std::sin(0.1), 0.0, 0.0);
+    frame.blocks.velocity.emplace_back(0.1, 0.2, 0.3);
+    frame.blocks.angular_velocity.emplace_back(-0.1, 1e-15, 3.0);
+    frame.blocks.displacement.emplace_back(1e-3 / 3.0, 0.0, -2.0);
+  }
+  return frame;
+}
+
+Summary example_summary() {
+  Summary s;
+  s.status = Status::moving;
+  s.message = "largest speed 0.2 m/s > threshold 0.001 m/s, \"quoted\"";
+  s.analysis = "dynamic";
+  s.assembly_hash = "hash of the assembly";
+  s.blocks = 3;
+  s.weight_N = 1.0 / 3.0;
+  s.applied_load_N = {1e-17, -2.0, 1.0 / 7.0};
+  s.certified_force_error = 1.2e-9;
+  s.contact_law_residual = 4.9e-324;
+  s.peak_memory_bytes = 5'000'000'000;
+  s.threads = 2;
+  return s;
+}
+
+void expect_equal(const Frame& a, const Frame& b) {
+  EXPECT_EQ(a.time, b.time);
+  EXPECT_EQ(a.contacts.joint, b.contacts.joint);
+  EXPECT_EQ(a.contacts.block_a, b.contacts.block_a);
+  EXPECT_EQ(a.contacts.block_b, b.contacts.block_b);
+  EXPECT_EQ(a.contacts.kind, b.contacts.kind);
+  EXPECT_EQ(a.contacts.ring, b.contacts.ring);
+  EXPECT_EQ(a.contacts.point, b.contacts.point);
+  EXPECT_EQ(a.contacts.normal, b.contacts.normal);
+  EXPECT_EQ(a.contacts.gap, b.contacts.gap);
+  EXPECT_EQ(a.contacts.force, b.contacts.force);
+  EXPECT_EQ(a.contacts.normal_force, b.contacts.normal_force);
+  EXPECT_EQ(a.contacts.friction_use, b.contacts.friction_use);
+  EXPECT_EQ(a.contacts.area, b.contacts.area);
+  EXPECT_EQ(a.contacts.slip, b.contacts.slip);
+  EXPECT_EQ(a.blocks.position, b.blocks.position);
+  EXPECT_EQ(a.blocks.quaternion_wxyz, b.blocks.quaternion_wxyz);
+  EXPECT_EQ(a.blocks.velocity, b.blocks.velocity);
+  EXPECT_EQ(a.blocks.angular_velocity, b.blocks.angular_velocity);
+  EXPECT_EQ(a.blocks.displacement, b.blocks.displacement);
+}
+
+std::string open_error(const std::string& folder, const std::string& hash) {
+  try {
+    ResultsReader reader(folder, hash);
+    for (size_t i = 0; i < reader.times().size(); ++i) reader.read_frame(static_cast<int>(i));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string written_results(const std::string& name) {
+  const std::string folder = test::fresh_folder(name);
+  ResultsWriter writer(folder, example_summary().assembly_hash);
+  writer.write_frame(two_block_frame(0.0));
+  writer.write_frame(two_block_frame(1.0 / 3.0));
+  writer.write_summary(example_summary());
+  return folder;
+}
+
+TEST(ResultsFile, FramesRoundTripExactly) {
+  const std::string folder = written_results("a");
+  const ResultsReader reader(folder, example_summary().assembly_hash);
+  ASSERT_EQ(reader.times(), (std::vector{0.0, 1.0 / 3.0}));
+  expect_equal(reader.read_frame(0), two_block_frame(0.0));
+  expect_equal(reader.read_frame(1), two_block_frame(1.0 / 3.0));
+}
+
+TEST(ResultsFile, TextFilesAreTheBytesThatWereWritten) {
+  const std::string folder = test::fresh_folder("texts"), hash = example_summary().assembly_hash;
+  ResultsWriter writer(folder, hash);
+  writer.write_frame(two_block_frame(0.0));
+  writer.write_text("history.csv", "t\n0\n");
+  writer.write_text("history.csv", "t\n0\n1\n");
+  writer.write_text("run.yaml", "title: x\n");
+  writer.write_summary(example_summary());
+  write_text_atomically(folder + "/stages.csv", "of an earlier run\n");
+  const ResultsReader reader(folder, hash);
+  EXPECT_EQ(reader.read_text_file("history.csv"), "t\n0\n1\n");
+  EXPECT_EQ(reader.read_text_file("run.yaml"), "title: x\n");
+  const auto error_of = [&reader](const std::string& name) -> std::string {
+    try {
+      reader.read_text_file(name);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  write_text_atomically(folder + "/history.csv", "t\n0\n");
+  EXPECT_NE(error_of("history.csv").find("history.csv: error: is damaged or was edited"), std::string::npos);
+  std::filesystem::remove(folder + "/run.yaml");
+  EXPECT_NE(error_of("run.yaml").find("run.yaml: error: does not exist"), std::string::npos);
+  EXPECT_NE(error_of("stages.csv").find("is not named in summary.json"), std::string::npos);
+}
+
+TEST(ResultsFile, JointsOfAFrame) {
+  const auto joints = joints_of(two_block_frame(0.0).contacts);
+  ASSERT_EQ(joints.size(), 2u);
+  EXPECT_EQ(joints[1].block_b, 2);
+  EXPECT_EQ(joints[1].kind, JointKind::head);
+  EXPECT_TRUE(joints_of(ContactTable()).empty());
+}
+
+TEST(ResultsFile, ForeignOrIncompleteFoldersAreNamed) {
+  const auto has = [](const std::string& message, const std::string& part) {
+    return testing::AssertionResult(message.find(part) != std::string::npos) << "got: " << message;
+  };
+  const std::string hash = example_summary().assembly_hash;
+  EXPECT_TRUE(has(open_error("/nowhere/at/all", hash), "results folder does not exist"));
+  EXPECT_TRUE(has(open_error(written_results("a"), "other"), "belongs to another assembly"));
+
+  std::string folder = written_results("b");
+  std::filesystem::remove(folder + "/contacts_0001.vtp");
+  EXPECT_TRUE(has(open_error(folder, hash), "contacts_0001.vtp: error: does not exist"));
+
+  folder = written_results("c");
+  std::filesystem::resize_file(folder + "/blocks_0001.vtp", 700);
+  EXPECT_TRUE(has(open_error(folder, hash), "blocks_0001.vtp: error: is truncated"));
+
+  folder = written_results("d");
+  std::filesystem::remove(folder + "/summary.json");
+  EXPECT_TRUE(has(open_error(folder, hash), "the run has not finished"));
+
+  // A frame of another run slipped in.
+  folder = written_results("e");
+  ResultsWriter other(test::fresh_folder("f"), "another hash");
+  other.write_frame(two_block_frame(0.0));
+  std::filesystem::copy_file(other.folder() + "/blocks_0000.vtp", folder + "/blocks_0000.vtp",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_TRUE(has(open_error(folder, hash), "blocks_0000.vtp: error: belongs to another assembly"));
+}
+
+TEST(ResultsFile, InvalidContactsAreNamed) {
+  const auto error_of = [](const std::string& name, const std::function<void(ContactTable*)>& change) {
+    const std::string folder = test::fresh_folder(name);
+    ResultsWriter writer(folder, example_summary().assembly_hash);
+    Frame frame = two_block_frame(0.0);
+    change(&frame.contacts);
+    writer.write_frame(frame);
+    writer.write_summary(example_summary());
+    return open_error(folder, example_summary().assembly_hash);
+  };
+  EXPECT_EQ(error_of("ok", [](ContactTable*) {}), "");
+  EXPECT_NE(error_of("block", [](ContactTable* c) { c->block_b[1] = 3; }), "");
+  EXPECT_NE(error_of("order", [](ContactTable* c) { c->block_a[1] = 1; }), "");
+  EXPECT_NE(error_of("joint", [](ContactTable* c) { c->joint[1] = 1 << 30; }), "");
+  EXPECT_NE(error_of("nan", [](ContactTable* c) { c->force[1].x() = std::nan(""); }), "");
+}
+
+TEST(ResultsFile, ANewRunRemovesTheOldSummary) {
+  const std::string folder = written_results("a");
+  ResultsWriter writer(folder, example_summary().assembly_hash);
+  EXPECT_EQ(open_error(folder, example_summary().assembly_hash), "");
+  writer.write_frame(two_block_frame(0.0));
+  EXPECT_NE(open_error(folder, example_summary().assembly_hash).find("the run has not finished"),
+            std::string::npos);
+}
+
+TEST(SummaryJson, RoundTripsExactly) {
+  const Summary s = example_summary();
+  const std::string text = to_json(s);
+  const Summary back = summary_from_json(text, "summary.json");
+  EXPECT_EQ(to_json(back), text);
+  EXPECT_EQ(back.status, s.status);
+  EXPECT_EQ(back.message, s.message);
+  EXPECT_EQ(back.weight_N, s.weight_N);
+  EXPECT_EQ(back.applied_load_N, s.applied_load_N);
+  EXPECT_EQ(back.certified_force_error, s.certified_force_error);
+  EXPECT_EQ(back.contact_law_residual, s.contact_law_residual);
+  EXPECT_EQ(back.peak_memory_bytes, s.peak_memory_bytes);
+}
+
+TEST(SummaryJson, NotCertifiedAndNotFiniteAreSaid) {
+  Summary s = example_summary();
+  s.certified_force_error.reset();
+  s.momentum_residual = std::numeric_limits<double>::infinity();
+  const std::string text = to_json(s);
+  EXPECT_NE(text.find("\"certified_force_error\": \"not certified\""), std::string::npos);
+  EXPECT_NE(text.find("\"momentum_residual\": null"), std::string::npos);
+  const Summary back = summary_from_json(text, "summary.json");
+  EXPECT_FALSE(back.certified_force_error);
+  EXPECT_TRUE(std::isnan(back.momentum_residual));
+}
+
+TEST(SummaryJson, BadTextIsNamed) {
+  const std::string good = to_json(example_summary());
+  const auto error_of = [](const std::string& text) -> std::string {
+    try {
+      summary_from_json(text, "r/summary.json");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto with = [&good](const std::string& from, const std::string& to) {
+    std::string text = good;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  EXPECT_EQ(error_of(good.substr(0, good.size() / 2)),
+            "r/summary.json: error: is not a complete JSON object");
+  EXPECT_EQ(error_of("[1]"), "r/summary.json: error: is not a complete JSON object");
+  EXPECT_EQ(error_of(with("\"format_version\": 1", "\"format_version\": 9")),
+            "r/summary.json: error: has format_version 9, this program reads 1");
+  EXPECT_EQ(error_of(with("\"weight_N\"", "\"weight\"")), "r/summary.json: error: key `weight_N` is missing");
+  EXPECT_EQ(error_of(with("\"moving\"", "\"dancing\"")),
+            "r/summary.json: error: status = \"dancing\": has the wrong type");
+  EXPECT_EQ(error_of(with("\"blocks\": 3", "\"blocks\": \"3\"")),
+            "r/summary.json: error: blocks = \"3\": has the wrong type");
+  for (const std::string count : {"3.5", "1e+85", "4294967299", "-4294967293", "18446744073709551615"})
+    EXPECT_EQ(error_of(with("\"blocks\": 3", "\"blocks\": " + count)),
+              "r/summary.json: error: blocks = " + count + ": has the wrong type");
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,67 @@
+#include "assembly/model/applied_loads.hpp"
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "tests/assembly/scene.hpp"
+
+namespace cupola {
+namespace {
+
+std::string refusal_of(const Loads& loads, const Assembly& assembly) {
+  try {
+    applied_loads(loads, assembly);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AppliedLoads, ShareTheTopLoadByArea) {
+  const Assembly assembly = test::two_block_assembly();
+  Loads loads;
+  loads.gravity = {0.0, 3.0, -4.0};
+  loads.top_load = TopLoad{2.0};
+  const std::vector<PointForce> forces = applied_loads(loads, assembly);
+  ASSERT_EQ(forces.size(), 1u) << "one top face";
+  EXPECT_EQ(forces[0].block, 1);
+  // Twice the free block's weight, along gravity.
+  const Vec3 expected = 2.0 * assembly.blocks[1].mass * loads.gravity;
+  EXPECT_LE((forces[0].force - expected).norm(), 1e-15 * expected.norm());
+}
+
+TEST(AppliedLoads, PressAgainstTheFaces) {
+  const Assembly assembly = test::two_block_assembly();
+  Loads loads;
+  FaceLoad& load = loads.faces.emplace_back();
+  load.faces = FaceKind::top;
+  load.traction = {0.0, 7.0, 0.0};
+  load.pressure = 5.0;
+  const std::vector<PointForce> forces = applied_loads(loads, assembly);
+  ASSERT_EQ(forces.size(), 1u);
+  const double area = 0.1 / 3.0;  // of the face from x = 0.1 to 0.2 and y = 0 to 1/3
+  EXPECT_LE((forces[0].force - area * Vec3(0.0, 7.0, -5.0)).norm(), 1e-15);
+  EXPECT_EQ(forces[0].time, 0);
+}
+
+TEST(AppliedLoads, WhatNothingCarriesIsRefused) {
+  Assembly assembly = test::two_block_assembly();
+  Loads loads;
+  loads.forces.emplace_back().block = 2;
+  EXPECT_EQ(refusal_of(loads, assembly), "error: loads.forces: block 2: the assembly has blocks 0 to 1");
+  loads.forces[0].block = 0;
+  EXPECT_EQ(refusal_of(loads, assembly), "error: loads.forces: block 0 is fixed and carries no load");
+  loads.forces.clear();
+  loads.faces.emplace_back().faces = FaceKind::extrados;
+  loads.faces[0].to_ring = 2;
+  EXPECT_EQ(refusal_of(loads, assembly),
+            "error: loads.faces: no free block of rings 0 to 2 has extrados faces");
+  loads.faces.clear();
+  for (FaceKind& kind : assembly.face_kinds)
+    if (kind == FaceKind::top) kind = FaceKind::free;
+  loads.lantern = TopLoad{0.1};
+  EXPECT_EQ(refusal_of(loads, assembly), "error: loads.lantern: the assembly has no top faces to carry it");
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,403 @@
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "generators/generate.hpp"
+#include "generators/importer/readers.hpp"
+#include "tests/generators/meshes.hpp"
+#include "tests/generators/shared_data.hpp"
+
+namespace cupola {
+namespace {
+
+/// A folder of its own for each test's files.
+class Import : public testing::Test {
+ protected:
+  Import() : folder_(std::filesystem::temp_directory_path() / ("cupola_import_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~Import() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    const std::string path = (folder_ / name).string();
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+  /// Everything up to the check of the model, as the program does it; the message when it refuses.
+  static std::string complaint(const std::string& path) {
+    Case c;
+    c.geometry.imported.emplace();
+    c.geometry.imported->path = path;
+    try {
+      generate(c);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::filesystem::path folder_;
+};
+
+std::string obj_box(const std::string& name, double x, double z, int first) {
+  std::string text = "o " + name + "\n";
+  for (double dz : {0.0, 1.0})
+    for (auto [dx, dy] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+      text += fmt::format("v {:f} {} {:f}\n", x + dx, dy, z + dz);
+  const int faces[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                           {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  for (const auto& face : faces) {
+    text +=
+        fmt::format("f {} {} {} {}\n", first + face[0], first + face[1], first + face[2], first + face[3]);
+  }
+  return text;
+}
+
+constexpr const char* kOffBox =
+    "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+    "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+
+TEST_F(Import, ReadsObjectsOfAnObjAsBlocks) {
+  ImportedBlocks source;
+  source.path = write("two.obj", obj_box("lower", 0, 0, 1) + obj_box("upper", 0.25, 1, 9));
+  source.supports = {"lower"};
+  ImportReport report;
+  const Assembly model = import_blocks(source, 2000.0, &report);
+  ASSERT_EQ(model.blocks.size(), 2u);
+  ASSERT_EQ(report.origins.size(), 2u);
+  EXPECT_EQ(report.origins[0].name, "lower");
+  EXPECT_EQ(report.origins[1].name, "upper");
+  EXPECT_TRUE(model.blocks[0].fixed);
+  EXPECT_FALSE(model.blocks[1].fixed);
+  EXPECT_NEAR(model.blocks[1].mass, 2000.0, 1e-9);
+  EXPECT_NEAR((model.blocks[1].centroid - Vec3(0.75, 0.5, 1.5)).norm(), 0.0, 1e-15);
+}
+
+TEST_F(Import, ReadsOffStlAndPlyAlike) {
+  ImportedBlocks source;
+  source.path = write("box.off", kOffBox);
+  EXPECT_NEAR(import_blocks(source, 1.0).blocks.at(0).volume, 1.0, 1e-15);
+
+  // Two tetrahedra of volume 1/6, in ascii STL and PLY: two components.
+  std::string stl = "solid s\n";
+  for (double x : {0.0, 5.0}) {
+    const Vec3 p[4] = {{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}, {x, 0, 1}};
+    for (const auto& t :
+         {std::array{0, 2, 1}, std::array{0, 1, 3}, std::array{1, 2, 3}, std::array{2, 0, 3}}) {
+      stl += "facet normal 0 0 0\nouter loop\n";
+      for (int v : t)
+        stl += "vertex " + std::to_string(p[v].x()) + " " + std::to_string(p[v].y()) + " " +
+               std::to_string(p[v].z()) + "\n";
+      stl += "endloop\nendfacet\n";
+    }
+  }
+  source.path = write("two.stl", stl + "endsolid s\n");
+  const Assembly from_stl = import_blocks(source, 1.0);
+  ASSERT_EQ(from_stl.blocks.size(), 2u);
+  for (const Block& b : from_stl.blocks) EXPECT_NEAR(b.volume, 1.0 / 6, 1e-15);
+
+  source.path =
+      write("tet.ply",
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+            "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+            "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+  EXPECT_NEAR(import_blocks(source, 1.0).blocks.at(0).volume, 1.0 / 6, 1e-15);
+}
+
+TEST_F(Import, ReadsBinaryStlAndPly) {
+  const float p[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const int t[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const auto raw = [](const auto& value) {
+    return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  std::string stl(80, ' ');
+  stl += raw(std::uint32_t{4});
+  std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+      "float z\n"
+      "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const auto& corner : p)
+    for (float x : corner) ply += raw(x);
+  for (const auto& triangle : t) {
+    for (int i = 0; i < 3; ++i) stl += raw(0.0f);
+    for (int v : triangle)
+      for (float x : p[v]) stl += raw(x);
+    stl += raw(std::uint16_t{0});
+    ply += raw(std::uint8_t{3});
+    for (int v : triangle) ply += raw(std::int32_t{v});
+  }
+  ImportedBlocks source;
+  source.path = write("tet.stl", stl);
+  EXPECT_NEAR(import_blocks(source, 1.0).blocks.at(0).volume, 1.0 / 6, 1e-15);
+  source.path = write("tet.ply", ply);
+  EXPECT_NEAR(import_blocks(source, 1.0).blocks.at(0).volume, 1.0 / 6, 1e-15);
+}
+
+TEST_F(Import, TurnsUnitsAndAxes) {
+  ImportedBlocks source;
+  source.path = write("box.obj", obj_box("a", 0, 0, 1));
+  source.metres_per_unit = 0.01;
+  source.up = ImportedBlocks::UpAxis::y;  // (x, y, z) -> (x, -z, y)
+  const Assembly model = import_blocks(source, 1.0);
+  EXPECT_NEAR(model.blocks[0].volume, 1e-6, 1e-20);
+  EXPECT_NEAR((model.blocks[0].centroid - Vec3(0.005, -0.005, 0.005)).norm(), 0.0, 1e-16);
+}
+
+TEST_F(Import, SnapsOpposedFacesIntoOnePlane) {
+  ImportedBlocks source;
+  source.path = write("two.obj", obj_box("a", 0, 0, 1) + obj_box("b", 0, 1.0004, 9));
+  source.snap = 1e-3;
+  ImportReport report;
+  const Assembly model = import_blocks(source, 1.0, &report);
+  EXPECT_EQ(report.snapped_facets, 2);
+  double top = 0.0, bottom = 9.0;
+  for (int v = 0; v < 8; ++v) top = std::max(top, model.vertices[v].z());
+  for (int v = 8; v < 16; ++v) bottom = std::min(bottom, model.vertices[v].z());
+  EXPECT_NEAR(top, 1.0002, 1e-12);
+  EXPECT_NEAR(bottom, 1.0002, 1e-12);
+}
+
+TEST_F(Import, BricksCarryDensityFlagsAndSeveralParts) {
+  const std::string corners_a = "0,0,0,1,0,0,1,1,0,0,1,0,0,0,1,1,0,1,1,1,1,0,1,1";
+  const std::string corners_b = "1,0,0,3,0,0,3,1,0,1,1,0,1,0,1,3,0,1,3,1,1,1,1,1";
+  ImportedBlocks source;
+  source.path = write("bricks.csv", "7,1,1,0,2500,0,0,0,0,0,0," + corners_a + ",9999," + corners_b + "\n");
+  ImportReport report;
+  const Assembly model = import_blocks(source, 1.0, &report);
+  ASSERT_EQ(model.blocks.size(), 1u);
+  EXPECT_EQ(report.parts, std::vector<int>{2});
+  EXPECT_NEAR(model.blocks[0].mass, 2500.0 * 3.0, 1e-9);
+  EXPECT_TRUE(model.blocks[0].fixed);
+}
+
+TEST_F(Import, BrokenInputIsNamed) {
+  const std::string box = obj_box("a", 0, 0, 1);
+  std::string open = box.substr(0, box.rfind("f "));
+  EXPECT_NE(
+      complaint(write("open.obj", open)).find("open.obj:1: error: block a: not closed, 4 boundary edges"),
+      std::string::npos)
+      << complaint(write("open.obj", open));
+
+  std::string inside_out;
+  const int faces[6][4] = {{1, 2, 3, 4}, {8, 7, 6, 5}, {5, 6, 2, 1},
+                           {6, 7, 3, 2}, {7, 8, 4, 3}, {8, 5, 1, 4}};
+  inside_out = box.substr(0, box.find("f "));
+  for (const auto& f : faces)
+    inside_out += "f " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]) +
+                  " " + std::to_string(f[3]) + "\n";
+  EXPECT_NE(complaint(write("turned.obj", inside_out)).find("block a: inside out"), std::string::npos);
+
+  std::string crossing = box;  // pushes the top below the bottom at one corner
+  crossing.replace(crossing.find("v 1.000000 1 1.000000"), 21, "v 1.000000 1 -2.00000");
+  EXPECT_NE(complaint(write("crossing.obj", crossing)).find("block a: its surface crosses itself"),
+            std::string::npos)
+      << complaint(write("crossing.obj", crossing));
+
+  const std::string overlapping = box + obj_box("b", 0, 0.99, 9);
+  EXPECT_NE(complaint(write("overlap.obj", overlapping)).find("overlap by 0.01 m"), std::string::npos)
+      << complaint(write("overlap.obj", overlapping));
+
+  const std::string twice = box + obj_box("a", 5, 0, 9);
+  EXPECT_NE(complaint(write("twice.obj", twice)).find("block a: the name is taken by"), std::string::npos);
+
+  std::string nan = box;
+  nan.replace(nan.find("v 1.0"), 5, "v nan");
+  EXPECT_NE(
+      complaint(write("nan.obj", nan)).find("nan.obj:3: error: block a: 'nan00000' is not a finite number"),
+      std::string::npos)
+      << complaint(write("nan.obj", nan));
+
+  EXPECT_NE(complaint(write("empty.obj", box + "o nothing\n")).find("block nothing: it has no faces"),
+            std::string::npos);
+  EXPECT_NE(
+      complaint(write("huge.off", "OFF\n100000000 100000000 0\n0 0 0\n")).find("declares 100000000 items"),
+      std::string::npos);
+  std::string stl(80, ' ');
+  stl += std::string("\xff\xff\xff\x3f", 4);
+  EXPECT_NE(complaint(write("huge.stl", stl)).find("declares 1073741823 triangles"), std::string::npos);
+  EXPECT_NE(complaint(write("cut.json", "{\"data\": {\"graph\":")).find("cut.json:1: error: not valid JSON"),
+            std::string::npos);
+  EXPECT_NE(complaint((folder_ / "missing.obj").string()).find("no such file"), std::string::npos);
+}
+
+TEST_F(Import, AFolderLinkCannotLeadOutside) {
+  const std::string outside = write("box.off", kOffBox);
+  const auto folder = folder_ / "blocks";
+  std::filesystem::create_directory(folder);
+  write("blocks/a.off", kOffBox);
+  std::filesystem::create_symlink("a.off", folder / "b.off");
+  EXPECT_EQ(complaint(folder.string()).find("outside"), std::string::npos) << "a link within it may be";
+  std::filesystem::create_symlink(outside, folder / "c.off");
+  EXPECT_NE(complaint(folder.string()).find("c.off: error: is a link to a file outside the folder"),
+            std::string::npos)
+      << complaint(folder.string());
+}
+
+// --- models made by others, where they are at hand ------------------------------------------------------
+
+struct SharedModel {
+  const char* file;
+  std::vector<std::pair<int, double>> volumes;  // block, m3
+};
+
+class SharedCompas : public testing::TestWithParam<SharedModel> {};
+
+TEST_P(SharedCompas, HasThePublishedVolumes) {
+  if (shared_data().empty()) GTEST_SKIP() << "no shared data";
+  ImportedBlocks source;
+  source.path = shared_data() + "/compas_cra/" + GetParam().file;
+  ImportReport report;
+  const Assembly model = import_blocks(source, 1.0, &report);
+  for (const auto& [block, volume] : GetParam().volumes)
+    EXPECT_NEAR(model.blocks.at(static_cast<size_t>(block)).volume, volume, 1.1e-6 * volume + 6e-6) << block;
+  EXPECT_LT(report.largest_volume_error, 1e-6);
+  EXPECT_EQ(report.by_nef, 0) << to_text(report);
+}
+
+// Volumes by the divergence theorem outside this project, six decimals.
+INSTANTIATE_TEST_SUITE_P(
+    Files, SharedCompas,
+    testing::Values(SharedModel{"H.json", {{0, 0.48}, {1, 0.48}, {2, 1.44}}},
+                    SharedModel{"A.json", {{0, 0.58}, {1, 0.58}, {2, 1.478017}}},
+                    SharedModel{"cubes.json", {{0, 0.77}, {1, 3.606302}, {2, 2.989669}}},
+                    SharedModel{"type-a.json", {{0, 2.76669}, {1, 2.76669}, {2, 0.69646}}},
+                    SharedModel{"type-b.json", {{2, 2.13646}}},
+                    SharedModel{"type-c.json", {{0, 1.866025}, {1, 1.866025}, {2, 3.09889}}},
+                    SharedModel{"type-d.json", {{2, 0.69889}}},
+                    SharedModel{"concave-long.json", {{0, 0.206}, {1, 0.228}}},
+                    SharedModel{"concave-short.json", {{0, 0.206}, {1, 0.168}}},
+                    SharedModel{"bridge.json", {}}, SharedModel{"shelf-stable.json", {{0, 0.194336}}},
+                    SharedModel{"snake.json", {{1, 5.274240}}}),
+    [](const auto& param_info) {
+      std::string name = param_info.param.file;
+      std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+      return name;
+    });
+
+double total_volume(const std::string& file) {
+  ImportedBlocks source;
+  source.path = shared_data() + "/" + file;
+  double sum = 0.0;
+  for (const Block& b : import_blocks(source, 1.0).blocks) sum += b.volume;
+  return sum;
+}
+
+TEST(SharedData, TotalsAgree) {
+  if (shared_data().empty()) GTEST_SKIP() << "no shared data";
+  EXPECT_NEAR(total_volume("compas_cra/shelf-stable.json"), 0.325699, 1e-6);
+  EXPECT_NEAR(total_volume("compas_cra/bridge.json"), 0.911787, 1e-6);
+  EXPECT_NEAR(total_volume("compas_cra/snake.json"), 19.441669, 2e-5);
+}
+
+TEST(SharedData, WallAndBricksImportAndPassTheChecks) {
+  if (shared_data().empty()) GTEST_SKIP() << "no shared data";
+  for (const auto& [file, blocks] : {std::pair("obj/wall.obj", 38),
+                                     {"masonry/wall_brickfile.txt", 321},  // rows that are not commented out
+                                     {"masonry/colonnade_brickfile.txt", 31}}) {
+    Case c;
+    c.geometry.imported.emplace();
+    c.geometry.imported->path = shared_data() + "/" + file;
+    const bool bricks = std::string(file).ends_with(".txt");
+    if (bricks) c.geometry.imported->up = ImportedBlocks::UpAxis::y;
+    c.geometry.imported->joint_gap = 0.03;  // the OBJ's blocks stand 25 mm apart
+    GenerateReport report;
+    const Assembly model = generate(c, &report);
+    EXPECT_EQ(static_cast<int>(model.blocks.size()), blocks) << file;
+    EXPECT_EQ(report.import->by_nef, 0) << file;
+  }
+}
+
+// The file has 322 rows; the one before the beam seats, #994, is commented out. The anchors 997 and 998 stand
+// 0.3 m off the wall, each held to a beam seat by a rod alone.
+TEST(SharedData, WallOfBricksHangsTogetherByItsRods) {
+  if (shared_data().empty()) GTEST_SKIP() << "no shared data";
+  Case c;
+  c.geometry.imported.emplace();
+  c.geometry.imported->path = shared_data() + "/masonry/wall_brickfile.txt";
+  c.geometry.imported->up = ImportedBlocks::UpAxis::y;
+  GenerateReport report;
+  Assembly wall = generate(c, &report);
+  ASSERT_EQ(wall.blocks.size(), 321u);
+  EXPECT_EQ(report.model.num_supports, 3);  // the anchors and the ground
+  EXPECT_EQ(report.model.islands, 3);
+  ASSERT_EQ(report.model.blocks_without_joint.size(), 2u);
+  for (int i : {0, 1}) {
+    const int block = report.model.blocks_without_joint[static_cast<size_t>(i)];
+    EXPECT_EQ(report.import->origins[static_cast<size_t>(block)].name, i == 0 ? "997" : "998");
+    EXPECT_TRUE(wall.blocks[static_cast<size_t>(block)].fixed);
+  }
+  for (const Block& block : wall.blocks) {
+    if (!block.fixed) {
+      EXPECT_TRUE(block.density == 1800.0 || block.density == 2500.0 || block.density == 11904.0);
+    }
+  }
+  c.geometry.imported->rods = shared_data() + "/masonry/wall_rigidrodfile.txt";
+  generate(c, &report);
+  EXPECT_EQ(report.model.islands, 1);
+  EXPECT_TRUE(report.model.blocks_without_joint.empty());
+}
+
+// Its faces are warped quads: the volume is that of the fans from their first vertices.
+TEST(SharedData, WarpedFacesAreFansFromTheirFirstVertex) {
+  if (shared_data().empty()) GTEST_SKIP() << "no shared data";
+  double volume = 0.0;
+  for (const RawBlock& block : read_compas(shared_data() + "/compas_cra/curve-3-blocks.json"))
+    volume += mesh_volume(repair_mesh(block, 1e-6));
+  EXPECT_NEAR(volume, 4.269792, 1e-6);
+}
+
+TEST_F(Import, TakesDensitiesFromTheCase) {
+  ImportedBlocks source;
+  source.path = write("two.obj", obj_box("lower", 0, 0, 1) + obj_box("upper", 0.25, 1, 9));
+  source.densities = {{{"upper"}, 3510.0}};
+  const Assembly model = import_blocks(source, 2000.0);
+  EXPECT_NEAR(model.blocks[0].mass, 2000.0, 1e-9);
+  EXPECT_NEAR(model.blocks[1].mass, 3510.0, 1e-9);
+  source.densities = {{{"middle"}, 3510.0}};
+  EXPECT_THROW(import_blocks(source, 2000.0), InputError);
+}
+
+// A cylinder of 128 sides is one convex part of 256 vertices.
+TEST_F(Import, TakesBlocksOfManyVerticesWhole) {
+  const int n = 128;
+  std::string text = "o drum\n", lower = "f", upper = "f", sides;
+  for (int i = 0; i < n; ++i) {
+    const double a = 2.0 * M_PI * i / n;
+    text += fmt::format("v {0:.17g} {1:.17g} 0\nv {0:.17g} {1:.17g} 1\n", std::cos(a), std::sin(a));
+    const int next = (i + 1) % n;
+    upper += fmt::format(" {}", 2 * i + 2);
+    lower += fmt::format(" {}", 2 * (n - 1 - i) + 1);
+    sides += fmt::format("f {} {} {} {}\n", 2 * i + 1, 2 * next + 1, 2 * next + 2, 2 * i + 2);
+  }
+  ImportedBlocks source;
+  source.path = write("drum.obj", text + lower + "\n" + upper + "\n" + sides);
+  ImportReport report;
+  const Assembly model = import_blocks(source, 1.0, &report);
+  EXPECT_EQ(report.parts, std::vector<int>{1});
+  EXPECT_EQ(model.vertices.size(), 2u * n);
+  EXPECT_NEAR(model.blocks[0].volume, 0.5 * n * std::sin(2.0 * M_PI / n), 1e-12);
+}
+
+TEST(SharedData, SpringsAndRodsNameTheirBlocks) {
+  if (shared_data().empty()) GTEST_SKIP() << "no shared data";
+  ImportedBlocks source;
+  source.path = shared_data() + "/masonry/wall_brickfile.txt";
+  source.springs = shared_data() + "/masonry/wall_springfile.txt";
+  source.rods = shared_data() + "/masonry/wall_rigidrodfile.txt";
+  source.up = ImportedBlocks::UpAxis::y;
+  const Assembly model = import_blocks(source, 1.0);
+  ASSERT_EQ(model.ties.size(), 4u);
+  EXPECT_DOUBLE_EQ(model.ties[0].stiffness, 57265199.0);
+  EXPECT_NEAR((model.ties[0].point_a - Vec3(0.79, 0.25, 2.77)).norm(), 0.0, 1e-15);
+  // Block 995 is the beam seat at x = 0.79, 996 its mirror image.
+  EXPECT_NEAR(model.blocks.at(static_cast<size_t>(model.ties[0].block_a)).centroid.x(), 0.78, 0.02);
+  EXPECT_NEAR(model.blocks.at(static_cast<size_t>(model.ties[0].block_b)).centroid.x(), -0.78, 0.02);
+  EXPECT_TRUE(model.ties[2].pushes);
+  EXPECT_NEAR(model.ties[2].length, 0.7625, 1e-12);
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "generators/generate.hpp"
+#include "tests/generators/models.hpp"
+
+namespace cupola {
+namespace {
+
+std::string complaint(const Assembly& assembly) {
+  try {
+    check_model(assembly, generated_tolerances(assembly));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void shift_block(Assembly* assembly, int block, const Vec3& shift) {
+  // Its own copies of its vertices.
+  for (const Part& part : assembly->parts) {
+    if (part.block != block) continue;
+    const int start = assembly->face_vertex_start[part.face_start];
+    const int end = assembly->face_vertex_start[part.face_start + part.num_faces];
+    std::vector<int> copy(assembly->vertices.size(), -1);
+    for (int i = start; i < end; ++i) {
+      int& v = assembly->face_vertices[i];
+      if (copy[v] < 0) {
+        copy[v] = static_cast<int>(assembly->vertices.size());
+        assembly->vertices.push_back(assembly->vertices[v] + shift);
+      }
+      v = copy[v];
+    }
+  }
+}
+
+TEST(ModelChecks, NameTwoBlocksThatOverlapByACentimetre) {
+  Assembly wall = cut_assembly(wall_case(4, 2));
+  ASSERT_EQ(complaint(wall), "");
+  shift_block(&wall, 5, Vec3(0.0, 0.0, -0.01));
+  EXPECT_NE(complaint(wall).find("overlap by 0.01 m"), std::string::npos) << complaint(wall);
+}
+
+TEST(ModelChecks, NameAnOpenBlock) {
+  Assembly wall = cut_assembly(wall_case(4, 2));
+  wall.face_kinds[wall.parts[3].face_start] = FaceKind::internal;  // leaves a hole in block 3
+  EXPECT_NE(complaint(wall).find("block 3: not closed, 4 boundary edges"), std::string::npos)
+      << complaint(wall);
+}
+
+TEST(ModelChecks, NameABlockInsideOut) {
+  Assembly wall = cut_assembly(wall_case(4, 2));
+  const Part& part = wall.parts[2];
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+    std::reverse(wall.face_vertices.begin() + wall.face_vertex_start[f],
+                 wall.face_vertices.begin() + wall.face_vertex_start[f + 1]);
+  EXPECT_NE(complaint(wall).find("block 2: inside out"), std::string::npos) << complaint(wall);
+}
+
+TEST(ModelChecks, NameABentFace) {
+  Assembly wall = cut_assembly(wall_case(1, 1));
+  const int f = wall.parts[1].face_start + 1;
+  wall.vertices[wall.face(f)[0]].z() += 1e-6;
+  EXPECT_NE(complaint(wall).find("off its plane"), std::string::npos) << complaint(wall);
+}
+
+TEST(ModelChecks, CountIslandsAndBlocksThatTouchNothing) {
+  Assembly wall = cut_assembly(wall_case(4, 2));
+  shift_block(&wall, 10, Vec3(0.0, 0.0, 2.0));  // a course is 1.5 m
+  const ModelReport report = check_model(wall, generated_tolerances(wall));
+  EXPECT_EQ(report.islands, 2);
+  EXPECT_EQ(report.blocks_without_joint, std::vector<int>{10});
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,163 @@
+// Claims: reduction of values, reading, and verdicts on runs written by hand.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "postproc/claims/claims_report.hpp"
+#include "postproc/tables/csv_file.hpp"
+#include "tests/assembly/case/case_scratch.hpp"
+
+namespace cupola {
+namespace {
+
+std::string claim_file(const std::string& body) {
+  return "claims:\n  - says: a sentence\n" + body;
+}
+
+/// A finished run `name` below the scratch folder.
+void write_run(const ScratchFolder& scratch, const std::string& name, const std::string& status, double x) {
+  scratch.write(name + "/results/summary.json",
+                "{\"status\": \"" + status + "\", \"deep\": {\"list\": [1, " + std::to_string(x) + "]}}");
+  scratch.write(name + "/post/summary.json", "{\"inside\": true}");
+  scratch.write(name + "/post/blocks.csv",
+                "kind,ring,force_N\nstandard,0,10\nherringbone,0,30\n"
+                "standard,1,20\n\"a, b\"\"c\",2,inf\n");
+}
+
+ClaimResult verdict(const ScratchFolder& scratch, const std::string& body) {
+  return evaluate_claims(read_claims(scratch.write("claims.yaml", claim_file(body))).claims, scratch.folder())
+      .front();
+}
+
+TEST(Claims, ReduceGivesTheTextbookValues) {
+  const std::vector<double> v = {1.0, 2.0, 3.0, 6.0};
+  EXPECT_DOUBLE_EQ(reduce(Take::mean, v), 3.0);
+  EXPECT_DOUBLE_EQ(reduce(Take::median, v), 2.5);
+  EXPECT_DOUBLE_EQ(reduce(Take::largest, v), 6.0);
+  EXPECT_DOUBLE_EQ(reduce(Take::smallest, v), 1.0);
+  EXPECT_DOUBLE_EQ(reduce(Take::sum, v), 12.0);
+  EXPECT_DOUBLE_EQ(reduce(Take::spread, v), 5.0 / 3.0);
+  EXPECT_DOUBLE_EQ(reduce(Take::variation, v), std::sqrt(3.5) / 3.0);  // variance (4 + 1 + 0 + 9) / 4
+  EXPECT_DOUBLE_EQ(reduce(Take::rms, v), std::sqrt(12.5));
+  EXPECT_DOUBLE_EQ(reduce(Take::roughness, v), 1.0 / 3.0);  // second differences 0 and 2
+}
+
+TEST(Claims, LinearityIsOneOnALineAndLessOffIt) {
+  EXPECT_DOUBLE_EQ(reduce(Take::linearity, {7.0, 5.0, 3.0}, {0.0, 1.0, 2.0}), 1.0);
+  // x = -1, 0, 1 and y = 1, 0, 1: no linear part at all
+  EXPECT_DOUBLE_EQ(reduce(Take::linearity, {-1.0, 0.0, 1.0}, {1.0, 0.0, 1.0}), 0.0);
+}
+
+TEST(Claims, CsvKeepsQuotedCommasAndQuotes) {
+  const ScratchFolder scratch;
+  write_run(scratch, "a", "stable", 2.0);
+  const CsvFile csv = read_csv(scratch.file("a/post/blocks.csv"));
+  EXPECT_EQ(csv.rows[3][0], "a, b\"c");
+  EXPECT_TRUE(std::isinf(csv.number(3, csv.column("force_N"))));
+  EXPECT_THROW(csv.column("forceN"), InputError);
+  EXPECT_THROW(csv.number(0, csv.column("kind")), InputError);
+  EXPECT_THROW(read_csv(scratch.write("bad.csv", "a,b\n1\n")), InputError);
+}
+
+TEST(Claims, KeysDescendAndFlagsCount) {
+  const ScratchFolder scratch;
+  write_run(scratch, "a", "stable", 2.5);
+  EXPECT_DOUBLE_EQ(
+      *verdict(scratch, "    value: {runs: a, key: results.deep.list.1}\n    at_least: 2.5\n").number, 2.5);
+  EXPECT_EQ(verdict(scratch, "    value: {runs: a, key: post.inside}\n    at_least: 1\n").verdict,
+            Verdict::reproduced);
+  for (const char* key : {"results.deep.list.2", "results.deep", "results.nowhere", "elsewhere.x"})
+    EXPECT_THROW(verdict(scratch, std::string("    value: {runs: a, key: ") + key + "}\n    at_least: 1\n"),
+                 InputError)
+        << key;
+}
+
+TEST(Claims, RowsAreChosenDividedAndSubtracted) {
+  const ScratchFolder scratch;
+  write_run(scratch, "a", "stable", 1.0);
+  const std::string standard = "table: blocks, column: force_N, where: [{column: kind, is: standard}]";
+  const ClaimResult r = verdict(
+      scratch,
+      "    value: {runs: a, table: blocks, column: force_N, where: [{column: kind, is: herringbone}]}\n"
+      "    over: {runs: a, " +
+          standard +
+          ", take: mean}\n"
+          "    minus: {runs: a, " +
+          standard + ", take: smallest}\n    at_most: -8\n");
+  EXPECT_DOUBLE_EQ(*r.number, 30.0 / 15.0 - 10.0);
+  EXPECT_EQ(r.verdict, Verdict::reproduced);
+  EXPECT_DOUBLE_EQ(*verdict(scratch,
+                            "    value: {runs: a a, table: blocks, column: force_N, take: sum, "
+                            "where: [{column: ring, from: 0, to: 1}]}\n    at_least: 0\n")
+                        .number,
+                   120.0);
+  EXPECT_DOUBLE_EQ(*verdict(scratch,
+                            "    value: {runs: a, reference: a, table: blocks, column: force_N, "
+                            "take: rms, where: [{column: ring, to: 1}]}\n    at_most: 0\n")
+                        .number,
+                   0.0);
+}
+
+TEST(Claims, VerdictsSayWhatIsMissingOrNotSolved) {
+  const ScratchFolder scratch;
+  write_run(scratch, "good", "stable", 1.0);
+  write_run(scratch, "bad", "unconverged", 1.0);
+  const std::string key = ", key: results.deep.list.1}\n";
+  EXPECT_EQ(verdict(scratch, "    value: {runs: good" + key + "    at_least: 1.1\n").verdict,
+            Verdict::not_reproduced);
+  EXPECT_EQ(verdict(scratch, "    value: {runs: good" + key + "    open: no number in the text\n").verdict,
+            Verdict::open);
+  const ClaimResult missing = verdict(scratch, "    value: {runs: absent" + key + "    at_least: 1\n");
+  EXPECT_EQ(missing.verdict, Verdict::not_run);
+  EXPECT_EQ(missing.reason, "not run: absent");
+  EXPECT_FALSE(missing.number);
+  EXPECT_EQ(verdict(scratch, "    value: {runs: bad" + key + "    at_least: 1\n").verdict,
+            Verdict::not_solved);
+  // Unconverged is neither standing nor falling.
+  EXPECT_EQ(verdict(scratch, "    value: {runs: bad, status: stable}\n    at_most: 0\n").verdict,
+            Verdict::not_solved);
+  // Unless that is the question: which runs does a method leave unsolved?
+  EXPECT_DOUBLE_EQ(
+      *verdict(scratch, "    value: {runs: good bad, status: unconverged}\n    at_least: 1\n").number, 0.5);
+  write_run(scratch, "fallen", "collapsed", 1.0);
+  EXPECT_DOUBLE_EQ(
+      *verdict(scratch, "    value: {runs: good fallen, status: stable}\n    at_least: 1\n").number, 0.5);
+}
+
+TEST(Claims, FileIsReadStrictly) {
+  const ScratchFolder scratch;
+  for (const char* body :
+       {"    value: {runs: a, key: x, status: stable}\n    at_least: 1\n",  // two sources
+        "    value: {runs: a, table: t}\n    at_least: 1\n",                // no column
+        "    value: {key: results.x}\n    at_least: 1\n",                   // no run
+        "    value: {runs: a, key: results.x}\n",                           // no range
+        "    value: {runs: a, key: results.x}\n    atleast: 1\n",           // unknown key
+        "    value: {runs: a, table: t, column: c, take: linearity}\n    open: x\n",
+        "    value: {runs: a, key: results.x}\n    open: x\nfigures: [{source: F, run: a}]\n"})
+    EXPECT_THROW(read_claims(scratch.write("claims.yaml", claim_file(body))), InputError) << body;
+}
+
+TEST(Claims, ReportShowsEveryVerdictAndEscapesText) {
+  const ScratchFolder scratch;
+  write_run(scratch, "a", "stable", 2.0);
+  const ClaimsFile file = read_claims(
+      scratch.write("claims.yaml",
+                    "claims:\n  - {says: a < b, value: {runs: a, key: results.deep.list.1}, at_least: 1}\n"
+                    "  - {says: gone, value: {runs: b, key: results.x}, at_least: 1}\n"
+                    "figures:\n  - {source: Fig. 1, shows: x > y, run: a, picture: figures/a.svg}\n"
+                    "  - {source: Fig. 2, run: c, picture: figures/c.svg}\n"));
+  scratch.write("a/post/figures/a.svg", "<svg/>");
+  const auto& claims = file.claims;
+  const auto results = evaluate_claims(claims, scratch.folder());
+  const std::string html = claims_html(file, results, scratch.folder()), text = claims_text(claims, results);
+  EXPECT_NE(html.find("a &lt; b"), std::string::npos);
+  EXPECT_NE(text.find("2 claims, 1 reproduced, 1 not run"), std::string::npos) << text;
+  EXPECT_EQ(claims_table(claims, results).rows.size(), 2u);
+  EXPECT_EQ(needed_runs(file), (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_NE(html.find("<img alt=\"x &gt; y\" src=\"data:image/svg"), std::string::npos);
+  EXPECT_NE(html.find("Not made yet: figures/c.svg of c."), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,230 @@
+#include "postproc/evaluation/evaluation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/files/content_hash.hpp"
+#include "postproc/report/report.hpp"
+#include "postproc/report/stages.hpp"
+#include "postproc/tables/mesh_output.hpp"
+#include "postproc/tables/post_summary.hpp"
+#include "tests/postproc/scene.hpp"
+
+namespace cupola {
+namespace {
+
+using test::column_case;
+using test::column_evaluation;
+using test::column_summary;
+using test::evaluated;
+using test::kGravity;
+
+const double kBlockWeight = 0.48 * 1800.0 * kGravity;
+
+TEST(Evaluation, EveryRingCarriesWhatStandsOnIt) {
+  const Evaluation e = column_evaluation(0.6, 0.4, 10.0);
+  ASSERT_EQ(e.rings.size(), 3u);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(e.rings[k].load_above.z(), -((3 - k) + 30) * kBlockWeight, 1e-9 * kBlockWeight);
+    EXPECT_LT(e.rings[k].relative_difference, 1e-14);
+    EXPECT_EQ(e.rings[k].blocks, 1);
+    EXPECT_NEAR(e.rings[k].height, 0.5 * k, 1e-15);
+  }
+  EXPECT_TRUE(e.warnings.empty());
+}
+
+TEST(Evaluation, AMissingForceShowsInTheRingSum) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+  for (int i = 0; i < frame.contacts.size(); ++i)
+    if (frame.contacts.ring[i] == 1) frame.contacts.force[i] *= 0.99;
+  const Evaluation e = evaluated(a, {frame}, column_summary(a), column_case(), test::fresh_folder("results"));
+  EXPECT_LT(e.rings[0].relative_difference, 1e-14);
+  EXPECT_NEAR(e.rings[1].relative_difference, 0.01, 1e-12);
+}
+
+TEST(Evaluation, EccentricColumn) {
+  // Resultant at (0.9, 0.4) of a 1.2 x 0.8 m bed: eccentricity 0.3 m, kern 6 e / b = 1.5, edge 0.3 m away.
+  const Evaluation e = column_evaluation(0.9, 0.4);
+  for (const JointWrench& joint : e.last.joints.joints) {
+    EXPECT_NEAR(joint.eccentricity, 0.3, 1e-12);
+    EXPECT_NEAR(joint.kern, 1.5, 1e-12);
+    EXPECT_NEAR(joint.edge_distance, 0.3, 1e-12);
+    EXPECT_NEAR(joint.patch.area, 0.96, 1e-12);
+    EXPECT_LT(joint.wrench.moment.norm(), 1e-12 * kBlockWeight) << "about the centre of pressure";
+    EXPECT_EQ(joint.upper, joint.joint.block_b);
+  }
+  // Meridional force of the middle block: the mean of what it carries below and above, per metre of length.
+  EXPECT_NEAR(e.last.fields[2].meridional_force, 1.5 * kBlockWeight / 1.2, 1e-9 * kBlockWeight);
+  EXPECT_NEAR(e.last.fields[2].hoop_force, 0.0, 1e-9 * kBlockWeight);
+  EXPECT_NEAR(e.axes[2].thickness, 0.8, 1e-12);
+}
+
+TEST(Evaluation, TheWrenchOfAJointIsTheSumOfItsContacts) {
+  const Assembly a = test::column(2);
+  Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.7, 0.3);
+  for (int i = 0; i < frame.contacts.size(); ++i)
+    frame.contacts.force[i] += Vec3(30.0 * i, -20.0 * i * i, 7.0);
+  const JointWrenches joints = joint_wrenches(a, frame.contacts, shell_of(a, Vec3::UnitZ()));
+  for (const Vec3& about : {Vec3(0, 0, 0), Vec3(5, -3, 8)}) {
+    for (size_t j = 0; j < joints.joints.size(); ++j) {
+      Wrench direct;
+      direct.point = about;
+      for (int i = 0; i < frame.contacts.size(); ++i)
+        if (frame.contacts.joint[i] == static_cast<int>(j))
+          direct.add_force(frame.contacts.point[i], frame.contacts.force[i]);
+      const Wrench moved = moved_to(joints.joints[j].wrench, about);
+      EXPECT_LT((moved.force - direct.force).norm(), 1e-12 * direct.force.norm());
+      EXPECT_LT((moved.moment - direct.moment).norm(), 1e-11 * direct.force.norm()) << "arms of 10 m";
+    }
+  }
+}
+
+TEST(Evaluation, SectionsCutTheBlocks) {
+  const Evaluation e = column_evaluation(0.6, 0.4);
+  ASSERT_EQ(e.sections.size(), 1u);
+  EXPECT_EQ(e.sections[0].ring, 2) << "the bed at 1 m is nearer to 0.8 m than the one at 0.5 m";
+  ASSERT_EQ(e.sections[0].polygons.size(), 1u);
+  EXPECT_EQ(e.sections[0].polygons[0].block, 2);
+  EXPECT_NEAR(polygon_area(e.sections[0].polygons[0].outline), 0.96, 1e-12);
+}
+
+TEST(Evaluation, LoadsCountAsMuchAsTheirTimeSays) {
+  // Half of gravity and of the top load at the frame's time, and forces to match.
+  const Assembly a = test::column(3);
+  Case scene = column_case();
+  scene.loads.top_load = TopLoad{2.0};
+  scene.loads.dead_load_time = RampInTime{0.0, 1.0, 0.0, 4.0};
+  const double g = 0.5 * kGravity;
+  Frame frame = test::column_at_rest(a, g, 2.0 * free_weight(a, g), 0.6, 0.4);
+  frame.time = 2.0;
+  const Evaluation e = evaluated(a, {frame}, column_summary(a), scene, test::fresh_folder("results"));
+  for (const RingSum& ring : e.rings) EXPECT_LT(ring.relative_difference, 1e-14);
+  EXPECT_NEAR(e.rings[0].load_above.z(), -4.5 * kBlockWeight, 1e-9 * kBlockWeight);
+}
+
+TEST(Evaluation, ProblemsAreSaidFirst) {
+  const Assembly a = test::column(3);
+  const Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+  Summary summary = column_summary(a);
+  summary.status = Status::unconverged;
+  summary.case_hash = "another";
+  Frame later = frame;
+  later.time = 1.0;
+  const std::string folder = test::fresh_folder("results");
+  ResultsWriter writer(folder, content_hash(a));
+  writer.write_frame(frame);
+  writer.write_frame(later);
+  writer.write_summary(summary);
+  std::filesystem::remove(folder + "/contacts_0001.vtp");
+  const Evaluation e = evaluate(column_case(), a, ResultsReader(folder, content_hash(a)));
+  EXPECT_EQ(e.last.frame.time, 0.0);
+  const std::vector<std::string> said = said_first(e);
+  ASSERT_EQ(said.size(), 3u);
+  EXPECT_NE(said[0].find("frame 1 is left out"), std::string::npos);
+  EXPECT_NE(said[0].find("contacts_0001.vtp"), std::string::npos);
+  EXPECT_NE(said[1].find("did not reach the accuracy"), std::string::npos);
+  EXPECT_NE(said[2].find("the case has changed"), std::string::npos);
+}
+
+TEST(Evaluation, ResultsOfAnotherAssemblyAreRefused) {
+  const Assembly a = test::column(3), b = test::column(4);
+  const std::string folder = test::fresh_folder("results");
+  evaluated(a, {test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4)}, column_summary(a), column_case(), folder);
+  EXPECT_THROW(ResultsReader(folder, content_hash(b)), InputError);
+}
+
+TEST(Evaluation, MechanismGroupsFollowTheMotion) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+  for (const size_t b : {2u, 3u}) {  // the two upper blocks slide together
+    frame.blocks.displacement[b] = Vec3(0.2, 0, 0);
+    frame.blocks.position[b] += Vec3(0.2, 0, 0);
+  }
+  const JointWrenches joints = joint_wrenches(a, frame.contacts, shell_of(a, Vec3::UnitZ()));
+  EXPECT_EQ(mechanism_groups(a, frame, joints, 0.004), (std::vector{0, 0, 1, 1}));
+  EXPECT_EQ(mechanism_groups(a, frame, joints, 0.3), (std::vector{0, 0, 0, 0}));
+}
+
+TEST(Evaluation, ALimitAnalysisShowsForcesOfTheEquilibriumAndTheMechanismDisplaced) {
+  const Assembly a = test::column(3);
+  Frame stands = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4), moves = stands;
+  moves.time = 1.0;
+  for (int i = 0; i < moves.contacts.size(); ++i) moves.contacts.force[i] *= 0.5;  // not in balance
+  moves.blocks.velocity[3] = Vec3(1.0, 0, 0);                                      // the top block slides off
+  Summary summary = column_summary(a);
+  summary.analysis = "limit";
+  summary.critical = CriticalValue{"friction", 0.1, 0.101, 0.099};
+  const std::string folder = test::fresh_folder("results");
+  const Evaluation e = evaluated(a, {stands, moves}, summary, column_case(), folder);
+  EXPECT_EQ(e.last.frame.time, 0.0);
+  EXPECT_LT(e.rings[0].relative_difference, 1e-14);
+  EXPECT_TRUE(e.warnings.empty());
+  EXPECT_EQ(post_summary(e).critical_value, 0.1);
+  EXPECT_NE(verdict_text(summary).find("stands at a friction of 0.101 and moves at 0.099"),
+            std::string::npos);
+
+  const FrameEvaluation mechanism = evaluate_frame(e, ResultsReader(folder, content_hash(a)).read_frame(1));
+  // A twentieth of the model: centroids from 0.25 to 1.25 m, or the first block's cube root, the larger.
+  const double shown = 0.05 * std::max(1.0, std::cbrt(a.blocks[0].volume));
+  EXPECT_NEAR(mechanism.frame.blocks.displacement[3].x(), shown, 1e-12);
+  EXPECT_EQ(mechanism.frame.blocks.displacement[2].norm(), 0.0);
+  EXPECT_EQ(mechanism.groups, (std::vector{0, 0, 0, 1}));
+}
+
+TEST(Evaluation, AStagedRunHasATableOfItsRings) {
+  const Assembly a = test::column(3);
+  Summary summary = column_summary(a);
+  summary.analysis = "staged";
+  const std::string folder = test::fresh_folder("results");
+  const Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+  const Evaluation e = evaluated(a, {frame}, summary, column_case(), folder);
+  const Table table = stage_table(
+      e, parse_csv("ring,blocks,weight_N,verdict,speed_ratio,critical_stands,critical_moves,note\n"
+                   "1,2,100,equilibrium,1e-9,0.12,0.11,narrow\n2,3,150,moving,0.3,,,no bracket\n"
+                   "0,1,50,equilibrium,1e-9,0,,stands without any\n",
+                   "stages.csv"));
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_NEAR(std::get<double>(table.rows[0][1]), 0.5, 1e-12) << "the bed of ring 1";
+  EXPECT_NEAR(std::get<double>(table.rows[0][4]), 0.115, 1e-15);
+  EXPECT_TRUE(std::isnan(std::get<double>(table.rows[1][4])));
+  EXPECT_EQ(std::get<double>(table.rows[2][4]), 0.0);
+  Table without = table;
+  for (auto& row : without.rows) row[4] = std::nan("");
+  EXPECT_FALSE(stage_figure(without)) << "no critical friction was asked for";
+  EXPECT_NE(stage_figure(table)->commands.find("0.5 0.115"), std::string::npos);
+}
+
+TEST(Evaluation, CracksOutlineTheOpenPoints) {
+  const Assembly a = test::column(2);
+  Frame frame = test::column_at_rest(a, kGravity, 0.0, 1.2, 0.4);  // on the edge x = 1.2: x = 0 is unloaded
+  for (int i = 0; i < frame.contacts.size(); ++i)
+    if (frame.contacts.force[i].norm() == 0.0) frame.contacts.gap[i] = 0.002;
+  const Evaluation e = evaluated(a, {frame}, column_summary(a), column_case(), test::fresh_folder("results"));
+  const Mesh cracks = cracks_mesh(e);
+  EXPECT_EQ(cracks.num_cells(), 2);
+  EXPECT_EQ(cracks.array<double>(cracks.cell_data, "opening_m", 1), (std::vector{0.002, 0.002}));
+  for (int i = 0; i < cracks.num_points(); ++i) EXPECT_NEAR(cracks.points[3 * i], 0.0, 1e-15);
+  EXPECT_NEAR(e.last.joints.joints[0].open_share, 0.5, 1e-12);
+}
+
+TEST(Evaluation, SummaryRoundTrips) {
+  const Evaluation e = column_evaluation(0.9, 0.4);
+  const std::string folder = test::fresh_folder("post");
+  write_text_atomically(folder + "/summary.json", post_summary_json(e));
+  const PostSummary written = post_summary(e), read = read_post_summary(folder);
+  EXPECT_EQ(read.title, written.title);
+  EXPECT_EQ(read.mean_kern_use, written.mean_kern_use);
+  EXPECT_NEAR(read.mean_kern_use, 1.5, 1e-12);
+  EXPECT_EQ(read.largest_ring_difference, written.largest_ring_difference);
+  EXPECT_EQ(read.rib_over_mid_sail, std::nullopt);
+  EXPECT_THROW(read_post_summary("/nowhere/at/all"), InputError);
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,89 @@
+#include "postproc/mechanics/plane_cut.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "postproc/figures/figures.hpp"
+#include "postproc/tables/mesh_output.hpp"
+#include "postproc/tables/post_summary.hpp"
+#include "postproc/tables/result_tables.hpp"
+#include "tests/postproc/scene.hpp"
+
+namespace cupola {
+namespace {
+
+using test::kGravity;
+
+const double kBlockWeight = 0.48 * 1800.0 * kGravity;
+
+Evaluation column_with(const std::vector<CutPlane>& planes) {
+  const Assembly a = test::column(3);
+  Case scene = test::column_case();
+  scene.postproc.planes = planes;
+  return test::evaluated(a, {test::column_at_rest(a, kGravity, 0.0, 0.7, 0.3)}, test::column_summary(a),
+                         scene, test::fresh_folder("results"));
+}
+
+TEST(PlaneCut, ALevelPlaneCarriesWhatStandsOnIt) {
+  const Evaluation e = column_with({{"level", {0, 0, 0.9}, {0, 0, 3}}});
+  ASSERT_EQ(e.planes.size(), 1u);
+  const PlaneCut& cut = e.planes[0];
+  EXPECT_NEAR(cut.normal.norm(), 1.0, 1e-15);
+  // Centroids at 0.25, 0.75, 1.25 m: one block lies beyond, on one joint.
+  ASSERT_EQ(cut.joints.size(), 1u);
+  EXPECT_NEAR(cut.across.force.z(), kBlockWeight, 1e-12 * kBlockWeight);
+  EXPECT_NEAR(cut.load_beyond.z(), -kBlockWeight, 1e-12 * kBlockWeight);
+  EXPECT_LT(cut.relative_difference, 1e-14);
+  EXPECT_EQ(cut.from_supports.norm(), 0.0);
+  ASSERT_EQ(cut.polygons.size(), 1u);
+  EXPECT_NEAR(polygon_area(cut.polygons[0].outline), 0.96, 1e-12);
+  // The resultant passes at (0.7, 0.3): its moment about the plane's point.
+  EXPECT_NEAR(cut.across.moment.x(), 0.3 * kBlockWeight, 1e-12 * kBlockWeight);
+  EXPECT_NEAR(cut.across.moment.y(), -0.7 * kBlockWeight, 1e-12 * kBlockWeight);
+}
+
+TEST(PlaneCut, SupportsCountApartAndTheBalanceCloses) {
+  // Everything lies beyond a level plane below the ground: nothing crosses it, the support carries it all.
+  const Evaluation e = column_with({{"ground", {0, 0, -0.2}, {0, 0, 1}}});
+  EXPECT_TRUE(e.planes[0].joints.empty());
+  EXPECT_NEAR(e.planes[0].from_supports.z(), 3.0 * kBlockWeight, 1e-12 * kBlockWeight);
+  EXPECT_LT(e.planes[0].relative_difference, 1e-14);
+}
+
+TEST(PlaneCut, TurningTheNormalTurnsTheForces) {
+  const Vec3 oblique(0.5, -0.2, 1.0);
+  const Evaluation e = column_with({{"a", {0.6, 0.4, 0.6}, oblique}, {"b", {0.6, 0.4, 0.6}, -oblique}});
+  const PlaneCut &a = e.planes[0], &b = e.planes[1];
+  ASSERT_EQ(a.joints, b.joints);
+  ASSERT_EQ(a.joints.size(), 1u);
+  EXPECT_LT((a.across.force + b.across.force).norm(), 1e-12 * kBlockWeight) << "action and reaction";
+  EXPECT_LT((a.across.moment + b.across.moment).norm(), 1e-12 * kBlockWeight);
+  // What presses one side presses the other.
+  EXPECT_NEAR(a.across.force.dot(a.normal), b.across.force.dot(b.normal), 1e-12 * kBlockWeight);
+  EXPECT_LT(a.relative_difference, 1e-14);
+  EXPECT_LT(b.relative_difference, 1e-14);
+}
+
+TEST(PlaneCut, ReachesTheTablesFiguresAndFiles) {
+  const Evaluation e =
+      column_with({{"level", {0, 0, 0.9}, {0, 0, 1}}, {"upright", {0.6, 0.4, 0}, {1, 0, 0}}});
+  const Table table = plane_table(e, e.planes[0]);
+  ASSERT_EQ(table.rows.size(), 1u);
+  EXPECT_NEAR(std::get<double>(table.rows[0][10]), kBlockWeight, 1e-12 * kBlockWeight) << "through";
+  EXPECT_NEAR(std::get<double>(table.rows[0][11]), 0.0, 1e-12 * kBlockWeight) << "along";
+  const Figure figure = plane_figure(e, e.planes[0]);
+  EXPECT_EQ(figure.name, "cut_level");
+  EXPECT_NE(figure.commands.find("$presses w p"), std::string::npos);
+  EXPECT_EQ(figure.commands.find("$pulls w p"), std::string::npos) << "nothing pulls";
+  const Mesh sections = sections_mesh(e);
+  const auto what = sections.array<std::int32_t>(sections.cell_data, "what", 1);
+  const auto cut = sections.array<std::int32_t>(sections.cell_data, "cut", 1);
+  int segments = 0;
+  for (size_t i = 0; i < what.size(); ++i) segments += what[i] == 0 && cut[i] == 1 ? 1 : 0;
+  EXPECT_EQ(segments, 1) << "cut 0 is the horizontal section at 0.8 m";
+  EXPECT_NE(post_summary_json(e).find("\"upright\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cupola

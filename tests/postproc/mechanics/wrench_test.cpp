@@ -1,0 +1,98 @@
+#include "postproc/mechanics/wrench.hpp"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+namespace cupola {
+namespace {
+
+constexpr double kTolerance = 1e-12;  // a few dozen roundings of numbers near 1
+
+struct PointedForce {
+  Vec3 point, force;
+};
+
+Wrench sum_about(const Vec3& about, const std::vector<PointedForce>& forces) {
+  Wrench w;
+  w.point = about;
+  for (const PointedForce& f : forces) w.add_force(f.point, f.force);
+  return w;
+}
+
+// Along x at the origin, along y at (0, 0, 1), along z at (1, 0, 0): F = (1, 1, 1), and about the origin
+// M = (0,0,1) x (0,1,0) + (1,0,0) x (0,0,1) = (-1, -1, 0). M.F = -2 and |F|^2 = 3, so the couple is -2/3 F,
+// its length 2/3 m, and the axis passes F x M / |F|^2 = (1, -1, 0) / 3.
+const std::vector<PointedForce> kThreeSkewForces{
+    {{0, 0, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 1, 0}}, {{1, 0, 0}, {0, 0, 1}}};
+
+TEST(Wrench, ThreeSkewForces) {
+  const Wrench w = sum_about(Vec3::Zero(), kThreeSkewForces);
+  const CentralAxis axis = central_axis(w);
+  ASSERT_TRUE(axis.exists);
+  EXPECT_LT((w.force - Vec3(1, 1, 1)).norm(), kTolerance);
+  EXPECT_LT((w.moment - Vec3(-1, -1, 0)).norm(), kTolerance);
+  EXPECT_LT((axis.point - Vec3(1, -1, 0) / 3.0).norm(), kTolerance);
+  EXPECT_LT((axis.couple - Vec3::Constant(-2.0 / 3.0)).norm(), kTolerance);
+  EXPECT_NEAR(axis.couple_length, 2.0 / 3.0, kTolerance);
+}
+
+TEST(Wrench, SameAxisFromEveryPoint) {
+  const CentralAxis reference = central_axis(sum_about(Vec3::Zero(), kThreeSkewForces));
+  const Vec3 direction = Vec3(1, 1, 1).normalized();
+  for (const Vec3& about : {Vec3(3, -2, 5), Vec3(-0.1, 0.7, 0.2), Vec3(10, 20, -30)}) {
+    const double tolerance = kTolerance * (1.0 + about.norm());  // moments grow with the arm
+    const Wrench direct = sum_about(about, kThreeSkewForces);
+    const Wrench moved = moved_to(sum_about(Vec3::Zero(), kThreeSkewForces), about);
+    EXPECT_LT((direct.moment - moved.moment).norm(), tolerance);
+    const CentralAxis axis = central_axis(direct);
+    EXPECT_LT((axis.couple - reference.couple).norm(), tolerance);
+    EXPECT_LT((axis.point - reference.point).cross(direction).norm(), tolerance) << "on one line";
+  }
+}
+
+TEST(Wrench, TurnsAndShiftsWithTheScene) {
+  const Mat3 R = Eigen::AngleAxisd(1.1, Vec3(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
+  const Vec3 shift(7.0, -4.0, 2.0);
+  std::vector<PointedForce> moved;
+  for (const PointedForce& f : kThreeSkewForces) moved.push_back({R * f.point + shift, R * f.force});
+  const CentralAxis a = central_axis(sum_about(Vec3::Zero(), kThreeSkewForces));
+  const CentralAxis b = central_axis(sum_about(shift, moved));
+  EXPECT_LT((R * a.point + shift - b.point).norm(), 10 * kTolerance);
+  EXPECT_LT((R * a.couple - b.couple).norm(), 10 * kTolerance);
+  EXPECT_NEAR(a.couple_length, b.couple_length, 10 * kTolerance);
+}
+
+TEST(Wrench, AddingWrenchesIsAddingForces) {
+  Wrench sum;
+  sum.point = {2, 2, 2};
+  for (const PointedForce& f : kThreeSkewForces) {
+    Wrench single;
+    single.point = {-1, 5, 0.5};
+    single.add_force(f.point, f.force);
+    sum.add(single);
+  }
+  const Wrench direct = sum_about({2, 2, 2}, kThreeSkewForces);
+  EXPECT_LT((sum.force - direct.force).norm(), kTolerance);
+  EXPECT_LT((sum.moment - direct.moment).norm(), 10 * kTolerance);
+}
+
+TEST(Wrench, PureCoupleHasNoAxis) {
+  const Wrench couple{{1, 2, 3}, Vec3::Zero(), {0, 0, 5}};
+  EXPECT_FALSE(central_axis(couple).exists);
+  EXPECT_EQ(central_axis(couple).couple_length, 0.0);
+}
+
+TEST(Wrench, AxisMeetsPlane) {
+  const Wrench w = sum_about(Vec3::Zero(), kThreeSkewForces);
+  const Plane plane{Vec3(0, 0, 1), 4.0};
+  const Vec3 x = axis_in_plane(central_axis(w), w.force, plane);
+  EXPECT_LT((x - Vec3(1.0 / 3.0 + 4.0, -1.0 / 3.0 + 4.0, 4.0)).norm(), 10 * kTolerance);
+  // Along the plane they never meet: the axis' own point.
+  const Plane along{Vec3(1, -1, 0).normalized(), 9.0};
+  EXPECT_EQ(axis_in_plane(central_axis(w), w.force, along), central_axis(w).point);
+}
+
+}  // namespace
+}  // namespace cupola

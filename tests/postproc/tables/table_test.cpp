@@ -1,0 +1,76 @@
+#include "postproc/tables/table.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "assembly/files/atomic_file.hpp"
+#include "postproc/figures/gnuplot.hpp"
+#include "postproc/report/html.hpp"
+#include "postproc/tables/csv_file.hpp"
+#include "tests/postproc/models.hpp"
+
+namespace cupola {
+namespace {
+
+Table example() {
+  return {"example",
+          "A table",
+          {{"name", "", "name, \"quoted\""}, {"value_N", "N", ""}, {"count", "", "<count>"}},
+          {{std::string("plain"), 1.0 / 3.0, 7},
+           {std::string("with, comma and \"quote\""), -0.0, -1},
+           {std::string("<b>&"), 5e-324, 0}}};
+}
+
+TEST(Table, CsvReadsBackWithEveryDigit) {
+  const std::string path = test::fresh_folder("a") + "/example.csv";
+  write_text_atomically(path, to_csv(example()));
+  const CsvFile csv = read_csv(path);
+  EXPECT_EQ(csv.columns, (std::vector<std::string>{"name", "value_N", "count"}));
+  ASSERT_EQ(csv.rows.size(), 3u);
+  EXPECT_EQ(csv.number(0, 1), 1.0 / 3.0);
+  EXPECT_EQ(csv.rows[1][0], "with, comma and \"quote\"");
+  EXPECT_EQ(csv.number(1, 2), -1.0);
+  EXPECT_EQ(csv.number(2, 1), 5e-324);
+}
+
+TEST(Table, NumbersForAReader) {
+  EXPECT_EQ(to_display(0.0), "0");
+  EXPECT_EQ(to_display(1234567.8), "1234568");
+  EXPECT_EQ(to_display(0.0123456), "0.01235");
+  EXPECT_EQ(to_display(1.5e-9), "1.50e-09");
+  EXPECT_EQ(to_display(-2.5e12), "-2.50e+12");
+  EXPECT_EQ(to_display(std::numeric_limits<double>::infinity()), "∞");
+  EXPECT_EQ(to_display(std::nan("")), "not a number");
+  EXPECT_EQ(to_display(42), "42");
+}
+
+TEST(Html, EverythingFromOutsideIsEscaped) {
+  EXPECT_EQ(markup_text("<script>\"&'"), "&lt;script&gt;&quot;&amp;&#39;");
+  const std::string table = html_table(example());
+  EXPECT_EQ(table.find("<b>&"), std::string::npos);
+  EXPECT_NE(table.find("&lt;b&gt;&amp;"), std::string::npos);
+  EXPECT_NE(table.find("&lt;count&gt;"), std::string::npos);
+}
+
+// A quote would end the string of a gnuplot command and a line end the comment; both could begin a command.
+TEST(Gnuplot, TextFromOutsideStaysText) {
+  EXPECT_EQ(gnuplot_text("a'b\nsystem('x')\r`x`"), "a''b system(''x'') `x`");
+}
+
+TEST(Html, PicturesTravelInside) {
+  const std::string folder = test::fresh_folder("a");
+  write_text_atomically(folder + "/a.svg", "Many hands make light work.");
+  EXPECT_EQ(html_picture(folder + "/a.svg", "x\"y"),
+            "<img alt=\"x&quot;y\" src=\"data:image/svg+xml;base64,TWFueSBoYW5kcyBtYWtlIGxpZ2h0IHdvcmsu\">");
+  for (const auto& [text, code] : {std::pair{"M", "TQ=="}, {"Ma", "TWE="}, {"Man", "TWFu"}}) {  // RFC 4648's
+    write_text_atomically(folder + "/b.png", text);
+    EXPECT_NE(html_picture(folder + "/b.png", "").find(std::string("base64,") + code + "\""),
+              std::string::npos);
+  }
+  EXPECT_EQ(html_picture(folder + "/none.png", ""), "");
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,132 @@
+#include <cmath>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "solver/dynamics/stages.hpp"
+#include "tests/solver/motion_scenes.hpp"
+
+namespace cupola {
+namespace {
+
+Case staged_case(double friction, double fresh) {
+  Case scene = testing::make_case(friction, 1e-8, 0.01);
+  scene.analysis.type = AnalysisType::staged;
+  scene.analysis.staged.fresh_friction = fresh;
+  return scene;
+}
+
+struct StagedResult {
+  Summary summary;
+  std::vector<Frame> frames;
+  std::vector<std::vector<std::string>> rows;  // of stages.csv, without the header
+};
+
+StagedResult run(const Case& scene, const Assembly& assembly) {
+  StagedResult result;
+  std::string table;
+  AnalysisSinks sinks;
+  sinks.frame = [&](const Frame& frame) { result.frames.push_back(frame); };
+  sinks.table = [&](const std::string&, const std::string& text) { table = text; };
+  result.summary = run_staged(scene, assembly, sinks).value();
+  std::istringstream lines(table);
+  std::string line, cell;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    result.rows.emplace_back();
+    std::istringstream cells(line);
+    while (std::getline(cells, cell, ',')) result.rows.back().push_back(cell);
+  }
+  return result;
+}
+
+// A wall on a slope of 0.3: each course slides on fresh mortar of less friction than the slope, whatever
+// stands below it; hardened joints hold.
+TEST(Staged, EveryCourseNeedsTheSlopeItLiesOn) {
+  const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 3, 3);
+  Case scene = staged_case(0.7, 0.31);
+  scene.loads.gravity = testing::tilted_gravity(0.3);
+  const StagedResult built = run(scene, wall);
+  EXPECT_EQ(built.summary.status, Status::stable) << built.summary.message;
+  ASSERT_EQ(built.rows.size(), 3u);
+  const double course = 3.0 * 0.5 * 0.3 * 1000.0 * testing::kG;
+  for (size_t ring = 0; ring < 3; ++ring) {
+    const std::vector<std::string>& row = built.rows[ring];
+    EXPECT_EQ(row[0], std::to_string(ring));
+    EXPECT_NEAR(std::stod(row[2]) / (course * static_cast<double>(ring + 1)), 1.0, 1e-8);
+    EXPECT_EQ(row[3], "equilibrium");
+    EXPECT_NEAR(std::stod(row[5]), 0.3, 3e-3) << "bracket of 1e-2";
+    EXPECT_NEAR(std::stod(row[6]), 0.3, 3e-3);
+    EXPECT_GT(std::stod(row[5]), std::stod(row[6]));
+  }
+  ASSERT_TRUE(built.summary.critical);
+  EXPECT_NEAR(built.summary.critical->value, 0.3, 3e-3);
+
+  scene.analysis.staged.fresh_friction = 0.29;
+  scene.analysis.staged.critical_friction = false;
+  const StagedResult slides = run(scene, wall);
+  EXPECT_EQ(slides.summary.status, Status::moving);
+  EXPECT_NE(slides.summary.message.find("3 of 3 stages do not stand"), std::string::npos)
+      << slides.summary.message;
+}
+
+// On level ground no course slides, whatever it lies on.
+TEST(Staged, SaysWhereNoFrictionIsNeeded) {
+  const StagedResult built = run(staged_case(0.6, 0.1), testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 2));
+  EXPECT_EQ(built.summary.status, Status::stable) << built.summary.message;
+  EXPECT_NE(built.summary.message.find("; 2 stand without any"), std::string::npos) << built.summary.message;
+  EXPECT_FALSE(built.summary.critical);
+  for (const std::vector<std::string>& row : built.rows) {
+    EXPECT_EQ(row[5], "0");
+    EXPECT_EQ(row[6], "");
+    EXPECT_EQ(row[7], "\"stands without any\"");
+  }
+}
+
+// Frames count blocks as the complete assembly does; those not laid yet are where they will be, without
+// contacts.
+TEST(Staged, FramesShowTheCompleteAssembly) {
+  const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 3);
+  Case scene = staged_case(0.6, 0.5);
+  scene.analysis.staged.first_ring = 1;
+  scene.analysis.staged.critical_friction = false;
+  const StagedResult built = run(scene, wall);
+  ASSERT_EQ(built.frames.size(), 2u);
+  EXPECT_EQ(built.frames[0].time, 1.0);
+  ASSERT_EQ(built.frames[0].blocks.size(), static_cast<int>(wall.blocks.size()));
+  for (const int block : built.frames[0].contacts.block_b)
+    EXPECT_LE(wall.blocks[static_cast<size_t>(block)].ring, 1);
+  EXPECT_GT(built.frames[1].contacts.size(), built.frames[0].contacts.size());
+}
+
+// Loads of the finished building, and ties to blocks that are not laid yet, wait.
+TEST(Staged, PartsThatAreNotThereYetCarryNothing) {
+  const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 3);
+  Case scene = staged_case(0.6, 0.5);
+  scene.loads.forces = {{.block = 4, .point = {}, .force = Vec3(0, 0, -1e5), .time = {}}};
+  PairTie tie;
+  tie.block_a = 1;
+  tie.block_b = 7;  // in the last course
+  scene.ties.pairs = {tie};
+  const ConstructionStage first = build_stage(wall, 0);
+  EXPECT_EQ(first.assembly.blocks.size(), 3u);
+  const Case at_first = case_of_stage(scene, first, 0.1, false);
+  EXPECT_TRUE(at_first.loads.forces.empty());
+  EXPECT_TRUE(at_first.ties.pairs.empty());
+  const ConstructionStage last = build_stage(wall, 2);
+  EXPECT_EQ(last.assembly.blocks.size(), wall.blocks.size());
+  const Case at_last = case_of_stage(scene, last, 0.1, true);
+  EXPECT_EQ(at_last.loads.forces.size(), 1u);
+  EXPECT_EQ(at_last.ties.pairs.size(), 1u);
+}
+
+TEST(Staged, RefusesToBeginAboveTheTop) {
+  Case scene = staged_case(0.6, 0.5);
+  scene.analysis.staged.first_ring = 7;
+  EXPECT_THROW(run(scene, testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 3)), InputError);
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,394 @@
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "solver/collision/contact_detector.hpp"
+#include "solver/runtime/threads.hpp"
+#include "tests/solver/scenes.hpp"
+
+namespace cupola {
+namespace {
+
+using namespace testing;  // the scenes
+using Eigen::AngleAxisd;
+using Eigen::Quaterniond;
+
+ContactSet contacts_at_rest(const Assembly& assembly, PatchPoints points = PatchPoints::corners) {
+  DetectionOptions options;
+  options.points = points;
+  return ContactDetector(assembly, options).update(initial_poses(assembly));
+}
+
+double total_area(const ContactSet& set, JointKind kind) {
+  double area = 0.0;
+  for (const Patch& patch : set.patches)
+    if (patch.kind == kind) area += patch.area;
+  return area;
+}
+
+Eigen::Isometry3d some_motion(const Vec3& shift) {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  motion.translation() = shift;
+  return motion;
+}
+
+TEST(ContactDetector, BoxOnSlab) {
+  const Assembly scene = box_on_floor(Vec3(1, 2, 3));
+  const ContactSet set = contacts_at_rest(scene);
+  ASSERT_EQ(set.patches.size(), 1u);
+  EXPECT_EQ(set.patches[0].kind, JointKind::base);
+  EXPECT_NEAR(set.patches[0].area, 2.0, 1e-14);
+  ASSERT_EQ(set.contacts.size(), 4u);
+  for (const Contact& contact : set.contacts) {
+    EXPECT_EQ(contact.block_a, 0);
+    EXPECT_EQ(contact.block_b, 1);
+    EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-15);  // from the slab to the box
+    EXPECT_NEAR(contact.gap, 0.0, 1e-15);
+    EXPECT_NEAR(std::abs(contact.point_b.x()), 0.5, 1e-15);
+    EXPECT_NEAR(std::abs(contact.point_b.y()), 1.0, 1e-15);
+  }
+}
+
+TEST(ContactDetector, AreaPointsSumToTheArea) {
+  const ContactSet set = contacts_at_rest(box_on_floor(Vec3(1, 2, 3)), PatchPoints::quadrature);
+  ASSERT_EQ(set.contacts.size(), 5u);
+  double area = 0.0;
+  for (const Contact& contact : set.contacts) area += contact.area;
+  EXPECT_NEAR(area, 2.0, 1e-14);
+}
+
+TEST(ContactDetector, WallHasEveryJoint) {
+  const int nb = 4, courses = 5;
+  const Assembly scene = running_bond_wall(Vec3(1.2, 1.0, 0.3), nb, courses);
+  const ContactSet set = contacts_at_rest(scene);
+  // Running bond: each bed is cut in 2 nb rectangles; odd courses have one head joint more.
+  const int beds = nb + (courses - 1) * 2 * nb;
+  const int heads = 3 * (nb - 1) + 2 * nb;
+  EXPECT_EQ(set.patches.size(), static_cast<std::size_t>(beds + heads));
+  EXPECT_EQ(set.contacts.size(), 4 * set.patches.size());
+  EXPECT_NEAR(total_area(set, JointKind::base), nb * 1.2, 1e-12);
+  EXPECT_NEAR(total_area(set, JointKind::bed), (courses - 1) * nb * 1.2, 1e-12);
+  EXPECT_NEAR(total_area(set, JointKind::head), heads * 0.3, 1e-12);
+  for (const Patch& patch : set.patches) {
+    EXPECT_LT(patch.block_a, patch.block_b);
+    const bool base = patch.kind == JointKind::base;
+    EXPECT_EQ(patch.ring, base ? 0 : scene.blocks[patch.block_b].ring);
+  }
+  EXPECT_TRUE(
+      std::is_sorted(set.contacts.begin(), set.contacts.end(), [](const Contact& p, const Contact& q) {
+        return std::tuple(p.block_a, p.block_b, p.id) < std::tuple(q.block_a, q.block_b, q.id);
+      }));
+}
+
+TEST(ContactDetector, MovedScaledAndFarScenesHaveTheSameContacts) {
+  const Assembly reference = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4, 2);
+  const ContactSet expected = contacts_at_rest(reference);
+  for (const double scale : {1e-3, 1.0, 1e3}) {
+    for (const double distance : {0.0, 1e6 * scale}) {
+      const Eigen::Isometry3d motion = some_motion(distance * Vec3(1, -1, 0.5));
+      const Assembly scene = transformed(reference, motion, scale);
+      const ContactSet set = contacts_at_rest(scene);
+      ASSERT_EQ(set.contacts.size(), expected.contacts.size()) << "scale " << scale << ", at " << distance;
+      // Corners are stored with eps * distance; a few of these add up in a gap or a lever arm.
+      const double rounding = 2.2e-16 * (20 * scale + 8 * distance);
+      for (std::size_t i = 0; i < set.contacts.size(); ++i) {
+        const Contact& contact = set.contacts[i];
+        EXPECT_EQ(contact.block_a, expected.contacts[i].block_a);
+        EXPECT_NEAR(contact.gap, 0.0, rounding);
+        EXPECT_NEAR(contact.area, expected.contacts[i].area * scale * scale, 4 * scale * rounding);
+        EXPECT_LT((contact.normal - motion.linear() * expected.contacts[i].normal).norm(),
+                  20 * rounding / scale);
+      }
+    }
+  }
+}
+
+TEST(ContactDetector, FixedPairsAndInternalFacesMakeNoContact) {
+  const BoxSpec low{.center = {0.5, 0.5, 0.5}, .fixed = true};
+  const BoxSpec high{.center = {1.5, 0.5, 0.5}};
+  BoxSpec high_fixed = high;
+  high_fixed.fixed = true;
+  EXPECT_EQ(contacts_at_rest(make_boxes({low, high})).patches.size(), 1u);
+  EXPECT_TRUE(contacts_at_rest(make_boxes({low, high_fixed})).patches.empty());
+
+  Assembly internal = make_boxes({low});
+  add_block(high, &internal);
+  add_box_part(high, true, false, &internal);
+  compute_mass_properties(&internal);
+  EXPECT_TRUE(contacts_at_rest(internal).patches.empty());
+}
+
+TEST(ContactDetector, GapWithinTheMarginOnly) {
+  DetectionOptions options;
+  options.margin = 1e-3;
+  const Assembly scene = box_on_floor(Vec3(1, 1, 1));
+  for (const double gap : {-5e-4, 0.0, 5e-4, 1e-3 - 1e-9, 1e-3 + 1e-9}) {
+    auto poses = initial_poses(scene);
+    poses[1].p_WB.z() += gap;
+    const ContactSet set = ContactDetector(scene, options).update(poses);
+    if (gap <= options.margin) {
+      ASSERT_EQ(set.contacts.size(), 4u) << gap;
+      for (const Contact& contact : set.contacts) EXPECT_NEAR(contact.gap, gap, 1e-15);
+    } else {
+      EXPECT_TRUE(set.contacts.empty()) << gap;
+    }
+  }
+}
+
+TEST(ContactDetector, SlidingOffAnEdge) {
+  // Lower box [0, 1], upper box slides along x; below the sliver width of 1e-3 there is no face contact.
+  const Assembly scene = stack_of_cubes(1.0, {1000.0, 1000.0});
+  for (const double overlap : {0.5, 0.1, 1e-2, 1e-3 + 1e-9}) {
+    auto poses = initial_poses(scene);
+    poses[2].p_WB.x() += 1.0 - overlap;
+    const ContactSet moved = ContactDetector(scene, {}).update(poses);
+    ASSERT_EQ(moved.contacts.size(), 8u) << overlap;
+    EXPECT_NEAR(moved.patches[1].area, overlap, 1e-12);
+    EXPECT_EQ(moved.patches[1].kind, JointKind::bed);
+  }
+  // On the sliver width, off the edge, and a hair on either side of it: nothing carries.
+  for (const double overlap : {1e-3 - 1e-9, 1e-9, 0.0, -1e-9, -1e-3}) {
+    auto poses = initial_poses(scene);
+    poses[2].p_WB.x() += 1.0 - overlap;
+    EXPECT_EQ(ContactDetector(scene, {}).update(poses).contacts.size(), 4u) << overlap;
+  }
+}
+
+// A box that rocks on its edge stands on two points, whose normal is the slab's and whose gap is exact.
+TEST(ContactDetector, RockingBoxStandsOnItsEdge) {
+  const Assembly scene = box_on_floor(Vec3(0.4, 1, 2));
+  ContactDetector detector(scene, {});
+  for (int step = 0; step <= 100; ++step) {
+    const double angle = 0.002 * step;  // to 0.2 rad, the slenderness of this block
+    auto poses = initial_poses(scene);
+    const Vec3 hinge(0.2, 0, 0);
+    poses[1].q_WB = AngleAxisd(angle, Vec3::UnitY());
+    poses[1].p_WB = hinge + poses[1].q_WB * (poses[1].p_WB - hinge);
+    const ContactSet& set = detector.update(poses);
+    int touching = 0;
+    for (const Contact& contact : set.contacts) {
+      EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-12) << angle;
+      const double height = contact.point_b.x() < 0 ? 0.4 * std::sin(angle) : 0.0;
+      EXPECT_NEAR(contact.gap, height, 1e-12) << angle;
+      touching += std::abs(contact.gap) < 1e-12;
+    }
+    EXPECT_EQ(touching, step == 0 ? 4 : 2) << angle;
+  }
+}
+
+TEST(ContactDetector, CarriesContactsAlongAndDetectsOnlyAfterMotion) {
+  const Assembly scene = box_on_floor(Vec3(1, 1, 1));
+  ContactDetector detector(scene, {});
+  auto poses = initial_poses(scene);
+  detector.update(poses);
+  detector.update(poses);
+  EXPECT_EQ(detector.num_detections(), 1);
+  const double small = 0.2 * detector.margin();
+  poses[1].p_WB += Vec3(0, 0, small);
+  for (const Contact& contact : detector.update(poses).contacts) EXPECT_NEAR(contact.gap, small, 1e-15);
+  EXPECT_EQ(detector.num_detections(), 1);
+  poses[1].p_WB += Vec3(small, 0, 0);
+  EXPECT_EQ(detector.update(poses).contacts.size(), 4u);
+  EXPECT_EQ(detector.num_detections(), 2);
+}
+
+TEST(ContactDetector, IdentitiesSurviveDetection) {
+  const Assembly scene = stack_of_cubes(1.0, {1000.0, 1000.0});
+  ContactDetector detector(scene, {});
+  auto poses = initial_poses(scene);
+  ContactSet before = detector.update(poses);
+  for (int step = 1; step <= 40; ++step) {
+    poses[2].p_WB.x() += 0.01;
+    poses[2].q_WB = AngleAxisd(0.01 * step, Vec3::UnitZ()) * Quaterniond::Identity();
+    const ContactSet& after = detector.update(poses);
+    // Points of one identity move no further than their blocks did, overlap growing by a corner included.
+    std::map<ContactId, Vec3> points;
+    for (const Contact& contact : after.contacts) points.emplace(contact.id, contact.point_a);
+    EXPECT_EQ(points.size(), after.contacts.size());
+    int kept = 0;
+    for (const Contact& contact : before.contacts) {
+      if (!points.contains(contact.id)) continue;
+      EXPECT_LT((contact.point_a - points[contact.id]).norm(), 0.05) << step;
+      ++kept;
+    }
+    EXPECT_EQ(kept, std::min<int>(before.contacts.size(), after.contacts.size())) << step;
+    before = after;
+  }
+  EXPECT_GT(detector.num_detections(), 30);
+}
+
+TEST(ContactDetector, FollowedContactsAgreeWithFreshOnes) {
+  const Assembly scene = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4);
+  ContactDetector detector(scene, {});
+  auto poses = initial_poses(scene);
+  detector.update(poses);
+  for (int step = 1; step <= 5; ++step) {
+    for (std::size_t b = 1; b < poses.size(); ++b) {
+      const double t = 0.3 * step * detector.margin();
+      poses[b].p_WB.z() = scene.blocks[b].centroid.z() + t * scene.blocks[b].ring;
+    }
+    const ContactSet followed = detector.update(poses);
+    const ContactSet fresh = ContactDetector(scene, {}).update(poses);
+    ASSERT_EQ(followed.contacts.size(), fresh.contacts.size());
+    for (std::size_t i = 0; i < fresh.contacts.size(); ++i) {
+      EXPECT_EQ(followed.contacts[i].id, fresh.contacts[i].id);
+      EXPECT_NEAR(followed.contacts[i].gap, fresh.contacts[i].gap, 1e-14);
+    }
+  }
+}
+
+// Slices of a block are coplanar in a wall: however many, the joints are the same polygons.
+TEST(ContactDetector, SlicesDoNotChangeTheJoints) {
+  const ContactSet whole = contacts_at_rest(running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4, 1));
+  for (const int slices : {2, 4, 8}) {
+    const ContactSet sliced = contacts_at_rest(running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4, slices));
+    ASSERT_EQ(sliced.patches.size(), whole.patches.size()) << slices;
+    ASSERT_EQ(sliced.contacts.size(), whole.contacts.size()) << slices;
+    for (std::size_t i = 0; i < whole.patches.size(); ++i) {
+      EXPECT_EQ(sliced.patches[i].block_a, whole.patches[i].block_a);
+      EXPECT_EQ(sliced.patches[i].block_b, whole.patches[i].block_b);
+      EXPECT_NEAR(sliced.patches[i].area, whole.patches[i].area, 1e-12);
+    }
+  }
+}
+
+// Two feet of one block on the slab do not touch each other: they stay two patches.
+TEST(ContactDetector, SeparateFeetStaySeparatePatches) {
+  Assembly scene = box_on_floor(Vec3(1, 1, 1));
+  add_block({}, &scene);
+  add_box_part({.center = {3.0, 0, 0.5}}, false, false, &scene);
+  add_box_part({.center = {5.0, 0, 0.5}}, false, false, &scene);
+  compute_mass_properties(&scene);
+  EXPECT_EQ(contacts_at_rest(scene).patches.size(), 3u);
+}
+
+// Of slabs k and k + 2 the far faces are opposed too, and their planes have passed each other. The stack is
+// turned, so that boxes along the axes cannot tell them apart.
+TEST(ContactDetector, ThinSlabsTouchTheirNeighboursOnly) {
+  for (const double thickness : {0.2, 0.05, 0.02}) {
+    std::vector<BoxSpec> slabs{{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true}};
+    for (int k = 0; k < 20; ++k)
+      slabs.push_back({.center = {0, 0, (k + 0.5) * thickness}, .size = {1, 1, thickness}, .ring = k});
+    const Eigen::Isometry3d turn = some_motion(Vec3::Zero());
+    const Assembly scene = transformed(make_boxes(slabs), turn);
+    for (const double sunk : {0.0, 1e-3 * thickness, 0.2 * thickness}) {  // per joint
+      for (const double tilt : {0.0, 1e-3, 1e-2}) {  // rad over the thickness, every other slab
+        auto poses = initial_poses(scene);
+        for (std::size_t k = 1; k < poses.size(); ++k) {
+          poses[k].p_WB -= turn.linear().col(2) * (sunk * static_cast<double>(k));
+          poses[k].q_WB = AngleAxisd(k % 2 ? tilt * thickness : 0.0, turn.linear().col(1));
+        }
+        const ContactSet set = ContactDetector(scene, {}).update(poses);
+        EXPECT_EQ(set.patches.size(), 20u) << thickness << " " << sunk << " " << tilt;
+        for (const Contact& contact : set.contacts) {
+          EXPECT_EQ(contact.block_b, contact.block_a + 1) << thickness << " " << sunk << " " << tilt;
+          EXPECT_NEAR(contact.gap, -sunk, 0.51 * tilt * thickness + 1e-12);
+        }
+      }
+    }
+  }
+}
+
+TEST(ContactDetector, RejectsBadOptions) {
+  const Assembly scene = box_on_floor(Vec3(1, 1, 1));
+  DetectionOptions options;
+  options.margin = -1.0;
+  EXPECT_THROW(ContactDetector(scene, options), InputError);
+  options.margin = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(ContactDetector(scene, options), InputError);
+  options.margin = 0.0;
+  options.moved_fraction = 0.5;
+  EXPECT_THROW(ContactDetector(scene, options), InputError);
+}
+
+/// Two columns side by side, face to face at x = 0, each of a part 1 m wide under one of the given width.
+Assembly two_columns(double upper_a, double upper_b) {
+  Assembly columns;
+  for (const auto& [x, upper] : {std::pair(-0.5, upper_a), std::pair(0.5, upper_b)}) {
+    testing::BoxSpec part{.center = {x, 0, 0.5}, .size = {1, 1, 1}};
+    testing::add_block(part, &columns);
+    testing::add_box_part(part, false, false, &columns);
+    part.center.z() = 1.5;
+    part.size.y() = upper;
+    testing::add_box_part(part, false, false, &columns);
+  }
+  compute_mass_properties(&columns);
+  return columns;
+}
+
+// One column sinks along the other while their joint is compressed: slivers of other pairs of parts join the
+// patches, but every contact keeps its name and its gap; new points begin without a gap or force.
+TEST(ContactDetector, SinkingBesideACompressedJointKeepsItsContacts) {
+  // 0.8 and 0.8: the sliver of upper on lower part joins a patch; 0.6 and 0.8: it makes one of its own.
+  for (const auto& [upper_a, num_after] : {std::pair(0.8, 8u), std::pair(0.6, 12u)}) {
+    const Assembly columns = two_columns(upper_a, 0.8);
+    ContactDetector detector(columns, {});
+    std::vector<Pose> poses = initial_poses(columns);
+    const std::vector<Contact> before = detector.update(poses).contacts;
+    ASSERT_EQ(before.size(), 8u);
+    poses[1].p_WB += Vec3(-5e-4, 0.0, -5e-3);
+    const std::vector<Contact> after = detector.update(poses).contacts;
+    EXPECT_EQ(after.size(), num_after);
+    std::set<ContactId> known;
+    for (const Contact& contact : before) known.insert(contact.id);
+    size_t kept = 0;
+    for (const Contact& contact : after) {
+      kept += known.count(contact.id);
+      EXPECT_NEAR(contact.gap, known.contains(contact.id) ? -5e-4 : 0.0, 1e-12);
+    }
+    EXPECT_EQ(kept, before.size());
+    // What opens loses its rest gap: back where it was built every gap is what it looks like.
+    poses = initial_poses(columns);
+    for (const Contact& contact : detector.update(poses).contacts) EXPECT_NEAR(contact.gap, 0.0, 1e-12);
+  }
+}
+
+// 60 x 60 bricks: some 20,000 pairs of boxes, work for several threads.
+TEST(ContactDetector, SameBitsOnAnyNumberOfThreads) {
+  std::vector<BoxSpec> boxes{{.center = {30, 0, -0.5}, .size = {100, 3, 1}, .fixed = true}};
+  for (int course = 0; course < 60; ++course)
+    for (int k = 0; k < 60; ++k)
+      boxes.push_back({.center = {k + 0.5 * (course % 2), 0, 0.3 * course + 0.15}, .size = {1, 1, 0.3}});
+  const Assembly assembly = make_boxes(boxes);
+  for (const bool gjk : {false, true}) {
+    DetectionOptions options;
+    if (gjk) options.perturbed_gjk = PerturbedGjkOptions{.perturbations = 4};
+    std::vector<ContactSet> found;
+    for (const int threads : {1, 3}) {
+      set_num_threads(threads);
+      found.push_back(ContactDetector(assembly, options).update(initial_poses(assembly)));
+    }
+    set_num_threads(1);
+    ASSERT_EQ(found[0].contacts.size(), found[1].contacts.size());
+    ASSERT_GT(found[0].contacts.size(), 4u * 3600u);
+    for (std::size_t i = 0; i < found[0].contacts.size(); ++i) {
+      const Contact &one = found[0].contacts[i], &three = found[1].contacts[i];
+      EXPECT_TRUE(one.id == three.id && one.patch == three.patch && one.point_a == three.point_a &&
+                  one.normal == three.normal && one.gap == three.gap && one.area == three.area)
+          << "contact " << i << (gjk ? " by GJK" : " by clipping");
+    }
+  }
+}
+
+// What a thread meets is told as if there were one: of several faults the first.
+TEST(ShareLoop, ThrowsTheFirstOfWhatItsBodiesThrow) {
+  set_num_threads(3);
+  try {
+    share_loop(1e12, 100, [](int i) {
+      if (i % 10 == 7) throw InputError(std::to_string(i));
+    });
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find('7'), std::string::npos);
+    EXPECT_EQ(std::string(error.what()).find("17"), std::string::npos);
+  }
+  set_num_threads(1);
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,123 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/files/mesh_file.hpp"
+#include "solver/collision/contact_detector.hpp"
+#include "solver/collision/contact_file.hpp"
+#include "solver/collision/patch_file.hpp"
+#include "tests/solver/scenes.hpp"
+
+namespace cupola {
+namespace {
+
+using namespace testing;  // the scenes
+
+const std::string kHeader = "block_a,block_b,joint,x,y,z,nx,ny,nz,gap_m,area_m2\n";
+
+/// A file of its own for each test, gone with it.
+class ContactFile : public ::testing::Test {
+ protected:
+  ContactFile()
+      : folder_(std::filesystem::temp_directory_path() /
+                (std::string("cupola_") + ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    make_folder(folder_.string());
+  }
+  ~ContactFile() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string write(const std::string& text) const {
+    write_text_atomically(path("contacts.csv"), text);
+    return path("contacts.csv");
+  }
+  /// The message of the error that reading the text throws.
+  std::string complaint(const std::string& text) const {
+    try {
+      read_contacts(write(text), scene_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  Assembly scene_ = box_on_floor(Vec3(1, 1, 1));
+  std::filesystem::path folder_;
+};
+
+TEST_F(ContactFile, GivesTheContactsThatItLists) {
+  DetectionOptions options;
+  options.contact_file = write(kHeader +
+                               "0,1,0,-0.4,0,0,0,0,2,0.001,0.3\n"
+                               "1,0,0,0.4,0,0,0,0,-1,0,0.7\n");  // the other way round
+  ContactDetector detector(scene_, options);
+  auto poses = initial_poses(scene_);
+  const ContactSet& set = detector.update(poses);
+  ASSERT_EQ(set.contacts.size(), 2u);
+  ASSERT_EQ(set.patches.size(), 1u);
+  EXPECT_EQ(set.patches[0].kind, JointKind::base);
+  EXPECT_NEAR(set.patches[0].area, 1.0, 1e-15);
+  EXPECT_NEAR(set.contacts[0].gap, 0.001, 1e-15);
+  for (const Contact& contact : set.contacts) {
+    EXPECT_EQ(contact.block_a, 0);
+    EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-15);
+  }
+  poses[1].p_WB.z() += 0.5;  // far beyond any margin: still the same contacts
+  EXPECT_NEAR(detector.update(poses).contacts[1].gap, 0.5, 1e-15);
+  EXPECT_EQ(detector.num_detections(), 1);
+}
+
+TEST_F(ContactFile, WhatWasFoundCanBeGivenBack) {
+  const Assembly wall = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 3);
+  const ContactSet found = ContactDetector(wall, {}).update(initial_poses(wall));
+  std::string text = kHeader;
+  for (const Contact& c : found.contacts)
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", c.block_a, c.block_b, c.patch, c.point_a.x(),
+                        c.point_a.y(), c.point_a.z(), c.normal.x(), c.normal.y(), c.normal.z(), 0.0, c.area);
+  DetectionOptions options;
+  options.contact_file = write(text);
+  const ContactSet given = ContactDetector(wall, options).update(initial_poses(wall));
+  ASSERT_EQ(given.contacts.size(), found.contacts.size());
+  ASSERT_EQ(given.patches.size(), found.patches.size());
+  for (std::size_t i = 0; i < found.contacts.size(); ++i) {
+    EXPECT_EQ(given.contacts[i].block_b, found.contacts[i].block_b);
+    EXPECT_LT((given.contacts[i].point_a - found.contacts[i].point_a).norm(), 1e-14);
+    EXPECT_NEAR(given.patches[given.contacts[i].patch].area, found.patches[found.contacts[i].patch].area,
+                1e-12);
+  }
+}
+
+TEST_F(ContactFile, ComplainsWithFileAndLine) {
+  EXPECT_NE(complaint("a,b\n").find("contacts.csv:1:1: error: the first line must be block_a,"),
+            std::string::npos);
+  EXPECT_NE(complaint(kHeader).find("holds no contact"), std::string::npos);
+  EXPECT_NE(complaint(kHeader + "0,1,0,0,0,0,0,0,1,0\n").find(":2:1: error: 10 of 11 columns"),
+            std::string::npos);
+  EXPECT_NE(complaint(kHeader + "0,1,0,0,0,0,0,0,1,0,1,1\n").find("more than 11"), std::string::npos);
+  EXPECT_NE(complaint(kHeader + "0,7,0,0,0,0,0,0,1,0,1\n").find("block 7: must be one of 0 .. 1"),
+            std::string::npos);
+  EXPECT_NE(complaint(kHeader + "0,nan,0,0,0,0,0,0,1,0,1\n").find("column 2"), std::string::npos);
+  EXPECT_NE(complaint(kHeader + "1,1,0,0,0,0,0,0,1,0,1\n").find("are the same"), std::string::npos);
+  EXPECT_NE(complaint(kHeader + "0,1,0,0,0,0,0,0,0,0,1\n").find("the normal is zero"), std::string::npos);
+  EXPECT_NE(complaint(kHeader + "0,1,0,0,0,0,0,0,1,0,-1\n").find("area_m2 = -1: must be > 0"),
+            std::string::npos);
+}
+
+TEST_F(ContactFile, PatchesAreWrittenAsPolygons) {
+  const Assembly wall = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 3);
+  const ContactSet set = ContactDetector(wall, {}).update(initial_poses(wall));
+  write_patches(path("patches.vtp"), set, "hash");
+  const Mesh mesh = read_mesh(path("patches.vtp"));
+  ASSERT_EQ(mesh.num_cells(), static_cast<int>(set.patches.size()));
+  const auto& area = mesh.array<double>(mesh.cell_data, "area_m2", 1);
+  const auto& block_b = mesh.array<std::int32_t>(mesh.cell_data, "block_b", 1);
+  for (std::size_t p = 0; p < set.patches.size(); ++p) {
+    EXPECT_EQ(area[p], set.patches[p].area);
+    EXPECT_EQ(block_b[p], set.patches[p].block_b);
+  }
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,88 @@
+// Sparse rows of 6x6 blocks against dense matrices.
+
+#include "solver/contact/blocks/block_rows.hpp"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "solver/runtime/threads.hpp"
+#include "tests/solver/contact/contact_scenes.hpp"
+
+namespace cupola {
+namespace {
+
+Eigen::MatrixXd dense(const BlockRows& A) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(6 * A.num_rows(), 6 * A.num_columns);
+  for (int i = 0; i < A.num_rows(); ++i) {
+    for (int k = A.start[i]; k < A.start[i + 1]; ++k) result.block<6, 6>(6 * i, 6 * A.column[k]) = A.value[k];
+  }
+  return result;
+}
+
+/// Some blocks at random places.
+BlockRows random_rows(int rows, int columns, unsigned seed) {
+  std::mt19937 random(seed);
+  BlockRows A;
+  A.num_columns = columns;
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      if (random() % 4 != 0) continue;
+      A.column.push_back(j);
+      A.value.push_back(
+          Mat6::NullaryExpr([&](Eigen::Index, Eigen::Index) { return random() / 4294967296.0 - 0.5; }));
+    }
+    A.start.push_back(static_cast<int>(A.column.size()));
+  }
+  return A;
+}
+
+constexpr double kRounding = 1e-13;  // sums of some hundred products of numbers below one
+
+TEST(BlockRows, MultiplyAsDenseMatrices) {
+  const BlockRows A = random_rows(30, 20, 1), B = random_rows(20, 25, 2);
+  const VecX x = VecX::LinSpaced(6 * 20, -1.0, 1.0);
+  EXPECT_LT((multiply(A, x) - dense(A) * x).norm(), kRounding * x.norm());
+  EXPECT_LT((dense(multiply(A, B)) - dense(A) * dense(B)).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_EQ(dense(transpose(A)), dense(A).transpose());
+}
+
+TEST(BlockRows, OfProductsAreInOrder) {
+  const BlockRows C = multiply(random_rows(30, 20, 3), random_rows(20, 25, 4));
+  for (int i = 0; i < C.num_rows(); ++i) {
+    for (int k = C.start[i] + 1; k < C.start[i + 1]; ++k) EXPECT_LT(C.column[k - 1], C.column[k]);
+  }
+}
+
+TEST(BlockRows, HoldBothTriangles) {
+  const ContactProblem p = scenes::dome({.rings = 5, .blocks_per_ring = 8}, 1.0, {});
+  const ContactGraph graph = contact_graph(p);
+  const BlockMatrix H = assemble_hessian(p, graph, std::vector<Mat3>(p.num_contacts(), Mat3::Identity()));
+  const BlockRows A = both_triangles(graph.pattern, H);
+  const Eigen::MatrixXd full = dense(A);
+  EXPECT_LT((full - full.transpose()).cwiseAbs().maxCoeff(), kRounding * full.cwiseAbs().maxCoeff());
+  const VecX x = VecX::LinSpaced(6 * p.num_blocks(), -1.0, 1.0);
+  const VecX y = multiply(graph.pattern, H, x);
+  EXPECT_LT((multiply(A, x) - y).norm(), kRounding * y.norm());
+}
+
+// 3,200 blocks: enough work for a second thread in the product of the matrix with itself.
+TEST(BlockRows, SameBitsOnAnyNumberOfThreads) {
+  const ContactProblem p = scenes::dome({.rings = 50, .blocks_per_ring = 64}, 1.0, {});
+  const ContactGraph graph = contact_graph(p);
+  const BlockRows A = both_triangles(
+      graph.pattern, assemble_hessian(p, graph, std::vector<Mat3>(p.num_contacts(), Mat3::Identity())));
+  const VecX x = VecX::LinSpaced(6 * p.num_blocks(), -1.0, 1.0);
+  const BlockRows alone = multiply(A, A);
+  for (const int threads : {2, 3}) {
+    set_num_threads(threads);
+    const BlockRows together = multiply(A, A);
+    EXPECT_EQ(together.column, alone.column);
+    EXPECT_EQ(together.value, alone.value);
+    EXPECT_EQ(multiply(together, x), multiply(alone, x));
+  }
+  set_num_threads(1);
+}
+
+}  // namespace
+}  // namespace cupola

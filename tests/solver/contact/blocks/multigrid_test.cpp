@@ -1,0 +1,231 @@
+// The multigrid preconditioner of very many blocks, and Newton's method with it.
+
+#include "solver/contact/blocks/multigrid.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "solver/contact/methods/newton.hpp"
+#include "solver/contact/problem/cone.hpp"
+#include "solver/contact/problem/whitening.hpp"
+#include "solver/runtime/threads.hpp"
+#include "tests/solver/contact/contact_scenes.hpp"
+
+namespace cupola {
+namespace {
+
+const scenes::Joint kJoint{.mu = 0.4};
+
+struct System {
+  ContactProblem problem;
+  WhitenedProblem white;
+  ContactGraph graph;
+  BlockMatrix H;  ///< all contacts stick
+  RigidMotions motions;
+};
+
+System system_of(const ContactProblem& problem) {
+  System s{problem, whiten(problem), contact_graph(problem), {}, {}};
+  std::vector<Mat3> G;
+  for (int i = 0; i < problem.num_contacts(); ++i)
+    G.push_back(contact_stiffness(contact_law(problem, i), -Vec3::UnitX()));
+  s.H = assemble_hessian(s.white.problem, s.graph, G);
+  s.motions = rigid_motions(problem, s.graph, s.white.L);
+  return s;
+}
+
+/// Unlike all modes: deterministic, of mean zero.
+VecX some_vector(int num_blocks) {
+  VecX x(6 * num_blocks);
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = std::sin(1.7 * static_cast<double>(i * i % 1009));
+  return x;
+}
+
+int gradients_to_six_digits(const System& s, const BlockHierarchy& hierarchy) {
+  constexpr int kMost = 500;
+  VecX r = s.white.problem.v_star;
+  VecX z = hierarchy.cycle(r), p = z;
+  double rz = r.dot(z);
+  const double target = 1e-12 * rz;
+  int k = 0;
+  for (; k < kMost && rz > target; ++k) {
+    const VecX Hp = hierarchy.multiply(p);
+    r -= rz / p.dot(Hp) * Hp;
+    z = hierarchy.cycle(r);
+    const double next = r.dot(z);
+    p = z + next / rz * p;
+    rz = next;
+  }
+  return k;
+}
+
+// What a common rigid motion is to the blocks moves no contact between them. Rounding: arms of metres, D of
+// one.
+TEST(RigidMotions, LeaveTouchingBlocksTogether) {
+  const System s = system_of(scenes::dome({.rings = 10, .blocks_per_ring = 16}, 1.0, kJoint));
+  const Eigen::Matrix<double, 6, 1> common{0.3, -0.2, 0.1, 0.05, -0.04, 0.02};
+  VecX w(6 * s.problem.num_blocks());
+  for (int k = 0; k < s.problem.num_blocks(); ++k)
+    w.segment<6>(6 * k) = s.motions.motion[k] * moved_centre(Vec3::Zero(), s.motions.centre[k]) * common;
+  for (int i = 0; i < s.problem.num_contacts(); ++i) {
+    if (s.problem.block_a[i] == ContactProblem::kFixed) continue;
+    EXPECT_LT(relative_velocity(s.white.problem, i, w).norm(), 1e-12) << "contact " << i;
+  }
+}
+
+// Across the seam of a sector as well, but for one line of joints where going round the axis ends.
+TEST(RigidMotions, CrossTheSeamOfASector) {
+  const System s = system_of(scenes::dome({.rings = 10, .blocks_per_ring = 64, .sectors = 8}, 1.0, kJoint));
+  const Eigen::Matrix<double, 6, 1> common{0.3, -0.2, 0.1, 0.05, -0.04, 0.02};
+  VecX w(6 * s.problem.num_blocks());
+  for (int k = 0; k < s.problem.num_blocks(); ++k)
+    w.segment<6>(6 * k) = s.motions.motion[k] * moved_centre(Vec3::Zero(), s.motions.centre[k]) * common;
+  int torn = 0, free = 0;
+  for (int i = 0; i < s.problem.num_contacts(); ++i) {
+    if (s.problem.block_a[i] == ContactProblem::kFixed || s.problem.block_b[i] == ContactProblem::kFixed)
+      continue;
+    ++free;
+    torn += relative_velocity(s.white.problem, i, w).norm() > 1e-12;
+  }
+  EXPECT_GT(torn, 0);
+  EXPECT_LT(torn, 0.3 * free);  // of 8 blocks around, 1 and a half lie at the tear
+}
+
+TEST(RigidMotions, AreNotMadeUpWhereLeversAreNone) {
+  ContactProblem problem = scenes::dome({.rings = 4, .blocks_per_ring = 8}, 1.0, kJoint);
+  for (Mat63& D : problem.D_b) D(0, 0) += 0.1;
+  const WhitenedProblem white = whiten(problem);
+  EXPECT_TRUE(rigid_motions(problem, contact_graph(problem), white.L).empty());
+}
+
+// Under gravity. The bound is twice what was found (10 and 11); motions that neighbours do not share take ten
+// times as many (117 and 238), so the count tells whether groups keep theirs.
+TEST(BlockHierarchy, TakesAFewGradientsWhateverTheNumberOfBlocks) {
+  for (const int refine : {1, 2}) {
+    System s = system_of(scenes::dome({.rings = 40 * refine, .blocks_per_ring = 40 * refine}, 100.0, kJoint));
+    BlockHierarchy hierarchy;
+    ASSERT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
+    EXPECT_LE(gradients_to_six_digits(s, hierarchy), 22) << refine;
+    for (std::size_t k = 0; k < s.motions.motion.size(); ++k) {
+      const auto scrambled = [k](Eigen::Index r, Eigen::Index c) {
+        return (r == c) + 0.5 * std::sin(3.7 * static_cast<double>(k) + 1.3 * static_cast<double>(r) +
+                                         2.9 * static_cast<double>(c * r));
+      };
+      s.motions.motion[k] = Mat6::NullaryExpr(scrambled);
+    }
+    ASSERT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
+    EXPECT_GT(gradients_to_six_digits(s, hierarchy), 60) << refine;
+  }
+}
+
+TEST(BlockHierarchy, IsSymmetricAndPositive) {
+  const System s = system_of(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
+  BlockHierarchy hierarchy;
+  ASSERT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
+  const VecX x = some_vector(s.problem.num_blocks()), y = x.reverse();
+  const VecX Bx = hierarchy.cycle(x), By = hierarchy.cycle(y);
+  EXPECT_GT(x.dot(Bx), 0.0);
+  // Rounding: the matrix has a condition number of 1e8.
+  EXPECT_NEAR(y.dot(Bx), x.dot(By), 1e-8 * std::sqrt(x.dot(Bx) * y.dot(By)));
+}
+
+// 6,400 blocks: two pieces of a sweep, and products that are worth a second thread.
+TEST(BlockHierarchy, SameBitsOnAnyNumberOfThreads) {
+  const System s = system_of(scenes::dome({.rings = 80, .blocks_per_ring = 80}, 100.0, kJoint));
+  const VecX x = some_vector(s.problem.num_blocks());
+  VecX expected;
+  for (const int threads : {1, 2, 3}) {
+    set_num_threads(threads);
+    BlockHierarchy hierarchy;
+    ASSERT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
+    const VecX y = hierarchy.cycle(x);
+    if (threads == 1) expected = y;
+    EXPECT_TRUE((y.array() == expected.array()).all()) << threads << " threads";
+  }
+  set_num_threads(1);
+}
+
+TEST(BlockHierarchy, RefusesWhatIsNotPositiveDefiniteOrNoNumber) {
+  System s = system_of(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
+  BlockHierarchy hierarchy;
+  const Mat6 sound = s.H.diagonal[9];
+  s.H.diagonal[9] = -sound;
+  EXPECT_FALSE(hierarchy.build(s.graph.pattern, s.H, s.motions));
+  s.H.diagonal[9](2, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(hierarchy.build(s.graph.pattern, s.H, s.motions));
+  s.H.diagonal[9] = sound;
+  EXPECT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
+}
+
+TEST(NewtonDirection, OfNothingIsNothing) {
+  const System s = system_of(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
+  VecX d;
+  SolveSummary summary;
+  ASSERT_TRUE(NewtonDirection().solve_by_hierarchy(
+      s.graph.pattern, s.H, s.motions, VecX::Zero(6 * s.problem.num_blocks()), 0.1, &d, &summary));
+  EXPECT_TRUE(d.isZero());
+  EXPECT_EQ(summary.conjugate_gradients, 0);
+}
+
+/// Forces of a dome by the hierarchy, and by factors, which a lagged solve takes.
+void expect_same_forces(const ContactProblem& problem) {
+  SolveOptions options;
+  options.tolerance = 1e-10;
+  options.reference_speed = scenes::kGravity * problem.h;
+  ContactSolution by_hierarchy, by_factor;
+  const SolveSummary with = NewtonSolver().solve(problem, options, &by_hierarchy);
+  ASSERT_EQ(with.ending, SolveEnding::converged) << with.message;
+  EXPECT_EQ(with.factorizations, 0);
+  EXPECT_GT(with.conjugate_gradients, 0);
+  options.lag_factor = true;
+  const SolveSummary without = NewtonSolver().solve(problem, options, &by_factor);
+  ASSERT_EQ(without.ending, SolveEnding::converged) << without.message;
+  EXPECT_GT(without.factorizations, 0);
+  // c = 1e-8 m/N, both to a momentum residual of 1e-10
+  EXPECT_LT((by_hierarchy.gamma - by_factor.gamma).norm(), 1e-6 * by_factor.gamma.norm());
+}
+
+TEST(NewtonByHierarchy, FindsTheForcesThatFactorsFind) {
+  expect_same_forces(scenes::dome({.rings = 100, .blocks_per_ring = 104, .gap = 1e-5}, 100.0, kJoint));
+}
+
+TEST(NewtonByHierarchySlow, FindsThemInASector) {
+  expect_same_forces(scenes::dome({.rings = 128, .blocks_per_ring = 640, .sectors = 8}, 100.0, kJoint));
+}
+
+// Contacts whose directions are not orthonormal tell nothing of where blocks lie: factors it is.
+TEST(NewtonByHierarchySlow, LeavesOtherLeversToAFactor) {
+  ContactProblem problem = scenes::dome({.rings = 100, .blocks_per_ring = 104}, 100.0, kJoint);
+  for (Mat63& D : problem.D_a) D *= 2.0;
+  for (Mat63& D : problem.D_b) D *= 2.0;
+  SolveOptions options;
+  options.tolerance = 1e-8;
+  options.reference_speed = scenes::kGravity * problem.h;
+  ContactSolution solution;
+  const SolveSummary summary = NewtonSolver().solve(problem, options, &solution);
+  EXPECT_EQ(summary.ending, SolveEnding::converged) << summary.message;
+  EXPECT_GT(summary.factorizations, 0);
+  EXPECT_EQ(summary.conjugate_gradients, 0);
+}
+
+// A chain of 10,000 voussoirs bends so softly (condition number 1e16) that few digits of a direction lead
+// nowhere: the loop notices, and starts once more with factors, which at least balance it as far as rounding
+// lets them.
+TEST(NewtonByHierarchySlow, GivesWayToFactorsWhereItLeadsNowhere) {
+  const ContactProblem problem = scenes::arch(10000, 0.3, 1.4, 0.0, 100.0, kJoint);
+  SolveOptions options;
+  options.tolerance = 1e-8;
+  options.reference_speed = scenes::kGravity * problem.h;
+  options.max_iterations = 30;
+  ContactSolution solution;
+  const SolveSummary summary = NewtonSolver().solve(problem, options, &solution);
+  EXPECT_GT(summary.factorizations, 0);
+  ASSERT_FALSE(summary.residual_history.empty());
+  const auto& history = summary.residual_history;
+  EXPECT_LT(*std::min_element(history.begin(), history.end()), 1e-2 * history.front());
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,81 @@
+#include "solver/contact/methods/coulomb_newton.hpp"
+
+#include <gtest/gtest.h>
+
+#include "solver/contact/methods/solve_contact.hpp"
+#include "solver/contact/problem/residuals.hpp"
+#include "tests/solver/contact/contact_scenes.hpp"
+
+namespace cupola {
+namespace {
+
+using scenes::kGravity;
+
+SolveOptions options_for(const ContactProblem& problem, double tolerance) {
+  SolveOptions options;
+  options.tolerance = tolerance;
+  options.reference_speed = kGravity * problem.h;
+  return options;
+}
+
+/// Solves from nothing and checks the answer against the problem alone.
+ContactSolution solve(const ContactProblem& problem, double tolerance = 1e-10) {
+  ContactSolution x;
+  const SolveSummary summary = solve_coulomb_newton(problem, options_for(problem, tolerance), &x);
+  EXPECT_EQ(summary.ending, SolveEnding::converged) << summary.message;
+  if (!summary.usable()) return x;
+  const Residuals residuals = compute_residuals(problem, x, kGravity * problem.h, FrictionLaw::coulomb);
+  EXPECT_LE(excess(residuals, tolerance), 1.0) << summary.message;
+  return x;
+}
+
+// Coulomb's block on an incline gains g (sin a - mu cos a) h in a step, compliant (its springs are soft
+// against h by 1e-10 of the weight) or rigid.
+TEST(CoulombNewton, SlidesDownTheIncline) {
+  const double h = 0.01, angle = std::atan(0.5), A = kGravity * (std::sin(angle) - 0.4 * std::cos(angle));
+  for (const double c : {0.0, 1e-15}) {
+    const ContactSolution x = solve(scenes::incline(0.5, h, {0.4, c, c}));
+    EXPECT_NEAR(x.v[0], A * h, 1e-9 * kGravity * h) << c;
+    EXPECT_NEAR(x.v[2], 0.0, 1e-9 * kGravity * h) << c;
+  }
+}
+
+TEST(CoulombNewton, AgreesWithTheConvexPasses) {
+  scenes::DomeShape shape;
+  shape.rings = 8;
+  shape.blocks_per_ring = 12;
+  for (const double mu : {0.0, 0.2, 0.4}) {
+    const ContactProblem problem = scenes::dome(shape, 1.0, {mu, 1e-8, 1e-8});
+    ContactSolverOptions options;
+    static_cast<SolveOptions&>(options) = options_for(problem, 1e-10);
+    options.law = FrictionLaw::coulomb;
+    ContactSolution passes;
+    const SolveSummary summary = solve_contact(problem, options, &passes);
+    ASSERT_EQ(summary.ending, SolveEnding::converged) << summary.message;
+    EXPECT_LE((solve(problem).gamma - passes.gamma).norm(), 1e-7 * passes.gamma.norm()) << mu;
+  }
+}
+
+TEST(CoulombNewton, EndsWithAStatusWhateverItIsGiven) {
+  ContactProblem broken = scenes::incline(0.5, 0.01, {0.4, 1e-8, 1e-8});
+  broken.mu[0] = -1.0;
+  ContactSolution x;
+  EXPECT_EQ(solve_coulomb_newton(broken, options_for(broken, 1e-8), &x).ending, SolveEnding::failed);
+  // Beyond mu = 1 there may be no answer; a converged that is not would show in the residuals.
+  scenes::DomeShape shape;
+  shape.rings = 4;
+  shape.blocks_per_ring = 8;
+  for (const double mu : {1.5, 10.0})
+    for (const double c : {1e-8, 0.0}) {
+      const ContactProblem problem = scenes::dome(shape, 0.01, {mu, c, c});
+      ContactSolution answer;
+      const SolveSummary summary = solve_coulomb_newton(problem, options_for(problem, 1e-8), &answer);
+      if (!summary.usable()) continue;
+      const Residuals residuals =
+          compute_residuals(problem, answer, kGravity * problem.h, FrictionLaw::coulomb);
+      EXPECT_EQ(summary.ending == SolveEnding::converged, excess(residuals, 1e-8) <= 1.0) << mu << " " << c;
+    }
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,110 @@
+#include "solver/contact/problem/cone.hpp"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include "tests/solver/contact/slow_contact.hpp"
+
+namespace cupola {
+namespace {
+
+using scenes::slow_impulse;
+
+struct Sample {
+  ContactLaw law;
+  Vec3 y;
+  ContactRegion region;
+};
+
+/// Each region, its boundaries and a hair on both sides, with c_n != c_t; e_n = 2, e_t = 0.5, mu = 0.4:
+/// stick while |y_t| <= mu (-y_n) e_t / e_n = 0.1 (-y_n); separation from y_n >= 0.4 |y_t|.
+const std::vector<Sample> kSamples{
+    {{2.0, 0.5, 0.4}, {-1.0, 0.0, 0.0}, ContactRegion::stick},
+    {{2.0, 0.5, 0.4}, {-1.0, 0.03, -0.04}, ContactRegion::stick},
+    {{2.0, 0.5, 0.4}, {-1.0, 0.0999999, 0.0}, ContactRegion::stick},
+    {{2.0, 0.5, 0.4}, {-1.0, 0.1000001, 0.0}, ContactRegion::slip},
+    {{2.0, 0.5, 0.4}, {-1.0, 3.0, 4.0}, ContactRegion::slip},
+    {{2.0, 0.5, 0.4}, {0.0, 3.0, -4.0}, ContactRegion::slip},
+    {{2.0, 0.5, 0.4}, {1.9999999, 3.0, 4.0}, ContactRegion::slip},
+    {{2.0, 0.5, 0.4}, {2.0, 3.0, 4.0}, ContactRegion::separation},
+    {{2.0, 0.5, 0.4}, {2.0000001, 3.0, 4.0}, ContactRegion::separation},
+    {{2.0, 0.5, 0.4}, {1.0, 0.0, 0.0}, ContactRegion::separation},
+    {{2.0, 0.5, 0.4}, {0.0, 0.0, 0.0}, ContactRegion::separation},
+    {{1e-12, 1e-9, 10.0}, {-1e-3, 1e-2, 2e-3}, ContactRegion::stick},
+    {{1e-12, 1e-9, 10.0}, {-1e-6, 1e-2, 2e-2}, ContactRegion::slip},
+    {{1e-9, 1e-12, 10.0}, {-1e-3, 1e-6, 2e-7}, ContactRegion::stick},
+    {{1e-9, 1e-12, 10.0}, {-1e-3, 1e-4, 2e-5}, ContactRegion::slip},
+    {{1e-9, 1e-9, 1e-3}, {-1e-3, 1e-2, 2e-3}, ContactRegion::slip},
+};
+
+TEST(Cone, RegionsFollowTheClosedForm) {
+  for (const Sample& s : kSamples) EXPECT_EQ(contact_region(s.law, s.y), s.region) << s.y.transpose();
+}
+
+TEST(Cone, ImpulseMinimisesTheEnergyOverTheCone) {
+  for (const Sample& s : kSamples) {
+    const Vec3 gamma = contact_impulse(s.law, s.y), slow = slow_impulse(s.law, s.y);
+    // Half an ulp of the slope moves the root by a few ulp of its largest term.
+    EXPECT_LE((gamma - slow).norm(), 1e-14 * (std::abs(s.y[0]) + s.law.mu * s.y.norm()) / s.law.e_n)
+        << gamma.transpose() << " | " << slow.transpose();
+  }
+}
+
+TEST(Cone, ImpulseIsComplementaryToTheDualVelocity) {
+  for (const Sample& s : kSamples) {
+    const Vec3 gamma = contact_impulse(s.law, s.y);
+    const Vec3 z = s.y + Vec3(s.law.e_n, s.law.e_t, s.law.e_t).cwiseProduct(gamma);
+    const double scale = s.y.norm();
+    EXPECT_LE(gamma.tail<2>().norm(), s.law.mu * gamma[0] * (1 + 4e-16));
+    EXPECT_GE(z[0], s.law.mu * z.tail<2>().norm() - 1e-14 * scale * (1 + s.law.mu));
+    EXPECT_NEAR(gamma.dot(z), 0.0, 1e-14 * scale * gamma.norm() * (1 + s.law.mu));
+  }
+}
+
+TEST(Cone, StiffnessIsTheDerivativeOfTheImpulse) {
+  for (const Sample& s : kSamples) {
+    if (s.y.isZero() || std::abs(s.y[0] - s.law.mu * s.y.tail<2>().norm()) < 1e-5)
+      continue;  // on or near a kink
+    if (std::abs(s.y.tail<2>().norm() - 0.1) < 1e-5) continue;
+    const Mat3 G = contact_stiffness(s.law, s.y);
+    const double step = 1e-6 * s.y.norm();
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 e = step * Vec3::Unit(k);
+      const Vec3 slope = (contact_impulse(s.law, s.y + e) - contact_impulse(s.law, s.y - e)) / (2 * step);
+      EXPECT_LE((G.col(k) + slope).norm(), 1e-5 * std::max(G.norm(), 1e-300))
+          << s.y.transpose();  // step^2 and eps/step
+    }
+    EXPECT_EQ(G, G.transpose());
+    EXPECT_GE(G.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-14 * G.norm());
+  }
+}
+
+TEST(Cone, FrictionlessContactIgnoresItsTangents) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const ContactLaw law{2.0, nan, 0.0};
+  EXPECT_EQ(contact_impulse(law, {-1.0, 5.0, 7.0}), Vec3(0.5, 0.0, 0.0));
+  EXPECT_EQ(contact_impulse(law, {-1.0, 0.0, 0.0}), Vec3(0.5, 0.0, 0.0));
+  EXPECT_EQ(contact_impulse(law, {1.0, 5.0, 7.0}), Vec3::Zero().eval());
+  EXPECT_EQ(contact_stiffness(law, {-1.0, 5.0, 7.0}), Mat3(Vec3(0.5, 0.0, 0.0).asDiagonal()));
+}
+
+TEST(Cone, ProjectionKeepsTheConeAndDropsItsPolar) {
+  const ContactLaw metric{2.0, 0.5, 0.4};
+  EXPECT_LE((project_on_cone(metric, {1.0, 0.3, 0.2}) - Vec3(1.0, 0.3, 0.2)).norm(), 1e-15);
+  EXPECT_EQ(project_on_cone(metric, {-1.0, 0.3, 0.2}), Vec3::Zero().eval());
+  const Vec3 x(0.1, 3.0, -4.0), on_cone = project_on_cone(metric, x);
+  EXPECT_LE((project_on_cone(metric, on_cone) - on_cone).norm(), 1e-15);
+  EXPECT_NEAR(on_cone.tail<2>().norm(), 0.4 * on_cone[0], 1e-15);
+}
+
+TEST(Cone, ScalingVelocitiesScalesImpulses) {  // the cone has no length of its own
+  for (const Sample& s : kSamples) {
+    const Vec3 gamma = contact_impulse(s.law, s.y);
+    EXPECT_LE((contact_impulse(s.law, 1024.0 * s.y) - 1024.0 * gamma).norm(), 1e-15 * 1024.0 * gamma.norm());
+  }
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,117 @@
+#include "solver/dynamics/islands.hpp"
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "tests/solver/motion_scenes.hpp"
+
+namespace cupola {
+namespace {
+
+using testing::BoxSpec;
+
+/// A floor with `stacks` stacks of two cubes, 3 m apart, and a cube dropped from 1 m on the first stack.
+Assembly stacks(int number, bool dropped) {
+  std::vector<BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {200, 3, 1}, .fixed = true}};
+  for (int k = 0; k < number; ++k)
+    for (int level = 0; level < 2; ++level) boxes.push_back({.center = {3.0 * k, 0, level + 0.5}});
+  if (dropped) boxes.push_back({.center = {0, 0, 3.5}});
+  return testing::make_boxes(boxes);
+}
+
+Case sleepy(double duration) {
+  Case scene = testing::make_case(0.4, 1e-9, 0.01);
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.duration = duration;
+  scene.analysis.start = Analysis::Start::rest;
+  scene.analysis.damping = 0.01;
+  scene.analysis.sleep = Sleep{.speed = 1e-3, .time = 0.05};
+  return scene;
+}
+
+Simulation simulation(const Case& scene, const Assembly& assembly) {
+  SimulationOptions options;
+  options.step.h = scene.analysis.time_step;
+  options.step.damping = scene.analysis.damping;
+  options.sleep = scene.analysis.sleep;
+  options.detection = detection_options(scene);
+  options.solve = contact_solver_options(scene.analysis);
+  return {make_model(scene, assembly), options};
+}
+
+TEST(Islands, AreTheBlocksThatContactsJoinWithoutTheFixedOnes) {
+  const Assembly assembly = stacks(3, false);
+  const Case scene = sleepy(1.0);
+  const Model model = make_model(scene, assembly);
+  ContactDetector detector(assembly, detection_options(scene));
+  const std::vector<int> islands = islands_of(model, detector.update(state_at_rest(model).poses));
+  EXPECT_EQ(islands, (std::vector<int>{0, 0, 2, 2, 4, 4}));
+}
+
+TEST(Islands, SleepAtRestAndCarryTheirWeightOn) {
+  const Assembly assembly = stacks(3, false);
+  Simulation run = simulation(sleepy(1.0), assembly);
+  StepReport report;
+  for (int k = 0; k < 100; ++k) report = run.advance();
+  EXPECT_EQ(report.asleep, 6);
+  EXPECT_EQ(report.problem.problem.num_blocks(), 0);
+  EXPECT_EQ(report.problem.problem.num_contacts(), 0);
+  const double weight = run.model().free_weight;
+  // They fell asleep while still slower than 1e-3 m/s, that is out of balance by less than 1e-3 / (g h).
+  EXPECT_NEAR(report.balance.support_reaction.z() / weight, 1.0, 1e-3 / (9.81 * 0.01));
+}
+
+TEST(Islands, WakeWhenSomethingArrives) {
+  const Assembly assembly = stacks(3, true);
+  Case scene = sleepy(1.0);
+  Simulation run = simulation(scene, assembly);
+  bool first_slept = false, first_woke = false;
+  for (int k = 0; k < 200; ++k) {
+    const int asleep = run.advance().asleep;
+    if (run.state().time < 0.4) first_slept = first_slept || asleep == 6;
+    if (first_slept) first_woke = first_woke || asleep == 4;
+  }
+  EXPECT_TRUE(first_slept);
+  EXPECT_TRUE(first_woke);
+  // The cube dropped lies on the first stack, whose blocks have not moved aside.
+  EXPECT_NEAR(run.state().poses.back().p_WB.z(), 2.5, 1e-2);
+}
+
+// What does not sleep is solved as if nobody slept.
+TEST(Islands, SleepersLeaveTheMotionOfOthersAlone) {
+  const Assembly assembly = stacks(4, true);
+  Case scene = sleepy(1.0);
+  Simulation with = simulation(scene, assembly);
+  scene.analysis.sleep.reset();
+  Simulation without = simulation(scene, assembly);
+  for (int k = 0; k < 40; ++k) {
+    with.advance();
+    without.advance();
+  }
+  const Pose &p = with.state().poses.back(), &q = without.state().poses.back();
+  EXPECT_NEAR((p.p_WB - q.p_WB).norm(), 0.0, 1e-9);
+}
+
+TEST(Islands, GoOnWithTheSameBitsAfterARestore) {
+  const Assembly assembly = stacks(2, true);
+  Simulation run = simulation(sleepy(1.0), assembly);
+  for (int k = 0; k < 30; ++k) run.advance();
+  run.forget_factor();
+  Simulation again = simulation(sleepy(1.0), assembly);
+  again.restore(run.save());
+  for (int k = 0; k < 60; ++k) {
+    EXPECT_EQ(run.advance().asleep, again.advance().asleep);
+  }
+  EXPECT_EQ(run.state().v, again.state().v);
+}
+
+TEST(Islands, DoNotSleepUnderWhatVariesInTime) {
+  const Assembly assembly = stacks(1, false);
+  Case scene = sleepy(0.1);
+  scene.joints.friction_time = RampInTime{};
+  EXPECT_THROW(run_dynamic(scene, assembly, {}), InputError);
+}
+
+}  // namespace
+}  // namespace cupola

@@ -1,0 +1,131 @@
+#include "solver/dynamics/supports.hpp"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/files/time_table.hpp"
+#include "tests/solver/motion_scenes.hpp"
+
+namespace cupola {
+namespace {
+
+using testing::kG;
+using testing::make_case;
+using testing::simulate;
+
+/// All fixed blocks move by `displacement` within `duration`.
+SupportMove shove(const Vec3& displacement, double duration) {
+  SupportMove move;
+  move.displacement = displacement;
+  move.time = RampInTime{.from = 0.0, .to = 1.0, .start = 0.0, .duration = duration};
+  return move;
+}
+
+// A plate that starts at V under a block: friction speeds the block up at mu g until it moves along. The
+// discrete associated scheme lags by its dilation, A h mu^2 (VERIFICATION 1.1); afterwards both move
+// together.
+TEST(MovingSupport, DragsABlockByFriction) {
+  const Assembly assembly = testing::box_on_floor({1.0, 1.0, 0.2});
+  const double h = 1e-3, mu = 0.3, V = 1.0;
+  Case scene = make_case(mu, 1e-14, h);
+  scene.supports.moves = {shove({V, 0, 0}, 1.0)};
+  Simulation simulation = simulate(scene, assembly);
+  for (int step = 0; step < 200; ++step) simulation.advance();
+  // Sliding dilates: mu |slip| of upward velocity in the first step, whose impulse costs friction once.
+  EXPECT_NEAR(simulation.state().v[0], mu * kG * 0.2, mu * mu * V + 1e-3);
+  for (int step = 200; step < 900; ++step) simulation.advance();
+  EXPECT_NEAR(simulation.state().v[0], V, 1e-6);
+  EXPECT_NEAR(simulation.state().poses[0].p_WB.x(), 0.9 * V, 1e-9);
+}
+
+// A lift: the block rises with its support, and weighs more while the support speeds up.
+TEST(MovingSupport, LiftsABlockAndLoadsItWhileItSpeedsUp) {
+  const Assembly assembly = testing::box_on_floor({1.0, 1.0, 1.0});
+  const double h = 1e-3, a = 2.0;
+  Case scene = make_case(0.3, 1e-12, h);
+  SupportMove move;
+  move.displacement = Vec3(0, 0, 1);
+  TableInTime table;  // half a t^2 on a fine grid
+  for (int i = 0; i <= 1000; ++i) {
+    table.times.push_back(i * h);
+    table.values.push_back(0.5 * a * i * h * i * h);
+  }
+  move.time = table;
+  scene.supports.moves = {move};
+  Simulation simulation = simulate(scene, assembly);
+  StepReport report;
+  for (int step = 0; step < 500; ++step) report = simulation.advance();
+  EXPECT_NEAR(simulation.state().poses[1].p_WB.z(), 0.5 + 0.5 * a * 0.25, 1e-6);
+  EXPECT_NEAR(report.balance.support_reaction.z() / (1000.0 * (kG + a)), 1.0, 1e-6);
+}
+
+// A floor that tips gently by 30 degrees about y carries along a block that sticks to it, as a rigid whole.
+TEST(MovingSupport, TurnsWhatSticksToIt) {
+  const Assembly assembly = testing::box_on_floor({1.0, 1.0, 0.2});
+  Case scene = make_case(2.0, 1e-10, 1e-2, 0.01);
+  SupportMove move;
+  move.rotation_deg = Vec3(0, 30, 0);
+  move.pivot = Vec3(-5, 0, 0);
+  TableInTime table;
+  for (int i = 0; i <= 400; ++i) {
+    table.times.push_back(0.01 * i);
+    table.values.push_back(0.5 * (1.0 - std::cos(std::numbers::pi * i / 400)));
+  }
+  move.time = table;
+  scene.supports.moves = {move};
+  Simulation simulation = simulate(scene, assembly);
+  for (int step = 0; step < 500; ++step) simulation.advance();
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(std::numbers::pi / 6, Vec3::UnitY()));
+  const Vec3 expected = move.pivot + turn * (Vec3(0, 0, 0.1) - move.pivot);
+  // Every step of 5 mm misses the arc by its sagitta, at most 5e-3^2 / (2 * 5) each, 400 times.
+  EXPECT_LT((simulation.state().poses[1].p_WB - expected).norm(), 1e-3);
+  EXPECT_LT(simulation.state().poses[1].q_WB.angularDistance(turn), 1e-3);
+  EXPECT_LT(simulation.state().v.norm(), 1e-6);
+}
+
+TEST(BaseMotion, ReadsDisplacementsAndIntegratesAccelerations) {
+  const std::string path = ::testing::TempDir() + "/motion.csv";
+  std::ofstream(path) << "# time, value\n0 , 0\n0.5, 1.5\n1\t3\n";
+  const TableInTime table = read_time_table(path);
+  ASSERT_EQ(table.times.size(), 3u);
+  EXPECT_DOUBLE_EQ(factor_at(TimeFunction(table), 0.75), 2.25);
+  EXPECT_DOUBLE_EQ(factor_at(TimeFunction(table), 9.0), 3.0);
+  // a(t) = 3 t: d = t^3 / 2.
+  const TableInTime displacement = integrate_twice(table);
+  EXPECT_DOUBLE_EQ(displacement.values[1], 0.0625);
+  EXPECT_DOUBLE_EQ(displacement.values[2], 0.5);
+}
+
+TEST(BaseMotion, NamesTheLineThatIsWrong) {
+  const std::string path = ::testing::TempDir() + "/motion.csv";
+  const auto message = [&](const char* text) {
+    std::ofstream(path) << text;
+    try {
+      read_time_table(path);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message("0 0\n1 x\n").find(":2:1: "), std::string::npos);
+  EXPECT_NE(message("0 0\n1 1 1\n").find("two numbers"), std::string::npos);
+  EXPECT_NE(message("0 0\n0 1\n").find("times must increase"), std::string::npos);
+  EXPECT_NE(message("0 nan\n").find(":1:1: "), std::string::npos);
+  EXPECT_NE(message("# nothing\n").find("no rows"), std::string::npos);
+  EXPECT_THROW(read_time_table(path + ".absent"), InputError);
+}
+
+TEST(MovingSupport, RefusesFreeBlocks) {
+  const Assembly assembly = testing::box_on_floor({1, 1, 1});
+  Case scene;
+  scene.supports.moves = {SupportMove{}};
+  scene.supports.moves[0].blocks = {1};
+  EXPECT_THROW(make_support_motions(scene, assembly), InputError);
+  scene.supports.moves[0].blocks = {2};
+  EXPECT_THROW(make_support_motions(scene, assembly), InputError);
+}
+
+}  // namespace
+}  // namespace cupola
