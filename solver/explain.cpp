@@ -94,7 +94,7 @@ Built build_first_step(const Case& scene, const Assembly& assembly) {
   options.h = scene.analysis.type == AnalysisType::static_ ? 100.0 : scene.analysis.time_step;
   options.time_advance = 0.0;
   built.step = build_step_problem(built.model, rest, built.contacts,
-                                  match_memories({}, built.contacts.contacts), options);
+                                  match_memories({}, built.contacts.points), options);
   return built;
 }
 

@@ -55,9 +55,9 @@ Figure plane_figure(const Evaluation& e, const PlaneCut& cut) {
   double largest = 0.0;
   for (const int j : cut.joints)
     largest =
-        std::max(largest, std::abs(force_beyond(cut, e.assembly, e.last.joints.joints[j]).dot(cut.normal)));
+        std::max(largest, std::abs(force_beyond(cut, e.assembly, e.last.joints.wrenches[j]).dot(cut.normal)));
   for (const int j : cut.joints) {
-    const JointWrench& joint = e.last.joints.joints[j];
+    const JointWrench& joint = e.last.joints.wrenches[j];
     const double through = force_beyond(cut, e.assembly, joint).dot(cut.normal);
     if (through == 0.0) continue;
     constexpr double kLargestPoint = 3.5;  // gnuplot's point size

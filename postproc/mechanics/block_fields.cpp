@@ -50,8 +50,8 @@ std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& fra
     fields[b].meridional_force = -axes[b].m.dot(stress[b] * axes[b].m) * axes[b].thickness;
     fields[b].hoop_force = -axes[b].t.dot(stress[b] * axes[b].t) * axes[b].thickness;
   }
-  for (const JointWrench& joint : joints.joints) {
-    for (const int b : {joint.joint.block_a, joint.joint.block_b}) {
+  for (const JointWrench& joint : joints.wrenches) {
+    for (const int b : {joint.block_a, joint.block_b}) {
       fields[b].friction_use = std::max(fields[b].friction_use, joint.friction_use);
       if (joint.upper >= 0) fields[b].kern = std::max(fields[b].kern, joint.kern);
       fields[b].opening = std::max(fields[b].opening, joint.opening);
@@ -75,15 +75,15 @@ std::vector<int> mechanism_groups(const Assembly& assembly, const Frame& frame, 
     if (first_fixed >= 0) unite(first_fixed, static_cast<int>(b));
     first_fixed = first_fixed < 0 ? static_cast<int>(b) : first_fixed;
   }
-  for (const JointWrench& joint : joints.joints) {
+  for (const JointWrench& joint : joints.wrenches) {
     double relative = 0.0;
     for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
       const Vec3& point = frame.contacts.point[joints.contacts[i]];
-      const Vec3 difference = displacement_at(assembly, frame.blocks, joint.joint.block_b, point) -
-                              displacement_at(assembly, frame.blocks, joint.joint.block_a, point);
+      const Vec3 difference = displacement_at(assembly, frame.blocks, joint.block_b, point) -
+                              displacement_at(assembly, frame.blocks, joint.block_a, point);
       relative = std::max(relative, difference.norm());
     }
-    if (relative <= threshold) unite(joint.joint.block_a, joint.joint.block_b);
+    if (relative <= threshold) unite(joint.block_a, joint.block_b);
   }
   // Numbers in the order of the groups' first blocks, the supports' group first.
   std::vector<int> number(parent.size(), -1), group(parent.size());

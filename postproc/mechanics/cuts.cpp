@@ -39,16 +39,16 @@ std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& 
   const auto positive = [&](int block) { return along.dot(assembly.blocks[block].centroid) > 0.0; };
   std::map<int, HoopRow> rows;
   std::map<int, int> counts;
-  for (const JointWrench& joint : joints.joints) {
-    const int a = joint.joint.block_a, b = joint.joint.block_b;
+  for (const JointWrench& joint : joints.wrenches) {
+    const int a = joint.block_a, b = joint.block_b;
     if (assembly.blocks[a].fixed || assembly.blocks[b].fixed || positive(a) == positive(b)) continue;
     if (outwards.dot(joint.patch.centroid) <= 0.0) continue;  // the half-plane on the other side of the axis
     const double force = along.dot(wrench_on(joint, positive(b) ? b : a).force);
-    HoopRow& row = rows[joint.joint.ring];
-    row.ring = joint.joint.ring;
+    HoopRow& row = rows[joint.ring];
+    row.ring = joint.ring;
     row.height += joint.patch.centroid.z();
-    ++counts[joint.joint.ring];
-    (joint.joint.kind == JointKind::head ? row.head_force : row.bed_force) += force;
+    ++counts[joint.ring];
+    (joint.kind == JointKind::head ? row.head_force : row.bed_force) += force;
   }
   std::vector<HoopRow> out;
   for (auto& [ring, row] : rows) {

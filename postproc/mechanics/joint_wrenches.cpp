@@ -61,35 +61,35 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
 
 JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell) {
   JointWrenches out;
-  for (const Joint& joint : joints_of(contacts)) out.joints.emplace_back().joint = joint;
+  for (const Joint& joint : joints_of(contacts)) static_cast<Joint&>(out.wrenches.emplace_back()) = joint;
   out.contacts.resize(static_cast<size_t>(contacts.size()));
   std::iota(out.contacts.begin(), out.contacts.end(), 0);
   std::stable_sort(out.contacts.begin(), out.contacts.end(),
                    [&](int i, int j) { return contacts.joint[i] < contacts.joint[j]; });
   for (int i = 0; i < contacts.size(); ++i) {
-    JointWrench& joint = out.joints[contacts.joint[out.contacts[i]]];
+    JointWrench& joint = out.wrenches[contacts.joint[out.contacts[i]]];
     if (joint.num_contacts++ == 0) joint.contact_start = i;
   }
-  std::erase_if(out.joints, [](const JointWrench& joint) { return joint.num_contacts == 0; });
-  for (JointWrench& joint : out.joints) {
+  std::erase_if(out.wrenches, [](const JointWrench& joint) { return joint.num_contacts == 0; });
+  for (JointWrench& joint : out.wrenches) {
     fill(contacts, out.contacts, &joint);
-    if (joint.joint.kind != JointKind::bed && joint.joint.kind != JointKind::base) continue;
-    joint.upper = joint.joint.block_b;
-    joint.lower = joint.joint.block_a;
-    if (joint.patch.plane.normal.dot(shell.direction(course(assembly, joint.joint))) < 0.0)
+    if (joint.kind != JointKind::bed && joint.kind != JointKind::base) continue;
+    joint.upper = joint.block_b;
+    joint.lower = joint.block_a;
+    if (joint.patch.plane.normal.dot(shell.direction(course(assembly, joint))) < 0.0)
       std::swap(joint.upper, joint.lower);
   }
   return out;
 }
 
 Wrench wrench_on(const JointWrench& joint, int block) {
-  return block == joint.joint.block_b ? joint.wrench : -1.0 * joint.wrench;
+  return block == joint.block_b ? joint.wrench : -1.0 * joint.wrench;
 }
 
 std::vector<Wrench> wrenches_from_below(const Assembly& assembly, const JointWrenches& joints) {
   std::vector<Wrench> wrenches(assembly.blocks.size());
   for (size_t b = 0; b < wrenches.size(); ++b) wrenches[b].point = assembly.blocks[b].centroid;
-  for (const JointWrench& joint : joints.joints)
+  for (const JointWrench& joint : joints.wrenches)
     if (joint.upper >= 0) wrenches[joint.upper].add(wrench_on(joint, joint.upper));
   return wrenches;
 }

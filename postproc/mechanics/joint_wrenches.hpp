@@ -10,8 +10,7 @@
 namespace cupola {
 
 /// One joint of a frame: what its contact points add up to.
-struct JointWrench {
-  Joint joint;
+struct JointWrench : Joint {
   int upper = -1, lower = -1;  ///< blocks of a bed or base joint; -1 for other kinds
   PlanarHull patch;            ///< hull of the contact points in their mean plane
   Wrench wrench;               ///< on block_b, about the centre of pressure
@@ -29,8 +28,8 @@ struct JointWrench {
 };
 
 struct JointWrenches {
-  std::vector<JointWrench> joints;  ///< in the order of the contacts' joint ids
-  std::vector<int> contacts;        ///< contact rows sorted by joint
+  std::vector<JointWrench> wrenches;  ///< in the order of the contacts' joint ids
+  std::vector<int> contacts;          ///< contact rows sorted by joint
 };
 
 /// The upper block of a bed or base joint is the one further along the shell, from ring to ring: the right

@@ -3,9 +3,9 @@
 namespace cupola {
 
 Vec3 force_beyond(const PlaneCut& cut, const Assembly& assembly, const JointWrench& joint) {
-  const int b = joint.joint.block_b;
+  const int b = joint.block_b;
   const bool b_beyond = !assembly.blocks[b].fixed && cut.is_beyond(assembly.blocks[b].centroid);
-  return wrench_on(joint, b_beyond ? b : joint.joint.block_a).force;
+  return wrench_on(joint, b_beyond ? b : joint.block_a).force;
 }
 
 PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointWrenches& joints,
@@ -24,9 +24,9 @@ PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointW
   for (const PointForce& load : loads)
     if (beyond[load.block]) cut.load_beyond += load.force;
 
-  for (size_t j = 0; j < joints.joints.size(); ++j) {
-    const JointWrench& joint = joints.joints[j];
-    const int a = joint.joint.block_a, b = joint.joint.block_b;
+  for (size_t j = 0; j < joints.wrenches.size(); ++j) {
+    const JointWrench& joint = joints.wrenches[j];
+    const int a = joint.block_a, b = joint.block_b;
     if (beyond[a] == beyond[b]) continue;
     const Wrench wrench = wrench_on(joint, beyond[b] ? b : a);
     if (assembly.blocks[a].fixed || assembly.blocks[b].fixed) {

@@ -34,9 +34,9 @@ void add_loads(const Assembly& assembly, const Vec3& gravity, const std::vector<
 /// A joint between first rings p < q is cut by the cuts p + 1 .. q: added where they begin, removed after.
 void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, std::vector<RingSum>* rings) {
   std::vector<Vec3> change(rings->size() + 1, Vec3::Zero());
-  for (const JointWrench& joint : joints.joints) {
-    const int a = first_ring(assembly, joint.joint.block_a);
-    const int b = first_ring(assembly, joint.joint.block_b);
+  for (const JointWrench& joint : joints.wrenches) {
+    const int a = first_ring(assembly, joint.block_a);
+    const int b = first_ring(assembly, joint.block_b);
     if (a == b) continue;
     const Vec3 on_upper = b > a ? joint.wrench.force : Vec3(-joint.wrench.force);
     change[std::min(a, b) + 1] += on_upper;
@@ -54,7 +54,7 @@ void add_block_spread(const Assembly& assembly, const JointWrenches& joints,
                       const std::vector<Wrench>& from_below, std::vector<RingSum>* rings) {
   std::vector<double> normal_force(from_below.size(), 0.0), area(from_below.size(), 0.0);
   std::vector<double> ring_area(rings->size(), 0.0);
-  for (const JointWrench& joint : joints.joints) {
+  for (const JointWrench& joint : joints.wrenches) {
     if (joint.upper < 0 || assembly.blocks[joint.upper].fixed) continue;
     normal_force[joint.upper] += joint.normal_force;
     area[joint.upper] += joint.patch.area;

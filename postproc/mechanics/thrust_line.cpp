@@ -90,9 +90,9 @@ Wrench wrench_through(const ThrustInput& in, int block, int bed) {
     w.add_force(solid.centroid, -in.assembly->blocks[block].density * solid.volume * in.gravity);
   }
   const ContactTable& c = *in.contacts;
-  for (const JointWrench& joint : in.joints->joints) {
-    if (joint.joint.block_a != block && joint.joint.block_b != block) continue;
-    const double sign = joint.joint.block_b == block ? -1.0 : 1.0;
+  for (const JointWrench& joint : in.joints->wrenches) {
+    if (joint.block_a != block && joint.block_b != block) continue;
+    const double sign = joint.block_b == block ? -1.0 : 1.0;
     for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
       const int row = in.joints->contacts[i];
       const int course = joint.lower == block ? c.ring[row] - 1 : c.ring[row];
@@ -106,7 +106,7 @@ Wrench wrench_through(const ThrustInput& in, int block, int bed) {
 Wrench wrench_onwards(const ThrustInput& in, int block) {
   Wrench w;
   w.point = in.assembly->blocks[block].centroid;
-  for (const JointWrench& joint : in.joints->joints)
+  for (const JointWrench& joint : in.joints->wrenches)
     if (joint.lower == block) w.add(wrench_on(joint, joint.upper));
   return w;
 }

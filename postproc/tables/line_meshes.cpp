@@ -76,9 +76,8 @@ Mesh sections_mesh(const Evaluation& e) {
   }
   for (const PlaneCut& plane : e.planes) {
     for (const int j : plane.joints) {
-      const JointWrench& joint = e.last.joints.joints[j];
-      add_segment(joint.wrench.point, force_beyond(plane, e.assembly, joint), joint.joint.block_b,
-                  plane.point.z());
+      const JointWrench& joint = e.last.joints.wrenches[j];
+      add_segment(joint.wrench.point, force_beyond(plane, e.assembly, joint), joint.block_b, plane.point.z());
     }
     ++index;
   }
@@ -108,8 +107,8 @@ Mesh cracks_mesh(const Evaluation& e) {
   Mesh mesh;
   MeshInts joint_id, kind;
   MeshDoubles opening, slip;
-  for (size_t j = 0; j < e.last.joints.joints.size(); ++j) {
-    const JointWrench& joint = e.last.joints.joints[j];
+  for (size_t j = 0; j < e.last.joints.wrenches.size(); ++j) {
+    const JointWrench& joint = e.last.joints.wrenches[j];
     std::vector<Vec3> open;
     for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
       const int row = e.last.joints.contacts[i];
@@ -123,7 +122,7 @@ Mesh cracks_mesh(const Evaluation& e) {
     if (ids.size() > 2) ids.push_back(ids.front());
     mesh.add_cell(CellType::polyline, ids);
     joint_id.push_back(static_cast<int>(j));
-    kind.push_back(static_cast<int>(joint.joint.kind));
+    kind.push_back(static_cast<int>(joint.kind));
     opening.push_back(joint.opening);
     slip.push_back(joint.slip);
   }

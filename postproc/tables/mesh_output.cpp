@@ -99,7 +99,7 @@ double segment_scale(const Assembly& assembly, double largest_force) {
 }
 
 Mesh joints_mesh(const Evaluation& e) {
-  const auto& joints = e.last.joints.joints;
+  const auto& joints = e.last.joints.wrenches;
   const double scale = common_scale(e);
   Mesh mesh;
   for (const JointWrench& joint : joints) add_point(&mesh, joint.wrench.point);
@@ -140,10 +140,10 @@ Mesh joints_mesh(const Evaluation& e) {
   doubles("friction_use", [](const JointWrench& j) { return j.friction_use; });
   doubles("opening_m", [](const JointWrench& j) { return j.opening; });
   doubles("slip_m", [](const JointWrench& j) { return j.slip; });
-  ints("block_a", [](const JointWrench& j) { return j.joint.block_a; });
-  ints("block_b", [](const JointWrench& j) { return j.joint.block_b; });
-  ints("kind", [](const JointWrench& j) { return static_cast<int>(j.joint.kind); });
-  ints("ring", [](const JointWrench& j) { return j.joint.ring; });
+  ints("block_a", [](const JointWrench& j) { return j.block_a; });
+  ints("block_b", [](const JointWrench& j) { return j.block_b; });
+  ints("kind", [](const JointWrench& j) { return static_cast<int>(j.kind); });
+  ints("ring", [](const JointWrench& j) { return j.ring; });
   MeshInts tip(static_cast<size_t>(2 * n), 0);
   std::fill(tip.begin() + n, tip.end(), 1);
   mesh.point_data.push_back({"tip", 1, std::move(tip)});

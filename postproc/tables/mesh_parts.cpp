@@ -31,7 +31,7 @@ std::vector<MeshArray> about(const Evaluation& e, double scale) {
 double common_scale(const Evaluation& e) {
   double largest = 0.0;
   for (const Wrench& w : e.last.from_below) largest = std::max(largest, w.force.norm());
-  for (const JointWrench& joint : e.last.joints.joints)
+  for (const JointWrench& joint : e.last.joints.wrenches)
     largest = std::max(largest, joint.wrench.force.norm());
   return segment_scale(e.assembly, largest);
 }

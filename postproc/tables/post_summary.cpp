@@ -100,7 +100,7 @@ PostSummary post_summary(const Evaluation& e) {
     s.largest_cv_pressure = std::max(s.largest_cv_pressure, r.cv_pressure);
   }
   double kern = 0.0, force = 0.0;
-  for (const JointWrench& joint : e.last.joints.joints) {
+  for (const JointWrench& joint : e.last.joints.wrenches) {
     s.largest_friction_use = std::max(s.largest_friction_use, joint.friction_use);
     if (joint.upper < 0) continue;
     kern += joint.normal_force * joint.kern;

@@ -14,9 +14,9 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 std::vector<int> beside_spiral(const Evaluation& e) {
   std::vector<int> beside(e.assembly.blocks.size(), 0);
   const auto upright = [&e](int b) { return e.assembly.blocks[b].kind == BlockKind::herringbone; };
-  for (const JointWrench& j : e.last.joints.joints) {
-    if (j.joint.kind != JointKind::head) continue;
-    const int a = j.joint.block_a, b = j.joint.block_b;
+  for (const JointWrench& j : e.last.joints.wrenches) {
+    if (j.kind != JointKind::head) continue;
+    const int a = j.block_a, b = j.block_b;
     if (upright(b) && !upright(a)) beside[static_cast<size_t>(a)] = 1;
     if (upright(a) && !upright(b)) beside[static_cast<size_t>(b)] = 1;
   }
@@ -79,12 +79,12 @@ Table joint_table(const Evaluation& e) {
                {"opening_m", "m", "largest gap"},
                {"open_share", "", "share of the area without force"},
                {"slip_m", "m", "largest slip"}};
-  for (const JointWrench& j : e.last.joints.joints) {
+  for (const JointWrench& j : e.last.joints.wrenches) {
     const Vec3 &p = j.wrench.point, &f = j.wrench.force, &m = j.wrench.moment, &a = j.axis.point;
-    t.rows.push_back({j.joint.block_a,
-                      j.joint.block_b,
-                      to_string(j.joint.kind),
-                      j.joint.ring,
+    t.rows.push_back({j.block_a,
+                      j.block_b,
+                      to_string(j.kind),
+                      j.ring,
                       p.x(),
                       p.y(),
                       p.z(),
@@ -264,11 +264,11 @@ Table plane_table(const Evaluation& e, const PlaneCut& cut) {
                {"through_N", "N", "in the plane's normal, compression positive"},
                {"along_N", "N", "in the plane"}};
   for (const int j : cut.joints) {
-    const JointWrench& joint = e.last.joints.joints[j];
+    const JointWrench& joint = e.last.joints.wrenches[j];
     const Vec3 &x = joint.centre_of_pressure, f = force_beyond(cut, e.assembly, joint);
     const double through = f.dot(cut.normal);
-    t.rows.push_back({joint.joint.block_a, joint.joint.block_b, to_string(joint.joint.kind), joint.joint.ring,
-                      x.x(), x.y(), x.z(), f.x(), f.y(), f.z(), through, (f - through * cut.normal).norm()});
+    t.rows.push_back({joint.block_a, joint.block_b, to_string(joint.kind), joint.ring, x.x(), x.y(), x.z(),
+                      f.x(), f.y(), f.z(), through, (f - through * cut.normal).norm()});
   }
   return t;
 }

@@ -111,7 +111,7 @@ std::pair<int, int> SymmetryFinder::pair_of(const Contact& contact) const {
 /// normals or in different patches, and a contact is the image of one only.
 std::vector<int> SymmetryFinder::turned_contacts(const std::vector<int>& blocks,
                                                  std::vector<char>* swapped) const {
-  const std::vector<Contact>& contacts = contacts_.contacts;
+  const std::vector<Contact>& contacts = contacts_.points;
   std::vector<int> by_pair(contacts.size());
   std::iota(by_pair.begin(), by_pair.end(), 0);
   const auto key = [&](int i) { return pair_of(contacts[i]); };
@@ -155,8 +155,8 @@ std::vector<int> SymmetryFinder::turned_contacts(const std::vector<int>& blocks,
 }
 
 void SymmetryFinder::check_turned_contact(int contact, int image) const {
-  const Contact& c = contacts_.contacts[contact];
-  const Contact& d = contacts_.contacts[image];
+  const Contact& c = contacts_.points[contact];
+  const Contact& d = contacts_.points[image];
   const std::string between = fmt::format("between blocks {} and {}, and blocks {} and {}", c.block_a,
                                           c.block_b, d.block_a, d.block_b);
   const double size = size_of(std::max(model_.free_index[c.block_a], model_.free_index[c.block_b]));
@@ -212,7 +212,7 @@ CyclicSymmetry SymmetryFinder::find() {
   symmetry.contacts = orbits(contacts, swapped, sectors_, &symmetry.contact_of_orbit, &short_orbit);
   if (short_orbit >= 0)
     broken(fmt::format("the contact of blocks {} and {} comes back before a full turn",
-                       contacts_.contacts[short_orbit].block_a, contacts_.contacts[short_orbit].block_b));
+                       contacts_.points[short_orbit].block_a, contacts_.points[short_orbit].block_b));
   return symmetry;
 }
 

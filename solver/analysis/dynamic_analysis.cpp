@@ -94,7 +94,7 @@ bool DynamicRun::start_static(Summary* summary) {
   const State rest = state_at_rest(model);
   ContactDetector detector(*model.assembly, detection_options(scene_));
   const ContactSet& contacts = detector.update(rest.poses);
-  const ContactMemories memories = match_memories({}, contacts.contacts);
+  const ContactMemories memories = match_memories({}, contacts.points);
   StaticOptions options = static_options(analysis_);
   options.tolerance = std::min(analysis_.tolerance, 1e-6);
   options.log = sinks_.log;
@@ -188,7 +188,7 @@ std::optional<Summary> DynamicRun::run() {
     const Stop stop = stop_reason();
     const bool due = frame_is_due(stop);
     if (due) write_frame();
-    if (stop != Stop::no) sinks_.problem(report_.problem.problem, report_.solution.gamma);
+    if (stop != Stop::no) sinks_.problem(report_.problem.problem, report_.step_solution.gamma);
     if (stop != Stop::no) return summarize(stop, wall_seconds() - started);
     // A resumed run starts without a factor. So does this one at every step at which it can be cut off.
     if (!due && progress_.steps % kStepsPerFactor != 0) continue;

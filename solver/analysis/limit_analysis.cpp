@@ -55,7 +55,7 @@ Probe LimitRun::probe_at(double value) const {
   probe.start = state_at_rest(probe.model);
   ContactDetector detector(*probe.assembly, detection_options(scene));
   probe.contacts = detector.update(probe.start.poses);
-  probe.memories = match_memories({}, probe.contacts.contacts);
+  probe.memories = match_memories({}, probe.contacts.points);
   probe.solution = solve_static(probe.model, probe.start, probe.contacts, probe.memories, options);
   return probe;
 }

@@ -20,8 +20,8 @@ std::vector<MovingJoint> joint_motions(const ContactSet& contacts, const VecX& u
   const JointNumbers numbers = number_joints(contacts);
   std::vector<MovingJoint> joints(numbers.count);
   std::vector<bool> any_closed(numbers.count, false);
-  for (size_t i = 0; i < contacts.contacts.size(); ++i) {
-    const Contact& contact = contacts.contacts[i];
+  for (size_t i = 0; i < contacts.points.size(); ++i) {
+    const Contact& contact = contacts.points[i];
     const int j = numbers.of_contact[i];
     MovingJoint& joint = joints[j];
     joint.block_a = contact.block_a;
@@ -91,12 +91,12 @@ std::string to_string(JointMotion motion) {
 
 Mechanism find_mechanism(const Model& model, const State& start, const ContactSet& contacts,
                          const StaticSolution& solution) {
-  const double fastest = std::max(largest_speed(solution.solution.v), 1e-300);
+  const double fastest = std::max(largest_speed(solution.step_solution.v), 1e-300);
   const ContactProblem& problem = solution.step.problem;
-  const VecX u = relative_velocity(problem, solution.solution.v) + solution.step.support_velocity;
+  const VecX u = relative_velocity(problem, solution.step_solution.v) + solution.step.support_velocity;
 
   Mechanism mechanism;
-  mechanism.v = solution.solution.v / fastest;
+  mechanism.v = solution.step_solution.v / fastest;
   mechanism.joints = joint_motions(contacts, u, fastest);
   find_groups(model, &mechanism);
 

@@ -26,10 +26,10 @@ Status status_of(Verdict verdict) {
 
 JointNumbers number_joints(const ContactSet& contacts) {
   JointNumbers numbers;
-  numbers.of_contact.resize(contacts.contacts.size());
+  numbers.of_contact.resize(contacts.points.size());
   std::map<std::tuple<int, int, JointKind>, int> known;
-  for (size_t i = 0; i < contacts.contacts.size(); ++i) {
-    const Contact& contact = contacts.contacts[i];
+  for (size_t i = 0; i < contacts.points.size(); ++i) {
+    const Contact& contact = contacts.points[i];
     const auto [entry, inserted] = known.try_emplace(
         {contact.block_a, contact.block_b, contacts.patches[contact.patch].kind}, numbers.count);
     if (inserted) ++numbers.count;
@@ -45,9 +45,9 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
   frame.time = state.time;
   ContactTable& table = frame.contacts;
   table.joint = number_joints(contacts).of_contact;
-  table.reserve(contacts.contacts.size());
-  for (size_t i = 0; i < contacts.contacts.size(); ++i) {
-    const Contact& contact = contacts.contacts[i];
+  table.reserve(contacts.points.size());
+  for (size_t i = 0; i < contacts.points.size(); ++i) {
+    const Contact& contact = contacts.points[i];
     const Patch& patch = contacts.patches[contact.patch];
     const Vec3& force = contact_forces[i];
     const double normal_force = contact.normal.dot(force);
@@ -117,7 +117,7 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   Frame frame =
       make_frame(model, loaded.state, contacts, solution.forces.contacts, loaded.memories, displacement);
   const VecX u =
-      relative_velocity(solution.step.problem, solution.solution.v) + solution.step.support_velocity;
+      relative_velocity(solution.step.problem, solution.step_solution.v) + solution.step.support_velocity;
   for (size_t i = 0; i < frame.contacts.gap.size(); ++i)
     frame.contacts.gap[i] += solution.h * u[3 * static_cast<Eigen::Index>(i)];
   return frame;

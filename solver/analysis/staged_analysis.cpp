@@ -35,7 +35,7 @@ class StageRun {
         complete_(stage_.assembly.blocks.size() == complete.blocks.size()) {
     ContactDetector detector(stage_.assembly, detection_options(scene));
     contacts_ = detector.update(initial_poses(stage_.assembly));
-    memories_ = match_memories({}, contacts_.contacts);
+    memories_ = match_memories({}, contacts_.points);
     options_ = static_options(scene.analysis);
     options_.tolerance = std::max(options_.tolerance, kVerdictTolerance);
     options_.may_move = true;

@@ -37,7 +37,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   const ContactSet contacts = ContactDetector(assembly, detection_options(scene)).update(rest.poses);
   sinks.as_built(contacts);
   release_freed_memory();
-  const ContactMemories memories = match_memories({}, contacts.contacts);
+  const ContactMemories memories = match_memories({}, contacts.points);
 
   StaticOptions options = static_options(scene.analysis);
   options.log = sinks.log;
@@ -66,7 +66,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   summary.analysis = "static";
   summary.unknowns /= scene.analysis.cyclic_sectors;
   summary.message += linearity_note(assembly, summary.max_displacement_m);
-  sinks.problem(solution.step.problem, solution.solution.gamma);
+  sinks.problem(solution.step.problem, solution.step_solution.gamma);
   solution.step = {};  // of a large model it is as big as the frame, and what is written takes as much again
   sinks.frame(frame);
   return summary;

@@ -34,7 +34,7 @@ double first_step(const Model& model, const State& start, const ContactSet& cont
   const double tolerance = options.may_move ? std::max(kShortShare, options.tolerance) : options.tolerance;
   double compliance = 0.0;
   int at_supports = 0;
-  for (const Contact& contact : contacts.contacts) {
+  for (const Contact& contact : contacts.points) {
     compliance = std::max(compliance, joint_law(model, contacts, contact, start.time).compliance_normal);
     if (model.free_index[contact.block_a] == ContactProblem::kFixed ||
         model.free_index[contact.block_b] == ContactProblem::kFixed)
@@ -107,22 +107,22 @@ void solve_at(const Model& model, const State& start, const ContactSet& contacts
   const double own = share * options.tolerance;
   const double fine = std::max(own * weight_over_load(model, acceleration), std::min(own, kRounding));
   trial->step = build_step_problem(model, start, contacts, memories, step_options(options, trial->h));
-  trial->solution = {};
+  trial->step_solution = {};
   // An equilibrium that takes more iterations than most is easier found by degrees.
   solve.max_iterations = options.max_iterations > 0 ? options.max_iterations
                          : tries_at_once(options)   ? iterations_of_sound_problem(trial->step.problem)
                                                     : 0;
   for (const double tolerance : {std::max(fine, kCoarse), fine}) {
     solve.tolerance = tolerance;
-    trial->solve = solve_problem(trial->step.problem, options.symmetry, solve, solver, &trial->solution);
+    trial->solve = solve_problem(trial->step.problem, options.symmetry, solve, solver, &trial->step_solution);
     trial->iterations += trial->solve.iterations;
-    trial->speed_ratio = largest_speed(trial->solution.v) / solve.reference_speed;
+    trial->speed_ratio = largest_speed(trial->step_solution.v) / solve.reference_speed;
     if (tolerance == fine || known_to(trial->speed_ratio) >= kCoarse) break;
     if (tries_at_once(options) && trial->solve.ending != SolveEnding::converged) break;
   }
   trial->residuals =
-      compute_residuals(trial->step.problem, trial->solution, solve.reference_speed, solve.law);
-  trial->forces = joint_forces(contacts, trial->solution.gamma, trial->h);
+      compute_residuals(trial->step.problem, trial->step_solution, solve.reference_speed, solve.law);
+  trial->forces = joint_forces(contacts, trial->step_solution.gamma, trial->h);
   trial->balance =
       compute_equilibrium(model, start, contacts, trial->forces, start.time + 0.5 * options.time_advance);
 }
@@ -154,7 +154,7 @@ constexpr double kAtRest = 1e-6;
 double rigid_step(const Model& model, const State& start, const ContactSet& contacts) {
   constexpr double kRigid = 1e-8;  // leaves the impulses of what moves fast half of their digits
   double compliance = 0.0;
-  for (const Contact& contact : contacts.contacts)
+  for (const Contact& contact : contacts.points)
     compliance = std::max(compliance, joint_law(model, contacts, contact, start.time).compliance_normal);
   double mass = 0.0;
   for (const int block : model.free_blocks) mass += model.assembly->blocks[block].mass;
@@ -176,8 +176,8 @@ double raise_of_h(const std::vector<SpeedTrial>& trials, double residual, const 
 
 /// What the motion proves: the sum of normal forces that an equilibrium would need, over the sum found.
 double needed_over_found(const StaticSolution& trial) {
-  return required_normal_force(trial.step.problem, trial.solution.v) /
-         normal_force_sum(trial.step.problem, trial.solution.gamma);
+  return required_normal_force(trial.step.problem, trial.step_solution.v) /
+         normal_force_sum(trial.step.problem, trial.step_solution.gamma);
 }
 
 /// From here on a motion counts as proven: no other forces of that size balance the loads either.
@@ -311,10 +311,10 @@ LoadedState loaded_state(const Model& model, const State& start, const ContactSe
                          const ContactMemories& memories, const StaticSolution& solution,
                          const StaticOptions& options) {
   LoadedState loaded{start, memories};
-  loaded.state.v = solution.solution.v;
+  loaded.state.v = solution.step_solution.v;
   integrate_positions(model, solution.h, options.time_advance, &loaded.state);
   loaded.state.v.setZero();  // equilibrium: the step's velocity is only the displacement's carrier
-  update_memories(solution.step, solution.solution, start, contacts, step_options(options, solution.h),
+  update_memories(solution.step, solution.step_solution, start, contacts, step_options(options, solution.h),
                   &loaded.memories);
   for (ContactMemory& memory : loaded.memories.values) memory.impulse /= solution.h;
   for (double& impulse : loaded.memories.tie_impulses) impulse /= solution.h;

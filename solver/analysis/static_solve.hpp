@@ -44,7 +44,7 @@ struct StaticSolution {
   std::string message;
   double h = 0.0;  ///< s
   StepProblem step;
-  ContactSolution solution;
+  ContactSolution step_solution;
   SolveSummary solve;
   Residuals residuals;
   JointForces forces;

@@ -15,7 +15,7 @@ SupportPath::SupportPath(const Model& model, const DetectionOptions& detection, 
 StaticSolution SupportPath::advance(double value) {
   start_ = loaded_.state;
   const ContactSet& contacts = detector_.update(start_.poses);
-  memories_ = match_memories(loaded_.memories, contacts.contacts);
+  memories_ = match_memories(loaded_.memories, contacts.points);
   options_.time_advance = value - start_.time;
   StaticSolution solution = solve_static(model_, start_, contacts, memories_, options_);
   if (solution.verdict == Verdict::equilibrium)

@@ -34,18 +34,18 @@ Vec3 point_of(const Contact& contact) {
 BedJoints bed_joints(const ContactSet& contacts) {
   BedJoints beds;
   const JointNumbers numbers = number_joints(contacts);
-  beds.of_contact.assign(contacts.contacts.size(), -1);
+  beds.of_contact.assign(contacts.points.size(), -1);
   beds.centroid.assign(numbers.count, Vec3::Zero());
   std::vector<int> points(beds.centroid.size(), 0);
   double area = 0.0;
-  for (size_t i = 0; i < contacts.contacts.size(); ++i) {
-    const JointKind kind = contacts.patches[contacts.contacts[i].patch].kind;
+  for (size_t i = 0; i < contacts.points.size(); ++i) {
+    const JointKind kind = contacts.patches[contacts.points[i].patch].kind;
     if (kind != JointKind::bed && kind != JointKind::base) continue;
     const auto j = numbers.of_contact[i];
     beds.of_contact[i] = static_cast<int>(j);
-    beds.centroid[j] += point_of(contacts.contacts[i]);
+    beds.centroid[j] += point_of(contacts.points[i]);
     ++points[j];
-    area += contacts.contacts[i].area;
+    area += contacts.points[i].area;
   }
   int joints = 0;
   for (size_t j = 0; j < points.size(); ++j) {
@@ -69,9 +69,9 @@ Mat36 wrench_of_force(const BedJoints& beds, const Contact& contact, int joint) 
 std::vector<Vec6> wrenches(const ContactSet& contacts, const BedJoints& beds,
                            const std::vector<Vec3>& forces) {
   std::vector<Vec6> w(beds.centroid.size(), Vec6::Zero());
-  for (size_t i = 0; i < contacts.contacts.size(); ++i)
+  for (size_t i = 0; i < contacts.points.size(); ++i)
     if (const int j = beds.of_contact[i]; j >= 0)
-      w[j] += wrench_of_force(beds, contacts.contacts[i], j).transpose() * forces[i];
+      w[j] += wrench_of_force(beds, contacts.points[i], j).transpose() * forces[i];
   return w;
 }
 
@@ -84,10 +84,10 @@ double norm(const std::vector<Vec6>& w) {
 /// |A|, 1.
 double largest_gain(const ContactSet& contacts, const BedJoints& beds) {
   std::vector<Mat6> AAt(beds.centroid.size(), Mat6::Zero());
-  for (size_t i = 0; i < contacts.contacts.size(); ++i) {
+  for (size_t i = 0; i < contacts.points.size(); ++i) {
     const int j = beds.of_contact[i];
     if (j < 0) continue;
-    const Mat36 At = wrench_of_force(beds, contacts.contacts[i], j);
+    const Mat36 At = wrench_of_force(beds, contacts.points[i], j);
     AAt[j] += At.transpose() * At;
   }
   double largest = 0.0;
@@ -105,7 +105,7 @@ std::optional<double> certified_wrench_error(const ContactSet& contacts, const S
   const double size = norm(wrenches(contacts, beds, solution.forces.contacts));
   if (!(size > 0.0)) return std::nullopt;
   return largest_gain(contacts, beds) * *solution.residuals.certified_force_error *
-         solution.solution.gamma.norm() / (solution.h * size);
+         solution.step_solution.gamma.norm() / (solution.h * size);
 }
 
 double compared_wrench_error(const ContactSet& contacts, const StaticSolution& solution,

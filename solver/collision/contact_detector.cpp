@@ -200,7 +200,7 @@ AnchoredContacts ContactDetector::find_contacts() {
     if (first > 0) continue;
     // The rest will be like the first; what is reserved and not used takes no memory.
     const std::size_t expected = fresh.anchors.size() * num_pieces / count;
-    fresh.set.contacts.reserve(expected + expected / 4);
+    fresh.set.points.reserve(expected + expected / 4);
     fresh.anchors.reserve(expected + expected / 4);
   }
   return fresh;
@@ -231,7 +231,7 @@ AnchoredContacts ContactDetector::find_contacts(int block_start, int block_end) 
 }
 
 void ContactDetector::count_gaps_from(std::span<const double> gaps) {
-  std::vector<Contact>& contacts = memory_.contacts.set.contacts;
+  std::vector<Contact>& contacts = memory_.contacts.set.points;
   CUPOLA_ASSERT(gaps.size() == contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     memory_.contacts.anchors[i].rest_gap += contacts[i].gap - gaps[i];

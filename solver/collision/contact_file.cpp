@@ -95,12 +95,12 @@ void append_row(const Row& row, const Assembly& assembly, bool new_patch, Anchor
   contact.patch = static_cast<int>(contacts->set.patches.size()) - 1;
   // Patches and points are numbered through: parts and faces are the file's business.
   contact.id.part_a = contact.id.part_b = contact.patch;
-  contact.id.corner = new_patch ? 0 : contacts->set.contacts.back().id.corner + 1;
+  contact.id.corner = new_patch ? 0 : contacts->set.points.back().id.corner + 1;
   contact.area = row.area;
   const Vec3 half_gap = 0.5 * row.gap * row.normal;
   contacts->set.patches.back().area += row.area;
   contacts->patch_polygons.back().push_back(row.point - half_gap - centroid_a);
-  contacts->set.contacts.push_back(contact);
+  contacts->set.points.push_back(contact);
   contacts->anchors.push_back(
       {row.point - half_gap - centroid_a, row.point + half_gap - centroid_b, row.normal, row.normal, 0.5});
 }

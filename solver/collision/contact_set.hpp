@@ -49,7 +49,7 @@ struct Patch {
 
 /// All contacts of one configuration, sorted by block pair and identity.
 struct ContactSet {
-  std::vector<Contact> contacts;
+  std::vector<Contact> points;
   std::vector<Patch> patches;
 };
 

@@ -71,7 +71,7 @@ std::vector<std::optional<Range>> predecessors(const AnchoredContacts& old_conta
   constexpr double kSamePlane = 0.999;  // cosine of the normals
   std::vector<std::optional<Range>> found(patches.size());
   const auto name = [](const AnchoredContacts& set, Range range) {
-    return patch_name(set.set.contacts[range.start].id);
+    return patch_name(set.set.points[range.start].id);
   };
   for (std::size_t n = 0; n < patches.size(); ++n)
     for (std::size_t k = 0; k < old_patches.size() && !found[n]; ++k) {
@@ -116,24 +116,24 @@ void match_patch(const AnchoredContacts& old_contacts, Range old_range, Range ra
   std::vector<Candidate> candidates;
   for (std::size_t i = range.start; i < range.end; ++i)
     for (std::size_t k = old_range.start; k < old_range.end; ++k)
-      if ((fresh->set.contacts[i].id.corner < 0) == (old_contacts.set.contacts[k].id.corner < 0))
+      if ((fresh->set.points[i].id.corner < 0) == (old_contacts.set.points[k].id.corner < 0))
         candidates.push_back({(fresh->anchors[i].r_a - old_contacts.anchors[k].r_a).norm(), k, i});
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& p, const Candidate& q) { return p.distance < q.distance; });
   std::set<int> taken;
   std::vector<std::optional<int>> numbers(range.end - range.start);
   for (const Candidate& c : candidates) {
-    const int number = old_contacts.set.contacts[c.old_index].id.corner;
+    const int number = old_contacts.set.points[c.old_index].id.corner;
     if (numbers[c.index - range.start] || taken.contains(number)) continue;
     numbers[c.index - range.start] = number;
     fresh->anchors[c.index].rest_gap = old_contacts.anchors[c.old_index].rest_gap;
     taken.insert(number);
   }
   for (std::size_t i = range.start; i < range.end; ++i) {
-    ContactId& id = fresh->set.contacts[i].id;
+    ContactId& id = fresh->set.points[i].id;
     const int number = numbers[i - range.start].value_or(free_number(id.corner >= 0, taken));
     taken.insert(number);
-    id = old_contacts.set.contacts[old_range.start].id;
+    id = old_contacts.set.points[old_range.start].id;
     id.corner = number;
     if (!numbers[i - range.start]) further->insert(id);
   }
@@ -144,18 +144,18 @@ void make_unique(const std::vector<Range>& patches, AnchoredContacts* contacts) 
   std::set<ContactId> seen;
   for (const Range& patch : patches)
     for (std::size_t i = patch.start; i < patch.end; ++i) {
-      ContactId& id = contacts->set.contacts[i].id;
+      ContactId& id = contacts->set.points[i].id;
       const int step = id.corner >= 0 ? 1 : -1;
       while (!seen.insert(id).second) id.corner += step;
     }
 }
 
 void sort_patch(Range range, AnchoredContacts* contacts) {
-  const auto number = [&](std::size_t i) { return contacts->set.contacts[i].id.corner; };
+  const auto number = [&](std::size_t i) { return contacts->set.points[i].id.corner; };
   // Patches have few points: insertion keeps contacts and anchors side by side without copies.
   for (std::size_t i = range.start + 1; i < range.end; ++i)
     for (std::size_t k = i; k > range.start && number(k) < number(k - 1); --k) {
-      std::swap(contacts->set.contacts[k], contacts->set.contacts[k - 1]);
+      std::swap(contacts->set.points[k], contacts->set.points[k - 1]);
       std::swap(contacts->anchors[k], contacts->anchors[k - 1]);
     }
 }
@@ -167,8 +167,8 @@ void append(AnchoredContacts more, AnchoredContacts* contacts) {
     to->insert(to->end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
   };
   const int patches_before = static_cast<int>(contacts->set.patches.size());
-  for (Contact& contact : more.set.contacts) contact.patch += patches_before;
-  take(&contacts->set.contacts, more.set.contacts);
+  for (Contact& contact : more.set.points) contact.patch += patches_before;
+  take(&contacts->set.points, more.set.points);
   take(&contacts->set.patches, more.set.patches);
   take(&contacts->anchors, more.anchors);
   take(&contacts->patch_polygons, more.patch_polygons);
@@ -187,7 +187,7 @@ void append_patch(const CollisionModel& model, const JointPatch& patch, const Ei
     contact.block_b = block_b;
     contact.patch = patch_index;
     contact.area = area;
-    contacts->set.contacts.push_back(contact);
+    contacts->set.points.push_back(contact);
     contacts->anchors.push_back(anchor_of(point, normal, pose_ab));
   };
 
@@ -216,8 +216,8 @@ void append_patch(const CollisionModel& model, const JointPatch& patch, const Ei
 MovedContacts moved_contacts(const ContactSet& set, const std::vector<char>& moved) {
   MovedContacts found;
   std::vector<char> needed(moved.size(), 0);
-  for (std::size_t i = 0; i < set.contacts.size(); ++i) {
-    const Contact& contact = set.contacts[i];
+  for (std::size_t i = 0; i < set.points.size(); ++i) {
+    const Contact& contact = set.points[i];
     if (!moved[contact.block_a] && !moved[contact.block_b]) continue;
     found.contacts.push_back(static_cast<int>(i));
     needed[contact.block_a] = needed[contact.block_b] = 1;
@@ -237,7 +237,7 @@ void move_contacts(std::span<const Pose> poses, const MovedContacts& moved, Anch
   for (const int b : moved.blocks) R_WB[b] = poses[b].q_WB.toRotationMatrix();
   for (const int i : moved.contacts) {
     const ContactAnchor& anchor = contacts->anchors[i];
-    Contact& contact = contacts->set.contacts[i];
+    Contact& contact = contacts->set.points[i];
     const int a = contact.block_a;
     const int b = contact.block_b;
     const Vec3 r_a = R_WB[a] * anchor.r_a;
@@ -260,11 +260,11 @@ void move_contacts(std::span<const Pose> poses, const MovedContacts& moved, Anch
 
 std::set<ContactId> keep_identities(const AnchoredContacts& old_contacts, AnchoredContacts* contacts) {
   std::set<ContactId> from_the_side;
-  const std::vector<Contact>& old_set = old_contacts.set.contacts;
+  const std::vector<Contact>& old_set = old_contacts.set.points;
   std::size_t old_start = 0;
-  for (std::size_t start = 0; start < contacts->set.contacts.size();) {
-    const std::vector<Range> patches = patches_of_pair(contacts->set.contacts, start);
-    const auto pair = block_pair(contacts->set.contacts[start]);
+  for (std::size_t start = 0; start < contacts->set.points.size();) {
+    const std::vector<Range> patches = patches_of_pair(contacts->set.points, start);
+    const auto pair = block_pair(contacts->set.points[start]);
     while (old_start < old_set.size() && block_pair(old_set[old_start]) < pair) ++old_start;
     std::vector<Range> old_patches;
     if (old_start < old_set.size() && block_pair(old_set[old_start]) == pair)
@@ -280,7 +280,7 @@ std::set<ContactId> keep_identities(const AnchoredContacts& old_contacts, Anchor
     make_unique(patches, contacts);
     for (std::size_t n = 0; n < patches.size() && continued == old_patches.size(); ++n)
       for (std::size_t i = patches[n].start; i < patches[n].end && !before[n]; ++i)
-        from_the_side.insert(contacts->set.contacts[i].id);
+        from_the_side.insert(contacts->set.points[i].id);
     for (const Range& patch : patches) sort_patch(patch, contacts);
     start = patches.back().end;
   }
@@ -290,14 +290,14 @@ std::set<ContactId> keep_identities(const AnchoredContacts& old_contacts, Anchor
 void settle_rest_gaps(const std::set<ContactId>& from_the_side, AnchoredContacts* contacts) {
   const auto settle = [&](std::size_t i, double rest_gap) {
     double& rest = contacts->anchors[i].rest_gap;
-    contacts->set.contacts[i].gap += rest - rest_gap;
+    contacts->set.points[i].gap += rest - rest_gap;
     rest = rest_gap;
   };
   const auto whole_gap = [&](std::size_t i) {
-    return contacts->set.contacts[i].gap + contacts->anchors[i].rest_gap;
+    return contacts->set.points[i].gap + contacts->anchors[i].rest_gap;
   };
   for (std::size_t i = 0; i < contacts->anchors.size(); ++i) {
-    const bool begins = from_the_side.contains(contacts->set.contacts[i].id);
+    const bool begins = from_the_side.contains(contacts->set.points[i].id);
     if (begins || whole_gap(i) > contacts->anchors[i].rest_gap) settle(i, std::min(0.0, whole_gap(i)));
   }
 }

@@ -14,7 +14,7 @@ bool mirror_images(const Contact& p, const ContactAnchor& a, const Contact& q, c
 }  // namespace
 
 void merge_across_plane(double tolerance, AnchoredContacts* contacts) {
-  std::vector<Contact>& all = contacts->set.contacts;
+  std::vector<Contact>& all = contacts->set.points;
   std::vector<ContactAnchor>& anchors = contacts->anchors;
   size_t kept = 0;
   for (size_t i = 0; i < all.size(); ++i) {

@@ -22,7 +22,7 @@ Energy compute_energy(const Model& model, const State& state, const ContactSet& 
     energy.potential -= model.loads.factor(load, state.time) * load.force.dot(moved);
   }
   for (size_t i = 0; i < memories.values.size(); ++i) {
-    const JointLaw law = joint_law(model, contacts, contacts.contacts[i], state.time);
+    const JointLaw law = joint_law(model, contacts, contacts.points[i], state.time);
     const ContactMemory& memory = memories.values[i];
     if (law.compliance_normal > 0.0)
       energy.elastic += 0.5 * memory.elastic_gap * memory.elastic_gap / law.compliance_normal;

@@ -45,10 +45,10 @@ Equilibrium joined(const Equilibrium& a, const Equilibrium& b) {
 
 JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, double h) {
   JointForces forces;
-  const auto nc = static_cast<Eigen::Index>(contacts.contacts.size());
-  forces.contacts.resize(contacts.contacts.size());
+  const auto nc = static_cast<Eigen::Index>(contacts.points.size());
+  forces.contacts.resize(contacts.points.size());
   for (Eigen::Index i = 0; i < nc; ++i)
-    forces.contacts[i] = contact_frame(contacts.contacts[i].normal) * gamma.segment<3>(3 * i) / h;
+    forces.contacts[i] = contact_frame(contacts.points[i].normal) * gamma.segment<3>(3 * i) / h;
   for (Eigen::Index row = 3 * nc; row < gamma.size(); row += 3) forces.ties.push_back(gamma[row] / h);
   return forces;
 }
@@ -69,7 +69,7 @@ Equilibrium compute_equilibrium(const Model& model, const State& state, const Co
     if (blocks[b].fixed && !blocks[a].fixed) balance.support_reaction -= on_b;
   };
   for (size_t i = 0; i < forces.contacts.size(); ++i) {
-    const Contact& contact = contacts.contacts[i];
+    const Contact& contact = contacts.points[i];
     const Vec3 point = 0.5 * (contact.point_a + contact.point_b);
     add(contact.block_a, contact.block_b, point, point, forces.contacts[i]);
   }

@@ -34,10 +34,10 @@ ScenePart part_of(const Model& model, const State& state, const ContactSet& cont
   for (int k = 0; k < part.model.num_free(); ++k)
     part.state.v.segment<6>(6 * k) = state.v.segment<6>(6 * model.free_index[part.model.free_blocks[k]]);
   part.contacts.patches = contacts.patches;
-  for (int i = 0; i < static_cast<int>(contacts.contacts.size()); ++i) {
-    if (!in_part(contacts.contacts[i].block_a) && !in_part(contacts.contacts[i].block_b)) continue;
+  for (int i = 0; i < static_cast<int>(contacts.points.size()); ++i) {
+    if (!in_part(contacts.points[i].block_a) && !in_part(contacts.points[i].block_b)) continue;
     part.contact_rows.push_back(i);
-    part.contacts.contacts.push_back(contacts.contacts[i]);
+    part.contacts.points.push_back(contacts.points[i]);
     part.memories.ids.push_back(memories.ids[i]);
     part.memories.values.push_back(memories.values[i]);
   }
@@ -49,7 +49,7 @@ ScenePart part_of(const Model& model, const State& state, const ContactSet& cont
 std::vector<int> islands_of(const Model& model, const ContactSet& contacts) {
   std::vector<int> parent(model.num_free());
   std::iota(parent.begin(), parent.end(), 0);
-  for (const Contact& contact : contacts.contacts) {
+  for (const Contact& contact : contacts.points) {
     const int a = model.free_index[contact.block_a], b = model.free_index[contact.block_b];
     if (a == ContactProblem::kFixed || b == ContactProblem::kFixed) continue;
     // The smaller number becomes the root: the island's first block.
@@ -90,8 +90,8 @@ bool update_sleepers(const Sleep& sleep, const std::vector<int>& islands, const 
 SleepingScene put_to_sleep(const Model& model, const State& state, const ContactSet& contacts,
                            const ContactMemories& memories, const Sleepers& sleepers, double h) {
   SleepingScene scene{part_of(model, state, contacts, memories, sleepers.asleep, 0), {}, {}};
-  for (size_t i = 0; i < contacts.contacts.size(); ++i)
-    scene.forces.contacts.push_back(contact_frame(contacts.contacts[i].normal) * memories.values[i].impulse /
+  for (size_t i = 0; i < contacts.points.size(); ++i)
+    scene.forces.contacts.push_back(contact_frame(contacts.points[i].normal) * memories.values[i].impulse /
                                     h);
   const ScenePart asleep = part_of(model, state, contacts, memories, sleepers.asleep, 1);
   JointForces carried;

@@ -46,7 +46,7 @@ StepReport Simulation::advance(double h_max) {
 
 void Simulation::follow_detection(const ContactSet& contacts) {
   detections_followed_ = detector_.num_detections();
-  memories_ = match_memories(memories_, contacts.contacts);
+  memories_ = match_memories(memories_, contacts.points);
   if (options_.sleep) islands_ = islands_of(model_, contacts);
   sleeping_.reset();
 }
@@ -55,7 +55,7 @@ StepReport Simulation::advance_awake(const ContactSet& contacts, const StepOptio
   if (!sleeping_) sleeping_ = put_to_sleep(model_, state_, contacts, memories_, sleepers_, step.h);
   ScenePart& part = sleeping_->awake;
   for (size_t k = 0; k < part.contact_rows.size(); ++k)
-    part.contacts.contacts[k] = contacts.contacts[part.contact_rows[k]];
+    part.contacts.points[k] = contacts.points[part.contact_rows[k]];
   StepReport report = solve_and_move(part.model, part.contacts, step, &part.state, &part.memories);
   report.asleep = sleepers_.num_asleep();
 
@@ -109,7 +109,7 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
   update_memories(problem, solution, *state, contacts, step, memories);
   state->v = solution.v;
   report.problem = std::move(problem);
-  report.solution = std::move(solution);
+  report.step_solution = std::move(solution);
   integrate_positions(model, step.h, step.advance(), state);
   return report;
 }
@@ -119,13 +119,13 @@ void Simulation::start_from(const LoadedState& loaded) {
   detector_.update(state_at_rest(model_).poses);
   state_ = loaded.state;
   const ContactSet& contacts = detector_.update(state_.poses);
-  memories_ = match_memories(loaded.memories, contacts.contacts);
+  memories_ = match_memories(loaded.memories, contacts.points);
   // In its one step the associated law has opened the joints that slid by mu times their slip, under load:
   // that is where they rest.
   std::vector<double> gaps;
-  for (size_t i = 0; i < contacts.contacts.size(); ++i) {
+  for (size_t i = 0; i < contacts.points.size(); ++i) {
     const bool loaded_joint = memories_.values[i].impulse[0] > 0.0;
-    gaps.push_back(loaded_joint ? memories_.values[i].elastic_gap : contacts.contacts[i].gap);
+    gaps.push_back(loaded_joint ? memories_.values[i].elastic_gap : contacts.points[i].gap);
   }
   detector_.count_gaps_from(gaps);
   for (ContactMemory& memory : memories_.values) memory.impulse *= next_h_;

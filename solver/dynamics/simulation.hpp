@@ -18,8 +18,8 @@ namespace cupola {
 struct StepReport {
   double h = 0.0;  ///< s
   SolveSummary solve;
-  StepProblem problem;       ///< what was solved
-  ContactSolution solution;  ///< and its answer
+  StepProblem problem;            ///< what was solved
+  ContactSolution step_solution;  ///< and its answer
   Residuals residuals;
   JointForces forces;
   Equilibrium balance;     ///< of those forces; what is unbalanced accelerates

@@ -27,7 +27,7 @@ void visit(Archive& archive, ContactAnchor& x) {
 }
 template <class Archive>
 void visit(Archive& archive, AnchoredContacts& x) {
-  archive(x.set.contacts, x.set.patches, x.anchors, x.patch_polygons);
+  archive(x.set.points, x.set.patches, x.anchors, x.patch_polygons);
 }
 template <class Archive>
 void visit(Archive& archive, Reach& x) {

@@ -57,8 +57,8 @@ void set_contact_rows(const Model& model, const State& state, const ContactSet& 
   const double h = options.h;
   const double h_alpha = h + options.damping;
   const double end = state.time + options.advance();
-  for (int i = 0; i < static_cast<int>(contacts.contacts.size()); ++i) {
-    const Contact& contact = contacts.contacts[i];
+  for (int i = 0; i < static_cast<int>(contacts.points.size()); ++i) {
+    const Contact& contact = contacts.points[i];
     const ContactMemory& memory = memories.values[i];
     const Mat3 R_WC = contact_frame(contact.normal);
     // One point for both bodies, so that action and reaction have no moment when there is a gap.
@@ -112,8 +112,8 @@ void add_support_velocities(const Model& model, const State& state, const Contac
   for (int row = 0; row < problem.num_contacts(); ++row) {
     const bool is_contact = row < step->num_contacts;
     const size_t tie = is_contact ? 0 : static_cast<size_t>(row - step->num_contacts);
-    const int a = is_contact ? contacts.contacts[row].block_a : model.ties[tie].block_a;
-    const int b = is_contact ? contacts.contacts[row].block_b : model.ties[tie].block_b;
+    const int a = is_contact ? contacts.points[row].block_a : model.ties[tie].block_a;
+    const int b = is_contact ? contacts.points[row].block_b : model.ties[tie].block_b;
     step->support_velocity.segment<3>(3 * row) =
         problem.D_a[row].transpose() * v.col(a) + problem.D_b[row].transpose() * v.col(b);
   }
@@ -136,7 +136,7 @@ Mat3 contact_frame(const Vec3& normal) {
 StepProblem build_step_problem(const Model& model, const State& state, const ContactSet& contacts,
                                const ContactMemories& memories, const StepOptions& options) {
   StepProblem step;
-  step.num_contacts = static_cast<int>(contacts.contacts.size());
+  step.num_contacts = static_cast<int>(contacts.points.size());
   step.problem.h = options.h;
   resize_rows(step.num_contacts + static_cast<int>(model.ties.size()), &step);
   set_free_velocities(model, state, options, &step.problem);
@@ -153,7 +153,7 @@ void update_memories(const StepProblem& step, const ContactSolution& solution, c
   const VecX u = relative_velocity(problem, solution.v) + step.support_velocity;
   const double h = options.h;
   for (int i = 0; i < step.num_contacts; ++i) {
-    const Contact& contact = contacts.contacts[i];
+    const Contact& contact = contacts.points[i];
     ContactMemory& memory = memories->values[i];
     const Vec3 gamma = solution.gamma.segment<3>(3 * i);
     const Vec3 b = problem.b.segment<3>(3 * i) - step.support_velocity.segment<3>(3 * i);

@@ -38,7 +38,7 @@ inline ContactProblem make_problem(const DomeProblem& dome) {
   StepOptions step;
   step.h = dome.h;
   ContactProblem problem =
-      build_step_problem(model, rest, contacts, match_memories({}, contacts.contacts), step).problem;
+      build_step_problem(model, rest, contacts, match_memories({}, contacts.points), step).problem;
   std::mt19937 random(1);
   for (int i = 0; dome.gap > 0.0 && i < problem.num_contacts(); ++i) {
     problem.b[3 * i] += dome.gap / dome.h * (random() / 4294967296.0);

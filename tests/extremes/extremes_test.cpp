@@ -6,7 +6,7 @@
 
 #include "tests/extremes/extreme_scene.hpp"
 
-namespace cupola {
+namespace cupola::extremes_test {
 namespace {
 
 std::vector<ExtremeScene> rows(bool slow) {
@@ -47,4 +47,4 @@ void PrintTo(const ExtremeScene& scene, std::ostream* out) {
   *out << scene.group << ", " << scene.name;
 }
 
-}  // namespace cupola
+}  // namespace cupola::extremes_test

@@ -15,8 +15,8 @@ bool reader_accepts(std::string_view bytes) {
   write_bytes(scratch.path, bytes);
   AnchoredContacts contacts;
   if (!accepts([&] { contacts = read_contacts(scratch.path, assembly); })) return false;
-  demand(!contacts.set.contacts.empty(), "a table has contacts");
-  for (const Contact& contact : contacts.set.contacts)
+  demand(!contacts.set.points.empty(), "a table has contacts");
+  for (const Contact& contact : contacts.set.points)
     demand(contact.block_a == 0 && contact.block_b == 1 && contact.area > 0.0, "contacts name blocks");
   for (const auto& anchor : contacts.anchors)
     demand(std::abs(anchor.normal_a.norm() - 1.0) < 1e-9,

@@ -11,7 +11,7 @@
 #include "solver/analysis/wrench_error.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
-namespace cupola {
+namespace cupola::accuracy_test {
 namespace {
 
 /// A case set up for static solves.
@@ -29,7 +29,7 @@ struct StaticScene {
         model(make_model(input, assembly)),
         rest(state_at_rest(model)),
         contacts(ContactDetector(assembly, detection_options(input)).update(rest.poses)),
-        memories(match_memories({}, contacts.contacts)) {}
+        memories(match_memories({}, contacts.points)) {}
 
   StaticSolution solve(double tolerance) const {
     StaticOptions options;
@@ -76,9 +76,9 @@ TEST(WrenchError, OfAnInexactMethodIsBoundedByItsCertificate) {
   tight.tolerance = 1e-12;
   tight.reference_speed = rough.h * 9.81;
   StaticSolution same = rough;
-  same.solution = {};
-  solve_contact(rough.step.problem, tight, &same.solution);
-  same.forces = joint_forces(dome.contacts, same.solution.gamma, rough.h);
+  same.step_solution = {};
+  solve_contact(rough.step.problem, tight, &same.step_solution);
+  same.forces = joint_forces(dome.contacts, same.step_solution.gamma, rough.h);
   EXPECT_LE(compared_wrench_error(dome.contacts, rough, same), *bound);
   EXPECT_GT(compared_wrench_error(dome.contacts, rough, same), 0.0);
 }
@@ -124,4 +124,4 @@ INSTANTIATE_TEST_SUITE_P(Paper, PresetPromiseSlow,
                                            "octagon_circular", "brunelleschi"));
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::accuracy_test

@@ -14,7 +14,7 @@
 // The wall with a window of DigitalDynamicsLab/Masonry: 318 bricks, a lintel on two springs that only pull
 // and two rods, shaken along itself by ten seconds of a displacement record. Minutes, hence `slow`.
 
-namespace cupola {
+namespace cupola::base_motion_test {
 namespace {
 
 struct Shaking {
@@ -112,4 +112,4 @@ TEST(BaseMotionSlow, WallOfOthersIsShakenToTheEndOfItsRecord) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::base_motion_test

@@ -6,7 +6,7 @@
 
 #include "tests/pipeline/program_run.hpp"
 
-namespace cupola {
+namespace cupola::commands_test {
 namespace {
 
 const std::string kWall = CUPOLA_SOURCE_DIR "/cases/wall_large.yaml";
@@ -229,4 +229,4 @@ TEST(Commands, DrawWhatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::commands_test

@@ -17,7 +17,7 @@
 // by linear programmes over the friction cones; where Coulomb's law says something else, the associated law
 // jams: sliding would open the joint, and the neighbours do not let it.
 
-namespace cupola {
+namespace cupola::compas_assemblies_test {
 namespace {
 
 constexpr double kG = 9.81;  // m/s2
@@ -50,7 +50,7 @@ StaticSolution solve(const Case& c, const Assembly& assembly, FrictionLaw law) {
   options.tolerance = kVerdictTolerance;
   options.law = law;
   options.may_move = true;
-  return solve_static(model, rest, contacts, match_memories({}, contacts.contacts), options);
+  return solve_static(model, rest, contacts, match_memories({}, contacts.points), options);
 }
 
 StaticSolution solve(const Scene& scene, FrictionLaw law, double compliance = 1e-9) {
@@ -239,4 +239,4 @@ TEST_F(CompasAssembly, CurvedBlocksStandOnTheInterfacesOfTheirFile) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::compas_assemblies_test

@@ -12,7 +12,7 @@
 // Contact detection against brute force: every face of every block against every other, no boxes, no trees,
 // no separating axes, no joining of patches.
 
-namespace cupola {
+namespace cupola::contact_area_test {
 namespace {
 
 using BlockPair = std::pair<int, int>;
@@ -117,4 +117,4 @@ TEST(ContactArea, AgreesWithBruteForceOnImportedModels) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::contact_area_test

@@ -9,7 +9,7 @@
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 
-namespace cupola {
+namespace cupola::cyclic_symmetry_test {
 namespace {
 
 struct Answer {
@@ -132,4 +132,4 @@ TEST(CyclicSymmetryRefusal, SaysWhatBreaksTheSymmetry) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::cyclic_symmetry_test

@@ -7,7 +7,7 @@
 // by the symmetry of one lune, half bond by a reduction that was checked against a full three-dimensional
 // one. Their beds are ideal cones; ours are cut into flat pieces. Minutes together, hence `slow`.
 
-namespace cupola {
+namespace cupola::dome_limit_test {
 namespace {
 
 Case friction_case(const DomeSurface& dome, const Bond& bond, double low, double high) {
@@ -79,4 +79,4 @@ TEST(DomeLimitSlow, FrictionOfTheHemisphereInHalfBond) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::dome_limit_test

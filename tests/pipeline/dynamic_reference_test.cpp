@@ -13,7 +13,7 @@
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/simulation.hpp"
 
-namespace cupola {
+namespace cupola::dynamic_reference_test {
 namespace {
 
 using Joint = std::pair<int, int>;  // blocks a < b
@@ -35,7 +35,7 @@ JointForceMap static_forces(const Case& scene, const Assembly& assembly) {
 /// Of the step before: detection has not yet been asked about the new positions.
 JointForceMap step_forces(const Simulation& simulation, const StepReport& report) {
   JointForceMap forces;
-  const std::vector<Contact>& contacts = simulation.contacts().contacts;
+  const std::vector<Contact>& contacts = simulation.contacts().points;
   for (size_t i = 0; i < contacts.size(); ++i)
     forces.try_emplace({contacts[i].block_a, contacts[i].block_b}, Vec3::Zero()).first->second +=
         report.forces.contacts[i];
@@ -90,7 +90,7 @@ Settled settle(double friction) {
   }
   return {report.balance.residual,
           rms_difference(static_forces(scene, assembly), step_forces(simulation, report)), friction_work,
-          count_slipped(simulation), static_cast<int>(simulation.contacts().contacts.size())};
+          count_slipped(simulation), static_cast<int>(simulation.contacts().points.size())};
 }
 
 TEST(DomeMotionSlow, WithoutSlipSettlesToTheStaticForces) {
@@ -198,4 +198,4 @@ TEST(WallMotionSlow, SmallBlocksOnStiffJointsSettleToTheStaticAnswer) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::dynamic_reference_test

@@ -9,7 +9,7 @@
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 
-namespace cupola {
+namespace cupola::explain_test {
 namespace {
 
 Case case_of(const std::string& name, const std::vector<std::string>& settings) {
@@ -68,4 +68,4 @@ INSTANTIATE_TEST_SUITE_P(Cases, ExplainSlow,
                                                      std::vector<std::string>{"analysis.duration=0.3"}}));
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::explain_test

@@ -8,7 +8,7 @@
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 
-namespace cupola {
+namespace cupola::invariance_test {
 namespace {
 
 /// A small dome with a lantern: every kind of joint, forces of every direction.
@@ -134,4 +134,4 @@ TEST_F(Invariance, UnderScalingOfAllCompliances) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::invariance_test

@@ -6,7 +6,7 @@
 #include "generators/generate.hpp"
 #include "solver/collision/contact_detector.hpp"
 
-namespace cupola {
+namespace cupola::joint_area_test {
 namespace {
 
 /// A model of the paper.
@@ -98,8 +98,8 @@ TEST_P(JointArea, CoversBedsAndHeads) {
 TEST_P(JointArea, HasClosedFaceContactsOnly) {
   const Assembly model = assembly();
   const ContactSet set = ContactDetector(model, {}).update(initial_poses(model));
-  ASSERT_FALSE(set.contacts.empty());
-  for (const Contact& contact : set.contacts) {
+  ASSERT_FALSE(set.points.empty());
+  for (const Contact& contact : set.points) {
     EXPECT_GE(std::min(contact.id.face_a, contact.id.face_b), 0)
         << "edge contact at rest, blocks " << contact.block_a << " " << contact.block_b;
     EXPECT_NEAR(contact.gap, 0.0, 1e-11);  // planes of cells 40 m from the origin, a thousand roundings
@@ -110,4 +110,4 @@ INSTANTIATE_TEST_SUITE_P(Models, JointArea, ::testing::ValuesIn(models()),
                          [](const auto& model) { return model.param.name; });
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::joint_area_test

@@ -9,7 +9,7 @@
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 
-namespace cupola {
+namespace cupola::joint_stiffness_test {
 namespace {
 
 using BlockPair = std::pair<int, int>;
@@ -146,4 +146,4 @@ TEST(PerturbedGjkSlow, BreaksTheSymmetryOfTheWholeDome) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::joint_stiffness_test

@@ -10,7 +10,7 @@
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 
-namespace cupola {
+namespace cupola::plane_test {
 namespace {
 
 struct Solved {
@@ -102,4 +102,4 @@ TEST(PlaneScene, RefusesWhatIsNotPlane) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::plane_test

@@ -11,7 +11,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "tests/fresh_folder.hpp"
 
-namespace cupola {
+namespace cupola::postproc_test {
 namespace {
 
 Evaluation solved(const Case& scene) {
@@ -107,11 +107,10 @@ TEST(PostprocArch, ThrustLiesBetweenItsBounds) {
   scene.joints.friction = 0.6;
   const Evaluation e = solved(scene);
   int springings = 0;
-  for (const JointWrench& joint : e.last.joints.joints) {
-    if (joint.joint.kind != JointKind::base) continue;
+  for (const JointWrench& joint : e.last.joints.wrenches) {
+    if (joint.kind != JointKind::base) continue;
     ++springings;
-    const int voussoir =
-        e.assembly.blocks[joint.joint.block_a].fixed ? joint.joint.block_b : joint.joint.block_a;
+    const int voussoir = e.assembly.blocks[joint.block_a].fixed ? joint.block_b : joint.block_a;
     const Vec3 reaction = wrench_on(joint, voussoir).force;
     const double thrust = std::hypot(reaction.x(), reaction.y()) / e.summary.weight_N;
     EXPECT_GE(thrust, 0.17557);
@@ -158,4 +157,4 @@ TEST(PostprocHerringbone, StripsTogetherCarryWhatStandsOnTheBed) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::postproc_test

@@ -13,7 +13,7 @@
 #include "assembly/model/results.hpp"
 #include "tests/pipeline/program_run.hpp"
 
-namespace cupola {
+namespace cupola::programs_test {
 namespace {
 
 const std::string kCases = CUPOLA_SOURCE_DIR "/cases/";
@@ -333,4 +333,4 @@ TEST(Programs, InterruptedBeforeTheFirstFrameGoesOn) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::programs_test

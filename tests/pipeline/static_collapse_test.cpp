@@ -6,7 +6,7 @@
 // Structures that cannot stand, under dead load: the answer is a mechanism, proven to be one, whatever step
 // the analysis would have liked.
 
-namespace cupola {
+namespace cupola::static_collapse_test {
 namespace {
 
 Summary statics_of(const Case& scene) {
@@ -58,4 +58,4 @@ TEST(StaticCollapse, ThinArchMovesAndTheThickerOneStands) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::static_collapse_test

@@ -6,7 +6,7 @@
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 
-namespace cupola {
+namespace cupola::static_reference_test {
 namespace {
 
 struct Answer {
@@ -108,4 +108,4 @@ TEST(DomeCircular, IsSymmetricAndCarriesTheWeightAboveInEveryRing) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::static_reference_test

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "assembly/files/content_hash.hpp"
 #include "postproc/evaluation/evaluation.hpp"
 #include "tests/postproc/models.hpp"
 

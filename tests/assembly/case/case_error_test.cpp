@@ -4,7 +4,7 @@
 #include "assembly/case/case_reader.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
 
-namespace cupola {
+namespace cupola::case_error_test {
 namespace {
 
 /// A valid case, with text put in place of the marked lines.
@@ -194,4 +194,4 @@ TEST(MissingFile, IsNamed) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::case_error_test

@@ -5,7 +5,7 @@
 #include "assembly/files/time_table.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
 
-namespace cupola {
+namespace cupola::case_motion_test {
 namespace {
 
 const char* const kWall = R"(geometry:
@@ -106,4 +106,4 @@ TEST(ReadMotion, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::case_motion_test

@@ -5,7 +5,7 @@
 #include "assembly/base/error.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
 
-namespace cupola {
+namespace cupola::case_reader_test {
 namespace {
 
 const char* const kDome = R"(title: "A dome: 40 x 32"
@@ -172,4 +172,4 @@ TEST(Schema, NamesEveryKeyOnceWithItsDefault) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::case_reader_test

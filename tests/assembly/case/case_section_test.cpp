@@ -6,7 +6,7 @@
 #include "assembly/case/yaml_text.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
 
-namespace cupola {
+namespace cupola::case_section_test {
 namespace {
 
 std::string message_of(const std::function<void()>& body) {
@@ -79,4 +79,4 @@ TEST(Scalar, RefusesWhatIsNotOneDecimalNumber) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::case_section_test

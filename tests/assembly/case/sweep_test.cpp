@@ -5,7 +5,7 @@
 #include "assembly/case/case_reader.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
 
-namespace cupola {
+namespace cupola::sweep_test {
 namespace {
 
 TEST(Sweep, CombinesEveryValueOfAKeyWithEveryOneOfTheNext) {
@@ -43,4 +43,4 @@ TEST(Sweep, IsReadFromTheCaseAndChangesNoRun) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::sweep_test

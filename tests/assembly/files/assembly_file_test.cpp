@@ -11,7 +11,7 @@
 #include "assembly/files/mesh_file.hpp"
 #include "tests/assembly/scene.hpp"
 
-namespace cupola {
+namespace cupola::assembly_file_test {
 namespace {
 
 std::string read_error(const std::string& path) {
@@ -184,4 +184,4 @@ TEST(AssemblyFile, AnotherMeshIsRefused) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::assembly_file_test

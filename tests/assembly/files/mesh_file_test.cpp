@@ -11,7 +11,7 @@
 #include "assembly/files/hash.hpp"
 #include "tests/assembly/scene.hpp"
 
-namespace cupola {
+namespace cupola::mesh_file_test {
 namespace {
 
 using CellType = Mesh::CellType;
@@ -286,4 +286,4 @@ TEST(PvdFile, BadCollectionsAreInputErrors) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::mesh_file_test

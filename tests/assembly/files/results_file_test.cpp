@@ -11,7 +11,7 @@
 #include "assembly/files/summary_file.hpp"
 #include "tests/assembly/scene.hpp"
 
-namespace cupola {
+namespace cupola::results_file_test {
 namespace {
 
 Frame two_block_frame(double time) {
@@ -254,4 +254,4 @@ TEST(SummaryJson, BadTextIsNamed) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::results_file_test

@@ -5,7 +5,7 @@
 #include "assembly/base/error.hpp"
 #include "tests/assembly/scene.hpp"
 
-namespace cupola {
+namespace cupola::applied_loads_test {
 namespace {
 
 std::string refusal_of(const Loads& loads, const Assembly& assembly) {
@@ -64,4 +64,4 @@ TEST(AppliedLoads, WhatNothingCarriesIsRefused) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::applied_loads_test

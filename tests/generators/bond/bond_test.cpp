@@ -13,7 +13,7 @@
 #include "generators/generate.hpp"
 #include "tests/generators/models.hpp"
 
-namespace cupola {
+namespace cupola::bond_test {
 namespace {
 
 using std::numbers::pi;
@@ -301,4 +301,4 @@ TEST(StackBond, AlignsItsJoints) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::bond_test

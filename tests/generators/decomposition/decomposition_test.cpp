@@ -7,7 +7,7 @@
 #include "generators/stereotomy/separation.hpp"
 #include "tests/generators/meshes.hpp"
 
-namespace cupola {
+namespace cupola::decomposition_test {
 namespace {
 
 double volume_of(const std::vector<ConvexPolyhedron>& parts) {
@@ -135,4 +135,4 @@ TEST(Decomposition, TwoSeparateBoxesInOneBlockAreTwoParts) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::decomposition_test

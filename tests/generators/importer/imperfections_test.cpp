@@ -5,7 +5,7 @@
 #include "generators/generate.hpp"
 #include "tests/generators/models.hpp"
 
-namespace cupola {
+namespace cupola::imperfections_test {
 namespace {
 
 std::vector<Surface> all_surfaces() {
@@ -69,4 +69,4 @@ TEST(Imperfections, TooLargeNoiseIsRefused) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::imperfections_test

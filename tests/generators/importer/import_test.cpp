@@ -11,7 +11,7 @@
 #include "tests/generators/meshes.hpp"
 #include "tests/generators/shared_data.hpp"
 
-namespace cupola {
+namespace cupola::import_test {
 namespace {
 
 /// A folder of its own for each test's files.
@@ -400,4 +400,4 @@ TEST(SharedData, SpringsAndRodsNameTheirBlocks) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::import_test

@@ -10,7 +10,7 @@
 #include "generators/generate.hpp"
 #include "tests/generators/models.hpp"
 
-namespace cupola {
+namespace cupola::every_model_test {
 namespace {
 
 using std::numbers::pi;
@@ -136,4 +136,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(std::get<0>(test.param).name); });
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::every_model_test

@@ -4,7 +4,7 @@
 #include "generators/generate.hpp"
 #include "tests/generators/models.hpp"
 
-namespace cupola {
+namespace cupola::model_checks_test {
 namespace {
 
 std::string complaint(const Assembly& assembly) {
@@ -73,4 +73,4 @@ TEST(ModelChecks, CountIslandsAndBlocksThatTouchNothing) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::model_checks_test

@@ -14,7 +14,7 @@
 #include "generators/surface/make_surface.hpp"
 #include "tests/generators/models.hpp"
 
-namespace cupola {
+namespace cupola::refine_test {
 namespace {
 
 using std::numbers::pi;
@@ -183,4 +183,4 @@ TEST(Refinement, OfAFillKeepsItsWidths) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::refine_test

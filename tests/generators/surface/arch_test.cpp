@@ -7,7 +7,7 @@
 #include "generators/generate.hpp"
 #include "tests/generators/models.hpp"
 
-namespace cupola {
+namespace cupola::arch_test {
 namespace {
 
 using std::numbers::pi;
@@ -100,4 +100,4 @@ TEST(Arch, BarrelTakesARunningBondAlongItsAxis) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::arch_test

@@ -7,7 +7,7 @@
 #include "generators/generate.hpp"
 #include "tests/generators/models.hpp"
 
-namespace cupola {
+namespace cupola::dome_test {
 namespace {
 
 // Smooth shell of the pointed fifth, 0 to 60 deg, by quadrature outside this project.
@@ -113,4 +113,4 @@ TEST(DomeOfRevolution, RefusesToPassTheAxis) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::dome_test

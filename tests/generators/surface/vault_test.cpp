@@ -11,7 +11,7 @@
 #include "tests/generators/models.hpp"
 #include "tests/generators/section.hpp"
 
-namespace cupola {
+namespace cupola::vault_test {
 namespace {
 
 using Construction = OctagonalVault::Construction;
@@ -222,4 +222,4 @@ TEST(Vault, RefusesExtradosRulesThatDoNotApply) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::vault_test

@@ -4,7 +4,7 @@
 #include "generators/generate.hpp"
 #include "tests/generators/models.hpp"
 
-namespace cupola {
+namespace cupola::wall_test {
 namespace {
 
 struct WallCount {
@@ -58,4 +58,4 @@ TEST(Wall, GenerationIsDeterministic) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::wall_test

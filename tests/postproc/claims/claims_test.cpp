@@ -8,7 +8,7 @@
 #include "postproc/tables/csv_file.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
 
-namespace cupola {
+namespace cupola::claims_test {
 namespace {
 
 std::string claim_file(const std::string& body) {
@@ -160,4 +160,4 @@ TEST(Claims, ReportShowsEveryVerdictAndEscapesText) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::claims_test

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace cupola {
+namespace cupola::reading_test {
 namespace {
 
 /// Two runs that differ in every measure.
@@ -139,4 +139,4 @@ TEST(Reading, LabelsAreLettersThenNumbers) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::reading_test

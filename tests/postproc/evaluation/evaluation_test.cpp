@@ -15,7 +15,7 @@
 #include "postproc/tables/post_summary.hpp"
 #include "tests/postproc/scene.hpp"
 
-namespace cupola {
+namespace cupola::evaluation_test {
 namespace {
 
 using test::column_case;
@@ -51,13 +51,13 @@ TEST(Evaluation, AMissingForceShowsInTheRingSum) {
 TEST(Evaluation, EccentricColumn) {
   // Resultant at (0.9, 0.4) of a 1.2 x 0.8 m bed: eccentricity 0.3 m, kern 6 e / b = 1.5, edge 0.3 m away.
   const Evaluation e = column_evaluation(0.9, 0.4);
-  for (const JointWrench& joint : e.last.joints.joints) {
+  for (const JointWrench& joint : e.last.joints.wrenches) {
     EXPECT_NEAR(joint.eccentricity, 0.3, 1e-12);
     EXPECT_NEAR(joint.kern, 1.5, 1e-12);
     EXPECT_NEAR(joint.edge_distance, 0.3, 1e-12);
     EXPECT_NEAR(joint.patch.area, 0.96, 1e-12);
     EXPECT_LT(joint.wrench.moment.norm(), 1e-12 * kBlockWeight) << "about the centre of pressure";
-    EXPECT_EQ(joint.upper, joint.joint.block_b);
+    EXPECT_EQ(joint.upper, joint.block_b);
   }
   // Meridional force of the middle block: the mean of what it carries below and above, per metre of length.
   EXPECT_NEAR(e.last.fields[2].meridional_force, 1.5 * kBlockWeight / 1.2, 1e-9 * kBlockWeight);
@@ -72,13 +72,13 @@ TEST(Evaluation, TheWrenchOfAJointIsTheSumOfItsContacts) {
     frame.contacts.force[i] += Vec3(30.0 * i, -20.0 * i * i, 7.0);
   const JointWrenches joints = joint_wrenches(a, frame.contacts, shell_of(a, Vec3::UnitZ()));
   for (const Vec3& about : {Vec3(0, 0, 0), Vec3(5, -3, 8)}) {
-    for (size_t j = 0; j < joints.joints.size(); ++j) {
+    for (size_t j = 0; j < joints.wrenches.size(); ++j) {
       Wrench direct;
       direct.point = about;
       for (int i = 0; i < frame.contacts.size(); ++i)
         if (frame.contacts.joint[i] == static_cast<int>(j))
           direct.add_force(frame.contacts.point[i], frame.contacts.force[i]);
-      const Wrench moved = moved_to(joints.joints[j].wrench, about);
+      const Wrench moved = moved_to(joints.wrenches[j].wrench, about);
       EXPECT_LT((moved.force - direct.force).norm(), 1e-12 * direct.force.norm());
       EXPECT_LT((moved.moment - direct.moment).norm(), 1e-11 * direct.force.norm()) << "arms of 10 m";
     }
@@ -210,7 +210,7 @@ TEST(Evaluation, CracksOutlineTheOpenPoints) {
   EXPECT_EQ(cracks.num_cells(), 2);
   EXPECT_EQ(cracks.array<double>(cracks.cell_data, "opening_m", 1), (std::vector{0.002, 0.002}));
   for (int i = 0; i < cracks.num_points(); ++i) EXPECT_NEAR(cracks.points[3 * i], 0.0, 1e-15);
-  EXPECT_NEAR(e.last.joints.joints[0].open_share, 0.5, 1e-12);
+  EXPECT_NEAR(e.last.joints.wrenches[0].open_share, 0.5, 1e-12);
 }
 
 TEST(Evaluation, SummaryRoundTrips) {
@@ -227,4 +227,4 @@ TEST(Evaluation, SummaryRoundTrips) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::evaluation_test

@@ -11,7 +11,7 @@
 #include "postproc/tables/mesh_output.hpp"
 #include "tests/postproc/scene.hpp"
 
-namespace cupola {
+namespace cupola::figures_test {
 namespace {
 
 using test::kGravity;
@@ -96,4 +96,4 @@ TEST(SectionFigure, TellsScaleAndGlobalCheck) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::figures_test

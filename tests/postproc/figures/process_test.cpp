@@ -6,7 +6,7 @@
 #include "assembly/files/atomic_file.hpp"
 #include "tests/fresh_folder.hpp"
 
-namespace cupola {
+namespace cupola::process_test {
 namespace {
 
 std::string error_of(const std::vector<std::string>& words, const std::string& log) {
@@ -35,4 +35,4 @@ TEST(Process, TheLastLineThatIsNotBlank) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::process_test

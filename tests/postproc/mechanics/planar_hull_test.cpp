@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-namespace cupola {
+namespace cupola::planar_hull_test {
 namespace {
 
 constexpr double kTolerance = 1e-12;
@@ -65,4 +65,4 @@ TEST(PlanarHull, PointsWithoutAreaDoNoHarm) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::planar_hull_test

@@ -10,7 +10,7 @@
 #include "postproc/tables/result_tables.hpp"
 #include "tests/postproc/scene.hpp"
 
-namespace cupola {
+namespace cupola::plane_cut_test {
 namespace {
 
 using test::kGravity;
@@ -86,4 +86,4 @@ TEST(PlaneCut, ReachesTheTablesFiguresAndFiles) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::plane_cut_test

@@ -8,7 +8,7 @@
 
 #include "tests/postproc/models.hpp"
 
-namespace cupola {
+namespace cupola::thrust_line_test {
 namespace {
 
 /// A vault of revolution in which every block receives from below one force of given meridian components at a
@@ -143,4 +143,4 @@ TEST(ThrustLine, InnerBedsCarryThePieceAbove) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::thrust_line_test

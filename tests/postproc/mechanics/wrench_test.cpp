@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-namespace cupola {
+namespace cupola::wrench_test {
 namespace {
 
 constexpr double kTolerance = 1e-12;  // a few dozen roundings of numbers near 1
@@ -95,4 +95,4 @@ TEST(Wrench, AxisMeetsPlane) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::wrench_test

@@ -16,7 +16,7 @@
 #include "postproc/compare/compare.hpp"
 #include "tests/postproc/scene.hpp"
 
-namespace cupola {
+namespace cupola::report_test {
 namespace {
 
 bool on_path(const std::string& program) {
@@ -202,4 +202,4 @@ for name in sys.argv[1:]:
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::report_test

@@ -5,7 +5,7 @@
 
 #include "tests/assembly/case/case_scratch.hpp"
 
-namespace cupola {
+namespace cupola::sweep_test {
 namespace {
 
 TEST(SweepTable, SaysWhichMembersAreMissingAndHowFarTheyCame) {
@@ -29,4 +29,4 @@ TEST(SweepTable, SaysWhichMembersAreMissingAndHowFarTheyCame) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::sweep_test

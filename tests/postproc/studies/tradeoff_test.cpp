@@ -10,7 +10,7 @@
 #include "postproc/studies/study_text.hpp"
 #include "tests/fresh_folder.hpp"
 
-namespace cupola {
+namespace cupola::tradeoff_test {
 namespace {
 
 using test::fresh_folder;
@@ -163,4 +163,4 @@ TEST(Study, EveryRunIsARowOfTheTableAndEveryKnobAFigure) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::tradeoff_test

@@ -11,7 +11,7 @@
 #include "postproc/tables/csv_file.hpp"
 #include "tests/postproc/models.hpp"
 
-namespace cupola {
+namespace cupola::table_test {
 namespace {
 
 Table example() {
@@ -73,4 +73,4 @@ TEST(Html, PicturesTravelInside) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::table_test

@@ -6,7 +6,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
-namespace cupola {
+namespace cupola::dynamic_test {
 namespace {
 
 using testing::kG;
@@ -180,11 +180,11 @@ TEST(MassRatio, HeavyOnLightCarriesTheWeightAbove) {
     std::vector<double> on_joint(3, 0.0);
     const ContactSet& contacts = simulation.contacts();
     for (size_t i = 0; i < report.forces.contacts.size(); ++i)
-      on_joint[contacts.contacts[i].block_a] += report.forces.contacts[i].z();
+      on_joint[contacts.points[i].block_a] += report.forces.contacts[i].z();
     EXPECT_NEAR(on_joint[0] / (W * (2 + ratio)), 1.0, 1e-6) << ratio;
     EXPECT_NEAR(on_joint[1] / (W * (1 + ratio)), 1.0, 1e-6) << ratio;
     EXPECT_NEAR(on_joint[2] / (W * ratio), 1.0, 1e-6) << ratio;
-    for (const Contact& contact : contacts.contacts) EXPECT_GT(contact.gap, -1.1 * depth);
+    for (const Contact& contact : contacts.points) EXPECT_GT(contact.gap, -1.1 * depth);
   }
 }
 
@@ -358,4 +358,4 @@ TEST(FaceLoads, ReachTheSupports) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::dynamic_test

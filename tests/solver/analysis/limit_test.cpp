@@ -14,7 +14,7 @@
 // (static and kinematic limit analysis with associated flow), or closed forms; the solver's static verdict is
 // exact in the limit of small inertia share.
 
-namespace cupola {
+namespace cupola::limit_test {
 namespace {
 
 using testing::ArchSpec;
@@ -45,7 +45,7 @@ bool stands(const Assembly& assembly, double friction) {
   options.tolerance = kVerdictTolerance;
   options.may_move = true;
   const StaticSolution solution =
-      solve_static(model, rest, contacts, match_memories({}, contacts.contacts), options);
+      solve_static(model, rest, contacts, match_memories({}, contacts.points), options);
   EXPECT_NE(solution.verdict, Verdict::unconverged) << solution.message;
   return solution.verdict == Verdict::equilibrium;
 }
@@ -235,7 +235,7 @@ TEST(Mechanism, OfTheSemicircleHasFiveHinges) {
   const State rest = state_at_rest(model);
   ContactDetector detector(assembly, {});
   const ContactSet& contacts = detector.update(rest.poses);
-  const StaticSolution solution = solve_static(model, rest, contacts, match_memories({}, contacts.contacts),
+  const StaticSolution solution = solve_static(model, rest, contacts, match_memories({}, contacts.points),
                                                {.tolerance = 1e-5, .may_move = true});
   ASSERT_EQ(solution.verdict, Verdict::moving) << solution.message;
   const Mechanism mechanism = find_mechanism(model, rest, contacts, solution);
@@ -250,8 +250,8 @@ TEST(Mechanism, OfTheSemicircleHasFiveHinges) {
   EXPECT_GT(mechanism.load_power, 1e-3);
   // What hinders is the compliance's closing E gamma, and nothing else.
   const ContactProblem& problem = solution.step.problem;
-  const double closing = problem.E.cwiseProduct(solution.solution.gamma).cwiseAbs().maxCoeff();
-  EXPECT_LT(mechanism.violation, 1.8 * closing / largest_speed(solution.solution.v) + 1e-8)
+  const double closing = problem.E.cwiseProduct(solution.step_solution.gamma).cwiseAbs().maxCoeff();
+  EXPECT_LT(mechanism.violation, 1.8 * closing / largest_speed(solution.step_solution.v) + 1e-8)
       << "normal and mu times tangential part";
   EXPECT_LT(mechanism.violation, 1e-3);
 }
@@ -392,4 +392,4 @@ TEST(Limit, SaysWhenTheBracketHoldsNoCriticalValue) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::limit_test

@@ -8,7 +8,7 @@
 #include "solver/runtime/checkpoint.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
-namespace cupola {
+namespace cupola::resume_test {
 namespace {
 
 /// Everything that an analysis hands over, as it would land on the disk.
@@ -132,4 +132,4 @@ TEST(Checkpoint, SurvivesAFailedWrite) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::resume_test

@@ -8,7 +8,7 @@
 #include "solver/dynamics/stages.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
-namespace cupola {
+namespace cupola::staged_test {
 namespace {
 
 Case staged_case(double friction, double fresh) {
@@ -129,4 +129,4 @@ TEST(Staged, RefusesToBeginAboveTheTop) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::staged_test

@@ -3,7 +3,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "tests/solver/scenes.hpp"
 
-namespace cupola {
+namespace cupola::winkler_test {
 namespace {
 
 // A block on a bed of area compliance c (m3/N), pushed sideways so that its resultant stays inside the kern:
@@ -38,4 +38,4 @@ TEST(Winkler, BlockTiltsAsTheExactFoundation) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::winkler_test

@@ -6,7 +6,7 @@
 #include "solver/collision/collision_model.hpp"
 #include "tests/solver/scenes.hpp"
 
-namespace cupola {
+namespace cupola::box_test {
 namespace {
 
 using namespace testing;  // the scenes
@@ -81,4 +81,4 @@ TEST(OrientedBox, NeverLosesAPairThatTouches) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::box_test

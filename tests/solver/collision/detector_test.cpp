@@ -10,7 +10,7 @@
 #include "solver/runtime/threads.hpp"
 #include "tests/solver/scenes.hpp"
 
-namespace cupola {
+namespace cupola::detector_test {
 namespace {
 
 using namespace testing;  // the scenes
@@ -43,8 +43,8 @@ TEST(ContactDetector, BoxOnSlab) {
   ASSERT_EQ(set.patches.size(), 1u);
   EXPECT_EQ(set.patches[0].kind, JointKind::base);
   EXPECT_NEAR(set.patches[0].area, 2.0, 1e-14);
-  ASSERT_EQ(set.contacts.size(), 4u);
-  for (const Contact& contact : set.contacts) {
+  ASSERT_EQ(set.points.size(), 4u);
+  for (const Contact& contact : set.points) {
     EXPECT_EQ(contact.block_a, 0);
     EXPECT_EQ(contact.block_b, 1);
     EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-15);  // from the slab to the box
@@ -56,9 +56,9 @@ TEST(ContactDetector, BoxOnSlab) {
 
 TEST(ContactDetector, AreaPointsSumToTheArea) {
   const ContactSet set = contacts_at_rest(box_on_floor(Vec3(1, 2, 3)), PatchPoints::quadrature);
-  ASSERT_EQ(set.contacts.size(), 5u);
+  ASSERT_EQ(set.points.size(), 5u);
   double area = 0.0;
-  for (const Contact& contact : set.contacts) area += contact.area;
+  for (const Contact& contact : set.points) area += contact.area;
   EXPECT_NEAR(area, 2.0, 1e-14);
 }
 
@@ -70,7 +70,7 @@ TEST(ContactDetector, WallHasEveryJoint) {
   const int beds = nb + (courses - 1) * 2 * nb;
   const int heads = 3 * (nb - 1) + 2 * nb;
   EXPECT_EQ(set.patches.size(), static_cast<std::size_t>(beds + heads));
-  EXPECT_EQ(set.contacts.size(), 4 * set.patches.size());
+  EXPECT_EQ(set.points.size(), 4 * set.patches.size());
   EXPECT_NEAR(total_area(set, JointKind::base), nb * 1.2, 1e-12);
   EXPECT_NEAR(total_area(set, JointKind::bed), (courses - 1) * nb * 1.2, 1e-12);
   EXPECT_NEAR(total_area(set, JointKind::head), heads * 0.3, 1e-12);
@@ -79,10 +79,9 @@ TEST(ContactDetector, WallHasEveryJoint) {
     const bool base = patch.kind == JointKind::base;
     EXPECT_EQ(patch.ring, base ? 0 : scene.blocks[patch.block_b].ring);
   }
-  EXPECT_TRUE(
-      std::is_sorted(set.contacts.begin(), set.contacts.end(), [](const Contact& p, const Contact& q) {
-        return std::tuple(p.block_a, p.block_b, p.id) < std::tuple(q.block_a, q.block_b, q.id);
-      }));
+  EXPECT_TRUE(std::is_sorted(set.points.begin(), set.points.end(), [](const Contact& p, const Contact& q) {
+    return std::tuple(p.block_a, p.block_b, p.id) < std::tuple(q.block_a, q.block_b, q.id);
+  }));
 }
 
 TEST(ContactDetector, MovedScaledAndFarScenesHaveTheSameContacts) {
@@ -93,15 +92,15 @@ TEST(ContactDetector, MovedScaledAndFarScenesHaveTheSameContacts) {
       const Eigen::Isometry3d motion = some_motion(distance * Vec3(1, -1, 0.5));
       const Assembly scene = transformed(reference, motion, scale);
       const ContactSet set = contacts_at_rest(scene);
-      ASSERT_EQ(set.contacts.size(), expected.contacts.size()) << "scale " << scale << ", at " << distance;
+      ASSERT_EQ(set.points.size(), expected.points.size()) << "scale " << scale << ", at " << distance;
       // Corners are stored with eps * distance; a few of these add up in a gap or a lever arm.
       const double rounding = 2.2e-16 * (20 * scale + 8 * distance);
-      for (std::size_t i = 0; i < set.contacts.size(); ++i) {
-        const Contact& contact = set.contacts[i];
-        EXPECT_EQ(contact.block_a, expected.contacts[i].block_a);
+      for (std::size_t i = 0; i < set.points.size(); ++i) {
+        const Contact& contact = set.points[i];
+        EXPECT_EQ(contact.block_a, expected.points[i].block_a);
         EXPECT_NEAR(contact.gap, 0.0, rounding);
-        EXPECT_NEAR(contact.area, expected.contacts[i].area * scale * scale, 4 * scale * rounding);
-        EXPECT_LT((contact.normal - motion.linear() * expected.contacts[i].normal).norm(),
+        EXPECT_NEAR(contact.area, expected.points[i].area * scale * scale, 4 * scale * rounding);
+        EXPECT_LT((contact.normal - motion.linear() * expected.points[i].normal).norm(),
                   20 * rounding / scale);
       }
     }
@@ -132,10 +131,10 @@ TEST(ContactDetector, GapWithinTheMarginOnly) {
     poses[1].p_WB.z() += gap;
     const ContactSet set = ContactDetector(scene, options).update(poses);
     if (gap <= options.margin) {
-      ASSERT_EQ(set.contacts.size(), 4u) << gap;
-      for (const Contact& contact : set.contacts) EXPECT_NEAR(contact.gap, gap, 1e-15);
+      ASSERT_EQ(set.points.size(), 4u) << gap;
+      for (const Contact& contact : set.points) EXPECT_NEAR(contact.gap, gap, 1e-15);
     } else {
-      EXPECT_TRUE(set.contacts.empty()) << gap;
+      EXPECT_TRUE(set.points.empty()) << gap;
     }
   }
 }
@@ -147,7 +146,7 @@ TEST(ContactDetector, SlidingOffAnEdge) {
     auto poses = initial_poses(scene);
     poses[2].p_WB.x() += 1.0 - overlap;
     const ContactSet moved = ContactDetector(scene, {}).update(poses);
-    ASSERT_EQ(moved.contacts.size(), 8u) << overlap;
+    ASSERT_EQ(moved.points.size(), 8u) << overlap;
     EXPECT_NEAR(moved.patches[1].area, overlap, 1e-12);
     EXPECT_EQ(moved.patches[1].kind, JointKind::bed);
   }
@@ -155,7 +154,7 @@ TEST(ContactDetector, SlidingOffAnEdge) {
   for (const double overlap : {1e-3 - 1e-9, 1e-9, 0.0, -1e-9, -1e-3}) {
     auto poses = initial_poses(scene);
     poses[2].p_WB.x() += 1.0 - overlap;
-    EXPECT_EQ(ContactDetector(scene, {}).update(poses).contacts.size(), 4u) << overlap;
+    EXPECT_EQ(ContactDetector(scene, {}).update(poses).points.size(), 4u) << overlap;
   }
 }
 
@@ -171,7 +170,7 @@ TEST(ContactDetector, RockingBoxStandsOnItsEdge) {
     poses[1].p_WB = hinge + poses[1].q_WB * (poses[1].p_WB - hinge);
     const ContactSet& set = detector.update(poses);
     int touching = 0;
-    for (const Contact& contact : set.contacts) {
+    for (const Contact& contact : set.points) {
       EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-12) << angle;
       const double height = contact.point_b.x() < 0 ? 0.4 * std::sin(angle) : 0.0;
       EXPECT_NEAR(contact.gap, height, 1e-12) << angle;
@@ -190,10 +189,10 @@ TEST(ContactDetector, CarriesContactsAlongAndDetectsOnlyAfterMotion) {
   EXPECT_EQ(detector.num_detections(), 1);
   const double small = 0.2 * detector.margin();
   poses[1].p_WB += Vec3(0, 0, small);
-  for (const Contact& contact : detector.update(poses).contacts) EXPECT_NEAR(contact.gap, small, 1e-15);
+  for (const Contact& contact : detector.update(poses).points) EXPECT_NEAR(contact.gap, small, 1e-15);
   EXPECT_EQ(detector.num_detections(), 1);
   poses[1].p_WB += Vec3(small, 0, 0);
-  EXPECT_EQ(detector.update(poses).contacts.size(), 4u);
+  EXPECT_EQ(detector.update(poses).points.size(), 4u);
   EXPECT_EQ(detector.num_detections(), 2);
 }
 
@@ -208,15 +207,15 @@ TEST(ContactDetector, IdentitiesSurviveDetection) {
     const ContactSet& after = detector.update(poses);
     // Points of one identity move no further than their blocks did, overlap growing by a corner included.
     std::map<ContactId, Vec3> points;
-    for (const Contact& contact : after.contacts) points.emplace(contact.id, contact.point_a);
-    EXPECT_EQ(points.size(), after.contacts.size());
+    for (const Contact& contact : after.points) points.emplace(contact.id, contact.point_a);
+    EXPECT_EQ(points.size(), after.points.size());
     int kept = 0;
-    for (const Contact& contact : before.contacts) {
+    for (const Contact& contact : before.points) {
       if (!points.contains(contact.id)) continue;
       EXPECT_LT((contact.point_a - points[contact.id]).norm(), 0.05) << step;
       ++kept;
     }
-    EXPECT_EQ(kept, std::min<int>(before.contacts.size(), after.contacts.size())) << step;
+    EXPECT_EQ(kept, std::min<int>(before.points.size(), after.points.size())) << step;
     before = after;
   }
   EXPECT_GT(detector.num_detections(), 30);
@@ -234,10 +233,10 @@ TEST(ContactDetector, FollowedContactsAgreeWithFreshOnes) {
     }
     const ContactSet followed = detector.update(poses);
     const ContactSet fresh = ContactDetector(scene, {}).update(poses);
-    ASSERT_EQ(followed.contacts.size(), fresh.contacts.size());
-    for (std::size_t i = 0; i < fresh.contacts.size(); ++i) {
-      EXPECT_EQ(followed.contacts[i].id, fresh.contacts[i].id);
-      EXPECT_NEAR(followed.contacts[i].gap, fresh.contacts[i].gap, 1e-14);
+    ASSERT_EQ(followed.points.size(), fresh.points.size());
+    for (std::size_t i = 0; i < fresh.points.size(); ++i) {
+      EXPECT_EQ(followed.points[i].id, fresh.points[i].id);
+      EXPECT_NEAR(followed.points[i].gap, fresh.points[i].gap, 1e-14);
     }
   }
 }
@@ -248,7 +247,7 @@ TEST(ContactDetector, SlicesDoNotChangeTheJoints) {
   for (const int slices : {2, 4, 8}) {
     const ContactSet sliced = contacts_at_rest(running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4, slices));
     ASSERT_EQ(sliced.patches.size(), whole.patches.size()) << slices;
-    ASSERT_EQ(sliced.contacts.size(), whole.contacts.size()) << slices;
+    ASSERT_EQ(sliced.points.size(), whole.points.size()) << slices;
     for (std::size_t i = 0; i < whole.patches.size(); ++i) {
       EXPECT_EQ(sliced.patches[i].block_a, whole.patches[i].block_a);
       EXPECT_EQ(sliced.patches[i].block_b, whole.patches[i].block_b);
@@ -285,7 +284,7 @@ TEST(ContactDetector, ThinSlabsTouchTheirNeighboursOnly) {
         }
         const ContactSet set = ContactDetector(scene, {}).update(poses);
         EXPECT_EQ(set.patches.size(), 20u) << thickness << " " << sunk << " " << tilt;
-        for (const Contact& contact : set.contacts) {
+        for (const Contact& contact : set.points) {
           EXPECT_EQ(contact.block_b, contact.block_a + 1) << thickness << " " << sunk << " " << tilt;
           EXPECT_NEAR(contact.gap, -sunk, 0.51 * tilt * thickness + 1e-12);
         }
@@ -329,10 +328,10 @@ TEST(ContactDetector, SinkingBesideACompressedJointKeepsItsContacts) {
     const Assembly columns = two_columns(upper_a, 0.8);
     ContactDetector detector(columns, {});
     std::vector<Pose> poses = initial_poses(columns);
-    const std::vector<Contact> before = detector.update(poses).contacts;
+    const std::vector<Contact> before = detector.update(poses).points;
     ASSERT_EQ(before.size(), 8u);
     poses[1].p_WB += Vec3(-5e-4, 0.0, -5e-3);
-    const std::vector<Contact> after = detector.update(poses).contacts;
+    const std::vector<Contact> after = detector.update(poses).points;
     EXPECT_EQ(after.size(), num_after);
     std::set<ContactId> known;
     for (const Contact& contact : before) known.insert(contact.id);
@@ -344,7 +343,7 @@ TEST(ContactDetector, SinkingBesideACompressedJointKeepsItsContacts) {
     EXPECT_EQ(kept, before.size());
     // What opens loses its rest gap: back where it was built every gap is what it looks like.
     poses = initial_poses(columns);
-    for (const Contact& contact : detector.update(poses).contacts) EXPECT_NEAR(contact.gap, 0.0, 1e-12);
+    for (const Contact& contact : detector.update(poses).points) EXPECT_NEAR(contact.gap, 0.0, 1e-12);
   }
 }
 
@@ -364,10 +363,10 @@ TEST(ContactDetector, SameBitsOnAnyNumberOfThreads) {
       found.push_back(ContactDetector(assembly, options).update(initial_poses(assembly)));
     }
     set_num_threads(1);
-    ASSERT_EQ(found[0].contacts.size(), found[1].contacts.size());
-    ASSERT_GT(found[0].contacts.size(), 4u * 3600u);
-    for (std::size_t i = 0; i < found[0].contacts.size(); ++i) {
-      const Contact &one = found[0].contacts[i], &three = found[1].contacts[i];
+    ASSERT_EQ(found[0].points.size(), found[1].points.size());
+    ASSERT_GT(found[0].points.size(), 4u * 3600u);
+    for (std::size_t i = 0; i < found[0].points.size(); ++i) {
+      const Contact &one = found[0].points[i], &three = found[1].points[i];
       EXPECT_TRUE(one.id == three.id && one.patch == three.patch && one.point_a == three.point_a &&
                   one.normal == three.normal && one.gap == three.gap && one.area == three.area)
           << "contact " << i << (gjk ? " by GJK" : " by clipping");
@@ -391,4 +390,4 @@ TEST(ShareLoop, ThrowsTheFirstOfWhatItsBodiesThrow) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::detector_test

@@ -6,7 +6,7 @@
 #include "tests/solver/motion_scenes.hpp"
 #include "tests/solver/scenes.hpp"
 
-namespace cupola {
+namespace cupola::dynamics_test {
 namespace {
 
 using namespace testing;  // the scenes
@@ -115,4 +115,4 @@ TEST(DroppedBoxSlow, ThousandTumblingOffABox) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::dynamics_test

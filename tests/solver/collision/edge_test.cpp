@@ -7,7 +7,7 @@
 #include "solver/collision/contact_detector.hpp"
 #include "tests/solver/scenes.hpp"
 
-namespace cupola {
+namespace cupola::edge_test {
 namespace {
 
 using namespace testing;  // the scenes
@@ -37,8 +37,8 @@ TEST(EdgeContact, EdgeOnAFloorHasTwoPoints) {
     for (const double gap : {-1e-3, 0.0, 1e-3}) {
       const auto poses = turned_box(scene, Quaterniond(AngleAxisd(angle, Vec3::UnitY())), gap);
       const ContactSet set = ContactDetector(scene, {}).update(poses);
-      ASSERT_EQ(set.contacts.size(), 2u) << angle << " " << gap;
-      for (const Contact& contact : set.contacts) {
+      ASSERT_EQ(set.points.size(), 2u) << angle << " " << gap;
+      for (const Contact& contact : set.points) {
         EXPECT_NEAR(contact.gap, gap, 1e-13);
         EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-13);
         EXPECT_NEAR(std::abs(contact.point_b.y()), 1.0, 1e-13);
@@ -53,9 +53,9 @@ TEST(EdgeContact, VertexOnAFloorHasOnePoint) {
   const Quaterniond on_corner = Quaterniond::FromTwoVectors(Vec3(1, 1, 1), Vec3(0.02, -0.03, -1));
   for (const double gap : {-2e-3, 0.0, 2e-3}) {
     const ContactSet set = ContactDetector(scene, {}).update(turned_box(scene, on_corner, gap));
-    ASSERT_EQ(set.contacts.size(), 1u);
-    EXPECT_NEAR(set.contacts[0].gap, gap, 1e-13);
-    EXPECT_LT((set.contacts[0].normal - Vec3::UnitZ()).norm(), 1e-13);
+    ASSERT_EQ(set.points.size(), 1u);
+    EXPECT_NEAR(set.points[0].gap, gap, 1e-13);
+    EXPECT_LT((set.points[0].normal - Vec3::UnitZ()).norm(), 1e-13);
   }
 }
 
@@ -68,11 +68,11 @@ TEST(EdgeContact, CrossingEdges) {
                     {.center = {0.1, 0.05, 2 * half_diagonal + gap},
                      .rotation = Quaterniond(AngleAxisd(kPi / 4, Vec3::UnitY()))}});
     const ContactSet set = ContactDetector(scene, {}).update(initial_poses(scene));
-    ASSERT_EQ(set.contacts.size(), 1u) << gap;
-    EXPECT_NEAR(set.contacts[0].gap, gap, 1e-13);
-    EXPECT_LT((set.contacts[0].normal - Vec3::UnitZ()).norm(), 1e-13);
+    ASSERT_EQ(set.points.size(), 1u) << gap;
+    EXPECT_NEAR(set.points[0].gap, gap, 1e-13);
+    EXPECT_LT((set.points[0].normal - Vec3::UnitZ()).norm(), 1e-13);
     // The lower ridge runs along x at y = 0, the upper one along y at x = 0.1.
-    EXPECT_LT((set.contacts[0].point_a - Vec3(0.1, 0, half_diagonal)).norm(), 1e-13);
+    EXPECT_LT((set.points[0].point_a - Vec3(0.1, 0, half_diagonal)).norm(), 1e-13);
   }
 }
 
@@ -82,10 +82,10 @@ TEST(EdgeContact, NeighboursAcrossAnEdgeOrACornerMakeNone) {
   for (const double hair : {-1e-9, 0.0, 1e-9}) {
     const ContactSet edge =
         ContactDetector(pair({1, 0, 1 + hair}), {}).update(initial_poses(pair({1, 0, 1 + hair})));
-    EXPECT_TRUE(edge.contacts.empty()) << hair;
+    EXPECT_TRUE(edge.points.empty()) << hair;
     const ContactSet corner =
         ContactDetector(pair({1, 1, 1 + hair}), {}).update(initial_poses(pair({1, 1, 1 + hair})));
-    EXPECT_TRUE(corner.contacts.empty()) << hair;
+    EXPECT_TRUE(corner.points.empty()) << hair;
   }
 }
 
@@ -98,7 +98,7 @@ TEST(EdgeContact, TurnsFromFaceToEdgeWithoutAJump) {
     const ContactSet& set =
         detector.update(turned_box(scene, Quaterniond(AngleAxisd(angle, Vec3::UnitX())), 0.0));
     int touching = 0;
-    for (const Contact& contact : set.contacts) {
+    for (const Contact& contact : set.points) {
       EXPECT_GT(contact.gap, -1e-12) << angle;
       EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-12) << angle;
       touching += std::abs(contact.gap) < 1e-12;
@@ -145,20 +145,20 @@ TEST(EdgeContact, RandomBoxesAgreeWithSampledDistance) {
     const double expected = sampled_distance(poses[0], poses[1], 60);
     const ContactSet set = ContactDetector(scene, options).update(poses);
     double gap = 1e300;
-    for (const Contact& contact : set.contacts) gap = std::min(gap, contact.gap);
+    for (const Contact& contact : set.points) gap = std::min(gap, contact.gap);
     const double sampling = 1.0 / 60;  // the grid misses the nearest point by at most its spacing
     if (expected > sampling && expected < options.margin) {
       ++near;
       // Along a face or edge normal the gap of two rounded-off neighbours (vertex to vertex) reads smaller.
-      ASSERT_FALSE(set.contacts.empty()) << trial << " at " << expected;
+      ASSERT_FALSE(set.points.empty()) << trial << " at " << expected;
       EXPECT_LT(gap, expected + 1e-12) << trial;
     }
     if (expected > 2 * options.margin) {
-      EXPECT_TRUE(set.contacts.empty()) << trial << " at " << expected;
+      EXPECT_TRUE(set.points.empty()) << trial << " at " << expected;
     }
   }
   EXPECT_GT(near, 10);
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::edge_test

@@ -11,7 +11,7 @@
 #include "solver/collision/patch_file.hpp"
 #include "tests/solver/scenes.hpp"
 
-namespace cupola {
+namespace cupola::file_test {
 namespace {
 
 using namespace testing;  // the scenes
@@ -55,17 +55,17 @@ TEST_F(ContactFile, GivesTheContactsThatItLists) {
   ContactDetector detector(scene_, options);
   auto poses = initial_poses(scene_);
   const ContactSet& set = detector.update(poses);
-  ASSERT_EQ(set.contacts.size(), 2u);
+  ASSERT_EQ(set.points.size(), 2u);
   ASSERT_EQ(set.patches.size(), 1u);
   EXPECT_EQ(set.patches[0].kind, JointKind::base);
   EXPECT_NEAR(set.patches[0].area, 1.0, 1e-15);
-  EXPECT_NEAR(set.contacts[0].gap, 0.001, 1e-15);
-  for (const Contact& contact : set.contacts) {
+  EXPECT_NEAR(set.points[0].gap, 0.001, 1e-15);
+  for (const Contact& contact : set.points) {
     EXPECT_EQ(contact.block_a, 0);
     EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-15);
   }
   poses[1].p_WB.z() += 0.5;  // far beyond any margin: still the same contacts
-  EXPECT_NEAR(detector.update(poses).contacts[1].gap, 0.5, 1e-15);
+  EXPECT_NEAR(detector.update(poses).points[1].gap, 0.5, 1e-15);
   EXPECT_EQ(detector.num_detections(), 1);
 }
 
@@ -73,19 +73,18 @@ TEST_F(ContactFile, WhatWasFoundCanBeGivenBack) {
   const Assembly wall = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 3);
   const ContactSet found = ContactDetector(wall, {}).update(initial_poses(wall));
   std::string text = kHeader;
-  for (const Contact& c : found.contacts)
+  for (const Contact& c : found.points)
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", c.block_a, c.block_b, c.patch, c.point_a.x(),
                         c.point_a.y(), c.point_a.z(), c.normal.x(), c.normal.y(), c.normal.z(), 0.0, c.area);
   DetectionOptions options;
   options.contact_file = write(text);
   const ContactSet given = ContactDetector(wall, options).update(initial_poses(wall));
-  ASSERT_EQ(given.contacts.size(), found.contacts.size());
+  ASSERT_EQ(given.points.size(), found.points.size());
   ASSERT_EQ(given.patches.size(), found.patches.size());
-  for (std::size_t i = 0; i < found.contacts.size(); ++i) {
-    EXPECT_EQ(given.contacts[i].block_b, found.contacts[i].block_b);
-    EXPECT_LT((given.contacts[i].point_a - found.contacts[i].point_a).norm(), 1e-14);
-    EXPECT_NEAR(given.patches[given.contacts[i].patch].area, found.patches[found.contacts[i].patch].area,
-                1e-12);
+  for (std::size_t i = 0; i < found.points.size(); ++i) {
+    EXPECT_EQ(given.points[i].block_b, found.points[i].block_b);
+    EXPECT_LT((given.points[i].point_a - found.points[i].point_a).norm(), 1e-14);
+    EXPECT_NEAR(given.patches[given.points[i].patch].area, found.patches[found.points[i].patch].area, 1e-12);
   }
 }
 
@@ -120,4 +119,4 @@ TEST_F(ContactFile, PatchesAreWrittenAsPolygons) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::file_test

@@ -7,7 +7,7 @@
 #include "solver/collision/contact_detector.hpp"
 #include "tests/solver/scenes.hpp"
 
-namespace cupola {
+namespace cupola::gjk_test {
 namespace {
 
 using namespace testing;  // the scenes
@@ -85,8 +85,8 @@ TEST(PerturbedGjk, FindsTheCornersOfABox) {
     auto poses = initial_poses(scene);
     poses[1].p_WB.z() += gap;
     const ContactSet set = ContactDetector(scene, perturbed(margin)).update(poses);
-    ASSERT_EQ(set.contacts.size(), 4u) << gap;
-    for (const Contact& contact : set.contacts) {
+    ASSERT_EQ(set.points.size(), 4u) << gap;
+    for (const Contact& contact : set.points) {
       EXPECT_EQ(set.patches[contact.patch].kind, JointKind::base);
       // Shrunk by the margin; the turn of 0.01 moves a point 1.2 m away sideways by half its square.
       EXPECT_NEAR(std::abs(contact.point_b.x()), 0.5 - margin, 1e-3);
@@ -100,7 +100,7 @@ TEST(PerturbedGjk, FindsTheCornersOfABox) {
 TEST(PerturbedGjk, SeedChoosesThePointsAndNothingElseDoes) {
   const Assembly scene = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 3);
   const auto contacts = [&](std::uint64_t seed) {
-    return ContactDetector(scene, perturbed(0.002, seed)).update(initial_poses(scene)).contacts;
+    return ContactDetector(scene, perturbed(0.002, seed)).update(initial_poses(scene)).points;
   };
   const auto first = contacts(1), again = contacts(1), other = contacts(2);
   ASSERT_EQ(first.size(), again.size());
@@ -134,4 +134,4 @@ TEST(PerturbedGjk, RefusesPartsThinnerThanTheMargin) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::gjk_test

@@ -6,7 +6,7 @@
 #include "solver/collision/convex_polygon.hpp"
 #include "solver/collision/patch_quadrature.hpp"
 
-namespace cupola {
+namespace cupola::polygon_test {
 namespace {
 
 constexpr double kTolerance = 1e-10;  // m, corners nearer than this are one
@@ -207,4 +207,4 @@ TEST(PatchQuadrature, SharesOfTheSquare) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::polygon_test

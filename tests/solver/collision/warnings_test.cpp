@@ -4,7 +4,7 @@
 #include "solver/collision/geometry_warnings.hpp"
 #include "tests/solver/scenes.hpp"
 
-namespace cupola {
+namespace cupola::warnings_test {
 namespace {
 
 using namespace testing;  // the scenes
@@ -12,7 +12,7 @@ using namespace testing;  // the scenes
 /// Contacts that a solver could be given: finite, with unit normals.
 void expect_sound_contacts(const Assembly& scene, const DetectionOptions& options = {}) {
   const ContactSet set = ContactDetector(scene, options).update(initial_poses(scene));
-  for (const Contact& contact : set.contacts) {
+  for (const Contact& contact : set.points) {
     EXPECT_TRUE(contact.point_a.allFinite() && contact.point_b.allFinite());
     EXPECT_TRUE(std::isfinite(contact.gap));
     EXPECT_NEAR(contact.normal.norm(), 1.0, 1e-12);
@@ -65,7 +65,7 @@ TEST(GeometryWarnings, CrossingBarsThatOnlyTheirEdgesPartDoNotOverlap) {
 TEST(GeometryWarnings, SliversAreLeftOutAndNamed) {
   const Assembly scene = make_boxes({{.fixed = true}, {.center = {1 - 5e-4, 0, 1}}});
   EXPECT_EQ(only_warning(scene), "blocks 0 and 1: a joint only 0.0005 m wide is left out");
-  EXPECT_TRUE(ContactDetector(scene, {}).update(initial_poses(scene)).contacts.empty());
+  EXPECT_TRUE(ContactDetector(scene, {}).update(initial_poses(scene)).points.empty());
 }
 
 TEST(GeometryWarnings, PartsThinnerThanTheMargin) {
@@ -104,4 +104,4 @@ TEST(GeometryWarnings, FacesWithoutAreaAreErrors) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::warnings_test

@@ -6,7 +6,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
-namespace cupola {
+namespace cupola::islands_test {
 namespace {
 
 using testing::BoxSpec;
@@ -114,4 +114,4 @@ TEST(Islands, DoNotSleepUnderWhatVariesInTime) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::islands_test

@@ -3,7 +3,7 @@
 #include "solver/dynamics/joint_laws.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
-namespace cupola {
+namespace cupola::joint_law_test {
 namespace {
 
 using testing::make_case;
@@ -97,4 +97,4 @@ TEST(FrictionInTime, LetsABlockGoWhenItFallsBelowTheSlope) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::joint_law_test

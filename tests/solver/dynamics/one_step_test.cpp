@@ -8,7 +8,7 @@
 // program: non-negative least squares over the edges of the plane cones. It took the larger of the horizontal
 // and the vertical component of each block's velocity, not its norm.
 
-namespace cupola {
+namespace cupola::one_step_test {
 namespace {
 
 /// Largest component of a block's velocity after one step, over g h.
@@ -87,4 +87,4 @@ TEST(OneStep, SpeedDependsOnGeometryAndFrictionAlone) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::one_step_test

@@ -6,7 +6,7 @@
 
 #include "tests/solver/motion_scenes.hpp"
 
-namespace cupola {
+namespace cupola::simulation_test {
 namespace {
 
 using testing::kG;
@@ -158,7 +158,7 @@ TEST(Table, SharesAnEccentricLoadAmongFourLegs) {
     ASSERT_EQ(report.solve.ending, SolveEnding::converged) << report.solve.message;
     Eigen::Vector4d share = Eigen::Vector4d::Zero();  // ++, +-, -+, --
     for (size_t i = 0; i < report.forces.contacts.size(); ++i) {
-      const Vec3 p = simulation.contacts().contacts[i].point_a;
+      const Vec3 p = simulation.contacts().points[i].point_a;
       share[(p.x() > 0 ? 0 : 2) + (p.y() > 0 ? 0 : 1)] += report.forces.contacts[i].z();
     }
     share /= assembly.blocks[1].mass * kG;
@@ -182,4 +182,4 @@ TEST(FreeFlight, KeepsAngularMomentumDirectionAndFallsFreely) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::simulation_test

@@ -8,7 +8,7 @@
 #include "assembly/files/time_table.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
-namespace cupola {
+namespace cupola::supports_test {
 namespace {
 
 using testing::kG;
@@ -128,4 +128,4 @@ TEST(MovingSupport, RefusesFreeBlocks) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::supports_test

@@ -8,7 +8,7 @@
 #include "solver/analysis/static_solve.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
-namespace cupola {
+namespace cupola::ties_test {
 namespace {
 
 using testing::kG;
@@ -84,7 +84,7 @@ TEST(Tie, StaticForceIsTheWeightAndThePrestressHoldsACubeUpAgainstAStop) {
   const State rest = state_at_rest(model);
   ContactDetector detector(assembly, {});
   const ContactSet& contacts = detector.update(rest.poses);
-  const StaticSolution solution = solve_static(model, rest, contacts, match_memories({}, contacts.contacts),
+  const StaticSolution solution = solve_static(model, rest, contacts, match_memories({}, contacts.points),
                                                {.tolerance = 1e-10, .time_advance = 0.0});
   ASSERT_EQ(solution.verdict, Verdict::equilibrium) << solution.message;
   // The joint (k_j = 4/c) closes by d: P - k d - W = k_j d.
@@ -146,7 +146,7 @@ TEST(Chain, CarriesTheHoopForceOfARing) {
   const State rest = state_at_rest(model);
   ContactDetector detector(assembly, {});
   const ContactSet& contacts = detector.update(rest.poses);
-  const StaticSolution solution = solve_static(model, rest, contacts, match_memories({}, contacts.contacts),
+  const StaticSolution solution = solve_static(model, rest, contacts, match_memories({}, contacts.points),
                                                {.tolerance = 1e-9, .time_advance = 0.0});
   ASSERT_EQ(solution.verdict, Verdict::equilibrium) << solution.message;
   for (const double force : solution.forces.ties)
@@ -172,4 +172,4 @@ TEST(Tie, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::ties_test

@@ -10,7 +10,7 @@
 #include "solver/fclib/fclib_file.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
-namespace cupola {
+namespace cupola::fclib_test {
 namespace {
 
 /// A file name of this test in the temporary folder.
@@ -164,4 +164,4 @@ TEST(Fclib, PublicProblemsAreSolved) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::fclib_test

@@ -10,7 +10,7 @@
 #include "solver/runtime/threads.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
-namespace cupola {
+namespace cupola::block_cholesky_test {
 namespace {
 
 struct Problem {
@@ -91,4 +91,4 @@ TEST(BlockCholesky, SameBitsOnAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::block_cholesky_test

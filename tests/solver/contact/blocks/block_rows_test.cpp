@@ -9,7 +9,7 @@
 #include "solver/runtime/threads.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
-namespace cupola {
+namespace cupola::block_rows_test {
 namespace {
 
 Eigen::MatrixXd dense(const BlockRows& A) {
@@ -85,4 +85,4 @@ TEST(BlockRows, SameBitsOnAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::block_rows_test

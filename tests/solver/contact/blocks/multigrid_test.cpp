@@ -13,7 +13,7 @@
 #include "solver/runtime/threads.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
-namespace cupola {
+namespace cupola::multigrid_test {
 namespace {
 
 const scenes::Joint kJoint{.mu = 0.4};
@@ -228,4 +228,4 @@ TEST(NewtonByHierarchySlow, GivesWayToFactorsWhereItLeadsNowhere) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::multigrid_test

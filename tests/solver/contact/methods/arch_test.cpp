@@ -7,7 +7,7 @@
 #include "solver/contact/problem/residuals.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
-namespace cupola {
+namespace cupola::arch_test {
 namespace {
 
 using scenes::kGravity;
@@ -199,4 +199,4 @@ TEST(Arch, CollapseTilt) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::arch_test

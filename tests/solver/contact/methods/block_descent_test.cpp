@@ -6,7 +6,7 @@
 #include "solver/contact/problem/whitening.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
-namespace cupola {
+namespace cupola::block_descent_test {
 namespace {
 
 const scenes::Joint kJoint{.mu = 0.4};
@@ -58,4 +58,4 @@ TEST(BlockDescent, LeavesBlocksInBalanceAlone) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::block_descent_test

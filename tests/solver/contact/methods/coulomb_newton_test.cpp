@@ -6,7 +6,7 @@
 #include "solver/contact/problem/residuals.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
-namespace cupola {
+namespace cupola::coulomb_newton_test {
 namespace {
 
 using scenes::kGravity;
@@ -78,4 +78,4 @@ TEST(CoulombNewton, EndsWithAStatusWhateverItIsGiven) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::coulomb_newton_test

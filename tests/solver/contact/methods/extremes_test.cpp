@@ -6,7 +6,7 @@
 #include "solver/contact/problem/residuals.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
-namespace cupola {
+namespace cupola::extremes_test {
 namespace {
 
 using scenes::kGravity;
@@ -86,4 +86,4 @@ TEST(Extremes, SizesFromMillimetresToKilometres) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::extremes_test

@@ -5,7 +5,7 @@
 #include "solver/contact/problem/residuals.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
-namespace cupola {
+namespace cupola::methods_test {
 namespace {
 
 using scenes::kGravity;
@@ -158,4 +158,4 @@ TEST(LocalContact, FrictionlessNeedsTheNormalRowOnly) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::methods_test

@@ -6,7 +6,7 @@
 #include "solver/contact/problem/residuals.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
-namespace cupola {
+namespace cupola::newton_test {
 namespace {
 
 using scenes::kGravity;
@@ -254,4 +254,4 @@ TEST(Newton, SectorOfACyclicDome) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::newton_test

@@ -4,7 +4,7 @@
 #include "solver/contact/problem/residuals.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
-namespace cupola {
+namespace cupola::solve_test {
 namespace {
 
 using scenes::kGravity;
@@ -201,4 +201,4 @@ TEST(SolveContact, RigidDomeStandsAndFalls) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::solve_test

@@ -7,7 +7,7 @@
 
 #include "tests/solver/contact/slow_contact.hpp"
 
-namespace cupola {
+namespace cupola::cone_test {
 namespace {
 
 using scenes::slow_impulse;
@@ -107,4 +107,4 @@ TEST(Cone, ScalingVelocitiesScalesImpulses) {  // the cone has no length of its 
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::cone_test

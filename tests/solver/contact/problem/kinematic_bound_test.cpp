@@ -7,7 +7,7 @@
 #include "solver/contact/methods/solve_contact.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
-namespace cupola {
+namespace cupola::kinematic_bound_test {
 namespace {
 
 using scenes::kGravity;
@@ -73,4 +73,4 @@ TEST(KinematicBound, RefutesAnArchThatFalls) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::kinematic_bound_test

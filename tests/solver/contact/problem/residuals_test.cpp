@@ -11,7 +11,7 @@
 #include "tests/solver/contact/contact_scenes.hpp"
 #include "tests/solver/contact/slow_contact.hpp"
 
-namespace cupola {
+namespace cupola::residuals_test {
 namespace {
 
 using scenes::kGravity;
@@ -176,4 +176,4 @@ TEST(ResidualsOfAPair, NotANumberIsNeverSmall) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::residuals_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cupola {
+namespace cupola::second_order_cone_test {
 namespace {
 
 const std::vector<Vec3> kInterior{
@@ -58,4 +58,4 @@ TEST(SecondOrderCone, DeterminantKeepsThinMargins) {
 }
 
 }  // namespace
-}  // namespace cupola
+}  // namespace cupola::second_order_cone_test
