@@ -159,14 +159,7 @@ CostEstimate estimate_static(const Case& scene, const Built& built, ModelCounts*
 
 CostEstimate estimate_motion(const Case& scene, const Assembly& assembly, const Built& built,
                              ModelCounts* counts) {
-  SimulationOptions options;
-  options.step.h = scene.analysis.time_step;
-  options.step.damping = scene.analysis.damping;
-  options.step.recovery_speed = scene.analysis.recovery_speed;
-  options.step.tangential = scene.analysis.tangential;
-  options.detection = detection_options(scene);
-  options.solve = contact_solver_options(scene.analysis);
-  Simulation simulation(make_model(scene, assembly), options);
+  Simulation simulation = make_simulation(scene, assembly);
   CostEstimate cost;
   const double steps = num_steps(scene.analysis);
   double last = 0.0;

@@ -43,6 +43,7 @@ class DynamicRun {
  public:
   DynamicRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
+  bool starts_static() const { return simulation_.options().static_start; }
   /// Takes over the static equilibrium under the loads at time 0; false (and a summary) when there is none.
   bool start_static(Summary* summary);
   void resume(const std::string& bytes);
@@ -67,32 +68,16 @@ class DynamicRun {
   Snapshot now_;
 };
 
-SimulationOptions simulation_options(const Case& scene) {
-  const Analysis& analysis = scene.analysis;
-  SimulationOptions options;
-  options.step.h = analysis.time_step;
-  options.step.damping = analysis.damping;
-  options.step.recovery_speed = analysis.recovery_speed;
-  options.step.tangential = analysis.tangential;
-  options.adaptive = analysis.adaptive;
-  options.sleep = analysis.sleep;
-  options.detection = detection_options(scene);
-  options.solve = contact_solver_options(analysis);
-  return options;
-}
-
 DynamicRun::DynamicRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks)
     : scene_(scene),
       analysis_(scene.analysis),
       sinks_(sinks),
-      simulation_(make_model(scene, assembly), simulation_options(scene)) {
-  if (scene.analysis.sleep) require_sleepable(scene, simulation_.model());
-}
+      simulation_(make_simulation(scene, assembly)) {}
 
 bool DynamicRun::start_static(Summary* summary) {
   const Model& model = simulation_.model();
   const State rest = state_at_rest(model);
-  ContactDetector detector(*model.assembly, detection_options(scene_));
+  ContactDetector detector(*model.assembly, simulation_.options().detection);
   const ContactSet& contacts = detector.update(rest.poses);
   const ContactMemories memories = match_memories({}, contacts.points);
   StaticOptions options = static_options(analysis_);
@@ -256,12 +241,6 @@ Summary DynamicRun::summarize(Stop stop, double seconds) const {
   return summary;
 }
 
-bool starts_static(const Case& scene) {
-  if (scene.analysis.start != Analysis::Start::automatic)
-    return scene.analysis.start == Analysis::Start::static_;
-  return scene.supports.base_motion || !std::holds_alternative<ConstantInTime>(scene.joints.friction_time);
-}
-
 }  // namespace
 
 std::optional<Summary> run_dynamic(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
@@ -269,7 +248,7 @@ std::optional<Summary> run_dynamic(const Case& scene, const Assembly& assembly, 
   Summary summary;
   if (!sinks.resume_from.empty())
     run.resume(sinks.resume_from);
-  else if (starts_static(scene) && !run.start_static(&summary))
+  else if (run.starts_static() && !run.start_static(&summary))
     return summary;
   return run.run();
 }

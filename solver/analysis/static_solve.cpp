@@ -310,14 +310,12 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
 LoadedState loaded_state(const Model& model, const State& start, const ContactSet& contacts,
                          const ContactMemories& memories, const StaticSolution& solution,
                          const StaticOptions& options) {
-  LoadedState loaded{start, memories};
+  LoadedState loaded{start, memories, solution.h};
   loaded.state.v = solution.step_solution.v;
   integrate_positions(model, solution.h, options.time_advance, &loaded.state);
   loaded.state.v.setZero();  // equilibrium: the step's velocity is only the displacement's carrier
   update_memories(solution.step, solution.step_solution, start, contacts, step_options(options, solution.h),
                   &loaded.memories);
-  for (ContactMemory& memory : loaded.memories.values) memory.impulse /= solution.h;
-  for (double& impulse : loaded.memories.tie_impulses) impulse /= solution.h;
   return loaded;
 }
 

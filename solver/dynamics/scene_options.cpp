@@ -1,8 +1,20 @@
 #include "solver/dynamics/scene_options.hpp"
 
+#include <utility>
+
 #include "assembly/base/error.hpp"
 
 namespace cupola {
+namespace {
+
+/// Base motion and friction that varies in time act on a structure that already stands.
+bool starts_static(const Case& scene) {
+  if (scene.analysis.start != Analysis::Start::automatic)
+    return scene.analysis.start == Analysis::Start::static_;
+  return scene.supports.base_motion || !std::holds_alternative<ConstantInTime>(scene.joints.friction_time);
+}
+
+}  // namespace
 
 DetectionOptions detection_options(const Case& scene) {
   DetectionOptions options;
@@ -28,8 +40,29 @@ ContactSolverOptions contact_solver_options(const Analysis& analysis) {
   options.method = analysis.method;
   options.law = analysis.friction_law;
   options.max_iterations = analysis.max_iterations;
-  options.lag_factor = analysis.type == AnalysisType::dynamic;  // from step to step little changes
   return options;
+}
+
+SimulationOptions simulation_options(const Case& scene) {
+  const Analysis& analysis = scene.analysis;
+  SimulationOptions options;
+  options.step.h = analysis.time_step;
+  options.step.damping = analysis.damping;
+  options.step.recovery_speed = analysis.recovery_speed;
+  options.step.tangential = analysis.tangential;
+  options.adaptive = analysis.adaptive;
+  options.sleep = analysis.sleep;
+  options.static_start = starts_static(scene);
+  options.detection = detection_options(scene);
+  options.solve = contact_solver_options(analysis);
+  options.solve.lag_factor = true;  // the problem changes little from step to step
+  return options;
+}
+
+Simulation make_simulation(const Case& scene, const Assembly& assembly) {
+  Model model = make_model(scene, assembly);
+  if (scene.analysis.sleep) require_sleepable(scene, model);
+  return {std::move(model), simulation_options(scene)};
 }
 
 }  // namespace cupola

@@ -128,8 +128,9 @@ void Simulation::start_from(const LoadedState& loaded) {
     gaps.push_back(loaded_joint ? memories_.values[i].elastic_gap : contacts.points[i].gap);
   }
   detector_.count_gaps_from(gaps);
-  for (ContactMemory& memory : memories_.values) memory.impulse *= next_h_;
-  for (double& impulse : memories_.tie_impulses) impulse *= next_h_;
+  // The same forces act during the first step.
+  for (ContactMemory& memory : memories_.values) memory.impulse = memory.impulse / loaded.h * next_h_;
+  for (double& impulse : memories_.tie_impulses) impulse = impulse / loaded.h * next_h_;
 }
 
 std::vector<double> Simulation::travel(double h) const {

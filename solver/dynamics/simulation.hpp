@@ -28,19 +28,23 @@ struct StepReport {
   int asleep = 0;          ///< free blocks that were left out
 };
 
-/// How a simulation is stepped.
+/// Options of a simulation; simulation_options() builds them from a case.
 struct SimulationOptions {
   StepOptions step;
-  std::optional<AdaptiveStep> adaptive;  ///< none: every step is step.h
+  std::optional<AdaptiveStep> adaptive;  ///< none: every step lasts step.h
   std::optional<Sleep> sleep;            ///< none: every block is solved in every step
+  /// The simulation starts from the static equilibrium under the loads at time 0. The analysis solves it and
+  /// passes it to start_from().
+  bool static_start = false;
   DetectionOptions detection;
-  ContactSolverOptions solve;  ///< the reference speed is set by each step
+  ContactSolverOptions solve;  ///< each step sets the reference speed
 };
 
-/// What a static solve hands to the motion that follows: displaced blocks at rest, joints under load.
+/// Result of a static solve from which a simulation starts: displaced blocks at rest, loaded joints.
 struct LoadedState {
   State state;
-  ContactMemories memories;  ///< impulses are forces here, N
+  ContactMemories memories;
+  double h = 0.0;  ///< s, step of the static solve: the impulses in `memories` over h are the joint forces
 };
 
 /// A scene in motion: everything that is carried from step to step.
@@ -65,6 +69,7 @@ class Simulation {
   std::string save() const;
   void restore(const std::string& bytes);
 
+  const SimulationOptions& options() const { return options_; }
   const Model& model() const { return model_; }
   const State& state() const { return state_; }
   State* mutable_state() {

@@ -24,13 +24,7 @@ inline Case make_case(double friction, double compliance, double h, double dampi
 }
 
 inline Simulation simulate(const Case& scene, const Assembly& assembly) {
-  const Analysis& analysis = scene.analysis;
-  SimulationOptions options;
-  options.step = {analysis.time_step, analysis.damping, analysis.recovery_speed, analysis.tangential, {}};
-  options.adaptive = analysis.adaptive;
-  options.detection = detection_options(scene);
-  options.solve = contact_solver_options(analysis);
-  return {make_model(scene, assembly), options};
+  return make_simulation(scene, assembly);
 }
 
 /// Gravity seen from an incline of slope tan(a) that rises towards -x.

@@ -30,16 +30,6 @@ Case sleepy(double duration) {
   return scene;
 }
 
-Simulation simulation(const Case& scene, const Assembly& assembly) {
-  SimulationOptions options;
-  options.step.h = scene.analysis.time_step;
-  options.step.damping = scene.analysis.damping;
-  options.sleep = scene.analysis.sleep;
-  options.detection = detection_options(scene);
-  options.solve = contact_solver_options(scene.analysis);
-  return {make_model(scene, assembly), options};
-}
-
 TEST(Islands, AreTheBlocksThatContactsJoinWithoutTheFixedOnes) {
   const Assembly assembly = stacks(3, false);
   const Case scene = sleepy(1.0);
@@ -51,7 +41,7 @@ TEST(Islands, AreTheBlocksThatContactsJoinWithoutTheFixedOnes) {
 
 TEST(Islands, SleepAtRestAndCarryTheirWeightOn) {
   const Assembly assembly = stacks(3, false);
-  Simulation run = simulation(sleepy(1.0), assembly);
+  Simulation run = testing::simulate(sleepy(1.0), assembly);
   StepReport report;
   for (int k = 0; k < 100; ++k) report = run.advance();
   EXPECT_EQ(report.asleep, 6);
@@ -65,7 +55,7 @@ TEST(Islands, SleepAtRestAndCarryTheirWeightOn) {
 TEST(Islands, WakeWhenSomethingArrives) {
   const Assembly assembly = stacks(3, true);
   Case scene = sleepy(1.0);
-  Simulation run = simulation(scene, assembly);
+  Simulation run = testing::simulate(scene, assembly);
   bool first_slept = false, first_woke = false;
   for (int k = 0; k < 200; ++k) {
     const int asleep = run.advance().asleep;
@@ -82,9 +72,9 @@ TEST(Islands, WakeWhenSomethingArrives) {
 TEST(Islands, SleepersLeaveTheMotionOfOthersAlone) {
   const Assembly assembly = stacks(4, true);
   Case scene = sleepy(1.0);
-  Simulation with = simulation(scene, assembly);
+  Simulation with = testing::simulate(scene, assembly);
   scene.analysis.sleep.reset();
-  Simulation without = simulation(scene, assembly);
+  Simulation without = testing::simulate(scene, assembly);
   for (int k = 0; k < 40; ++k) {
     with.advance();
     without.advance();
@@ -95,10 +85,10 @@ TEST(Islands, SleepersLeaveTheMotionOfOthersAlone) {
 
 TEST(Islands, GoOnWithTheSameBitsAfterARestore) {
   const Assembly assembly = stacks(2, true);
-  Simulation run = simulation(sleepy(1.0), assembly);
+  Simulation run = testing::simulate(sleepy(1.0), assembly);
   for (int k = 0; k < 30; ++k) run.advance();
   run.forget_factor();
-  Simulation again = simulation(sleepy(1.0), assembly);
+  Simulation again = testing::simulate(sleepy(1.0), assembly);
   again.restore(run.save());
   for (int k = 0; k < 60; ++k) {
     EXPECT_EQ(run.advance().asleep, again.advance().asleep);
