@@ -211,10 +211,9 @@ void declare_geometry(Section& s, Geometry& geometry) {
 
   const auto [rings, blocks_per_ring] =
       std::visit([](const auto& bond) { return std::pair(bond.rings, bond.blocks_per_ring); }, geometry.bond);
-  const bool closed_ring = std::holds_alternative<DomeSurface>(geometry.surface) ||
-                           std::holds_alternative<OctagonalVault>(geometry.surface);
   s.rule(!geometry.stage || geometry.stage->rings <= rings, "stage", "stage.rings must be <= bond.rings");
-  s.rule(!closed_ring || blocks_per_ring >= 3, "bond", "bond.blocks_per_ring must be >= 3 on a closed ring");
+  s.rule(!traits_of(geometry.surface).closed || blocks_per_ring >= 3, "bond",
+         "bond.blocks_per_ring must be >= 3 on a closed ring");
 }
 
 void declare_imperfections(Section& s, Imperfections& imperfections) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -10,9 +11,21 @@
 
 namespace cupola {
 
+/// What a kind of surface is, for code that must not know the kinds: the reader, the stereotomy and the
+/// postprocessor. Each kind states its own traits and nothing else asks for a kind by name.
+struct SurfaceTraits {
+  /// Where thrust lines are drawn: nowhere, in the x-z plane of an arch, or at any azimuth about the z axis.
+  enum class Meridians : std::uint8_t { none, one, by_azimuth };
+
+  bool closed = false;  ///< courses are rings about the z axis; their last block meets the first
+  Meridians meridians = Meridians::none;
+};
+
 /// Dome of revolution with the pointed-fifth profile: two arcs of radius `radius_ratio * span`, centred
 /// beyond the axis so that the springing lies `span / 2` from it.
 struct DomeSurface {
+  static constexpr SurfaceTraits traits{.closed = true, .meridians = SurfaceTraits::Meridians::by_azimuth};
+
   double span = 45.0;             ///< m, > 0, clear diameter at the springing
   double radius_ratio = 0.8;      ///< intrados radius over span, >= 0.5 (0.5: hemisphere, 0.8: pointed fifth)
   double thickness = 2.2;         ///< m, > 0
@@ -24,6 +37,8 @@ struct DomeSurface {
 
 /// Plane wall, x along the length, y across, z up.
 struct WallSurface {
+  static constexpr SurfaceTraits traits{.closed = false, .meridians = SurfaceTraits::Meridians::none};
+
   double length = 12.0;    ///< m, > 0
   double height = 6.0;     ///< m, > 0
   double thickness = 1.0;  ///< m, > 0
@@ -32,6 +47,8 @@ struct WallSurface {
 /// Cluster vault over a regular polygon (an octagon by default): each sail is a cylinder, and the section
 /// through two opposite corners is the pointed-fifth profile of the dome.
 struct OctagonalVault {
+  static constexpr SurfaceTraits traits{.closed = true, .meridians = SurfaceTraits::Meridians::by_azimuth};
+
   /// How the beds lie: on cones about the axis, as Brunelleschi's; in planes normal to each sail; level.
   enum class Construction : std::uint8_t { circular, planar_radial, planar_horizontal };
   /// Where the extrados is: `thickness` measured normal to the sail; on the corner section, as a second arc;
@@ -53,6 +70,8 @@ struct OctagonalVault {
 /// Barrel arch of two arcs with radial joints, from one springing over the crown (x = 0) to the other; its
 /// axis is y. A pointed arch (radius_ratio > 0.5) has a joint in the crown plane.
 struct ArchSurface {
+  static constexpr SurfaceTraits traits{.closed = false, .meridians = SurfaceTraits::Meridians::one};
+
   double span = 10.0;              ///< m, > 0, clear span of the full arc at z = 0: 2 R when semicircular
   double radius_ratio = 0.5;       ///< intrados radius over span, >= 0.5 (0.5: one circle)
   double thickness = 1.0;          ///< m, > 0
@@ -67,6 +86,10 @@ struct ArchSurface {
 };
 
 using Surface = std::variant<DomeSurface, OctagonalVault, ArchSurface, WallSurface>;
+
+inline SurfaceTraits traits_of(const Surface& surface) {
+  return std::visit([](const auto& kind) { return std::decay_t<decltype(kind)>::traits; }, surface);
+}
 
 /// Every bond has `refine`: each course becomes so many courses and each block so many blocks, laid by the
 /// same rule; counts and default phases below are those before refinement. In the shell, one block stays as

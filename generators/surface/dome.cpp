@@ -30,7 +30,6 @@ SurfaceMap dome_surface(const DomeSurface& dome, int rings) {
 
   SurfaceMap surface;
   surface.num_rows = rings;
-  surface.closed = true;
   surface.extent = 2.0 * pi;
   surface.footing = Footing::ring;
   surface.shell_volume = smooth_volume(R, R + dome.thickness, e, crown);

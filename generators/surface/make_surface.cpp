@@ -47,15 +47,17 @@ double faceted_volume(const Surface& shape, int n) {
 }  // namespace
 
 SurfaceMap make_surface(const Surface& surface, int rings) {
-  return std::visit(Overloaded{[&](const DomeSurface& dome) { return dome_surface(dome, rings); },
-                               [&](const OctagonalVault& vault) {
-                                 return vault.construction == OctagonalVault::Construction::circular
-                                            ? circular_vault_surface(vault, rings)
-                                            : planar_vault_surface(vault, rings);
-                               },
-                               [&](const ArchSurface& arch) { return arch_surface(arch, rings); },
-                               [&](const WallSurface& wall) { return wall_surface(wall, rings); }},
-                    surface);
+  SurfaceMap map = std::visit(Overloaded{[&](const DomeSurface& dome) { return dome_surface(dome, rings); },
+                                         [&](const OctagonalVault& vault) {
+                                           return vault.construction == OctagonalVault::Construction::circular
+                                                      ? circular_vault_surface(vault, rings)
+                                                      : planar_vault_surface(vault, rings);
+                                         },
+                                         [&](const ArchSurface& arch) { return arch_surface(arch, rings); },
+                                         [&](const WallSurface& wall) { return wall_surface(wall, rings); }},
+                              surface);
+  map.closed = traits_of(surface).closed;
+  return map;
 }
 
 double extrapolated_shell_volume(const Surface& surface) {

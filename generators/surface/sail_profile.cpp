@@ -39,7 +39,6 @@ SurfaceMap empty_vault(const OctagonalVault& vault, int rings) {
                     vault.crown_angle_deg, last));
   SurfaceMap surface;
   surface.num_rows = rings;
-  surface.closed = true;
   surface.extent = 2.0 * pi;
   surface.footing = Footing::ring;
   for (int i = 0; i < vault.sails; ++i) surface.corners.push_back(2.0 * pi * i / vault.sails);

@@ -147,11 +147,10 @@ std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput&
 std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {
   std::vector<MeridianEvaluation> meridians;
   const ThrustInput input = thrust_input(e);
-  const Surface& surface = e.scene.geometry.surface;
-  if (std::holds_alternative<ArchSurface>(surface))
-    meridians.push_back({thrust_line(input, "arch", std::nullopt), {}});
-  if (std::holds_alternative<ArchSurface>(surface) || std::holds_alternative<WallSurface>(surface))
-    return meridians;
+  using enum SurfaceTraits::Meridians;
+  const SurfaceTraits::Meridians drawn = traits_of(e.scene.geometry.surface).meridians;
+  if (drawn == one) meridians.push_back({thrust_line(input, "arch", std::nullopt), {}});
+  if (drawn != by_azimuth) return meridians;
   for (const Meridian& meridian : e.scene.postproc.meridians)
     meridians.push_back({thrust_line(input, meridian.name, meridian.azimuth_deg),
                          hoop_forces(e.assembly, e.last.joints, meridian.azimuth_deg)});

@@ -14,9 +14,8 @@ ForceUnit force_unit(double largest) {
 }
 
 bool is_vault(const Evaluation& e) {
-  const Surface& surface = e.scene.geometry.surface;
   return e.shell.num_rings() > 0 &&
-         (std::holds_alternative<DomeSurface>(surface) || std::holds_alternative<OctagonalVault>(surface));
+         traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::by_azimuth;
 }
 
 }  // namespace cupola

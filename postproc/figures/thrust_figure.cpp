@@ -147,7 +147,7 @@ std::string arch_panels(const ForceUnit& unit) {
 }  // namespace
 
 Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
-  const bool arch = std::holds_alternative<ArchSurface>(e.scene.geometry.surface);
+  const bool arch = traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::one;
   const ThrustLine& line = m.thrust;
   double couple = 0.0, largest = 0.0;
   for (const ThrustPoint& p : line.points) {
