@@ -9,7 +9,7 @@
 #include "assembly/base/process.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/contact/blocks/block_cholesky.hpp"
-#include "solver/contact/methods/newton.hpp"
+#include "solver/contact/methods/method_table.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/whitening.hpp"
 #include "solver/dynamics/scene_options.hpp"
@@ -73,7 +73,7 @@ std::optional<double> time_direction(const ContactProblem& problem) {
   VecX d;
   SolveSummary summary;
   if (motions.empty() ||
-      !NewtonDirection().solve_by_hierarchy(graph.pattern, sticking_hessian(problem, white, graph), motions,
+      !NewtonDirection().solve_by_multigrid(graph.pattern, sticking_hessian(problem, white, graph), motions,
                                             white.problem.v_star, kForcing, &d, &summary))
     return std::nullopt;
   return cpu_seconds() - started;
@@ -113,11 +113,6 @@ ModelCounts count_model(const Built& built) {
   return counts;
 }
 
-bool uses_factor(ContactMethod method) {
-  return method == ContactMethod::newton || method == ContactMethod::interior_point ||
-         method == ContactMethod::admm;
-}
-
 /// Passes over convex problems that the Coulomb law and zero compliance take, each of a few factorisations.
 double num_passes(const Case& scene) {
   const bool rigid = scene.joints.compliance.normal == 0.0 || scene.joints.compliance.tangential == 0.0;
@@ -142,7 +137,7 @@ double num_equilibria(const Analysis& analysis, int num_rings) {
 CostEstimate estimate_static(const Case& scene, const Built& built, ModelCounts* counts) {
   CostEstimate cost;
   const double equilibria = num_equilibria(scene.analysis, built.model.assembly->num_rings);
-  if (scene.analysis.method == ContactMethod::newton && has_many_blocks(built.step.problem)) {
+  if (method_traits(scene.analysis.method).uses_multigrid && has_many_blocks(built.step.problem)) {
     if (const std::optional<double> once = time_direction(built.step.problem)) {
       cost.seconds = equilibria * kManyBlocksSolves * num_passes(scene) * *once;
       cost.basis = fmt::format("one direction by the hierarchy, {:.3g} s", *once);
@@ -171,7 +166,7 @@ CostEstimate estimate_motion(const Case& scene, const Assembly& assembly, const 
   }
   cost.seconds += std::max(0.0, steps - kTimedSteps) * last;
   cost.basis = fmt::format("{} steps, the last {:.3g} s", kTimedSteps, last);
-  if (uses_factor(scene.analysis.method)) {
+  if (method_traits(scene.analysis.method).uses_factor) {
     BlockCholesky factor;
     time_factorization(built.step.problem, &factor);
     counts->factor_entries = factor.num_nonzeros();

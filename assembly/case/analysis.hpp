@@ -80,6 +80,10 @@ struct Analysis {
   /// Iterations of the contact method per solve; 0: the method's own limit. A budget that is used up ends as
   /// unconverged.
   int max_iterations = 0;
+  /// The same without its special value: none means the limit of the method.
+  std::optional<int> iteration_limit() const {
+    return max_iterations > 0 ? std::optional(max_iterations) : std::nullopt;
+  }
   double time_step = 0.01;  ///< h, s, dynamic only
   std::optional<AdaptiveStep> adaptive;
   double duration = 4.0;        ///< s, dynamic only

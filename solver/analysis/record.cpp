@@ -128,7 +128,7 @@ StaticOptions static_options(const Analysis& analysis) {
   options.tolerance = analysis.tolerance;
   options.method = analysis.method;
   options.law = analysis.friction_law;
-  options.max_iterations = analysis.max_iterations;
+  options.max_iterations = analysis.iteration_limit();
   return options;
 }
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "solver/analysis/cyclic_reduction.hpp"
-#include "solver/contact/methods/newton.hpp"
+#include "solver/contact/methods/method_table.hpp"
 #include "solver/contact/problem/kinematic_bound.hpp"
 
 namespace cupola {
@@ -62,10 +62,10 @@ StepOptions step_options(const StaticOptions& options, double h) {
   return step;
 }
 
-/// Whether the equilibrium may be asked for with one large h. Other methods than Newton's tell late that they
-/// will not get there, and so do the passes of Coulomb's law.
+/// Whether the equilibrium may be tried with one large h, because a failure shows early. Under Coulomb's law it
+/// shows late with every method.
 bool tries_at_once(const StaticOptions& options) {
-  return !options.may_move && options.method == ContactMethod::newton &&
+  return !options.may_move && method_traits(options.method).fails_fast &&
          options.law == FrictionLaw::associated;
 }
 
@@ -108,10 +108,10 @@ void solve_at(const Model& model, const State& start, const ContactSet& contacts
   const double fine = std::max(own * weight_over_load(model, acceleration), std::min(own, kRounding));
   trial->step = build_step_problem(model, start, contacts, memories, step_options(options, trial->h));
   trial->step_solution = {};
-  // An equilibrium that takes more iterations than most is easier found by degrees.
-  solve.max_iterations = options.max_iterations > 0 ? options.max_iterations
-                         : tries_at_once(options)   ? iterations_of_sound_problem(trial->step.problem)
-                                                    : 0;
+  solve.max_iterations = options.max_iterations;
+  // An equilibrium that takes more iterations than usual is found more easily in several smaller steps.
+  if (!solve.max_iterations && tries_at_once(options))
+    solve.max_iterations = usual_newton_iterations(trial->step.problem);
   for (const double tolerance : {std::max(fine, kCoarse), fine}) {
     solve.tolerance = tolerance;
     trial->solve = solve_problem(trial->step.problem, options.symmetry, solve, solver, &trial->step_solution);
@@ -289,7 +289,7 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
     if (std::optional<StaticSolution> moves = motion()) return *moves;
   }
   StaticSolution answer = raise_step(model, start, contacts, memories, options);
-  const bool budget = options.max_iterations > 0;  // it is used up
+  const bool budget = options.max_iterations.has_value();  // it is used up
   if (options.may_move || budget || answer.verdict == Verdict::equilibrium) return answer;
   if (coulomb) {
     if (std::optional<StaticSolution> moves = motion()) return *moves;

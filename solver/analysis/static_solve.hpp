@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "solver/analysis/cyclic_symmetry.hpp"
@@ -22,7 +23,7 @@ struct StaticOptions {
   /// Goes on raising h until the motion proves that nothing balances the loads (kinematic_bound.hpp).
   bool certify = false;
   const CyclicSymmetry* symmetry = nullptr;  ///< of the model; then one sector is solved for all
-  int max_iterations = 0;                    ///< of the method per trial of h; 0: its own limit
+  std::optional<int> max_iterations;         ///< of the method per trial of h; none: its own limit
   double time_advance = 0.0;                 ///< s by which loads and supports go on in the step
   std::function<void(const std::string&)> log = [](const std::string&) {};
 };

@@ -271,7 +271,7 @@ void threads() {
     const double start = wall_seconds();
     const int by_jacobi = block_jacobi_gradients(graph.pattern, H, p.v_star);
     const double jacobi = wall_seconds() - start;
-    BlockHierarchy hierarchy;
+    Multigrid hierarchy;
     if (!hierarchy.build(graph.pattern, H, rigid_motions(dome, graph, white.L))) return;
     const double built = wall_seconds() - start - jacobi;
     const int by_hierarchy =

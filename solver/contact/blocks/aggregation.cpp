@@ -37,11 +37,11 @@ class Strength {
 
 }  // namespace
 
-BlockGroups gather(const BlockRows& A, const RigidMotions& motions) {
+Aggregates gather(const BlockRows& A, const RigidMotions& motions) {
   constexpr int kFree = -1;
   const int n = A.num_rows();
   const Strength strength(A, motions);
-  BlockGroups result;
+  Aggregates result;
   std::vector<int>& group = result.group;
   group.assign(n, kFree);
   const auto for_strong = [&](int i, const auto& action) {

@@ -8,7 +8,7 @@
 namespace cupola {
 
 /// Neighbouring blocks gathered in groups, each of which moves as one on the coarser level.
-struct BlockGroups {
+struct Aggregates {
   std::vector<int> group;   ///< of each block (nb)
   std::vector<int> centre;  ///< block about which a group gathered (num_groups)
   int num_groups() const { return static_cast<int>(centre.size()); }
@@ -18,6 +18,6 @@ struct BlockGroups {
 /// Mandel and Brezina (1996): those all of whose strong neighbours are free take these as their group; what
 /// is left joins the group that holds it most strongly, and makes groups of its own where there is none. Of
 /// groups of bricks in a shell each has some seven members.
-BlockGroups gather(const BlockRows& A, const RigidMotions& motions);
+Aggregates gather(const BlockRows& A, const RigidMotions& motions);
 
 }  // namespace cupola

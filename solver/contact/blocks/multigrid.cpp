@@ -55,7 +55,7 @@ struct GroupMotions {
   RigidMotions of_groups;
 };
 
-std::optional<GroupMotions> group_motions(const RigidMotions& motions, const BlockGroups& groups) {
+std::optional<GroupMotions> group_motions(const RigidMotions& motions, const Aggregates& groups) {
   constexpr int kPasses = 2;  // the second repairs what the first lost to rounding
   const int n = static_cast<int>(groups.group.size()), num_groups = groups.num_groups();
   GroupMotions result;
@@ -157,8 +157,8 @@ void sweep_back(const SingleBlockRows& A, const std::vector<Mat6>& inverse, cons
 
 }  // namespace
 
-bool BlockHierarchy::build(const BlockPattern& pattern, const BlockMatrix& matrix,
-                           const RigidMotions& motions_of_blocks) {
+bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
+                      const RigidMotions& motions_of_blocks) {
   constexpr double kTouching = 2.0;  // bound of lambda: a contact touches two blocks
   constexpr double kGathered = 0.7;  // groups per block from which on a level is not worth its while
   levels_.clear();
@@ -167,7 +167,7 @@ bool BlockHierarchy::build(const BlockPattern& pattern, const BlockMatrix& matri
   while (A.num_rows() > kCoarsest) {
     Level level;
     level.inverse = inverse_diagonal(A);
-    const BlockGroups groups = gather(A, motions);
+    const Aggregates groups = gather(A, motions);
     if (level.inverse.empty() || groups.num_groups() > kGathered * A.num_rows()) return false;
     std::optional<GroupMotions> group = group_motions(motions, groups);
     if (!group) return false;
@@ -185,7 +185,7 @@ bool BlockHierarchy::build(const BlockPattern& pattern, const BlockMatrix& matri
   return !levels_.empty() && factorize_coarsest(A);
 }
 
-bool BlockHierarchy::factorize_coarsest(const BlockRows& A) {
+bool Multigrid::factorize_coarsest(const BlockRows& A) {
   BlockPattern pattern;
   BlockMatrix matrix;
   pattern.column_start = {0};
@@ -201,11 +201,11 @@ bool BlockHierarchy::factorize_coarsest(const BlockRows& A) {
   return coarsest_.factorize(pattern, matrix);
 }
 
-VecX BlockHierarchy::multiply(const VecX& x) const {
+VecX Multigrid::multiply(const VecX& x) const {
   return cupola::multiply(matrix_, x);
 }
 
-VecX BlockHierarchy::cycle(std::size_t index, const VecX& r) const {
+VecX Multigrid::cycle(std::size_t index, const VecX& r) const {
   if (index == levels_.size()) return coarsest_.solve(r);
   const Level& level = levels_[index];
   VecX x = sweep_forth(level.A, level.inverse, r);

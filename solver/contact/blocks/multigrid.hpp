@@ -22,7 +22,7 @@ namespace cupola {
 /// memory traffic. Vectors, and the matrix that the gradients multiply with, are in double precision.
 ///
 /// Works on num_threads() threads, with the same bits on any number: sweeps go piece by piece of fixed size.
-class BlockHierarchy {
+class Multigrid {
  public:
   /// False when the matrix is not positive definite in double precision, or blocks find no groups.
   [[nodiscard]] bool build(const BlockPattern& pattern, const BlockMatrix& matrix,

@@ -81,7 +81,7 @@ SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& optio
   options.validate();
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
-  const int max_iterations = options.max_iterations > 0 ? options.max_iterations : 2000;
+  const int max_iterations = options.max_iterations.value_or(2000);
 
   const WhitenedProblem white = whiten(problem);
   AlternatingDirections admm(white.problem);

@@ -77,7 +77,8 @@ Sparse CoulombSubproblem::jacobian(const VecX& w) const {
 }
 
 /// Semismooth Newton from `w`; true when |F| fell below `tolerance`.
-bool solve_coulomb_subproblem(const CoulombSubproblem& sub, double tolerance, VecX* w, SolveSummary* summary) {
+bool solve_coulomb_subproblem(const CoulombSubproblem& sub, double tolerance, VecX* w,
+                              SolveSummary* summary) {
   constexpr int kMaxIterations = 30;
   constexpr double kShortest = 1e-4;
   VecX F = sub.residual(*w);
@@ -106,7 +107,7 @@ bool solve_coulomb_subproblem(const CoulombSubproblem& sub, double tolerance, Ve
 
 SolveSummary solve_coulomb_newton(const ContactProblem& problem, const SolveOptions& options,
                                   ContactSolution* solution) {
-  constexpr int kMaxPasses = 200;
+  constexpr int kMaxOuterIterations = 200;
   constexpr double kLargestShare = 1e3, kSmallestShare = 1e-6;
   const double start = wall_seconds();
   options.validate();
@@ -122,8 +123,8 @@ SolveSummary solve_coulomb_newton(const ContactProblem& problem, const SolveOpti
   const double tolerance = 0.1 * options.tolerance * root_mean_mass(problem) * options.reference_speed;
   double share = 1.0, best = std::numeric_limits<double>::infinity();
   Residuals best_residuals;
-  while (best > 1.0 && summary.passes < kMaxPasses && share <= kLargestShare) {
-    ++summary.passes;
+  while (best > 1.0 && summary.outer_iterations < kMaxOuterIterations && share <= kLargestShare) {
+    ++summary.outer_iterations;
     sub.R = share * diagonal;
     VecX next = w;
     if (!solve_coulomb_subproblem(sub, tolerance, &next, &summary)) {
@@ -151,7 +152,7 @@ SolveSummary solve_coulomb_newton(const ContactProblem& problem, const SolveOpti
   summary.ending = best <= 1.0 ? SolveEnding::converged : SolveEnding::stalled;
   summary.message = fmt::format(
       "momentum residual {:.2e}, contact-law residual {:.2e}, tolerance {:.2e} after {} proximal points",
-      best_residuals.momentum, best_residuals.contact_law, options.tolerance, summary.passes);
+      best_residuals.momentum, best_residuals.contact_law, options.tolerance, summary.outer_iterations);
   return summary;
 }
 

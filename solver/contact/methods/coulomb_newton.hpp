@@ -15,7 +15,7 @@ namespace cupola {
 /// that repeats itself solves the given problem, whatever R >= 0. R is a share of each contact's own Delassus
 /// block; it grows tenfold where Newton fails and shrinks where it succeeds. The Jacobian is unsymmetric: one
 /// sparse LU of 6 nb unknowns per iteration, several times the cost of a convex solve's Cholesky. Hence the
-/// last resort where the convex passes of convex_passes.hpp, De Saxce's fixed point, run in circles.
+/// last resort where the convex passes of outer_iterations.hpp, De Saxce's fixed point, run in circles.
 ///
 /// The measure is that of the passes: worst of the residuals over what can be asked of it.
 SolveSummary solve_coulomb_newton(const ContactProblem& problem, const SolveOptions& options,

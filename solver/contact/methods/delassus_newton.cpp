@@ -66,7 +66,8 @@ Sparse DelassusSubproblem::jacobian(const VecX& gamma) const {
 }
 
 /// Semismooth Newton from `gamma`; true when |F| fell below `tolerance` |gamma|.
-bool solve_delassus_subproblem(const DelassusSubproblem& sub, double tolerance, VecX* gamma, SolveSummary* summary) {
+bool solve_delassus_subproblem(const DelassusSubproblem& sub, double tolerance, VecX* gamma,
+                               SolveSummary* summary) {
   constexpr int kMaxIterations = 30;
   VecX F = sub.residual(*gamma);
   for (int k = 0; k < kMaxIterations; ++k) {
@@ -113,8 +114,9 @@ SolveSummary solve_delassus(const DelassusProblem& problem, const DelassusOption
   double best_error = measure(x);
   double share = 1.0;
   const VecX diagonal = mean_diagonal(problem);
-  while (best_error > options.tolerance && summary.passes < options.max_passes && share <= kLargestShare) {
-    ++summary.passes;
+  while (best_error > options.tolerance && summary.outer_iterations < options.max_outer_iterations &&
+         share <= kLargestShare) {
+    ++summary.outer_iterations;
     const DelassusSubproblem sub{problem, options.law, share * diagonal, x};
     VecX next = x;
     if (!solve_delassus_subproblem(sub, std::min(1e-6, 1e-2 * best_error), &next, &summary)) {
@@ -136,7 +138,7 @@ SolveSummary solve_delassus(const DelassusProblem& problem, const DelassusOption
                    : std::isfinite(best_error) ? SolveEnding::stalled
                                                : SolveEnding::failed;
   summary.message = fmt::format("merit {:.2e} {} tolerance {:.2e} after {} passes", best_error,
-                                converged ? "<=" : ">", options.tolerance, summary.passes);
+                                converged ? "<=" : ">", options.tolerance, summary.outer_iterations);
   summary.time_seconds = wall_seconds() - start;
   return summary;
 }

@@ -8,7 +8,7 @@ namespace cupola {
 struct DelassusOptions {
   double tolerance = 1e-9;  ///< on the larger of fclib_merit and scaled_merit, > 0
   FrictionLaw law = FrictionLaw::coulomb;
-  int max_passes = 500;  ///< >= 1
+  int max_outer_iterations = 500;  ///< >= 1
 };
 
 /// Solves the local form, for problems that come without masses and geometry (FCLIB files). Proximal passes

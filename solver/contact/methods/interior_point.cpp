@@ -217,7 +217,7 @@ double InteriorPoint::mean_elastic_work() const {
 
 bool InteriorPoint::should_stop() {
   constexpr int kDefaultIterations = 80;
-  const int limit = options_.max_iterations > 0 ? options_.max_iterations : kDefaultIterations;
+  const int limit = options_.max_iterations.value_or(kDefaultIterations);
   const double relative = mean_complementarity() / mean_elastic_work();
   summary_.residual_history.push_back(relative);
   if (!std::isfinite(relative)) {

@@ -47,7 +47,7 @@ struct NewtonLoop {
 
   /// Gradients with a hierarchy, and passes over the blocks, cost less than a factorisation.
   bool many_blocks() const { return has_many_blocks(p) && !options.lag_factor; }
-  int max_iterations() const { return options.max_iterations > 0 ? options.max_iterations : 100; }
+  int max_iterations() const { return options.max_iterations.value_or(kNewtonIterations); }
   bool all_stick_start(VecX* w);
   bool solve(const BlockMatrix& H, const VecX& rhs, double forcing, VecX* x);
   double forcing(double residual, double last_residual) const;
@@ -71,7 +71,7 @@ bool NewtonLoop::all_stick_start(VecX* w) {
 
 bool NewtonLoop::solve(const BlockMatrix& H, const VecX& rhs, double forcing, VecX* x) {
   if (!motions.empty()) {
-    if (solver.solve_by_hierarchy(graph.pattern, H, motions, rhs, forcing, x, &summary)) return true;
+    if (solver.solve_by_multigrid(graph.pattern, H, motions, rhs, forcing, x, &summary)) return true;
     motions = {};  // nor will it serve later
   }
   return solver.solve_directly(graph.pattern, H, rhs, x, &summary);
@@ -200,7 +200,7 @@ bool has_many_blocks(const ContactProblem& problem) {
   return problem.num_blocks() >= kMany && !problem.plane;
 }
 
-int iterations_of_sound_problem(const ContactProblem& problem) {
+int usual_newton_iterations(const ContactProblem& problem) {
   return has_many_blocks(problem) ? 60 : 25;
 }
 

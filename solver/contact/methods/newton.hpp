@@ -7,13 +7,17 @@
 
 namespace cupola {
 
-/// So many blocks that directions by a hierarchy are ahead of those by a factor: a static solve is two thirds
-/// of the time at 11,568 blocks and two fifths at 82,048. Not in the plane, where factors are small.
+/// True if multigrid-preconditioned CG is faster than Cholesky: 10,000 blocks or more, not plane. With multigrid
+/// a static solve takes two thirds of the time at 11,568 blocks and two fifths at 82,048. In the plane factors
+/// are small.
 bool has_many_blocks(const ContactProblem& problem);
 
-/// Within so many iterations a sound problem is solved: 4 to 20 by factors, 10 to 30, each of which costs
-/// less, with a hierarchy.
-int iterations_of_sound_problem(const ContactProblem& problem);
+/// Default of max_iterations.
+constexpr int kNewtonIterations = 100;
+
+/// Iterations within which nearly every problem that converges has converged: 25, or 60 with multigrid. Typical
+/// are 4 to 20 with Cholesky factors, and 10 to 30 cheaper ones with multigrid.
+int usual_newton_iterations(const ContactProblem& problem);
 
 /// Primal semismooth Newton for the associated law, all E > 0. Minimises the cost of primal_cost.hpp in the
 /// whitened velocities w = L^T v:
@@ -25,14 +29,14 @@ int iterations_of_sound_problem(const ContactProblem& problem);
 /// full 6x6 blocks, and in starting cold from the solve in which every closed contact sticks.
 ///
 /// Of many blocks a factorisation costs far more than conjugate gradients with a hierarchy of groups of
-/// blocks (BlockHierarchy), to a tenth at first and to more digits as the iterations close in (Eisenstat and
+/// blocks (Multigrid), to a tenth at first and to more digits as the iterations close in (Eisenstat and
 /// Walker 1996); where they fail a factor is made after all. And after every step the blocks settle one by
 /// one (BlockDescent): of a million bricks a few that still change would otherwise hold up all others.
 ///
 /// The solver object keeps ordering and symbolic factor while the same pairs of blocks touch.
 ///
 /// `tolerance` bounds Residuals::momentum. 1e-10 leaves equilibrium exact to ten digits; below about 1e-13
-/// rounding is met first. Default of max_iterations: 100.
+/// rounding is met first.
 ///
 /// Endings: `converged`: momentum residual <= tolerance, and gamma = gamma(v) meets the contact law exactly;
 /// `stalled`: neither cost nor residual falls any more in double precision; `max_iterations`; `failed`: the

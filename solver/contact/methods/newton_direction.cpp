@@ -54,12 +54,12 @@ bool NewtonDirection::solve_lagged(const BlockPattern& pattern, const BlockMatri
                              summary) <= forcing;
 }
 
-bool NewtonDirection::solve_by_hierarchy(const BlockPattern& pattern, const BlockMatrix& H,
+bool NewtonDirection::solve_by_multigrid(const BlockPattern& pattern, const BlockMatrix& H,
                                          const RigidMotions& motions, const VecX& rhs, double forcing,
                                          VecX* d, SolveSummary* summary) {
   constexpr int kMaxGradients = 300;  // bricks of a dome take 15 to 90 for six digits
   constexpr double kOfUse = 0.1;
-  BlockHierarchy hierarchy;
+  Multigrid hierarchy;
   if (!hierarchy.build(pattern, H, motions)) return false;
   return conjugate_gradients([&](const VecX& x) { return hierarchy.multiply(x); },
                              [&](const VecX& r) { return hierarchy.cycle(r); }, rhs, forcing, kMaxGradients,

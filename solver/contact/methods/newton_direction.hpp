@@ -21,7 +21,7 @@ class NewtonDirection {
 
   /// The same with a hierarchy made for H. False where none can be made, or hundreds of gradients do not lead
   /// to a tenth.
-  [[nodiscard]] bool solve_by_hierarchy(const BlockPattern& pattern, const BlockMatrix& H,
+  [[nodiscard]] bool solve_by_multigrid(const BlockPattern& pattern, const BlockMatrix& H,
                                         const RigidMotions& motions, const VecX& rhs, double forcing, VecX* d,
                                         SolveSummary* summary);
 

@@ -45,7 +45,7 @@ SolveSummary solve_nsgs(const ContactProblem& problem, const SolveOptions& optio
   options.validate();
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
-  const int max_iterations = options.max_iterations > 0 ? options.max_iterations : 5000;
+  const int max_iterations = options.max_iterations.value_or(5000);
 
   const DualProblem dual = make_dual_problem(problem);
   const ContactProblem& p = dual.white.problem;

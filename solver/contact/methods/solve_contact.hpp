@@ -17,7 +17,7 @@ struct ContactSolverOptions : SolveOptions {
 /// calls what a method can use again (ordering, symbolic and numeric factor).
 ///
 /// newton: where the plain method does not converge within 25 iterations, interior point and Newton from
-/// there. Zero compliance (newton, interior_point) and the Coulomb law (all) go through convex_passes.hpp;
+/// there. Zero compliance (newton, interior_point) and the Coulomb law (all) go through outer_iterations.hpp;
 /// where the passes of the Coulomb law stall, coulomb_newton.hpp is asked.
 class ContactSolver {
  public:
@@ -25,12 +25,6 @@ class ContactSolver {
                      ContactSolution* solution);
 
  private:
-  SolveSummary solve_convex(const ContactProblem& problem, const SolveOptions& options, ContactMethod method,
-                            ContactSolution* solution);
-  SolveSummary newton_with_fall_back(const ContactProblem& problem, const SolveOptions& options,
-                                     ContactSolution* solution);
-  SolveSummary interior_point_then_newton(const ContactProblem& problem, const SolveOptions& options,
-                                          ContactSolution* solution);
   NewtonSolver newton_;
 };
 

@@ -35,7 +35,7 @@ SolveSummary solve_spg(const ContactProblem& problem, const SolveOptions& option
   options.validate();
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
-  const int max_iterations = options.max_iterations > 0 ? options.max_iterations : 5000;
+  const int max_iterations = options.max_iterations.value_or(5000);
 
   const DualProblem dual = make_dual_problem(problem);
   VecX gamma = first_impulses(dual, *solution);

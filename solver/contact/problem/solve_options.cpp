@@ -14,7 +14,7 @@ void SolveOptions::validate() const {
   };
   require(tolerance > 0.0 && tolerance < 1.0, "tolerance", tolerance, "in (0, 1)");
   require(reference_speed > 0.0 && std::isfinite(reference_speed), "reference_speed", reference_speed, "> 0");
-  require(max_iterations >= 0, "max_iterations", max_iterations, ">= 0");
+  require(max_iterations.value_or(1) >= 1, "max_iterations", max_iterations.value_or(1), ">= 1");
 }
 
 }  // namespace cupola

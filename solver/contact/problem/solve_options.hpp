@@ -1,18 +1,20 @@
 #pragma once
 
+#include <optional>
+
 namespace cupola {
 
-/// What every method is told.
+/// Options that every method takes.
 struct SolveOptions {
-  /// The stopping rule of the method is met when its measure <= tolerance, in (0, 1), no unit: the momentum
-  /// residual for newton, contact-law residual or certified force error for first-order methods (see each).
+  /// The method has converged when its measure <= tolerance. In (0, 1), no unit. The measure is the momentum
+  /// residual for newton and interior_point, and the certified force error or the contact-law residual for the
+  /// other methods (see the header of each).
   double tolerance = 1e-10;
-  double reference_speed =
-      0.0;                 ///< m/s, > 0: h |g|, the speed a free block picks up; makes residuals relative
-  int max_iterations = 0;  ///< >= 0; 0: the method's own default
-  /// Newton only: keep a factor from step to step as preconditioner of conjugate gradients and renew it when
-  /// they need more than 25 iterations. Faster while few contacts change state; the answer's accuracy is the
-  /// same.
+  /// m/s, > 0: h |g|, the speed that a free block gains in the step. Makes residuals relative.
+  double reference_speed = 0.0;
+  std::optional<int> max_iterations;  ///< >= 1; none: the default of the method
+  /// Newton only: keep the factor from step to step as the preconditioner of conjugate gradients, and renew it
+  /// when they need more than 25 iterations. Faster while few contacts change state, at the same accuracy.
   bool lag_factor = false;
 
   /// Throws std::invalid_argument with name, value and rule.

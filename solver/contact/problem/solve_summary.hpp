@@ -18,13 +18,18 @@ struct SolveSummary {
   SolveEnding ending = SolveEnding::failed;
   std::string message;  ///< the inequality that fired, with its numbers
   int iterations = 0;
-  int passes = 0;  ///< outer passes of convex_passes.hpp; 0 where one convex solve sufficed
+  int outer_iterations = 0;  ///< of outer_iterations.hpp; 0 when one convex solve was enough
   int factorizations = 0;
   int conjugate_gradients = 0;  ///< inner iterations of lagged Newton steps
   int line_search_evaluations = 0;
   std::vector<double> residual_history;  ///< the method's own stopping measure per iteration
   double time_seconds = 0.0;
   bool usable() const { return ending != SolveEnding::failed; }
+
+  /// Adds the counts of work of another solve: iterations, factorisations, conjugate gradients, evaluations.
+  void add_work(const SolveSummary& other);
+  /// This summary with the work, the time and the residual history of an earlier solve of the same problem.
+  SolveSummary after(const SolveSummary& earlier) const;
 };
 
 }  // namespace cupola

@@ -43,7 +43,7 @@ VecX some_vector(int num_blocks) {
   return x;
 }
 
-int gradients_to_six_digits(const System& s, const BlockHierarchy& hierarchy) {
+int gradients_to_six_digits(const System& s, const Multigrid& hierarchy) {
   constexpr int kMost = 500;
   VecX r = s.white.problem.v_star;
   VecX z = hierarchy.cycle(r), p = z;
@@ -102,10 +102,10 @@ TEST(RigidMotions, AreNotMadeUpWhereLeversAreNone) {
 
 // Under gravity. The bound is twice what was found (10 and 11); motions that neighbours do not share take ten
 // times as many (117 and 238), so the count tells whether groups keep theirs.
-TEST(BlockHierarchy, TakesAFewGradientsWhateverTheNumberOfBlocks) {
+TEST(Multigrid, TakesAFewGradientsWhateverTheNumberOfBlocks) {
   for (const int refine : {1, 2}) {
     System s = system_of(scenes::dome({.rings = 40 * refine, .blocks_per_ring = 40 * refine}, 100.0, kJoint));
-    BlockHierarchy hierarchy;
+    Multigrid hierarchy;
     ASSERT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
     EXPECT_LE(gradients_to_six_digits(s, hierarchy), 22) << refine;
     for (std::size_t k = 0; k < s.motions.motion.size(); ++k) {
@@ -120,9 +120,9 @@ TEST(BlockHierarchy, TakesAFewGradientsWhateverTheNumberOfBlocks) {
   }
 }
 
-TEST(BlockHierarchy, IsSymmetricAndPositive) {
+TEST(Multigrid, IsSymmetricAndPositive) {
   const System s = system_of(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
-  BlockHierarchy hierarchy;
+  Multigrid hierarchy;
   ASSERT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
   const VecX x = some_vector(s.problem.num_blocks()), y = x.reverse();
   const VecX Bx = hierarchy.cycle(x), By = hierarchy.cycle(y);
@@ -132,13 +132,13 @@ TEST(BlockHierarchy, IsSymmetricAndPositive) {
 }
 
 // 6,400 blocks: two pieces of a sweep, and products that are worth a second thread.
-TEST(BlockHierarchy, SameBitsOnAnyNumberOfThreads) {
+TEST(Multigrid, SameBitsOnAnyNumberOfThreads) {
   const System s = system_of(scenes::dome({.rings = 80, .blocks_per_ring = 80}, 100.0, kJoint));
   const VecX x = some_vector(s.problem.num_blocks());
   VecX expected;
   for (const int threads : {1, 2, 3}) {
     set_num_threads(threads);
-    BlockHierarchy hierarchy;
+    Multigrid hierarchy;
     ASSERT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
     const VecX y = hierarchy.cycle(x);
     if (threads == 1) expected = y;
@@ -147,9 +147,9 @@ TEST(BlockHierarchy, SameBitsOnAnyNumberOfThreads) {
   set_num_threads(1);
 }
 
-TEST(BlockHierarchy, RefusesWhatIsNotPositiveDefiniteOrNoNumber) {
+TEST(Multigrid, RefusesWhatIsNotPositiveDefiniteOrNoNumber) {
   System s = system_of(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
-  BlockHierarchy hierarchy;
+  Multigrid hierarchy;
   const Mat6 sound = s.H.diagonal[9];
   s.H.diagonal[9] = -sound;
   EXPECT_FALSE(hierarchy.build(s.graph.pattern, s.H, s.motions));
@@ -163,7 +163,7 @@ TEST(NewtonDirection, OfNothingIsNothing) {
   const System s = system_of(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
   VecX d;
   SolveSummary summary;
-  ASSERT_TRUE(NewtonDirection().solve_by_hierarchy(
+  ASSERT_TRUE(NewtonDirection().solve_by_multigrid(
       s.graph.pattern, s.H, s.motions, VecX::Zero(6 * s.problem.num_blocks()), 0.1, &d, &summary));
   EXPECT_TRUE(d.isZero());
   EXPECT_EQ(summary.conjugate_gradients, 0);

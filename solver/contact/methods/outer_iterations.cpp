@@ -1,4 +1,4 @@
-#include "solver/contact/methods/convex_passes.hpp"
+#include "solver/contact/methods/outer_iterations.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,28 +42,21 @@ VecX shift_at(const ContactProblem& p, const ContactSolution& x, const VecX& R, 
   return shift;
 }
 
-void add_counts(const SolveSummary& pass, SolveSummary* total) {
-  total->iterations += pass.iterations;
-  total->factorizations += pass.factorizations;
-  total->conjugate_gradients += pass.conjugate_gradients;
-  total->line_search_evaluations += pass.line_search_evaluations;
-}
-
 /// State of the passes.
-class Passes {
+class OuterIteration {
  public:
-  Passes(const ContactProblem& problem, const SolveOptions& options, const PassOptions& passes,
-         const ContactSolution& guess)
+  OuterIteration(const ContactProblem& problem, const SolveOptions& options, const OuterOptions& outer,
+                 const ContactSolution& guess)
       : problem_(problem),
         options_(options),
-        passes_(passes),
+        outer_(outer),
         convex_(problem),
         x_(guess),
-        accelerated_(passes.law == FrictionLaw::coulomb || smallest_compliance(problem) > 0.0),
+        accelerated_(outer.law == FrictionLaw::coulomb || smallest_compliance(problem) > 0.0),
         anderson_(kDepth) {
     if (x_.gamma.size() != problem.b.size()) x_.gamma = VecX::Zero(problem.b.size());
     if (x_.v.size() != problem.v_star.size()) x_.v = VecX(0);
-    set_share(passes.proximal_share);
+    set_share(outer.proximal_share);
   }
   void run(const ConvexSolve& solve, ContactSolution* best_solution, SolveSummary* summary);
 
@@ -77,7 +70,7 @@ class Passes {
 
   const ContactProblem& problem_;
   const SolveOptions& options_;
-  const PassOptions& passes_;
+  const OuterOptions& outer_;
   ContactProblem convex_;  ///< with E' and b'
   ContactSolution x_;
   const bool accelerated_;
@@ -86,16 +79,16 @@ class Passes {
   VecX R_, shift_;
 };
 
-void Passes::set_share(double share) {
+void OuterIteration::set_share(double share) {
   share_ = share;
   R_ = proximal_compliance(problem_, share);
   convex_.E = problem_.E + R_;
-  shift_ = x_.v.size() > 0 ? shift_at(problem_, x_, R_, passes_.law) : VecX(-R_.cwiseProduct(x_.gamma));
+  shift_ = x_.v.size() > 0 ? shift_at(problem_, x_, R_, outer_.law) : VecX(-R_.cwiseProduct(x_.gamma));
   anderson_.forget();
 }
 
 /// A smaller R contracts faster where impulses are hardly determined; a larger one leaves them more digits.
-void Passes::adapt_share(const Residuals& residuals, double error, double last_error) {
+void OuterIteration::adapt_share(const Residuals& residuals, double error, double last_error) {
   constexpr double kSmallest = 1e-9, kLargest = 1e-2;
   constexpr double kSlow = 0.2;  // a pass that gains less than this factor is not worth its solve
   if (share_ == 0.0) return;
@@ -107,25 +100,25 @@ void Passes::adapt_share(const Residuals& residuals, double error, double last_e
   }
 }
 
-void Passes::run(const ConvexSolve& solve, ContactSolution* best_solution, SolveSummary* summary) {
+void OuterIteration::run(const ConvexSolve& solve, ContactSolution* best_solution, SolveSummary* summary) {
   SolveOptions inner = options_;
   inner.tolerance = 0.5 * options_.tolerance;
   double best = std::numeric_limits<double>::infinity(), last = best;
   Residuals best_residuals;
   int best_pass = 0, pass = 0;
-  while (best > 1.0 && pass < passes_.max_passes && pass - best_pass < kPatience) {
+  while (best > 1.0 && pass < outer_.max_outer_iterations && pass - best_pass < kPatience) {
     // 1. A convex problem, solved
-    summary->passes = ++pass;
+    summary->outer_iterations = ++pass;
     convex_.b = problem_.b + shift_;
     const SolveSummary solved = solve(convex_, inner, &x_);
-    add_counts(solved, summary);
+    summary->add_work(solved);
     if (!solved.usable()) {
       summary->message = fmt::format("pass {}: {}", pass, solved.message);
       break;
     }
 
     // 2. What it is worth on the given problem
-    const Residuals residuals = compute_residuals(problem_, x_, options_.reference_speed, passes_.law);
+    const Residuals residuals = compute_residuals(problem_, x_, options_.reference_speed, outer_.law);
     summary->residual_history.push_back(std::max(residuals.momentum, residuals.contact_law));
     const double error = excess(residuals, options_.tolerance);
     if (error < best) {
@@ -137,16 +130,16 @@ void Passes::run(const ConvexSolve& solve, ContactSolution* best_solution, Solve
 
     // 3. The next one. The proximal map of rigid contacts contracts by itself. De Saxce's is worth
     // accelerating, and so is the proximal one where compliance decides between impulses that balance.
-    const VecX next = shift_at(problem_, x_, R_, passes_.law);
+    const VecX next = shift_at(problem_, x_, R_, outer_.law);
     if ((pass - best_pass) % kRetry == kRetry - 1) anderson_.forget();
     shift_ = accelerated_ ? anderson_.next(shift_, next) : next;
     adapt_share(residuals, error, last);
     last = error;
   }
   if (best_pass == 0) return;  // failed in the first pass
-  summary->ending = best <= 1.0                  ? SolveEnding::converged
-                    : pass >= passes_.max_passes ? SolveEnding::max_iterations
-                                                 : SolveEnding::stalled;
+  summary->ending = best <= 1.0                           ? SolveEnding::converged
+                    : pass >= outer_.max_outer_iterations ? SolveEnding::max_iterations
+                                                          : SolveEnding::stalled;
   summary->message =
       fmt::format("momentum residual {:.2e}, contact-law residual {:.2e}, tolerance {:.2e} after {} passes",
                   best_residuals.momentum, best_residuals.contact_law, options_.tolerance, pass);
@@ -154,13 +147,14 @@ void Passes::run(const ConvexSolve& solve, ContactSolution* best_solution, Solve
 
 }  // namespace
 
-SolveSummary solve_in_passes(const ContactProblem& problem, const SolveOptions& options,
-                             const PassOptions& passes, const ConvexSolve& solve, ContactSolution* solution) {
+SolveSummary solve_by_outer_iterations(const ContactProblem& problem, const SolveOptions& options,
+                                       const OuterOptions& outer, const ConvexSolve& solve,
+                                       ContactSolution* solution) {
   const double start = wall_seconds();
   options.validate();
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
-  Passes(problem, options, passes, *solution).run(solve, solution, &summary);
+  OuterIteration(problem, options, outer, *solution).run(solve, solution, &summary);
   summary.time_seconds = wall_seconds() - start;
   return summary;
 }

@@ -13,13 +13,13 @@ namespace cupola {
 using ConvexSolve = std::function<SolveSummary(const ContactProblem& problem, const SolveOptions& options,
                                                ContactSolution* solution)>;
 
-struct PassOptions {
+struct OuterOptions {
   FrictionLaw law = FrictionLaw::associated;
   /// Contacts whose compliance is below this share of their own Delassus block (a third of trace N_ii) get
   /// the difference as a proximal term R, >= 0; 0 adds none. This is the share of the first pass: it shrinks
   /// where passes gain little and grows where rounding of D^T v / R is felt.
   double proximal_share = 0.0;
-  int max_passes = 300;  ///< >= 1
+  int max_outer_iterations = 300;  ///< >= 1
 };
 
 /// What the convex methods cannot take at once, by passes over convex problems that they can:
@@ -38,7 +38,8 @@ struct PassOptions {
 /// in general not unique; the answer is the one near the guess, and the message says so. For the Coulomb law
 /// there may be no answer (mu
 /// >~ 1); then `stalled`.
-SolveSummary solve_in_passes(const ContactProblem& problem, const SolveOptions& options,
-                             const PassOptions& passes, const ConvexSolve& solve, ContactSolution* solution);
+SolveSummary solve_by_outer_iterations(const ContactProblem& problem, const SolveOptions& options,
+                                       const OuterOptions& outer, const ConvexSolve& solve,
+                                       ContactSolution* solution);
 
 }  // namespace cupola
