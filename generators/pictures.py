@@ -99,16 +99,17 @@ def picture(source, direction, name, flat=False):
     Delete(view)
 
 
-assembly_file, prefix, heights = sys.argv[1], sys.argv[2], [float(h) for h in sys.argv[3:]]
-model = XMLUnstructuredGridReader(FileName=[assembly_file])
-model.UpdatePipeline()
-picture(model, (-0.5, -1.0, 0.45), "outside")
-bounds = model.GetDataInformation().GetBounds()
-half = Clip(Input=model, ClipType="Plane", Crinkleclip=1, Invert=0)
-half.ClipType.Origin, half.ClipType.Normal = [0, 0.5 * (bounds[2] + bounds[3]), 0], [0, 1, 0]
-picture(half, (0.15, -1.0, 0.25), "inside")
-masonry = cells(model, "ring", 0, 1e9)
-for height in heights:
-    cut = Slice(Input=masonry, SliceType="Plane", Triangulatetheslice=0)
-    cut.SliceType.Origin, cut.SliceType.Normal = [0, 0, height], [0, 0, 1]
-    picture(cut, (0.0, 0.0, 1.0), "section_%g" % height, flat=True)
+if __name__ == "__main__":
+    assembly_file, prefix, heights = sys.argv[1], sys.argv[2], [float(h) for h in sys.argv[3:]]
+    model = XMLUnstructuredGridReader(FileName=[assembly_file])
+    model.UpdatePipeline()
+    picture(model, (-0.5, -1.0, 0.45), "outside")
+    bounds = model.GetDataInformation().GetBounds()
+    half = Clip(Input=model, ClipType="Plane", Crinkleclip=1, Invert=0)
+    half.ClipType.Origin, half.ClipType.Normal = [0, 0.5 * (bounds[2] + bounds[3]), 0], [0, 1, 0]
+    picture(half, (0.15, -1.0, 0.25), "inside")
+    masonry = cells(model, "ring", 0, 1e9)
+    for height in heights:
+        cut = Slice(Input=masonry, SliceType="Plane", Triangulatetheslice=0)
+        cut.SliceType.Origin, cut.SliceType.Normal = [0, 0, height], [0, 0, 1]
+        picture(cut, (0.0, 0.0, 1.0), "section_%g" % height, flat=True)
