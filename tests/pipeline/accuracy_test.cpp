@@ -103,7 +103,7 @@ TEST(WrenchError, IsZeroBetweenASolutionAndItself) {
 /// Every case of the paper's statics.
 class PresetPromiseSlow : public ::testing::TestWithParam<const char*> {};
 
-/// Documented in the README, "Speed against accuracy".
+/// Documented in docs/accuracy.md.
 constexpr double kStandardError = 1e-4;
 
 TEST_P(PresetPromiseSlow, StandardIsWithinItsDocumentedWrenchError) {

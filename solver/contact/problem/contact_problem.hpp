@@ -19,7 +19,7 @@ using Mat3 = Eigen::Matrix3d;
 ///
 /// Y is the product of the cones |gamma_t| <= mu gamma_n. The paper writes N = D^T M^-1 D - E with
 /// E = -K^-1/h^2; here E is positive and added. This is the convex, associated law; under the Coulomb law
-/// the dual-cone variable carries mu |u_t| in its normal component (De Saxce), see friction_law.hpp.
+/// the dual-cone variable carries mu |u_t| in its normal component (De Saxce), see outer_iterations.hpp.
 ///
 /// Conventions: six unknowns per free block, linear velocity then angular velocity, world axes, about the
 /// centroid. Three rows per contact, normal first, then two tangents. The normal points from block a to
