@@ -156,7 +156,7 @@ ExitCode analyse(const AnalyseRequest& request) {
   std::filesystem::remove(in_folder(folder, "summary.json"));
   std::vector<Table> tables = result_tables(e);
   std::optional<Table> stages;
-  if (e.summary.analysis == "staged")
+  if (e.summary.analysis == AnalysisType::staged)
     if (const std::string text = readable_text(results, "stages.csv", &e); !text.empty())
       stages = tables.emplace(tables.begin(), stage_table(e, parse_csv(text, "stages.csv")))[0];
   for (const Table& table : tables)

@@ -64,8 +64,8 @@ void print_summary(const Summary& summary) {
       summary.equilibrium_residual, summary.contact_law_residual, summary.friction_cone_violation,
       summary.certified_force_error ? fmt::format("{:.2e}", *summary.certified_force_error)
                                     : std::string("not certified"));
-  fmt::print("  law: {}, tangential spring: {}; {} of {} contacts slip\n", summary.friction_law,
-             summary.tangential, summary.slipping_contacts, summary.contacts);
+  fmt::print("  law: {}, tangential spring: {}; {} of {} contacts slip\n", to_string(summary.friction_law),
+             to_string(summary.tangential), summary.slipping_contacts, summary.contacts);
   fmt::print("  solve {:.3f} s, total {:.3f} s, peak memory {:.0f} MB\n", summary.solve_time_seconds,
              summary.wall_time_seconds, static_cast<double>(summary.peak_memory_bytes) / 1e6);
 }

@@ -9,9 +9,6 @@
 
 namespace cupola {
 
-enum class AnalysisType { static_, dynamic, staged, limit };
-enum class TangentialSpring { memory, literal };
-
 /// Time step that follows the motion. The error of implicit Euler in one step is taken as h |v_new - v|/2 of
 /// the fastest block.
 struct AdaptiveStep {
@@ -39,6 +36,9 @@ struct LimitSearch {
   Eigen::Vector3d direction{1.0, 0.0, 0.0};  ///< of tilt and acceleration, horizontal part of the pull
   std::optional<RingJoints> joints;          ///< friction: only these joints; none: all
 };
+constexpr auto enum_names(LimitSearch::Parameter) {
+  return std::array{"friction", "tilt", "acceleration", "load", "thickness", "spread"};
+}
 
 /// Ring after ring is laid; the bed of the last ring has the friction of fresh mortar.
 struct StagedConstruction {
@@ -58,6 +58,9 @@ struct Accuracy {
   /// Static analysis: relative error of the bed-joint wrenches, rms, to be certified; in (0, 1).
   std::optional<double> wrench_error;
 };
+constexpr auto enum_names(Accuracy::Preset) {
+  return std::array{"custom", "draft", "standard", "reference"};
+}
 
 /// Islands of blocks that have come to rest leave the problem until something pushes them.
 struct Sleep {
@@ -102,5 +105,8 @@ struct Analysis {
   LimitSearch limit;
   StagedConstruction staged;
 };
+constexpr auto enum_names(Analysis::Start) {
+  return std::array{"automatic", "rest", "static"};
+}
 
 }  // namespace cupola

@@ -37,6 +37,9 @@ struct ContactDetection {
 
   std::string file;  ///< contact points from elsewhere, for method `file`
 };
+constexpr auto enum_names(ContactDetection::Method) {
+  return std::array{"face_clipping", "perturbed_gjk", "file"};
+}
 
 struct Output {
   double frames_every = 0.1;  ///< s between frames of a dynamic analysis, > 0

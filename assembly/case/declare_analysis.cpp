@@ -30,12 +30,6 @@ void declare_limit(Section& s, LimitSearch& limit) {
   using Parameter = LimitSearch::Parameter;
   s.choice(
       "parameter", limit.parameter,
-      {{"friction", Parameter::friction},
-       {"tilt", Parameter::tilt},
-       {"acceleration", Parameter::acceleration},
-       {"load", Parameter::load},
-       {"thickness", Parameter::thickness},
-       {"spread", Parameter::spread}},
       "what is varied: a friction coefficient; tilt of gravity (deg); horizontal acceleration (g); factor on "
       "loads.forces and loads.faces; factor on the thickness about the middle surface; factor on "
       "supports.moves");
@@ -90,11 +84,9 @@ double preset_tolerance(Accuracy::Preset preset, AnalysisType type) {
 void declare_accuracy(Section& s, Analysis& analysis) {
   using enum Accuracy::Preset;
   const NumberRule rule{.above = 0, .max = 0.1};
-  s.choice_or_section(
-      "accuracy", analysis.accuracy.preset,
-      {{"custom", custom}, {"draft", draft}, {"standard", standard}, {"reference", reference}},
-      analysis.accuracy, "how good the answer shall be; all but custom settle the tolerance",
-      declare_wrench_error);
+  s.choice_or_section("accuracy", analysis.accuracy.preset, analysis.accuracy,
+                      "how good the answer shall be; all but custom settle the tolerance",
+                      declare_wrench_error);
   if (analysis.accuracy.preset == custom) {
     s.number("tolerance", analysis.tolerance, rule,
              "static: largest equilibrium residual; dynamic: relative momentum residual of a step");
@@ -108,21 +100,9 @@ void declare_accuracy(Section& s, Analysis& analysis) {
 
 void declare_analysis(Section& s, Analysis& analysis) {
   s.choice("type", analysis.type,
-           {{"static", AnalysisType::static_},
-            {"dynamic", AnalysisType::dynamic},
-            {"staged", AnalysisType::staged},
-            {"limit", AnalysisType::limit}},
            "equilibrium; motion in time; construction ring by ring; search of a critical value");
-  s.choice("method", analysis.method,
-           {{"newton", ContactMethod::newton},
-            {"interior_point", ContactMethod::interior_point},
-            {"spg", ContactMethod::spg},
-            {"apgd", ContactMethod::apgd},
-            {"nsgs", ContactMethod::nsgs},
-            {"admm", ContactMethod::admm}},
-           "solver of the contact problem");
+  s.choice("method", analysis.method, "solver of the contact problem");
   s.choice("friction_law", analysis.friction_law,
-           {{"associated", FrictionLaw::associated}, {"coulomb", FrictionLaw::coulomb}},
            "associated: sliding dilates (convex problem); coulomb: it does not");
   s.integer("cyclic_sectors", analysis.cyclic_sectors, {.min = 1, .max = 100000},
             "static: so many equal sectors around the z axis, of which one is solved; 1: the whole model");
@@ -137,13 +117,9 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.number("recovery_speed", analysis.recovery_speed, {.unit = "m/s", .above = 0},
            "fastest recovery of penetration that no compliance explains");
   s.choice("tangential", analysis.tangential,
-           {{"memory", TangentialSpring::memory}, {"literal", TangentialSpring::literal}},
            "dynamic: spring that remembers its slip, or the paper's scheme that creeps");
   s.section("thresholds", analysis.thresholds, "limits that name the status", declare_thresholds);
   s.choice("start", analysis.start,
-           {{"automatic", Analysis::Start::automatic},
-            {"rest", Analysis::Start::rest},
-            {"static", Analysis::Start::static_}},
            "dynamic: unloaded, or in equilibrium; automatic: static under base motion or varying friction");
   s.section("stop", analysis.stop, "dynamic: when to end before the duration", declare_stop);
   s.section("limit", analysis.limit, "limit: what is searched", declare_limit);

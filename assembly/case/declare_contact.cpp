@@ -5,7 +5,6 @@ namespace cupola {
 void declare_contact(Section& s, ContactDetection& contact) {
   using enum ContactDetection::Method;
   s.choice("method", contact.method,
-           {{"face_clipping", face_clipping}, {"perturbed_gjk", perturbed_gjk}, {"file", file}},
            "overlap polygons of opposed faces; the paper's GJK under small rotations; or points from a file");
   s.number("margin", contact.margin, {.unit = "m", .min = 0},
            "faces up to this far apart make contacts, and perturbed_gjk rounds edges by it; 0: 1 % of the "

@@ -30,12 +30,9 @@ void declare_octagonal_vault(Section& s, OctagonalVault& vault) {
   s.number("thickness", vault.thickness, {.unit = "m", .above = 0}, "thickness of the shell; see extrados");
   s.number("crown_angle_deg", vault.crown_angle_deg, {.unit = "deg", .above = 0, .below = 90},
            "angle of the last bed at the corner");
-  s.choice(
-      "construction", vault.construction,
-      {{"circular", circular}, {"planar_radial", planar_radial}, {"planar_horizontal", planar_horizontal}},
-      "beds on cones about the axis, in planes normal to each sail, or level");
+  s.choice("construction", vault.construction,
+           "beds on cones about the axis, in planes normal to each sail, or level");
   s.choice("extrados", vault.extrados,
-           {{"normal", normal}, {"corner", corner}, {"midsail", midsail}, {"bed", bed}},
            "where the thickness is measured: normal to the sail, on the corner or mid-sail section, along "
            "level beds");
 }
@@ -115,16 +112,9 @@ void declare_herringbone_bond(Section& s, HerringboneBond& bond) {
             "height of an upright block");
   s.integer("verticals_per_block", bond.verticals_per_block, {.min = 1, .max = 1000},
             "whole block's width over an upright block's");
-  s.choice("path", bond.path,
-           {{"spiral", HerringboneBond::Path::spiral}, {"meridian", HerringboneBond::Path::meridian}},
-           "uprights climb in spirals or straight up");
-  s.choice("chirality", bond.chirality,
-           {{"right", HerringboneBond::Chirality::right}, {"left", HerringboneBond::Chirality::left}},
-           "right climbs counter-clockwise seen from above");
+  s.choice("path", bond.path, "uprights climb in spirals or straight up");
+  s.choice("chirality", bond.chirality, "right climbs counter-clockwise seen from above");
   s.choice("beside", bond.beside,
-           {{"stepped", HerringboneBond::Beside::stepped},
-            {"half", HerringboneBond::Beside::half},
-            {"aligned", HerringboneBond::Beside::aligned}},
            "head joints of the flat blocks: step with the spirals, half bond, or on meridians");
   s.optional_number("phase", bond.phase, {.min = 0, .below = 1}, kNoPhase, kPhase);
   s.integer("slices_per_vertical", bond.slices_per_vertical, {.min = 1, .max = 64},
@@ -168,17 +158,9 @@ void declare_import(Section& s, ImportedBlocks& import) {
   using enum ImportedBlocks::Format;
   s.file("file", import.path, "blocks to import", true);
   s.choice("format", import.format,
-           {{"automatic", automatic},
-            {"obj", obj},
-            {"off", off},
-            {"stl", stl},
-            {"ply", ply},
-            {"compas", compas},
-            {"bricks", bricks}},
            "of the file; automatic goes by its ending (.json: compas, .csv and .txt: bricks)");
   s.number("metres_per_unit", import.metres_per_unit, {.unit = "m", .above = 0}, "length of the file's unit");
-  s.choice("up", import.up, {{"z", ImportedBlocks::UpAxis::z}, {"y", ImportedBlocks::UpAxis::y}},
-           "the file's upward axis");
+  s.choice("up", import.up, "the file's upward axis");
   s.texts("supports", import.supports, "names of the blocks that are fixed");
   s.flag("flagged_supports", import.flagged_supports, "fix the blocks that the file marks as fixed");
   s.optional_number("fixed_below", import.fixed_below, {.unit = "m"}, "none",

@@ -6,9 +6,8 @@ namespace {
 constexpr double kStandardGravity = 9.81;  // m/s2, as Material::density
 
 void declare_compliance(Section& s, Compliance& compliance) {
-  s.choice("per", compliance.per, {{"point", Compliance::Per::point}, {"area", Compliance::Per::area}},
-           "what the compliance belongs to: each contact point (m/N) or the joint's area (m3/N)",
-           {.required = true});
+  s.required_choice("per", compliance.per,
+                    "what the compliance belongs to: each contact point (m/N) or the joint's area (m3/N)");
   s.number("normal", compliance.normal, {.unit = "m/N, m3/N", .min = 0}, "yield along the normal");
   s.number("tangential", compliance.tangential, {.unit = "m/N, m3/N", .min = 0}, "yield along the joint");
 }
@@ -33,12 +32,6 @@ void declare_joint_group(Section& s, RingJoints& joints) {
   joints.to = joints.from;
   s.integer("to", joints.to, {.min = 0}, "highest ring");
   s.choice("kind", joints.sort,
-           {{"all", RingJoints::Sort::all},
-            {"bed", RingJoints::Sort::bed},
-            {"head", RingJoints::Sort::head},
-            {"herringbone", RingJoints::Sort::herringbone},
-            {"base", RingJoints::Sort::base},
-            {"laid_bed", RingJoints::Sort::laid_bed}},
            "which joints of these rings; laid_bed: every bed, also on supports and of herringbone blocks");
   s.rule(joints.from <= joints.to, "to", "must be >= from");
 }

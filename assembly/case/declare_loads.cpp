@@ -16,11 +16,7 @@ void declare_block_force(Section& s, BlockForce& load) {
 }
 
 void declare_face_load(Section& s, FaceLoad& load) {
-  s.choice("kind", load.faces,
-           {{"extrados", FaceKind::extrados},
-            {"intrados", FaceKind::intrados},
-            {"top", FaceKind::top},
-            {"free", FaceKind::free}},
+  s.choice("kind", load.faces, {FaceKind::extrados, FaceKind::intrados, FaceKind::top, FaceKind::free},
            "loaded faces");
   s.integer("from_ring", load.from_ring, {.min = 0}, "lowest ring");
   s.integer("to_ring", load.to_ring, {.min = 0}, "highest ring");

@@ -21,10 +21,7 @@ void declare_chain(Section& s, ChainTie& chain) {
 
 void declare_base_motion(Section& s, BaseMotion& motion) {
   s.file("file", motion.file, "two columns: time (s) and value (m or m/s2)");
-  s.choice("quantity", motion.quantity,
-           {{"displacement", BaseMotion::Quantity::displacement},
-            {"acceleration", BaseMotion::Quantity::acceleration}},
-           "what the file holds");
+  s.choice("quantity", motion.quantity, "what the file holds");
   s.vector3("direction", motion.direction, {}, "displacement per unit of the file");
   s.rule(!motion.file.empty(), "file", "must be given");
 }

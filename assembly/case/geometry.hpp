@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 
+#include "assembly/base/named_enum.hpp"
+
 namespace cupola {
 
 /// What a kind of surface is, for code that must not know the kinds: the reader, the stereotomy and the
@@ -66,6 +68,12 @@ struct OctagonalVault {
   double radius() const { return radius_ratio * span; }         ///< R, m
   double center_offset() const { return radius() - span / 2; }  ///< e, m
 };
+constexpr auto enum_names(OctagonalVault::Construction) {
+  return std::array{"circular", "planar_radial", "planar_horizontal"};
+}
+constexpr auto enum_names(OctagonalVault::Extrados) {
+  return std::array{"normal", "corner", "midsail", "bed"};
+}
 
 /// Barrel arch of two arcs with radial joints, from one springing over the crown (x = 0) to the other; its
 /// axis is y. A pointed arch (radius_ratio > 0.5) has a joint in the crown plane.
@@ -137,6 +145,15 @@ struct HerringboneBond {
   int slices_per_vertical = 1;       ///< azimuthal cells per vertical
   int refine = 1;                    ///< >= 1; each spiral becomes so many side by side in its band
 };
+constexpr auto enum_names(HerringboneBond::Chirality) {
+  return std::array{"right", "left"};
+}
+constexpr auto enum_names(HerringboneBond::Path) {
+  return std::array{"spiral", "meridian"};
+}
+constexpr auto enum_names(HerringboneBond::Beside) {
+  return std::array{"stepped", "half", "aligned"};
+}
 
 /// Whole blocks of unequal width, chosen ring by ring (dynamic programming) so that head joints avoid the
 /// joints of the ring below and the corners of the vault.
@@ -189,6 +206,12 @@ struct ImportedBlocks {
   double most_overlap = 1e-3;  ///< m: deeper overlaps of two blocks are an error, >= 0
   double joint_gap = 1e-3;     ///< m: faces nearer than this count as a joint in the report, >= 0
 };
+constexpr auto enum_names(ImportedBlocks::Format) {
+  return std::array{"automatic", "obj", "off", "stl", "ply", "compas", "bricks"};
+}
+constexpr auto enum_names(ImportedBlocks::UpAxis) {
+  return std::array{"z", "y"};
+}
 
 struct Geometry {
   std::optional<ImportedBlocks> imported;  ///< then surface, bond and stage mean nothing

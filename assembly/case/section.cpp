@@ -287,10 +287,12 @@ void Section::quantity(double& value, const std::vector<UnitName>& names) {
   record(names.front().key, format_number(value));
 }
 
-int Section::choose(const std::string& key, const std::vector<std::string>& names, int current,
-                    const std::string& meaning, const ChoiceRule& rule) {
-  document(key, joined(names), {}, rule.required ? "required" : names[static_cast<size_t>(current)], meaning);
-  int chosen = current;
+int Section::choose(const std::string& key, const std::vector<std::string>& names, int default_index,
+                    const std::string& meaning) {
+  const bool required = default_index < 0;
+  document(key, joined(names), {}, required ? "required" : names[static_cast<size_t>(default_index)],
+           meaning);
+  int chosen = default_index;
   if (const CaseNode* node = look_up_scalar(key)) {
     const auto found = std::find(names.begin(), names.end(), node->text);
     if (found == names.end()) {
@@ -299,7 +301,7 @@ int Section::choose(const std::string& key, const std::vector<std::string>& name
            (near.empty() ? "" : fmt::format("did you mean {}? ", near)) + "must be one of " + joined(names));
     }
     chosen = static_cast<int>(found - names.begin());
-  } else if (rule.required) {
+  } else if (required) {
     require(key, "; one of " + joined(names));
   }
   if (chosen >= 0) record(key, names[static_cast<size_t>(chosen)]);

@@ -1,33 +1,21 @@
 #pragma once
 
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "assembly/base/named_enum.hpp"
 #include "assembly/case/case_node.hpp"
 #include "assembly/case/schema_table.hpp"
 #include "assembly/files/number_text.hpp"
 
 namespace cupola {
-
-/// A name that a key admits, and what it stands for.
-template <class T>
-struct Choice {
-  std::string name;
-  T value;
-};
-
-struct ChoiceRule {
-  bool required = false;  ///< the case must say it: there is no default
-};
 
 /// One map of the case file while it is declared. A declaration function names every key once, with unit,
 /// range and meaning; that one line reads the key, documents it in `--schema` and writes it to run.yaml:
@@ -85,16 +73,19 @@ class Section {
   /// run.yaml writes it under the first name, whose factor is 1.
   void quantity(double& value, const std::vector<UnitName>& names);
 
-  template <class T>
-  void choice(const std::string& key, T& value,
-              std::initializer_list<Choice<std::type_identity_t<T>>> choices, const std::string& meaning,
-              const ChoiceRule& rule = {});
-
-  /// A name, or in its place a map of keys of its own.
-  template <class T, class Keys>
-  void choice_or_section(const std::string& key, T& value,
-                         std::initializer_list<Choice<std::type_identity_t<T>>> choices, Keys& keys,
-                         const std::string& meaning, void (*declare)(Section&, Keys&));
+  /// One of the names of an enumeration.
+  template <NamedEnum E>
+  void choice(const std::string& key, E& value, const std::string& meaning);
+  /// One of some of the names; `value` on entry must be among them.
+  template <NamedEnum E>
+  void choice(const std::string& key, E& value, const std::vector<E>& admitted, const std::string& meaning);
+  /// Must be given: `value` on entry means nothing.
+  template <NamedEnum E>
+  void required_choice(const std::string& key, E& value, const std::string& meaning);
+  /// A name, or in its place a map with keys of its own.
+  template <NamedEnum E, class Keys>
+  void choice_or_section(const std::string& key, E& value, Keys& keys, const std::string& meaning,
+                         void (*declare)(Section&, Keys&));
 
   template <class T>
   void section(const std::string& key, T& value, const std::string& meaning, void (*declare)(Section&, T&));
@@ -148,9 +139,9 @@ class Section {
   void require(const std::string& key, const std::string& hint = "");
   void check_given(const std::string& key) const;  // a variant without its type can declare nothing more
 
-  /// Index of the chosen name; `current` (-1: none) when the key is left out.
-  int choose(const std::string& key, const std::vector<std::string>& names, int current,
-             const std::string& meaning, const ChoiceRule& rule);
+  /// Index of the chosen name; the default where the key is left out. Without a default (-1) the key is required.
+  int choose(const std::string& key, const std::vector<std::string>& names, int default_index,
+             const std::string& meaning);
   void open(const std::string& key, const std::string& meaning, const DeclareKeys& declare);
   bool open_optional(const std::string& key, const std::string& meaning, const DeclareKeys& declare);
   void open_list(const std::string& key, const std::string& meaning, const DeclareKeys& declare_item);
@@ -168,27 +159,34 @@ class Section {
   std::vector<std::string> missing_;
 };
 
-template <class T>
-void Section::choice(const std::string& key, T& value,
-                     std::initializer_list<Choice<std::type_identity_t<T>>> choices,
-                     const std::string& meaning, const ChoiceRule& rule) {
-  std::vector<std::string> names;
-  int current = -1;
-  for (const auto& choice : choices) {
-    if (choice.value == value && !rule.required) current = static_cast<int>(names.size());
-    names.push_back(choice.name);
-  }
-  const int chosen = choose(key, names, current, meaning, rule);
-  if (chosen >= 0) value = (choices.begin() + chosen)->value;
+template <NamedEnum E>
+void Section::choice(const std::string& key, E& value, const std::string& meaning) {
+  value = static_cast<E>(choose(key, names_of<E>(), static_cast<int>(value), meaning));
 }
 
-template <class T, class Keys>
-void Section::choice_or_section(const std::string& key, T& value,
-                                std::initializer_list<Choice<std::type_identity_t<T>>> choices, Keys& keys,
-                                const std::string& meaning, void (*declare)(Section&, Keys&)) {
+template <NamedEnum E>
+void Section::choice(const std::string& key, E& value, const std::vector<E>& admitted,
+                     const std::string& meaning) {
+  std::vector<std::string> names;
+  for (const E one : admitted) names.push_back(to_string(one));
+  const auto current = std::find(admitted.begin(), admitted.end(), value);
+  CUPOLA_ASSERT(current != admitted.end());
+  const int chosen = choose(key, names, static_cast<int>(current - admitted.begin()), meaning);
+  value = admitted[static_cast<size_t>(chosen)];
+}
+
+template <NamedEnum E>
+void Section::required_choice(const std::string& key, E& value, const std::string& meaning) {
+  const int chosen = choose(key, names_of<E>(), -1, meaning);
+  if (chosen >= 0) value = static_cast<E>(chosen);
+}
+
+template <NamedEnum E, class Keys>
+void Section::choice_or_section(const std::string& key, E& value, Keys& keys, const std::string& meaning,
+                                void (*declare)(Section&, Keys&)) {
   const CaseNode* node = node_ ? node_->find(key) : nullptr;
   const bool is_map = node && node->kind == CaseNode::Kind::map;
-  if (!is_map) choice(key, value, choices, meaning);
+  if (!is_map) choice(key, value, meaning);
   if (is_map || describing()) section(key, keys, "instead of a name", declare);
 }
 
@@ -220,7 +218,7 @@ void Section::variant(const std::string& key, Variant& value,
                       const std::vector<Alternative<Variant>>& alternatives, const std::string& meaning) {
   std::vector<std::string> names;
   for (const auto& alternative : alternatives) names.push_back(alternative.name);
-  const int chosen = choose(key, names, -1, meaning, {.required = true});
+  const int chosen = choose(key, names, -1, meaning);
   check_given(key);
   if (chosen >= 0) alternatives[static_cast<size_t>(chosen)].declare(*this, value);
   if (!describing()) return;

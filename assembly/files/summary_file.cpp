@@ -1,6 +1,5 @@
 #include "assembly/files/summary_file.hpp"
 
-#include <algorithm>
 #include <concepts>
 #include <limits>
 #include <utility>
@@ -65,8 +64,9 @@ template <class T>
 Json to_value(const T& value) {
   return value;
 }
-Json to_value(Status status) {
-  return to_string(status);
+template <NamedEnum E>
+Json to_value(const E& value) {
+  return to_string(value);
 }
 Json to_value(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
@@ -87,10 +87,11 @@ void from_value(const Json& json, std::optional<double>* value) {
   if (json == kNotCertified) return;
   from_value(json, &value->emplace());
 }
-void from_value(const Json& json, Status* status) {
-  const auto at = std::find(kStatusNames.begin(), kStatusNames.end(), json.get<std::string>());
-  if (at == kStatusNames.end()) throw InputError("unknown status");
-  *status = static_cast<Status>(at - kStatusNames.begin());
+template <NamedEnum E>
+void from_value(const Json& json, E* value) {
+  const std::optional<E> known = enum_from_name<E>(json.get<std::string>());
+  if (!known) throw InputError("unknown name");
+  *value = *known;
 }
 void from_value(const Json& json, std::string* value) {
   json.get_to(*value);

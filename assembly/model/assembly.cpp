@@ -1,7 +1,5 @@
 #include "assembly/model/assembly.hpp"
 
-#include <array>
-
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -51,16 +49,6 @@ const Vec3& first_vertex(const Assembly& assembly, const Part& part) {
 }
 
 }  // namespace
-
-std::string to_string(BlockKind kind) {
-  static constexpr std::array names{"standard", "herringbone", "support", "imported"};
-  return names[static_cast<size_t>(kind)];
-}
-
-std::string to_string(FaceKind kind) {
-  static constexpr std::array names{"bed", "head", "intrados", "extrados", "top", "internal", "free"};
-  return names[static_cast<size_t>(kind)];
-}
 
 void Assembly::add_face(std::span<const int> vertex_ids, FaceKind kind) {
   CUPOLA_ASSERT(!parts.empty() && vertex_ids.size() >= 3);

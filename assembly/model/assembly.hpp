@@ -7,19 +7,24 @@
 
 #include <Eigen/Core>
 
+#include "assembly/base/named_enum.hpp"
+
 namespace cupola {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
 enum class BlockKind : std::uint8_t { standard, herringbone, support, imported };
+constexpr auto enum_names(BlockKind) {
+  return std::array{"standard", "herringbone", "support", "imported"};
+}
 
 /// What a face of a convex part is in the masonry. `top` is the free upper bed of the last ring (loads go
 /// there), `internal` lies between two parts of one block and makes no contact, `free` is everything else.
 enum class FaceKind : std::uint8_t { bed, head, intrados, extrados, top, internal, free };
-
-std::string to_string(BlockKind kind);
-std::string to_string(FaceKind kind);
+constexpr auto enum_names(FaceKind) {
+  return std::array{"bed", "head", "intrados", "extrados", "top", "internal", "free"};
+}
 
 /// One rigid block. Mass properties come from its convex parts, never from a hull.
 struct Block {

@@ -1,17 +1,32 @@
 #pragma once
 
-#include <string>
+#include "assembly/base/named_enum.hpp"
 
 namespace cupola {
 
-/// Methods for the frictional contact problem of a step; what each is: solver/contact/.
+enum class AnalysisType { static_, dynamic, staged, limit };
+constexpr auto enum_names(AnalysisType) {
+  return std::array{"static", "dynamic", "staged", "limit"};
+}
+
+/// Methods for the frictional contact problem of one step; solver/contact/methods describes each.
 enum class ContactMethod { newton, interior_point, spg, apgd, nsgs, admm };
+constexpr auto enum_names(ContactMethod) {
+  return std::array{"newton", "interior_point", "spg", "apgd", "nsgs", "admm"};
+}
 
 /// `associated`: the convex problem of the paper, in which sliding opens the contact by mu |u_t|.
-/// `coulomb`: De Saxce's change of variable, sliding without opening.
+/// `coulomb`: De Saxce's change of variable; sliding does not open the contact.
 enum class FrictionLaw { associated, coulomb };
+constexpr auto enum_names(FrictionLaw) {
+  return std::array{"associated", "coulomb"};
+}
 
-std::string to_string(ContactMethod method);
-std::string to_string(FrictionLaw law);
+/// Tangential contact force of a dynamic analysis. `memory`: a spring that remembers its elastic slip.
+/// `literal`: the paper's scheme, which has no memory and creeps.
+enum class TangentialSpring { memory, literal };
+constexpr auto enum_names(TangentialSpring) {
+  return std::array{"memory", "literal"};
+}
 
 }  // namespace cupola

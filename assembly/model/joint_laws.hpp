@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "assembly/base/named_enum.hpp"
 #include "assembly/model/time_function.hpp"
 
 namespace cupola {
@@ -14,6 +15,9 @@ struct Compliance {
   double tangential = 1e-8;  ///< same unit, >= 0
   Per per = Per::point;      ///< the case must say which
 };
+constexpr auto enum_names(Compliance::Per) {
+  return std::array{"point", "area"};
+}
 
 /// What a group of joints has of its own; the rest is as everywhere.
 struct JointLawChange {
@@ -36,6 +40,9 @@ struct RingJoints {
   Sort sort = Sort::all;
   JointLawChange law;
 };
+constexpr auto enum_names(RingJoints::Sort) {
+  return std::array{"all", "bed", "head", "herringbone", "base", "laid_bed"};
+}
 
 /// Laws of the joints. The later of these wins: the general values, those of the sort, those of the ring.
 struct Joints {

@@ -75,6 +75,9 @@ struct BaseMotion {
   Quantity quantity = Quantity::displacement;
   Vec3 direction{1.0, 0.0, 0.0};  ///< m per unit of the file
 };
+constexpr auto enum_names(BaseMotion::Quantity) {
+  return std::array{"displacement", "acceleration"};
+}
 
 /// A displacement and a rotation imposed on some fixed blocks.
 struct SupportMove {

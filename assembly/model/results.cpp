@@ -3,15 +3,6 @@
 #include <algorithm>
 
 namespace cupola {
-std::string to_string(JointKind kind) {
-  static constexpr std::array names{"bed", "head", "base", "other"};
-  return names[static_cast<size_t>(kind)];
-}
-
-std::string to_string(Status status) {
-  return kStatusNames[static_cast<size_t>(status)];
-}
-
 std::vector<Joint> joints_of(const ContactTable& contacts) {
   const int num_joints =
       contacts.joint.empty() ? 0 : 1 + *std::max_element(contacts.joint.begin(), contacts.joint.end());

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -10,12 +9,15 @@
 #include <Eigen/Core>
 
 #include "assembly/model/assembly.hpp"
+#include "assembly/model/choices.hpp"
 
 namespace cupola {
 
 /// What a joint is: `base` touches a fixed support, `bed` lies between rings, `head` within a ring.
 enum class JointKind : std::uint8_t { bed, head, base, other };
-std::string to_string(JointKind kind);
+constexpr auto enum_names(JointKind) {
+  return std::array{"bed", "head", "base", "other"};
+}
 
 /// All contact points of one block pair on one face patch. `block_a < block_b`; the normal points from a to
 /// b.
@@ -72,8 +74,9 @@ struct Frame {
 std::vector<Joint> joints_of(const ContactTable& contacts);
 
 enum class Status { stable, moving, collapsed, unconverged };
-inline constexpr std::array kStatusNames{"stable", "moving", "collapsed", "unconverged"};
-std::string to_string(Status status);
+constexpr auto enum_names(Status) {
+  return std::array{"stable", "moving", "collapsed", "unconverged"};
+}
 
 /// The value of a parameter at which a structure ceases to stand, and the bracket that was searched.
 struct CriticalValue {
@@ -87,7 +90,10 @@ struct CriticalValue {
 struct Summary {
   Status status = Status::unconverged;
   std::string message;  ///< the reason for the status, with the numbers
-  std::string analysis, method, friction_law, tangential;
+  AnalysisType analysis = AnalysisType::static_;
+  ContactMethod method = ContactMethod::newton;
+  FrictionLaw friction_law = FrictionLaw::associated;
+  TangentialSpring tangential = TangentialSpring::memory;
   std::string program_version, case_hash, geometry_hash, assembly_hash;
   int blocks = 0, free_blocks = 0, joints = 0, contacts = 0, unknowns = 0;
   double weight_N = 0.0;

@@ -36,19 +36,7 @@ void declare_quantity(Section& s, Quantity& quantity) {
   s.text("against", quantity.against, "linearity: the other column");
   s.text("reference", quantity.reference, "run whose column is subtracted first, row by row");
   s.list("where", quantity.where, "rows of the table that count", declare_filter);
-  s.choice("take", quantity.take,
-           {{"only", Take::only},
-            {"mean", Take::mean},
-            {"median", Take::median},
-            {"largest", Take::largest},
-            {"smallest", Take::smallest},
-            {"sum", Take::sum},
-            {"spread", Take::spread},
-            {"variation", Take::variation},
-            {"rms", Take::rms},
-            {"linearity", Take::linearity},
-            {"roughness", Take::roughness}},
-           "how several values become one");
+  s.choice("take", quantity.take, "how several values become one");
   const int sources = !quantity.key.empty() + !quantity.status.empty() + !quantity.table.empty();
   s.rule(!quantity.runs.empty(), "runs", "must name at least one case");
   s.rule(sources == 1, "key", "give one of `key`, `status`, `table`");

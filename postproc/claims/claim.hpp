@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "assembly/base/named_enum.hpp"
+
 namespace cupola {
 
 /// Rows of a table that count: a column's text equals `is`, or its number lies in [from, to].
@@ -28,6 +30,10 @@ enum class Take : std::uint8_t {
   linearity,  ///< squared correlation (R2) with the column `against`
   roughness,  ///< mean |second difference| over the mean's magnitude: how wiggly a curve is
 };
+constexpr auto enum_names(Take) {
+  return std::array{"only",   "mean",      "median", "largest",   "smallest", "sum",
+                    "spread", "variation", "rms",    "linearity", "roughness"};
+}
 
 /// A number drawn from the files of finished runs. One of three sources:
 ///   key     of results/summary.json or post/summary.json: `results.max_displacement_m`,

@@ -31,7 +31,7 @@ void check_blocks(const Frame& frame, const Assembly& assembly) {
 }
 
 bool is_mechanism(const Summary& summary, const Frame& frame) {
-  return summary.analysis == "limit" && frame.time > 0.0;
+  return summary.analysis == AnalysisType::limit && frame.time > 0.0;
 }
 
 /// Moves the blocks of a mechanism along its velocities, until the fastest has gone a twentieth of the model.
@@ -62,7 +62,7 @@ std::string frame_name(int index) {
 /// The last frame that can be read. Of a limit analysis, the last equilibrium, which comes before the
 /// mechanism.
 Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
-  const bool limit = results.summary().analysis == "limit";
+  const bool limit = results.summary().analysis == AnalysisType::limit;
   for (int i = limit ? 0 : static_cast<int>(results.times().size()) - 1;; --i) {
     try {
       return results.read_frame(i);
@@ -98,7 +98,7 @@ int joints_lost_between(const ContactTable& first, const ContactTable& last) {
 
 void count_lost_joints(const ResultsReader& results, Evaluation* e) {
   e->lost_joints = 0;
-  if (e->times.size() < 2 || e->summary.analysis != "dynamic") return;
+  if (e->times.size() < 2 || e->summary.analysis != AnalysisType::dynamic) return;
   try {
     e->lost_joints = joints_lost_between(results.read_frame(0).contacts, e->last.frame.contacts);
   } catch (const InputError& error) {

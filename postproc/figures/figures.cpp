@@ -122,7 +122,8 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
     figures.push_back(force_map(e));
     figures.push_back(utilisation_map(e));
   }
-  if (history.size() > 1 && e.summary.analysis == "dynamic") figures.push_back(history_figure(e, history));
+  if (history.size() > 1 && e.summary.analysis == AnalysisType::dynamic)
+    figures.push_back(history_figure(e, history));
   return figures;
 }
 

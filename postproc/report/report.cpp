@@ -82,8 +82,8 @@ std::string model_section(const Evaluation& e) {
   };
   const Summary& s = e.summary;
   row("Case", e.scene.title);
-  row("Analysis", fmt::format("{}, method {}, friction law {}, tangential spring {}", s.analysis, s.method,
-                              s.friction_law, s.tangential));
+  row("Analysis", fmt::format("{}, method {}, friction law {}, tangential spring {}", to_string(s.analysis),
+                              to_string(s.method), to_string(s.friction_law), to_string(s.tangential)));
   row("Blocks", fmt::format("{}, of which {} free; {} unknowns", s.blocks, s.free_blocks, s.unknowns));
   row("Joints", fmt::format("{} with {} contact points", s.joints, s.contacts));
   row("Weight of the free blocks", force_text(s.weight_N));
@@ -167,7 +167,7 @@ std::string run_section(const ReportInput& input) {
 }  // namespace
 
 std::string verdict_text(const Summary& s) {
-  if (s.analysis == "limit" && s.critical)
+  if (s.analysis == AnalysisType::limit && s.critical)
     return fmt::format(
         "The structure stands at a {0} of {1:.5g} and moves at {2:.5g}. Forces below are those at {1:.5g}.",
         s.critical->parameter, s.critical->stable, s.critical->moving);
@@ -196,7 +196,7 @@ std::string quality_text(const Summary& s) {
                        *s.certified_force_error);
   else
     out += "The forces carry no certificate of their error. ";
-  if (s.friction_law == "associated")
+  if (s.friction_law == FrictionLaw::associated)
     out += fmt::format(
         "The associated law was solved: sliding joints also open by the friction coefficient times the slip, "
         "and "

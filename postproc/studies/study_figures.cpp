@@ -21,15 +21,15 @@ double drawn_error(const StudyRow& row) {
 }
 
 /// What other programs call the method, or solve with.
-std::string peer(const std::string& method) {
-  static const std::map<std::string, std::string> kPeers{{"newton", "Newton (as Drake's SAP)"},
-                                                         {"interior_point", "interior point, then Newton"},
-                                                         {"spg", "SPG (Chrono's BB)"},
-                                                         {"apgd", "APGD (Chrono)"},
-                                                         {"nsgs", "NSGS (Siconos; NLGS in LMGC90)"},
-                                                         {"admm", "ADMM (Siconos, Chrono)"}};
-  const auto found = kPeers.find(method);
-  return found == kPeers.end() ? method : found->second;
+std::string peer(ContactMethod method) {
+  static const std::map<ContactMethod, std::string> kPeers{
+      {ContactMethod::newton, "Newton (as Drake's SAP)"},
+      {ContactMethod::interior_point, "interior point, then Newton"},
+      {ContactMethod::spg, "SPG (Chrono's BB)"},
+      {ContactMethod::apgd, "APGD (Chrono)"},
+      {ContactMethod::nsgs, "NSGS (Siconos; NLGS in LMGC90)"},
+      {ContactMethod::admm, "ADMM (Siconos, Chrono)"}};
+  return kPeers.at(method);
 }
 
 struct Series {

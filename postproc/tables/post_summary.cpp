@@ -82,7 +82,7 @@ PostSummary post_summary(const Evaluation& e) {
   PostSummary s;
   s.title = e.scene.title;
   s.status = to_string(e.summary.status);
-  s.friction_law = e.summary.friction_law;
+  s.friction_law = to_string(e.summary.friction_law);
   s.program_version = program_version();
   s.blocks = e.summary.free_blocks;
   s.weight_N = e.summary.weight_N;

@@ -92,7 +92,6 @@ bool DynamicRun::start_static(Summary* summary) {
   sinks_.frame(frame);
   summarize_frame(frame, model, summary);
   summarize_static(equilibrium, options.tolerance, summary);
-  summary->analysis = "dynamic";
   summary->message = "analysis.start: static: " + summary->message;
   return false;
 }
@@ -223,7 +222,6 @@ Summary DynamicRun::summarize(Stop stop, double seconds) const {
   const Frame last = make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(),
                                 report_.forces.contacts, simulation_.memories(), simulation_.displacements());
   summarize_frame(last, simulation_.model(), &summary);
-  summary.analysis = "dynamic";
   summary.steps = progress_.steps;
   summary.iterations = progress_.iterations;
   summary.time_step_s = report_.h;

@@ -140,7 +140,6 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   Summary summary;
   write_frames(run, &summary);
   const std::string mechanism = run.moving ? summary.message.substr(summary.message.find("; ")) : "";
-  summary.analysis = "limit";
   summary.status = bracket.narrow ? Status::stable : Status::unconverged;
   summary.message = fmt::format("{}: {}{}", to_string(parameter), bracket.message, mechanism);
   summary.steps = run.num_trials;

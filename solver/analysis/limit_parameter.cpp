@@ -64,22 +64,4 @@ Case case_at(const Case& scene, double value) {
   return at;
 }
 
-std::string to_string(LimitSearch::Parameter parameter) {
-  switch (parameter) {
-    case LimitSearch::Parameter::friction:
-      return "friction";
-    case LimitSearch::Parameter::tilt:
-      return "tilt";
-    case LimitSearch::Parameter::acceleration:
-      return "acceleration";
-    case LimitSearch::Parameter::load:
-      return "load";
-    case LimitSearch::Parameter::thickness:
-      return "thickness";
-    case LimitSearch::Parameter::spread:
-      return "spread";
-  }
-  return "";
-}
-
 }  // namespace cupola

@@ -8,6 +8,4 @@ namespace cupola {
 /// `spread` the clock is the factor on the support moves.
 Case case_at(const Case& scene, double value);
 
-std::string to_string(LimitSearch::Parameter parameter);
-
 }  // namespace cupola

@@ -22,9 +22,10 @@ std::optional<Summary> run(const Case& scene, const Assembly& assembly, const An
 std::optional<Summary> run_analysis(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
   std::optional<Summary> summary = run(scene, assembly, sinks);
   if (!summary) return summary;
-  summary->method = to_string(scene.analysis.method);
-  summary->friction_law = to_string(scene.analysis.friction_law);
-  summary->tangential = scene.analysis.tangential == TangentialSpring::memory ? "memory" : "literal";
+  summary->analysis = scene.analysis.type;
+  summary->method = scene.analysis.method;
+  summary->friction_law = scene.analysis.friction_law;
+  summary->tangential = scene.analysis.tangential;
   return summary;
 }
 

@@ -176,7 +176,6 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
     sinks.progress(static_cast<double>(ring - staged.first_ring + 1) / (last - staged.first_ring + 1));
     if (sinks.interrupted()) return std::nullopt;
   }
-  summary.analysis = "staged";
   summary.steps = static_cast<int>(results.size());
   summary.solve_time_seconds = wall_seconds() - started;
   judge(results, staged.fresh_friction, &summary);

@@ -63,7 +63,6 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
     summary.accuracy_asked = *wrench_error;
     if (solution.verdict != Verdict::moving) summary.accuracy_reached = wrench_error_reached;
   }
-  summary.analysis = "static";
   summary.unknowns /= scene.analysis.cyclic_sectors;
   summary.message += linearity_note(assembly, summary.max_displacement_m);
   sinks.problem(solution.step.problem, solution.step_solution.gamma);

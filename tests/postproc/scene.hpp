@@ -23,7 +23,6 @@ inline Summary column_summary(const Assembly& a) {
   Summary s;
   s.status = Status::stable;
   s.message = "equilibrium residual 1.0e-12 <= 1.0e-09 asked";
-  s.friction_law = "associated";
   s.assembly_hash = content_hash(a);
   s.geometry_hash = "geometry of the column";
   s.case_hash = "case of the column";

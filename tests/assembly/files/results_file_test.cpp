@@ -47,7 +47,7 @@ Summary example_summary() {
   Summary s;
   s.status = Status::moving;
   s.message = "largest speed 0.2 m/s > threshold 0.001 m/s, \"quoted\"";
-  s.analysis = "dynamic";
+  s.analysis = AnalysisType::dynamic;
   s.assembly_hash = "hash of the assembly";
   s.blocks = 3;
   s.weight_N = 1.0 / 3.0;

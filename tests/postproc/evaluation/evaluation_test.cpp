@@ -158,7 +158,7 @@ TEST(Evaluation, ALimitAnalysisShowsForcesOfTheEquilibriumAndTheMechanismDisplac
   for (int i = 0; i < moves.contacts.size(); ++i) moves.contacts.force[i] *= 0.5;  // not in balance
   moves.blocks.velocity[3] = Vec3(1.0, 0, 0);                                      // the top block slides off
   Summary summary = column_summary(a);
-  summary.analysis = "limit";
+  summary.analysis = AnalysisType::limit;
   summary.critical = CriticalValue{"friction", 0.1, 0.101, 0.099};
   const std::string folder = test::fresh_folder("results");
   const Evaluation e = evaluated(a, {stands, moves}, summary, column_case(), folder);
@@ -180,7 +180,7 @@ TEST(Evaluation, ALimitAnalysisShowsForcesOfTheEquilibriumAndTheMechanismDisplac
 TEST(Evaluation, AStagedRunHasATableOfItsRings) {
   const Assembly a = test::column(3);
   Summary summary = column_summary(a);
-  summary.analysis = "staged";
+  summary.analysis = AnalysisType::staged;
   const std::string folder = test::fresh_folder("results");
   const Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
   const Evaluation e = evaluated(a, {frame}, summary, column_case(), folder);

@@ -111,8 +111,7 @@ TEST(Report, NoTextFromAFileBecomesMarkup) {
   const Assembly a = test::column(3);
   Summary summary = test::column_summary(a);
   for (std::string* text :
-       {&summary.message, &summary.analysis, &summary.method, &summary.friction_law, &summary.tangential,
-        &summary.program_version, &summary.case_hash, &summary.geometry_hash})
+       {&summary.message, &summary.program_version, &summary.case_hash, &summary.geometry_hash})
     *text = markup;
   write_text_atomically(folder + "/results/run.yaml", markup);
   summary.text_files["run.yaml"] = hash_text(markup);

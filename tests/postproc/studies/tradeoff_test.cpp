@@ -109,7 +109,6 @@ StudyRow row(const std::string& name, double seconds, double error, Status statu
   StudyRow r{{"method", name, "exact", {}}, Summary{}, {}, {}};
   r.summary->cpu_time_seconds = seconds;
   r.summary->status = status;
-  r.summary->method = "newton";
   r.errors.wrench_rms = r.errors.wrench_worst = error;
   return r;
 }
