@@ -34,7 +34,8 @@ Assembly generate(const Case& input, GenerateReport* report) {
   if (!report) report = &unused;
   const Geometry& geometry = input.geometry;
   if (geometry.imported) {
-    if (geometry.imperfections) throw InputError("imperfections: imported blocks take none");
+    if (geometry.imperfections)
+      throw InputError("imperfections: not available for imported blocks; remove this section");
     report->import.emplace();
     Assembly assembly = import_blocks(*geometry.imported, input.material.density(), &*report->import);
     assembly.title = input.title;

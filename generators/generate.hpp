@@ -10,17 +10,17 @@
 
 namespace cupola {
 
-/// What generate made and measured.
+/// Measurements of a generated model.
 struct GenerateReport {
   ModelReport model;
-  std::optional<ImportReport> import;  ///< of blocks that others cut
+  std::optional<ImportReport> import;  ///< only for imported blocks
 };
 
-/// Cuts the blocks that a case's surface and bond describe, without checking them.
+/// Cuts the surface of a case along its bond, without checking the blocks.
 Assembly cut_assembly(const Case& input);
 
-/// Makes the blocks of a case, cut or imported, and checks them. Throws InputError naming the block when a
-/// check fails. `report` may be null.
+/// Cuts or imports the blocks of a case and checks them. Throws InputError with the block that fails a check.
+/// `report` may be null.
 Assembly generate(const Case& input, GenerateReport* report = nullptr);
 
 std::string to_text(const GenerateReport& report);

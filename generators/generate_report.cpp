@@ -10,7 +10,7 @@
 namespace cupola {
 namespace {
 
-/// Volumes of a class of blocks, m3.
+/// Number and volumes (m3) of a class of blocks.
 struct SizeClass {
   int count = 0;
   double smallest = std::numeric_limits<double>::infinity(), largest = 0.0, sum = 0.0;

@@ -1,4 +1,4 @@
-// cupola-generate: cuts a case's vault into rigid blocks and checks them.
+// cupola-generate: cuts the vault of a case into rigid blocks, or imports blocks, and checks them.
 //
 // Sample runs:
 //   cupola-generate cases/dome_circular.yaml --output assembly.vtu
@@ -25,30 +25,29 @@ void make_parent(const std::string& file) {
 }
 
 ExitCode generate_assembly(int argc, char** argv) {
-  // 1. What is asked
+  // 1. Read the command line
   std::string output, report_file, bond_map_file, contacts_file;
-  CommandLine line("cupola-generate", "Cuts a case's vault into rigid blocks and checks them.",
+  CommandLine line("cupola-generate", "Cuts the vault of a case into rigid blocks and checks them.",
                    "  cupola-generate dome.yaml --output assembly.vtu\n"
                    "  cupola-generate dome.yaml --output thin.vtu --set geometry.surface.thickness=1.1");
   line.required("--output", &output, "FILE", "assembly to write (.vtu)");
-  line.optional("--report", &report_file, "FILE",
-                "stereotomy report to write (.json, or any ending for text)");
+  line.optional("--report", &report_file, "FILE", "stereotomy report to write (.json for JSON, else text)");
   line.optional("--bond-map", &bond_map_file, "FILE", "drawing of the unrolled bond to write (.svg)");
   line.optional(
       "--contacts", &contacts_file, "FILE",
-      "contact points to write from an imported file's own interfaces (.csv, for contact.method: file)");
+      "contact points to write from the interfaces of an imported file (.csv, for contact.method: file)");
   if (const auto ended = line.parse(argc, argv)) return *ended;
 
-  // 2. The case
+  // 2. Read the case
   const Case scene = line.read_case();
   if (line.check_only()) return ExitCode::done;
 
-  // 3. The blocks, checked
+  // 3. Generate and check the blocks
   GenerateReport report;
   const Assembly assembly = generate(scene, &report);
   if (!line.quiet()) fmt::print("{}", to_text(report));
 
-  // 4. The files
+  // 4. Write the files
   make_parent(output);
   write_assembly(output, assembly, scene.effective_yaml);
   if (!report_file.empty()) {
@@ -61,7 +60,9 @@ ExitCode generate_assembly(int argc, char** argv) {
     write_text_atomically(bond_map_file, bond_map_svg(scene.geometry));
   }
   if (!contacts_file.empty()) {
-    if (!scene.geometry.imported) throw InputError("--contacts: generated blocks bring no interfaces");
+    if (!scene.geometry.imported)
+      throw InputError(
+          "--contacts: requires an imported COMPAS assembly, generated blocks have no interfaces");
     make_parent(contacts_file);
     write_text_atomically(contacts_file, contacts_csv(*scene.geometry.imported, assembly, *report.import));
   }

@@ -1,8 +1,10 @@
-"""Pictures of an assembly: postproc/pictures/pvbatch.sh generators/pictures.py ASSEMBLY.vtu PREFIX [HEIGHT ...]
+"""Draws an assembly with ParaView.
+
+    postproc/pictures/pvbatch.sh generators/pictures.py ASSEMBLY.vtu PREFIX [HEIGHT ...]
 
 Writes PREFIX_outside.png, PREFIX_inside.png (the half behind the x-z plane) and, for each height in metres,
-PREFIX_section_HEIGHT.png (the level cut seen from above, supports left out). Blocks are coloured by what they
-are: laid flat, upright, support, imported; lines are the borders of blocks and sharp edges.
+PREFIX_section_HEIGHT.png (the horizontal section seen from above, without supports). Colours show the kind of block:
+flat, upright, support, imported. Lines are block boundaries and sharp edges.
 """
 import sys
 
@@ -10,24 +12,26 @@ from paraview import servermanager, vtk
 from paraview.simple import *
 
 KIND_COLOURS = [(0.88, 0.84, 0.76), (0.85, 0.45, 0.28), (0.66, 0.68, 0.71), (0.80, 0.82, 0.74)]
-SHARP = 0.94  # cosine of the angle between two faces of a block from which their edge is drawn: 20 deg
-SIZE = [1400, 1000]
+SHARP = 0.94  # cosine of 20 deg: an edge inside a block is drawn if its faces enclose a larger angle
+SIZE = [1400, 1000]  # px
 
 
 def cells(source, array, low, high):
-    picked = Threshold(Input=source, Scalars=["CELLS", array])
-    picked.LowerThreshold, picked.UpperThreshold = low, high
-    return picked
+    """Cells whose value in an array lies between two bounds."""
+    selected = Threshold(Input=source, Scalars=["CELLS", array])
+    selected.LowerThreshold, selected.UpperThreshold = low, high
+    return selected
 
 
 def show_data(data, view):
-    """Shows a VTK object of this process."""
+    """Shows a VTK object that exists in this process."""
     producer = TrivialProducer()
     producer.GetClientSideObject().SetOutput(data)
     return Show(producer, view)
 
 
 def normal_of(points):
+    """Unit normal of a polygon (Newell)."""
     normal = [0.0, 0.0, 0.0]
     for p, q in zip(points, points[1:] + points[:1]):
         for i in range(3):
@@ -38,10 +42,10 @@ def normal_of(points):
 
 
 def block_borders(faces, towards):
-    """Edges between faces of different blocks, sharp edges and free ones, a hair nearer to the eye."""
-    hair = 1e-3 * faces.GetLength() / sum(x * x for x in towards) ** 0.5
+    """Edges between faces of different blocks, sharp edges and free edges, moved slightly towards the viewer."""
+    shift = 1e-3 * faces.GetLength() / sum(x * x for x in towards) ** 0.5
     block = faces.GetCellData().GetArray("block")
-    found = {}  # edge -> its ends, and (block, normal) of each face at it
+    found = {}  # edge, as its two ends -> (block, normal) of each adjoining face
     for f in range(faces.GetNumberOfCells()):
         cell = faces.GetCell(f)
         if cell.GetCellDimension() != 2:
@@ -49,9 +53,9 @@ def block_borders(faces, towards):
         centre = faces.GetPoint(cell.GetPointId(0))
         ids = [cell.GetPointId(i) for i in range(cell.GetNumberOfPoints())]
         points = [faces.GetPoint(i) for i in ids]
-        near = [tuple(p[i] - centre[i] for i in range(3)) for p in points]
+        relative = [tuple(p[i] - centre[i] for i in range(3)) for p in points]
         keys = [tuple(round(x, 6) for x in p) for p in points]
-        normal = normal_of(near)
+        normal = normal_of(relative)
         for i, key in enumerate(keys):
             other = (i + 1) % len(keys)
             edge = (min(key, keys[other]), max(key, keys[other]))
@@ -64,7 +68,7 @@ def block_borders(faces, towards):
                 continue
         lines.InsertNextCell(2)
         for end in edge:
-            lines.InsertCellPoint(points.InsertNextPoint([x + hair * y for x, y in zip(end, towards)]))
+            lines.InsertCellPoint(points.InsertNextPoint([x + shift * y for x, y in zip(end, towards)]))
     borders = vtk.vtkPolyData()
     borders.SetPoints(points)
     borders.SetLines(lines)
@@ -72,6 +76,7 @@ def block_borders(faces, towards):
 
 
 def picture(source, direction, name, flat=False):
+    """Writes PREFIX_name.png, seen from a direction; `flat` for a section without perspective and shading."""
     view = CreateView("RenderView")
     view.ViewSize = SIZE
     view.UseColorPaletteForBackground = 0

@@ -5,14 +5,14 @@
 
 namespace cupola {
 
-std::vector<double> lattice_cuts(double extent, double start, int count) {
+std::vector<double> equal_cuts(double extent, double start, int count) {
   std::vector<double> cuts;
   for (int s = 0; s <= count; ++s) cuts.push_back(start + extent * s / count);
   return cuts;
 }
 
 void split_at_corners(const BondGrid& grid, BondPattern* pattern) {
-  const double rounding = 1e-9 * grid.extent;
+  const double rounding = 1e-9 * grid.extent;  // nearer cuts and corners coincide
   BondPattern split = *pattern;
   split.cuts = {pattern->cuts.front()};
   std::vector<int> old_slice;
@@ -20,7 +20,7 @@ void split_at_corners(const BondGrid& grid, BondPattern* pattern) {
     const double start = pattern->cuts[s], end = pattern->cuts[s + 1];
     std::vector<double> inside;
     for (double corner : grid.corners)
-      for (double c : {corner, corner + grid.extent})  // the pattern may begin past 0
+      for (double c : {corner, corner + grid.extent})  // the first cut may be above 0
         if (c > start + rounding && c < end - rounding) inside.push_back(c);
     std::ranges::sort(inside);
     inside.push_back(end);

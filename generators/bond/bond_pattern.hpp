@@ -6,27 +6,27 @@
 
 namespace cupola {
 
-/// What a bond needs to know of the surface it lies on.
+/// What a bond needs to know about its surface.
 struct BondGrid {
   int num_rings = 0;
-  bool closed = false;          ///< the abscissa is an azimuth that wraps around
-  double extent = 0.0;          ///< range of the abscissa, from 0
-  std::vector<double> corners;  ///< abscissae that must be slice cuts
+  bool closed = false;          ///< the abscissa is an angle that wraps around
+  double extent = 0.0;          ///< the abscissa runs from 0 to this
+  std::vector<double> corners;  ///< abscissae that must be cuts
 };
 
-/// What the bond says of one block.
+/// Label that the bond gives to a block.
 struct BondBlock {
   BlockKind kind = BlockKind::standard;
-  bool truncated = false;  ///< cut short by the base or the crown
-  int spiral = -1;
+  bool truncated = false;  ///< an upright block cut short by the base or the crown
+  int spiral = -1;         ///< of an upright block; -1 for none
 };
 
-/// A bond: slice cuts along the abscissa, and the block each cell of the (rings x slices) grid belongs to.
-/// The cells of one block in one ring are neighbours.
+/// A bond: the cuts between slices along the abscissa, and the block of each cell of the (rings x slices)
+/// grid. The cells of one block in one ring are neighbours.
 struct BondPattern {
   int num_rings = 0;
-  std::vector<double> cuts;   ///< ascending (num_slices + 1); closed: the last is the first plus the extent
-  std::vector<int> block_of;  ///< (num_rings x num_slices), ring by ring
+  std::vector<double> cuts;   ///< ascending; the last is the first plus the extent; (num_slices + 1)
+  std::vector<int> block_of;  ///< index into `blocks`, ring by ring; (num_rings x num_slices)
   std::vector<BondBlock> blocks;
 
   int num_slices() const { return static_cast<int>(cuts.size()) - 1; }
@@ -34,13 +34,13 @@ struct BondPattern {
   int at(int ring, int slice) const { return block_of[static_cast<size_t>(ring) * num_slices() + slice]; }
 };
 
-/// `count` equal slices from `start` on (count + 1).
-std::vector<double> lattice_cuts(double extent, double start, int count);
+/// Cuts of `count` equal slices, the first at `start`. (count + 1)
+std::vector<double> equal_cuts(double extent, double start, int count);
 
-/// Splits every slice that a corner of the surface lies in, so that corners are cuts.
+/// Splits every slice that contains a corner of the surface, so that all corners are cuts.
 void split_at_corners(const BondGrid& grid, BondPattern* pattern);
 
-/// Turns the abscissa round: a becomes extent - a.
+/// Mirrors the bond: abscissa a becomes extent - a.
 void mirror(double extent, BondPattern* pattern);
 
 }  // namespace cupola

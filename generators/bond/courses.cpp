@@ -10,10 +10,11 @@
 namespace cupola {
 namespace {
 
-constexpr double kRunningCornerPhase =
-    0.25;  // block widths: joints of even and odd rings stay equally far from corners
+// Block widths. The joints of even and odd rings are then equally far from the corners.
+constexpr double kRunningCornerPhase = 0.25;
 
-/// Phase in widths of the refined blocks. Whole blocks keep their joints where that leaves none on a corner.
+/// Phase in widths of the refined blocks. An odd refinement keeps the joints of the unrefined bond; an even
+/// one would put joints on the corners and starts from the default phase.
 double phase_of(std::optional<double> phase, int refine, const BondGrid& grid) {
   if (phase) return std::fmod(*phase * refine, 1.0);
   if (grid.corners.empty()) return 0.0;
@@ -23,8 +24,9 @@ double phase_of(std::optional<double> phase, int refine, const BondGrid& grid) {
 template <class Courses>
 BondPattern courses(const Courses& bond, int odd_shift, const BondGrid& grid) {
   if (bond.phase && *bond.phase != 0.0 && !grid.closed)
-    throw InputError(fmt::format(
-        "geometry.bond.phase = {}: only closed surfaces have one, a wall starts at its end", *bond.phase));
+    throw InputError(
+        fmt::format("geometry.bond.phase = {}: must be 0 on an open surface, where courses start at the end",
+                    *bond.phase));
   const int m = bond.slices_per_block;
   const int blocks_per_ring = bond.blocks_per_ring * bond.refine;
   const int num_slices = blocks_per_ring * m;
@@ -32,7 +34,7 @@ BondPattern courses(const Courses& bond, int odd_shift, const BondGrid& grid) {
   const int whole = static_cast<int>(std::floor(slices));
   BondPattern pattern;
   pattern.num_rings = grid.num_rings;
-  pattern.cuts = lattice_cuts(grid.extent, grid.extent * (slices - whole) / num_slices, num_slices);
+  pattern.cuts = equal_cuts(grid.extent, grid.extent * (slices - whole) / num_slices, num_slices);
   pattern.block_of.resize(static_cast<size_t>(grid.num_rings) * num_slices);
 
   for (int ring = 0; ring < grid.num_rings; ++ring) {
@@ -56,7 +58,8 @@ BondPattern running_bond(const RunningBond& bond, const BondGrid& grid) {
   const int m = bond.slices_per_block;
   if (m % 2 != 0)
     throw InputError(fmt::format(
-        "geometry.bond.slices_per_block = {}: must be even, odd rings are shifted by half a block", m));
+        "geometry.bond.slices_per_block = {}: must be even, because odd rings are shifted by half a block",
+        m));
   return courses(bond, m / 2, grid);
 }
 

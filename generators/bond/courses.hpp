@@ -5,14 +5,16 @@
 
 namespace cupola {
 
-/// Courses of `blocks_per_ring` equal blocks of `slices_per_block` slices.
+/// Courses of `blocks_per_ring` equal blocks, each of `slices_per_block` slices.
 ///
-/// Running bond shifts odd rings by half a block; on an open surface they begin and end with half blocks.
-/// With the default phase of 1/4 block every corner of a vault lies 1/4 or 3/4 into a block, in turn: no
-/// joint on a corner, and all blocks equal.
+/// Odd rings are shifted by half a block; on an open surface they begin and end with half blocks. With the
+/// default phase of 1/4 block the corners of a vault lie alternately 1/4 and 3/4 into a block, so that no
+/// joint lies on a corner and all blocks are equal.
+///
+/// Throws InputError for an odd number of slices per block, and for a phase on an open surface.
 BondPattern running_bond(const RunningBond& bond, const BondGrid& grid);
 
-/// Stack bond aligns all head joints.
+/// The same courses with all head joints aligned.
 BondPattern stack_bond(const StackBond& bond, const BondGrid& grid);
 
 }  // namespace cupola

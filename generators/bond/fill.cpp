@@ -13,19 +13,20 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Possible joints in units of the lattice, 0 .. num_units (open) or 0 .. num_units - 1 (closed).
+/// The positions where joints may lie, 0 .. num_units (open) or 0 .. num_units - 1 (closed). All lengths are
+/// in units of w / slices_per_block.
 struct Lattice {
   int num_units, mean, narrowest, widest;
   bool closed;
-  std::vector<double> corners;  // in units
+  std::vector<double> corners;
 
-  /// Distance of two positions, the short way round.
+  /// Distance of two positions, the shorter way round.
   double distance(double a, double b) const {
     return closed ? std::abs(std::remainder(a - b, num_units)) : std::abs(a - b);
   }
 };
 
-/// Cost of a joint at each position, given the joints of the ring below (ascending).
+/// Cost of a joint at each position, given the ascending joints of the ring below. (num_units + 1)
 std::vector<double> joint_costs(const Lattice& lattice, const std::vector<int>& below) {
   const double quarter = 0.25 * lattice.mean;
   std::vector<double> cost(lattice.num_units + 1, 0.0);
@@ -43,10 +44,11 @@ std::vector<double> joint_costs(const Lattice& lattice, const std::vector<int>& 
 
 struct RingFill {
   double cost = kInfinity;
-  std::vector<int> joints;  // ascending; closed: in [0, num_units); open: 0 and the end left out
+  std::vector<int> joints;  // ascending, in [0, num_units); without the two ends of an open surface
 };
 
-/// Cheapest fill that begins with a joint at `start` and ends at start + num_units.
+/// Cheapest fill between joints at `start` and start + num_units. best[end] is the lowest cost of the blocks
+/// between `start` and start + end, and previous[end] the joint before that end.
 RingFill fill_from(const Lattice& lattice, const std::vector<double>& joint_cost, int start) {
   const int N = lattice.num_units;
   std::vector<double> best{lattice.closed ? joint_cost[start] : 0.0};
@@ -74,7 +76,8 @@ RingFill fill_from(const Lattice& lattice, const std::vector<double>& joint_cost
 RingFill fill_ring(const Lattice& lattice, const std::vector<int>& below) {
   const std::vector<double> cost = joint_costs(lattice, below);
   RingFill best;
-  const int num_starts = lattice.closed ? lattice.widest : 1;  // some joint lies within the widest block
+  // A closed ring has a joint somewhere in its first `widest` positions.
+  const int num_starts = lattice.closed ? lattice.widest : 1;
   for (int start = 0; start < num_starts; ++start) {
     RingFill fill = fill_from(lattice, cost, start);
     if (fill.cost < best.cost) best = std::move(fill);
@@ -94,7 +97,7 @@ Lattice make_lattice(const FillBond& bond, const BondGrid& grid) {
   return lattice;
 }
 
-/// Cuts that some ring uses, and the blocks between them.
+/// The bond with the given joints of each ring. Its cuts are the positions that some ring uses.
 BondPattern pattern_of(const std::vector<std::vector<int>>& joints, const Lattice& lattice,
                        const BondGrid& grid) {
   std::vector<int> used;
@@ -127,9 +130,10 @@ BondPattern fill_bond(const FillBond& bond, const BondGrid& grid) {
   for (int ring = 0; ring < grid.num_rings; ++ring) {
     const RingFill fill = fill_ring(lattice, joints.empty() ? std::vector<int>{} : joints.back());
     if (fill.cost == kInfinity)
-      throw InputError(
-          fmt::format("geometry.bond: blocks of {} to {} slices cannot fill ring {}, which has {}",
-                      lattice.narrowest, lattice.widest, ring, lattice.num_units));
+      throw InputError(fmt::format(
+          "geometry.bond: ring {} of {} slices cannot be filled with blocks of {} to {} slices; widen "
+          "narrowest and widest, or increase slices_per_block",
+          ring, lattice.num_units, lattice.narrowest, lattice.widest));
     joints.push_back(fill.joints);
   }
   BondPattern pattern = pattern_of(joints, lattice, grid);

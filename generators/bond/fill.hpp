@@ -5,10 +5,14 @@
 
 namespace cupola {
 
-/// General fill: every ring is cut into blocks of `narrowest` to `widest` times the mean width w, at
-/// multiples of w / slices_per_block, by dynamic programming from the first ring up. A ring's cost is the sum
-/// over its blocks of (width / w - 1)^2 plus, for every joint at a distance d < w / 4 from a joint of the
-/// ring below, 1 - 4 d / w. No joint comes nearer than w / 4 to a corner of the surface.
+/// Fills every ring with blocks of `narrowest` to `widest` times the mean width w. Joints lie at multiples of
+/// w / slices_per_block and no nearer than w / 4 to a corner of the surface.
+///
+/// Dynamic programming minimises the cost of one ring after another, from the base upwards:
+///     sum over blocks of (width / w - 1)^2
+///   + sum over joints of max(0, 1 - 4 d / w),  d = distance to the nearest joint of the ring below.
+///
+/// Throws InputError if a ring cannot be filled.
 BondPattern fill_bond(const FillBond& bond, const BondGrid& grid);
 
 }  // namespace cupola

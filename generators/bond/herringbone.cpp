@@ -10,30 +10,32 @@
 namespace cupola {
 namespace {
 
-constexpr double kHerringboneCornerPhase =
-    1.0 / 6.0;  // block widths: with three verticals per block no joint meets a corner
+// Block widths. With three verticals per block no joint then lies on a corner.
+constexpr double kHerringboneCornerPhase = 1.0 / 6.0;
 
-/// The bond in slices, `slices_per_vertical` of them to a vertical's width. A band is what the case calls a
-/// spiral or strip: `refine` strips side by side, each with `rings_per_vertical` verticals in every ring.
+/// The bond while it is being laid. All lengths are in slices; a vertical is `slices_per_vertical` slices
+/// wide. A band is one spiral or meridian strip of the case: `refine` strips side by side, each with
+/// `rings_per_vertical` verticals in every ring.
 struct Layout {
   const HerringboneBond& bond;
   bool closed;
   int num_rings;
-  int num_slices;         // around, or along
-  int offset;             // slices from 0 to the first band
-  BondPattern pattern{};  // blocks and block_of
+  int num_slices;         // per ring
+  int offset;             // from abscissa 0 to the first band
+  BondPattern pattern{};  // only its blocks and block_of
 
   int whole() const { return bond.verticals_per_block * bond.slices_per_vertical; }
   int strip_width() const { return bond.rings_per_vertical * bond.slices_per_vertical; }
   int band_width() const { return bond.refine * strip_width(); }
-  /// First slice of a band. A refined one is moved back, so that in the first course of each unrefined ring
-  /// it begins where the unrefined band does.
+  /// First slice of a band in ring rings_per_vertical - 1 (in any ring on a meridian path). A refined band is
+  /// moved back, so that it starts where the unrefined band does in the first course of each unrefined ring.
   int band_start(int band) const {
     const bool climbs = bond.path == HerringboneBond::Path::spiral;
     const int ahead = climbs ? (bond.rings_per_vertical - 1) * (bond.refine - 1) : 0;
-    const int num_verticals = num_slices / bond.slices_per_vertical;  // widths of one, all round
+    const int num_verticals = num_slices / bond.slices_per_vertical;  // side by side, per ring
     return offset + (band * num_verticals / bond.spirals - ahead) * bond.slices_per_vertical;
   }
+  /// Widths of a vertical from the start of its strip.
   int column(int vertical) const {
     if (bond.path == HerringboneBond::Path::spiral) return vertical;
     const int n = bond.rings_per_vertical;
@@ -67,18 +69,19 @@ void lay_verticals(Layout* layout) {
   }
 }
 
-/// Slices of the first block of a run that goes from the edge `edge` towards `step`.
+/// Width of the first block of a run from `edge` in the direction `step`, i.e. the distance to the next
+/// joint.
 int first_width(const Layout& layout, int ring, int edge, int step) {
   const int whole = layout.whole();
   if (layout.bond.beside == HerringboneBond::Beside::stepped) return whole;
   const bool shifted = layout.bond.beside == HerringboneBond::Beside::half && ring % 2 != 0;
-  const int joint = layout.offset + (shifted ? whole / 2 : 0);  // one of the lattice
+  const int joint = layout.offset + (shifted ? whole / 2 : 0);  // the others follow every `whole` slices
   const int ahead = (step * (joint - edge) % whole + whole) % whole;
   return ahead == 0 ? whole : ahead;
 }
 
-/// Lays blocks from slice `from`, `count` slices towards `step` = +1 or -1: whole ones between a first and a
-/// last that the strips cut. What is narrower than half of a whole one goes to its neighbour.
+/// Lays blocks over `count` slices from slice `from` in the direction `step` = +1 or -1. The strips may cut
+/// the first and the last block; a remainder narrower than half a block is added to its neighbour.
 void lay_run(Layout* layout, int ring, int from, int count, int step) {
   if (count <= 0) return;
   const int whole = layout->whole();
@@ -97,7 +100,7 @@ void lay_whole_blocks(Layout* layout) {
   for (int ring = 0; ring < layout->num_rings; ++ring) {
     const int climb = spiral ? (ring - bond.rings_per_vertical + 1) * bond.slices_per_vertical : 0;
     for (int band = 0; band < bond.spirals; ++band) {
-      const int left = layout->band_start(band) + climb;  // edges of the band in this ring
+      const int left = layout->band_start(band) + climb;  // first slice of the band in this ring
       const int right = left + layout->band_width();
       if (layout->closed) {
         const int next = band + 1 < bond.spirals ? layout->band_start(band + 1)
@@ -113,26 +116,28 @@ void lay_whole_blocks(Layout* layout) {
   }
 }
 
-void check(const HerringboneBond& bond, const BondGrid& grid, double phase_units) {
+void check_fit(const HerringboneBond& bond, const BondGrid& grid, double phase_in_verticals) {
   const int num_verticals = bond.blocks_per_ring * bond.verticals_per_block;
   if (grid.closed && num_verticals / bond.spirals < bond.rings_per_vertical)
-    throw InputError(fmt::format(
-        "geometry.bond.spirals = {}: with {} verticals each they do not fit into the {} that a ring holds",
-        bond.spirals, bond.rings_per_vertical, num_verticals));
+    throw InputError(
+        fmt::format("geometry.bond.spirals = {}: spirals of {} verticals do not fit into a ring that is {} "
+                    "verticals wide",
+                    bond.spirals, bond.rings_per_vertical, num_verticals));
   if (!grid.closed && bond.spirals != 1)
-    throw InputError(fmt::format("geometry.bond.spirals = {}: a wall has one strip, say 1", bond.spirals));
-  if (!grid.closed && phase_units != std::round(phase_units))
-    throw InputError(fmt::format(
-        "geometry.bond.phase = {}: on a wall it must be a whole number of verticals, i.e. a multiple of 1/{}",
-        *bond.phase, bond.verticals_per_block));
+    throw InputError(fmt::format("geometry.bond.spirals = {}: must be 1 on an open surface", bond.spirals));
+  if (!grid.closed && phase_in_verticals != std::round(phase_in_verticals))
+    throw InputError(
+        fmt::format("geometry.bond.phase = {}: must be a multiple of 1/{} on an open surface, a whole number "
+                    "of verticals",
+                    *bond.phase, bond.verticals_per_block));
 }
 
-/// Widths of a vertical from the first corner to the first band. By default joints lie half a width off the
-/// corners.
-double phase_in_verticals(const HerringboneBond& bond, const BondGrid& grid) {
+/// Distance of the first band from the first corner, in widths of a vertical. By default joints lie half a
+/// width off the corners.
+double first_band_phase(const HerringboneBond& bond, const BondGrid& grid) {
   if (bond.phase) return *bond.phase * bond.verticals_per_block * bond.refine;
   if (grid.corners.empty()) return 0.0;
-  const int half_refined = (bond.refine - 1) / 2;  // whole verticals
+  const int half_refined = (bond.refine - 1) / 2;  // rounded down to whole verticals
   return bond.verticals_per_block * kHerringboneCornerPhase + half_refined;
 }
 
@@ -141,8 +146,8 @@ double phase_in_verticals(const HerringboneBond& bond, const BondGrid& grid) {
 BondPattern herringbone_bond(const HerringboneBond& bond, const BondGrid& grid) {
   const int num_verticals = bond.blocks_per_ring * bond.verticals_per_block * bond.refine;
   const int num_slices = num_verticals * bond.slices_per_vertical;
-  const double phase = phase_in_verticals(bond, grid);
-  check(bond, grid, phase);
+  const double phase = first_band_phase(bond, grid);
+  check_fit(bond, grid, phase);
   const int whole = static_cast<int>(std::floor(phase));
   Layout layout{bond, grid.closed, grid.num_rings, num_slices, whole * bond.slices_per_vertical, {}};
   layout.pattern.block_of.assign(static_cast<size_t>(grid.num_rings) * num_slices, -1);
@@ -151,7 +156,7 @@ BondPattern herringbone_bond(const HerringboneBond& bond, const BondGrid& grid) 
 
   BondPattern pattern = std::move(layout.pattern);
   pattern.num_rings = grid.num_rings;
-  pattern.cuts = lattice_cuts(grid.extent, grid.extent * (phase - whole) / num_verticals, num_slices);
+  pattern.cuts = equal_cuts(grid.extent, grid.extent * (phase - whole) / num_verticals, num_slices);
   if (bond.chirality == HerringboneBond::Chirality::left) mirror(grid.extent, &pattern);
   split_at_corners(grid, &pattern);
   return pattern;

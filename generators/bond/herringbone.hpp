@@ -5,19 +5,27 @@
 
 namespace cupola {
 
-/// Herringbone. With w the width of a whole block and v = w / verticals_per_block, vertical j of strip i
-/// stands at the azimuth [a_i + j v, a_i + (j + 1) v) and spans the rings [j, j + rings_per_vertical), cut
-/// off by base and crown, j = 1 - rings_per_vertical .. K - 1, a_i = i extent / strips + phase. Every ring
-/// crosses rings_per_vertical verticals of each strip; the rest of the ring is laid in whole blocks cut from
-/// the strip on, so that their joints step by v per ring (`beside`: or lie where a half bond or meridians put
-/// them); a rest narrower than w/2 widens its neighbour.
+/// Herringbone bond: strips of narrow upright blocks ("verticals") that climb through courses of whole
+/// blocks.
 ///
-/// Refined n times, verticals are n times narrower and lower, and each strip becomes a band of n strips side
+/// Let w be the width of a whole block, v = w / verticals_per_block, H = rings_per_vertical and K the number
+/// of rings. On a spiral path, vertical j = 1 - H .. K - 1 of strip i covers
+///     abscissae [a_i + j v, a_i + (j + 1) v),  a_i = i extent / strips + phase,
+///     rings     [j, j + H), clipped to [0, K),
+/// so that every ring crosses H verticals of each strip. On a meridian path j mod H replaces j in the
+/// abscissae.
+///
+/// The rest of each ring is laid in whole blocks. `beside` decides where their joints lie: `stepped` cuts
+/// them from the strip onwards, so that joints move by v per ring; `half` and `aligned` put them in a half
+/// bond or on meridians. A remainder narrower than w / 2 widens its neighbour.
+///
+/// With refine = n, verticals are n times narrower and lower, and each strip becomes a band of n strips side
 /// by side that covers the same part of the shell.
 ///
-/// On a meridian path the verticals stand side by side instead: j at a_i + (j mod rings_per_vertical) v.
-/// On an open surface there is one strip, from the lower left corner, laid from it towards both ends; what
-/// lies beyond the ends is left out.
+/// An open surface has one strip, which starts at the lower left corner. Whole blocks are laid from the strip
+/// towards both ends, and verticals beyond the ends are left out.
+///
+/// Throws InputError if the strips or the phase do not fit the surface.
 BondPattern herringbone_bond(const HerringboneBond& bond, const BondGrid& grid);
 
 }  // namespace cupola

@@ -5,12 +5,12 @@
 
 namespace cupola {
 
-/// Lays the bond that a case names on a grid. Throws InputError when it does not fit.
+/// Lays the bond of a case on the grid of a surface. Throws InputError if it does not fit.
 BondPattern make_bond(const Bond& bond, const BondGrid& grid);
 
-/// Courses of the bond, refinement included.
+/// Number of courses after refinement.
 int rings_of(const Bond& bond);
-/// The bond's refinement: courses of it for each course that the case counts.
+/// Number of courses into which the bond divides each course of the case.
 int refinement_of(const Bond& bond);
 
 }  // namespace cupola

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
@@ -20,7 +22,7 @@ ConvexPolyhedron with_planes(std::vector<Vec3> vertices, std::vector<std::vector
   return solid;
 }
 
-/// The new face in the cutting plane: its vertices by angle about their mean.
+/// Loop of the new face in the cutting plane: its vertices sorted by angle about their mean.
 std::vector<int> cap_loop(const std::vector<Vec3>& vertices, std::vector<int> ids, const Vec3& normal) {
   Vec3 center = Vec3::Zero();
   for (int v : ids) center += vertices[v] / static_cast<double>(ids.size());
@@ -33,7 +35,7 @@ std::vector<int> cap_loop(const std::vector<Vec3>& vertices, std::vector<int> id
   return ids;
 }
 
-ConvexPolyhedron drop_unused(const ConvexPolyhedron& solid) {
+ConvexPolyhedron without_unused_vertices(const ConvexPolyhedron& solid) {
   ConvexPolyhedron result;
   result.planes = solid.planes;
   std::vector<int> new_id(solid.vertices.size(), -1);
@@ -66,7 +68,8 @@ ConvexPolyhedron tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const 
 }
 
 ConvexPolyhedron clip(const ConvexPolyhedron& solid, const Plane& plane, double tolerance) {
-  std::vector<double> height;
+  CUPOLA_ASSERT(std::abs(plane.normal.norm() - 1.0) < 1e-9);
+  std::vector<double> height;  // of the vertices above the plane
   bool any_inside = false, any_outside = false;
   for (const Vec3& v : solid.vertices) {
     double h = plane.normal.dot(v) - plane.offset;
@@ -80,7 +83,7 @@ ConvexPolyhedron clip(const ConvexPolyhedron& solid, const Plane& plane, double 
 
   ConvexPolyhedron result;
   result.vertices = solid.vertices;
-  std::map<std::pair<int, int>, int> crossing;
+  std::map<std::pair<int, int>, int> crossing;  // edge -> new vertex on it
   std::vector<int> cap;
   for (size_t f = 0; f < solid.faces.size(); ++f) {
     const auto& face = solid.faces[f];
@@ -100,7 +103,7 @@ ConvexPolyhedron clip(const ConvexPolyhedron& solid, const Plane& plane, double 
       loop.push_back(it->second);
     }
     const bool flat = std::ranges::all_of(loop, [&](int v) {
-      return v >= static_cast<int>(height.size()) || height[v] == 0.0;  // lies in the cutting plane
+      return v >= static_cast<int>(height.size()) || height[v] == 0.0;  // in the cutting plane
     });
     if (loop.size() < 3 || flat) continue;
     result.faces.push_back(loop);
@@ -114,7 +117,7 @@ ConvexPolyhedron clip(const ConvexPolyhedron& solid, const Plane& plane, double 
     result.faces.push_back(cap_loop(result.vertices, cap, plane.normal));
     result.planes.push_back(plane);
   }
-  return drop_unused(result);
+  return without_unused_vertices(result);
 }
 
 double polyhedron_volume(const ConvexPolyhedron& solid) {

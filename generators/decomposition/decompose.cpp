@@ -15,7 +15,7 @@
 namespace cupola {
 namespace {
 
-constexpr int kMostParts = 2000;  // of one block
+constexpr int kMostParts = 2000;  // per block
 
 bool is_convex(const TriangleMesh& mesh, const std::vector<Facet>& facets, double tolerance) {
   for (const Facet& facet : facets)
@@ -24,7 +24,7 @@ bool is_convex(const TriangleMesh& mesh, const std::vector<Facet>& facets, doubl
   return true;
 }
 
-/// The block itself, one face per facet; nothing when a facet's border is no single loop.
+/// The block itself with one face per facet; none if the boundary of a facet is not a single loop.
 std::optional<ConvexPolyhedron> as_polyhedron(const TriangleMesh& mesh, const std::vector<Facet>& facets) {
   ConvexPolyhedron solid;
   solid.vertices = mesh.vertices;
@@ -36,9 +36,9 @@ std::optional<ConvexPolyhedron> as_polyhedron(const TriangleMesh& mesh, const st
   return solid;
 }
 
-/// Does some of the block's surface lie in a part's face?
-bool holds_surface(const TriangleMesh& mesh, const std::vector<Facet>& facets, const ConvexPolyhedron& part,
-                   size_t face, double tolerance) {
+/// True if some of the block's surface lies in a face of a part.
+bool contains_surface(const TriangleMesh& mesh, const std::vector<Facet>& facets,
+                      const ConvexPolyhedron& part, size_t face, double tolerance) {
   std::vector<Vec3> polygon;
   for (int v : part.faces[face]) polygon.push_back(part.vertices[v]);
   for (const Facet& facet : facets) {
@@ -55,8 +55,8 @@ bool holds_surface(const TriangleMesh& mesh, const std::vector<Facet>& facets, c
   return false;
 }
 
-/// Drops the vertices that lie within an edge, which only two faces hold: they come from facets that were
-/// joined and from cuts through an edge's end.
+/// Drops the vertices inside an edge, which only two faces share. They come from merged facets and from cuts
+/// through the end of an edge.
 void drop_vertices_on_edges(ConvexPolyhedron* solid) {
   std::vector<int> num_faces(solid->vertices.size(), 0);
   for (const auto& face : solid->faces)
@@ -89,7 +89,8 @@ Decomposition decompose(const TriangleMesh& mesh, const std::string& name,
   const double size = mesh_size(mesh);
   std::vector<int> facet_of;
   const std::vector<Facet> facets = find_facets(mesh, options.facet_angle, options.flat * size, &facet_of);
-  const double noise = 4.0 * unevenness(mesh, facets);
+  CUPOLA_ASSERT(facet_of.size() == mesh.triangles.size());
+  const double noise = 4.0 * unevenness(mesh, facets);  // m
   double area = 0.0;
   for (const Facet& facet : facets) area += facet.area;
 
@@ -117,16 +118,17 @@ Decomposition decompose(const TriangleMesh& mesh, const std::string& name,
            accept(decompose_by_nef(mesh), Decomposition::Method::nef);
   }
   if (!done)
-    throw InputError(
-        fmt::format("block {}: cannot be split into convex parts: they miss its volume by {:.3g} m3", name,
-                    result.volume_error));
+    throw InputError(fmt::format(
+        "block {}: cannot be split into convex parts: their volume differs from the block's by {:.3g} m3; "
+        "simplify the block or increase geometry.import.facet_angle",
+        name, result.volume_error));
 
   const double tolerance = std::max(1e-8 * size, noise);
   for (const ConvexPolyhedron& part : result.parts) {
     result.internal.emplace_back();
     for (size_t f = 0; f < part.faces.size(); ++f)
       result.internal.back().push_back(result.parts.size() > 1 &&
-                                       !holds_surface(mesh, facets, part, f, tolerance));
+                                       !contains_surface(mesh, facets, part, f, tolerance));
   }
   return result;
 }

@@ -29,7 +29,7 @@ class MeshBuilder : public CGAL::Modifier_base<HalfedgeStructure> {
   const TriangleMesh& mesh_;
 };
 
-/// The convex polyhedron of one volume, with triangles of one plane joined by their exact plane's facets.
+/// One volume of the decomposition, whose facets already join the coplanar triangles.
 ConvexPolyhedron to_convex(const Polyhedron& polyhedron) {
   TriangleMesh mesh;
   std::map<Polyhedron::Vertex_const_handle, int> id;
@@ -63,7 +63,7 @@ std::vector<ConvexPolyhedron> decompose_by_nef(const TriangleMesh& mesh) {
   Nef nef(polyhedron);
   CGAL::convex_decomposition_3(nef);
   std::vector<ConvexPolyhedron> parts;
-  auto volume = ++nef.volumes_begin();  // the first one is the outside
+  auto volume = ++nef.volumes_begin();  // the first volume is the outside
   for (; volume != nef.volumes_end(); ++volume) {
     if (!volume->mark()) continue;
     Polyhedron part;

@@ -10,11 +10,11 @@
 namespace cupola {
 namespace {
 
-constexpr double kLength = 1e-9;   // x block size: closer than this counts as in one plane
-constexpr double kAngle = 1e-6;    // rad
+constexpr double kLength = 1e-9;   // times the block size: smaller distances count as zero
+constexpr double kAngle = 1e-6;    // rad: smaller angles count as zero
 constexpr double kSliver = 0.2;    // rad, 11 deg
-constexpr double kVolume = 1e-11;  // x block volume: a cell's solid that differs by more has several pieces
-constexpr size_t kMostPairs = 40;  // reflex edges in a cell up to which all pairs are tried
+constexpr double kVolume = 1e-11;  // times the block volume: smaller differences of volume count as zero
+constexpr size_t kMostPairs = 40;  // with more reflex edges in a cell, only some pairs are tried
 
 struct Slicer {
   const TriangleMesh& mesh;
@@ -22,16 +22,17 @@ struct Slicer {
   const std::vector<ReflexEdge>& edges;
   int most_parts;
   double length, volume;                       // tolerances, m and m3
-  std::vector<std::array<int, 3>> neighbours;  // triangle beyond each triangle's edge i, i + 1
+  std::vector<std::array<int, 3>> neighbours;  // as triangle_neighbours returns them
   std::vector<ConvexPolyhedron> parts{};
   bool failed = false;
 };
 
+/// Height of a point above a plane, m.
 double height(const Plane& plane, const Vec3& p) {
   return plane.normal.dot(p) - plane.offset;
 }
 
-/// The edge's piece inside the cell, where it runs through the interior.
+/// True if a piece of the edge longer than `tolerance` (m) lies in the interior of the cell.
 bool passes_inside(const ReflexEdge& edge, const ConvexPolyhedron& cell, double tolerance) {
   double from = 0.0, to = 1.0;
   for (const Plane& plane : cell.planes) {
@@ -47,7 +48,7 @@ bool passes_inside(const ReflexEdge& edge, const ConvexPolyhedron& cell, double 
   return (to - from) * (edge.end - edge.start).norm() > tolerance;
 }
 
-/// Does the plane hold the edge and leave less than 180 deg of solid on both sides?
+/// True if the plane contains the edge and leaves less than 180 deg of solid on both sides.
 bool resolves(const Slicer& s, const Plane& plane, const ReflexEdge& edge) {
   if (std::abs(height(plane, edge.start)) > s.length || std::abs(height(plane, edge.end)) > s.length)
     return false;
@@ -57,12 +58,12 @@ bool resolves(const Slicer& s, const Plane& plane, const ReflexEdge& edge) {
   return (a <= kAngle && b <= kAngle) || (a >= -kAngle && b >= -kAngle);
 }
 
-/// How many separate limbs of the solid a plane cuts, of those triangles that reach into a cell. Corners in
-/// the plane count as below it.
+/// Number of separate limbs of the solid that a plane cuts, counting the triangles that reach into a cell.
+/// Corners in the plane count as below it.
 int num_limbs_cut(const Slicer& s, const Plane& plane, const std::vector<char>& in_cell) {
   const auto num_triangles = static_cast<int>(s.mesh.triangles.size());
   const auto above = [&](int t, int i) { return height(plane, s.mesh.corner(t, i)) > s.length; };
-  std::vector<char> open(in_cell.size(), 0);  // cut by the plane and not counted yet
+  std::vector<char> open(in_cell.size(), 0);  // 1: cut by the plane and not counted yet
   for (int t = 0; t < num_triangles; ++t)
     open[t] = in_cell[t] && (above(t, 0) != above(t, 1) || above(t, 0) != above(t, 2));
   int count = 0;
@@ -84,7 +85,8 @@ int num_limbs_cut(const Slicer& s, const Plane& plane, const std::vector<char>& 
   return count;
 }
 
-/// Worth of a plane for the edges and triangles in a cell; nothing when it resolves no edge.
+/// Score of a plane for the active edges and the triangles in a cell (see the header); none if it resolves no
+/// edge. Ties go to the plane that divides the edges more evenly.
 std::optional<double> score(const Slicer& s, const Plane& plane, const std::vector<int>& active,
                             const std::vector<char>& in_cell) {
   double votes = 0.0;
@@ -136,7 +138,7 @@ std::vector<Plane> candidates(const Slicer& s, const std::vector<int>& active) {
       const Vec3 along = a.end - a.start;
       Vec3 normal = along.cross(b.start - a.start);
       if (normal.norm() <= s.length * along.norm()) normal = along.cross(b.end - a.start);
-      if (normal.norm() <= s.length * along.norm()) continue;  // one line
+      if (normal.norm() <= s.length * along.norm()) continue;  // the edges lie on one line
       const Plane plane = plane_through(normal, a.start);
       if (std::abs(height(plane, b.start)) <= s.length && std::abs(height(plane, b.end)) <= s.length)
         planes.push_back(plane);
@@ -144,7 +146,7 @@ std::vector<Plane> candidates(const Slicer& s, const std::vector<int>& active) {
   return planes;
 }
 
-/// Part of a triangle strictly inside a cell: has it any area?
+/// True if part of a triangle lies strictly inside a cell.
 bool reaches_inside(const Slicer& s, int triangle, const ConvexPolyhedron& cell) {
   std::vector<Vec3> polygon;
   for (int i = 0; i < 3; ++i) polygon.push_back(s.mesh.corner(triangle, i));
@@ -162,7 +164,8 @@ bool reaches_inside(const Slicer& s, int triangle, const ConvexPolyhedron& cell)
   return polygon_area(polygon) > s.length * s.length;
 }
 
-/// Volume of the solid inside a convex cell: signed tetrahedra from a point of the cell, clipped.
+/// Volume of the solid inside a convex cell, m3: the sum of signed tetrahedra over the triangles, clipped to
+/// the cell.
 double solid_volume_in(const Slicer& s, const ConvexPolyhedron& cell) {
   const Vec3 apex = vertex_mean(cell);
   double volume = 0.0;
@@ -187,7 +190,7 @@ void split(Slicer* s, const ConvexPolyhedron& cell, const Plane& plane, const st
   slice(s, clip(cell, Plane{-plane.normal, -plane.offset}, s->length), edges);
 }
 
-/// A facet's plane with some of the cell's solid on its outer side, so that it separates pieces.
+/// The plane of a facet that has some of the cell's solid on its outer side, and so separates pieces of it.
 std::optional<Plane> separating_facet(const Slicer& s, const ConvexPolyhedron& cell,
                                       const std::vector<int>& inside) {
   for (int f : inside) {
@@ -199,7 +202,7 @@ std::optional<Plane> separating_facet(const Slicer& s, const ConvexPolyhedron& c
   return std::nullopt;
 }
 
-/// The solid in a cell without reflex edges: the cell clipped by its facets, or several such pieces.
+/// Appends the solid in a cell without reflex edges: the cell clipped by its facets, or several such pieces.
 void finish_cell(Slicer* s, const ConvexPolyhedron& cell) {
   std::vector<int> inside;
   for (size_t f = 0; f < s->facets.size(); ++f)

@@ -9,15 +9,17 @@ namespace cupola {
 
 /// Cuts a closed polyhedron into convex parts by planes through its reflex edges.
 ///
-/// A box around the block is split by planes until no reflex edge passes through a cell; the solid inside
-/// such a cell is convex, piece by piece, and its parts are the cell clipped by the facets in it. The next
-/// plane is the one with most votes among: planes through two coplanar reflex edges, the facets at a reflex
-/// edge continued, and bisectors. A reflex edge votes for a plane that holds it and leaves less than 180 deg
-/// of solid on either side. A plane gains a fifth of a vote when it continues a facet at its edges,
-/// loses half when it comes within 11 deg of one without continuing it (slivers), and one for every limb of
-/// the block that it cuts besides the first.
+/// A box around the block is split by planes into cells until no reflex edge passes through a cell. The
+/// pieces of the solid inside such a cell are convex; each is the cell clipped by the facets in it.
 ///
-/// Returns nothing when more than `most_parts` parts would be needed.
+/// The candidates for the next plane are planes through two coplanar reflex edges, extensions of the two
+/// facets at a reflex edge, and bisectors. The candidate with the highest score is chosen:
+///     + 1    for each reflex edge in the plane that has less than 180 deg of solid on either side of it,
+///     + 0.2  for each of those edges whose facet the plane extends, at most 0.4,
+///     - 0.5  if the plane lies within 11 deg of a facet at such an edge without extending it (slivers),
+///     - 1    for each limb of the block that the plane cuts after the first.
+///
+/// Returns no parts if more than `most_parts` would be needed.
 std::vector<ConvexPolyhedron> decompose_by_planes(const TriangleMesh& mesh, const std::vector<Facet>& facets,
                                                   const std::vector<ReflexEdge>& reflex_edges,
                                                   int most_parts);

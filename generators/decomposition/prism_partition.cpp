@@ -20,9 +20,10 @@ using InexactKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point2 = InexactKernel::Point_2;
 using Traits = CGAL::Partition_traits_2<InexactKernel, CGAL::Pointer_property_map<Point2>::const_type>;
 
-constexpr size_t kMostForOptimum = 150;  // corners; its time grows with their fourth power
+constexpr size_t kMostForOptimum =
+    150;  // corners; the time of the optimal partition grows with their fourth power
 
-/// Two facets back to back that all others stand across.
+/// Two opposite facets to which all others are perpendicular.
 struct Caps {
   int lower, upper;
 };
@@ -44,10 +45,10 @@ std::optional<Caps> find_caps(const std::vector<Facet>& facets, double angle) {
   return std::nullopt;
 }
 
-/// Corners of a cap's border, counter-clockwise seen from outside, where the side facet changes.
+/// Points of a cap's boundary where the side facet changes, counter-clockwise seen from outside.
 std::vector<Vec3> cap_corners(const TriangleMesh& mesh, const std::vector<Facet>& facets,
                               const std::vector<int>& facet_of, int cap) {
-  std::map<std::pair<int, int>, int> side;  // of each directed edge that is not the cap's
+  std::map<std::pair<int, int>, int> side;  // directed edge outside the cap -> its facet
   for (size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int i = 0; i < 3; ++i)
       if (facet_of[t] != cap) side[{mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]}] = facet_of[t];
@@ -70,7 +71,7 @@ std::optional<CrossSection> cross_section(const TriangleMesh& mesh, const std::v
   std::vector<Vec3> lower = cap_corners(mesh, facets, facet_of, caps.lower);
   std::vector<Vec3> upper = cap_corners(mesh, facets, facet_of, caps.upper);
   if (lower.size() < 3 || lower.size() != upper.size()) return std::nullopt;
-  std::ranges::reverse(lower);  // counter-clockwise seen from above, as the upper ones
+  std::ranges::reverse(lower);  // counter-clockwise seen from above, like `upper`
   const Vec3& axis = facets[caps.upper].plane.normal;
   const auto aside = [&](const Vec3& p) { return Vec3(p - axis.dot(p) * axis); };
   const auto nearest =
@@ -86,10 +87,12 @@ std::optional<CrossSection> cross_section(const TriangleMesh& mesh, const std::v
   return section;
 }
 
-/// Convex pieces of a simple counter-clockwise polygon, as corner numbers; nothing when it crosses itself.
+/// Convex pieces of a counter-clockwise polygon as indices of its corners; none if the polygon intersects
+/// itself.
 std::vector<std::vector<int>> convex_pieces(const std::vector<Point2>& corners) {
   if (!CGAL::is_simple_2(corners.begin(), corners.end(), InexactKernel())) return {};
-  if (CGAL::orientation_2(corners.begin(), corners.end(), InexactKernel()) != CGAL::COUNTERCLOCKWISE) return {};
+  if (CGAL::orientation_2(corners.begin(), corners.end(), InexactKernel()) != CGAL::COUNTERCLOCKWISE)
+    return {};
   std::list<std::size_t> numbers;
   for (size_t i = 0; i < corners.size(); ++i) numbers.push_back(i);
   const Traits traits(CGAL::make_property_map(corners));

@@ -7,13 +7,15 @@
 
 namespace cupola {
 
-/// Cuts a block that is a prism, i.e. has two parallel caps and all other facets across them within `angle`
-/// (rad), into prisms over convex pieces of its cross-section: as few as cuts from corner to corner allow
-/// (Greene 1983; above 150 corners at most four times as many, Hertel and Mehlhorn 1983). No new corners
-/// arise, so parts close exactly and a curve of many short chords makes no slivers.
+/// Cuts a prism into prisms over convex pieces of its cross-section. A prism has two parallel caps, and all
+/// its other facets are perpendicular to them within `angle` (rad).
 ///
-/// The cross-section is the mean of the two caps, its corners those where the side facet changes. Returns
-/// nothing for a block that is no such prism, or whose caps have holes.
+/// The number of pieces is the minimum for cuts from corner to corner (Greene 1983); above 150 corners it is
+/// at most four times the minimum (Hertel and Mehlhorn 1983). No corners are added, so the parts fit together
+/// exactly and a curve of many short chords gives no slivers.
+///
+/// The cross-section is the mean of the two caps. Its corners are the points where the side facet changes.
+/// Returns no parts if the block is not such a prism or its caps have holes.
 std::vector<ConvexPolyhedron> partition_prism(const TriangleMesh& mesh, const std::vector<Facet>& facets,
                                               const std::vector<int>& facet_of, double angle);
 

@@ -12,7 +12,7 @@
 namespace cupola {
 namespace {
 
-using Edge = std::pair<int, int>;  // directed, as the triangle runs
+using Edge = std::pair<int, int>;  // directed, in the sense of its triangle
 
 /// Triangle on the left of each directed edge.
 std::map<Edge, int> edge_map(const TriangleMesh& mesh) {
@@ -22,11 +22,12 @@ std::map<Edge, int> edge_map(const TriangleMesh& mesh) {
   return left;
 }
 
+/// Outward normal times the area, m2.
 Vec3 area_vector(const TriangleMesh& mesh, int t) {
   return 0.5 * (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0));
 }
 
-/// Grows a facet from its seed over edges.
+/// The facet that contains the triangle `seed`, found by a flood fill.
 Facet grow(const TriangleMesh& mesh, const std::map<Edge, int>& left, int seed, double angle, double distance,
            int id, std::vector<int>* facet_of) {
   const Vec3 normal = area_vector(mesh, seed).normalized();
@@ -146,9 +147,9 @@ std::vector<int> facet_loop(const TriangleMesh& mesh, const Facet& facet) {
 std::vector<ReflexEdge> find_reflex_edges(const TriangleMesh& mesh, const std::vector<Facet>& facets,
                                           const std::vector<int>& facet_of, double angle) {
   struct Piece {
-    int a, b;
+    int a, b;  // vertices
   };
-  std::map<std::pair<int, int>, std::vector<Piece>> pieces;  // by facets
+  std::map<std::pair<int, int>, std::vector<Piece>> pieces;  // pair of facets -> edges between them
   const std::map<Edge, int> left = edge_map(mesh);
   for (const auto& [edge, t] : left) {
     const auto across = left.find({edge.second, edge.first});
@@ -156,7 +157,8 @@ std::vector<ReflexEdge> find_reflex_edges(const TriangleMesh& mesh, const std::v
     const int fa = facet_of[t], fb = facet_of[across->second];
     if (fa == fb) continue;
     const Vec3 direction = (mesh.vertices[edge.second] - mesh.vertices[edge.first]).normalized();
-    // Left of the edge seen from outside lies facet a: convex when n_a x n_b runs along the edge.
+    // Facet a lies on the left of the edge seen from outside: the edge is convex if n_a x n_b points along
+    // it.
     const double sine = facets[fa].plane.normal.cross(facets[fb].plane.normal).dot(direction);
     if (sine < -angle) pieces[{fa, fb}].push_back({edge.first, edge.second});
   }

@@ -10,7 +10,7 @@
 
 namespace cupola {
 
-/// Reads numbers one after the other from bytes of either byte order.
+/// Reads consecutive numbers of either byte order.
 class BinaryBytes {
  public:
   BinaryBytes(const std::string& path, const std::string& bytes, size_t start, bool big_endian)
@@ -22,7 +22,7 @@ class BinaryBytes {
   template <class T>
   T take() {
     if (position_ + sizeof(T) > bytes_.size())
-      throw InputError(FileLocation{path_}, "the file is shorter than its header says");
+      throw InputError(FileLocation{path_}, "the file ends early, its header declares more data");
     std::array<char, sizeof(T)> raw;
     std::memcpy(raw.data(), bytes_.data() + position_, sizeof(T));
     if (swap_) std::ranges::reverse(raw);
@@ -31,7 +31,7 @@ class BinaryBytes {
     std::memcpy(&value, raw.data(), sizeof(T));
     return value;
   }
-  size_t left() const { return bytes_.size() - position_; }
+  size_t bytes_left() const { return bytes_.size() - position_; }
 
  private:
   const std::string& path_;

@@ -9,38 +9,39 @@
 
 namespace cupola {
 
-/// Polygons on a vertex list, as a file gives them.
+/// Polygons on a list of vertices, as read from a file.
 struct PolygonMesh {
   std::vector<Vec3> vertices;
-  std::vector<std::vector<int>> faces;  ///< vertex ids, counter-clockwise seen from outside when oriented
+  std::vector<std::vector<int>>
+      faces;  ///< vertex ids; counter-clockwise seen from outside if oriented correctly
 };
 
-/// One block as read, before anything is checked.
+/// One block as read from a file, before any check.
 struct RawBlock {
-  std::string name;    ///< as the file calls it
-  FileLocation where;  ///< where it begins
+  std::string name;    ///< in the file
+  FileLocation where;  ///< of its first line
   PolygonMesh mesh;
-  /// Convex parts as point clouds, in the formats that give those instead of faces.
+  /// Convex parts as point clouds, for formats without faces.
   std::vector<std::vector<Vec3>> point_parts;
   bool fixed = false;
-  std::optional<double> density;  ///< kg/m3, where the file says
+  std::optional<double> density;  ///< kg/m3, if the file gives it
 };
 
-/// Polygon in which two blocks of the file touch, in the file's units and axes.
+/// Polygon where two blocks of a file touch, in the units and axes of the file.
 struct RawInterface {
   FileLocation where;
   std::string block_a, block_b;
   std::vector<Vec3> points;
 };
 
-/// Tie between two blocks of the same file set, by block names.
+/// Tie between two named blocks, in the units and axes of the file.
 struct RawTie {
   FileLocation where;
   std::string block_a, block_b;
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();
-  double stiffness = 0.0;  ///< N/m; infinity for a rod
-  double length = 0.0;     ///< m, at rest
-  bool pushes = false;     ///< carries compression too
+  double stiffness = 0.0;  ///< N/m; infinite for a rod
+  double length = 0.0;     ///< at rest
+  bool pushes = false;     ///< also carries compression
 };
 
 }  // namespace cupola

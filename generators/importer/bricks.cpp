@@ -9,13 +9,14 @@
 namespace cupola {
 namespace {
 
-constexpr size_t kFirstCoordinate =
-    11;  // after ID, fixed, visible, yielding, density, force and reference point
+// Columns before it: ID, fixed, visible, yielding, density, force (3) and reference point (3).
+constexpr size_t kFirstCoordinate = 11;
 constexpr double kPartSeparator = 9999.0;
 
 RawTie tie_of_row(const TextLines& lines, size_t num_words) {
   if (lines.words().size() < num_words)
-    lines.fail(fmt::format("a row has {} values, this one {}", num_words, lines.words().size()));
+    lines.fail(
+        fmt::format("the row has {} values, at least {} are required", lines.words().size(), num_words));
   RawTie tie;
   tie.where = lines.where();
   tie.block_a = lines.words()[1];
@@ -34,10 +35,10 @@ std::vector<RawBlock> read_bricks(const std::string& path) {
     const size_t num_words = lines.words().size();
     lines.enter(fmt::format("block {}", lines.words()[0]));
     if (num_words < kFirstCoordinate)
-      lines.fail(fmt::format("a row begins with {} values, this one has {}", kFirstCoordinate, num_words));
+      lines.fail(fmt::format("the row has {} values, at least {} are required", num_words, kFirstCoordinate));
     RawBlock block{std::string(lines.words()[0]), lines.where(), {}, {{}}, lines.number(1) != 0.0, {}};
     block.density = lines.number(4);
-    if (*block.density <= 0.0) lines.fail(fmt::format("density {} must be > 0", *block.density));
+    if (*block.density <= 0.0) lines.fail(fmt::format("density = {}: must be > 0", *block.density));
     size_t w = kFirstCoordinate;
     while (w < num_words) {
       if (lines.number(w) == kPartSeparator) {
@@ -49,10 +50,10 @@ std::vector<RawBlock> read_bricks(const std::string& path) {
       }
     }
     std::erase_if(block.point_parts, [](const auto& part) { return part.empty(); });
-    if (block.point_parts.empty()) lines.fail("it has no corners");
+    if (block.point_parts.empty()) lines.fail("no corners");
     blocks.push_back(std::move(block));
   }
-  if (blocks.empty()) throw InputError(FileLocation{path}, "the file has no blocks");
+  if (blocks.empty()) throw InputError(FileLocation{path}, "no blocks in this file");
   return blocks;
 }
 
@@ -63,7 +64,9 @@ std::vector<RawTie> read_springs(const std::string& path) {
     RawTie tie = tie_of_row(lines, 11);
     tie.stiffness = lines.number(9);
     tie.length = lines.number(10);
-    if (tie.stiffness <= 0.0 || tie.length < 0.0) lines.fail("a spring has k > 0 and L0 >= 0");
+    if (tie.stiffness <= 0.0 || tie.length < 0.0)
+      lines.fail(
+          fmt::format("k = {}, L0 = {}: a spring requires k > 0 and L0 >= 0", tie.stiffness, tie.length));
     ties.push_back(tie);
   }
   return ties;

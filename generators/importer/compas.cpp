@@ -14,20 +14,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// 1-based line of a byte of the text.
+/// Line of a byte of the text, counted from 1.
 int line_of(const std::string& text, size_t byte) {
   return 1 +
          static_cast<int>(std::count(
              text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size())), '\n'));
 }
 
-/// Walks down a path of keys, or fails naming the missing one.
+/// The value at the end of a path of keys. Throws InputError with the first missing key.
 const Json& descend(const Json& node, std::initializer_list<const char*> keys, const FileLocation& where,
                     const std::string& what) {
   const Json* here = &node;
   for (const char* key : keys) {
     if (!here->is_object() || !here->contains(key))
-      throw InputError(where, fmt::format("{}: '{}' is missing", what, key));
+      throw InputError(where, fmt::format("{}: key '{}' is missing", what, key));
     here = &(*here)[key];
   }
   return *here;
@@ -54,8 +54,7 @@ PolygonMesh read_mesh_of(const Json& data, const FileLocation& where, const std:
     for (const Json& v : face) {
       const auto found = id.find(v.is_string() ? v.get<std::string>() : v.dump());
       if (found == id.end())
-        throw InputError(where,
-                         fmt::format("{}, face {}: vertex {} is not in the block", block, key, v.dump()));
+        throw InputError(where, fmt::format("{}, face {}: the block has no vertex {}", block, key, v.dump()));
       ids.push_back(found->second);
     }
     if (ids.size() < 3)
@@ -65,7 +64,7 @@ PolygonMesh read_mesh_of(const Json& data, const FileLocation& where, const std:
   return mesh;
 }
 
-/// Numeric keys in their order, so that block 2 comes before block 10.
+/// Orders numeric keys by value, so that block 2 comes before block 10.
 bool key_before(const std::string& a, const std::string& b) {
   long x = 0, y = 0;
   const bool both_numbers = std::from_chars(a.data(), a.data() + a.size(), x).ec == std::errc() &&
@@ -73,10 +72,11 @@ bool key_before(const std::string& a, const std::string& b) {
   return both_numbers ? x < y : a < b;
 }
 
-/// Parses the file, and refuses two blocks of one name, of which JSON libraries silently keep the last.
+/// Parses the file. Throws InputError if two blocks have the same name, because JSON libraries keep only the
+/// last.
 Json parse_assembly(const std::string& text, const std::string& path) {
-  std::vector<std::map<std::string, int>> keys;  // of the objects that are open
-  std::vector<std::string> parents{""};          // the key each of them is the value of
+  std::vector<std::map<std::string, int>> keys;  // of the open objects
+  std::vector<std::string> parents{""};          // key whose value is each open object
   return Json::parse(text, [&](int, Json::parse_event_t event, Json& parsed) {
     if (event == Json::parse_event_t::object_start) {
       keys.emplace_back();
@@ -88,14 +88,15 @@ Json parse_assembly(const std::string& text, const std::string& path) {
       const std::string key = parsed.get<std::string>();
       const bool in_nodes = parents[parents.size() - 2] == "node";
       if (++keys.back()[key] > 1 && in_nodes)
-        throw InputError(FileLocation{path}, fmt::format("block {}: the file has two of that name", key));
+        throw InputError(FileLocation{path},
+                         fmt::format("block {}: two blocks of this file have this name", key));
       parents.back() = key;
     }
     return true;
   });
 }
 
-/// The file's graph, and its text for line numbers.
+/// The graph of a file, and its text for line numbers.
 struct Graph {
   std::string text;
   Json data;
@@ -109,7 +110,7 @@ Graph read_graph(const std::string& path) {
   } catch (const Json::parse_error& error) {
     throw InputError(FileLocation{path, line_of(graph.text, error.byte), 0}, "not valid JSON here");
   } catch (const Json::out_of_range&) {
-    throw InputError(FileLocation{path}, "holds a number that does not fit in double precision");
+    throw InputError(FileLocation{path}, "a number does not fit in double precision");
   }
   graph.data = descend(root, {"data", "graph", "data"}, FileLocation{path, 1, 0}, "not a COMPAS assembly");
   return graph;
@@ -121,7 +122,7 @@ std::vector<RawBlock> read_compas(const std::string& path) {
   const auto [text, graph] = read_graph(path);
   const Json& nodes = descend(graph, {"node"}, FileLocation{path, 1, 0}, "not a COMPAS assembly");
   if (!nodes.is_object())
-    throw InputError(FileLocation{path, 1, 0}, "not a COMPAS assembly: 'node' is no object");
+    throw InputError(FileLocation{path, 1, 0}, "not a COMPAS assembly: 'node' must be an object");
   std::vector<std::string> names;
   for (const auto& [name, node] : nodes.items()) names.push_back(name);
   std::ranges::sort(names, key_before);
@@ -133,7 +134,7 @@ std::vector<RawBlock> read_compas(const std::string& path) {
     const std::string what = fmt::format("block {}", name);
     RawBlock block{name, here, {}, {}, false, {}};
     block.mesh = read_mesh_of(descend(node, {"block", "data"}, here, what), here, what);
-    if (block.mesh.faces.empty()) throw InputError(here, fmt::format("{}: it has no faces", what));
+    if (block.mesh.faces.empty()) throw InputError(here, fmt::format("{}: no faces", what));
     const auto support = node.find("is_support");
     block.fixed = support != node.end() && support->is_boolean() && support->get<bool>();
     blocks.push_back(std::move(block));
@@ -145,7 +146,7 @@ std::vector<RawInterface> read_compas_interfaces(const std::string& path) {
   const auto [text, graph] = read_graph(path);
   const FileLocation where{path, line_of(text, text.find("\"edge\"")), 0};
   std::vector<RawInterface> interfaces;
-  for (const auto& [block_a, others] : descend(graph, {"edge"}, where, "its interfaces").items())
+  for (const auto& [block_a, others] : descend(graph, {"edge"}, where, "no interfaces").items())
     for (const auto& [block_b, edge] : others.items()) {
       const std::string what = fmt::format("interface of blocks {} and {}", block_a, block_b);
       if (!edge.contains("interfaces") || !edge["interfaces"].is_array()) continue;
@@ -153,7 +154,7 @@ std::vector<RawInterface> read_compas_interfaces(const std::string& path) {
         RawInterface polygon{where, block_a, block_b, {}};
         for (const Json& p : descend(face, {"data", "points"}, where, what)) {
           if (!p.is_array() || p.size() != 3 || !p[0].is_number() || !p[1].is_number() || !p[2].is_number())
-            throw InputError(where, fmt::format("{}: a point has three numbers", what));
+            throw InputError(where, fmt::format("{}: a point must have three numbers", what));
           polygon.points.emplace_back(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
         }
         if (polygon.points.size() < 3)
@@ -161,7 +162,7 @@ std::vector<RawInterface> read_compas_interfaces(const std::string& path) {
         interfaces.push_back(std::move(polygon));
       }
     }
-  if (interfaces.empty()) throw InputError(where, "the file has no interfaces");
+  if (interfaces.empty()) throw InputError(where, "no interfaces in this file");
   return interfaces;
 }
 

@@ -25,7 +25,7 @@ void merge_equal_vertices(PolygonMesh* mesh) {
 }
 
 std::vector<RawBlock> split_components(const PolygonMesh& mesh, const std::string& path) {
-  if (mesh.faces.empty()) throw InputError(FileLocation{path}, "it has no faces");
+  if (mesh.faces.empty()) throw InputError(FileLocation{path}, "no faces in this file");
   std::vector<int> parent(mesh.vertices.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int v) {

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Format = ImportedBlocks::Format;
 
-constexpr double kSliver = 1e-3;  // thickness over size
+constexpr double kSliver = 1e-3;  // thickness over size of a part
 
 Format format_of(const fs::path& path) {
   static const std::map<std::string, Format> endings{
@@ -47,7 +47,7 @@ std::vector<RawBlock> read_file(const fs::path& path, Format format) {
     case Format::automatic:
       break;
   }
-  throw InputError(FileLocation{path.string()}, "its ending tells no format: say geometry.import.format");
+  throw InputError(FileLocation{path.string()}, "unknown file ending; set geometry.import.format");
 }
 
 std::vector<RawBlock> read_all(const ImportedBlocks& source) {
@@ -64,20 +64,22 @@ std::vector<RawBlock> read_all(const ImportedBlocks& source) {
     files.push_back(entry.path());
   }
   std::ranges::sort(files);
-  if (files.empty()) throw InputError(FileLocation{source.path}, "the folder holds no block files");
+  if (files.empty())
+    throw InputError(FileLocation{source.path},
+                     "no block files in this folder (.obj, .off, .stl, .ply, .json, .csv, .txt)");
   std::vector<RawBlock> blocks;
   for (const fs::path& file : files)
     for (RawBlock& block : read_file(file, source.format)) blocks.push_back(std::move(block));
   return blocks;
 }
 
-/// File units and axes to metres, z up.
+/// Converts a point from the units and axes of the file to metres with z up.
 Vec3 to_world(const ImportedBlocks& source, const Vec3& p) {
   const Vec3 turned = source.up == ImportedBlocks::UpAxis::y ? Vec3(p.x(), -p.z(), p.y()) : p;
   return source.metres_per_unit * turned;
 }
 
-/// Refuses names that no block has.
+/// Throws InputError for a name that no block has.
 void check_names(const ImportedBlocks& source, const std::vector<std::string>& names,
                  const std::map<std::string, size_t>& block_of, const char* key) {
   for (const std::string& name : names)
@@ -85,7 +87,8 @@ void check_names(const ImportedBlocks& source, const std::vector<std::string>& n
       throw InputError(fmt::format("geometry.import.{}: {} has no block named '{}'", key, source.path, name));
 }
 
-/// Coordinates to metres, z up; densities as the case says. Refuses two blocks of one name.
+/// Converts coordinates to metres with z up and applies the densities of the case. Throws InputError if two
+/// blocks have the same name.
 void place_in_world(const ImportedBlocks& source, std::vector<RawBlock>* blocks) {
   std::map<std::string, size_t> block_of;
   for (size_t b = 0; b < blocks->size(); ++b) {
@@ -93,7 +96,7 @@ void place_in_world(const ImportedBlocks& source, std::vector<RawBlock>* blocks)
     const auto [it, is_new] = block_of.try_emplace(block.name, b);
     if (!is_new) {
       const FileLocation& first = (*blocks)[it->second].where;
-      throw InputError(block.where, fmt::format("block {}: the name is taken by {}:{}", block.name,
+      throw InputError(block.where, fmt::format("block {}: the same name is used at {}:{}", block.name,
                                                 first.file, first.line));
     }
     for (Vec3& v : block.mesh.vertices) v = to_world(source, v);
@@ -107,10 +110,10 @@ void place_in_world(const ImportedBlocks& source, std::vector<RawBlock>* blocks)
   }
 }
 
-/// Repaired surfaces, and which block each belongs to: blocks given by point clouds have one per part.
+/// Repaired surfaces. A block given by point clouds has one per part, other blocks have one.
 struct Surfaces {
   std::vector<TriangleMesh> meshes;
-  std::vector<int> block;
+  std::vector<int> block;  // per mesh
 };
 
 Surfaces repair_all(const std::vector<RawBlock>& blocks, double weld) {
@@ -184,7 +187,8 @@ void append_blocks(const std::vector<RawBlock>& raw, const Surfaces& surfaces,
   }
 }
 
-/// Volume, mass and inertia of the surfaces as given: parts fill them only within the facets' unevenness.
+/// Computes volume, mass and inertia of blocks from their surfaces, which the parts fill only within the
+/// unevenness of the facets.
 void weigh_surfaces(const std::vector<RawBlock>& raw, const Surfaces& surfaces, Assembly* assembly) {
   for (size_t m = 0; m < surfaces.meshes.size(); ++m) {
     if (!raw[surfaces.block[m]].point_parts.empty()) continue;
@@ -257,14 +261,14 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
 
 std::string to_text(const ImportReport& r) {
   std::string text = fmt::format(
-      "{} blocks imported: {} convex pieces as they are, {} split by planes, {} by their cross-section, "
-      "{} by Nef polyhedra; volumes of the parts within {:.1e}\n",
+      "{} blocks imported: {} pieces already convex, {} split by planes, {} by their cross-section, "
+      "{} by Nef polyhedra; largest relative volume error {:.1e}\n",
       r.origins.size(), r.already_convex, r.by_planes, r.as_prisms, r.by_nef, r.largest_volume_error);
   for (size_t b = 0; b < r.origins.size(); ++b)
     if (r.parts[b] > 1) text += fmt::format("  block {}: {} convex parts\n", r.origins[b].name, r.parts[b]);
   if (r.sliver_parts > 0)
-    text += fmt::format("{} parts are slivers, thinner than 1e-3 of their size\n", r.sliver_parts);
-  if (r.snapped_facets > 0) text += fmt::format("{} facets laid in common planes\n", r.snapped_facets);
+    text += fmt::format("warning: {} parts are slivers, thinner than 1e-3 of their size\n", r.sliver_parts);
+  if (r.snapped_facets > 0) text += fmt::format("{} facets moved to common planes\n", r.snapped_facets);
   if (r.ties > 0) text += fmt::format("{} ties\n", r.ties);
   return text;
 }
@@ -272,7 +276,8 @@ std::string to_text(const ImportReport& r) {
 std::string contacts_csv(const ImportedBlocks& source, const Assembly& assembly, const ImportReport& report) {
   const bool compas = source.format == Format::compas ||
                       (source.format == Format::automatic && format_of(source.path) == Format::compas);
-  if (!compas) throw InputError(FileLocation{source.path}, "only COMPAS assemblies bring interfaces along");
+  if (!compas)
+    throw InputError(FileLocation{source.path}, "not a COMPAS assembly; only those contain interfaces");
   std::map<std::string, int> block_of;
   for (size_t b = 0; b < report.origins.size(); ++b) block_of[report.origins[b].name] = static_cast<int>(b);
   std::string csv = "block_a,block_b,joint,x,y,z,nx,ny,nz,gap_m,area_m2\n";

@@ -9,28 +9,28 @@
 
 namespace cupola {
 
-/// What the importer did, block by block.
+/// Record of an import.
 struct ImportReport {
-  std::vector<BlockOrigin> origins;                                  ///< of the assembly's blocks
-  std::vector<int> parts;                                            ///< convex parts of each
-  int already_convex = 0, by_planes = 0, as_prisms = 0, by_nef = 0;  ///< blocks
+  std::vector<BlockOrigin> origins;                                  ///< per block of the assembly
+  std::vector<int> parts;                                            ///< number of convex parts per block
+  int already_convex = 0, by_planes = 0, as_prisms = 0, by_nef = 0;  ///< surfaces per method
   int snapped_facets = 0;
-  int sliver_parts = 0;               ///< thinner than 1e-3 of their own size
-  double largest_volume_error = 0.0;  ///< sum of parts less block, over the block's volume
+  int sliver_parts = 0;               ///< thinner than 1e-3 of their size
+  double largest_volume_error = 0.0;  ///< sum of the parts minus the block, over the block's volume
   int ties = 0;
 };
 
-/// Reads blocks that others cut, repairs and checks them, splits them into convex parts. Blocks keep the
-/// order of their files (folders: files by name); faces between parts of one block are `internal`, all
-/// others `free`. `density` (kg/m3) is for blocks whose file says none. `report` may be null.
-/// Throws InputError naming block, file and line.
+/// Reads blocks from files, repairs and checks their surfaces, and splits them into convex parts. Blocks keep
+/// the order of the file; the files of a folder are read by name. Faces between parts of one block are
+/// `internal`, all others `free`. `density` (kg/m3) applies to blocks without a density in the file or the
+/// case. `report` may be null. Throws InputError with block, file and line.
 Assembly import_blocks(const ImportedBlocks& source, double density, ImportReport* report = nullptr);
 
 std::string to_text(const ImportReport& report);
 
-/// The interfaces of a COMPAS file as contact points, in the CSV that `contact: {method: file}` reads: one
-/// point per corner, normal from block_a to block_b (the centroid of which lies on that side), no gap, the
-/// polygon's area shared equally. Throws InputError when the file is none, or has no interfaces.
+/// The interfaces of a COMPAS file as contact points, in the CSV format of `contact: {method: file}`: one
+/// point per corner, the normal from block_a towards the centroid of block_b, gap zero, and equal shares of
+/// the polygon's area. Throws InputError if the file is not a COMPAS assembly or has no interfaces.
 std::string contacts_csv(const ImportedBlocks& source, const Assembly& assembly, const ImportReport& report);
 
 }  // namespace cupola

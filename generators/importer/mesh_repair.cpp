@@ -36,7 +36,7 @@ double extent(const std::vector<Vec3>& points) {
   return (high - low).maxCoeff();
 }
 
-/// Makes one vertex of those nearer than `distance` to an earlier one: sweeps along x.
+/// Merges vertices within `distance` (m) of an earlier one, by a sweep along x, and drops faces without area.
 PolygonMesh weld_vertices(const PolygonMesh& mesh, double distance) {
   std::vector<int> order(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0);
@@ -62,7 +62,7 @@ PolygonMesh weld_vertices(const PolygonMesh& mesh, double distance) {
       loop.push_back(r);
     }
     while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
-    if (loop.size() < 3) continue;  // it has no area
+    if (loop.size() < 3) continue;
     for (int& v : loop) {
       if (new_id[v] < 0) {
         new_id[v] = static_cast<int>(welded.vertices.size());
@@ -75,8 +75,8 @@ PolygonMesh weld_vertices(const PolygonMesh& mesh, double distance) {
   return welded;
 }
 
-/// Splits a face by a fan from its first vertex, as its volume is usually defined when it is not plane;
-/// keeps it whole when some triangle of the fan would lie outside it.
+/// Splits a face into a fan of triangles from its first vertex, the usual definition of a warped face. Keeps
+/// the polygon if a triangle of the fan would lie outside it.
 void append_fan(const std::vector<int>& face, const std::vector<Vec3>& vertices, Polygons* polygons) {
   const auto area = [&](size_t i) {
     const Vec3& origin = vertices[face[0]];
@@ -115,9 +115,9 @@ TriangleMesh to_triangles(const SurfaceMesh& surface) {
 
 TriangleMesh repair_mesh(const RawBlock& block, double weld) {
   for (const Vec3& v : block.mesh.vertices)
-    if (!v.allFinite()) fail(block, "a vertex is not finite");
+    if (!v.allFinite()) fail(block, "a coordinate is not finite");
   const PolygonMesh welded = weld_vertices(block.mesh, weld * extent(block.mesh.vertices));
-  if (welded.faces.empty()) fail(block, "no face has any area");
+  if (welded.faces.empty()) fail(block, "all faces have zero area");
   std::vector<Point> points;
   for (const Vec3& v : welded.vertices) points.emplace_back(v.x(), v.y(), v.z());
   Polygons polygons;
@@ -125,16 +125,16 @@ TriangleMesh repair_mesh(const RawBlock& block, double weld) {
 
   const bool consistent = pmp::is_polygon_soup_a_polygon_mesh(polygons);
   if (!consistent && !pmp::orient_polygon_soup(points, polygons))
-    fail(block, "its faces do not form one surface");
+    fail(block, "its faces do not form a manifold surface");
   SurfaceMesh surface;
   pmp::polygon_soup_to_polygon_mesh(points, polygons, surface);
   int open_edges = 0;
   for (const auto edge : surface.edges()) open_edges += surface.is_border(edge) ? 1 : 0;
   if (open_edges > 0) fail(block, fmt::format("not closed, {} boundary edges", open_edges));
-  if (!pmp::triangulate_faces(surface)) fail(block, "a face cannot be split into triangles");
-  if (pmp::does_self_intersect(surface)) fail(block, "its surface crosses itself");
+  if (!pmp::triangulate_faces(surface)) fail(block, "a face cannot be triangulated");
+  if (pmp::does_self_intersect(surface)) fail(block, "its surface intersects itself");
   if (!pmp::is_outward_oriented(surface)) {
-    if (consistent) fail(block, "inside out: turn its faces");
+    if (consistent) fail(block, "inside out: reverse its faces");
     pmp::reverse_face_orientations(surface);
   }
   surface.collect_garbage();

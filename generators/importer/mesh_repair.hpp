@@ -7,14 +7,14 @@
 
 namespace cupola {
 
-/// The closed, outward triangle surface of a block as read: vertices nearer than `weld` x block size become
-/// one, faces without area are dropped, polygons are split into triangles (a fan from the first vertex, which
-/// decides what a warped face means), faces that disagree are turned.
-/// Throws InputError naming block and file when what is left is open, inside out as a whole, or crosses
-/// itself (exact predicates).
+/// The closed, outward oriented triangle surface of a block. Vertices nearer than `weld` times the block size
+/// are merged, faces without area are dropped, faces with inconsistent orientation are reversed, and polygons
+/// are split into triangles by a fan from their first vertex, which defines the shape of a warped face.
+/// Throws InputError with block and file if the result is open, inside out or intersects itself (exact
+/// predicates).
 TriangleMesh repair_mesh(const RawBlock& block, double weld);
 
-/// Convex hull of the points; throws InputError naming the block when they lie in one plane.
+/// Convex hull of the points. Throws InputError with the block if they lie in one plane.
 TriangleMesh hull_mesh(const RawBlock& block, std::span<const Vec3> points);
 
 }  // namespace cupola

@@ -8,7 +8,7 @@
 namespace cupola {
 namespace {
 
-/// Vertex numbers count from 1 over the whole file, or backwards from -1.
+/// Index of a vertex. The file counts vertices from 1, or backwards from -1 for the last one so far.
 int vertex_index(const TextLines& lines, std::string_view word, size_t num_vertices) {
   const std::string text(word.substr(0, word.find('/')));
   long index = 0;
@@ -21,11 +21,11 @@ int vertex_index(const TextLines& lines, std::string_view word, size_t num_verti
   }
   if (index < 0) index += static_cast<long>(num_vertices) + 1;
   if (index < 1 || index > static_cast<long>(num_vertices))
-    lines.fail(fmt::format("f: '{}' is none of the {} vertices above", word, num_vertices));
+    lines.fail(fmt::format("f: no vertex '{}', {} are defined above", word, num_vertices));
   return static_cast<int>(index) - 1;
 }
 
-/// Gives every block its own vertices, in the order of their first use.
+/// Copies the vertices that a block uses, in the order of their first use.
 void keep_used_vertices(const std::vector<Vec3>& all, RawBlock* block) {
   std::map<int, int> local;
   for (auto& face : block->mesh.faces)
@@ -57,13 +57,13 @@ std::vector<RawBlock> read_obj(const std::string& path) {
       std::vector<int> face;
       for (size_t i = 1; i < words.size(); ++i)
         face.push_back(vertex_index(lines, words[i], vertices.size()));
-      if (face.size() < 3) lines.fail("f: a face has at least three vertices");
+      if (face.size() < 3) lines.fail("f: a face must have at least three vertices");
       blocks.back().mesh.faces.push_back(face);
     }
   }
   for (RawBlock& block : blocks) {
     if (block.mesh.faces.empty())
-      throw InputError(block.where, fmt::format("block {}: it has no faces", block.name));
+      throw InputError(block.where, fmt::format("block {}: no faces", block.name));
     keep_used_vertices(vertices, &block);
   }
   return blocks;

@@ -17,7 +17,7 @@ enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 struct Property {
   std::string name;
   Type type = Type::float32;
-  std::optional<Type> list_count;  ///< type of the count, where it is a list
+  std::optional<Type> list_count;  ///< type of the count, for a list
 };
 
 struct Element {
@@ -41,17 +41,17 @@ Type type_of(const TextLines& lines, std::string_view word) {
       {"float64", Type::float64}};
   for (const auto& [name, type] : names)
     if (name == word) return type;
-  lines.fail(fmt::format("'{}' is no PLY type", word));
+  lines.fail(fmt::format("'{}' is not a PLY type", word));
 }
 
-/// Reads the header and leaves `lines` at the first line of data.
+/// Reads the header; the next line of `lines` is then the first line of data.
 Header read_header(TextLines* lines) {
   Header header;
-  if (!lines->next() || lines->words()[0] != "ply") lines->fail("a PLY file begins with ply");
+  if (!lines->next() || lines->words()[0] != "ply") lines->fail("a PLY file must begin with ply");
   while (lines->next()) {
     const auto& w = lines->words();
     const auto need = [&](size_t n) {
-      if (w.size() < n) lines->fail(fmt::format("'{}' needs {} words after it", w[0], n - 1));
+      if (w.size() < n) lines->fail(fmt::format("'{}' requires {} more words", w[0], n - 1));
     };
     if (w[0] == "end_header") return header;
     if (w[0] == "format") {
@@ -59,13 +59,14 @@ Header read_header(TextLines* lines) {
       header.ascii = w[1] == "ascii";
       header.big_endian = w[1] == "binary_big_endian";
       if (!header.ascii && !header.big_endian && w[1] != "binary_little_endian")
-        lines->fail(fmt::format("format '{}' is not known", w[1]));
+        lines->fail(fmt::format(
+            "unknown format '{}', must be ascii, binary_little_endian or binary_big_endian", w[1]));
     } else if (w[0] == "element") {
       need(3);
       header.elements.push_back({std::string(w[1]), lines->count(2, 1), {}});
     } else if (w[0] == "property") {
       need(3);
-      if (header.elements.empty()) lines->fail("a property before any element");
+      if (header.elements.empty()) lines->fail("property before the first element");
       auto& properties = header.elements.back().properties;
       if (w[1] == "list") {
         need(5);
@@ -75,7 +76,7 @@ Header read_header(TextLines* lines) {
       }
     }
   }
-  lines->fail("the header has no end_header");
+  lines->fail("the header does not end with end_header");
 }
 
 double take(BinaryBytes* data, Type type) {
@@ -100,13 +101,13 @@ double take(BinaryBytes* data, Type type) {
   return 0.0;
 }
 
-/// Takes one number after the other from either kind of data.
+/// Reads consecutive numbers from ascii or binary data.
 class Values {
  public:
   Values(TextLines* lines, BinaryBytes* data) : lines_(lines), data_(data) {}
   void start_row() {
     word_ = 0;
-    if (!data_ && !lines_->next()) lines_->fail("the file ends before all of its elements");
+    if (!data_ && !lines_->next()) lines_->fail("the file ends before its last element");
   }
   double next(Type type) {
     if (data_) return take(data_, type);
@@ -114,9 +115,10 @@ class Values {
   }
   size_t next_count(Type type) {
     const double value = next(type);
-    const size_t left = data_ ? data_->left() : lines_->words().size();
+    const size_t left = data_ ? data_->bytes_left() : lines_->words().size();
     if (!(value >= 0.0 && value <= static_cast<double>(left)))
-      throw InputError(lines_->where(), fmt::format("a list declares {} items", value));
+      throw InputError(lines_->where(),
+                       fmt::format("a list declares {} items, more than the file holds", value));
     return static_cast<size_t>(value);
   }
 
@@ -126,7 +128,7 @@ class Values {
   size_t word_ = 0;
 };
 
-/// -1 for what is no index, so that it is refused as any other that is out of range.
+/// Converts a vertex index. Values that are not an index become -1, which is out of range.
 int to_index(double value) {
   return value >= 0.0 && value <= std::numeric_limits<int>::max() ? static_cast<int>(value) : -1;
 }
@@ -148,11 +150,11 @@ void read_row(const Element& element, Values* values, const std::string& path, P
       continue;
     for (int v : list)
       if (v < 0 || v >= static_cast<int>(mesh->vertices.size()))
-        throw InputError(FileLocation{path}, fmt::format("face {}: vertex {} is none of the {}",
+        throw InputError(FileLocation{path}, fmt::format("face {}: vertex {} is out of range, {} are defined",
                                                          mesh->faces.size(), v, mesh->vertices.size()));
     if (list.size() < 3)
       throw InputError(FileLocation{path},
-                       fmt::format("face {}: has fewer than three vertices", mesh->faces.size()));
+                       fmt::format("face {}: fewer than three vertices", mesh->faces.size()));
     mesh->faces.push_back(std::move(list));
   }
   if (element.name != "vertex") return;

@@ -7,14 +7,14 @@
 
 namespace cupola {
 
-// Readers of block files. Each returns the blocks in the file's order, coordinates as written, and throws
-// InputError with file and line for what it cannot use.
+// Readers of block files. Each returns the blocks in the order of the file with coordinates as written, and
+// throws InputError with file and line for invalid content.
 
-/// Wavefront OBJ: one block per `o` (or `g` where there is no `o`). Only `v` and `f` count.
+/// Wavefront OBJ: one block per `o`, or per `g` in a file without `o`. Only `v` and `f` are read besides.
 std::vector<RawBlock> read_obj(const std::string& path);
 
-/// OFF and PLY (ascii, binary little- and big-endian) and STL (ascii, binary): one mesh, whose connected
-/// components are the blocks, named after the file and numbered from 0 when there are several.
+/// OFF, PLY (ascii, binary little- and big-endian) and STL (ascii, binary). The blocks are the connected
+/// components of the mesh, named after the file and numbered from 0 if there are several.
 std::vector<RawBlock> read_off(const std::string& path);
 std::vector<RawBlock> read_ply(const std::string& path);
 std::vector<RawBlock> read_stl(const std::string& path);
@@ -22,23 +22,23 @@ std::vector<RawBlock> read_stl(const std::string& path);
 /// COMPAS assembly JSON: data.graph.data.node[k].block.data.{vertex, face}; `is_support` fixes a block.
 std::vector<RawBlock> read_compas(const std::string& path);
 
-/// Contact faces that a COMPAS assembly file brings along:
-/// data.graph.data.edge[u][v].interfaces[].data.points.
+/// Contact faces of a COMPAS assembly file: data.graph.data.edge[u][v].interfaces[].data.points.
 std::vector<RawInterface> read_compas_interfaces(const std::string& path);
 
 /// Brick CSV, one row per block: ID, fixed, visible, yielding, density, force (3), reference point (3), then
-/// the corners x, y, z of its convex parts, parts separated by 9999. Force and reference point are left out.
+/// the corners x, y, z of its convex parts, separated by 9999. Force and reference point are ignored.
 std::vector<RawBlock> read_bricks(const std::string& path);
 
-/// Springs of brick models: ID, A, point on A (3), B, point on B (3), k (N/m), L0 (m); they only pull.
+/// Springs of brick models, which carry tension only: ID, A, point on A (3), B, point on B (3), k (N/m), L0
+/// (m).
 std::vector<RawTie> read_springs(const std::string& path);
-/// Rigid rods: ID, A, point (3), B, point (3); as long as the points are apart.
+/// Rigid rods: ID, A, point on A (3), B, point on B (3). Their length is the distance between the points.
 std::vector<RawTie> read_rods(const std::string& path);
 
-/// Makes one vertex of those with equal coordinates.
+/// Merges vertices with equal coordinates.
 void merge_equal_vertices(PolygonMesh* mesh);
 
-/// Connected components of a mesh (faces that share a vertex), in order of their first face.
+/// Connected components of a mesh (faces that share a vertex), in the order of their first faces.
 std::vector<RawBlock> split_components(const PolygonMesh& mesh, const std::string& path);
 
 }  // namespace cupola

@@ -21,24 +21,24 @@ PolygonMesh read_ascii(const std::string& path) {
     const int n = static_cast<int>(mesh.vertices.size());
     if (n % 3 == 0) mesh.faces.push_back({n - 3, n - 2, n - 1});
   }
-  if (mesh.vertices.size() % 3 != 0) lines.fail("the last triangle has no three vertices");
+  if (mesh.vertices.size() % 3 != 0) lines.fail("the last triangle has fewer than three vertices");
   return mesh;
 }
 
 PolygonMesh read_binary(const std::string& path, const std::string& bytes) {
   BinaryBytes data(path, bytes, kHeaderBytes - 4, false);
   const auto num_triangles = data.take<std::uint32_t>();
-  if (num_triangles > data.left() / kTriangleBytes)
-    throw InputError(
-        FileLocation{path},
-        fmt::format("declares {} triangles, the rest of the file has {} bytes", num_triangles, data.left()));
+  if (num_triangles > data.bytes_left() / kTriangleBytes)
+    throw InputError(FileLocation{path},
+                     fmt::format("declares {} triangles, but the rest of the file has {} bytes",
+                                 num_triangles, data.bytes_left()));
   PolygonMesh mesh;
   for (std::uint32_t t = 0; t < num_triangles; ++t) {
-    for (int i = 0; i < 3; ++i) data.take<float>();  // its normal, which the vertices' order gives as well
+    for (int i = 0; i < 3; ++i) data.take<float>();  // normal; the order of the vertices defines it
     for (int corner = 0; corner < 3; ++corner) {
       const double x = data.take<float>(), y = data.take<float>(), z = data.take<float>();
       if (!std::isfinite(x + y + z))
-        throw InputError(FileLocation{path}, fmt::format("triangle {}: a vertex is not finite", t));
+        throw InputError(FileLocation{path}, fmt::format("triangle {}: a coordinate is not finite", t));
       mesh.vertices.emplace_back(x, y, z);
     }
     data.take<std::uint16_t>();
@@ -50,7 +50,7 @@ PolygonMesh read_binary(const std::string& path, const std::string& bytes) {
 
 }  // namespace
 
-// STL names no shared vertices: equal coordinates are one vertex, then components can be told apart.
+// STL repeats shared vertices, so equal coordinates are merged before the mesh is split into components.
 std::vector<RawBlock> read_stl(const std::string& path) {
   const std::string bytes = read_text(path);
   const bool ascii = bytes.starts_with("solid") && bytes.find("facet") != std::string::npos;

@@ -49,7 +49,7 @@ void TextLines::fail(const std::string& message) const {
 
 double TextLines::number(size_t word) const {
   double value = 0.0;
-  if (word >= words_.size()) fail(fmt::format("a number is missing: {} given", words_.size()));
+  if (word >= words_.size()) fail(fmt::format("a number is missing, the line has {} words", words_.size()));
   if (!parse(words_[word], &value) || !std::isfinite(value))
     fail(fmt::format("'{}' is not a finite number", words_[word]));
   return value;
@@ -57,7 +57,8 @@ double TextLines::number(size_t word) const {
 
 long TextLines::integer(size_t word) const {
   long value = 0;
-  if (word >= words_.size()) fail(fmt::format("a whole number is missing: {} given", words_.size()));
+  if (word >= words_.size())
+    fail(fmt::format("a whole number is missing, the line has {} words", words_.size()));
   if (!parse(words_[word], &value)) fail(fmt::format("'{}' is not a whole number", words_[word]));
   return value;
 }
@@ -69,7 +70,7 @@ Vec3 TextLines::point(size_t first) const {
 size_t TextLines::count(size_t word, size_t bytes_each) const {
   const long value = integer(word);
   if (value < 0 || static_cast<size_t>(value) > bytes_left() / bytes_each + 1)
-    fail(fmt::format("declares {} items, the rest of the file has {} bytes", value, bytes_left()));
+    fail(fmt::format("declares {} items, but the rest of the file has {} bytes", value, bytes_left()));
   return static_cast<size_t>(value);
 }
 

@@ -9,26 +9,26 @@
 
 namespace cupola {
 
-/// A text file read line by line and split into words, with the place of each for messages.
+/// A text file, read line by line and split into words. Messages name file and line.
 class TextLines {
  public:
-  /// `separators`: characters between words, besides white space.
+  /// `separators`: characters besides white space that separate words.
   TextLines(std::string path, std::string_view separators = "");
 
-  /// Moves to the next line that has words before any `#`; false at the end.
+  /// Moves to the next line with words before any `#`. Returns false at the end of the file.
   bool next();
   const std::vector<std::string_view>& words() const { return words_; }
   FileLocation where() const { return {path_, line_, 0}; }
   size_t bytes_left() const { return text_.size() - position_; }
   const std::string& path() const { return path_; }
 
-  /// What the lines from here on describe, for messages: "block 7".
+  /// Sets the prefix of messages for the following lines, e.g. "block 7".
   void enter(std::string subject) { subject_ = std::move(subject); }
-  [[noreturn]] void fail(const std::string& message) const;  ///< InputError at this line
-  double number(size_t word) const;                          ///< finite, or fails
+  [[noreturn]] void fail(const std::string& message) const;  ///< throws InputError for this line
+  double number(size_t word) const;                          ///< fails if it is not finite
   long integer(size_t word) const;
   Vec3 point(size_t first_word) const;
-  /// A count that the rest of the file can hold at `bytes_each`, or fails.
+  /// A count of items; fails if the rest of the file is too short for them at `bytes_each`.
   size_t count(size_t word, size_t bytes_each) const;
 
  private:

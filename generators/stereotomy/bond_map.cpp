@@ -13,7 +13,7 @@
 namespace cupola {
 namespace {
 
-constexpr double kWidth = 1600.0;  // px, of the drawing
+constexpr double kWidth = 1600.0;  // px
 constexpr double kMargin = 30.0;   // px
 
 const char* colour(const CellGrid& grid, int block) {
@@ -29,7 +29,7 @@ struct Scale {
   double x, y, left, bottom;  // px per abscissa and per row; px of the origin
 };
 
-/// One rectangle per run of rows with the same slices; a run over the seam is drawn at both ends.
+/// Draws one rectangle per run of rows with the same slices. A block across the seam is drawn at both ends.
 void draw_block(const CellGrid& grid, int block, const Scale& scale, std::string* svg) {
   const auto draw = [&](int row_start, int row_end, double from, double to) {
     *svg += fmt::format("<rect x='{:.2f}' y='{:.2f}' width='{:.2f}' height='{:.2f}' fill='{}'/>\n",
@@ -51,7 +51,8 @@ void draw_block(const CellGrid& grid, int block, const Scale& scale, std::string
 }  // namespace
 
 std::string bond_map_svg(const Geometry& geometry) {
-  if (geometry.imported) throw InputError("--bond-map: imported blocks have no bond");
+  if (geometry.imported)
+    throw InputError("--bond-map: not available for imported blocks, which have no bond");
   const SurfaceMap surface = make_surface(geometry.surface, rings_of(geometry.bond));
   const BondPattern bond = make_bond(geometry.bond, bond_grid(surface));
   const CellGrid grid = make_cell_grid(

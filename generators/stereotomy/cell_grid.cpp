@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
@@ -16,7 +18,7 @@ void mark_corners(CellGrid* grid) {
         grid->corner[cut] = 1;
 }
 
-/// Cells of one row and block, split where the surface bends or cells do not merge at all.
+/// Appends the cells of one row of a block, merged up to the next corner if the surface allows it.
 void append_row(const CellGrid& grid, int block, int row, std::vector<CellRange>* ranges) {
   const auto [start, end] = slices_in_row(grid, block, row);
   for (int s = start; s < end; ++s) {
@@ -39,14 +41,17 @@ std::pair<int, int> slices_in_row(const CellGrid& grid, int block, int row) {
   const auto begin = std::ranges::lower_bound(cells, row * grid.num_slices);
   const auto end = std::ranges::lower_bound(cells, (row + 1) * grid.num_slices);
   const int count = static_cast<int>(end - begin);
+  CUPOLA_ASSERT(count > 0);
   int start = *begin % grid.num_slices;
   if (grid.surface.closed && count < grid.num_slices)
     for (auto cell = begin + 1; cell < end; ++cell)
-      if (*cell != *(cell - 1) + 1) start = *cell % grid.num_slices;  // it crosses the seam and starts here
+      if (*cell != *(cell - 1) + 1)
+        start = *cell % grid.num_slices;  // the block crosses the seam and starts here
   return {start, start + count};
 }
 
 CellGrid make_cell_grid(const SurfaceMap& surface, const BondPattern& bond, int stage_rings) {
+  CUPOLA_ASSERT(bond.num_rings == surface.num_rings());
   CellGrid grid{surface, bond, surface.num_rows, bond.num_slices(), {}, {}, {}, {}};
   mark_corners(&grid);
   const int num_blocks = static_cast<int>(bond.blocks.size());
@@ -55,9 +60,10 @@ CellGrid make_cell_grid(const SurfaceMap& surface, const BondPattern& bond, int 
     for (int slice = 0; slice < grid.num_slices; ++slice)
       grid.cells[grid.owner(row, slice)].push_back(row * grid.num_slices + slice);
 
-  std::vector<std::pair<int, int>> start(num_blocks);  // first row and first slice: the order of the blocks
+  std::vector<std::pair<int, int>> start(num_blocks);  // first row and slice, which give the order
   grid.built.assign(num_blocks, 0);
   for (int b = 0; b < num_blocks; ++b) {
+    CUPOLA_ASSERT(!grid.cells[b].empty());
     start[b] = {grid.first_row(b), slices_in_row(grid, b, grid.first_row(b)).first};
     if (stage_rings > 0 && start[b].first / surface.rows_per_ring >= stage_rings) continue;
     grid.built[b] = 1;

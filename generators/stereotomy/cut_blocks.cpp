@@ -1,11 +1,13 @@
 #include "generators/stereotomy/cut_blocks.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include "assembly/base/error.hpp"
 #include "generators/stereotomy/cell_grid.hpp"
 #include "generators/stereotomy/grid_points.hpp"
 #include "generators/stereotomy/support.hpp"
@@ -13,7 +15,8 @@
 namespace cupola {
 namespace {
 
-/// Adds a skin face: the quad, or its two triangles on the diagonal that keeps the cell convex.
+/// Adds a skin face: the quad if it is plane, else two triangles along the diagonal that keeps the cell
+/// convex.
 void add_skin(const std::array<int, 4>& quad, FaceKind kind, bool flat, Assembly* assembly) {
   if (flat) {
     assembly->add_face(quad, kind);
@@ -36,8 +39,8 @@ void add_part(const CellGrid& grid, int block, const CellRange& cells, GridPoint
   part.face_start = assembly->num_faces();
   assembly->parts.push_back(part);
 
-  // Corner names: lower / upper bed, left / right head, intrados / extrados. (outwards, along, up) is a
-  // right-handed frame on every surface; faces turn counter-clockwise seen from outside.
+  // Corner names: lower / upper bed, left / right head, intrados / extrados. Faces are counter-clockwise seen
+  // from outside, because (outwards, along, up) is a right-handed frame on every surface.
   const auto corner = [&](bool upper, bool right, Skin skin) {
     return points->vertex(upper ? cells.row_end : cells.row_start,
                           right ? cells.slice_end : cells.slice_start, skin, &assembly->vertices);
@@ -55,7 +58,8 @@ void add_part(const CellGrid& grid, int block, const CellRange& cells, GridPoint
   add_skin({lle, lre, ure, ule}, FaceKind::extrados, points->flat_skins(), assembly);
 }
 
-/// Sail of the block's middle, its place in it, and whether a corner of the surface lies inside the block.
+/// Sets the sail of the block's middle, the position in it, and whether a corner of the surface lies inside
+/// the block.
 void set_sail(const CellGrid& grid, std::pair<int, int> slices, Block* block) {
   const auto& corners = grid.surface.corners;
   if (corners.empty()) return;
@@ -84,7 +88,7 @@ Block make_block(const CellGrid& grid, int bond_block, double density) {
   return block;
 }
 
-/// Merged parts leave grid corners that no face names.
+/// Drops the grid corners that no face uses because cells were merged.
 void drop_unused_vertices(Assembly* assembly) {
   std::vector<int> new_id(assembly->vertices.size(), -1);
   for (int v : assembly->face_vertices) new_id[v] = 0;
@@ -118,6 +122,7 @@ Assembly cut_blocks(const SurfaceMap& surface, const BondPattern& bond, const Cu
   if (surface.footing == Footing::both_springings)
     add_far_support(surface, bond.cuts, options.support_width, options.density, &assembly);
   drop_unused_vertices(&assembly);
+  CUPOLA_ASSERT(std::ranges::all_of(assembly.vertices, [](const Vec3& v) { return v.allFinite(); }));
   assembly.num_rings = surface.num_rings();
   compute_mass_properties(&assembly);
   return assembly;

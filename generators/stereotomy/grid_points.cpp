@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
-double Random::uniform() {  // splitmix64 (Steele, Lea, Flood 2014)
+double Random::uniform() {
   std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ULL);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
@@ -69,15 +71,16 @@ void GridPoints::start_block(int bond_block) {
   own_.clear();
   const int row = grid_.first_row(bond_block);
   const auto [left, right] = slices_in_row(grid_, bond_block, row);
-  const auto part_of_gap = [&] { return 0.5 * gap_ * random_.uniform(); };
+  const auto opening = [&] { return 0.5 * gap_ * random_.uniform(); };  // m
   sides_ = {row, grid_.last_row(bond_block) + 1, left, right, 0, 0, 0, 0};
-  sides_.lower_gap = part_of_gap() / metres_per_bed(sides_.lower + 1, left);
-  sides_.upper_gap = part_of_gap() / metres_per_bed(sides_.upper, left);
-  sides_.left_gap = part_of_gap() / metres_per_abscissa(row, left);
-  sides_.right_gap = part_of_gap() / metres_per_abscissa(row, right - 1);
+  sides_.lower_gap = opening() / metres_per_bed(sides_.lower + 1, left);
+  sides_.upper_gap = opening() / metres_per_bed(sides_.upper, left);
+  sides_.left_gap = opening() / metres_per_abscissa(row, left);
+  sides_.right_gap = opening() / metres_per_abscissa(row, right - 1);
 }
 
 int GridPoints::vertex(int bed, int cut, Skin skin, std::vector<Vec3>* vertices) {
+  CUPOLA_ASSERT(bed >= 0 && bed <= grid_.num_rows);
   if (gap_ == 0.0) return first_vertex_ + (bed * num_columns_ + grid_.wrap(cut)) * 2 + static_cast<int>(skin);
   const auto [it, is_new] =
       own_.try_emplace({bed, cut, static_cast<int>(skin)}, static_cast<int>(vertices->size()));

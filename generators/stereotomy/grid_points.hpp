@@ -8,33 +8,35 @@
 
 namespace cupola {
 
-/// Seeded numbers in [0, 1), the same on every machine.
+/// Seeded pseudo-random numbers, the same on every machine (splitmix64; Steele, Lea and Flood 2014).
 class Random {
  public:
   explicit Random(int seed) : state_(static_cast<std::uint64_t>(seed)) {}
-  double uniform();
+  double uniform();                                     ///< [0, 1)
   double symmetric() { return 2.0 * uniform() - 1.0; }  ///< [-1, 1)
 
  private:
   std::uint64_t state_;
 };
 
-/// Corner points of the grid as built.
+/// Corner points of the grid, with the imperfections of the case.
 ///
-/// Without imperfections there is one vertex per bed, cut and skin, shared by all cells around it. Noise
-/// moves beds and head planes as wholes, and each corner along the line that joins intrados and extrados
-/// there: that line lies in the bed and in the head plane, so both stay plane and joints stay closed; the
-/// first bed (and an arch's last) stays on its support. Gaps give every block corners of its own, its beds
-/// and heads moved inwards by random parts of gap / 2, measured on the intrados.
+/// - Without imperfections there is one vertex per bed, cut and skin, shared by all cells around it.
+/// - Noise moves each bed and each head plane as a whole, and each corner along the line that joins intrados
+///   and extrados there. That line lies in the bed and in the head plane, so both stay plane and joints stay
+///   closed. The first bed, and the last bed of an arch, stay on their supports.
+/// - Gaps give every block its own corners. Its beds and heads move inwards by random fractions of gap / 2,
+///   measured on the intrados.
 class GridPoints {
  public:
   GridPoints(const CellGrid& grid, const std::optional<Imperfections>& imperfections);
 
   bool flat_skins() const { return grid_.surface.flat_skins && noise_ == 0.0; }
-  /// Appends the shared vertices to the table.
+  /// Appends the shared vertices; call once, before the first block.
   void make_shared(std::vector<Vec3>* vertices);
   /// Call before the vertices of each block.
   void start_block(int bond_block);
+  /// Index of a corner of the current block; appends it if the block has its own corners.
   int vertex(int bed, int cut, Skin skin, std::vector<Vec3>* vertices);
 
  private:
@@ -52,7 +54,7 @@ class GridPoints {
     int lower, upper, left, right;                     // beds and cuts of the block
     double lower_gap, upper_gap, left_gap, right_gap;  // bed units, abscissa units
   } sides_{};
-  std::map<std::tuple<int, int, int>, int> own_;  // of the block: (bed, cut, skin) -> vertex
+  std::map<std::tuple<int, int, int>, int> own_;  // corners of the block: (bed, cut, skin) -> vertex
 };
 
 }  // namespace cupola

@@ -19,8 +19,8 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// Boundary of one block as triangles; a face that cannot be attached (an edge used twice in one direction)
-/// is left out and leaves its border open.
+/// Boundary of one block as triangles. CGAL refuses a face that uses an edge twice in one direction, which
+/// then leaves the boundary open.
 SurfaceMesh boundary_of(const Assembly& assembly, const Part* begin, const Part* end, bool with_internal) {
   SurfaceMesh mesh;
   std::map<int, SurfaceMesh::Vertex_index> vertex;
@@ -51,7 +51,7 @@ BoundaryDefect check_boundary(int block, const SurfaceMesh& mesh) {
   return {block, none, 0};
 }
 
-/// Ranges of x, y, z (m) and azimuth (rad, from -pi up to 2 pi) of a part.
+/// Ranges of x, y, z (m) and of the azimuth (rad, between -pi and 2 pi) of a part.
 struct Ranges {
   std::array<double, 4> low, high;
 };
@@ -76,7 +76,7 @@ Ranges ranges_of(const Assembly& assembly, const Part& part, double margin) {
         r.high.at(i) = std::max(r.high.at(i), at.at(i) + grown);
       }
     }
-  // A convex part that keeps clear of the axis has its extreme azimuths at corners, less than pi apart.
+  // A convex part that does not reach the axis has its extreme azimuths at corners, less than pi apart.
   const double spread = r.high[3] - r.low[3];
   const double clear = nearest * std::cos(0.5 * spread);
   if (spread > 0.9 * pi || clear <= 2.0 * margin) {
@@ -121,7 +121,7 @@ void visit_near_pairs(const Assembly& assembly, double margin, const std::functi
     boxes.emplace_back(r.low.data(), r.high.data(), p);
     const double turn = 2.0 * std::numbers::pi;
     if (r.high[3] <= std::numbers::pi) continue;
-    r.low[3] -= turn;  // beyond the seam: also where it comes round
+    r.low[3] -= turn;  // a part across the azimuth of 180 deg has a second box one turn back
     r.high[3] -= turn;
     boxes.emplace_back(r.low.data(), r.high.data(), p);
   }

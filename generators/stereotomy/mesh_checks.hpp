@@ -7,23 +7,23 @@
 
 namespace cupola {
 
-/// What CGAL finds wrong with the boundary surfaces of the blocks, with exact predicates.
+/// A defect of a block's boundary surface, found by CGAL with exact predicates.
 struct BoundaryDefect {
   enum class Kind { none, open, inside_out, self_intersecting };
   int block = 0;
   Kind kind = Kind::none;
-  int boundary_edges = 0;  ///< of an open surface
+  int boundary_edges = 0;  ///< number of them, for an open surface
 };
 
-/// Boundary of every block (all its faces but the internal ones): closed, outward, free of
-/// self-intersections. Faces are split into triangles by a fan from their first vertex. `part_by_part`
-/// checks every convex part on its own instead, with all its faces: imported parts share no vertices.
+/// Blocks whose boundary (all faces except internal ones) is open, inside out or intersects itself. Faces are
+/// split into triangles by a fan from their first vertex. With `part_by_part` each convex part is checked
+/// with all its faces instead; imported blocks need that, because their parts share no vertices.
 std::vector<BoundaryDefect> find_boundary_defects(const Assembly& assembly, bool part_by_part = false);
 
-/// Calls `visit` for pairs of parts that may touch: their ranges of x, y, z and azimuth about the z axis,
-/// grown by `margin` (m), overlap. The azimuth tells thin blocks of a dome apart, whose upright boxes overlap
-/// far around. Always in the same order, part_a < part_b; pairs that straddle the azimuth of 180 deg may come
-/// twice.
+/// Calls `visit` for pairs of parts that may touch, i.e. whose ranges of x, y, z and azimuth about the z axis
+/// overlap when grown by `margin` (m). The azimuth separates the blocks of a dome, whose axis-aligned boxes
+/// overlap those of many neighbours. The order is always the same and part_a < part_b; pairs at the azimuth
+/// of 180 deg may occur twice.
 void visit_near_pairs(const Assembly& assembly, double margin,
                       const std::function<void(int part_a, int part_b)>& visit);
 

@@ -23,7 +23,7 @@ double model_size(const Assembly& assembly) {
   return (high - low).maxCoeff();
 }
 
-/// Names of blocks and the place to complain about.
+/// Names and sources of blocks, for messages.
 struct Names {
   std::span<const BlockOrigin> origins;
 
@@ -32,8 +32,8 @@ struct Names {
     if (origins.empty()) throw InputError(message);
     throw InputError(origins[block].where, message);
   }
-  /// The name, and the place when that is not told anyway.
-  std::string full(int block) const {
+  /// The name with file and line, for a block other than the one that the message begins with.
+  std::string with_source(int block) const {
     if (origins.empty()) return name(block);
     return fmt::format("{} ({}:{})", name(block), origins[block].where.file, origins[block].where.line);
   }
@@ -46,9 +46,10 @@ void check_boundaries(const Assembly& assembly, bool part_by_part, const Names& 
   using enum BoundaryDefect::Kind;
   const std::string what = d.kind == open ? fmt::format("not closed, {} boundary edges", d.boundary_edges)
                            : d.kind == inside_out ? "inside out"
-                                                  : "its surface crosses itself";
-  names.fail(d.block, fmt::format("block {}: {}{}", names.name(d.block), what,
-                                  defects.size() > 1 ? fmt::format(" ({} bad pieces)", defects.size()) : ""));
+                                                  : "its surface intersects itself";
+  names.fail(d.block,
+             fmt::format("block {}: {}{}", names.name(d.block), what,
+                         defects.size() > 1 ? fmt::format(" ({} defects in all)", defects.size()) : ""));
 }
 
 void measure_shape(const Assembly& assembly, const ConvexShape& shape, double bound, int block,
@@ -66,13 +67,18 @@ void measure_shape(const Assembly& assembly, const ConvexShape& shape, double bo
     report->max_convexity_error = std::max(report->max_convexity_error, above);
     report->max_planarity_error = std::max(report->max_planarity_error, off);
     if (off > bound)
-      names.fail(block, fmt::format("block {}: a face is {:.3g} m off its plane", names.name(block), off));
+      names.fail(block,
+                 fmt::format("block {}: a vertex lies {:.3g} m off the plane of its face, more than {:.3g} m",
+                             names.name(block), off, bound));
     if (above > bound)
-      names.fail(block, fmt::format("block {}: a part is not convex by {:.3g} m", names.name(block), above));
+      names.fail(block,
+                 fmt::format("block {}: a vertex lies {:.3g} m outside a face of its convex part, more than "
+                             "{:.3g} m",
+                             names.name(block), above, bound));
   }
 }
 
-/// Distance of the planes of two faces that share a joint, if any do.
+/// Distance between the planes of two faces that form a joint, or none.
 std::optional<double> joint_gap(const Assembly& assembly, const ConvexShape& a, const ConvexShape& b,
                                 const ModelTolerances& tolerances) {
   const double opposed = -std::cos(tolerances.joint_angle);
@@ -90,7 +96,7 @@ std::optional<double> joint_gap(const Assembly& assembly, const ConvexShape& a, 
   return std::nullopt;
 }
 
-/// Joins the blocks that share a face into islands.
+/// Connected components of the blocks (union-find).
 struct Islands {
   explicit Islands(size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
   int root(int i) {
@@ -103,7 +109,7 @@ struct Islands {
 
 void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shapes,
                  const ModelTolerances& tolerances, const Names& names, ModelReport* report) {
-  std::vector<std::pair<int, int>> joints;  // of blocks; found once per pair of parts
+  std::vector<std::pair<int, int>> joints;  // pairs of blocks, once per pair of parts
   Islands islands(assembly.blocks.size());
   const double good_enough = std::min(tolerances.overlap, generated_tolerances(assembly).overlap);
   report->max_overlap = -std::numeric_limits<double>::infinity();
@@ -114,7 +120,8 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
     const double depth = overlap_depth(shapes[p], shapes[q], good_enough);
     report->max_overlap = std::max(report->max_overlap, depth);
     if (depth > tolerances.overlap)
-      names.fail(a, fmt::format("blocks {} and {} overlap by {:.3g} m", names.name(a), names.full(b), depth));
+      names.fail(
+          a, fmt::format("blocks {} and {} overlap by {:.3g} m", names.name(a), names.with_source(b), depth));
     if (depth < -tolerances.joint_gap) return;
     const std::optional<double> gap = joint_gap(assembly, shapes[p], shapes[q], tolerances);
     if (!gap) return;
@@ -165,6 +172,7 @@ ModelReport check_model(const Assembly& assembly, const ModelTolerances& toleran
     report.smallest_block = std::min(report.smallest_block, block.volume);
     report.largest_block = std::max(report.largest_block, block.volume);
   }
+  CUPOLA_ASSERT(origins.empty() || origins.size() == assembly.blocks.size());
   check_boundaries(assembly, tolerances.part_by_part, names);
   std::vector<ConvexShape> shapes;
   for (const Part& part : assembly.parts) {
@@ -180,20 +188,20 @@ ModelReport check_model(const Assembly& assembly, const ModelTolerances& toleran
 
 std::string to_text(const ModelReport& r, std::span<const BlockOrigin> origins) {
   std::string text = fmt::format(
-      "{} blocks in {} convex parts, {} support block(s), {} joints, {} island(s)\n"
+      "{} blocks in {} convex parts, {} supports, {} joints, {} connected components\n"
       "volume {:.6f} m3, blocks {:.4g} to {:.4g} m3\n",
       r.num_blocks, r.num_parts, r.num_supports, r.num_joints, r.islands, r.volume, r.smallest_block,
       r.largest_block);
   if (r.shell_volume)
-    text += fmt::format("smooth shell {:.6f} m3, facets leave out {:.3e} of it\n", *r.shell_volume,
-                        1.0 - r.volume / *r.shell_volume);
+    text += fmt::format("smooth shell {:.6f} m3; the facets reduce it by a fraction of {:.3e}\n",
+                        *r.shell_volume, 1.0 - r.volume / *r.shell_volume);
   text += fmt::format(
       "largest errors: convexity {:.1e} m, planarity {:.1e} m, overlap of blocks {:.1e} m, gap in a "
       "joint {:.1e} m; shortest edge {:.4g} m\n",
       r.max_convexity_error, r.max_planarity_error, std::max(r.max_overlap, 0.0), r.max_joint_gap,
       r.shortest_edge);
   if (!r.blocks_without_joint.empty())
-    text += fmt::format("{} blocks touch nothing, the first is {}\n", r.blocks_without_joint.size(),
+    text += fmt::format("warning: {} blocks have no joint, the first is {}\n", r.blocks_without_joint.size(),
                         Names{origins}.name(r.blocks_without_joint.front()));
   return text;
 }

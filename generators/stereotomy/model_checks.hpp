@@ -11,26 +11,26 @@
 
 namespace cupola {
 
-/// What every generated model is measured for, with the bounds it must keep. Lengths in m, volumes in m3.
+/// Measurements of a model. Lengths in m, volumes in m3.
 struct ModelReport {
   int num_blocks = 0;  ///< without supports
   int num_supports = 0;
-  int num_parts = 0;          ///< of the blocks without supports
-  int num_joints = 0;         ///< pairs of blocks that share a face patch, supports included
+  int num_parts = 0;          ///< without supports
+  int num_joints = 0;         ///< pairs of blocks that share a face patch, with supports
   double volume = 0.0;        ///< sum over the blocks without supports
   double parts_volume = 0.0;  ///< sum over their parts
   double smallest_block = 0.0, largest_block = 0.0;
-  std::optional<double> shell_volume;  ///< of the smooth shell, where a closed form is known
-  double max_convexity_error = 0.0;    ///< largest height of a part's vertex above one of its face planes
-  double max_planarity_error = 0.0;    ///< largest distance of a face's vertex from the face's plane
-  double max_overlap = 0.0;            ///< largest depth by which parts of two blocks overlap; <= 0: none
-  double max_joint_gap = 0.0;          ///< largest distance of the planes of two faces that share a joint
+  std::optional<double> shell_volume;  ///< of the smooth shell; none for stages and imported blocks
+  double max_convexity_error = 0.0;    ///< largest height of a vertex above a face plane of its part
+  double max_planarity_error = 0.0;    ///< largest distance of a vertex from the plane of its face
+  double max_overlap = 0.0;            ///< largest overlap of parts of two blocks; <= 0 if none overlap
+  double max_joint_gap = 0.0;          ///< largest distance between the planes of two faces in a joint
   double shortest_edge = 0.0;
-  int islands = 0;                        ///< connected pieces of the graph of joints and ties
-  std::vector<int> blocks_without_joint;  ///< that no tie holds either
+  int islands = 0;                        ///< connected components of the graph of joints and ties
+  std::vector<int> blocks_without_joint;  ///< and without tie
 };
 
-/// Where a block came from, for messages; generated blocks are called by their number.
+/// Name and source of an imported block, for messages. Generated blocks are named by their number.
 struct BlockOrigin {
   std::string name;
   FileLocation where;
@@ -38,24 +38,25 @@ struct BlockOrigin {
 
 /// Bounds that a model must keep.
 struct ModelTolerances {
-  double plane = 0.0;         ///< m, convexity and planarity
-  double overlap = 0.0;       ///< m, depth of an overlap
-  double joint_gap = 0.0;     ///< m, faces nearer than this share a joint
-  double joint_angle = 0.0;   ///< rad, so do they when opposed within this
-  bool part_by_part = false;  ///< parts share no vertices: each is checked as a closed surface of its own
+  double plane = 0.0;         ///< m, for convexity and planarity
+  double overlap = 0.0;       ///< m, for the overlap of two blocks
+  double joint_gap = 0.0;     ///< m, largest distance of two faces that form a joint
+  double joint_angle = 0.0;   ///< rad, largest angle between two faces that form a joint
+  bool part_by_part = false;  ///< parts share no vertices, so each must be closed by itself
 };
 
-/// For generated blocks: rounding of the coordinates, 1e-13 of the model's size for planes and 2e-11 of it
-/// (1e-9 m on the 50 m dome) for overlaps.
+/// For generated blocks: 1e-13 of the model's size for planes (rounding of the coordinates), and 2e-11 of it
+/// for overlaps and gaps (1e-9 m for the 50 m dome).
 ModelTolerances generated_tolerances(const Assembly& assembly);
 
-/// For imported blocks: what the case accepts; planes within 1e-5, or facet_angle if more, of the model's
-/// size.
+/// For imported blocks: the case gives overlap and gap; planes within 1e-5 of the model's size, or within
+/// facet_angle of it if that is larger.
 ModelTolerances imported_tolerances(const Assembly& assembly, const ImportedBlocks& source);
 
-/// Measures the model and checks it: blocks closed, outward, free of self-intersections (CGAL, exact
-/// predicates), parts convex with plane faces, no two blocks overlap. Throws InputError naming the block and
-/// the measure that breaks its bound. `origins`: of all blocks, or none.
+/// Measures a model and checks that blocks are closed, oriented outwards and free of self-intersections
+/// (CGAL, exact predicates), that parts are convex with plane faces, and that no two blocks overlap. Throws
+/// InputError with the block and the number that exceeds its bound. `origins` has one entry per block, or is
+/// empty.
 ModelReport check_model(const Assembly& assembly, const ModelTolerances& tolerances,
                         std::span<const BlockOrigin> origins = {});
 

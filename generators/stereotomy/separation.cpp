@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
@@ -17,12 +19,12 @@ double highest(std::span<const Vec3> points, const Vec3& axis) {
   return value;
 }
 
-/// How far B reaches below a face plane of A.
+/// Depth to which B extends below a face plane of A, m.
 double depth_below(const Plane& plane, const ConvexShape& b) {
   return plane.offset + highest(b.vertices, -plane.normal);
 }
 
-/// Overlap of the projections on an axis, whichever side B lies on.
+/// Overlap of the projections on a unit axis, m, for B on either side.
 double depth_on_axis(const ConvexShape& a, const ConvexShape& b, const Vec3& axis) {
   return std::min(highest(a.vertices, axis) + highest(b.vertices, -axis),
                   highest(b.vertices, axis) + highest(a.vertices, -axis));
@@ -36,6 +38,7 @@ ConvexShape convex_shape(const Assembly& assembly, const Part& part) {
   for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
     const std::vector<Vec3> corners = face_points(assembly, f);
     shape.planes.push_back(polygon_plane(corners));
+    CUPOLA_ASSERT(std::abs(shape.planes.back().normal.norm() - 1.0) < 1e-12);
     shape.faces.push_back(f);
     const auto ids = assembly.face(f);
     vertex_ids.insert(vertex_ids.end(), ids.begin(), ids.end());

@@ -28,8 +28,8 @@ void start_part(int block, int slice, Assembly* assembly) {
   assembly->parts.push_back(part);
 }
 
-/// Adds a hexahedron: `top` counter-clockwise seen from outside, `bottom` below it in the same order.
-/// `sides[i]` is the kind of the face on the edge top[i] - top[i + 1].
+/// Adds a hexahedron. `top` is counter-clockwise seen from outside, `bottom` lies below it in the same order,
+/// and `sides[i]` is the kind of the face at the edge top[i] - top[i + 1].
 void add_hexahedron(const std::array<int, 4>& top, const std::array<int, 4>& bottom,
                     const std::array<FaceKind, 4>& sides, Assembly* assembly) {
   assembly->add_face(top, FaceKind::bed);
@@ -48,7 +48,7 @@ int add_vertex(const Vec3& point, Assembly* assembly) {
 void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double width, Assembly* assembly) {
   const int num_slices = static_cast<int>(cuts.size()) - 1;
   const int block = static_cast<int>(assembly->blocks.size()) - 1;
-  std::vector<std::array<int, 4>> corners;  // inner top, outer top, outer bottom, inner bottom
+  std::vector<std::array<int, 4>> corners;  // per cut: inner top, outer top, outer bottom, inner bottom
   for (int s = 0; s < num_slices; ++s) {
     const Vec3 base = surface.point(0, cuts[s], Skin::intrados);
     const double inner = base.norm();  // the base lies in the plane z = 0
@@ -70,7 +70,7 @@ void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double
   }
 }
 
-/// Box behind bed `bed`, whose far side is that of the neighbouring bed `inside`.
+/// Adds a box behind bed `bed`, on the side away from the neighbouring bed `inside`.
 void add_plate(const SurfaceMap& surface, const std::vector<double>& cuts, int bed, int inside, double width,
                Assembly* assembly) {
   const Vec3 a = surface.point(bed, cuts.front(), Skin::intrados);
@@ -82,7 +82,7 @@ void add_plate(const SurfaceMap& surface, const std::vector<double>& cuts, int b
   Vec3 up = across.cross(along).normalized();
   const bool flipped = up.dot(surface.point(inside, cuts.front(), Skin::intrados) - a) < 0.0;
   if (flipped) up = -up;
-  // Two supports that face each other leave half of the clear span between them.
+  // Two supports that face each other leave at least half of the clear span between them.
   const int other_end = bed == 0 ? surface.num_rows : 0;
   const double clear = (surface.point(other_end, cuts.front(), Skin::intrados) - a).norm();
   const double inner = surface.footing == Footing::both_springings ? std::min(width, clear / 4.0) : width;

@@ -7,16 +7,15 @@
 
 namespace cupola {
 
-/// Appends the fixed block that carries the first bed.
-///
-/// Ring: one cell per slice between the same radial half-planes as the shell's slices, top face z = 0,
-/// reaching `width` (m) beyond both skins (inside at most half-way to the axis) and as deep.
-/// Otherwise one box under the whole first bed, top face in its plane, reaching `width` beyond it all around
-/// and as deep; inside an arch at most a quarter of the clear span.
+/// Appends the fixed block under the first bed. Its depth is `width` (m).
+/// - Ring: one cell per slice, between the radial half-planes of the shell's slices. Its top face is z = 0. It
+///   extends `width` beyond both skins, on the inside at most half-way to the axis.
+/// - Otherwise: one box under the whole first bed, with the top face in its plane. It extends `width` beyond
+///   the bed on all sides, towards the inside of an arch at most a quarter of the clear span.
 void add_base_support(const SurfaceMap& surface, const std::vector<double>& cuts, double width,
                       double density, Assembly* assembly);
 
-/// Appends the fixed block behind the last bed of an arch, the mirror image of the first one.
+/// Appends the fixed block behind the last bed of an arch, the mirror image of the first.
 void add_far_support(const SurfaceMap& surface, const std::vector<double>& cuts, double width, double density,
                      Assembly* assembly);
 

@@ -12,14 +12,14 @@ namespace {
 
 using std::numbers::pi;
 
-/// Angle from the horizontal at which the arc of radius r, centred e beyond the crown plane, reaches it.
+/// Angle t at which the arc of radius r, whose centre lies e beyond the plane x = 0, reaches that plane.
 double crown_angle(double r, double e) {
   return std::acos(e / r);
 }
 
-/// Area between the two arcs of one half, from angle t0 to the crown plane.
+/// Area between the arcs of radius r0 and r1 of one half, from angle t0 to the plane x = 0, m2.
 double half_area(double r0, double r1, double e, double t0) {
-  const auto under = [&](double r) {  // area of the sector from t0 to the crown, plus the triangle beside it
+  const auto under = [&](double r) {  // sector from t0 to the crown less the triangle beyond x = 0
     const double t = crown_angle(r, e);
     return 0.5 * r * r * (t - t0) - 0.5 * e * r * std::sin(t);
   };
@@ -34,12 +34,11 @@ SurfaceMap arch_surface(const ArchSurface& arch, int rings) {
   const double springing = pi / 2 - arch.half_embrace_deg * pi / 180.0;
   if (e > 0.0 && rings % 2 != 0)
     throw InputError(fmt::format(
-        "geometry.bond.rings = {}: a pointed arch has a joint at the crown, so the number must be even",
-        rings));
+        "geometry.bond.rings = {}: must be even, because a pointed arch has a joint at the crown", rings));
   if (springing >= crown_angle(R, e))
-    throw InputError(
-        fmt::format("geometry.surface.half_embrace_deg = {}: the springing lies beyond the crown",
-                    arch.half_embrace_deg));
+    throw InputError(fmt::format(
+        "geometry.surface.half_embrace_deg = {}: must be > {:.6g}, where the arc reaches the crown",
+        arch.half_embrace_deg, 90.0 - crown_angle(R, e) * 180.0 / pi));
 
   SurfaceMap surface;
   surface.rows_per_ring = arch.voussoir_segments;

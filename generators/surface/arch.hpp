@@ -4,10 +4,14 @@
 
 namespace cupola {
 
-/// Barrel arch in the x-z plane, axis y. Beds run from the springing at x > 0 over the crown to the one at
-/// x < 0; `rings` counts voussoirs, each of `voussoir_segments` straight pieces. On the right half, with t
-/// from the horizontal at the arc's centre, x = -e + r cos t, z = r sin t; the left half mirrors it. Joints
-/// are radial; a pointed arch has one more, in the plane x = 0, and an even number of voussoirs.
+/// Barrel arch in the x-z plane with axis y. The beds run from the springing at x > 0 over the crown to the
+/// springing at x < 0. `rings` is the number of voussoirs; each has `voussoir_segments` straight pieces.
+///
+/// On the right half, with t measured from the horizontal at the centre of the arc,
+///     x = -e + r cos t,  z = r sin t;
+/// the left half is its mirror image. All joints are radial, except that a pointed arch has one in the plane
+/// x = 0; its number of voussoirs is even. Throws InputError if it is odd or the springing lies beyond the
+/// crown.
 SurfaceMap arch_surface(const ArchSurface& arch, int rings);
 
 }  // namespace cupola

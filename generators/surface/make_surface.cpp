@@ -1,9 +1,11 @@
 #include "generators/surface/make_surface.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <Eigen/Geometry>
 
+#include "assembly/base/error.hpp"
 #include "assembly/base/variant.hpp"
 #include "generators/surface/arch.hpp"
 #include "generators/surface/dome.hpp"
@@ -14,7 +16,7 @@
 namespace cupola {
 namespace {
 
-/// Volume of the hexahedron between beds k, k + 1 and abscissae a, b, faces split into triangles.
+/// Volume of the hexahedron between beds k, k + 1 and abscissae a, b, m3.
 double cell_volume(const SurfaceMap& surface, int k, double a, double b) {
   const auto corner = [&](int bed, double abscissa, Skin skin) { return surface.point(bed, abscissa, skin); };
   const auto [in, out] = std::pair(Skin::intrados, Skin::extrados);
@@ -26,7 +28,7 @@ double cell_volume(const SurfaceMap& surface, int k, double a, double b) {
   double six_volumes = 0.0;
   for (const auto& q : quads) {
     const Vec3 x = p[q[0]] - p[0], y = p[q[1]] - p[0], z = p[q[2]] - p[0], w = p[q[3]] - p[0];
-    // Mean of the two ways to split the quad: symmetric in its corners.
+    // Mean over the two diagonals that split the quad, so that the volume is symmetric in its corners.
     six_volumes += 0.5 * (x.dot(y.cross(z)) + x.dot(z.cross(w)) + x.dot(y.cross(w)) + y.dot(z.cross(w)));
   }
   return six_volumes / 6.0;
@@ -47,6 +49,7 @@ double faceted_volume(const Surface& shape, int n) {
 }  // namespace
 
 SurfaceMap make_surface(const Surface& surface, int rings) {
+  CUPOLA_ASSERT(rings >= 1);
   SurfaceMap map = std::visit(Overloaded{[&](const DomeSurface& dome) { return dome_surface(dome, rings); },
                                          [&](const OctagonalVault& vault) {
                                            return vault.construction == OctagonalVault::Construction::circular
@@ -57,6 +60,8 @@ SurfaceMap make_surface(const Surface& surface, int rings) {
                                          [&](const WallSurface& wall) { return wall_surface(wall, rings); }},
                               surface);
   map.closed = traits_of(surface).closed;
+  CUPOLA_ASSERT(map.point && map.extent > 0.0 && map.num_rows == rings * map.rows_per_ring);
+  CUPOLA_ASSERT(std::ranges::is_sorted(map.corners));
   return map;
 }
 

@@ -4,12 +4,13 @@
 
 namespace cupola {
 
-/// The surface that a case names, with `rings` courses. Throws InputError for dimensions that do not fit
-/// together.
+/// The surface of a case with `rings` courses, rings >= 1. Throws InputError if its dimensions contradict
+/// each other.
 SurfaceMap make_surface(const Surface& surface, int rings);
 
-/// Volume of the smooth shell, m3, by Richardson extrapolation of faceted shells with n, 2n, 4n cells each
-/// way (errors O(1/n^2) and O(1/n^4) removed), within 1e-8: the reference for shells without a closed form.
+/// Volume of the smooth shell, m3, with a relative error of 1e-8: the reference for shells without a closed
+/// form. Richardson extrapolation of faceted shells with n, 2n and 4n cells in each direction removes the
+/// errors O(1/n^2) and O(1/n^4).
 double extrapolated_shell_volume(const Surface& surface);
 
 }  // namespace cupola

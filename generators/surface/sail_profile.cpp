@@ -30,13 +30,13 @@ double azimuth_from_midsail(double azimuth, int sails) {
   return azimuth - (std::floor(azimuth / sail) + 0.5) * sail;
 }
 
-SurfaceMap empty_vault(const OctagonalVault& vault, int rings) {
+SurfaceMap vault_without_points(const OctagonalVault& vault, int rings) {
   const double last = std::acos(vault.center_offset() / vault.radius()) * 180.0 / pi;
   if (vault.crown_angle_deg >= last)
-    throw InputError(
-        fmt::format("geometry.surface.crown_angle_deg = {}: the intrados meets the axis at {:.6g} deg, must "
-                    "stop before it",
-                    vault.crown_angle_deg, last));
+    throw InputError(fmt::format(
+        "geometry.surface.crown_angle_deg = {}: the intrados meets the axis at {:.6g} deg; choose a "
+        "smaller angle",
+        vault.crown_angle_deg, last));
   SurfaceMap surface;
   surface.num_rows = rings;
   surface.extent = 2.0 * pi;

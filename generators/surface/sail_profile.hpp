@@ -6,30 +6,31 @@
 
 namespace cupola {
 
-/// Mid-sail section of a cluster vault: an ellipse, because the sail is a cylinder whose corner section is
-/// the circle rho = -e + R cos tau, z = R sin tau and c = cos(pi / sails) scales rho.
+/// Mid-sail section of a polygonal vault. The sail is a cylinder whose corner section is the circular arc
+///     rho = -e + R cos tau,  z = R sin tau.
+/// Its mid-sail section is therefore an ellipse: c = cos(pi / sails) scales rho.
 struct SailProfile {
   double R = 0.0;          ///< m, radius of the corner arc
-  double e = 0.0;          ///< m, its centre lies this far beyond the axis
+  double e = 0.0;          ///< m, distance of the arc's centre beyond the axis
   double c = 0.0;          ///< cos(pi / sails)
   double thickness = 0.0;  ///< m
 
   /// (X, z) of the intrados at arc parameter tau.
   Eigen::Vector2d intrados(double tau) const;
-  /// The parallel curve at distance `thickness`:
-  /// X_E = c (-e + R cos tau) + th cos tau / m, z_E = R sin tau + th c sin tau / m, m = hypot(cos tau, c sin
-  /// tau).
+  /// (X_E, z_E) of the parallel curve at distance th = `thickness`:
+  ///     X_E = c (-e + R cos tau) + th cos tau / m
+  ///     z_E = R sin tau + th c sin tau / m,          m = hypot(cos tau, c sin tau).
   Eigen::Vector2d extrados(double tau) const;
 };
 
 SailProfile sail_profile(const OctagonalVault& vault);
 
-/// Azimuth measured from the middle of the sail it falls in, in [-pi / sails, pi / sails].
+/// Azimuth relative to the middle of its sail, in [-pi / sails, pi / sails].
 double azimuth_from_midsail(double azimuth, int sails);
 
-/// Corners at azimuths i 2 pi / sails, checked dimensions, closed ring footing: what both constructions
-/// share.
 struct SurfaceMap;
-SurfaceMap empty_vault(const OctagonalVault& vault, int rings);
+/// The part of the map that both constructions share: corners at azimuths i 2 pi / sails and a ring footing;
+/// `point` is left empty. Throws InputError if the crown lies beyond the axis.
+SurfaceMap vault_without_points(const OctagonalVault& vault, int rings);
 
 }  // namespace cupola

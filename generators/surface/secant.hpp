@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
-/// Root of a smooth function near x0 by the secant method, to the rounding of x. Converges in a handful of
-/// steps from the guesses used here; stops when the step no longer changes x, or after 50.
+/// Root of a smooth function near x0 by the secant method, accurate to rounding. It needs about four steps
+/// from the guesses used here, and stops when a step no longer changes x or after 50 steps.
 template <class Function>
 double secant_root(const Function& f, double x0, double x1) {
   double f0 = f(x0);
@@ -18,6 +20,7 @@ double secant_root(const Function& f, double x0, double x1) {
     x1 = x2;
     if (std::abs(x1 - x0) <= 1e-16 * std::abs(x1)) break;
   }
+  CUPOLA_ASSERT(std::isfinite(x1));
   return x1;
 }
 

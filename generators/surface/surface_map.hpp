@@ -11,29 +11,30 @@ namespace cupola {
 
 enum class Skin : int { intrados = 0, extrados = 1 };
 
-/// What carries the first bed (and the last one of an arch).
+/// The fixed support under the first bed and, in an arch, behind the last bed.
 enum class Footing {
   ring,             ///< horizontal ring below z = 0, for closed surfaces
   plate,            ///< one box below z = 0, for walls
-  both_springings,  ///< one box behind the first and one behind the last bed, for arches
+  both_springings,  ///< one box behind the first bed and one behind the last, for arches
 };
 
-/// A masonry surface: where the corner of bed k, abscissa a and skin w lies. On closed surfaces the abscissa
-/// runs from 0 to 2 pi with the azimuth (equal to it at the corners of a vault), on the others it is a length
-/// in metres. The directions (outwards, along, up) are
-/// right-handed. It knows nothing of blocks.
+/// A masonry surface as a map from (bed, abscissa, skin) to a point. It knows nothing about blocks.
+///
+/// The abscissa of a closed surface is an angle in [0, 2 pi) that follows the azimuth and equals it at the
+/// corners of a vault; otherwise it is a length in m. The directions (outwards, along, up) form a
+/// right-handed frame.
 struct SurfaceMap {
   std::function<Vec3(double bed, double abscissa, Skin skin)> point;  ///< m
-  int num_rows = 0;       ///< rows of cells; beds count 0 .. num_rows, positions between them are defined
-  int rows_per_ring = 1;  ///< more than 1 where the cells follow curved faces within a course
-  bool closed = false;    ///< the last slice meets the first one
+  int num_rows = 0;       ///< rows of cells, between beds 0 .. num_rows; `point` accepts fractional beds
+  int rows_per_ring = 1;  ///< above 1 where several cells follow the curved faces of one course
+  bool closed = false;    ///< the last slice meets the first; make_surface copies it from the traits
   double extent = 0.0;    ///< range of the abscissa: 2 pi, or the length in m
   std::vector<double> corners;  ///< ascending abscissae where facets meet, in [0, extent)
-  bool flat_slices = false;     ///< cells of one ring and one facet form one convex solid exactly
-  bool flat_rings = false;      ///< so do cells of one facet in successive rings
-  bool flat_skins = true;       ///< four corners of a cell on one skin are coplanar
+  bool flat_slices = false;     ///< the cells of one ring and one facet form an exactly convex solid
+  bool flat_rings = false;      ///< so do the cells of one facet in successive rings
+  bool flat_skins = true;       ///< the four corners of a cell on one skin are coplanar
   Footing footing = Footing::ring;
-  std::optional<double> shell_volume;  ///< m3, of the curved shell, where a closed form is known
+  std::optional<double> shell_volume;  ///< m3, of the smooth shell, if a closed form is known
 
   int num_rings() const { return num_rows / rows_per_ring; }
 };

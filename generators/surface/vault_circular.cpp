@@ -10,21 +10,21 @@
 namespace cupola {
 namespace {
 
-/// rho where the bed T = tan t meets the sail of the arc of radius R, at q = c / cos psi.
+/// rho where the bed z = (e + rho) T meets the sail with corner radius R at q = c / cos psi.
 double sail_rho(double R, double e, double q, double T) {
   const double tau = std::atan(q * T) + std::asin(e / R * T * (1.0 - q) / std::sqrt(1.0 + q * q * T * T));
   return q * (-e + R * std::cos(tau));
 }
 
-/// rho where the bed at angle t meets the surface parallel to the sail.
+/// rho where the bed at angle t meets the parallel surface of the sail.
 double parallel_rho(const SailProfile& profile, double cos_psi, double t) {
   const double T = std::tan(t);
-  const auto miss = [&](double tau) {
+  const auto residual = [&](double tau) {
     const Eigen::Vector2d p = profile.extrados(tau);
     return (p.y() - profile.e * T) * std::cos(t) - p.x() / cos_psi * std::sin(t);
   };
   const double guess = std::atan(profile.c / cos_psi * T);
-  const double tau = t == 0.0 ? 0.0 : secant_root(miss, guess, guess + 1e-3);
+  const double tau = t == 0.0 ? 0.0 : secant_root(residual, guess, guess + 1e-3);
   return profile.extrados(tau).x() / cos_psi;
 }
 
@@ -40,8 +40,8 @@ double extrados_rho(const OctagonalVault& vault, const SailProfile& profile, dou
 
 SurfaceMap circular_vault_surface(const OctagonalVault& vault, int rings) {
   if (vault.extrados == OctagonalVault::Extrados::bed)
-    throw InputError("geometry.surface.extrados = bed: only level beds (planar_horizontal) can measure it");
-  SurfaceMap surface = empty_vault(vault, rings);
+    throw InputError("geometry.surface.extrados = bed: requires construction: planar_horizontal");
+  SurfaceMap surface = vault_without_points(vault, rings);
   surface.flat_skins = false;
   const SailProfile profile = sail_profile(vault);
   const double crown = vault.crown_angle_deg * std::numbers::pi / 180.0;

@@ -13,12 +13,12 @@ namespace {
 using Eigen::Vector2d;
 using enum OctagonalVault::Extrados;
 
-/// Radius of the second arc that a `corner` or `midsail` extrados lies on.
+/// Radius of the second arc, on which a `corner` or `midsail` extrados lies, m.
 double outer_radius(const OctagonalVault& vault, const SailProfile& profile) {
   return profile.R + (vault.extrados == midsail ? vault.thickness / profile.c : vault.thickness);
 }
 
-/// (X, z) on the mid-sail section of the bed normal to the sail at arc parameter t.
+/// (X, z) on the mid-sail section for the bed that is normal to the sail at arc parameter t.
 Vector2d radial_point(const OctagonalVault& vault, const SailProfile& profile, double t, Skin skin) {
   if (skin == Skin::intrados) return profile.intrados(t);
   if (vault.extrados == normal) return profile.extrados(t);
@@ -26,19 +26,19 @@ Vector2d radial_point(const OctagonalVault& vault, const SailProfile& profile, d
   return {profile.c * (-profile.e + r * std::cos(t)), r * std::sin(t)};
 }
 
-/// (X, z) on the mid-sail section of the level bed at height z.
+/// (X, z) on the mid-sail section for the level bed at height z.
 Vector2d level_point(const OctagonalVault& vault, const SailProfile& profile, double z, Skin skin) {
   const auto arc = [&](double r) { return profile.c * (-profile.e + std::sqrt(r * r - z * z)); };
   if (skin == Skin::intrados) return {arc(profile.R), z};
   if (vault.extrados == bed) return {arc(profile.R) + vault.thickness, z};
   if (vault.extrados != normal) return {arc(outer_radius(vault, profile)), z};
-  const auto miss = [&](double tau) { return profile.extrados(tau).y() - z; };
+  const auto residual = [&](double tau) { return profile.extrados(tau).y() - z; };
   const double guess = std::asin(z / (profile.R + profile.thickness));
-  const double tau = z == 0.0 ? 0.0 : secant_root(miss, guess, guess + 1e-3);
+  const double tau = z == 0.0 ? 0.0 : secant_root(residual, guess, guess + 1e-3);
   return {profile.extrados(tau).x(), z};
 }
 
-/// Azimuth at an abscissa in [0, 2 pi) that counts equal widths along each sail.
+/// Azimuth at an abscissa in [0, 2 pi) that is proportional to the width along each sail.
 double azimuth_of(double abscissa, int sails) {
   const double half = std::numbers::pi / sails;
   const double from_midsail = azimuth_from_midsail(abscissa, sails);
@@ -50,8 +50,8 @@ double azimuth_of(double abscissa, int sails) {
 SurfaceMap planar_vault_surface(const OctagonalVault& vault, int rings) {
   const bool level = vault.construction == OctagonalVault::Construction::planar_horizontal;
   if (vault.extrados == bed && !level)
-    throw InputError("geometry.surface.extrados = bed: only level beds (planar_horizontal) can measure it");
-  SurfaceMap surface = empty_vault(vault, rings);
+    throw InputError("geometry.surface.extrados = bed: requires construction: planar_horizontal");
+  SurfaceMap surface = vault_without_points(vault, rings);
   surface.flat_slices = true;
   const SailProfile profile = sail_profile(vault);
   const double crown = vault.crown_angle_deg * std::numbers::pi / 180.0;

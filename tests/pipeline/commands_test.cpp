@@ -84,7 +84,7 @@ TEST(Commands, OnlyImportedBlocksBringInterfaces) {
   const ProgramFolder folder;
   const ProgramRun run = folder.run("cupola-generate " + kWall + " --output w.vtu --contacts c.csv");
   EXPECT_EQ(run.code, 2);
-  EXPECT_TRUE(says(run.err, "generated blocks bring no interfaces")) << run.err;
+  EXPECT_TRUE(says(run.err, "generated blocks have no interfaces")) << run.err;
 }
 
 TEST(Commands, SolveTheProblemThatTheyWrote) {
