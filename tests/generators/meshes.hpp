@@ -14,7 +14,7 @@ namespace cupola {
 /// Prism over a polygon in the x-z plane (counter-clockwise seen from -y), from y = 0 to `depth`.
 inline RawBlock prism(const std::vector<Eigen::Vector2d>& polygon, double depth,
                       const std::string& name = "prism") {
-  RawBlock block{name, {"made up", 1, 0}, {}, {}, false, {}};
+  RawBlock block{name, {"test", 1, 0}, {}, {}, false, {}};
   const int n = static_cast<int>(polygon.size());
   for (double y : {0.0, depth})
     for (const auto& p : polygon) block.mesh.vertices.emplace_back(p.x(), y, p.y());
@@ -29,8 +29,8 @@ inline RawBlock prism(const std::vector<Eigen::Vector2d>& polygon, double depth,
   return block;
 }
 
-/// The same block turned by an irrational angle about an irrational axis, and moved.
-inline RawBlock turned(RawBlock block) {
+/// A block rotated by an irrational angle about an irrational axis and translated.
+inline RawBlock rotated(RawBlock block) {
   const Eigen::AngleAxisd rotation(std::sqrt(2.0), Vec3(1.0, std::sqrt(3.0), -std::sqrt(5.0)).normalized());
   for (Vec3& v : block.mesh.vertices) v = rotation * v + Vec3(0.1, std::sqrt(7.0), -3.0);
   return block;

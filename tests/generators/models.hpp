@@ -4,6 +4,7 @@
 
 namespace cupola {
 
+/// Generates and checks the model of a case.
 inline Assembly check_and_report(const Case& c, ModelReport* report) {
   GenerateReport whole;
   Assembly assembly = generate(c, &whole);

@@ -8,7 +8,7 @@
 
 namespace cupola {
 
-/// Has the part corners on both sides of the level z?
+/// True if the part has corners above and below the level z (m).
 inline bool reaches_level(const Assembly& assembly, const Part& part, double z) {
   double low = INFINITY, high = -INFINITY;
   for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
@@ -19,8 +19,8 @@ inline bool reaches_level(const Assembly& assembly, const Part& part, double z) 
   return low < z && z < high;
 }
 
-/// Blocks (supports left out) whose parts hold more than `shortest` (m) of the half-line from the z axis
-/// outwards at height z and the given azimuth (rad). Each convex part clips the line by its face planes.
+/// Blocks, without supports, whose parts contain more than `shortest` (m) of the half-line from the z axis
+/// outwards at height z (m) and the given azimuth (rad). The face planes of each convex part clip the line.
 inline std::set<int> blocks_on_radial_line(const Assembly& assembly, double z, double azimuth,
                                            double shortest) {
   const Vec3 origin(0.0, 0.0, z), direction(std::cos(azimuth), std::sin(azimuth), 0.0);

@@ -6,8 +6,8 @@
 
 namespace cupola {
 
-/// Folder of block models made by others, which the repository does not hold: the environment's
-/// CUPOLA_SHARED_DATA, else shared/data beside the source. Empty when there is none.
+/// Folder of block models from other projects, which are not part of the repository: the environment variable
+/// CUPOLA_SHARED_DATA, else ../shared/data. Empty if it does not exist.
 inline std::string shared_data() {
   const char* given = std::getenv("CUPOLA_SHARED_DATA");
   const std::filesystem::path folder = given ? given : CUPOLA_SOURCE_DIR "/../shared/data";

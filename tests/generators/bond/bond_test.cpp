@@ -34,7 +34,7 @@ std::vector<double> joints_of_ring(const BondPattern& bond, int ring, double ext
   return joints;
 }
 
-/// Width of every block in every ring.
+/// Width of each block of a ring.
 std::map<int, double> widths_in_ring(const BondPattern& bond, int ring) {
   std::map<int, double> widths;
   for (int s = 0; s < bond.num_slices(); ++s) widths[bond.at(ring, s)] += bond.cuts[s + 1] - bond.cuts[s];
@@ -50,7 +50,7 @@ double distance_to_corner(const BondGrid& grid, double joint) {
 
 class OctagonBond : public testing::TestWithParam<Bond> {};
 
-// 32 blocks per ring: a quarter of a width is 2.8 deg, a sixth 1.9 deg.
+// With 32 blocks per ring a quarter of a block is 2.8 deg and a sixth 1.9 deg.
 TEST_P(OctagonBond, HasNoJointOnACorner) {
   const BondGrid grid = octagon_grid(40);
   const BondPattern bond = std::visit(
@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Bonds, OctagonBond,
                          testing::Values(RunningBond{}, StackBond{}, HerringboneBond{}, left_herringbone(),
                                          FillBond{}));
 
-TEST(RunningBond, LapsHalfABlockAndCutsCornersOneAndThreeQuartersIn) {
+TEST(RunningBond, OverlapsByHalfABlockAndKeepsAQuarterFromCorners) {
   const BondGrid grid = octagon_grid(2);
   const BondPattern bond = running_bond(RunningBond{2, 32, 4}, grid);
   const double width = 2 * pi / 32;
@@ -93,8 +93,8 @@ TEST(RunningBond, LapsHalfABlockAndCutsCornersOneAndThreeQuartersIn) {
   }
 }
 
-// w/3 each: three verticals per ring and spiral, everything else whole blocks, no slivers.
-TEST(Herringbone, ThreeVerticalsAreOneWidthInEveryRing) {
+// Each ring has three verticals of width w/3 per spiral. All other blocks are whole; there are no slivers.
+TEST(Herringbone, HasThreeVerticalsPerSpiralInEveryRing) {
   const BondGrid grid{40, true, 2 * pi, {}};
   const BondPattern bond = herringbone_bond(HerringboneBond{}, grid);
   EXPECT_EQ(bond.blocks.size(), 1296u);
@@ -117,9 +117,9 @@ TEST(Herringbone, ThreeVerticalsAreOneWidthInEveryRing) {
   }
 }
 
-// Beside the spirals the joints of flat blocks lie on meridians a block's width apart, in half bond shifted
-// by half of it in every other ring; what the spirals cut is not narrower than half a block.
-TEST(Herringbone, FlatBlocksLieInHalfBondOrOnMeridians) {
+// The joints between flat blocks lie on meridians one block width apart; in half bond every other ring is
+// shifted by half a block. Blocks cut by the spirals are at least half a block wide.
+TEST(Herringbone, PutsJointsOfFlatBlocksInHalfBondOrOnMeridians) {
   const double width = 2 * pi / 32;
   for (const auto beside : {HerringboneBond::Beside::half, HerringboneBond::Beside::aligned}) {
     HerringboneBond spec;
@@ -146,7 +146,7 @@ TEST(Herringbone, FlatBlocksLieInHalfBondOrOnMeridians) {
   }
 }
 
-TEST(Herringbone, TruncatedVerticalsAreKeptAndFlagged) {
+TEST(Herringbone, KeepsAndMarksTruncatedVerticals) {
   const BondPattern bond = herringbone_bond(HerringboneBond{}, BondGrid{40, true, 2 * pi, {}});
   int verticals = 0, truncated = 0;
   for (const BondBlock& block : bond.blocks) {
@@ -157,8 +157,8 @@ TEST(Herringbone, TruncatedVerticalsAreKeptAndFlagged) {
   EXPECT_EQ(truncated, 32);  // two at the base and two at the crown of each spiral
 }
 
-// The spiral advances w/3 = 3.75 deg per ring: 150 deg in 40 rings, counter-clockwise when right-handed.
-TEST(Herringbone, SpiralsTurn150DegreesAndChiralityMirrorsThem) {
+// A spiral advances by w/3 = 3.75 deg per ring, i.e. 150 deg in 40 rings, counter-clockwise if right-handed.
+TEST(Herringbone, TurnsSpiralsBy150DegreesInTheDirectionOfTheirChirality) {
   Case c;
   c.geometry.bond = HerringboneBond{};
   const Assembly right = cut_assembly(c);
@@ -181,7 +181,7 @@ TEST(Herringbone, SpiralsTurn150DegreesAndChiralityMirrorsThem) {
   EXPECT_NEAR(left_volume, right_volume, 1e-12 * right_volume);
 }
 
-TEST(Herringbone, MeridianStripsStandStill) {
+TEST(Herringbone, KeepsMeridianStripsAtConstantAzimuth) {
   HerringboneBond strip;
   strip.path = HerringboneBond::Path::meridian;
   strip.spirals = 4;
@@ -195,7 +195,7 @@ TEST(Herringbone, MeridianStripsStandStill) {
     }
 }
 
-TEST(Herringbone, OtherNumbersOfSpiralsAndVerticalsFillTheirRings) {
+TEST(Herringbone, FillsTheRingsForOtherNumbersOfSpiralsAndVerticals) {
   for (int spirals : {1, 3, 5, 7})
     for (int verticals : {2, 3, 4})
       for (int height : {2, 3, 5}) {
@@ -215,14 +215,15 @@ TEST(Herringbone, OtherNumbersOfSpiralsAndVerticalsFillTheirRings) {
       }
 }
 
-TEST(Herringbone, RefusesSpiralsThatDoNotFit) {
+TEST(Herringbone, RejectsSpiralsThatDoNotFit) {
   HerringboneBond bond;
   bond.spirals = 33;
   EXPECT_THROW(herringbone_bond(bond, BondGrid{4, true, 2 * pi, {}}), InputError);
 }
 
-// 32 x 24 x 2.4 m, blocks 4 x 2.4 x 1 m, verticals 4/3 x 3 m along the diagonal: 24 verticals, 171 laid flat.
-TEST(WallHerringbone, HasItsBlocksAndOneDiagonal) {
+// 32 x 24 x 2.4 m, blocks of 4 x 2.4 x 1 m, verticals of 4/3 x 3 m along the diagonal: 24 verticals, 171 flat
+// blocks.
+TEST(WallHerringbone, HasTheExpectedBlocksAndOneDiagonal) {
   Case c;
   c.geometry.surface = WallSurface{32.0, 24.0, 2.4};
   HerringboneBond bond;
@@ -235,8 +236,7 @@ TEST(WallHerringbone, HasItsBlocksAndOneDiagonal) {
   EXPECT_EQ(report.num_blocks, 195);
   EXPECT_EQ(report.num_parts, 195);
   EXPECT_NEAR(report.volume, 32 * 24 * 2.4, 1e-11 * 32 * 24 * 2.4);
-  EXPECT_NEAR(report.smallest_block, 4.0 / 3 * 2.4,
-              1e-12);  // a vertical of one ring, and the rest beside one
+  EXPECT_NEAR(report.smallest_block, 4.0 / 3 * 2.4, 1e-12);  // a vertical truncated to one ring
   EXPECT_EQ(report.islands, 1);
   for (const Block& b : wall.blocks) {
     if (b.kind != BlockKind::herringbone) continue;
@@ -268,7 +268,7 @@ TEST(FillBond, KeepsWidthsWithinBoundsAndJointsApart) {
   EXPECT_FALSE(distinct_widths.empty());
 }
 
-TEST(FillBond, StaggersAWall) {
+TEST(FillBond, StaggersTheJointsOfAWall) {
   const BondPattern bond = fill_bond(FillBond{10, 6, 8, 0.5, 1.25}, BondGrid{10, false, 12.0, {}});
   for (int ring = 0; ring < 10; ++ring)
     for (const auto& [block, w] : widths_in_ring(bond, ring)) {
@@ -285,12 +285,12 @@ TEST(FillBond, StaggersAWall) {
   }
 }
 
-// Equal widths of 1/5 turn cannot stay 1/20 turn away from corners every 1/8 turn.
-TEST(FillBond, SaysWhenNothingFits) {
+// Blocks of 1/5 turn cannot keep 1/20 turn away from corners at every 1/8 turn.
+TEST(FillBond, ThrowsIfNoFillExists) {
   EXPECT_THROW(fill_bond(FillBond{2, 5, 4, 1.0, 1.0}, octagon_grid(2)), InputError);
 }
 
-TEST(StackBond, AlignsItsJoints) {
+TEST(StackBond, AlignsHeadJoints) {
   Case c;
   c.geometry.surface = WallSurface{};
   c.geometry.bond = StackBond{4, 2, 2, {}};

@@ -24,7 +24,7 @@ double largest_concavity(const std::vector<ConvexPolyhedron>& parts) {
   return above;
 }
 
-/// Depth by which two parts overlap along the axes of their face normals: an upper bound of the overlap.
+/// Overlap of two parts along their face normals, an upper bound of their overlap, m.
 double overlap(const ConvexPolyhedron& a, const ConvexPolyhedron& b) {
   double depth = INFINITY;
   for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)})
@@ -40,7 +40,7 @@ struct Shape {
   const char* name;
   std::vector<Eigen::Vector2d> polygon;
   double area;
-  size_t parts;  // as a person would cut it
+  size_t parts;  // smallest number that a person would find
 };
 
 class Decomposed : public testing::TestWithParam<Shape> {};
@@ -56,14 +56,14 @@ void expect_partition(const TriangleMesh& mesh, double volume, size_t parts) {
     for (size_t j = i + 1; j < d.parts.size(); ++j) EXPECT_LT(overlap(d.parts[i], d.parts[j]), 1e-9);
 }
 
-TEST_P(Decomposed, IsAPartitionOfAsFewPartsAsAPersonWouldDraw) {
+TEST_P(Decomposed, IsAPartitionIntoTheExpectedNumberOfParts) {
   const Shape& shape = GetParam();
   expect_partition(repair_mesh(prism(shape.polygon, 1.5), 1e-6), 1.5 * shape.area, shape.parts);
 }
 
-TEST_P(Decomposed, IsThatPartitionWhenTurnedByAnIrrationalAngle) {
+TEST_P(Decomposed, DoesNotDependOnOrientation) {
   const Shape& shape = GetParam();
-  expect_partition(repair_mesh(turned(prism(shape.polygon, 1.5)), 1e-6), 1.5 * shape.area, shape.parts);
+  expect_partition(repair_mesh(rotated(prism(shape.polygon, 1.5)), 1e-6), 1.5 * shape.area, shape.parts);
 }
 
 double polygon_area_2d(const std::vector<Eigen::Vector2d>& p) {
@@ -84,8 +84,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Shape{"book", book_shape(), polygon_area_2d(book_shape()), 2}),
     [](const auto& param_info) { return std::string(param_info.param.name); });
 
-// A face that lies between two parts is internal; one that holds some of the block's surface is not.
-TEST(Decomposition, TellsInternalFaces) {
+// A face between two parts is internal, unless it contains some of the block's surface.
+TEST(Decomposition, MarksInternalFaces) {
   const Decomposition d = decompose(repair_mesh(prism(l_shape(), 1.0), 1e-6), "L");
   ASSERT_EQ(d.parts.size(), 2u);
   double internal_area = 0.0, free_area = 0.0;
@@ -96,19 +96,19 @@ TEST(Decomposition, TellsInternalFaces) {
       (d.internal[p][f] ? internal_area : free_area) += polygon_area(corners);
     }
   const double surface = 2 * 4.5 + (3 + 1 + 2 + 1.5 + 1 + 2.5);
-  EXPECT_GT(internal_area, 0.99);              // the upright's foot at least, 1 x 1 m
-  EXPECT_GE(free_area, surface - 1e-12);       // nothing of the surface is lost
-  EXPECT_LE(free_area, surface + 1.0 + 1e-9);  // the cut may lie in a free face once
+  EXPECT_GT(internal_area, 0.99);              // at least the foot of the upright leg, 1 x 1 m
+  EXPECT_GE(free_area, surface - 1e-12);       // all of the surface is free
+  EXPECT_LE(free_area, surface + 1.0 + 1e-9);  // one side of the cut may be in a free face
 }
 
-TEST(Decomposition, NefFallbackGivesAPartitionToo) {
+TEST(Decomposition, NefFallbackGivesAPartition) {
   const TriangleMesh mesh = repair_mesh(prism(l_shape(), 1.0), 1e-6);
   const std::vector<ConvexPolyhedron> parts = decompose_by_nef(mesh);
   EXPECT_GE(parts.size(), 2u);
   EXPECT_NEAR(volume_of(parts), 4.5, 1e-9 * 4.5);
 }
 
-// An arch with a polygonal soffit: n reflex edges on one curve need n + 1 wedges.
+// A block with a polygonal soffit of n sides, i.e. n - 1 reflex edges on one curve.
 TEST(Decomposition, CutsACurvedSoffitIntoWedges) {
   std::vector<Eigen::Vector2d> polygon{{-2, 0}, {-1, 0}};
   const int n = 12;
@@ -118,7 +118,7 @@ TEST(Decomposition, CutsACurvedSoffitIntoWedges) {
   const Decomposition d = decompose(mesh, "soffit");
   EXPECT_NEAR(volume_of(d.parts), polygon_area_2d(polygon), 1e-9 * polygon_area_2d(polygon));
   EXPECT_LE(d.parts.size(), static_cast<size_t>(n));
-  EXPECT_GE(d.parts.size(), static_cast<size_t>(n + 1) / 2);  // a convex piece can serve two edges at most
+  EXPECT_GE(d.parts.size(), static_cast<size_t>(n + 1) / 2);  // one cut resolves at most two edges
 }
 
 TEST(Decomposition, TwoSeparateBoxesInOneBlockAreTwoParts) {

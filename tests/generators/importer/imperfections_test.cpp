@@ -22,8 +22,8 @@ Case imperfect(const Surface& surface, double gap, double noise, int seed) {
   return c;
 }
 
-// Planes are checked by generate: every face within 1e-13 of the model's size.
-TEST(Imperfections, NoiseKeepsFacesPlaneAndJointsClosed) {
+// generate() checks that every face is plane within 1e-13 of the model's size.
+TEST(Imperfections, OfNoiseKeepFacesPlaneAndJointsClosed) {
   for (const Surface& surface : all_surfaces()) {
     ModelReport perfect, noisy;
     const Assembly a = check_and_report(imperfect(surface, 0.0, 0.0, 1), &perfect);
@@ -37,13 +37,13 @@ TEST(Imperfections, NoiseKeepsFacesPlaneAndJointsClosed) {
     for (size_t v = 0; v < a.vertices.size(); ++v)
       furthest = std::max(furthest, (a.vertices[v] - b.vertices[v]).norm());
     EXPECT_GT(furthest, 1e-3);
-    EXPECT_LT(furthest, 3 * 2e-3);  // three moves of up to 2 mm each, larger on the extrados by 38.2 / 36
+    EXPECT_LT(furthest, 3 * 2e-3);  // three shifts of up to 2 mm, scaled by 38.2 / 36 on the extrados
   }
 }
 
-// With gaps up to g no block touches another, and closing all of them by g/2 per side would: the volume
-// falls by at most g/2 on each of six sides.
-TEST(Imperfections, GapsOpenEveryJoint) {
+// With gaps of up to g no block touches another. Each bed and head recedes by at most g/2, which bounds the
+// loss of volume.
+TEST(Imperfections, OfGapsOpenEveryJoint) {
   for (const Surface& surface : all_surfaces()) {
     ModelReport perfect, open;
     check_and_report(imperfect(surface, 0.0, 0.0, 1), &perfect);
@@ -51,12 +51,12 @@ TEST(Imperfections, GapsOpenEveryJoint) {
     EXPECT_EQ(open.num_joints, 0);
     EXPECT_LT(open.max_overlap, 0.0);
     EXPECT_LT(open.volume, perfect.volume);
-    EXPECT_GT(open.volume,
-              perfect.volume * (1.0 - 1e-3 * (1.0 / 0.9 + 1.0 / 0.7)));  // courses >= 0.9 m, widths >= 0.7 m
+    // Courses are at least 0.9 m high, blocks at least 0.7 m wide.
+    EXPECT_GT(open.volume, perfect.volume * (1.0 - 1e-3 * (1.0 / 0.9 + 1.0 / 0.7)));
   }
 }
 
-TEST(Imperfections, SeedDecidesEverything) {
+TEST(Imperfections, DependOnTheSeedOnly) {
   const auto hash = [](int seed) {
     return content_hash(cut_assembly(imperfect(DomeSurface{}, 1e-3, 1e-3, seed)));
   };
@@ -64,7 +64,7 @@ TEST(Imperfections, SeedDecidesEverything) {
   EXPECT_NE(hash(3), hash(4));
 }
 
-TEST(Imperfections, TooLargeNoiseIsRefused) {
+TEST(Imperfections, ThatAreTooLargeAreRejected) {
   EXPECT_THROW(generate(imperfect(WallSurface{1.0, 0.5, 0.1}, 0.0, 0.5, 1)), InputError);
 }
 

@@ -14,7 +14,7 @@
 namespace cupola::import_test {
 namespace {
 
-/// A folder of its own for each test's files.
+/// Gives each test its own folder for files.
 class Import : public testing::Test {
  protected:
   Import() : folder_(std::filesystem::temp_directory_path() / ("cupola_import_" + std::to_string(getpid()))) {
@@ -27,7 +27,7 @@ class Import : public testing::Test {
     std::ofstream(path, std::ios::binary) << text;
     return path;
   }
-  /// Everything up to the check of the model, as the program does it; the message when it refuses.
+  /// Message of the error with which the generator rejects a file, or "".
   static std::string complaint(const std::string& path) {
     Case c;
     c.geometry.imported.emplace();
@@ -60,7 +60,7 @@ constexpr const char* kOffBox =
     "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
     "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
 
-TEST_F(Import, ReadsObjectsOfAnObjAsBlocks) {
+TEST_F(Import, ReadsObjObjectsAsBlocks) {
   ImportedBlocks source;
   source.path = write("two.obj", obj_box("lower", 0, 0, 1) + obj_box("upper", 0.25, 1, 9));
   source.supports = {"lower"};
@@ -76,12 +76,12 @@ TEST_F(Import, ReadsObjectsOfAnObjAsBlocks) {
   EXPECT_NEAR((model.blocks[1].centroid - Vec3(0.75, 0.5, 1.5)).norm(), 0.0, 1e-15);
 }
 
-TEST_F(Import, ReadsOffStlAndPlyAlike) {
+TEST_F(Import, ReadsOffStlAndPly) {
   ImportedBlocks source;
   source.path = write("box.off", kOffBox);
   EXPECT_NEAR(import_blocks(source, 1.0).blocks.at(0).volume, 1.0, 1e-15);
 
-  // Two tetrahedra of volume 1/6, in ascii STL and PLY: two components.
+  // Two tetrahedra of volume 1/6 in one ascii STL file are two components; the PLY file has one.
   std::string stl = "solid s\n";
   for (double x : {0.0, 5.0}) {
     const Vec3 p[4] = {{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}, {x, 0, 1}};
@@ -136,7 +136,7 @@ TEST_F(Import, ReadsBinaryStlAndPly) {
   EXPECT_NEAR(import_blocks(source, 1.0).blocks.at(0).volume, 1.0 / 6, 1e-15);
 }
 
-TEST_F(Import, TurnsUnitsAndAxes) {
+TEST_F(Import, ConvertsUnitsAndAxes) {
   ImportedBlocks source;
   source.path = write("box.obj", obj_box("a", 0, 0, 1));
   source.metres_per_unit = 0.01;
@@ -146,7 +146,7 @@ TEST_F(Import, TurnsUnitsAndAxes) {
   EXPECT_NEAR((model.blocks[0].centroid - Vec3(0.005, -0.005, 0.005)).norm(), 0.0, 1e-16);
 }
 
-TEST_F(Import, SnapsOpposedFacesIntoOnePlane) {
+TEST_F(Import, SnapsOpposedFacetsToOnePlane) {
   ImportedBlocks source;
   source.path = write("two.obj", obj_box("a", 0, 0, 1) + obj_box("b", 0, 1.0004, 9));
   source.snap = 1e-3;
@@ -160,7 +160,7 @@ TEST_F(Import, SnapsOpposedFacesIntoOnePlane) {
   EXPECT_NEAR(bottom, 1.0002, 1e-12);
 }
 
-TEST_F(Import, BricksCarryDensityFlagsAndSeveralParts) {
+TEST_F(Import, ReadsDensityFlagsAndPartsOfBricks) {
   const std::string corners_a = "0,0,0,1,0,0,1,1,0,0,1,0,0,0,1,1,0,1,1,1,1,0,1,1";
   const std::string corners_b = "1,0,0,3,0,0,3,1,0,1,1,0,1,0,1,3,0,1,3,1,1,1,1,1";
   ImportedBlocks source;
@@ -173,7 +173,7 @@ TEST_F(Import, BricksCarryDensityFlagsAndSeveralParts) {
   EXPECT_TRUE(model.blocks[0].fixed);
 }
 
-TEST_F(Import, BrokenInputIsNamed) {
+TEST_F(Import, NamesTheDefectOfInvalidInput) {
   const std::string box = obj_box("a", 0, 0, 1);
   std::string open = box.substr(0, box.rfind("f "));
   EXPECT_NE(
@@ -190,9 +190,9 @@ TEST_F(Import, BrokenInputIsNamed) {
                   " " + std::to_string(f[3]) + "\n";
   EXPECT_NE(complaint(write("turned.obj", inside_out)).find("block a: inside out"), std::string::npos);
 
-  std::string crossing = box;  // pushes the top below the bottom at one corner
+  std::string crossing = box;  // one corner of the top lies below the bottom
   crossing.replace(crossing.find("v 1.000000 1 1.000000"), 21, "v 1.000000 1 -2.00000");
-  EXPECT_NE(complaint(write("crossing.obj", crossing)).find("block a: its surface crosses itself"),
+  EXPECT_NE(complaint(write("crossing.obj", crossing)).find("block a: its surface intersects itself"),
             std::string::npos)
       << complaint(write("crossing.obj", crossing));
 
@@ -201,7 +201,8 @@ TEST_F(Import, BrokenInputIsNamed) {
       << complaint(write("overlap.obj", overlapping));
 
   const std::string twice = box + obj_box("a", 5, 0, 9);
-  EXPECT_NE(complaint(write("twice.obj", twice)).find("block a: the name is taken by"), std::string::npos);
+  EXPECT_NE(complaint(write("twice.obj", twice)).find("block a: the same name is used at"),
+            std::string::npos);
 
   std::string nan = box;
   nan.replace(nan.find("v 1.0"), 5, "v nan");
@@ -210,7 +211,7 @@ TEST_F(Import, BrokenInputIsNamed) {
       std::string::npos)
       << complaint(write("nan.obj", nan));
 
-  EXPECT_NE(complaint(write("empty.obj", box + "o nothing\n")).find("block nothing: it has no faces"),
+  EXPECT_NE(complaint(write("empty.obj", box + "o nothing\n")).find("block nothing: no faces"),
             std::string::npos);
   EXPECT_NE(
       complaint(write("huge.off", "OFF\n100000000 100000000 0\n0 0 0\n")).find("declares 100000000 items"),
@@ -223,20 +224,21 @@ TEST_F(Import, BrokenInputIsNamed) {
   EXPECT_NE(complaint((folder_ / "missing.obj").string()).find("no such file"), std::string::npos);
 }
 
-TEST_F(Import, AFolderLinkCannotLeadOutside) {
+TEST_F(Import, RejectsLinksToFilesOutsideTheFolder) {
   const std::string outside = write("box.off", kOffBox);
   const auto folder = folder_ / "blocks";
   std::filesystem::create_directory(folder);
   write("blocks/a.off", kOffBox);
   std::filesystem::create_symlink("a.off", folder / "b.off");
-  EXPECT_EQ(complaint(folder.string()).find("outside"), std::string::npos) << "a link within it may be";
+  EXPECT_EQ(complaint(folder.string()).find("outside"), std::string::npos)
+      << "links inside the folder are allowed";
   std::filesystem::create_symlink(outside, folder / "c.off");
   EXPECT_NE(complaint(folder.string()).find("c.off: error: is a link to a file outside the folder"),
             std::string::npos)
       << complaint(folder.string());
 }
 
-// --- models made by others, where they are at hand ------------------------------------------------------
+// --- models from other projects, if available -----------------------------------------------------------
 
 struct SharedModel {
   const char* file;
@@ -257,7 +259,7 @@ TEST_P(SharedCompas, HasThePublishedVolumes) {
   EXPECT_EQ(report.by_nef, 0) << to_text(report);
 }
 
-// Volumes by the divergence theorem outside this project, six decimals.
+// Volumes computed independently by the divergence theorem, six decimals.
 INSTANTIATE_TEST_SUITE_P(
     Files, SharedCompas,
     testing::Values(SharedModel{"H.json", {{0, 0.48}, {1, 0.48}, {2, 1.44}}},
@@ -285,24 +287,24 @@ double total_volume(const std::string& file) {
   return sum;
 }
 
-TEST(SharedData, TotalsAgree) {
+TEST(SharedData, HasThePublishedTotalVolumes) {
   if (shared_data().empty()) GTEST_SKIP() << "no shared data";
   EXPECT_NEAR(total_volume("compas_cra/shelf-stable.json"), 0.325699, 1e-6);
   EXPECT_NEAR(total_volume("compas_cra/bridge.json"), 0.911787, 1e-6);
   EXPECT_NEAR(total_volume("compas_cra/snake.json"), 19.441669, 2e-5);
 }
 
-TEST(SharedData, WallAndBricksImportAndPassTheChecks) {
+TEST(SharedData, WallAndBricksPassTheChecks) {
   if (shared_data().empty()) GTEST_SKIP() << "no shared data";
   for (const auto& [file, blocks] : {std::pair("obj/wall.obj", 38),
-                                     {"masonry/wall_brickfile.txt", 321},  // rows that are not commented out
+                                     {"masonry/wall_brickfile.txt", 321},  // rows without comments
                                      {"masonry/colonnade_brickfile.txt", 31}}) {
     Case c;
     c.geometry.imported.emplace();
     c.geometry.imported->path = shared_data() + "/" + file;
     const bool bricks = std::string(file).ends_with(".txt");
     if (bricks) c.geometry.imported->up = ImportedBlocks::UpAxis::y;
-    c.geometry.imported->joint_gap = 0.03;  // the OBJ's blocks stand 25 mm apart
+    c.geometry.imported->joint_gap = 0.03;  // the blocks of the OBJ file are 25 mm apart
     GenerateReport report;
     const Assembly model = generate(c, &report);
     EXPECT_EQ(static_cast<int>(model.blocks.size()), blocks) << file;
@@ -310,9 +312,9 @@ TEST(SharedData, WallAndBricksImportAndPassTheChecks) {
   }
 }
 
-// The file has 322 rows; the one before the beam seats, #994, is commented out. The anchors 997 and 998 stand
-// 0.3 m off the wall, each held to a beam seat by a rod alone.
-TEST(SharedData, WallOfBricksHangsTogetherByItsRods) {
+// The file has 322 rows, one of which (#994, before the beam seats) is commented out. The anchors 997 and 998
+// are 0.3 m away from the wall; only a rod connects each of them to a beam seat.
+TEST(SharedData, RodsConnectTheWallOfBricks) {
   if (shared_data().empty()) GTEST_SKIP() << "no shared data";
   Case c;
   c.geometry.imported.emplace();
@@ -340,8 +342,8 @@ TEST(SharedData, WallOfBricksHangsTogetherByItsRods) {
   EXPECT_TRUE(report.model.blocks_without_joint.empty());
 }
 
-// Its faces are warped quads: the volume is that of the fans from their first vertices.
-TEST(SharedData, WarpedFacesAreFansFromTheirFirstVertex) {
+// The faces are warped quads. Their volume is defined by fans from their first vertices.
+TEST(SharedData, SplitsWarpedFacesIntoFansFromTheirFirstVertex) {
   if (shared_data().empty()) GTEST_SKIP() << "no shared data";
   double volume = 0.0;
   for (const RawBlock& block : read_compas(shared_data() + "/compas_cra/curve-3-blocks.json"))
@@ -349,7 +351,7 @@ TEST(SharedData, WarpedFacesAreFansFromTheirFirstVertex) {
   EXPECT_NEAR(volume, 4.269792, 1e-6);
 }
 
-TEST_F(Import, TakesDensitiesFromTheCase) {
+TEST_F(Import, AppliesDensitiesOfTheCase) {
   ImportedBlocks source;
   source.path = write("two.obj", obj_box("lower", 0, 0, 1) + obj_box("upper", 0.25, 1, 9));
   source.densities = {{{"upper"}, 3510.0}};
@@ -360,8 +362,8 @@ TEST_F(Import, TakesDensitiesFromTheCase) {
   EXPECT_THROW(import_blocks(source, 2000.0), InputError);
 }
 
-// A cylinder of 128 sides is one convex part of 256 vertices.
-TEST_F(Import, TakesBlocksOfManyVerticesWhole) {
+// A prism with 128 sides is one convex part with 256 vertices.
+TEST_F(Import, KeepsConvexBlocksWithManyVerticesWhole) {
   const int n = 128;
   std::string text = "o drum\n", lower = "f", upper = "f", sides;
   for (int i = 0; i < n; ++i) {
@@ -381,7 +383,7 @@ TEST_F(Import, TakesBlocksOfManyVerticesWhole) {
   EXPECT_NEAR(model.blocks[0].volume, 0.5 * n * std::sin(2.0 * M_PI / n), 1e-12);
 }
 
-TEST(SharedData, SpringsAndRodsNameTheirBlocks) {
+TEST(SharedData, SpringsAndRodsConnectTheirBlocks) {
   if (shared_data().empty()) GTEST_SKIP() << "no shared data";
   ImportedBlocks source;
   source.path = shared_data() + "/masonry/wall_brickfile.txt";

@@ -1,5 +1,5 @@
-// What holds for every model of the paper: every cell convex, no two blocks overlap, no joint on a corner,
-// one connected piece, volumes that add up; also at the stages of 14.5 and 22.5 m.
+// Properties of every model of the paper, complete and at the stages of 14.5 and 22.5 m: convex cells, no
+// overlaps, no joint on a corner, one connected component, part volumes that add up to the block volumes.
 
 #include <cmath>
 #include <numbers>
@@ -66,10 +66,10 @@ class EveryModel : public testing::TestWithParam<std::tuple<Model, int>> {
   }
 };
 
-/// Lengths of the model times the rounding of a few operations: 50 m x 2^-53 x 4.
+/// m: size of the model times the rounding error of a few operations, 50 m x 2^-53 x 4.
 constexpr double kRounding = 3e-14;
 
-TEST_P(EveryModel, IsConvexWithoutOverlapsAndInOnePiece) {
+TEST_P(EveryModel, IsConvexConnectedAndFreeOfOverlaps) {
   ModelReport report;
   const Assembly assembly = check_and_report(scene(), &report);
   EXPECT_LT(report.max_convexity_error, kRounding);
@@ -78,7 +78,7 @@ TEST_P(EveryModel, IsConvexWithoutOverlapsAndInOnePiece) {
   EXPECT_EQ(report.islands, 1);
   EXPECT_TRUE(report.blocks_without_joint.empty());
   EXPECT_NEAR(report.parts_volume, report.volume, 1e-12 * report.volume);
-  EXPECT_GT(report.shortest_edge, 0.1);  // no slivers: the shortest is a split vertical at the crown, 0.16 m
+  EXPECT_GT(report.shortest_edge, 0.1);  // no slivers; the shortest edge, 0.16 m, is at a split vertical
 }
 
 class EveryVaultWithCorners : public EveryModel {};
@@ -116,7 +116,7 @@ const auto kVaultsWithCorners = testing::Values(
     Model{"brunelleschi", vault(Construction::circular, Extrados::normal), HerringboneBond{}},
     Model{"brunelleschi_left", vault(Construction::circular, Extrados::normal), left_herringbone()});
 
-const auto kStages = testing::Values(0, 16, 26);  // rings: the whole model, 14.5 and 22.5 m
+const auto kStages = testing::Values(0, 16, 26);  // rings: complete model, 14.5 m, 22.5 m
 
 std::string stage_name(const testing::TestParamInfo<std::tuple<Model, int>>& test) {
   return std::string(std::get<0>(test.param).name) + "_" + std::to_string(std::get<1>(test.param));

@@ -16,8 +16,8 @@ std::string complaint(const Assembly& assembly) {
   return "";
 }
 
+/// Moves a block, which gets its own copies of its vertices.
 void shift_block(Assembly* assembly, int block, const Vec3& shift) {
-  // Its own copies of its vertices.
   for (const Part& part : assembly->parts) {
     if (part.block != block) continue;
     const int start = assembly->face_vertex_start[part.face_start];
@@ -34,21 +34,21 @@ void shift_block(Assembly* assembly, int block, const Vec3& shift) {
   }
 }
 
-TEST(ModelChecks, NameTwoBlocksThatOverlapByACentimetre) {
+TEST(ModelChecks, DetectAnOverlapOfACentimetre) {
   Assembly wall = cut_assembly(wall_case(4, 2));
   ASSERT_EQ(complaint(wall), "");
   shift_block(&wall, 5, Vec3(0.0, 0.0, -0.01));
   EXPECT_NE(complaint(wall).find("overlap by 0.01 m"), std::string::npos) << complaint(wall);
 }
 
-TEST(ModelChecks, NameAnOpenBlock) {
+TEST(ModelChecks, DetectAnOpenBlock) {
   Assembly wall = cut_assembly(wall_case(4, 2));
-  wall.face_kinds[wall.parts[3].face_start] = FaceKind::internal;  // leaves a hole in block 3
+  wall.face_kinds[wall.parts[3].face_start] = FaceKind::internal;  // opens block 3
   EXPECT_NE(complaint(wall).find("block 3: not closed, 4 boundary edges"), std::string::npos)
       << complaint(wall);
 }
 
-TEST(ModelChecks, NameABlockInsideOut) {
+TEST(ModelChecks, DetectABlockInsideOut) {
   Assembly wall = cut_assembly(wall_case(4, 2));
   const Part& part = wall.parts[2];
   for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
@@ -57,14 +57,14 @@ TEST(ModelChecks, NameABlockInsideOut) {
   EXPECT_NE(complaint(wall).find("block 2: inside out"), std::string::npos) << complaint(wall);
 }
 
-TEST(ModelChecks, NameABentFace) {
+TEST(ModelChecks, DetectAWarpedFace) {
   Assembly wall = cut_assembly(wall_case(1, 1));
   const int f = wall.parts[1].face_start + 1;
   wall.vertices[wall.face(f)[0]].z() += 1e-6;
-  EXPECT_NE(complaint(wall).find("off its plane"), std::string::npos) << complaint(wall);
+  EXPECT_NE(complaint(wall).find("off the plane of its face"), std::string::npos) << complaint(wall);
 }
 
-TEST(ModelChecks, CountIslandsAndBlocksThatTouchNothing) {
+TEST(ModelChecks, CountIslandsAndBlocksWithoutJoint) {
   Assembly wall = cut_assembly(wall_case(4, 2));
   shift_block(&wall, 10, Vec3(0.0, 0.0, 2.0));  // a course is 1.5 m
   const ModelReport report = check_model(wall, generated_tolerances(wall));

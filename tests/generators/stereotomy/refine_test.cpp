@@ -1,5 +1,5 @@
-// Refinement: n courses of each course and n blocks of each block by the same rule, on every surface and
-// bond.
+// Refinement divides each course into n courses and each block into n blocks by the same rule, for every
+// surface and bond.
 
 #include <cmath>
 #include <map>
@@ -46,7 +46,7 @@ struct Model {
   const char* name;
   Surface surface;
   Bond bond;
-  int (*blocks)(int n);  // how many blocks refinement n must give
+  int (*blocks)(int n);  // expected number of blocks for refinement n
 };
 
 void PrintTo(const Model& model, std::ostream* out) {
@@ -55,9 +55,9 @@ void PrintTo(const Model& model, std::ostream* out) {
 
 class Refined : public testing::TestWithParam<std::tuple<Model, int>> {};
 
-// K rings of B blocks, S spirals, V verticals high: K n (B n - S n) whole blocks and S n (K n + V - 1)
-// verticals.
-TEST_P(Refined, HasItsCountFillsTheShellAndKeepsTheChecks) {
+// With K rings of B blocks and S spirals of verticals V rings high, there are K n (B n - S n) whole blocks
+// and S n (K n + V - 1) verticals.
+TEST_P(Refined, HasTheExpectedBlocksFillsTheShellAndPassesTheChecks) {
   const auto& [model, n] = GetParam();
   Case c;
   c.geometry.surface = model.surface;
@@ -73,8 +73,8 @@ TEST_P(Refined, HasItsCountFillsTheShellAndKeepsTheChecks) {
   EXPECT_EQ(report.model.islands, 1);
   EXPECT_LT(report.model.max_overlap, 1e-9);
   EXPECT_NEAR(report.model.parts_volume, report.model.volume, 1e-12 * report.model.volume);
-  // Chords over a step leave out step^2 / 6 of a ring: 2.03e-2 for the 20 deg of nine voussoirs, less for the
-  // others, whose facets turn two ways by at most 7.5 and 5.6 deg.
+  // Chords over an angle a reduce the volume by a^2 / 6: 2.03e-2 for the 20 deg of nine voussoirs, less for
+  // the other models, whose facets span at most 7.5 and 5.6 deg in the two directions.
   EXPECT_NEAR(report.model.volume, *report.model.shell_volume, 2.1e-2 / (n * n) * *report.model.shell_volume);
   EXPECT_EQ(assembly.num_rings, rings_of(c.geometry.bond));
 }
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
       return fmt::format("{}_{}", std::get<0>(test.param).name, std::get<1>(test.param));
     });
 
-/// Distance of the nearest head joint of any ring from a corner, over a whole refined block's width.
+/// Smallest distance of a head joint from a corner, over the width of a refined block.
 double nearest_joint_to_a_corner(const Bond& bond) {
   const SurfaceMap surface = make_surface(vault(OctagonalVault::Construction::circular), rings_of(bond));
   const BondPattern pattern = make_bond(bond, bond_grid(surface));
@@ -119,7 +119,7 @@ double nearest_joint_to_a_corner(const Bond& bond) {
   return nearest / (2.0 * pi / 32 / refinement_of(bond));
 }
 
-TEST(Refinement, LeavesNoJointOnACorner) {
+TEST(Refinement, KeepsJointsOffTheCorners) {
   for (int n = 1; n <= 6; ++n) {
     RunningBond running{8, 32, 4};
     running.refine = n;
@@ -130,15 +130,15 @@ TEST(Refinement, LeavesNoJointOnACorner) {
   }
 }
 
-// The spirals stay where they were: in the first course of each unrefined ring the band of upright blocks
-// begins and ends at the same azimuths, and in every course it has the same width.
-TEST(Refinement, KeepsTheBandsOfUprightBlocks) {
+// In the first course of each unrefined ring a band of upright blocks begins and ends at the same azimuths as
+// without refinement, and its width is the same in every course.
+TEST(Refinement, KeepsTheBandsOfUprightBlocksInPlace) {
   const auto bands = [](int n) {
     HerringboneBond bond = herringbone(8, 16, 4);
     bond.refine = n;
     const SurfaceMap surface = make_surface(DomeSurface{}, rings_of(bond));
     const BondPattern pattern = make_bond(bond, bond_grid(surface));
-    std::map<int, std::vector<double>> edges;  // of the unrefined ring: where uprights begin or end
+    std::map<int, std::vector<double>> edges;  // per unrefined ring: where bands begin and end
     for (int ring = 0; ring < pattern.num_rings; ++ring) {
       const auto upright = [&](int s) {
         return pattern.blocks[pattern.at(ring, s)].kind == BlockKind::herringbone;
@@ -161,7 +161,7 @@ TEST(Refinement, KeepsTheBandsOfUprightBlocks) {
   }
 }
 
-// Three courses of a stage stay those three: the shell's part below is the same up to its facets.
+// A stage of three rings is the same part of the shell for every refinement, up to its facets.
 TEST(Refinement, CountsStagesInUnrefinedRings) {
   const auto volume = [](int n) {
     Case c = case_of(DomeSurface{}, RunningBond{8, 16, 4}, n);
@@ -174,7 +174,7 @@ TEST(Refinement, CountsStagesInUnrefinedRings) {
   EXPECT_NEAR(volume(4), volume(2), 5e-3 * volume(2));
 }
 
-TEST(Refinement, OfAFillKeepsItsWidths) {
+TEST(Refinement, KeepsTheBlockWidthsOfAFill) {
   const Case c = case_of(vault(OctagonalVault::Construction::circular), FillBond{4, 32, 8}, 2);
   ModelReport report;
   check_and_report(c, &report);

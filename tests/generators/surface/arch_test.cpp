@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Semicircle with centreline radius 1, as in the table of minimum thicknesses.
+/// Semicircular arch with a centreline radius of 1 m.
 Case arch_case(int voussoirs, double thickness, int segments) {
   Case c;
   ArchSurface arch;
@@ -24,9 +24,9 @@ Case arch_case(int voussoirs, double thickness, int segments) {
   return c;
 }
 
-// Flat faces, vertices at R +- t/2: n trapezia of area sin(pi/n) / 2 ((R + t/2)^2 - (R - t/2)^2) = t R
-// sin(pi/n).
-TEST(Arch, PolygonalVoussoirsHaveTheirVolume) {
+// n trapezia with corners at R +- t/2 have the area
+//     sin(pi/n) / 2 ((R + t/2)^2 - (R - t/2)^2) = t R sin(pi/n)  each.
+TEST(Arch, PolygonalVoussoirsHaveTheExactVolume) {
   ModelReport report;
   const Assembly arch = check_and_report(arch_case(27, 0.15, 1), &report);
   EXPECT_EQ(report.num_blocks, 27);
@@ -56,7 +56,7 @@ TEST(Arch, SectorsApproachTheExactVolume) {
     }
 }
 
-TEST(Arch, PointedArchMeetsAtTheCrown) {
+TEST(Arch, PointedArchHasAJointAtTheCrown) {
   Case c;
   ArchSurface arch;
   arch.span = 10.0;
@@ -69,7 +69,8 @@ TEST(Arch, PointedArchMeetsAtTheCrown) {
   EXPECT_EQ(report.num_joints, 21);
   EXPECT_LT(report.volume, *report.shell_volume);
   EXPECT_NEAR(report.volume, *report.shell_volume, 4e-3 * *report.shell_volume);
-  // Chords of 6.8 deg leave out theta^2 / 6 = 2.3e-3, the longer last one of the extrados 1.4e-3 more.
+  // Chords of 6.8 deg reduce the volume by theta^2 / 6 = 2.3e-3, the longer last chord of the extrados by
+  // 1.4e-3 more.
   double crown = 0.0;
   for (const Vec3& v : model.vertices) crown = std::max(crown, v.z());
   EXPECT_NEAR(crown, std::sqrt(8.5 * 8.5 - 3.0 * 3.0), 1e-12);
@@ -77,7 +78,7 @@ TEST(Arch, PointedArchMeetsAtTheCrown) {
   EXPECT_THROW(generate(c), InputError);
 }
 
-TEST(Arch, SegmentAndHorseshoeStandOnRadialSprings) {
+TEST(Arch, SegmentalAndHorseshoeArchesHaveRadialSpringings) {
   for (double half_embrace : {30.0, 60.0, 110.0}) {
     Case c = arch_case(15, 0.1, 1);
     std::get<ArchSurface>(c.geometry.surface).half_embrace_deg = half_embrace;
@@ -89,7 +90,7 @@ TEST(Arch, SegmentAndHorseshoeStandOnRadialSprings) {
   }
 }
 
-TEST(Arch, BarrelTakesARunningBondAlongItsAxis) {
+TEST(Arch, BarrelHasARunningBondAlongItsAxis) {
   Case c = arch_case(9, 0.2, 1);
   std::get<ArchSurface>(c.geometry.surface).width = 3.0;
   c.geometry.bond = RunningBond{9, 3, 2, {}};

@@ -10,10 +10,10 @@
 namespace cupola::dome_test {
 namespace {
 
-// Smooth shell of the pointed fifth, 0 to 60 deg, by quadrature outside this project.
+// m3, smooth shell of the pointed fifth from 0 to 60 deg, by independent quadrature.
 constexpr double kShellVolume = 9231.922780;
 
-TEST(DomeOfRevolution, PaperDomeHasItsCountsAndVolumes) {
+TEST(DomeOfRevolution, PaperModelHasTheExpectedCountsAndVolumes) {
   ModelReport report;
   const Assembly dome = check_and_report(dome_case(), &report);
   EXPECT_EQ(report.num_blocks, 1280);
@@ -21,18 +21,18 @@ TEST(DomeOfRevolution, PaperDomeHasItsCountsAndVolumes) {
   EXPECT_EQ(report.num_supports, 1);
   EXPECT_EQ(report.islands, 1);
   ASSERT_TRUE(report.shell_volume.has_value());
-  EXPECT_NEAR(*report.shell_volume, kShellVolume, 1e-6);  // digits of the reference
+  EXPECT_NEAR(*report.shell_volume, kShellVolume, 1e-6);  // the reference has six decimals
   EXPECT_NEAR(report.smallest_block, 2.295, 5e-4);        // half a unit of the table's last digit
   EXPECT_NEAR(report.largest_block, 9.898, 5e-4);
   EXPECT_NEAR(report.parts_volume / report.volume, 1.0, 1e-12);
-  // Rounding of coordinates of 50 m is 7e-15 m; a plane through four of them is off by a few of those.
+  // Coordinates of 50 m are rounded to 7e-15 m; a plane through four points is accurate to a few times that.
   EXPECT_LT(report.max_convexity_error, 1e-13);
   EXPECT_LT(report.max_overlap, 1e-12);
 }
 
-// A chord polygon of S sides has the area of its circle times sin(2 pi/S)/(2 pi/S); the beds cut the profile
-// with the same formula in the meridian plane. Both errors are O(1/n^2).
-TEST(DomeOfRevolution, FacetErrorOfTheVolumeFallsWithTheSquareOfTheCuts) {
+// The area of a polygon with S sides is that of its circumscribed circle times sin(2 pi/S) / (2 pi/S); the
+// same holds for the profile between the beds. Both errors are O(1/n^2).
+TEST(DomeOfRevolution, VolumeErrorOfTheFacetsIsOfSecondOrder) {
   const auto error = [](int rings, int blocks) {
     ModelReport report;
     check_and_report(dome_case(rings, blocks, 2), &report);
@@ -41,12 +41,12 @@ TEST(DomeOfRevolution, FacetErrorOfTheVolumeFallsWithTheSquareOfTheCuts) {
   const double coarse = error(10, 16);
   const double fine = error(20, 32);
   EXPECT_GT(fine, 0.0);
-  EXPECT_NEAR(coarse / fine, 4.0, 0.02);  // next term is O(1/n^4): (2 pi/32)^2 / 20 = 0.2 %
+  EXPECT_NEAR(coarse / fine, 4.0, 0.02);  // the next term is O(1/n^4): (2 pi/32)^2 / 20 = 0.2 %
 }
 
-// Volume of the polyhedral dome with 20 rings and 32 lunes, and of the hemisphere of VERIFICATION 3.1, both
-// computed outside this project.
-TEST(DomeOfRevolution, PolyhedralDomesHaveTheirExactVolumes) {
+// The polyhedral dome with 20 rings and 32 lunes, and a hemisphere with an oculus, 10 rings and 12 lunes.
+// Both volumes were computed independently.
+TEST(DomeOfRevolution, PolyhedralDomesHaveTheExactVolume) {
   ModelReport report;
   check_and_report(dome_case(20, 16, 2), &report);
   EXPECT_NEAR(report.volume, 9164.786579, 1e-6);
@@ -69,14 +69,14 @@ TEST(DomeOfRevolution, BlocksAreNumberedRingByRingInSlotOrder) {
     const Block& block = dome.blocks[b];
     EXPECT_EQ(block.ring, (b - 1) / 8);
     EXPECT_EQ(block.slot, (b - 1) % 8);
-    // The middle of slot j lies at (j + 1/2) w, and half a block further in odd rings.
+    // The middle of slot j lies at (j + 1/2) w in even rings and half a block further in odd rings.
     const double expected = (block.slot + (block.ring % 2 == 0 ? 0.5 : 1.0)) * std::numbers::pi / 4;
     const double azimuth = std::atan2(block.centroid.y(), block.centroid.x());
     EXPECT_NEAR(std::remainder(azimuth - expected, 2 * std::numbers::pi), 0.0, 1e-12);
   }
 }
 
-TEST(DomeOfRevolution, SupportReachesOutBelowTheBase) {
+TEST(DomeOfRevolution, SupportExtendsBeyondTheBase) {
   const Assembly dome = cut_assembly(dome_case(4, 8, 4));
   double lowest = 0.0, inner = 1e9, outer = 0.0;
   for (const Part& part : dome.parts) {
@@ -94,7 +94,7 @@ TEST(DomeOfRevolution, SupportReachesOutBelowTheBase) {
   EXPECT_NEAR(outer, 22.5 + 2.2 + 1.0, 1e-13);
 }
 
-TEST(DomeOfRevolution, StageKeepsTheBlocksOfItsRings) {
+TEST(DomeOfRevolution, StageHasTheBlocksOfItsRings) {
   Case stage = dome_case(40, 32, 2);
   stage.geometry.stage = Stage{16};
   const Assembly dome = generate(stage);
@@ -105,7 +105,7 @@ TEST(DomeOfRevolution, StageKeepsTheBlocksOfItsRings) {
   EXPECT_EQ(dome.num_rings, 40);
 }
 
-TEST(DomeOfRevolution, RefusesToPassTheAxis) {
+TEST(DomeOfRevolution, RejectsACrownBeyondTheAxis) {
   Case c = dome_case(4, 8, 4);
   c.geometry.surface =
       DomeSurface{45.0, 0.8, 2.2, 80.0};  // the intrados meets the axis at acos(3/8) = 68 deg

@@ -30,8 +30,8 @@ Case vault_case(Construction construction, Extrados extrados, const Bond& bond) 
 struct ShellVolume {
   Construction construction;
   Extrados extrados;
-  double volume;  // m3, by an independent prototype, one decimal
-  bool faceted;   // of the model with 40 rings; else of the smooth shell
+  double volume;  // m3, from an independent implementation, one decimal
+  bool faceted;   // volume of the model with 40 rings, else of the smooth shell
 };
 
 class VaultShell : public testing::TestWithParam<ShellVolume> {};
@@ -43,8 +43,8 @@ TEST_P(VaultShell, HasTheVolumeOfItsExtradosRule) {
   EXPECT_EQ(report.num_blocks, 1280);
   EXPECT_NEAR(report.parts_volume, report.volume, 1e-12 * report.volume);
   EXPECT_NEAR(report.volume, *report.shell_volume,
-              3e-4 * shell.volume);  // facets of 40 rings leave out 1e-4 or 2e-4
-  // Half of the table's last digit, and 5e-7 for the facets of the prototype's fine grid.
+              3e-4 * shell.volume);  // the facets of 40 rings reduce it by 1e-4 or 2e-4
+  // Half a unit of the last decimal, and 1e-6 for the fine grid of the reference.
   EXPECT_NEAR(shell.faceted ? report.volume : *report.shell_volume, shell.volume, 0.05 + 1e-6 * shell.volume);
 }
 
@@ -59,8 +59,9 @@ INSTANTIATE_TEST_SUITE_P(
                     ShellVolume{Construction::planar_horizontal, Extrados::corner, 8171.0, true},
                     ShellVolume{Construction::planar_horizontal, Extrados::bed, 7751.0, false}));
 
-// Regular-octagon rings have 2 sqrt 2 / pi of the circular rings' area; the second shell has its 2.2 m at
-// mid-sail. Both by slices outside this project; the extrapolation leaves 1e-8.
+// Octagonal rings have 2 sqrt 2 / pi of the area of circular rings. The thickness of 2.2 m is measured at the
+// corner in the first shell and at mid-sail in the second. Independent integration over slices; the
+// extrapolation is accurate to 1e-8.
 TEST(Vault, PlanarRadialShellsHaveTheirClosedFormVolumes) {
   OctagonalVault vault;
   vault.construction = Construction::planar_radial;
@@ -87,7 +88,7 @@ OctagonalVault vault_of(Construction construction) {
 
 class PaperModel : public testing::TestWithParam<VaultCount> {};
 
-TEST_P(PaperModel, HasItsCountsAndKeepsItsChecks) {
+TEST_P(PaperModel, HasTheExpectedCountsAndPassesTheChecks) {
   const VaultCount& expected = GetParam();
   Case c;
   c.geometry.surface = expected.surface;
@@ -100,7 +101,7 @@ TEST_P(PaperModel, HasItsCountsAndKeepsItsChecks) {
   EXPECT_NEAR(report.largest_block, expected.largest, expected.largest > 10 ? 5.5e-3 : 5.5e-4);
   EXPECT_EQ(report.islands, 1);
   EXPECT_LT(report.max_overlap, 1e-9);
-  EXPECT_LT(report.max_convexity_error, 3e-14);  // coordinates of 40 m have a rounding of 7e-15 m
+  EXPECT_LT(report.max_convexity_error, 3e-14);  // coordinates of 40 m are rounded to 7e-15 m
 
   int beds = 0, heads = 0, base = 0;
   for (const Part& part : model.parts) {
@@ -123,8 +124,8 @@ INSTANTIATE_TEST_SUITE_P(
                     VaultCount{vault_of(Construction::circular), HerringboneBond{}, 1296, 4160, 0.751, 10.21,
                                3376, 1920, 104}));
 
-// Cells of one ring and sail merge exactly: one part per block, two where it spans a corner.
-TEST(Vault, PlanarRibBlocksAreOpenBooksOfTwoParts) {
+// The cells of one ring and sail merge, so a block has one part, or two if it spans a corner.
+TEST(Vault, PlanarRibBlocksHaveTwoParts) {
   ModelReport report;
   const Assembly model =
       check_and_report(vault_case(Construction::planar_radial, Extrados::normal, RunningBond{}), &report);
@@ -149,16 +150,17 @@ TEST(Vault, SailPositionsFollowTheAzimuth) {
     EXPECT_LT(block.sail_position, 1.0);
     const double azimuth = std::atan2(block.centroid.y(), block.centroid.x());
     const double expected = (block.sail + 0.5 * (1.0 + block.sail_position)) * std::numbers::pi / 4;
-    // The centroid of a rib block's two legs lies off its middle by their tilt; the others are at theirs
-    // within the sail's taper over one block.
+    // The tolerance covers the tilt between the two legs of a rib block and the taper of the other blocks.
     EXPECT_NEAR(std::remainder(azimuth - expected, 2 * std::numbers::pi), 0.0, 0.02);
   }
 }
 
+/// Smallest and largest number of blocks on a level radial line at height z (m).
 std::pair<size_t, size_t> blocks_met(const Assembly& model, double z) {
   std::pair<size_t, size_t> range{1000, 0};
   for (int i = 0; i < 720; ++i) {
-    // Off the cuts, which lie at multiples of 1/1536 of a turn; a grazed block counts from 1 mm on.
+    // Lines between the cuts, which lie at multiples of 1/1536 turn. A block counts if it contains more than
+    // 1 mm.
     const double azimuth = (i + 0.37) * std::numbers::pi / 360;
     const size_t count = blocks_on_radial_line(model, z, azimuth, 1e-3).size();
     range = {std::min(range.first, count), std::max(range.second, count)};
@@ -168,11 +170,10 @@ std::pair<size_t, size_t> blocks_met(const Assembly& model, double z) {
 
 using Range = std::pair<size_t, size_t>;
 
-// A level radial line crosses the beds that climb outwards past it: their count, by the formulas of surface
-// and bond outside this project, plus one. An upright that spans all the courses crossed makes them one
-// block: 1 to 3 at 14.5 m is Brunelleschi's model, 2 to 3 at 22.5 m the vault without spirals under each
-// extrados rule.
-TEST(Vault, HorizontalRadialLinesMeetTheTabulatedNumbersOfBlocks) {
+// A level radial line meets one block more than the number of beds that it crosses, which was computed
+// independently from the formulas of surface and bond. An upright block may span all courses that the line
+// crosses, hence 1 to 3 blocks in Brunelleschi's model.
+TEST(Vault, LevelRadialLinesMeetTheExpectedNumbersOfBlocks) {
   struct Row {
     Extrados extrados;
     Bond bond;
@@ -194,9 +195,9 @@ TEST(Vault, HorizontalRadialLinesMeetTheTabulatedNumbersOfBlocks) {
   EXPECT_EQ(blocks_met(level, 22.5), Range(1, 1));
 }
 
-// A level cut meets the cone of bed k in the circle rho = z / tan t_k - e. At 22.5 m some bed crosses the
-// whole way round inside the masonry: the circular ring hidden in the octagon.
-TEST(Vault, SectionOfTheCircularVaultHidesACircularRing) {
+// A level section meets the cone of bed k in the circle rho = z / tan t_k - e. At 22.5 m the whole circle of
+// some bed lies inside the masonry: the octagon contains a circular ring.
+TEST(Vault, SectionOfTheCircularVaultContainsACircularRing) {
   const Assembly model = cut_assembly(vault_case(Construction::circular, Extrados::normal, RunningBond{}));
   const double z = 22.5;
   std::map<int, std::set<int>> slices_crossed;  // bed -> slices where the cut plane crosses it
@@ -216,7 +217,7 @@ TEST(Vault, SectionOfTheCircularVaultHidesACircularRing) {
   EXPECT_EQ(most, 128u);
 }
 
-TEST(Vault, RefusesExtradosRulesThatDoNotApply) {
+TEST(Vault, RejectsExtradosRulesThatDoNotApply) {
   EXPECT_THROW(generate(vault_case(Construction::circular, Extrados::bed, RunningBond{})), InputError);
   EXPECT_THROW(generate(vault_case(Construction::planar_radial, Extrados::bed, RunningBond{})), InputError);
 }

@@ -13,12 +13,12 @@ struct WallCount {
 
 class PaperWall : public testing::TestWithParam<WallCount> {};
 
-TEST_P(PaperWall, HasItsCountAndVolumeWithOnePartPerBlock) {
+TEST_P(PaperWall, HasTheExpectedCountAndVolumeWithOnePartPerBlock) {
   ModelReport report;
   const Assembly wall = check_and_report(wall_case(GetParam().rings, GetParam().blocks_per_ring), &report);
   EXPECT_EQ(report.num_blocks, GetParam().blocks);
   EXPECT_EQ(report.num_parts, GetParam().blocks);
-  EXPECT_NEAR(report.volume, 72.0, 72.0 * 1e-12);  // 12 x 6 x 1 m; sum of up to 5050 rounded volumes
+  EXPECT_NEAR(report.volume, 72.0, 72.0 * 1e-12);  // 12 x 6 x 1 m, rounding of up to 5050 volumes
   const double whole = 72.0 / GetParam().rings / GetParam().blocks_per_ring;
   EXPECT_NEAR(report.largest_block, whole, whole * 1e-12);
   EXPECT_NEAR(report.smallest_block, whole / 2, whole * 1e-12);
@@ -29,24 +29,24 @@ INSTANTIATE_TEST_SUITE_P(Sizes, PaperWall,
                          testing::Values(WallCount{4, 2, 10}, WallCount{20, 10, 210},
                                          WallCount{100, 50, 5050}));
 
-// Every overlapped rectangle is one pair of faces: nb under the base row, 2 nb between any two courses, and
-// nb - 1 or nb heads in a course.
-TEST(Wall, RunningBondHasTheJointsOfItsRectangles) {
+// With n blocks per course there are n joints at the base, 2 n between two courses, and n - 1 or n heads in a
+// course.
+TEST(Wall, RunningBondHasTheExpectedJoints) {
   ModelReport report;
   check_and_report(wall_case(4, 2), &report);
   const int base = 2, beds = 3 * 4, heads = 2 * 1 + 2 * 2;
   EXPECT_EQ(report.num_joints, base + beds + heads);
 }
 
-TEST(Wall, FacesHaveTheirKinds) {
+TEST(Wall, FacesHaveTheExpectedKinds) {
   const Assembly wall = generate(wall_case(3, 2));
   const Part& corner_block = wall.parts[1];
   ASSERT_EQ(corner_block.num_faces, 6);
   for (int f = corner_block.face_start; f < corner_block.face_start + 6; ++f) {
     const Vec3 n = polygon_plane(face_points(wall, f)).normal;
-    FaceKind expected = FaceKind::bed;            // under and over
+    FaceKind expected = FaceKind::bed;            // below and above
     if (n.x() < -0.5) expected = FaceKind::free;  // end of the wall
-    if (n.x() > 0.5) expected = FaceKind::head;   // neighbour
+    if (n.x() > 0.5) expected = FaceKind::head;   // towards the neighbour
     if (n.y() > 0.5) expected = FaceKind::intrados;
     if (n.y() < -0.5) expected = FaceKind::extrados;
     EXPECT_EQ(wall.face_kinds[f], expected) << "normal " << n.transpose();
