@@ -1,3 +1,7 @@
+#include <utility>
+#include <variant>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "generators/surface/make_surface.hpp"
@@ -5,13 +9,18 @@
 namespace cupola::traits_test {
 namespace {
 
-// 1e-12 covers the rounding of coordinates of 50 m; open surfaces are at least 1 m long.
+/// One surface of each kind with its default dimensions.
+template <size_t... I>
+std::vector<Surface> every_kind(std::index_sequence<I...>) {
+  return {Surface(std::variant_alternative_t<I, Surface>{})...};
+}
+
+// 1e-12 m covers the rounding of coordinates of 50 m; open surfaces are at least 1 m long.
 TEST(SurfaceTraits, ClosedSurfacesEndWhereTheyBegin) {
-  for (const Surface& surface : {Surface(DomeSurface{}), Surface(OctagonalVault{}), Surface(ArchSurface{}),
-                                 Surface(WallSurface{})}) {
+  for (const Surface& surface : every_kind(std::make_index_sequence<std::variant_size_v<Surface>>{})) {
     const SurfaceMap map = make_surface(surface, 4);
     const Vec3 begin = map.point(1.0, 0.0, Skin::intrados), end = map.point(1.0, map.extent, Skin::intrados);
-    EXPECT_EQ((end - begin).norm() < 1e-12, traits_of(surface).closed) << "surface " << surface.index();
+    EXPECT_EQ((end - begin).norm() < 1e-12, traits_of(surface).closed) << "kind " << surface.index();
   }
 }
 
