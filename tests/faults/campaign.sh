@@ -1,11 +1,11 @@
 #!/bin/bash
-# Lets each call by which a program changes a file fail in turn (full disk, input/output error, no
-# permission) or be its last (kill -9), and checks what the project promises:
-#   1. the program ends with code 1 and one line that names a path (kill: by the signal);
-#   2. every file is the whole old one or the whole new one (one that grows with the frames: a whole shorter one),
-#      and the next program takes a whole set or refuses;
-#   3. the same command again gives the same bytes as if nothing had happened; a motion goes on from the last
-#      frame but one at the worst, so that no fault costs the checkpoint before it.
+# Makes each call with which a program changes a file fail in turn (disk full, input/output error, no permission), or
+# kills the program there (kill -9), and checks three promises:
+#   1. the program exits with code 1 and prints one line that names a path (kill: it ends by the signal);
+#   2. every file is either the complete old one or the complete new one (files that grow with the frames: a complete
+#      shorter one), and the next program accepts only a complete set;
+#   3. the same command, run again, gives the same bytes as an undisturbed run. A dynamic analysis resumes at worst from
+#      the last frame but one, so that no fault destroys the previous checkpoint.
 #
 #   campaign.sh BIN_FOLDER SHIM.so [faults per program and kind, spread evenly; default: at every call]
 set -u
@@ -23,26 +23,26 @@ growing_files_are_whole() {
   text=$(cat "$run/results/history.csv")
   [[ "$(cat "$work/new/results/history.csv")" == "$text"* || "$(cat "$work/old/results/history.csv")" == "$text"* ]]
 }
-# Whether the resumed run, whose words are in the file, went on from the last frame that lay there or the one before.
-goes_on() {
-  local lay=$1 from
+# resumes FRAMES LOG: true if the resumed run continued from the last of FRAMES existing frames or the one before.
+resumes() {
+  local existing=$1 from
   from=$(sed -n 's/^resuming after frame \([0-9]*\) .*/\1/p' "$2")
-  [ "${from:-0}" -ge $((lay - 1)) ]
+  [ "${from:-0}" -ge $((existing - 1)) ]
 }
-frames_of_new_run() { # those that the faulted run wrote itself
+frames_of_new_run() { # frames written by the disturbed run itself
   cmp -s "$run/results/blocks.pvd" "$start/results/blocks.pvd" && echo 0 && return
   grep -c '<DataSet' "$run/results/blocks.pvd" 2> /dev/null
 }
 defect() { defects=$((defects + 1)); echo "DEFECT: $stage, $kind at call $at: $1"; }
 
-# The whole pipeline as it was (old: other friction, other length) and as it must become (new).
+# Results of the whole pipeline before (old: a different length) and after (new).
 mkdir "$work/old" "$work/new"
 generate "$work/old" --set geometry.surface.length=3 && solve "$work/old" --set geometry.surface.length=3 &&
   post "$work/old" --set geometry.surface.length=3 && generate "$work/new" && solve "$work/new" && post "$work/new" || exit 1
 contents "$work/old" > "$work/old.txt"; contents "$work/new" > "$work/new.txt"
 
 for stage in generate solve post; do
-  # What the stage finds: the earlier stages are new, its own output and the later ones are old.
+  # Initial state of the stage: the output of earlier stages is new, its own and that of later stages is old.
   start=$work/start; rm -rf "$start"; cp -r "$work/old" "$start"
   [ $stage = generate ] || cp "$work/new/assembly.vtu" "$start/"
   [ $stage = post ] && { rm -rf "$start/results"; cp -r "$work/new/results" "$start/"; }
@@ -56,19 +56,19 @@ for stage in generate solve post; do
       rm -rf "$run"; cp -r "$start" "$run"; faults=$((faults + 1))
       ( export LD_PRELOAD=$shim FAULT_FOLDER=$run FAULT_AT=$at FAULT_KIND=$kind; $stage "$run" ) > /dev/null 2> "$work/err"
       code=$?
-      if [ $kind = KILL ]; then [ $code -eq 137 ] || defect "exit code $code, not 137"
-      elif [ $code -ne 1 ]; then defect "exit code $code, not 1: $(cat "$work/err")"
+      if [ $kind = KILL ]; then [ $code -eq 137 ] || defect "exit code $code, expected 137"
+      elif [ $code -ne 1 ]; then defect "exit code $code, expected 1: $(cat "$work/err")"
       elif [ "$(wc -l < "$work/err")" -ne 1 ] || ! grep -q "$run" "$work/err"; then
-        defect "not one line with a path: $(cat "$work/err")"; fi
+        defect "expected one line with a path: $(cat "$work/err")"; fi
       contents "$run" | grep -vxF -f "$work/old.txt" | grep -vxF -f "$work/new.txt" | grep -vE "$growing" > "$work/strange" &&
-        defect "neither old nor new: $(cut -d' ' -f1 "$work/strange" | tr '\n' ' ')"
-      growing_files_are_whole || defect "a growing file is not whole"
-      # A later stage must not take a mixture: what it accepts gives the new answer.
+        defect "file is neither the old nor the new one: $(cut -d' ' -f1 "$work/strange" | tr '\n' ' ')"
+      growing_files_are_whole || defect "a growing file is incomplete"
+      # A later stage must refuse a mixture of old and new files: if it accepts them, its answer must be the new one.
       if [ $stage = solve ] && post "$run" > /dev/null 2>&1; then
         contents "$run/post" | cmp -s - <(contents "$work/new/post") || defect "cupola-post accepted a mixture"; fi
       again=; frames=0; [ $stage = solve ] && again=--resume && frames=$(frames_of_new_run)
-      quiet=; $stage "$run" $again > "$work/said" 2> "$work/err" || defect "does not run again: $(cat "$work/err")"; unset quiet
-      goes_on "$frames" "$work/said" || defect "$frames frames lay there: $(head -n 1 "$work/said")"
+      quiet=; $stage "$run" $again > "$work/said" 2> "$work/err" || defect "fails when run again: $(cat "$work/err")"; unset quiet
+      resumes "$frames" "$work/said" || defect "$frames frames existed, but the run reports: $(head -n 1 "$work/said")"
       for part in assembly.vtu results post; do
         case $stage$part in generateresults|generatepost|solvepost) continue;; esac
         [ -e "$run/$part" ] && ! diff -q <(cd "$run"; contents . | grep "^./$part") <(grep "^./$part" "$work/new.txt") > /dev/null &&

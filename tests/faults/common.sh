@@ -1,5 +1,5 @@
-# For the scripts of this folder: the three programs on a small case, and what they leave. Expects $bin, makes $work.
-# They say little; `quiet= solve ...` says all.
+# Shared by the scripts of this folder: runs the three programs on a small case and lists their output. Expects $bin,
+# creates $work. The programs run with --quiet; `quiet= solve ...` prints everything.
 here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 work=$(mktemp -d); trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 case_file=$work/small.yaml; cp "$here/small.yaml" "$case_file"
@@ -8,8 +8,8 @@ generate() { "$bin/cupola-generate" "$case_file" --quiet --output "$1/assembly.v
 solve() { "$bin/cupola-solve" "$case_file" ${quiet---quiet} --assembly "$1/assembly.vtu" --output "$1/results" "${@:2}"; }
 post() { "$bin/cupola-post" analyse "$case_file" --quiet --assembly "$1/assembly.vtu" --results "$1/results" --output "$1/post" "${@:2}"; }
 
-# One line per file: name and checksum, without wall times and memory, which no two runs share.
-# contents FOLDER [MORE LINES TO LEAVE OUT]
+# contents FOLDER [PATTERN]: one line per file with name and checksum, ignoring lines with times and memory, which
+# differ between runs, and lines that match PATTERN.
 contents() {
   local times="_time_seconds|solve_time|peak[_ ]memory${2:+|$2}" all file
   (cd "$1" && all=$(find . -type f ! -name '*.part*' ! -name '.*' | sort) && [ -n "$all" ] || return 0

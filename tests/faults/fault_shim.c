@@ -1,9 +1,9 @@
-/* Preloaded into a program under test: lets the Nth call that changes a file below FAULT_FOLDER fail or kill
- * the process. Written in C because it replaces C library calls.
+/* Preloaded into a program under test: makes the Nth call that changes a file below FAULT_FOLDER fail, or kills
+ * the process there. Written in C because it replaces functions of the C library.
  *
- *   FAULT_AT=N        which call, counted from 1; 0 only counts
- *   FAULT_KIND=...    ENOSPC, EIO or EACCES: the call fails so; KILL: the process dies as by kill -9
- *   FAULT_COUNT=FILE  gets the number of calls when the program ends by itself
+ *   FAULT_AT=N        number of the call, from 1; 0: only count calls
+ *   FAULT_KIND=...    ENOSPC, EIO or EACCES: error of the call; KILL: end the process as kill -9 does
+ *   FAULT_COUNT=FILE  receives the number of calls when the program ends normally
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -40,7 +40,7 @@ static int descriptor_below_folder(int fd) {
   return below_folder(path);
 }
 
-/* Whether this call is the one that must fail; then errno is set. */
+/* True if this call must fail; then errno is set. */
 static int strikes(void) {
   const char* at = getenv("FAULT_AT");
   const char* kind = getenv("FAULT_KIND");

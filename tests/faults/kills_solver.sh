@@ -1,6 +1,6 @@
 #!/bin/bash
-# Kills cupola-solve (kill -9) at random moments of a wall's fall, resumes it each time, and compares the final files
-# with those of an undisturbed run, bit by bit. kills.sh does so with all three programs under make.
+# Kills cupola-solve (kill -9) at random times while a wall falls, resumes it each time, and compares the final files
+# bit by bit with those of an undisturbed run. kills.sh does the same with all three programs under make.
 #
 #   kills_solver.sh BIN_FOLDER KILLS
 set -u
@@ -30,10 +30,10 @@ while [ $done_kills -lt "$kills" ]; do
     0) finished=$((finished + 1))
        contents "$work/killed" | diff "$work/expected" - || { echo "differs after $done_kills kills"; exit 1; }
        rm -rf "$work/killed/results";;
-    *) cat "$work/err"; echo "does not resume after $done_kills kills"; exit 1;;
+    *) cat "$work/err"; echo "fails to resume after $done_kills kills"; exit 1;;
   esac
 done
 solve "$work/killed" --resume || exit 1
 contents "$work/killed" | diff "$work/expected" - || { echo "differs at the end"; exit 1; }
-echo "$done_kills kills over $((finished + 1)) runs, $resumed of them resumed from a checkpoint: every result bit-identical"
+echo "$done_kills kills over $((finished + 1)) runs, $resumed of them resumed from a checkpoint: all results bit-identical"
 [ "$resumed" -gt $((kills / 4)) ]

@@ -1,7 +1,8 @@
 #!/bin/bash
-# What a program cannot help: too little memory, a folder that it may not write, an input that is gone, empty or cut.
-# Each must end with the right code (1 for the machine, 2 for the input) and one line that names a path (memory: says
-# so), or give the answer of an undisturbed run; what was there before stays, and the same command runs afterwards.
+# External faults: too little memory, a folder without write permission, an input that is missing, empty or truncated.
+# Each run must either give the answer of an undisturbed run, or exit with the right code (1 for the system, 2 for the
+# input) and print one line that names the path (or memory). Existing files must stay unchanged, and the same command
+# must succeed afterwards.
 #
 #   surroundings.sh BIN_FOLDER [memory limits per program, default 10]
 set -u
@@ -16,17 +17,17 @@ contents "$good" > "$work/good.txt"
 defect() { defects=$((defects + 1)); echo "DEFECT: $stage, $what: $1"; }
 prepare() { chmod -R u+w "$run" 2> /dev/null; rm -rf "$run"; cp -r "$good" "$run"; faults=$((faults + 1)); }
 unchanged() { contents "$run" | cmp -s - "$work/good.txt"; }
-# check CODE PHRASE: how the stage ended, and whether it did no harm.
+# check CODE PHRASE: checks how the stage ended and that it changed nothing.
 check() {
-  if [ "$code" -eq 0 ]; then unchanged || defect "ended well with another answer"
-  elif [ "$code" -ne "$1" ]; then defect "code $code, not $1: $(head -c 300 "$work/err")"
+  if [ "$code" -eq 0 ]; then unchanged || defect "succeeded with a different answer"
+  elif [ "$code" -ne "$1" ]; then defect "exit code $code, expected $1: $(head -c 300 "$work/err")"
   elif [ "$(wc -l < "$work/err")" -ne 1 ] || ! grep -qE "$2" "$work/err"; then
-    defect "not one line with '$2': $(head -c 300 "$work/err")"; fi
+    defect "expected one line with '$2': $(head -c 300 "$work/err")"; fi
 }
 
-# --- memory: from what starts the program to what it needs, in equal steps of address space
-# The limit on seconds is there for what would hang.
-needs() { # kB; the smallest multiple of 8 MB with which "$@" ends well
+# --- memory: equal steps of address space, from the minimum that starts the program to what it needs
+# The limit on CPU seconds ends a run that hangs.
+needs() { # kB; the smallest multiple of 8 MB with which "$@" succeeds
   local low=0 high=512 middle
   while [ $((high - low)) -gt 1 ]; do
     middle=$(((low + high) / 2))
@@ -43,11 +44,11 @@ for stage in generate solve post; do
     prepare
     (ulimit -v $limit; ulimit -t 20; $stage "$run") > /dev/null 2> "$work/err"; code=$?
     check 1 'memory|Cannot allocate'
-    $stage "$run" > /dev/null 2> "$work/err" && unchanged || defect "does not run again: $(cat "$work/err")"
+    $stage "$run" > /dev/null 2> "$work/err" && unchanged || defect "fails when run again: $(cat "$work/err")"
   done
 done
 
-# --- a folder that may not be written; root may write everywhere, so root becomes nobody
+# --- a folder without write permission; root may write anywhere, so the tests then run as nobody
 as_user() { if [ "$(id -u)" -eq 0 ]; then setpriv --reuid=65534 --regid=65534 --clear-groups "$@"; else "$@"; fi; }
 export bin case_file; export -f generate solve post
 chmod a+rx "$work"
@@ -62,11 +63,11 @@ for stage in generate solve post; do
     [ $code -ne 0 ] || defect "wrote into a read-only folder"
     check 1 "$run"
     chmod -R u+w "$run"
-    $stage "$run" > /dev/null 2>&1 && unchanged || defect "does not run again"
+    $stage "$run" > /dev/null 2>&1 && unchanged || defect "fails when run again"
   done
 done
 
-# --- inputs that are gone, empty, or cut in half
+# --- inputs that are missing, empty or truncated to half
 for stage in solve post; do
   inputs=assembly.vtu
   [ $stage = solve ] || inputs="assembly.vtu $(cd "$good" && find results -type f | sort)"
@@ -80,10 +81,10 @@ for stage in solve post; do
         cut) truncate -s $(($(stat -c %s "$run/$input") / 2)) "$run/$input";; esac
       cp "$run/$input" "$work/damaged" 2> /dev/null
       $stage "$run" > /dev/null 2> "$work/err"; code=$?
-      # What a program does not read it need not miss: then its answer must be the good one.
+      # A program need not notice a fault in a file that it does not read, but its answer must then be right.
       if [ $code -eq 0 ]; then
         diff <(grep -v "^./$input " "$work/good.txt") <(contents "$run" | grep -v "^./$input ") > /dev/null ||
-          defect "ended well with another answer"
+          defect "succeeded with a different answer"
       else check 2 "$input|results"; fi
     done
   done

@@ -1,20 +1,20 @@
 #!/bin/bash
-# Gives `cupola-generate CASE --check` bad case files: random edits of the project's own. Each must end with code 0
-# or 2 and, when refused, one line that names the file, within 10 s and 1 GB (of address space, which is more than
-# memory).
+# Runs `cupola-generate CASE --check` on bad case files: random edits of the project's own cases. Each run must exit
+# with code 0 or 2, print one line that names the file if refused, and stay within 10 s and 1 GB of address space
+# (which exceeds resident memory).
 #
 #   check_cases.sh BIN_FOLDER FILES [JOBS, default 2]
 set -u
 bin=$(realpath "$1"); files=$2; jobs=${3:-2}
 cd "$(dirname "$0")/../.." || exit 1
 work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
-cp cases/*.yaml "$work"; cp -n tests/invalid_input/*.yaml "$work"  # edited cases may still extend them
+cp cases/*.yaml "$work"; cp -n tests/invalid_input/*.yaml "$work"  # which edited cases may extend
 "$bin/fuzz_case" --edits "$files" --seed 3 --write "$work/edited_" cases/*.yaml tests/invalid_input/*.yaml || exit 1
 cd "$work" || exit 1
 ulimit -v 1048576; ulimit -c 0
 export LC_ALL=C
 
-# check_every NTH: files NTH, NTH + jobs, ...; leaves "accepted refused defects slowest" in tally_NTH.
+# check_every NTH: checks files NTH, NTH + jobs, ...; writes "accepted refused defects slowest" to tally_NTH.
 check_every() {
   local accepted=0 refused=0 defects=0 slowest=0 i file start code milliseconds lines
   for ((i = $1; i < files; i += jobs)); do

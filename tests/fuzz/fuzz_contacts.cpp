@@ -1,5 +1,5 @@
-// Contact tables (CSV) for the small model, as text. Promise: accepted contacts name two of its blocks and
-// have a unit normal and an area.
+// Contact tables (CSV) for the small model, as text. Promise: accepted contacts refer to two of
+// its blocks and have a unit normal and a positive area.
 
 #include <cmath>
 

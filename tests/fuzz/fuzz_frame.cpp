@@ -1,4 +1,4 @@
-// A results folder with right checksums and spoilt contents: one frame of contacts and blocks.
+// A results folder with valid checksums and corrupted content: one frame of contacts and blocks.
 
 #include <cmath>
 
@@ -55,12 +55,12 @@ bool reader_accepts(std::string_view bytes) {
   demand(written, "the good folder is written");
 
   ByteSource source(bytes);
-  const bool spoil_blocks = source.take<std::uint8_t>() % 2 == 0;
-  Mesh mesh = spoil_blocks ? good_blocks : good_contacts;
+  const bool corrupt_blocks = source.take<std::uint8_t>() % 2 == 0;
+  Mesh mesh = corrupt_blocks ? good_blocks : good_contacts;
   edit_mesh(source, &mesh);
-  write_mesh(folder + (spoil_blocks ? "/blocks_0000.vtp" : "/contacts_0000.vtp"), mesh);
-  write_mesh(folder + (spoil_blocks ? "/contacts_0000.vtp" : "/blocks_0000.vtp"),
-             spoil_blocks ? good_contacts : good_blocks);
+  write_mesh(folder + (corrupt_blocks ? "/blocks_0000.vtp" : "/contacts_0000.vtp"), mesh);
+  write_mesh(folder + (corrupt_blocks ? "/contacts_0000.vtp" : "/blocks_0000.vtp"),
+             corrupt_blocks ? good_contacts : good_blocks);
   Frame frame;
   if (!accepts([&] { frame = ResultsReader(folder, "hash").read_frame(0); })) return false;
   for (int i = 0; i < frame.contacts.size(); ++i) {

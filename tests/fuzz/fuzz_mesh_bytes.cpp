@@ -1,4 +1,4 @@
-// assembly.vtu as raw bytes: damaged files. Promise: only a file that is whole gets past the checksum.
+// assembly.vtu as raw bytes: damaged files. Promise: only intact files pass the checksum.
 
 #include "assembly/files/assembly_file.hpp"
 #include "tests/fuzz/reader_under_test.hpp"

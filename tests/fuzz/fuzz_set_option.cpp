@@ -1,5 +1,5 @@
-// `--set` options, one per line, on a good case. Promise: what is accepted keeps its hash when it is
-// repeated.
+// `--set` options, one per line, on a valid case. Promise: reading the case again with the same options gives the
+// same hash.
 
 #include <sstream>
 #include <vector>

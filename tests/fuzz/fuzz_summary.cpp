@@ -1,4 +1,4 @@
-// results/summary.json. Promise: an accepted summary is written and read back to the same text.
+// results/summary.json. Promise: an accepted summary, written and read back, gives the same text.
 
 #include "assembly/files/summary_file.hpp"
 #include "assembly/model/results.hpp"

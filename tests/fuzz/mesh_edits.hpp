@@ -7,7 +7,7 @@
 
 namespace cupola {
 
-/// The value after the given one; the highest whole number is followed by the lowest.
+/// The next value; the largest integer wraps around to the smallest.
 template <class T>
 T next_value(T value) {
   if constexpr (std::is_integral_v<T>)
@@ -15,10 +15,10 @@ T next_value(T value) {
   return static_cast<T>(value + 1);
 }
 
-/// Spoils a mesh as the bytes say and keeps it writable: values, cell ids, names, missing and resized field
-/// arrays. The writer puts a right checksum below it, so that the reader's own checks are tested.
+/// Corrupts a mesh as directed by the bytes but keeps it writable: values, cell ids, names, missing and resized field
+/// arrays. The writer adds a valid checksum, so that the other checks of the reader are tested.
 inline void edit_mesh(ByteSource bytes, Mesh* mesh) {
-  const auto spoil = [&bytes](auto& value) {
+  const auto corrupt = [&bytes](auto& value) {
     using T = std::decay_t<decltype(value)>;
     if constexpr (std::is_same_v<T, std::string>) {
       value = std::string(bytes.index(300), static_cast<char>('!' + bytes.index(90)));
@@ -52,7 +52,7 @@ inline void edit_mesh(ByteSource bytes, Mesh* mesh) {
       default:
         std::visit(
             [&](auto& values) {
-              if (!values.empty()) spoil(values[bytes.index(values.size())]);
+              if (!values.empty()) corrupt(values[bytes.index(values.size())]);
             },
             array.values);
     }
@@ -69,16 +69,16 @@ inline void edit_mesh(ByteSource bytes, Mesh* mesh) {
         edit_array(mesh->field_data, true);
         break;
       case 3:
-        if (!mesh->points.empty()) spoil(mesh->points[bytes.index(mesh->points.size())]);
+        if (!mesh->points.empty()) corrupt(mesh->points[bytes.index(mesh->points.size())]);
         break;
       default:
-        // Point ids of hexahedra and vertices: a polyhedron's face counts must stay true to be written.
+        // Only point ids of hexahedra and vertices: the face counts of polyhedra must stay valid for writing.
         if (mesh->cell_types.empty()) break;
         const size_t cell = bytes.index(mesh->cell_types.size());
         if (mesh->cell_types[cell] == Mesh::CellType::polyhedron) break;
         const int begin = mesh->cell_start[cell];
-        spoil(mesh->cell_points[static_cast<size_t>(begin) +
-                                bytes.index(static_cast<size_t>(mesh->cell_start[cell + 1] - begin))]);
+        corrupt(mesh->cell_points[static_cast<size_t>(begin) +
+                                  bytes.index(static_cast<size_t>(mesh->cell_start[cell + 1] - begin))]);
     }
   }
 }

@@ -13,12 +13,12 @@
 
 namespace cupola {
 
-/// What each fuzz target defines: reads the bytes as its kind of input and says whether they were accepted.
-/// InputError is the only exception a reader may answer with; whatever else leaves this function, a crash, a
-/// hang, or a broken promise about accepted input is a defect.
+/// Defined by each fuzz target: reads the bytes as its kind of input and returns whether they were accepted. A reader
+/// may throw only InputError. Any other exception, a crash, a hang, or a broken promise about accepted input is a
+/// defect.
 bool reader_accepts(std::string_view bytes);
 
-/// Whether `read` ends without InputError.
+/// True if `read` returns without InputError.
 template <class Read>
 bool accepts(Read read) {
   try {
@@ -29,12 +29,12 @@ bool accepts(Read read) {
   }
 }
 
-/// Ends the program when a promise about accepted input is broken; active in every build, unlike an assert.
+/// Aborts if a promise about accepted input is broken; unlike an assertion, active in every build.
 inline void demand(bool holds, const char* promise) {
   if (!holds) assertion_failed(promise, "accepted input", 0);
 }
 
-/// A file or folder of this process for readers that take a path, removed when the program ends.
+/// A file or folder of this process, for readers that take a path; removed at exit.
 struct ScratchPath {
   explicit ScratchPath(const std::string& ending)
       : path((std::filesystem::temp_directory_path() / ("cupola_fuzz_" + std::to_string(::getpid()) + ending))
@@ -51,7 +51,7 @@ inline void write_bytes(const std::string& path, std::string_view bytes) {
       .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// Turns fuzzer bytes into choices, zeros when they run out.
+/// Turns fuzzer bytes into choices; zeros after the last byte.
 class ByteSource {
  public:
   explicit ByteSource(std::string_view bytes) : bytes_(bytes) {}

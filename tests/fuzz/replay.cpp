@@ -1,5 +1,5 @@
-// Runs a fuzz target without libFuzzer: on files, then on seeded random edits of them. Prints what it did,
-// the slowest input and the memory; fails above the limits that the project promises.
+// Runs a fuzz target without libFuzzer: on files, then on seeded random edits of them. Prints counts, the slowest
+// input and the peak memory; fails above the limits that the project promises.
 //
 //   fuzz_case --edits 10000 cases/*.yaml
 //   fuzz_case --edits 10000 --write edited_ cases/*.yaml     only writes the edits: edited_0.yaml ...
@@ -23,7 +23,7 @@ using namespace cupola;
 constexpr double kLongest = 10.0;             // s for one input
 constexpr long long kMostMemory = 1LL << 30;  // bytes for the whole run
 
-/// Words that break number, text, list and map readers.
+/// Words that are hard for readers of numbers, texts, lists and maps.
 const std::vector<std::string> kWords = {
     "nan",       "-1",     "0",          "1e400", "-0.0",     ".inf",
     "0x10",      "null",   "~",          "[]",    "{}",       "true",
@@ -99,7 +99,7 @@ struct Tally {
 struct Request {
   int edits = 0;
   unsigned seed = 1;
-  std::string write;  ///< where edits are written, instead of read
+  std::string write;  ///< prefix of files to write the edits to, instead of reading them
   std::vector<std::string> inputs;
 };
 

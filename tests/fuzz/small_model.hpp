@@ -6,7 +6,7 @@
 
 namespace cupola {
 
-/// Two unit cubes, one on the other, the lower one fixed.
+/// Two unit cubes, one on top of the other; the lower one is fixed.
 inline Assembly small_assembly() {
   Assembly assembly;
   for (int level = 0; level < 3; ++level)
