@@ -22,9 +22,9 @@ struct StaticOptions {
   bool may_move = false;
   /// Goes on raising h until the motion proves that nothing balances the loads (kinematic_bound.hpp).
   bool certify = false;
-  const CyclicSymmetry* symmetry = nullptr;  ///< of the model; then one sector is solved for all
-  std::optional<int> max_iterations;         ///< of the method per trial of h; none: its own limit
-  double time_advance = 0.0;                 ///< s by which loads and supports go on in the step
+  const CyclicSymmetry* symmetry = nullptr;          ///< of the model; then one sector is solved for all
+  std::optional<int> max_iterations = std::nullopt;  ///< of the method per trial of h; none: its own limit
+  double time_advance = 0.0;                         ///< s by which loads and supports go on in the step
   std::function<void(const std::string&)> log = [](const std::string&) {};
 };
 
