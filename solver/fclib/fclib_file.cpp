@@ -29,38 +29,42 @@ using Sparse = Eigen::SparseMatrix<double>;
   throw InputError(FileLocation{path}, "FCLIB: " + what);
 }
 
-/// Reads W, M or H of `rows` x `columns`, sizes that the vectors beside it confirm.
+/// Reads W, M or H, whose size must be `rows` x `columns` to match the vectors of the problem.
 Sparse read_matrix(const Hdf5Reader& file, const std::string& name, Eigen::Index rows, Eigen::Index columns) {
   const int m = file.integer(name + "/m"), n = file.integer(name + "/n"), nz = file.integer(name + "/nz");
   if (m != rows || n != columns)
-    reject(file.path(), fmt::format("{} is {} x {}, its vectors say {} x {}", name, m, n, rows, columns));
+    reject(file.path(),
+           fmt::format("{} is {} x {}, but its vectors require {} x {}", name, m, n, rows, columns));
   const std::vector<int> p = file.integers(name + "/p"), i = file.integers(name + "/i");
   const std::vector<double> x = file.numbers(name + "/x");
   const bool triplets = nz >= 0, by_rows = nz == -2;
-  if (nz < -2) reject(file.path(), fmt::format("{}/nz = {} is no storage scheme", name, nz));
+  if (nz < -2)
+    reject(
+        file.path(),
+        fmt::format("{}/nz = {}: must be -2 (by rows), -1 (by columns) or a number of triplets", name, nz));
   const std::size_t majors = static_cast<std::size_t>(by_rows ? m : n);
   if (p.size() < (triplets ? static_cast<std::size_t>(nz) : majors + 1))
-    reject(file.path(), fmt::format("{}/p has {} elements", name, p.size()));
+    reject(file.path(), fmt::format("{}/p has {} elements, fewer than its matrix requires", name, p.size()));
 
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](std::size_t k, int row, int column) {
     if (row < 0 || row >= m || column < 0 || column >= n || !std::isfinite(x[k])) {
-      reject(file.path(),
-             fmt::format("{} has an entry ({}, {}) = {} outside its {} x {}", name, row, column, x[k], m, n));
+      reject(file.path(), fmt::format("{} has the entry ({}, {}) = {}: must be finite and inside its {} x {}",
+                                      name, row, column, x[k], m, n));
     }
     entries.emplace_back(row, column, x[k]);
   };
   const auto check_entry = [&](long long k) {
     const auto stored = static_cast<long long>(std::min(i.size(), x.size()));
     if (k < 0 || k >= stored)
-      reject(file.path(), fmt::format("{} points to entry {} of {}", name, k, stored));
+      reject(file.path(), fmt::format("{} refers to entry {} of {}", name, k, stored));
     return static_cast<std::size_t>(k);
   };
   if (triplets) {
     for (int k = 0; k < nz; ++k) add(check_entry(k), i[check_entry(k)], p[static_cast<std::size_t>(k)]);
   } else {
     for (std::size_t major = 0; major < majors; ++major) {
-      if (p[major + 1] < p[major]) reject(file.path(), name + "/p decreases");
+      if (p[major + 1] < p[major]) reject(file.path(), name + "/p must not decrease");
       for (int k = p[major]; k < p[major + 1]; ++k) {
         const std::size_t at = check_entry(k);
         const int here = static_cast<int>(major);
@@ -81,14 +85,16 @@ VecX read_vector(const Hdf5Reader& file, const std::string& name) {
 }
 
 void check_contacts(const Hdf5Reader& file, int spacedim, Eigen::Index rows, const VecX& mu) {
-  if (spacedim != 3) reject(file.path(), fmt::format("space dimension {}: only 3 is solved here", spacedim));
+  if (spacedim != 3) reject(file.path(), fmt::format("space dimension {}: only 3 is supported", spacedim));
   if (rows == 0 || rows != 3 * mu.size())
-    reject(file.path(), fmt::format("{} contact rows for {} contacts", rows, mu.size()));
+    reject(file.path(),
+           fmt::format("{} contact rows for {} contacts: must be three per contact, and at least one contact",
+                       rows, mu.size()));
   if (mu.minCoeff() < 0.0) reject(file.path(), fmt::format("mu = {} < 0", mu.minCoeff()));
 }
 
 DelassusProblem read_local(const Hdf5Reader& file) {
-  if (file.has("/fclib_local/V")) reject(file.path(), "equality constraints (V, R) are not solved here");
+  if (file.has("/fclib_local/V")) reject(file.path(), "equality constraints (V, R) are not supported");
   DelassusProblem local;
   local.q = read_vector(file, "/fclib_local/vectors/q");
   local.mu = read_vector(file, "/fclib_local/vectors/mu");
@@ -99,7 +105,7 @@ DelassusProblem read_local(const Hdf5Reader& file) {
 
 /// W = H^T M^-1 H, q = H^T M^-1 f + w.
 DelassusProblem read_global(const Hdf5Reader& file) {
-  if (file.has("/fclib_global/G")) reject(file.path(), "equality constraints (G) are not solved here");
+  if (file.has("/fclib_global/G")) reject(file.path(), "equality constraints (G) are not supported");
   const VecX f = read_vector(file, "/fclib_global/vectors/f"),
              w = read_vector(file, "/fclib_global/vectors/w");
   DelassusProblem local;
@@ -108,7 +114,8 @@ DelassusProblem read_global(const Hdf5Reader& file) {
   const Sparse M = read_matrix(file, "/fclib_global/M", f.size(), f.size());
   const Sparse H = read_matrix(file, "/fclib_global/H", f.size(), w.size());
   const Eigen::SimplicialLDLT<Sparse> factor(M);
-  if (factor.info() != Eigen::Success) reject(file.path(), "M cannot be factorised: not positive definite");
+  if (factor.info() != Eigen::Success)
+    reject(file.path(), "M cannot be factorised: it must be positive definite");
   local.W = Sparse(H.transpose() * Sparse(factor.solve(H)));
   local.q = H.transpose() * factor.solve(f) + w;
   const bool finite = local.q.allFinite() && local.W.coeffs().allFinite();
@@ -116,13 +123,13 @@ DelassusProblem read_global(const Hdf5Reader& file) {
   return local;
 }
 
-/// Of a local problem; libfclib writes those of a global one with sizes that contradict each other. Public
-/// problems declare solutions that nobody has written.
+/// Solution of a local problem, if the file has one. (libfclib writes solutions of global problems with
+/// contradictory sizes. Public problems declare solutions without data.)
 std::optional<VecX> read_impulses(const Hdf5Reader& file, Eigen::Index size) {
   if (!file.written("/solution/r")) return std::nullopt;
   VecX impulses = read_vector(file, "/solution/r");
   if (impulses.size() != size)
-    reject(file.path(), fmt::format("/solution/r has {} elements, not {}", impulses.size(), size));
+    reject(file.path(), fmt::format("/solution/r has {} elements, expected {}", impulses.size(), size));
   return impulses;
 }
 
@@ -136,22 +143,22 @@ FclibProblem read_problem(const std::string& path) {
     problem.local = read_global(file);
     problem.was_global = true;
   } else {
-    reject(path, "neither /fclib_local nor /fclib_global is there");
+    reject(path, "has neither /fclib_local nor /fclib_global");
   }
   return problem;
 }
 
-/// Damaged files end the process within HDF5 itself (1.10: null pointers in its cache of metadata, and when
-/// it tidies up at the process' end). So a child reads first, and its end is what the file is judged by.
-void require_survivable(const std::string& path) {
+/// HDF5 1.10 itself crashes on damaged files (null pointers in its metadata cache, also at exit). Therefore a
+/// child process reads the file first, and its exit status decides whether the file is accepted.
+void require_readable(const std::string& path) {
   const pid_t child = fork();
-  if (child < 0) throw SystemError(path + ": no process to try it in");
+  if (child < 0) throw SystemError(path + ": cannot start the process that checks the file (fork failed)");
   if (child == 0) {
-    // A handler of the caller's, such as a sanitizer's, would report the library's end as ours.
+    // A signal handler of the caller, e.g. of a sanitizer, would report the crash of the library as ours.
     for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(signal, SIG_DFL);
     try {
       read_problem(path);
-    } catch (...) {  // the parent will meet it, too, and say so
+    } catch (...) {  // the parent reports it
     }
     close_hdf5();
     _exit(0);
@@ -160,20 +167,22 @@ void require_survivable(const std::string& path) {
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    reject(path, "is damaged: the HDF5 library does not survive reading it");
+    reject(path, "is damaged: the HDF5 library crashes when reading it. Obtain the file again");
 }
 
 }  // namespace
 
-// libfclib reads into arrays of the sizes that a file states, whatever the arrays in the file are, and ends
-// the process when a name is missing: good for writing, but not for reading files of others.
+// libfclib allocates arrays of the sizes stated in a file, regardless of the arrays in it, and ends the
+// process if a name is missing. We use it for writing only.
 FclibProblem read_fclib(const std::string& path) {
-  require_survivable(path);
+  require_readable(path);
   return read_problem(path);
 }
 
 void write_fclib(const std::string& path, const std::string& title, const DelassusProblem& problem,
                  const VecX& gamma) {
+  CUPOLA_ASSERT(problem.W.rows() == problem.q.size() && problem.q.size() == 3 * problem.num_contacts());
+  CUPOLA_ASSERT(gamma.size() == 0 || gamma.size() == problem.q.size());
   Sparse W = problem.W;
   W.makeCompressed();
   VecX q = problem.q, mu = problem.mu, r = gamma;

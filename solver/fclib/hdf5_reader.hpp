@@ -6,9 +6,9 @@
 
 namespace cupola {
 
-/// Arrays of numbers by name from an HDF5 file that nobody vouches for. An array's size is its own in the
-/// file, never one that another array states, and no memory is taken for more than the file can hold. Links
-/// and data that lie in other files are refused, and no filter is loaded. Throws InputError naming file and
+/// Reads arrays of numbers by name from an untrusted HDF5 file. The size of an array is that of its data,
+/// never one that another array states, and no more memory is allocated than the file can hold. Links and
+/// data in other files are rejected, and no filters are loaded. Throws InputError with the file and the
 /// array.
 class Hdf5Reader {
  public:
@@ -17,11 +17,11 @@ class Hdf5Reader {
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
-  bool has(const std::string& name) const;      ///< "/group/name", reached within this file
-  bool written(const std::string& name) const;  ///< there, and not only declared
+  bool has(const std::string& name) const;      ///< "/group/name", without links
+  bool written(const std::string& name) const;  ///< exists and has data
   std::vector<int> integers(const std::string& name) const;
   std::vector<double> numbers(const std::string& name) const;
-  int integer(const std::string& name) const;  ///< an array of one element
+  int integer(const std::string& name) const;  ///< of an array with one element
   const std::string& path() const { return path_; }
 
  private:
@@ -32,7 +32,7 @@ class Hdf5Reader {
   std::int64_t file_;  // HDF5's handle
 };
 
-/// What HDF5 does at the end of the process: closes what is open, and gives its memory back.
+/// Closes all HDF5 files and frees the memory of the library, as it does at exit.
 void close_hdf5();
 
 }  // namespace cupola

@@ -24,8 +24,8 @@ ExitCode solve_fclib(const std::string& path, bool quiet) {
       fmt::print("  the file's own solution has FCLIB merit {:.2e}\n",
                  fclib_merit(problem, *file.impulses, FrictionLaw::coulomb));
     }
-    fmt::print("  {} passes, {} iterations, {:.3f} s\n", summary.outer_iterations, summary.iterations,
-               summary.time_seconds);
+    fmt::print("  {} outer iterations, {} iterations, {:.3f} s\n", summary.outer_iterations,
+               summary.iterations, summary.time_seconds);
   }
   return converged ? ExitCode::done : ExitCode::accuracy_not_reached;
 }

@@ -6,9 +6,9 @@
 
 namespace cupola {
 
-/// Solves a problem of the frictional contact library (`cupola-solve --fclib FILE`) under Coulomb's law and
-/// prints its size, how the solve ended, FCLIB's own merit and ours. Returns `accuracy_not_reached` when it
-/// did not converge.
+/// Solves a problem of the frictional contact library (`cupola-solve --fclib FILE`) under Coulomb's law.
+/// Prints its size, the ending of the solve, FCLIB's merit and the scaled residual. Returns
+/// `accuracy_not_reached` if the solve did not converge.
 ExitCode solve_fclib(const std::string& path, bool quiet);
 
 }  // namespace cupola

@@ -238,10 +238,10 @@ int block_jacobi_gradients(const BlockPattern& pattern, const BlockMatrix& H, co
 void threads() {
   fmt::print(
       "\nOne and two threads, wall s, shortest of three; conjugate gradients with block Jacobi, a "
-      "hierarchy\n");
+      "multigrid\n");
   fmt::print("{:>8} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8} {:>5} {:>8} {:>8} {:>8} {:>8} {:>10} {:>8}\n",
              "blocks", "assembly 1", "2", "speed-up", "factor 1", "2", "speed-up", "bits", "solve", "Jacobi",
-             "wall s", "built s", "hierarchy", "wall s");
+             "wall s", "built s", "multigrid", "wall s");
   for (const int refine : {2, 4, 8}) {
     scenes::DomeShape shape;
     shape.rings = 40 * refine;
@@ -271,17 +271,17 @@ void threads() {
     const double start = wall_seconds();
     const int by_jacobi = block_jacobi_gradients(graph.pattern, H, p.v_star);
     const double jacobi = wall_seconds() - start;
-    Multigrid hierarchy;
-    if (!hierarchy.build(graph.pattern, H, rigid_motions(dome, graph, white.L))) return;
+    Multigrid multigrid;
+    if (!multigrid.build(graph.pattern, H, rigid_motions(dome, graph, white.L))) return;
     const double built = wall_seconds() - start - jacobi;
-    const int by_hierarchy =
-        count_gradients(graph.pattern, H, p.v_star, [&](const VecX& r) { return hierarchy.cycle(r); });
+    const int by_multigrid =
+        count_gradients(graph.pattern, H, p.v_star, [&](const VecX& r) { return multigrid.cycle(r); });
     fmt::print(
         "{:>8} {:>10.4f} {:>10.4f} {:>8.2f} {:>10.3f} {:>10.3f} {:>8.2f} {:>5} {:>8.4f} {:>8} {:>8.2f} "
         "{:>8.2f} {:>10} {:>8.2f}\n",
         p.num_blocks(), assembly[0], assembly[1], assembly[0] / assembly[1], factorisation[0],
         factorisation[1], factorisation[0] / factorisation[1], x[0] == x[1] ? "same" : "OTHER", solve,
-        by_jacobi, jacobi, built, by_hierarchy, wall_seconds() - start - jacobi - built);
+        by_jacobi, jacobi, built, by_multigrid, wall_seconds() - start - jacobi - built);
     std::fflush(stdout);
   }
 }

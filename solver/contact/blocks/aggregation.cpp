@@ -1,10 +1,12 @@
 #include "solver/contact/blocks/aggregation.hpp"
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
 namespace {
 
-/// Couplings between blocks: |A_ij|^2 over |A_ii| |A_jj|.
+/// Strength of the coupling between blocks: |A_ij|^2 / (|A_ii| |A_jj|).
 class Strength {
  public:
   Strength(const BlockRows& A, const RigidMotions& motions)
@@ -17,9 +19,10 @@ class Strength {
   double of(int i, int k) const {
     return A_.value[k].squaredNorm() / (diagonal_[i] * diagonal_[A_.column[k]]);
   }
-  /// Entry k of row i joins i to a neighbour that moves with it.
+  /// Whether entry k of row i couples block i strongly to a block within reach.
   bool strong(int i, int k) const {
-    constexpr double kStrong = 0.02;  // 0 to 0.1 make no difference of a tenth in the gradients
+    constexpr double kStrong =
+        0.02;  // between 0 and 0.1 the number of CG iterations varies by less than 10 %
     return A_.column[k] != i && of(i, k) > kStrong * kStrong && within_reach(i, A_.column[k]);
   }
 
@@ -37,42 +40,43 @@ class Strength {
 
 }  // namespace
 
-Aggregates gather(const BlockRows& A, const RigidMotions& motions) {
+Aggregates aggregate_blocks(const BlockRows& A, const RigidMotions& motions) {
   constexpr int kFree = -1;
   const int n = A.num_rows();
+  CUPOLA_ASSERT(std::ssize(motions.centre) == n && std::ssize(motions.reach) == n);
   const Strength strength(A, motions);
   Aggregates result;
-  std::vector<int>& group = result.group;
-  group.assign(n, kFree);
+  std::vector<int>& aggregate = result.aggregate;
+  aggregate.assign(n, kFree);
   const auto for_strong = [&](int i, const auto& action) {
     for (int k = A.start[i]; k < A.start[i + 1]; ++k)
       if (strength.strong(i, k)) action(A.column[k], k);
   };
-  const auto found_group = [&](int i) {
-    group[i] = result.num_groups();
+  const auto form_aggregate = [&](int i) {
+    aggregate[i] = result.size();
     for_strong(i, [&](int j, int) {
-      if (group[j] == kFree) group[j] = group[i];
+      if (aggregate[j] == kFree) aggregate[j] = aggregate[i];
     });
     result.centre.push_back(i);
   };
 
   for (int i = 0; i < n; ++i) {
-    bool free = group[i] == kFree;
-    for_strong(i, [&](int j, int) { free = free && group[j] == kFree; });
-    if (free) found_group(i);
+    bool free = aggregate[i] == kFree;
+    for_strong(i, [&](int j, int) { free = free && aggregate[j] == kFree; });
+    if (free) form_aggregate(i);
   }
-  const std::vector<int> first = group;
+  const std::vector<int> first = aggregate;
   for (int i = 0; i < n; ++i) {
-    if (group[i] != kFree) continue;
+    if (aggregate[i] != kFree) continue;
     double strongest = 0.0;
     for_strong(i, [&](int j, int k) {
       if (first[j] == kFree || strength.of(i, k) <= strongest) return;
       strongest = strength.of(i, k);
-      group[i] = first[j];
+      aggregate[i] = first[j];
     });
   }
   for (int i = 0; i < n; ++i)
-    if (group[i] == kFree) found_group(i);
+    if (aggregate[i] == kFree) form_aggregate(i);
   return result;
 }
 

@@ -7,17 +7,17 @@
 
 namespace cupola {
 
-/// Neighbouring blocks gathered in groups, each of which moves as one on the coarser level.
+/// A partition of the blocks into aggregates of neighbours. Each aggregate is one block of the coarser level.
 struct Aggregates {
-  std::vector<int> group;   ///< of each block (nb)
-  std::vector<int> centre;  ///< block about which a group gathered (num_groups)
-  int num_groups() const { return static_cast<int>(centre.size()); }
+  std::vector<int> aggregate;  ///< of each block (nb)
+  std::vector<int> centre;     ///< block from which each aggregate was formed (size())
+  int size() const { return static_cast<int>(centre.size()); }
 };
 
-/// Blocks that A couples strongly and that can touch where their motions have them. Greedy, after Vanek,
-/// Mandel and Brezina (1996): those all of whose strong neighbours are free take these as their group; what
-/// is left joins the group that holds it most strongly, and makes groups of its own where there is none. Of
-/// groups of bricks in a shell each has some seven members.
-Aggregates gather(const BlockRows& A, const RigidMotions& motions);
+/// Aggregates of blocks that A couples strongly and that can touch, judged by their motions. Greedy, after
+/// Vanek, Mandel and Brezina (1996): a block whose strong neighbours are all free forms an aggregate with
+/// them; remaining blocks join the neighbouring aggregate with the strongest coupling, or form new ones.
+/// Aggregates of bricks in a shell have about seven members.
+Aggregates aggregate_blocks(const BlockRows& A, const RigidMotions& motions);
 
 }  // namespace cupola

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kTileRows = 64;  // blocks
 
-/// Rows of each block that are unknowns.
+/// Rows of a block that are unknowns.
 std::span<const int> rows_of(const BlockPattern& pattern) {
   static constexpr std::array kAll{0, 1, 2, 3, 4, 5};
   static constexpr std::array kPlane{0, 2, 4};  // x, z, rot y
@@ -32,7 +32,7 @@ void multiply_transposed(int rows, int columns, int depth, double alpha, const d
               ld_c);
 }
 
-/// Blocks of the largest product of a tile and a panel's columns.
+/// Size in blocks of the largest product of a tile with the columns of a panel.
 std::size_t largest_product(const FactorStructure& f) {
   std::size_t largest = 0;
   for (int k = 0; k < f.num_panels(); ++k)
@@ -53,7 +53,7 @@ std::vector<BlockCholesky::Tile> BlockCholesky::tiles(int num_rows) {
   return tiles;
 }
 
-/// The rows of the tile in the matrix.
+/// Copies the rows of the tile from the matrix into the panel.
 void BlockCholesky::fill(const BlockMatrix& matrix, int panel, const Tile& tile) {
   const std::span<const int> unknowns = rows_of(pattern_);
   const int first_column = structure_.first_column[panel], columns = structure_.num_columns(panel);
@@ -125,7 +125,7 @@ void BlockCholesky::update(int panel, const Tile& tile, std::vector<double>* pro
   }
 }
 
-/// False when they are not positive definite.
+/// Dense Cholesky factor of the panel's own rows. False if they are not positive definite.
 bool BlockCholesky::factorize_own_rows(int panel) {
   const int n = m_ * structure_.num_columns(panel), ld = m_ * structure_.num_rows(panel);
   int info = 0;
@@ -133,7 +133,7 @@ bool BlockCholesky::factorize_own_rows(int panel) {
   return info == 0;
 }
 
-/// Divides the rows of the tile that lie below the panel's own by the transpose of these.
+/// Multiplies the rows of the tile below the panel's own rows by the inverse transpose of the own rows.
 void BlockCholesky::divide(int panel, const Tile& tile) {
   const int columns = structure_.num_columns(panel);
   const int first = std::max(tile.first, columns);
@@ -154,6 +154,8 @@ bool BlockCholesky::factorize_panel(const BlockMatrix& matrix, int panel, std::v
 }
 
 bool BlockCholesky::factorize(const BlockPattern& pattern, const BlockMatrix& matrix) {
+  CUPOLA_ASSERT(std::ssize(matrix.diagonal) == pattern.num_blocks());
+  CUPOLA_ASSERT(std::ssize(matrix.lower) == pattern.num_pairs());
   openblas_set_num_threads(1);
   if (pattern_ != pattern || values_.empty()) {
     values_ = {};
@@ -164,17 +166,17 @@ bool BlockCholesky::factorize(const BlockPattern& pattern, const BlockMatrix& ma
     products_ = {};
   }
   products_.resize(num_threads(), std::vector<double>(m_ * m_ * largest_product(structure_)));
-  // LAPACK lets NaN through: a comparison with NaN is neither true nor false.
+  // LAPACK does not detect NaN.
   const auto finite = [](const Mat6& block) { return block.allFinite(); };
-  std::atomic<bool> sound = std::all_of(matrix.diagonal.begin(), matrix.diagonal.end(), finite) &&
-                            std::all_of(matrix.lower.begin(), matrix.lower.end(), finite);
-  if (sound) {
+  std::atomic<bool> positive_definite = std::all_of(matrix.diagonal.begin(), matrix.diagonal.end(), finite) &&
+                                        std::all_of(matrix.lower.begin(), matrix.lower.end(), finite);
+  if (positive_definite) {
     run_team(m_ * m_ * m_ * structure_.work, [&](Team& team, int thread) {
       std::vector<double>* product = &products_[thread];
       team.share(static_cast<int>(structure_.subtrees.size()), [&](int i) {
         const FactorStructure::Subtree& tree = structure_.subtrees[i];
-        for (int panel = tree.first; panel < tree.last && sound; ++panel)
-          if (!factorize_panel(matrix, panel, product)) sound = false;
+        for (int panel = tree.first; panel < tree.last && positive_definite; ++panel)
+          if (!factorize_panel(matrix, panel, product)) positive_definite = false;
       });
       for (const int panel : structure_.top) {
         const std::vector<Tile> rows = tiles(structure_.num_rows(panel));
@@ -184,13 +186,13 @@ bool BlockCholesky::factorize(const BlockPattern& pattern, const BlockMatrix& ma
           update(panel, rows[i], product);
         });
         team.share(1, [&](int) {
-          if (!factorize_own_rows(panel)) sound = false;
+          if (!factorize_own_rows(panel)) positive_definite = false;
         });
         team.share(count, [&](int i) { divide(panel, rows[i]); });
       }
     });
   }
-  valid_ = sound;
+  valid_ = positive_definite;
   return valid_;
 }
 
@@ -229,7 +231,7 @@ VecX BlockCholesky::solve(const VecX& rhs) const {
       cblas_dgemv(CblasColMajor, CblasTrans, m_ * rest, n, -1.0, L + n, ld, below.data(), 1, 1.0, own, 1);
     cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, L, ld, own, 1);
   }
-  VecX solution = rhs;  // what is no unknown has the identity for its rows
+  VecX solution = rhs;  // rows that are no unknowns are those of the identity
   for (int k = 0; k < nb; ++k) {
     for (int r = 0; r < m_; ++r) solution[6 * k + unknowns[r]] = x[m_ * structure_.position[k] + r];
   }

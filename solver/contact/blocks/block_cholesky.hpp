@@ -6,26 +6,28 @@
 
 namespace cupola {
 
-/// Sparse Cholesky factor H = L L^T of a BlockMatrix, by panels (factor_structure.hpp), each from the left:
+/// Sparse left-looking Cholesky factor H = L L^T of a BlockMatrix, by panels (factor_structure.hpp):
 ///
-///     L_p <- H_p - sum over earlier panels q of L_q L_q^T;   its own rows by LAPACK, those below by L_p^-T
+///     L_p <- H_p - sum over earlier panels q of L_q L_q^T
+///     own rows of panel p:      dense Cholesky (LAPACK)
+///     rows below its own rows:  multiplied by the inverse transpose of the own rows
 ///
-/// The structure is kept while the pattern stays the same. Works on num_threads() threads: first on subtrees,
-/// then, panel by panel, on tiles of rows. BLAS itself runs one thread, the tiles do not depend on the number
-/// of threads and the sum follows the order of the panels: same bits on every run. (CHOLMOD's own numeric
-/// phase leaves threads to BLAS, whose sums then depend on their number.)
+/// The structure is kept while the pattern does not change. Runs on num_threads() threads: first on subtrees,
+/// then panel by panel on tiles of rows. The result has the same bits for any number of threads: BLAS itself
+/// is single-threaded, the tiles do not depend on the number of threads, and the sum follows the order of the
+/// panels. (CHOLMOD's own numeric phase leaves the threads to BLAS, whose sums depend on their number.)
 ///
-/// Of a plane pattern the rows x, z and rot y of each block are factorised alone: the others must be those of
-/// the identity, as they are in whitened problems.
+/// For a plane pattern only the rows x, z and rot y of each block are factorised. The other rows must be
+/// those of the identity, as they are in whitened problems.
 class BlockCholesky {
  public:
-  /// False when the matrix is not positive definite in double precision or holds NaN; the factor is then
-  /// void. Throws std::bad_alloc when memory runs out.
+  /// False if the matrix is not positive definite in double precision or contains NaN; there is then no
+  /// factor. Throws std::bad_alloc if memory runs out.
   [[nodiscard]] bool factorize(const BlockPattern& pattern, const BlockMatrix& matrix);
 
   bool has_factor() const { return valid_; }
   const BlockPattern& pattern() const { return pattern_; }  ///< of the last factorisation
-  VecX solve(const VecX& rhs) const;                        ///< needs has_factor()
+  VecX solve(const VecX& rhs) const;                        ///< requires has_factor()
   long long num_nonzeros() const;                           ///< of the factor
 
  private:
@@ -46,7 +48,7 @@ class BlockCholesky {
   FactorStructure structure_;
   int m_ = 6;                                  ///< unknowns per block
   std::vector<double> values_;                 ///< of the panels, by columns
-  std::vector<std::vector<double>> products_;  ///< room of each thread
+  std::vector<std::vector<double>> products_;  ///< work array of each thread
   bool valid_ = false;
 };
 

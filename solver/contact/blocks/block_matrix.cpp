@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "assembly/base/error.hpp"
 #include "solver/runtime/threads.hpp"
 
 namespace cupola {
@@ -52,27 +53,30 @@ ContactGraph contact_graph(const ContactProblem& problem) {
 BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& graph,
                              const std::vector<Mat3>& G) {
   BlockMatrix H{problem.M, std::vector<Mat6>(graph.pattern.num_pairs(), Mat6::Zero())};
-  // Each thread goes through all contacts and adds to its own range of blocks: the order of the sums stays.
-  constexpr double kPerContact = 1000.0;  // multiplications and additions
-  run_team(kPerContact * problem.num_contacts(), [&](Team& team, int thread) {
+  CUPOLA_ASSERT(std::ssize(G) == problem.num_contacts());
+  CUPOLA_ASSERT(std::ssize(graph.pair_of_contact) == problem.num_contacts());
+  // Each thread visits all contacts and adds to its own range of blocks, so the order of the sums does not
+  // depend on the number of threads.
+  constexpr double kOperationsPerContact = 1000.0;
+  run_team(kOperationsPerContact * problem.num_contacts(), [&](Team& team, int thread) {
     const auto nb = static_cast<std::int64_t>(problem.num_blocks());
     const auto first = static_cast<int>(nb * thread / team.size());
     const auto last = static_cast<int>(nb * (thread + 1) / team.size());
-    const auto mine = [&](int block) { return first <= block && block < last; };  // kFixed is nobody's
+    const auto in_range = [&](int block) { return first <= block && block < last; };  // false for kFixed
     for (int i = 0; i < problem.num_contacts(); ++i) {
       if (G[i].isZero(0.0)) continue;
       const int a = problem.block_a[i], b = problem.block_b[i];
       const Mat63 &D_a = problem.D_a[i], &D_b = problem.D_b[i];
-      if (mine(a)) {
+      if (in_range(a)) {
         const Mat63 DG = D_a.lazyProduct(G[i]);
         H.diagonal[a] += DG.lazyProduct(D_a.transpose());
       }
-      if (mine(b)) {
+      if (in_range(b)) {
         const Mat63 DG = D_b.lazyProduct(G[i]);
         H.diagonal[b] += DG.lazyProduct(D_b.transpose());
       }
       const int pair = graph.pair_of_contact[i];
-      if (pair < 0 || !mine(std::min(a, b))) continue;
+      if (pair < 0 || !in_range(std::min(a, b))) continue;
       const Mat63 DG = (a > b ? D_a : D_b).lazyProduct(G[i]);
       H.lower[pair] += DG.lazyProduct((a > b ? D_b : D_a).transpose());
     }
@@ -81,6 +85,7 @@ BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& 
 }
 
 VecX multiply(const BlockPattern& pattern, const BlockMatrix& matrix, const VecX& x) {
+  CUPOLA_ASSERT(x.size() == 6 * pattern.num_blocks());
   VecX result(x.size());
   for (int k = 0; k < pattern.num_blocks(); ++k) {
     result.segment<6>(6 * k).noalias() = matrix.diagonal[k] * x.segment<6>(6 * k);

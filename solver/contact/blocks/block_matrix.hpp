@@ -6,7 +6,7 @@
 
 namespace cupola {
 
-/// Which pairs of blocks touch: the strict lower triangle of a symmetric matrix of 6x6 blocks, by columns.
+/// Pairs of blocks that touch: the strict lower triangle of a symmetric matrix of 6x6 blocks, by columns.
 struct BlockPattern {
   std::vector<int> column_start;  ///< (nb + 1)
   std::vector<int> row;           ///< row block, ascending within a column (num_pairs)
@@ -16,16 +16,16 @@ struct BlockPattern {
   bool operator==(const BlockPattern&) const = default;
 };
 
-/// Symmetric matrix of 6x6 blocks over a pattern.
+/// Symmetric matrix of 6x6 blocks with a given pattern.
 struct BlockMatrix {
   std::vector<Mat6> diagonal;  ///< (nb)
   std::vector<Mat6> lower;     ///< block (row, column), row > column, of each pair (num_pairs)
 };
 
-/// The pattern of D D^T and, for each contact, the pair it adds to (-1 when one side is fixed).
+/// The pattern of D D^T, and the pair that each contact contributes to.
 struct ContactGraph {
   BlockPattern pattern;
-  std::vector<int> pair_of_contact;  ///< (nc)
+  std::vector<int> pair_of_contact;  ///< -1 if one side is fixed (nc)
 };
 ContactGraph contact_graph(const ContactProblem& problem);
 

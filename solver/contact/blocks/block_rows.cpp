@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "assembly/base/error.hpp"
 #include "solver/runtime/threads.hpp"
 
 namespace cupola {
@@ -12,7 +13,7 @@ namespace {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-/// body(first, last) over pieces of the rows, on as many threads as the work (operations) is worth.
+/// Calls body(first, last) for pieces of the rows, on as many threads as `work` (operations) justifies.
 template <class Body>
 void share_rows(double work, int num_rows, const Body& body) {
   constexpr int kPieces = 64;
@@ -23,7 +24,7 @@ void share_rows(double work, int num_rows, const Body& body) {
   });
 }
 
-/// Marks the columns that row i of A B holds; returns them ascending.
+/// Columns of row i of A B, ascending. `seen_in` marks the columns found so far by the number of the row.
 void columns_of_product(const BlockRows& A, const BlockRows& B, int i, std::vector<int>* seen_in,
                         std::vector<int>* columns) {
   columns->clear();
@@ -41,6 +42,7 @@ void columns_of_product(const BlockRows& A, const BlockRows& B, int i, std::vect
 
 template <class Scalar>
 VecX product(const BlockRowsOf<Scalar>& A, const VecX& x) {
+  CUPOLA_ASSERT(x.size() == 6 * A.num_columns);
   VecX y(6 * A.num_rows());
   share_rows(72.0 * static_cast<double>(A.value.size()), A.num_rows(), [&](int first, int last) {
     for (int i = first; i < last; ++i) {
@@ -57,6 +59,7 @@ VecX product(const BlockRowsOf<Scalar>& A, const VecX& x) {
 
 BlockRows both_triangles(const BlockPattern& pattern, const BlockMatrix& matrix) {
   const int n = pattern.num_blocks();
+  CUPOLA_ASSERT(std::ssize(matrix.diagonal) == n && std::ssize(matrix.lower) == pattern.num_pairs());
   BlockRows A;
   A.num_columns = n;
   A.start.assign(n + 1, 0);
@@ -73,7 +76,7 @@ BlockRows both_triangles(const BlockPattern& pattern, const BlockMatrix& matrix)
     A.column[next[row]] = column;
     A.value[next[row]++] = block;
   };
-  for (int column = 0; column < n; ++column) {  // what lies left of a diagonal comes before it
+  for (int column = 0; column < n; ++column) {  // ascending, so entries left of a diagonal precede it
     put(column, column, matrix.diagonal[column]);
     for (int p = pattern.column_start[column]; p < pattern.column_start[column + 1]; ++p) {
       put(column, pattern.row[p], matrix.lower[p].transpose());
@@ -92,8 +95,9 @@ VecX multiply(const SingleBlockRows& A, const VecX& x) {
 }
 
 BlockRows multiply(const BlockRows& A, const BlockRows& B) {
-  constexpr double kPerEntry = 3000.0;  // multiplications and additions: each meets a row of B
-  const double work = kPerEntry * static_cast<double>(A.value.size());
+  constexpr double kOperationsPerEntry = 3000.0;  // each entry of A multiplies a row of B
+  const double work = kOperationsPerEntry * static_cast<double>(A.value.size());
+  CUPOLA_ASSERT(A.num_columns == B.num_rows());
   BlockRows C;
   C.num_columns = B.num_columns;
   C.start.assign(A.num_rows() + 1, 0);

@@ -15,7 +15,7 @@ namespace {
 
 using Index = SuiteSparse_long;
 
-/// CHOLMOD's analysis of a pattern of blocks, freed at the end.
+/// CHOLMOD's analysis of a block pattern; owns its memory.
 class Analysis {
  public:
   explicit Analysis(const BlockPattern& pattern);
@@ -39,7 +39,7 @@ Analysis::Analysis(const BlockPattern& pattern) {
   common_.print = 0;
   common_.try_catch = 1;  // a failure is reported by the status, not on stderr
   common_.supernodal = CHOLMOD_SUPERNODAL;
-  // Columns that may join a panel although zeros are then stored: CHOLMOD counts scalar ones, ours are six.
+  // Columns that join a panel although zeros are then stored. CHOLMOD counts scalar columns, ours have six.
   common_.nrelax[0] = 1;
   common_.nrelax[1] = 4;
   common_.nrelax[2] = 8;
@@ -53,7 +53,7 @@ Analysis::Analysis(const BlockPattern& pattern) {
   const bool ordered =
       pattern.num_pairs() > 0 && cholmod_l_metis(graph_, nullptr, 0, 1, order.data(), &common_) != 0;
   throw_if_out_of_memory();
-  if (!ordered) std::iota(order.begin(), order.end(), Index{0});  // METIS has nothing to do
+  if (!ordered) std::iota(order.begin(), order.end(), Index{0});  // no pairs to order
   common_.nmethods = 1;
   common_.method[0].ordering = CHOLMOD_GIVEN;
   common_.postorder = 1;
@@ -74,7 +74,7 @@ void set_order(const cholmod_factor& L, FactorStructure* f) {
   for (std::size_t k = 0; k < L.n; ++k) f->position[f->block[k]] = static_cast<int>(k);
 }
 
-/// CHOLMOD's supernodes, the wide ones cut into panels.
+/// Panels are CHOLMOD's supernodes; wide ones are divided.
 void set_panels(const cholmod_factor& L, FactorStructure* f) {
   const auto* first_column = static_cast<const Index*>(L.super);
   const auto* row_start = static_cast<const Index*>(L.pi);
@@ -100,7 +100,7 @@ std::vector<int> panels_of_columns(const FactorStructure& f) {
   return panel;
 }
 
-/// Sorts items (key, value) into lists by key, in the order they come.
+/// Groups items (key, value) by key and keeps their order.
 template <class Item>
 void group(int num_keys, const std::vector<std::pair<int, Item>>& items, std::vector<std::int64_t>* start,
            std::vector<Item>* grouped) {
@@ -122,6 +122,7 @@ void set_entries(const BlockPattern& pattern, const std::vector<int>& panel_of_c
       const int panel = panel_of_column[column];
       const int* rows = f->rows(panel);
       const auto at = std::lower_bound(rows, rows + f->num_rows(panel), row) - rows;
+      CUPOLA_ASSERT(at < f->num_rows(panel) && rows[at] == row);
       entries.push_back({column, {static_cast<int>(at), pair, there < here}});
     }
   }
@@ -142,9 +143,9 @@ void set_updates(const std::vector<int>& panel_of_column, FactorStructure* f) {
   group(f->num_panels(), updates, &f->update_start, &f->updates);
 }
 
-/// Panels are in postorder: those of a subtree follow each other.
+/// Panels are in postorder, so the panels of a subtree are consecutive.
 void set_subtrees(const std::vector<int>& panel_of_column, FactorStructure* f) {
-  constexpr double kShare = 1.0 / 16.0;  // of the work at most in one subtree
+  constexpr double kLargestShare = 1.0 / 16.0;  // of the work, in one subtree
   const int n = f->num_panels();
   std::vector<double> work(n);
   std::vector<int> first(n), parent(n, n);
@@ -161,7 +162,7 @@ void set_subtrees(const std::vector<int>& panel_of_column, FactorStructure* f) {
     first[parent[k]] = std::min(first[parent[k]], first[k]);
   }
   for (int k = n - 1; k >= 0; --k) {
-    if (work[k] > kShare * f->work) {
+    if (work[k] > kLargestShare * f->work) {
       f->top.push_back(k);
     } else {
       f->subtrees.push_back({first[k], k + 1});
@@ -176,6 +177,7 @@ void set_subtrees(const std::vector<int>& panel_of_column, FactorStructure* f) {
 }  // namespace
 
 FactorStructure analyze(const BlockPattern& pattern) {
+  CUPOLA_ASSERT(pattern.num_blocks() >= 0 && pattern.column_start.back() == pattern.num_pairs());
   FactorStructure f;
   {
     const Analysis analysis(pattern);

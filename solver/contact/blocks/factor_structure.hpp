@@ -7,13 +7,13 @@
 
 namespace cupola {
 
-/// Where the blocks of a Cholesky factor lie, and what has to be done to compute them. Everything counts in
-/// blocks, and a block's place in the order of elimination is its position.
+/// Storage and operations of a sparse Cholesky factor. All sizes count blocks. The position of a block is its
+/// place in the order of elimination.
 ///
-/// Columns of (nearly) the same rows form panels. A panel is a dense matrix of its rows by its columns; its
-/// own columns are its first rows.
+/// Columns with (nearly) the same rows form a panel: a dense matrix of its rows by its columns. Its first
+/// rows are its own columns.
 struct FactorStructure {
-  static constexpr int kPanelWidth = 64;  ///< columns at most, for the sake of the processor's caches
+  static constexpr int kPanelWidth = 64;  ///< largest number of columns, chosen for the processor's caches
 
   std::vector<int> position;              ///< of each block (nb)
   std::vector<int> block;                 ///< at each position (nb)
@@ -22,7 +22,7 @@ struct FactorStructure {
   std::vector<int> row;                   ///< positions, ascending within a panel
   std::vector<std::int64_t> value_start;  ///< blocks stored before each panel (num_panels + 1)
 
-  /// A block of the matrix, off its diagonal: where it goes in its panel and where it comes from.
+  /// An off-diagonal block of the matrix: its row in the panel and its pair in the matrix.
   struct Entry {
     int row = 0;  ///< of the panel
     int pair = 0;
@@ -31,20 +31,20 @@ struct FactorStructure {
   std::vector<std::int64_t> entry_start;  ///< of each position in `entries` (nb + 1)
   std::vector<Entry> entries;             ///< by rows within a column
 
-  /// Rows first to last - 1 of panel `source` are columns of the panel that it updates.
+  /// Rows first to last - 1 of panel `source` are columns of the updated panel.
   struct Update {
     int source = 0, first = 0, last = 0;
   };
   std::vector<std::int64_t> update_start;  ///< of each panel in `updates` (num_panels + 1)
   std::vector<Update> updates;             ///< by source within a panel
 
-  /// Panels that need no others but each other.
+  /// Panels that depend only on each other.
   struct Subtree {
     int first = 0, last = 0;  ///< panels first to last - 1
   };
-  std::vector<Subtree> subtrees;  ///< the greatest first
-  double work = 0.0;              ///< multiplications and additions of blocks in a factorisation
-  std::vector<int> top;           ///< the other panels, ascending: they follow the subtrees
+  std::vector<Subtree> subtrees;  ///< largest first
+  double work = 0.0;              ///< block operations of a factorisation
+  std::vector<int> top;           ///< the remaining panels, ascending; factorised after the subtrees
 
   int num_panels() const { return static_cast<int>(first_column.size()) - 1; }
   int num_columns(int panel) const { return first_column[panel + 1] - first_column[panel]; }
@@ -52,8 +52,8 @@ struct FactorStructure {
   const int* rows(int panel) const { return row.data() + row_start[panel]; }
 };
 
-/// METIS's order of the blocks, the panels that it leads to (CHOLMOD's analysis), their updates, and subtrees
-/// of at most a sixteenth of the work. Throws std::bad_alloc when memory runs out.
+/// Orders the blocks with METIS and finds the panels (CHOLMOD's analysis), their updates, and subtrees of at
+/// most a sixteenth of the work. Throws std::bad_alloc if memory runs out.
 FactorStructure analyze(const BlockPattern& pattern);
 
 }  // namespace cupola

@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "assembly/base/error.hpp"
 #include "solver/contact/blocks/aggregation.hpp"
 #include "solver/runtime/threads.hpp"
 
@@ -14,13 +15,13 @@ namespace cupola {
 
 namespace {
 
-constexpr int kCoarsest = 1500;     // blocks: their factor takes some hundredths of a second
-constexpr int kPiece = 4096;        // rows that a sweep goes through in order
-constexpr double kPerEntry = 72.0;  // multiplications and additions
+constexpr int kCoarsest = 1500;  // blocks; a factorisation takes a few hundredths of a second
+constexpr int kPiece = 4096;     // rows that a sweep visits in sequence
+constexpr double kOperationsPerEntry = 72.0;
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-/// Inverses of the diagonal blocks; empty where one is not positive definite.
+/// Inverses of the diagonal blocks; empty if one of them is not positive definite.
 std::vector<Mat6> inverse_diagonal(const BlockRows& A) {
   std::vector<Mat6> inverse(A.num_rows());
   for (int i = 0; i < A.num_rows(); ++i) {
@@ -34,12 +35,13 @@ std::vector<Mat6> inverse_diagonal(const BlockRows& A) {
   return inverse;
 }
 
-/// Largest eigenvalue of D^-1 A by power iteration, a little more for what that misses.
+/// Upper estimate of the largest eigenvalue of D^-1 A: power iteration, plus 10 %.
 double largest_eigenvalue(const BlockRows& A, const std::vector<Mat6>& inverse) {
   constexpr int kIterations = 10;
   constexpr double kMargin = 1.1;
   VecX x(6 * A.num_rows());
-  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1.5 + std::sin(static_cast<double>(i));  // no mode alone
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    x[i] = 1.5 + std::sin(static_cast<double>(i));  // not a single mode
   double eigenvalue = 1.0;
   for (int k = 0; k < kIterations; ++k) {
     const VecX y = multiply(A, x / x.norm());
@@ -49,47 +51,48 @@ double largest_eigenvalue(const BlockRows& A, const std::vector<Mat6>& inverse) 
   return kMargin * eigenvalue;
 }
 
-/// Orthonormal motions of the members of each group, T, and what they are of the group's own, by Cholesky QR.
-struct GroupMotions {
+/// T: orthonormal motions of the members of each aggregate. `coarse`: the motions of the aggregates in these
+/// terms. By Cholesky QR.
+struct AggregateMotions {
   BlockRows T;
-  RigidMotions of_groups;
+  RigidMotions coarse;
 };
 
-std::optional<GroupMotions> group_motions(const RigidMotions& motions, const Aggregates& groups) {
-  constexpr int kPasses = 2;  // the second repairs what the first lost to rounding
-  const int n = static_cast<int>(groups.group.size()), num_groups = groups.num_groups();
-  GroupMotions result;
-  RigidMotions& coarse = result.of_groups;
-  coarse.motion.assign(num_groups, Mat6::Identity());
-  coarse.reach.assign(num_groups, 0.0);
-  for (const int centre : groups.centre) coarse.centre.push_back(motions.centre[centre]);
+std::optional<AggregateMotions> aggregate_motions(const RigidMotions& motions, const Aggregates& aggregates) {
+  constexpr int kRepetitions = 2;  // the second restores the orthogonality lost to rounding
+  const int n = static_cast<int>(aggregates.aggregate.size()), num_aggregates = aggregates.size();
+  AggregateMotions result;
+  RigidMotions& coarse = result.coarse;
+  coarse.motion.assign(num_aggregates, Mat6::Identity());
+  coarse.reach.assign(num_aggregates, 0.0);
+  for (const int centre : aggregates.centre) coarse.centre.push_back(motions.centre[centre]);
   std::vector<Mat6> Q(n);
   for (int i = 0; i < n; ++i) {
-    const int group = groups.group[i];
-    Q[i] = motions.motion[i] * moved_centre(coarse.centre[group], motions.centre[i]);
-    const double distance = (motions.centre[i] - coarse.centre[group]).norm();
-    coarse.reach[group] = std::max(coarse.reach[group], distance + motions.reach[i]);
+    const int aggregate = aggregates.aggregate[i];
+    Q[i] = motions.motion[i] * moved_centre(coarse.centre[aggregate], motions.centre[i]);
+    const double distance = (motions.centre[i] - coarse.centre[aggregate]).norm();
+    coarse.reach[aggregate] = std::max(coarse.reach[aggregate], distance + motions.reach[i]);
   }
-  for (int pass = 0; pass < kPasses; ++pass) {
-    std::vector<Mat6> R(num_groups, Mat6::Zero());
-    for (int i = 0; i < n; ++i) R[groups.group[i]] += Q[i].transpose() * Q[i];
-    for (int k = 0; k < num_groups; ++k) {
+  for (int pass = 0; pass < kRepetitions; ++pass) {
+    std::vector<Mat6> R(num_aggregates, Mat6::Zero());
+    for (int i = 0; i < n; ++i) R[aggregates.aggregate[i]] += Q[i].transpose() * Q[i];
+    for (int k = 0; k < num_aggregates; ++k) {
       const Eigen::LLT<Mat6> factor(R[k]);
       if (factor.info() != Eigen::Success) return std::nullopt;
       R[k] = factor.matrixU();
       coarse.motion[k] = (R[k] * coarse.motion[k]).eval();
     }
     for (int i = 0; i < n; ++i)
-      R[groups.group[i]].triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(Q[i]);
+      R[aggregates.aggregate[i]].triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(Q[i]);
   }
-  result.T.num_columns = num_groups;
-  result.T.column = groups.group;
+  result.T.num_columns = num_aggregates;
+  result.T.column = aggregates.aggregate;
   result.T.value = std::move(Q);
   for (int i = 0; i < n; ++i) result.T.start.push_back(i + 1);
   return result;
 }
 
-/// P = (1 - 4/3 / lambda D^-1 A) T: motions of neighbouring groups flow into each other.
+/// P = (1 - 4/3 / lambda D^-1 A) T: smoothes the motions across the boundaries of the aggregates.
 BlockRows smoothed(const BlockRows& A, const std::vector<Mat6>& inverse, const BlockRows& T, double lambda) {
   BlockRows P = multiply(A, T);
   for (int i = 0; i < A.num_rows(); ++i) {
@@ -101,16 +104,16 @@ BlockRows smoothed(const BlockRows& A, const std::vector<Mat6>& inverse, const B
   return P;
 }
 
-/// body(first, last) over the pieces of a sweep.
+/// Calls body(first, last) for each piece of a sweep.
 template <class Body>
 void share_pieces(const SingleBlockRows& A, const Body& body) {
   const int n = A.num_rows();
-  share_loop(kPerEntry * static_cast<double>(A.value.size()), (n + kPiece - 1) / kPiece,
+  share_loop(kOperationsPerEntry * static_cast<double>(A.value.size()), (n + kPiece - 1) / kPiece,
              [&](int piece) { body(piece * kPiece, std::min(n, (piece + 1) * kPiece)); });
 }
 
-/// A sweep forth from x = 0: each piece as if the others were at rest.
-VecX sweep_forth(const SingleBlockRows& A, const std::vector<Mat6>& inverse, const VecX& r) {
+/// Forward sweep from x = 0; each piece takes the others as zero.
+VecX sweep_forward(const SingleBlockRows& A, const std::vector<Mat6>& inverse, const VecX& r) {
   VecX x(r.size());
   share_pieces(A, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
@@ -123,23 +126,23 @@ VecX sweep_forth(const SingleBlockRows& A, const std::vector<Mat6>& inverse, con
   return x;
 }
 
-/// r - A x after a sweep forth: what it has not seen.
-VecX rest_after_sweep(const SingleBlockRows& A, const VecX& x) {
-  VecX rest(x.size());
+/// r - A x after a forward sweep: only the entries that the sweep has not used contribute.
+VecX residual_after_sweep(const SingleBlockRows& A, const VecX& x) {
+  VecX residual(x.size());
   share_pieces(A, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
       Vec6 sum = Vec6::Zero();
       for (int k = A.start[i]; k < A.start[i + 1]; ++k)
         if (A.column[k] > i || A.column[k] < first)
           sum.noalias() -= A.value[k].cast<double>() * x.segment<6>(6 * A.column[k]);
-      rest.segment<6>(6 * i) = sum;
+      residual.segment<6>(6 * i) = sum;
     }
   });
-  return rest;
+  return residual;
 }
 
-/// The transpose of sweep_forth, on what x leaves of r.
-void sweep_back(const SingleBlockRows& A, const std::vector<Mat6>& inverse, const VecX& r, VecX* x) {
+/// Backward sweep on the residual r - A x; the transpose of sweep_forward.
+void sweep_backward(const SingleBlockRows& A, const std::vector<Mat6>& inverse, const VecX& r, VecX* x) {
   const VecX before = *x;
   share_pieces(A, [&](int first, int last) {
     for (int i = last - 1; i >= first; --i) {
@@ -159,20 +162,21 @@ void sweep_back(const SingleBlockRows& A, const std::vector<Mat6>& inverse, cons
 
 bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
                       const RigidMotions& motions_of_blocks) {
-  constexpr double kTouching = 2.0;  // bound of lambda: a contact touches two blocks
-  constexpr double kGathered = 0.7;  // groups per block from which on a level is not worth its while
+  constexpr double kFinestEigenvalue = 2.0;  // bound of lambda, as a contact joins two blocks
+  constexpr double kLeastCoarsening = 0.7;   // aggregates per block; with more, a level is not worth its cost
+  CUPOLA_ASSERT(std::ssize(motions_of_blocks.motion) == pattern.num_blocks());
   levels_.clear();
   BlockRows A = both_triangles(pattern, matrix);
   RigidMotions motions = motions_of_blocks;
   while (A.num_rows() > kCoarsest) {
     Level level;
     level.inverse = inverse_diagonal(A);
-    const Aggregates groups = gather(A, motions);
-    if (level.inverse.empty() || groups.num_groups() > kGathered * A.num_rows()) return false;
-    std::optional<GroupMotions> group = group_motions(motions, groups);
-    if (!group) return false;
-    const double lambda = levels_.empty() ? kTouching : largest_eigenvalue(A, level.inverse);
-    const BlockRows P = smoothed(A, level.inverse, group->T, lambda), P_transposed = transpose(P);
+    const Aggregates aggregates = aggregate_blocks(A, motions);
+    if (level.inverse.empty() || aggregates.size() > kLeastCoarsening * A.num_rows()) return false;
+    std::optional<AggregateMotions> aggregated = aggregate_motions(motions, aggregates);
+    if (!aggregated) return false;
+    const double lambda = levels_.empty() ? kFinestEigenvalue : largest_eigenvalue(A, level.inverse);
+    const BlockRows P = smoothed(A, level.inverse, aggregated->T, lambda), P_transposed = transpose(P);
     BlockRows coarse = cupola::multiply(P_transposed, cupola::multiply(A, P));
     level.A = in_single_precision(A);
     level.P = in_single_precision(P);
@@ -180,7 +184,7 @@ bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
     if (levels_.empty()) matrix_ = std::move(A);
     A = std::move(coarse);
     levels_.push_back(std::move(level));
-    motions = std::move(group->of_groups);
+    motions = std::move(aggregated->coarse);
   }
   return !levels_.empty() && factorize_coarsest(A);
 }
@@ -206,12 +210,13 @@ VecX Multigrid::multiply(const VecX& x) const {
 }
 
 VecX Multigrid::cycle(std::size_t index, const VecX& r) const {
+  CUPOLA_ASSERT(!levels_.empty());
   if (index == levels_.size()) return coarsest_.solve(r);
   const Level& level = levels_[index];
-  VecX x = sweep_forth(level.A, level.inverse, r);
-  const VecX coarse = cupola::multiply(level.P_transposed, rest_after_sweep(level.A, x));
+  VecX x = sweep_forward(level.A, level.inverse, r);
+  const VecX coarse = cupola::multiply(level.P_transposed, residual_after_sweep(level.A, x));
   x += cupola::multiply(level.P, cycle(index + 1, coarse));
-  sweep_back(level.A, level.inverse, r, &x);
+  sweep_backward(level.A, level.inverse, r, &x);
   return x;
 }
 

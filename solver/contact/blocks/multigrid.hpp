@@ -8,27 +8,28 @@
 
 namespace cupola {
 
-/// Preconditioner for the Hessian of very many blocks: multigrid by smoothed aggregation (Vanek, Mandel,
-/// Brezina 1996, "Algebraic multigrid by smoothed aggregation for second and fourth order elliptic
-/// problems"). Level by level, groups of some seven blocks become one that keeps their six rigid motions,
-/// until a thousand are left, which are factorised. Between levels blocks settle one by one (Gauss-Seidel,
-/// forth before and back after the coarser level, so that the whole is symmetric).
+/// Multigrid preconditioner for Hessians of many blocks, by smoothed aggregation (Vanek, Mandel, Brezina
+/// 1996, "Algebraic multigrid by smoothed aggregation for second and fourth order elliptic problems"). On
+/// each level, aggregates of about seven blocks become one block of the next level, which keeps their six
+/// rigid motions. About a thousand blocks remain on the coarsest level, which is factorised. The smoother is
+/// block Gauss-Seidel, forward before the coarse correction and backward after it, so that a cycle is
+/// symmetric.
 ///
-/// Of a shell, time and memory of a factorisation grow with the powers 1.5 and 1.1 of the number of blocks,
-/// those of the hierarchy with 1; conjugate gradients take some 15 to 90 cycles to six digits for 20,000 to
-/// 80,000 bricks.
+/// For a shell, the time and the memory of a factorisation grow with the powers 1.5 and 1.1 of the number of
+/// blocks; those of a cycle grow linearly. CG takes 15 to 90 cycles to six digits for 20,000 to 80,000
+/// bricks.
 ///
-/// The cycle reads the matrices in single precision, in which they stay symmetric: a cycle is a matter of
-/// memory traffic. Vectors, and the matrix that the gradients multiply with, are in double precision.
+/// Matrices are read in single precision, in which they remain symmetric, because a cycle is memory-bound.
+/// Vectors, and the matrix that CG multiplies with, are in double precision.
 ///
-/// Works on num_threads() threads, with the same bits on any number: sweeps go piece by piece of fixed size.
+/// Runs on num_threads() threads, with the same bits for any number: sweeps work on pieces of fixed size.
 class Multigrid {
  public:
-  /// False when the matrix is not positive definite in double precision, or blocks find no groups.
+  /// False if the matrix is not positive definite in double precision, or if aggregation does not coarsen.
   [[nodiscard]] bool build(const BlockPattern& pattern, const BlockMatrix& matrix,
                            const RigidMotions& motions);
 
-  /// Approximation of the inverse times r; symmetric positive definite.
+  /// One cycle: an approximation of the inverse times r, symmetric positive definite.
   VecX cycle(const VecX& r) const { return cycle(0, r); }
   /// The matrix times x.
   VecX multiply(const VecX& x) const;
@@ -37,7 +38,7 @@ class Multigrid {
   struct Level {
     SingleBlockRows A;
     std::vector<Mat6> inverse;  ///< of the diagonal blocks
-    SingleBlockRows P;          ///< from motions of the groups to those of their members
+    SingleBlockRows P;          ///< prolongation: from motions of the aggregates to those of their members
     SingleBlockRows P_transposed;
   };
   VecX cycle(std::size_t level, const VecX& r) const;

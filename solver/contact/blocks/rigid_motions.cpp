@@ -4,15 +4,17 @@
 #include <numeric>
 #include <utility>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
 namespace {
 
-/// Frame and arm of a contact as a block sees them: columns [f; r x f] of its D, without its sign.
+/// Frame and arm of a contact in the frame of a block, from the columns [f; r x f] of +-D.
 struct Lever {
   Mat3 frame = Mat3::Identity();
   Vec3 arm = Vec3::Zero();
-  bool sound = false;
+  bool valid = false;
 };
 
 Lever lever(const Mat63& D, double sign) {
@@ -21,32 +23,32 @@ Lever lever(const Mat63& D, double sign) {
   lever.frame = sign * D.topRows<3>();
   const Mat3 S = D.bottomRows<3>() * D.topRows<3>().transpose();  // [r]x
   lever.arm = 0.5 * Vec3(S(2, 1) - S(1, 2), S(0, 2) - S(2, 0), S(1, 0) - S(0, 1));
-  lever.sound = (lever.frame.transpose() * lever.frame - Mat3::Identity()).norm() <= kRounding &&
+  lever.valid = (lever.frame.transpose() * lever.frame - Mat3::Identity()).norm() <= kRounding &&
                 (S + S.transpose()).norm() <= kRounding * (1.0 + S.norm());
   return lever;
 }
 
-/// One contact of each pair of touching blocks, as the block with the smaller and the one with the greater
-/// number see it.
+/// One contact of each pair of touching blocks, seen from the block with the smaller number (column) and from
+/// the other one (row).
 struct Touch {
   int contact = -1;
   Lever of_column, of_row;
 };
 
-/// Touching blocks of each block, and which pair that is.
+/// Touching blocks of each block, with the number of the pair.
 struct Neighbours {
   std::vector<int> start;
   std::vector<std::pair<int, int>> block_and_pair;
 };
 
-/// Empty when some contact is none in space.
+/// Empty if some contact is not one in space.
 std::vector<Touch> touches(const ContactProblem& p, const ContactGraph& graph) {
   std::vector<Touch> touch(graph.pattern.num_pairs());
   for (int i = 0; i < p.num_contacts(); ++i) {
     const int pair = graph.pair_of_contact[i];
     if (pair < 0 || touch[pair].contact >= 0) continue;
     const Lever a = lever(p.D_a[i], -1.0), b = lever(p.D_b[i], 1.0);
-    if (!a.sound || !b.sound) return {};
+    if (!a.valid || !b.valid) return {};
     const bool a_first = p.block_a[i] < p.block_b[i];
     touch[pair] = {i, a_first ? a : b, a_first ? b : a};
   }
@@ -91,17 +93,18 @@ Mat6 moved_centre(const Vec3& from, const Vec3& to) {
 
 RigidMotions rigid_motions(const ContactProblem& p, const ContactGraph& graph, const std::vector<Mat6>& L) {
   const int nb = p.num_blocks();
+  CUPOLA_ASSERT(std::ssize(L) == nb && graph.pattern.num_blocks() == nb);
   const std::vector<Touch> touch = touches(p, graph);
   if (static_cast<int>(touch.size()) != graph.pattern.num_pairs()) return {};
   const Neighbours touching = neighbours(graph.pattern);
   RigidMotions motions;
   motions.centre.assign(nb, Vec3::Zero());
   motions.reach.assign(nb, 0.0);
-  std::vector<Mat3> turn(nb, Mat3::Identity());  // from a block's own directions to the common ones
+  std::vector<Mat3> turn(nb, Mat3::Identity());  // from the frame of a block to the common frame
   std::vector<char> reached(nb, 0);
   std::vector<int> queue;
   queue.reserve(nb);
-  for (int root = 0; root < nb; ++root) {  // breadth first: errors of rounding add along the shortest ways
+  for (int root = 0; root < nb; ++root) {  // breadth first: rounding errors add up along the shortest paths
     if (reached[root]) continue;
     reached[root] = 1;
     queue.push_back(root);

@@ -6,21 +6,21 @@
 
 namespace cupola {
 
-/// What a common rigid motion of several blocks is to each of them, in its whitened unknowns.
+/// A common rigid motion of several blocks, expressed in the whitened unknowns of each block.
 struct RigidMotions {
   std::vector<Mat6> motion;   ///< per block: linear, angular velocity about `centre` -> w
-  std::vector<Vec3> centre;   ///< m: points of a frame that touching blocks share
-  std::vector<double> reach;  ///< m: no contact is farther from the centre
+  std::vector<Vec3> centre;   ///< m, in a frame shared by touching blocks
+  std::vector<double> reach;  ///< m: largest distance of a contact from the centre
   bool empty() const { return motion.empty(); }
 };
 
-/// A motion about another centre: velocities about `to` from those about `from`.
+/// Transforms a motion (linear and angular velocity) about the centre `from` to one about the centre `to`.
 Mat6 moved_centre(const Vec3& from, const Vec3& to);
 
-/// The motions of the blocks of a problem, L L^T = M per block. Where each block lies to its neighbours is
-/// read off the levers D of their contacts, so that it also holds across the seam of a cyclic sector, whose
-/// blocks keep frames of their own. Empty when some D is not that of a contact in space: three orthonormal
-/// directions and their moments.
+/// The motions of the blocks of a problem, L L^T = M per block. The positions of neighbouring blocks relative
+/// to each other follow from the matrices D of their contacts. This also works across the seam of a cyclic
+/// sector, where blocks have frames of their own. Empty if some D is not that of a contact in space, i.e.
+/// three orthonormal directions and their moments.
 RigidMotions rigid_motions(const ContactProblem& problem, const ContactGraph& graph,
                            const std::vector<Mat6>& L);
 

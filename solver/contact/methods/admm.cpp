@@ -26,7 +26,7 @@ struct AlternatingDirections {
   explicit AlternatingDirections(const ContactProblem& whitened);
   bool factorize();
   void iterate();
-  /// sqrt of primal over dual residual, both in units of impulse: > 1 calls for a larger rho.
+  /// sqrt(primal residual / dual residual), both in units of impulse; > 1 requires a larger rho.
   double imbalance = 1.0;
 };
 
@@ -65,7 +65,7 @@ void AlternatingDirections::iterate() {
 
 double measure(const ContactProblem& p, const ContactSolution& x, const SolveOptions& options) {
   const Residuals r = compute_residuals(p, x, options.reference_speed);
-  // Rounding of the momentum balance alone keeps the certificate above 1e-9 where E is tiny.
+  // Where E is tiny, rounding of the momentum balance alone keeps the certificate above 1e-9.
   const double residual = std::max(r.momentum, r.contact_law);
   return std::min(r.certified_force_error.value_or(residual), residual);
 }
@@ -76,7 +76,7 @@ SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& optio
                         ContactSolution* solution) {
   constexpr int kIterationsPerCheck = 5;
   constexpr int kIterationsPerBalance = 20;
-  constexpr double kImbalance = 3.0;  // smaller corrections of rho do not pay for a factorisation
+  constexpr double kImbalance = 3.0;  // smaller corrections of rho are not worth a factorisation
   const double start = wall_seconds();
   options.validate();
   SolveSummary summary;
@@ -91,9 +91,9 @@ SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& optio
   admm.z = warm ? VecX(relative_velocity(white.problem, admm.w) + problem.b) : problem.b;
 
   double best = std::numeric_limits<double>::infinity();
-  bool sound = admm.factorize();
+  bool valid = admm.factorize();
   ++summary.factorizations;
-  while (sound && best > options.tolerance && summary.iterations < max_iterations) {
+  while (valid && best > options.tolerance && summary.iterations < max_iterations) {
     admm.iterate();
     ++summary.iterations;
     if (summary.iterations % kIterationsPerCheck == 0 || summary.iterations == max_iterations) {
@@ -108,14 +108,15 @@ SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& optio
     const bool unbalanced = admm.imbalance > kImbalance || admm.imbalance < 1.0 / kImbalance;
     if (summary.iterations % kIterationsPerBalance == 0 && unbalanced && best > options.tolerance) {
       admm.rho *= std::clamp(admm.imbalance, 0.1, 10.0);
-      sound = admm.factorize();
+      valid = admm.factorize();
       ++summary.factorizations;
     }
   }
   summary.time_seconds = wall_seconds() - start;
-  if (!sound || !std::isfinite(best)) {
+  if (!valid || !std::isfinite(best)) {
     summary.message =
-        fmt::format("the penalised mass matrix is not positive definite (iteration {})", summary.iterations);
+        fmt::format("the penalised mass matrix is not positive definite in double precision (iteration {})",
+                    summary.iterations);
     return summary;
   }
   const bool converged = best <= options.tolerance;

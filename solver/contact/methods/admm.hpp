@@ -6,19 +6,21 @@
 
 namespace cupola {
 
-/// Alternating directions on the whitened problem with the copy z of y = J^T w + b (any E >= 0):
+/// Alternating direction method of multipliers (ADMM) on the whitened problem, any E >= 0, with a copy z of
+/// y = J^T w + b:
 ///
-///     (I + J R J^T) w = v_star + J (gamma + R (z - b))            one solve with a kept factor
-///     gamma+ = P(...)  of compliance E + R^-1 at y - R^-1 gamma,   z+ = y + R^-1 (gamma+ - gamma)
+///     (I + J R J^T) w = v_star + J (gamma + R (z - b))      one solve with the current factor
+///     gamma+ = impulse of compliance E + R^-1 at y - R^-1 gamma
+///     z+     = y + R^-1 (gamma+ - gamma)
 ///
-/// over-relaxed by 1.6. R = rho / (E + 1e-4 trace N_ii / 3) per contact; rho follows the balance of the
-/// primal residual R (y - z) and the dual one, and each change of rho costs a factorisation. Boyd et al.
-/// (2011), "Distributed optimization and statistical learning via the alternating direction method of
-/// multipliers", section 3.4.
+/// with over-relaxation by 1.6. R = rho / (E + 1e-4 trace N_ii / 3) per contact. rho balances the primal
+/// residual R (y - z) and the dual residual; each change of rho costs a factorisation. Boyd et al. (2011),
+/// "Distributed optimization and statistical learning via the alternating direction method of multipliers",
+/// section 3.4.
 ///
-/// Stops when the certified force error of (w, gamma), or the larger of its momentum and contact-law
-/// residuals (what Newton answers for), is <= tolerance, measured every fifth iteration. Default of
-/// max_iterations: 2000.
+/// Converged when the certified force error of (w, gamma), or the larger of its momentum and contact-law
+/// residuals (Newton's measure), is <= tolerance. Measured every fifth iteration. Default of max_iterations:
+/// 2000.
 SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& options,
                         ContactSolution* solution);
 

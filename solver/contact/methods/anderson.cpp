@@ -4,15 +4,18 @@
 
 #include <Eigen/QR>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
-void Anderson::forget() {
+void Anderson::restart() {
   dg_.clear();
   df_.clear();
 }
 
 VecX Anderson::next(const VecX& x, const VecX& g) {
-  constexpr double kGrowth = 10.0;  // kinks of the map may raise the residual for a while; divergence goes on
+  CUPOLA_ASSERT(x.size() == g.size());
+  constexpr double kGrowth = 10.0;  // kinks of the map may raise the residual temporarily, but not this much
   const VecX f = g - x;
   const double residual = f.norm();
   if (last_f_.size() == f.size()) {
@@ -23,7 +26,7 @@ VecX Anderson::next(const VecX& x, const VecX& g) {
     smallest_residual_ = residual;
   }
   if (residual > kGrowth * smallest_residual_) {
-    forget();
+    restart();
     smallest_residual_ = residual;
   }
   if (static_cast<int>(df_.size()) > depth_) {
@@ -37,7 +40,7 @@ VecX Anderson::next(const VecX& x, const VecX& g) {
   Eigen::MatrixXd F(f.size(), static_cast<Eigen::Index>(df_.size()));
   for (Eigen::Index j = 0; j < F.cols(); ++j) F.col(j) = df_[j];
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(F);
-  qr.setThreshold(1e-10);  // nearly parallel differences carry rounding only
+  qr.setThreshold(1e-10);  // nearly parallel differences contain only rounding
   const VecX theta = qr.solve(f);
   VecX result = g;
   for (Eigen::Index j = 0; j < F.cols(); ++j) result -= theta[j] * dg_[j];

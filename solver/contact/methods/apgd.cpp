@@ -19,7 +19,7 @@ SolveSummary solve_apgd(const ContactProblem& problem, const SolveOptions& optio
 
   const DualProblem dual = make_dual_problem(problem);
   VecX gamma = first_impulses(dual, *solution);
-  VecX A_gamma = dual.times(gamma);  // (N + E) gamma, carried along so that x needs no product of its own
+  VecX A_gamma = dual.times(gamma);  // (N + E) gamma, updated with gamma so that A x costs no product
   VecX x = gamma, A_x = A_gamma;
   double L = 1.0, theta = 1.0;
   VecX best = gamma;
@@ -29,7 +29,7 @@ SolveSummary solve_apgd(const ContactProblem& problem, const SolveOptions& optio
   while (best_accuracy > options.tolerance && summary.iterations < max_iterations && !stalled) {
     ++summary.iterations;
 
-    // 1. Projected step from x, L raised until it majorises f along the step
+    // 1. Projected step from x; L is raised until it majorises f along the step
     const VecX g = A_x + dual.q;
     VecX next, A_next;
     while (true) {
@@ -40,7 +40,7 @@ SolveSummary solve_apgd(const ContactProblem& problem, const SolveOptions& optio
       L *= kGrowth;
     }
 
-    // 2. Momentum, dropped where it would climb
+    // 2. Momentum, dropped where it points uphill
     const double theta_next = 0.5 * (std::sqrt(std::pow(theta, 4) + 4.0 * theta * theta) - theta * theta);
     double beta = theta * (1.0 - theta) / (theta * theta + theta_next);
     theta = theta_next;

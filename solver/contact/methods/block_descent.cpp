@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "assembly/base/error.hpp"
 #include "solver/contact/problem/cone.hpp"
 
 namespace cupola {
@@ -27,10 +28,10 @@ BlockDescent::BlockDescent(const ContactProblem& whitened)
   for_each_side([&](int block, int i) { contacts_[next[block]++] = i; });
 }
 
-/// The block's Newton step d, shortened by secants until the slope along it has all but gone: the cost is
-/// convex, so it has fallen wherever the slope is not yet positive.
+/// Newton step d of one block. Secant steps shorten it until the slope along d is small or negative. The cost
+/// is convex, so it has decreased wherever the slope is not positive.
 void BlockDescent::move_block(int block, double small, VecX* w, std::vector<Vec3>* y) const {
-  constexpr double kLevel = 0.1;
+  constexpr double kFlat = 0.1;  // of the slope at t = 0
   constexpr int kMaxSecants = 4;
   const auto column = [&](int i) -> const Mat63& {
     return problem_.block_a[i] == block ? problem_.D_a[i] : problem_.D_b[i];
@@ -59,21 +60,22 @@ void BlockDescent::move_block(int block, double small, VecX* w, std::vector<Vec3
     Vec6 next = momentum + t * d;
     for (int k = 0; k < count; ++k) {
       const int i = contacts_[start + k];
-      const Vec3 there = (*y)[k] + t * (column(i).transpose() * d);
-      next.noalias() -= column(i) * contact_impulse(contact_law(problem_, i), there);
+      const Vec3 y_next = (*y)[k] + t * (column(i).transpose() * d);
+      next.noalias() -= column(i) * contact_impulse(contact_law(problem_, i), y_next);
     }
     const double slope = d.dot(next);
-    if (slope <= -kLevel * slope_start) break;
+    if (slope <= -kFlat * slope_start) break;
     t *= slope_start / (slope_start - slope);
   }
   own += t * d;
 }
 
 PrimalPoint BlockDescent::descend(const PrimalPoint& point, double small) const {
-  int most = 0;
+  CUPOLA_ASSERT(point.w.size() == 6 * problem_.num_blocks());
+  int most_contacts = 0;
   for (int block = 0; block < problem_.num_blocks(); ++block)
-    most = std::max(most, start_[block + 1] - start_[block]);
-  std::vector<Vec3> y(most);
+    most_contacts = std::max(most_contacts, start_[block + 1] - start_[block]);
+  std::vector<Vec3> y(most_contacts);
   VecX w = point.w;
   for (int block = 0; block < problem_.num_blocks(); ++block) move_block(block, small, &w, &y);
   for (int block = problem_.num_blocks() - 1; block >= 0; --block) move_block(block, small, &w, &y);

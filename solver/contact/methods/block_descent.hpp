@@ -6,25 +6,25 @@
 
 namespace cupola {
 
-/// Lowers the cost of a whitened problem block by block (nonlinear Gauss-Seidel): each block takes one Newton
-/// step of its own, safeguarded along its direction, while the others keep theirs. One pass costs a fraction
-/// of a factorisation, and settles contacts that change their region in a few places, which would hold up
-/// Newton's step for the whole structure. After the presmoothing of Graeser and Sander (2019), "Truncated
-/// nonsmooth Newton multigrid methods for block-separable minimization problems".
+/// Nonlinear block Gauss-Seidel for the cost of a whitened problem: each block takes one Newton step with a
+/// line search, while the other blocks are fixed. A sweep costs a fraction of a factorisation. It resolves
+/// contacts that change their region in a few places, which would otherwise shorten Newton's step for the
+/// whole structure. After the presmoothing of Graeser and Sander (2019), "Truncated nonsmooth Newton
+/// multigrid methods for block-separable minimization problems".
 class BlockDescent {
  public:
   explicit BlockDescent(const ContactProblem& whitened);
 
-  /// Passes over all blocks in order and back; blocks whose gradient is at most `small` stay. Lowers the
-  /// cost.
+  /// One sweep over all blocks forward and one backward. Skips blocks whose gradient is at most `small`. The
+  /// cost of the result is not above that of `point`.
   PrimalPoint descend(const PrimalPoint& point, double small) const;
 
  private:
   void move_block(int block, double small, VecX* w, std::vector<Vec3>* y) const;
 
   const ContactProblem& problem_;
-  std::vector<int> start_;     ///< per block its first contact, and the end (nb + 1)
-  std::vector<int> contacts_;  ///< in their order
+  std::vector<int> start_;     ///< first entry of each block in contacts_, and the end (nb + 1)
+  std::vector<int> contacts_;  ///< contacts of each block, ascending
 };
 
 }  // namespace cupola

@@ -7,6 +7,7 @@
 #include <Eigen/SparseLU>
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/residuals.hpp"
@@ -76,7 +77,7 @@ Sparse CoulombSubproblem::jacobian(const VecX& w) const {
   return J;
 }
 
-/// Semismooth Newton from `w`; true when |F| fell below `tolerance`.
+/// Semismooth Newton from `w`. True if |F| <= `tolerance`.
 bool solve_coulomb_subproblem(const CoulombSubproblem& sub, double tolerance, VecX* w,
                               SolveSummary* summary) {
   constexpr int kMaxIterations = 30;
@@ -90,7 +91,7 @@ bool solve_coulomb_subproblem(const CoulombSubproblem& sub, double tolerance, Ve
     const VecX d = lu.solve(F);
     VecX trial, F_trial;
     double t = 2.0;
-    do {  // halved until |F| falls: the map has kinks, not a slope to trust
+    do {  // halved until |F| decreases: the map has kinks, so its slope is unreliable
       t *= 0.5;
       trial = *w - t * d;
       F_trial = sub.residual(trial);
@@ -135,6 +136,7 @@ SolveSummary solve_coulomb_newton(const ContactProblem& problem, const SolveOpti
     w = next;
     sub.centre = sub.impulses(w);
     const ContactSolution x{white.to_v(w), sub.centre};
+    CUPOLA_ASSERT(x.v.allFinite() && x.gamma.allFinite());
     const Residuals residuals = compute_residuals(problem, x, options.reference_speed, FrictionLaw::coulomb);
     const double error = excess(residuals, options.tolerance);
     summary.residual_history.push_back(std::max(residuals.momentum, residuals.contact_law));
@@ -146,7 +148,8 @@ SolveSummary solve_coulomb_newton(const ContactProblem& problem, const SolveOpti
   }
   summary.time_seconds = wall_seconds() - start;
   if (!std::isfinite(best)) {
-    summary.message = "no proximal point of Coulomb's law found";
+    summary.message = fmt::format("no proximal point of Coulomb's law found in {} outer iterations",
+                                  summary.outer_iterations);
     return summary;
   }
   summary.ending = best <= 1.0 ? SolveEnding::converged : SolveEnding::stalled;

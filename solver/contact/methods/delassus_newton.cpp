@@ -6,6 +6,7 @@
 #include <Eigen/SparseLU>
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/contact/problem/cone.hpp"
 
@@ -65,7 +66,7 @@ Sparse DelassusSubproblem::jacobian(const VecX& gamma) const {
   return J;
 }
 
-/// Semismooth Newton from `gamma`; true when |F| fell below `tolerance` |gamma|.
+/// Semismooth Newton from `gamma`. True if |F| <= `tolerance` |gamma|.
 bool solve_delassus_subproblem(const DelassusSubproblem& sub, double tolerance, VecX* gamma,
                                SolveSummary* summary) {
   constexpr int kMaxIterations = 30;
@@ -79,7 +80,7 @@ bool solve_delassus_subproblem(const DelassusSubproblem& sub, double tolerance, 
     const VecX d = lu.solve(F);
     double t = 1.0;
     VecX trial, F_trial;
-    do {  // halved until |F| falls: the map has kinks, not a slope to trust
+    do {  // halved until |F| decreases: the map has kinks, so its slope is unreliable
       trial = *gamma - t * d;
       F_trial = sub.residual(trial);
       t *= 0.5;
@@ -91,7 +92,7 @@ bool solve_delassus_subproblem(const DelassusSubproblem& sub, double tolerance, 
   return F.norm() <= tolerance * gamma->norm();
 }
 
-/// gamma on the cone exactly: Newton leaves rounding outside.
+/// gamma projected on the cone: Newton's result may lie outside by rounding.
 VecX on_cone(const DelassusProblem& p, const VecX& gamma) {
   VecX result(gamma.size());
   for (int i = 0; i < p.num_contacts(); ++i) {
@@ -104,6 +105,8 @@ VecX on_cone(const DelassusProblem& p, const VecX& gamma) {
 
 SolveSummary solve_delassus(const DelassusProblem& problem, const DelassusOptions& options, VecX* gamma) {
   constexpr double kLargestShare = 1e3, kSmallestShare = 1e-6;
+  CUPOLA_ASSERT(problem.q.size() == 3 * problem.num_contacts());
+  CUPOLA_ASSERT(problem.W.rows() == problem.q.size() && problem.W.cols() == problem.q.size());
   const double start = wall_seconds();
   SolveSummary summary;
   const auto measure = [&](const VecX& g) {
@@ -137,7 +140,7 @@ SolveSummary solve_delassus(const DelassusProblem& problem, const DelassusOption
   summary.ending = converged                   ? SolveEnding::converged
                    : std::isfinite(best_error) ? SolveEnding::stalled
                                                : SolveEnding::failed;
-  summary.message = fmt::format("merit {:.2e} {} tolerance {:.2e} after {} passes", best_error,
+  summary.message = fmt::format("merit {:.2e} {} tolerance {:.2e} after {} outer iterations", best_error,
                                 converged ? "<=" : ">", options.tolerance, summary.outer_iterations);
   summary.time_seconds = wall_seconds() - start;
   return summary;

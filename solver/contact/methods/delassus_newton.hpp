@@ -11,15 +11,16 @@ struct DelassusOptions {
   int max_outer_iterations = 500;  ///< >= 1
 };
 
-/// Solves the local form, for problems that come without masses and geometry (FCLIB files). Proximal passes
+/// Solves problems in the local form, without masses and geometry (FCLIB files), by the proximal point
+/// method:
 ///
 ///     gamma_(k+1) solves  gamma = Gamma(W gamma + q - R gamma_k),   R = share * trace W_ii / 3
 ///
-/// with Gamma the impulse of a contact of compliance R (cone.hpp), each by semismooth Newton with a sparse LU
-/// of I + G W and backtracking; share shrinks while Newton succeeds and grows where it does not (Levenberg's
-/// rule). A fixed point solves the rigid problem. Impulses need not be unique; the answer is the one reached
-/// from `gamma` (empty: zero). Meant for up to some thousand contacts: the LU is unsymmetric and W often
-/// dense.
+/// Gamma is the impulse of a contact of compliance R (cone.hpp). Each subproblem is solved by semismooth
+/// Newton with a sparse LU of I + G W and back-tracking. The share shrinks where Newton succeeds and grows
+/// where it fails (Levenberg's rule). A fixed point solves the rigid problem. Impulses need not be unique;
+/// the solution depends on the guess `gamma` (empty: zero). Intended for up to a few thousand contacts: the
+/// LU is unsymmetric and W is often dense.
 SolveSummary solve_delassus(const DelassusProblem& problem, const DelassusOptions& options, VecX* gamma);
 
 }  // namespace cupola

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/residuals.hpp"
 
@@ -44,6 +45,7 @@ DualProblem make_dual_problem(const ContactProblem& problem) {
 
 double dual_accuracy(const DualProblem& dual, const VecX& gamma, const VecX& g) {
   const ContactProblem& p = dual.white.problem;
+  CUPOLA_ASSERT(gamma.size() == p.b.size() && g.size() == p.b.size());
   const double norm = gamma.norm();
   const double min_E = smallest_compliance(p);
   double sum = 0.0;

@@ -7,13 +7,13 @@
 
 namespace cupola {
 
-/// The associated problem in its impulses, paper eq. 12-13 (any E >= 0):
+/// The associated problem in its impulses (dual form), paper eq. 12-13, any E >= 0:
 ///
 ///     min over Y of  f(gamma) = 1/2 gamma^T (N + E) gamma + q^T gamma,   q = D^T v_star + b
 ///
-/// on the whitened problem, where N = J^T J is applied without being formed. First-order methods work on it
-/// in the metric B of its own diagonal, one value for the normal and one for both tangents of a contact, in
-/// which the projection on the cone is exact (cone.hpp): the paper's diagonal preconditioner.
+/// on the whitened problem, where N = J^T J is applied without being formed. First-order methods use the
+/// metric B: the diagonal of N + E, with one value for the normal and one for both tangents of a contact, so
+/// that the projection on the cone is exact (cone.hpp). This is the paper's diagonal preconditioner.
 struct DualProblem {
   WhitenedProblem white;
   VecX q;  ///< (3 nc)
@@ -28,15 +28,14 @@ struct DualProblem {
 
 DualProblem make_dual_problem(const ContactProblem& problem);
 
-/// How far gamma in Y is from the answer, given g = (N + E) gamma + q: the certified force error where all E
-/// > 0 (residuals.hpp), the contact-law residual where some contact is rigid. The momentum balance holds
-/// exactly.
+/// Error of gamma in Y, given g = (N + E) gamma + q: the certified force error if all E > 0 (residuals.hpp),
+/// the contact-law residual if some contact is rigid. The momentum balance holds exactly.
 double dual_accuracy(const DualProblem& dual, const VecX& gamma, const VecX& g);
 
-/// Guess of a dual method: the given impulses projected on Y, or zero.
+/// Initial impulses of a dual method: the given ones projected on Y, or zero.
 VecX first_impulses(const DualProblem& dual, const ContactSolution& guess);
 
-/// Shared ending of the dual methods: fills the summary's ending and message from accuracy and iterations.
+/// Sets ending and message of the summary of a dual method from its accuracy and iterations.
 void finish_dual(double accuracy, const SolveOptions& options, bool stalled, SolveSummary* summary);
 
 }  // namespace cupola

@@ -15,10 +15,10 @@ namespace cupola {
 
 namespace {
 
-constexpr double kToBoundary = 0.99;  // share of the step to the boundary that is taken
+constexpr double kToBoundary = 0.99;  // share of the step to the boundary
 
-/// A contact in the coordinates where Y and Y* are the same cone K: gamma^ = (mu gamma_n, gamma_t),
-/// z^ = (z_n / mu, z_t). At mu = 0 only the first component is used, unscaled.
+/// A contact in coordinates in which Y and Y* are the same cone K: gamma^ = (mu gamma_n, gamma_t),
+/// z^ = (z_n / mu, z_t). At mu = 0 only the first component is used, without scaling.
 struct ConicContact {
   bool frictionless = false;
   Vec3 to_cone = Vec3::Ones();  ///< diagonal S: gamma^ = S gamma, z^ = S^-1 z
@@ -49,8 +49,8 @@ void ConicContact::scale() {
   G = A.llt().solve(Mat3::Identity());
 }
 
-/// Scaled right-hand side lambda \ (target e - lambda o lambda - (W^-1 dz) o (W dgamma)) of a previous affine
-/// step.
+/// Scaled right-hand side lambda \ (target e - lambda o lambda - (W^-1 dz) o (W dgamma)) for the given affine
+/// step (dgamma, dz).
 Vec3 ConicContact::d(double target, const Vec3& affine_gamma, const Vec3& affine_z) const {
   const Vec3 a = nt.W_inverse * affine_z, c = nt.W * affine_gamma;
   if (frictionless) return Vec3((target - nt.lambda[0] * nt.lambda[0] - a[0] * c[0]) / nt.lambda[0], 0, 0);
@@ -75,7 +75,7 @@ class InteriorPoint {
   InteriorPoint(const ContactProblem& p, const SolveOptions& options, SolveSummary* summary)
       : p_(p), options_(options), summary_(*summary), graph_(contact_graph(p)) {}
 
-  bool start();  ///< all-stick velocities, impulses and slacks moved into their cones
+  bool start();  ///< all-stick velocities, with impulses and slacks moved into their cones
   void run();
   const VecX& w() const { return w_; }
   VecX gamma() const;
@@ -108,7 +108,7 @@ VecX InteriorPoint::gamma() const {
   return gamma;
 }
 
-/// x pushed along the cone's axis until its margin is at least `margin`.
+/// x moved along the axis of the cone until x_0 - |x_t| >= `margin`.
 Vec3 pushed_inside(Vec3 x, double margin) {
   x[0] = std::max(x[0], x.tail<2>().norm() + margin);
   return x;
@@ -119,14 +119,13 @@ bool InteriorPoint::start() {
   contacts_.resize(nc);
   std::vector<Mat3> G(nc);
   VecX impulse(3 * nc);
-  const double mean_N =
-      1.0;  // unit mass, whitened: a contact of compliance 1 moves its blocks as much as itself
+  constexpr double kRigidStiffness = 1.0;  // whitened, unit mass: of the order of the blocks' own response
   for (int i = 0; i < nc; ++i) {
     ConicContact& contact = contacts_[i];
     contact.frictionless = p_.mu[i] == 0.0;
     contact.to_cone = contact.frictionless ? Vec3(1, 0, 0) : Vec3(p_.mu[i], 1, 1);
     contact.E = p_.E.segment<3>(3 * i);
-    Vec3 stiffness = Vec3::Constant(mean_N);
+    Vec3 stiffness = Vec3::Constant(kRigidStiffness);
     for (int k = 0; k < 3; ++k) {
       if (contact.E[k] > 0.0) stiffness[k] = 1.0 / contact.E[k];
     }
@@ -179,7 +178,8 @@ bool InteriorPoint::factorize() {
   return factor_.factorize(graph_.pattern, assemble_hessian(p_, graph_, G));
 }
 
-/// Newton direction of the scaled system for the right-hand sides d, and the longest step it allows.
+/// Newton direction of the scaled system for the right-hand sides d, and the longest step that stays in the
+/// cones.
 Step InteriorPoint::direction(const std::vector<Vec3>& d) const {
   VecX rhs(p_.b.size());  // S W d - r_p
   for (int i = 0; i < p_.num_contacts(); ++i) {
@@ -250,14 +250,15 @@ void InteriorPoint::run() {
     update_residuals();
     if (!factorize()) {
       summary_.ending = SolveEnding::stalled;
-      summary_.message = fmt::format("the scaled Hessian is no longer positive definite (iteration {})",
-                                     summary_.iterations);
+      summary_.message =
+          fmt::format("the scaled Hessian is no longer positive definite in double precision (iteration {})",
+                      summary_.iterations);
       return;
     }
     if (should_stop()) return;
     ++summary_.iterations;
 
-    // 1. Predictor: straight for complementarity zero
+    // 1. Predictor: zero complementarity
     const double mu_c = mean_complementarity();
     std::vector<Vec3> d(nc);
     for (int i = 0; i < nc; ++i) d[i] = -contacts_[i].nt.lambda;
@@ -279,8 +280,9 @@ void InteriorPoint::run() {
     const double t = std::min(1.0, kToBoundary * step.length);
     if (!(t > kSmallestStep)) {
       summary_.ending = SolveEnding::stalled;
-      summary_.message = fmt::format("step of {:.1e} in iteration {}: rounding has reached the scaling", t,
-                                     summary_.iterations);
+      summary_.message =
+          fmt::format("step length {:.1e} in iteration {}: the scaling has lost its accuracy to rounding", t,
+                      summary_.iterations);
       return;
     }
     w_ += t * step.w;

@@ -10,7 +10,7 @@ namespace cupola {
 
 namespace {
 
-/// Without friction the tangential rows play no part.
+/// Without friction only the normal row is used.
 Vec3 solve_frictionless(const Mat3& A, const Vec3& r) {
   return {std::max(0.0, -r[0] / A(0, 0)), 0.0, 0.0};
 }
@@ -19,7 +19,7 @@ Vec3 solve_frictionless(const Mat3& A, const Vec3& r) {
 
 Vec3 solve_local_contact(const Mat3& A, const Vec3& r, double mu, const Vec3& guess) {
   if (mu == 0.0) return solve_frictionless(A, r);
-  // Row sums bound the eigenvalues (Gershgorin), so that the projected step alone descends.
+  // Row sums bound the eigenvalues (Gershgorin), so the projected step is a descent step.
   const Vec3 sums = A.cwiseAbs().rowwise().sum();
   const ContactLaw metric{sums[0], std::max(sums[1], sums[2]), mu};
   const Mat3 B = Vec3(metric.e_n, metric.e_t, metric.e_t).asDiagonal();

@@ -6,8 +6,8 @@ namespace cupola {
 
 /// One contact with a full 3x3 matrix: argmin over the cone of 1/2 gamma^T A gamma + r^T gamma, A symmetric
 /// positive definite. Semismooth Newton on the natural map gamma - P_B(gamma - B^-1 (A gamma + r)), B a
-/// diagonal metric that majorises A, with a projected step where Newton does not help; to rounding in a few
-/// iterations. `gamma`: the guess.
-Vec3 solve_local_contact(const Mat3& A, const Vec3& r, double mu, const Vec3& gamma);
+/// diagonal metric that majorises A. Falls back to a projected step where Newton does not reduce the error.
+/// Converges to rounding in a few iterations.
+Vec3 solve_local_contact(const Mat3& A, const Vec3& r, double mu, const Vec3& guess);
 
 }  // namespace cupola

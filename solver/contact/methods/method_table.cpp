@@ -22,23 +22,23 @@ SolveSummary stateless(NewtonSolver&, const ContactProblem& problem, const Solve
 }
 
 // clang-format off
-constexpr std::array kMethods{
-    //           method                         primal  factor multigrid fails fast  solve
-    MethodTraits{ContactMethod::newton,         true,   true,  true,     true,       solve_newton_with_fallback},
-    MethodTraits{ContactMethod::interior_point, true,   true,  false,    false,      solve_interior_point_then_newton},
-    MethodTraits{ContactMethod::spg,            false,  false, false,    false,      stateless<solve_spg>},
-    MethodTraits{ContactMethod::apgd,           false,  false, false,    false,      stateless<solve_apgd>},
-    MethodTraits{ContactMethod::nsgs,           false,  false, false,    false,      stateless<solve_nsgs>},
-    MethodTraits{ContactMethod::admm,           false,  true,  false,    false,      stateless<solve_admm>},
-};
+constexpr std::array<MethodTraits, 6> kMethodTable{{
+    // method                       primal  factor multigrid fails fast  solve
+    {ContactMethod::newton,         true,   true,  true,     true,       solve_newton_with_fallback},
+    {ContactMethod::interior_point, true,   true,  false,    false,      solve_interior_point_then_newton},
+    {ContactMethod::spg,            false,  false, false,    false,      stateless<solve_spg>},
+    {ContactMethod::apgd,           false,  false, false,    false,      stateless<solve_apgd>},
+    {ContactMethod::nsgs,           false,  false, false,    false,      stateless<solve_nsgs>},
+    {ContactMethod::admm,           false,  true,  false,    false,      stateless<solve_admm>},
+}};
 // clang-format on
 
 }  // namespace
 
 const MethodTraits& method_traits(ContactMethod method) {
-  const auto row = std::find_if(kMethods.begin(), kMethods.end(),
+  const auto row = std::find_if(kMethodTable.begin(), kMethodTable.end(),
                                 [&](const MethodTraits& traits) { return traits.method == method; });
-  CUPOLA_ASSERT(row != kMethods.end());
+  CUPOLA_ASSERT(row != kMethodTable.end());
   return *row;
 }
 

@@ -12,17 +12,17 @@ namespace cupola {
 /// the methods in files are in assembly/model/choices.hpp.
 struct MethodTraits {
   ContactMethod method;
-  /// True: minimises over velocities. The impulses follow from them by the contact law, so every contact needs
-  /// a compliance > 0; rigid ones get a proximal term (outer_iterations.hpp). False: minimises over impulses
-  /// and accepts any compliance >= 0.
+  /// True: minimises over velocities. The impulses follow from them by the contact law, so every contact
+  /// needs a compliance > 0; rigid ones get a proximal term (outer_iterations.hpp). False: minimises over
+  /// impulses and accepts any compliance >= 0.
   bool primal;
   bool uses_factor;  ///< factorises a Hessian with the pattern of the contact graph
   /// Solves problems of many blocks (has_many_blocks) by multigrid-preconditioned CG instead of a factor.
   bool uses_multigrid;
-  /// A solve that converges does so within usual_newton_iterations(). A static analysis may then try one large
-  /// step at once, because a failure costs little.
+  /// A solve that converges does so within usual_newton_iterations(). A static analysis may then try one
+  /// large step at once, because a failure costs little.
   bool fails_fast;
-  /// Solves the convex (associated) problem: guess in, answer out. `newton` keeps its ordering and factor
+  /// Solves the convex (associated) problem: guess in, solution out. `newton` keeps its ordering and factor
   /// between calls; methods that do not use it ignore it.
   SolveSummary (*solve)(NewtonSolver& newton, const ContactProblem& problem, const SolveOptions& options,
                         ContactSolution* solution);
@@ -35,7 +35,7 @@ SolveSummary solve_interior_point_then_newton(NewtonSolver& newton, const Contac
                                               const SolveOptions& options, ContactSolution* solution);
 
 /// Newton; where it does not converge within usual_newton_iterations(), interior point and Newton from there.
-/// Returns the better of the two answers.
+/// Returns the better of the two solutions.
 SolveSummary solve_newton_with_fallback(NewtonSolver& newton, const ContactProblem& problem,
                                         const SolveOptions& options, ContactSolution* solution);
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/contact/methods/block_descent.hpp"
 #include "solver/contact/methods/primal_cost.hpp"
@@ -17,11 +18,11 @@ namespace cupola {
 
 namespace {
 
+/// Message about the first contact of zero compliance, or an empty string.
 std::string rigid_contact(const ContactProblem& p) {
   for (int i = 0; i < p.num_contacts(); ++i) {
     if (p.E[3 * i] > 0.0 && (p.mu[i] == 0.0 || p.E[3 * i + 1] > 0.0)) continue;
-    return fmt::format("contact {} has zero compliance, which Newton's method cannot take: use `proximal`",
-                       i);
+    return fmt::format("contact {} has zero compliance: Newton's method requires a compliance above zero", i);
   }
   return {};
 }
@@ -32,7 +33,7 @@ std::vector<Mat3> stiffnesses(const ContactProblem& p, const VecX& y) {
   return G;
 }
 
-/// State of one solve: what the numbered stages of the loop share.
+/// State of one solve, shared by the stages of the loop.
 struct NewtonLoop {
   const ContactProblem& p;  ///< whitened
   const SolveOptions& options;
@@ -40,13 +41,12 @@ struct NewtonLoop {
   double residual_scale;  ///< momentum residual of one unit of block gradient
   NewtonDirection& solver;
   SolveSummary& summary;
-  RigidMotions motions{};  ///< of the blocks, where there are so many that a hierarchy is worth its while
+  RigidMotions motions{};  ///< of the blocks; empty: no multigrid
   std::optional<BlockDescent> descent{};
 
   double residual(const PrimalPoint& point) const { return point.largest_block_gradient * residual_scale; }
 
-  /// Gradients with a hierarchy, and passes over the blocks, cost less than a factorisation.
-  bool many_blocks() const { return has_many_blocks(p) && !options.lag_factor; }
+  bool uses_multigrid() const { return has_many_blocks(p) && !options.lag_factor; }
   int max_iterations() const { return options.max_iterations.value_or(kNewtonIterations); }
   bool all_stick_start(VecX* w);
   bool solve(const BlockMatrix& H, const VecX& rhs, double forcing, VecX* x);
@@ -56,48 +56,50 @@ struct NewtonLoop {
   bool should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain);
 };
 
-/// Solves as if every contact stuck to what it touches or hovers over. With open gaps this is far better than
-/// letting the blocks fall first: a static dome with gaps of 1e-4 m takes 19 iterations instead of 61.
+/// Solves with all contacts sticking, including those with a gap. With open gaps this is a far better start
+/// than free fall: a static dome with gaps of 1e-4 m takes 19 iterations instead of 61.
 bool NewtonLoop::all_stick_start(VecX* w) {
-  constexpr double kStart = 1e-2;
-  VecX closing = VecX::Zero(p.b.size());  // straight into the contact: it sticks
+  constexpr double kForcing = 1e-2;
+  VecX closing = VecX::Zero(p.b.size());  // along the normal: the contact sticks
   for (int i = 0; i < p.num_contacts(); ++i) closing[3 * i] = -1.0;
   const std::vector<Mat3> G = stiffnesses(p, closing);
   VecX impulse(p.b.size());
   for (int i = 0; i < p.num_contacts(); ++i) impulse.segment<3>(3 * i) = -G[i] * p.b.segment<3>(3 * i);
   const VecX rhs = p.v_star + generalized_impulse(p, impulse);
-  return solve(assemble_hessian(p, graph, G), rhs, kStart, w) && w->allFinite();
+  return solve(assemble_hessian(p, graph, G), rhs, kForcing, w) && w->allFinite();
 }
 
 bool NewtonLoop::solve(const BlockMatrix& H, const VecX& rhs, double forcing, VecX* x) {
   if (!motions.empty()) {
     if (solver.solve_by_multigrid(graph.pattern, H, motions, rhs, forcing, x, &summary)) return true;
-    motions = {};  // nor will it serve later
+    motions = {};  // it will not succeed later either
   }
   return solver.solve_directly(graph.pattern, H, rhs, x, &summary);
 }
 
-/// How many digits a direction by gradients is worth: none beyond what the tolerance still wants, few while
-/// the residual falls slowly, and from one active set to the next never more than two.
+/// Relative residual to which CG solves for the direction: not beyond what the tolerance requires, coarse
+/// while the Newton residual decreases slowly, and at most two digits, as the active set changes from step to
+/// step.
 double NewtonLoop::forcing(double residual, double last_residual) const {
-  constexpr double kMost = 0.1, kTwoDigits = 1e-2, kThreeDigits = 1e-3, kShare = 0.3;
-  const double wanted = kShare * options.tolerance / residual;
-  if (options.lag_factor) return std::clamp(wanted, kThreeDigits, kMost);
-  const double fall = residual / last_residual;
-  return std::clamp(std::max(wanted, 0.5 * fall * fall), kTwoDigits, kMost);
+  constexpr double kLoosest = 0.1, kTwoDigits = 1e-2, kThreeDigits = 1e-3, kShare = 0.3;
+  const double required = kShare * options.tolerance / residual;
+  if (options.lag_factor) return std::clamp(required, kThreeDigits, kLoosest);
+  const double reduction = residual / last_residual;
+  return std::clamp(std::max(required, 0.5 * reduction * reduction), kTwoDigits, kLoosest);
 }
 
 bool NewtonLoop::direction(const PrimalPoint& point, double last_residual, VecX* d) {
   const BlockMatrix H = assemble_hessian(p, graph, stiffnesses(p, point.y));
-  const double digits = forcing(residual(point), last_residual);
-  if (options.lag_factor && solver.solve_lagged(graph.pattern, H, -point.gradient, digits, d, &summary))
+  const double relative_tolerance = forcing(residual(point), last_residual);
+  if (options.lag_factor &&
+      solver.solve_lagged(graph.pattern, H, -point.gradient, relative_tolerance, d, &summary))
     return true;
-  return solve(H, -point.gradient, digits, d);
+  return solve(H, -point.gradient, relative_tolerance, d);
 }
 
 bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain) {
-  constexpr int kPatience =
-      12;  // residuals of a sound run may rise while the cost falls, but not this long at rounding
+  // Residuals may rise for some iterations while the cost decreases, but not for this many.
+  constexpr int kStagnationLimit = 12;
   if (residual(point) <= options.tolerance) {
     summary.ending = SolveEnding::converged;
     summary.message = fmt::format("momentum residual {:.2e} <= tolerance {:.2e} after {} iterations",
@@ -106,14 +108,15 @@ bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int
   }
   if (!std::isfinite(residual(point)) || !std::isfinite(point.cost)) {
     summary.ending = SolveEnding::failed;
-    summary.message = fmt::format("the cost became {} in iteration {}", point.cost, summary.iterations);
+    summary.message =
+        fmt::format("Newton failed: the cost became {} in iteration {}", point.cost, summary.iterations);
     return true;
   }
-  if (iterations_without_gain >= kPatience) {
+  if (iterations_without_gain >= kStagnationLimit) {
     summary.ending = SolveEnding::stalled;
     summary.message =
-        fmt::format("cost and momentum residual {:.2e} no longer fall; tolerance {:.2e} is not met",
-                    best_residual, options.tolerance);
+        fmt::format("Newton stalled: momentum residual {:.2e} above the tolerance {:.2e} after {} iterations",
+                    best_residual, options.tolerance, summary.iterations);
     return true;
   }
   if (summary.iterations >= max_iterations()) {
@@ -127,25 +130,27 @@ bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int
 
 PrimalPoint NewtonLoop::run(PrimalPoint point) {
   constexpr double kCostRounding = 4e-16;
-  constexpr double kExactSlope = 1e-6;   // the next Newton step gains more than further digits here
-  constexpr double kInexactSlope = 0.1;  // an inexact direction is not worth more
-  constexpr double kSettled = 0.1;       // of the tolerance
-  constexpr int kInVain =
-      15;  // the hierarchy misses what is soft: bricks of a dome stay above their best for six
+  constexpr double kExactSlope = 1e-6;   // beyond this the next Newton step gains more than the line search
+  constexpr double kInexactSlope = 0.1;  // sufficient for an inexact direction
+  constexpr double kNegligible = 0.1;    // gradient of a block that BlockDescent skips, of the tolerance
+  // Iterations without a new best residual after which multigrid is given up: it misses very soft modes.
+  // Brick domes take up to six.
+  constexpr int kMultigridStagnationLimit = 15;
   VecX best_w = point.w;
   double best = residual(point), last_residual = best;
   int iterations_without_gain = 0, iterations_since_best = 0;
   while (true) {
     summary.residual_history.push_back(residual(point));
     if (should_stop(point, best, iterations_without_gain)) break;
-    if (!motions.empty() && iterations_since_best >= kInVain) {
+    if (!motions.empty() && iterations_since_best >= kMultigridStagnationLimit) {
       motions = {};
       summary.ending = SolveEnding::stalled;
-      summary.message = "directions by a hierarchy lead nowhere";
+      summary.message = fmt::format("multigrid-preconditioned CG made no progress for {} iterations",
+                                    kMultigridStagnationLimit);
       break;
     }
 
-    // 1. Newton direction, or steepest descent should rounding have spoiled it
+    // 1. Newton direction, or steepest descent if rounding has spoiled it
     ++summary.iterations;
     VecX d;
     if (!direction(point, last_residual, &d)) {
@@ -156,19 +161,19 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
     }
     if (!(d.dot(point.gradient) < 0.0)) d = -point.gradient;
 
-    // 2. Step: the whole direction where the cost is level at its end
-    const double level = options.lag_factor || !motions.empty() ? kInexactSlope : kExactSlope;
+    // 2. Step: the full direction if the slope at its end is small, otherwise a line search
+    const double flat = options.lag_factor || !motions.empty() ? kInexactSlope : kExactSlope;
     PrimalPoint next = primal_point(p, point.w + d);
-    if (!(std::abs(d.dot(next.gradient)) <= level * std::abs(d.dot(point.gradient)))) {
-      const LineSearchResult search = exact_line_search(p, point, d, level);
+    if (!(std::abs(d.dot(next.gradient)) <= flat * std::abs(d.dot(point.gradient)))) {
+      const LineSearchResult search = exact_line_search(p, point, d, flat);
       summary.line_search_evaluations += search.evaluations;
       if (search.t != 1.0) next = primal_point(p, point.w + search.t * d);
     }
 
-    // 3. Of many blocks some settle on their own what would hold up all
+    // 3. Block descent for the few contacts that would otherwise delay the whole structure
     if (!motions.empty() && residual(next) > options.tolerance) {
       if (!descent) descent.emplace(p);
-      next = descent->descend(next, kSettled * options.tolerance / residual_scale);
+      next = descent->descend(next, kNegligible * options.tolerance / residual_scale);
     }
 
     // 4. Progress
@@ -219,7 +224,7 @@ SolveSummary NewtonSolver::solve(const ContactProblem& problem, const SolveOptio
                   1.0 / (root_mean_mass(problem) * options.reference_speed),
                   direction_,
                   summary};
-  if (loop.many_blocks()) loop.motions = rigid_motions(problem, loop.graph, white.L);
+  if (loop.uses_multigrid()) loop.motions = rigid_motions(problem, loop.graph, white.L);
   VecX w;
   const auto set_start = [&] {
     const bool warm = solution->v.size() == problem.v_star.size();
@@ -229,12 +234,13 @@ SolveSummary NewtonSolver::solve(const ContactProblem& problem, const SolveOptio
   };
   if (!set_start())
     return failed("the Hessian of the sticking contacts is not positive definite in double precision");
-  const bool by_hierarchy = !loop.motions.empty();
+  const bool by_multigrid = !loop.motions.empty();
   PrimalPoint point = loop.run(primal_point(white.problem, w));
-  if (by_hierarchy && loop.motions.empty() && summary.ending == SolveEnding::stalled && set_start())
-    point = loop.run(primal_point(white.problem, std::move(w)));  // once more with factors
+  if (by_multigrid && loop.motions.empty() && summary.ending == SolveEnding::stalled && set_start())
+    point = loop.run(primal_point(white.problem, std::move(w)));  // again, with factors
   solution->v = white.to_v(point.w);
   solution->gamma = point.gamma;
+  CUPOLA_ASSERT(!summary.usable() || (solution->v.allFinite() && solution->gamma.allFinite()));
   summary.time_seconds = wall_seconds() - start;
   return summary;
 }

@@ -6,21 +6,21 @@
 
 namespace cupola {
 
-/// Solves H d = rhs for Newton's method: by a fresh Cholesky factor, or by conjugate gradients preconditioned
-/// with the factor of an earlier Hessian on the same pattern or with a hierarchy of groups of blocks.
+/// Solves H d = rhs for Newton's method: by a new Cholesky factor, or by conjugate gradients (CG)
+/// preconditioned with the factor of an earlier Hessian of the same pattern, or with multigrid.
 class NewtonDirection {
  public:
-  /// Direct solve. False when H is not positive definite in double precision.
+  /// Direct solve. False if H is not positive definite in double precision.
   [[nodiscard]] bool solve_directly(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
                                     VecX* d, SolveSummary* summary);
 
-  /// Conjugate gradients to |H d - rhs| <= forcing |rhs| (in the norm of the preconditioner) with the factor
-  /// at hand. False where there is none for this pattern, or they take longer than a factorisation.
+  /// CG to |H d - rhs| <= forcing |rhs| (in the norm of the preconditioner) with the existing factor. False
+  /// if there is none for this pattern, or if CG takes longer than a factorisation.
   [[nodiscard]] bool solve_lagged(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
                                   double forcing, VecX* d, SolveSummary* summary) const;
 
-  /// The same with a hierarchy made for H. False where none can be made, or hundreds of gradients do not lead
-  /// to a tenth.
+  /// The same with a multigrid preconditioner built for H. False if it cannot be built, or if hundreds of CG
+  /// iterations do not reduce the residual to a tenth.
   [[nodiscard]] bool solve_by_multigrid(const BlockPattern& pattern, const BlockMatrix& H,
                                         const RigidMotions& motions, const VecX& rhs, double forcing, VecX* d,
                                         SolveSummary* summary);

@@ -19,7 +19,7 @@ std::vector<Mat3> local_matrices(const ContactProblem& p) {
   return A;
 }
 
-/// One sweep over the contacts; w = v_star + J gamma throughout.
+/// One sweep over the contacts. Keeps w = v_star + J gamma.
 void sweep(const ContactProblem& p, const std::vector<Mat3>& A, VecX* gamma, VecX* w) {
   for (int i = 0; i < p.num_contacts(); ++i) {
     const int a = p.block_a[i], b = p.block_b[i];
@@ -54,7 +54,7 @@ SolveSummary solve_nsgs(const ContactProblem& problem, const SolveOptions& optio
   double accuracy = dual_accuracy(dual, gamma, dual.times(gamma) + dual.q);
   summary.residual_history.push_back(accuracy);
   while (accuracy > options.tolerance && summary.iterations < max_iterations) {
-    VecX w = p.v_star + generalized_impulse(p, gamma);  // afresh, to shed the rounding of the updates
+    VecX w = p.v_star + generalized_impulse(p, gamma);  // recomputed to remove the rounding of the updates
     for (int k = 0; k < kSweepsPerCheck && summary.iterations < max_iterations; ++k, ++summary.iterations) {
       sweep(p, A, &gamma, &w);
     }

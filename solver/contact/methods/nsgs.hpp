@@ -6,14 +6,14 @@
 
 namespace cupola {
 
-/// Non-smooth Gauss-Seidel: one contact after the other, each solved exactly against the others' last
-/// impulses (local_contact.hpp), in the order of the problem; velocities are updated in place, so a sweep
-/// costs about as much as two products with N. Jean (1999), "The non-smooth contact dynamics method", section
-/// 5; here for the associated law (Coulomb's goes through outer_iterations.hpp).
+/// Non-smooth Gauss-Seidel (NSGS): solves the contacts one after another in the order of the problem, each
+/// exactly for the current impulses of the others (local_contact.hpp). Velocities are updated in place, so a
+/// sweep costs about two products with N. Jean (1999), "The non-smooth contact dynamics method", section 5;
+/// here for the associated law (Coulomb's law: outer_iterations.hpp).
 ///
-/// Stops when dual_accuracy <= tolerance (measured every tenth sweep), not when sweeps stop changing: small
-/// changes are no equilibrium. Default of max_iterations: 5000 sweeps. Where E = 0 the forces depend on the
-/// order.
+/// Converged when dual_accuracy <= tolerance, measured every tenth sweep. Small changes per sweep are no
+/// stopping criterion, because they do not imply equilibrium. Default of max_iterations: 5000 sweeps. Where E
+/// = 0 the forces depend on the order of the contacts.
 SolveSummary solve_nsgs(const ContactProblem& problem, const SolveOptions& options,
                         ContactSolution* solution);
 

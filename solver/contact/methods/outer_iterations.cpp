@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/contact/methods/anderson.hpp"
 #include "solver/contact/problem/residuals.hpp"
@@ -14,26 +15,25 @@ namespace cupola {
 
 namespace {
 
-/// Proximal compliance R (3 nc) of the contacts that need one. Where every contact has some compliance and
-/// masses are alike, R is in proportion to it: self-stress, which E alone determines, is then right from the
-/// first pass on.
+/// Proximal compliance R (3 nc), zero for contacts that need none. Where every contact has some compliance
+/// and masses are similar, R is proportional to E: self-stress, which E alone determines, is then correct
+/// from the first outer iteration on.
 VecX proximal_compliance(const ContactProblem& p, double share) {
-  constexpr double kMostShare = 0.1;  // more would leave a heavy block's contact to many passes
+  constexpr double kLargestShare = 0.1;  // more would cost many outer iterations at heavy blocks
   VecX R = VecX::Zero(p.E.size());
   if (share == 0.0) return R;
-  double ratio = 0.0, most = std::numeric_limits<double>::infinity();
+  double ratio = 0.0, largest_ratio = std::numeric_limits<double>::infinity();
   for (int i = 0; i < p.num_contacts(); ++i) {
     const double N = delassus_trace(p, i) / 3.0;
     const auto E = p.E.segment<3>(3 * i).array();
     R.segment<3>(3 * i) = (share * N - E).cwiseMax(0.0);
     ratio = std::max(ratio, (R.segment<3>(3 * i).array() / E).maxCoeff());
-    most = std::min(most, kMostShare * N / E.maxCoeff());
+    largest_ratio = std::min(largest_ratio, kLargestShare * N / E.maxCoeff());
   }
-  return std::isfinite(ratio) && ratio <= most ? VecX(ratio * p.E) : R;
+  return std::isfinite(ratio) && ratio <= largest_ratio ? VecX(ratio * p.E) : R;
 }
 
-/// b' - b = s n - R gamma at the pair (v, gamma), with De Saxce's s = mu |y_t|, y = D^T v + b + E gamma (3
-/// nc).
+/// b' - b = s n - R gamma at (v, gamma), with De Saxce's s = mu |y_t|, y = D^T v + b + E gamma (3 nc).
 VecX shift_at(const ContactProblem& p, const ContactSolution& x, const VecX& R, FrictionLaw law) {
   VecX shift = -R.cwiseProduct(x.gamma);
   if (law == FrictionLaw::associated) return shift;
@@ -42,35 +42,32 @@ VecX shift_at(const ContactProblem& p, const ContactSolution& x, const VecX& R, 
   return shift;
 }
 
-/// State of the passes.
+/// State of the outer iteration.
 class OuterIteration {
  public:
-  OuterIteration(const ContactProblem& problem, const SolveOptions& options, const OuterOptions& outer,
-                 const ContactSolution& guess)
+  OuterIteration(const ContactProblem& problem, const OuterOptions& options, const ContactSolution& guess)
       : problem_(problem),
         options_(options),
-        outer_(outer),
         convex_(problem),
         x_(guess),
-        accelerated_(outer.law == FrictionLaw::coulomb || smallest_compliance(problem) > 0.0),
+        accelerated_(options.law == FrictionLaw::coulomb || smallest_compliance(problem) > 0.0),
         anderson_(kDepth) {
     if (x_.gamma.size() != problem.b.size()) x_.gamma = VecX::Zero(problem.b.size());
     if (x_.v.size() != problem.v_star.size()) x_.v = VecX(0);
-    set_share(outer.proximal_share);
+    set_share(options.proximal_share);
   }
   void run(const ConvexSolve& solve, ContactSolution* best_solution, SolveSummary* summary);
 
  private:
-  static constexpr int kDepth = 10;     // differences that Anderson combines
-  static constexpr int kPatience = 80;  // passes without a new best before giving up
-  static constexpr int kRetry = 16;     // passes without a new best before Anderson starts afresh
+  static constexpr int kDepth = 10;            // differences that Anderson acceleration combines
+  static constexpr int kStagnationLimit = 80;  // outer iterations without a new best before `stalled`
+  static constexpr int kRestartLimit = 16;     // outer iterations without a new best before Anderson restarts
 
   void set_share(double share);
   void adapt_share(const Residuals& residuals, double error, double last_error);
 
   const ContactProblem& problem_;
-  const SolveOptions& options_;
-  const OuterOptions& outer_;
+  const OuterOptions& options_;
   ContactProblem convex_;  ///< with E' and b'
   ContactSolution x_;
   const bool accelerated_;
@@ -83,14 +80,14 @@ void OuterIteration::set_share(double share) {
   share_ = share;
   R_ = proximal_compliance(problem_, share);
   convex_.E = problem_.E + R_;
-  shift_ = x_.v.size() > 0 ? shift_at(problem_, x_, R_, outer_.law) : VecX(-R_.cwiseProduct(x_.gamma));
-  anderson_.forget();
+  shift_ = x_.v.size() > 0 ? shift_at(problem_, x_, R_, options_.law) : VecX(-R_.cwiseProduct(x_.gamma));
+  anderson_.restart();
 }
 
-/// A smaller R contracts faster where impulses are hardly determined; a larger one leaves them more digits.
+/// A smaller R contracts faster where impulses are poorly determined; a larger one loses fewer digits.
 void OuterIteration::adapt_share(const Residuals& residuals, double error, double last_error) {
   constexpr double kSmallest = 1e-9, kLargest = 1e-2;
-  constexpr double kSlow = 0.2;  // a pass that gains less than this factor is not worth its solve
+  constexpr double kSlow = 0.2;  // an outer iteration that gains less than this factor is not worth its cost
   if (share_ == 0.0) return;
   if (residuals.momentum > options_.tolerance && share_ < kLargest) {
     set_share(10.0 * share_);
@@ -105,56 +102,57 @@ void OuterIteration::run(const ConvexSolve& solve, ContactSolution* best_solutio
   inner.tolerance = 0.5 * options_.tolerance;
   double best = std::numeric_limits<double>::infinity(), last = best;
   Residuals best_residuals;
-  int best_pass = 0, pass = 0;
-  while (best > 1.0 && pass < outer_.max_outer_iterations && pass - best_pass < kPatience) {
-    // 1. A convex problem, solved
-    summary->outer_iterations = ++pass;
+  int best_iteration = 0, iteration = 0;
+  while (best > 1.0 && iteration < options_.max_outer_iterations &&
+         iteration - best_iteration < kStagnationLimit) {
+    // 1. Solve the convex problem
+    summary->outer_iterations = ++iteration;
     convex_.b = problem_.b + shift_;
     const SolveSummary solved = solve(convex_, inner, &x_);
     summary->add_work(solved);
     if (!solved.usable()) {
-      summary->message = fmt::format("pass {}: {}", pass, solved.message);
+      summary->message = fmt::format("outer iteration {}: {}", iteration, solved.message);
       break;
     }
 
-    // 2. What it is worth on the given problem
-    const Residuals residuals = compute_residuals(problem_, x_, options_.reference_speed, outer_.law);
+    // 2. Residuals on the given problem
+    const Residuals residuals = compute_residuals(problem_, x_, options_.reference_speed, options_.law);
     summary->residual_history.push_back(std::max(residuals.momentum, residuals.contact_law));
     const double error = excess(residuals, options_.tolerance);
     if (error < best) {
       best = error;
-      best_pass = pass;
+      best_iteration = iteration;
       best_residuals = residuals;
       *best_solution = x_;
     }
 
-    // 3. The next one. The proximal map of rigid contacts contracts by itself. De Saxce's is worth
-    // accelerating, and so is the proximal one where compliance decides between impulses that balance.
-    const VecX next = shift_at(problem_, x_, R_, outer_.law);
-    if ((pass - best_pass) % kRetry == kRetry - 1) anderson_.forget();
+    // 3. Next shift. The proximal map of rigid contacts contracts by itself. De Saxce's map is accelerated,
+    // and so is the proximal one where the compliance selects among impulses that balance the loads.
+    const VecX next = shift_at(problem_, x_, R_, options_.law);
+    if ((iteration - best_iteration) % kRestartLimit == kRestartLimit - 1) anderson_.restart();
     shift_ = accelerated_ ? anderson_.next(shift_, next) : next;
     adapt_share(residuals, error, last);
     last = error;
   }
-  if (best_pass == 0) return;  // failed in the first pass
-  summary->ending = best <= 1.0                           ? SolveEnding::converged
-                    : pass >= outer_.max_outer_iterations ? SolveEnding::max_iterations
-                                                          : SolveEnding::stalled;
-  summary->message =
-      fmt::format("momentum residual {:.2e}, contact-law residual {:.2e}, tolerance {:.2e} after {} passes",
-                  best_residuals.momentum, best_residuals.contact_law, options_.tolerance, pass);
+  if (best_iteration == 0) return;  // the first convex solve failed
+  summary->ending = best <= 1.0                                  ? SolveEnding::converged
+                    : iteration >= options_.max_outer_iterations ? SolveEnding::max_iterations
+                                                                 : SolveEnding::stalled;
+  summary->message = fmt::format(
+      "momentum residual {:.2e}, contact-law residual {:.2e}, tolerance {:.2e} after {} outer iterations",
+      best_residuals.momentum, best_residuals.contact_law, options_.tolerance, iteration);
 }
 
 }  // namespace
 
-SolveSummary solve_by_outer_iterations(const ContactProblem& problem, const SolveOptions& options,
-                                       const OuterOptions& outer, const ConvexSolve& solve,
-                                       ContactSolution* solution) {
+SolveSummary solve_by_outer_iterations(const ContactProblem& problem, const OuterOptions& options,
+                                       const ConvexSolve& solve, ContactSolution* solution) {
   const double start = wall_seconds();
   options.validate();
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
-  OuterIteration(problem, options, outer, *solution).run(solve, solution, &summary);
+  OuterIteration(problem, options, *solution).run(solve, solution, &summary);
+  CUPOLA_ASSERT(!summary.usable() || (solution->v.allFinite() && solution->gamma.allFinite()));
   summary.time_seconds = wall_seconds() - start;
   return summary;
 }

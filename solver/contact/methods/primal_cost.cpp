@@ -4,11 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "assembly/base/error.hpp"
 #include "solver/contact/problem/cone.hpp"
 
 namespace cupola {
 
 PrimalPoint primal_point(const ContactProblem& p, VecX w) {
+  CUPOLA_ASSERT(w.size() == 6 * p.num_blocks());
   PrimalPoint point;
   point.w = std::move(w);
   point.y.resize(p.b.size());
@@ -16,7 +18,7 @@ PrimalPoint primal_point(const ContactProblem& p, VecX w) {
   const VecX momentum = point.w - p.v_star;
   point.cost = 0.5 * momentum.squaredNorm();
   VecX impulse = VecX::Zero(momentum.size());
-  for (int i = 0; i < p.num_contacts(); ++i) {  // one pass: D is what there is most of
+  for (int i = 0; i < p.num_contacts(); ++i) {  // one pass, because reading D dominates the cost
     const Vec3 y = relative_velocity(p, i, point.w) + p.b.segment<3>(3 * i);
     const Vec3 gamma = contact_impulse(contact_law(p, i), y);
     add_impulse(p, i, gamma, &impulse);
@@ -28,15 +30,15 @@ PrimalPoint primal_point(const ContactProblem& p, VecX w) {
   point.gradient = momentum - impulse;
   for (int k = 0; k < p.num_blocks(); ++k) {
     const double norm = point.gradient.segment<6>(6 * k).norm();
-    if (!(norm <= point.largest_block_gradient)) point.largest_block_gradient = norm;  // lets NaN through
+    if (!(norm <= point.largest_block_gradient)) point.largest_block_gradient = norm;  // keeps NaN
   }
   return point;
 }
 
 namespace {
 
-/// Slope and curvature of the cost along the line. The slope is taken as a change from t = 0, so that the
-/// large terms which balance each other at the start do not cancel in every evaluation.
+/// Slope and curvature of the cost along w + t d. The slope is computed as the change from t = 0, so that the
+/// large terms that balance each other there do not cancel in every evaluation.
 class Line {
  public:
   Line(const ContactProblem& p, const PrimalPoint& point, const VecX& d)
@@ -80,7 +82,8 @@ class Line {
 
 LineSearchResult exact_line_search(const ContactProblem& p, const PrimalPoint& point, const VecX& d,
                                    double slope_reduction) {
-  constexpr int kMaxEvaluations = 60;  // bisection alone resolves a bracket to double precision within this
+  constexpr int kMaxEvaluations = 60;  // enough for bisection alone to reach double precision
+  CUPOLA_ASSERT(d.size() == point.w.size());
   const Line line(p, point, d);
   double low = 0.0, high = std::numeric_limits<double>::infinity();
   LineSearchResult result{1.0, 0};

@@ -4,15 +4,15 @@
 
 namespace cupola {
 
-/// The primal objective of a whitened problem (M = I, all E > 0) at one point, after Castro et al. (2022):
+/// The primal objective of a whitened problem (M = I, all E > 0) at a point w, after Castro et al. (2022):
 ///
 ///     cost(w) = 1/2 |w - w_star|^2 + sum_i 1/2 gamma_i^T E_i gamma_i,   gamma_i = gamma(J_i^T w + b_i)
 ///
-/// It is strongly convex and once differentiable; at its minimum the momentum balance holds.
+/// It is strongly convex and continuously differentiable. The momentum balance holds at its minimum.
 struct PrimalPoint {
   VecX w;         ///< (6 nb)
   VecX y;         ///< J^T w + b (3 nc)
-  VecX gamma;     ///< gamma(y), in the cone by construction (3 nc)
+  VecX gamma;     ///< gamma(y), in the cone (3 nc)
   VecX gradient;  ///< w - w_star - J gamma: the unbalanced impulse (6 nb)
   double cost = 0.0;
   double largest_block_gradient = 0.0;  ///< max over blocks of |gradient_k|
@@ -25,8 +25,8 @@ struct LineSearchResult {
   int evaluations = 0;
 };
 
-/// The t > 0 that minimises cost(w + t d), to |slope| <= slope_reduction |slope at 0| or to rounding.
-/// Safeguarded Newton on the slope, which is monotone. d . gradient must be negative.
+/// The t > 0 that minimises cost(w + t d), to |slope| <= slope_reduction |slope at 0| or to rounding, by a
+/// safeguarded Newton method on the slope, which is monotone. Requires d . gradient < 0.
 LineSearchResult exact_line_search(const ContactProblem& whitened, const PrimalPoint& point, const VecX& d,
                                    double slope_reduction);
 

@@ -1,5 +1,6 @@
 #include "solver/contact/methods/solve_contact.hpp"
 
+#include "assembly/base/error.hpp"
 #include "solver/contact/methods/coulomb_newton.hpp"
 #include "solver/contact/methods/method_table.hpp"
 #include "solver/contact/methods/outer_iterations.hpp"
@@ -8,9 +9,10 @@ namespace cupola {
 
 namespace {
 
-/// Below this share of its Delassus block a compliance leaves Newton's impulses fewer digits than asked for.
+/// Compliances below this share of their Delassus block get a proximal term: below it, Newton's impulses lose
+/// more digits to rounding than the tolerance permits.
 constexpr double kProximalShare = 1e-4;
-constexpr double kNearRounding = 1e-2;  // a momentum residual above this is no rounding
+constexpr double kLargestRoundingResidual = 1e-2;  // a larger momentum residual is not due to rounding
 constexpr int kRescueOuterIterations = 40;
 
 bool has_rigid_contact(const ContactProblem& p) {
@@ -27,18 +29,22 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
   const bool rigid = has_rigid_contact(problem);
   const MethodTraits& method = method_traits(options.method);
   const auto convex = [&](const ContactProblem& p, const SolveOptions& o, ContactSolution* x) {
-    return method.solve(newton_, p, o, x);
+    const SolveSummary summary = method.solve(newton_, p, o, x);
+    CUPOLA_ASSERT(!summary.usable() || (x->v.size() == p.v_star.size() && x->gamma.size() == p.b.size()));
+    CUPOLA_ASSERT(!summary.usable() || (x->v.allFinite() && x->gamma.allFinite()));
+    return summary;
   };
   if (!rigid && options.law == FrictionLaw::associated) {
     SolveSummary first = convex(problem, options, solution);
     if (!first.usable() || first.ending == SolveEnding::converged || !method.primal) return first;
-    if (options.max_iterations) return first;  // the caller has set a limit to the work
-    // Sliding on tiny compliance leaves impulses below the rounding of D^T v / E; and what defeats both
-    // methods is easier on a larger compliance that is then taken away.
-    const bool near = !first.residual_history.empty() && first.residual_history.back() < kNearRounding;
+    if (options.max_iterations) return first;  // the limit of the caller
+    // Where blocks slide on tiny compliance, impulses are smaller than the rounding of D^T v / E. And a
+    // problem that defeats both methods is easier with a larger compliance that is then removed stepwise.
+    const bool near =
+        !first.residual_history.empty() && first.residual_history.back() < kLargestRoundingResidual;
     ContactSolution polished = near ? *solution : ContactSolution{};
-    SolveSummary last = solve_by_outer_iterations(
-        problem, options, {options.law, kProximalShare, kRescueOuterIterations}, convex, &polished);
+    SolveSummary last = solve_by_outer_iterations(problem, {options, kProximalShare, kRescueOuterIterations},
+                                                  convex, &polished);
     const bool better = last.usable() && last.residual_history.back() < first.residual_history.back();
     if (last.ending != SolveEnding::converged && !better) return first;
     *solution = polished;
@@ -49,10 +55,11 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
     summary = convex(problem, options, solution);
   } else {
     const double share = rigid && method.primal ? kProximalShare : 0.0;
-    summary = solve_by_outer_iterations(problem, options, {options.law, share}, convex, solution);
+    summary = solve_by_outer_iterations(problem, {options, share}, convex, solution);
   }
-  const bool in_circles = options.law == FrictionLaw::coulomb && summary.ending == SolveEnding::stalled;
-  if (in_circles && !options.max_iterations) {
+  const bool fixed_point_fails =
+      options.law == FrictionLaw::coulomb && summary.ending == SolveEnding::stalled;
+  if (fixed_point_fails && !options.max_iterations) {
     ContactSolution again = *solution;
     SolveSummary last = solve_coulomb_newton(problem, options, &again);
     if (last.ending == SolveEnding::converged) {

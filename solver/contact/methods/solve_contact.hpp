@@ -1,6 +1,5 @@
 #pragma once
 
-#include "assembly/model/choices.hpp"
 #include "solver/contact/methods/newton.hpp"
 #include "solver/contact/problem/contact_problem.hpp"
 #include "solver/contact/problem/solve_options.hpp"
@@ -8,17 +7,13 @@
 
 namespace cupola {
 
-struct ContactSolverOptions : SolveOptions {
-  ContactMethod method = ContactMethod::newton;
-  FrictionLaw law = FrictionLaw::associated;
-};
-
-/// Solves contact problems of any compliance (zero included), friction law and method, and keeps between
-/// calls what a method can use again (ordering, symbolic and numeric factor).
+/// Solves contact problems of any compliance (zero included), friction law and method. Keeps the ordering and
+/// the symbolic and numeric factor between calls.
 ///
-/// newton: where the plain method does not converge within 25 iterations, interior point and Newton from
-/// there. Zero compliance (newton, interior_point) and the Coulomb law (all) go through outer_iterations.hpp;
-/// where the passes of the Coulomb law stall, coulomb_newton.hpp is asked.
+/// Convex problems (associated law, all E > 0) go straight to the method (method_table.hpp). Zero compliance
+/// with a primal method, and Coulomb's law with every method, take outer iterations (outer_iterations.hpp).
+/// Where these stall under Coulomb's law, coulomb_newton.hpp takes over. A given max_iterations excludes all
+/// second attempts.
 class ContactSolver {
  public:
   SolveSummary solve(const ContactProblem& problem, const ContactSolverOptions& options,
@@ -28,7 +23,7 @@ class ContactSolver {
   NewtonSolver newton_;
 };
 
-/// One solve without a past.
+/// A single solve; nothing is kept.
 SolveSummary solve_contact(const ContactProblem& problem, const ContactSolverOptions& options,
                            ContactSolution* solution);
 

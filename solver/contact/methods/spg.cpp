@@ -10,12 +10,12 @@ namespace cupola {
 
 namespace {
 
-constexpr double kArmijo = 1e-4;  // sufficient decrease, as in the cited algorithm
-constexpr int kMemory = 10;       // objectives that the non-monotone search looks back on
+constexpr double kArmijo = 1e-4;                       // sufficient decrease, as in the cited algorithm
+constexpr int kMemory = 10;                            // recent objectives in the non-monotone line search
 constexpr double kAlphaMin = 1e-10, kAlphaMax = 1e10;  // in units of the preconditioner: 1 is a Jacobi step
 
-/// Step along d from objective f with slope gd and curvature dAd, not above the largest of the recent
-/// objectives.
+/// Step length along d from objective f with slope gd and curvature dAd, such that the objective stays below
+/// the largest of the recent ones.
 double nonmonotone_step(double f, double gd, double dAd, const std::deque<double>& recent) {
   const double ceiling = *std::max_element(recent.begin(), recent.end());
   double lambda = 1.0;
@@ -56,7 +56,7 @@ SolveSummary solve_spg(const ContactProblem& problem, const SolveOptions& option
     const double lambda = nonmonotone_step(f, gd, dAd, recent);
     gamma += lambda * d;
     g += lambda * Ad;
-    if (summary.iterations % 50 == 0) g = dual.times(gamma) + dual.q;  // sheds the rounding of the updates
+    if (summary.iterations % 50 == 0) g = dual.times(gamma) + dual.q;  // removes the rounding of the updates
     f = 0.5 * gamma.dot(g + dual.q);
     recent.push_back(f);
     if (std::ssize(recent) > kMemory) recent.pop_front();

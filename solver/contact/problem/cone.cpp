@@ -13,7 +13,7 @@ ContactRegion contact_region(const ContactLaw& law, const Vec3& y) {
 
 namespace {
 
-/// Direction of sliding; any unit vector will do where mu = 0 takes its factor away.
+/// Unit vector along y_t. Arbitrary at y_t = 0, where its factor vanishes.
 Eigen::Vector2d slip_direction(const Vec3& y) {
   const double y_t = y.tail<2>().norm();
   return y_t > 0.0 ? Eigen::Vector2d(y.tail<2>() / y_t) : Eigen::Vector2d::UnitX();
@@ -24,8 +24,8 @@ double slip_impulse(const ContactLaw& law, const Vec3& y) {
   return (law.mu * y.tail<2>().norm() - y[0]) / (law.e_n + law.mu * law.mu * law.e_t);
 }
 
-/// At mu = 0 the tangential compliance plays no part and may be anything, even infinite.
-ContactLaw without_idle_compliance(ContactLaw law) {
+/// At mu = 0 the tangential compliance is unused and may be NaN or infinite.
+ContactLaw without_unused_compliance(ContactLaw law) {
   if (law.mu == 0.0) law.e_t = 0.0;
   return law;
 }
@@ -33,7 +33,7 @@ ContactLaw without_idle_compliance(ContactLaw law) {
 }  // namespace
 
 Vec3 contact_impulse(const ContactLaw& given, const Vec3& y) {
-  const ContactLaw law = without_idle_compliance(given);
+  const ContactLaw law = without_unused_compliance(given);
   switch (contact_region(law, y)) {
     case ContactRegion::separation:
       return Vec3::Zero();
@@ -48,7 +48,7 @@ Vec3 contact_impulse(const ContactLaw& given, const Vec3& y) {
 }
 
 Mat3 contact_stiffness(const ContactLaw& given, const Vec3& y) {
-  const ContactLaw law = without_idle_compliance(given);
+  const ContactLaw law = without_unused_compliance(given);
   Mat3 G = Mat3::Zero();
   switch (contact_region(law, y)) {
     case ContactRegion::separation:
@@ -63,7 +63,7 @@ Mat3 contact_stiffness(const ContactLaw& given, const Vec3& y) {
   const Vec3 ray(1.0, -law.mu * t[0], -law.mu * t[1]);  // gamma = a ray
   G.noalias() = ray * ray.transpose() / (law.e_n + law.mu * law.mu * law.e_t);
   const double y_t = y.tail<2>().norm();
-  if (y_t > 0.0) {  // the ray turns with y_t
+  if (y_t > 0.0) {  // derivative of the direction of the ray
     const Eigen::Vector2d s(-t[1], t[0]);
     const Eigen::Matrix2d across = s * s.transpose();
     G.bottomRightCorner<2, 2>() += (law.mu * slip_impulse(law, y) / y_t) * across;

@@ -6,6 +6,8 @@
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
 namespace {
@@ -42,7 +44,9 @@ void check_block(const ContactProblem& p, int k) {
 void check_contact(const ContactProblem& p, int i) {
   const int a = p.block_a[i], b = p.block_b[i];
   const auto in_range = [&p](int k) { return k >= ContactProblem::kFixed && k < p.num_blocks(); };
-  if (!in_range(a) || !in_range(b)) reject(fmt::format("contact {} joins unknown blocks {}, {}", i, a, b));
+  if (!in_range(a) || !in_range(b))
+    reject(fmt::format("contact {} joins blocks {} and {}: must be in [0, {}), or -1 for fixed", i, a, b,
+                       p.num_blocks()));
   if (a == b) reject(fmt::format("contact {} joins block {} to itself", i, a));
   if (a != ContactProblem::kFixed && !p.D_a[i].allFinite())
     reject(fmt::format("D_a of contact {} is not finite", i));
@@ -79,12 +83,14 @@ std::string ContactProblem::defect() const {
 }
 
 VecX relative_velocity(const ContactProblem& problem, const VecX& v) {
+  CUPOLA_ASSERT(v.size() == 6 * problem.num_blocks());
   VecX u(3 * problem.num_contacts());
   for (int i = 0; i < problem.num_contacts(); ++i) u.segment<3>(3 * i) = relative_velocity(problem, i, v);
   return u;
 }
 
 VecX generalized_impulse(const ContactProblem& problem, const VecX& gamma) {
+  CUPOLA_ASSERT(gamma.size() == 3 * problem.num_contacts());
   VecX impulse = VecX::Zero(6 * problem.num_blocks());
   for (int i = 0; i < problem.num_contacts(); ++i) add_impulse(problem, i, gamma.segment<3>(3 * i), &impulse);
   return impulse;

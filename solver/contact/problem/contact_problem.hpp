@@ -13,41 +13,43 @@ using VecX = Eigen::VectorXd;
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
-/// The frictional contact problem of one time step, the same for every method (SPD M, E >= 0):
+/// The frictional contact problem of one time step, in the form that every method takes. M is symmetric
+/// positive definite, E >= 0:
 ///
 ///     M (v - v_star) = D gamma,     gamma in Y  _|_  D^T v + b + E gamma in Y*          (paper eq. 9-13)
 ///
 /// Y is the product of the cones |gamma_t| <= mu gamma_n. The paper writes N = D^T M^-1 D - E with
-/// E = -K^-1/h^2; here E is positive and added. This is the convex, associated law; under the Coulomb law
-/// the dual-cone variable carries mu |u_t| in its normal component (De Saxce), see outer_iterations.hpp.
+/// E = -K^-1/h^2; here E is positive and added. This is the associated law, a convex problem. Under Coulomb's
+/// law De Saxce's term mu |u_t| is added to the normal component of the dual variable (FrictionLaw in
+/// assembly/model/choices.hpp, outer_iterations.hpp).
 ///
-/// Conventions: six unknowns per free block, linear velocity then angular velocity, world axes, about the
-/// centroid. Three rows per contact, normal first, then two tangents. The normal points from block a to
-/// block b, so that u_n = (D^T v)_n > 0 opens the contact, and a positive gamma_n pushes them apart.
+/// Conventions: six unknowns per free block, linear then angular velocity, world axes, about the centroid.
+/// Three rows per contact, the normal first, then two tangents. The normal points from block a to block b.
+/// Hence u_n = (D^T v)_n > 0 opens the contact, and gamma_n > 0 pushes the blocks apart.
 struct ContactProblem {
   static constexpr int kFixed = -1;  ///< block index of a body without unknowns
 
   std::vector<Mat6> M;       ///< kg, kg m2: mass matrix per block (nb)
-  VecX v_star;               ///< m/s, rad/s: velocity without contact impulses (6 nb)
-  std::vector<int> block_a;  ///< row block of D_a, or kFixed (nc)
-  std::vector<int> block_b;  ///< row block of D_b, or kFixed (nc)
-  std::vector<Mat63> D_a;    ///< contribution to block a; ignored when it is fixed (nc)
-  std::vector<Mat63> D_b;    ///< contribution to block b; ignored when it is fixed (nc)
+  VecX v_star;               ///< m/s, rad/s: free velocity, i.e. without contact impulses (6 nb)
+  std::vector<int> block_a;  ///< block of D_a, or kFixed (nc)
+  std::vector<int> block_b;  ///< block of D_b, or kFixed (nc)
+  std::vector<Mat63> D_a;    ///< rows of D for block a; unused when it is fixed (nc)
+  std::vector<Mat63> D_b;    ///< rows of D for block b; unused when it is fixed (nc)
   VecX b;                    ///< m/s: gap and elastic slip over (h + alpha) (3 nc)
   VecX E;                    ///< 1/kg: diag c / (h (h + alpha)); both tangents equal (3 nc)
   VecX mu;                   ///< friction coefficient (nc)
-  double h = 0.0;            ///< s, step; only scales residuals (force = gamma / h)
-  /// Motion in the plane x-z: D is zero in the rows y, rot x, rot z, and M couples them with no others.
-  /// Factors then have three unknowns per block.
+  double h = 0.0;            ///< s, step; converts impulses to forces (force = gamma / h)
+  /// Motion in the plane x-z: D is zero in the rows y, rot x and rot z, and M does not couple these with the
+  /// others. Factors then have three unknowns per block.
   bool plane = false;
 
   int num_blocks() const { return static_cast<int>(M.size()); }
   int num_contacts() const { return static_cast<int>(block_a.size()); }
 
-  /// Checks sizes, finiteness, M symmetric positive definite, E >= 0, mu >= 0, equal tangential E, two
-  /// different blocks per contact, h > 0. Throws std::invalid_argument naming the first offender.
+  /// Checks sizes, finite values, M symmetric positive definite, E >= 0, mu >= 0, equal E for both tangents,
+  /// two different blocks per contact, h > 0. Throws std::invalid_argument that names the first violation.
   void validate() const;
-  /// The same check as a sentence; empty when the problem is sound.
+  /// The message of validate(), or an empty string for a valid problem.
   std::string defect() const;
 };
 
@@ -71,7 +73,7 @@ VecX relative_velocity(const ContactProblem& problem, const VecX& v);
 /// D gamma, generalised impulses on the blocks (6 nb).
 VecX generalized_impulse(const ContactProblem& problem, const VecX& gamma);
 
-/// What a method works on: a guess on entry (warm start; empty vectors for a cold one), the answer on exit.
+/// On entry the initial guess (warm start; empty vectors: cold start), on exit the solution.
 struct ContactSolution {
   VecX v;      ///< (6 nb)
   VecX gamma;  ///< N s (3 nc)

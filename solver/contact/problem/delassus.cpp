@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "assembly/base/error.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/whitening.hpp"
 
@@ -9,7 +10,7 @@ namespace cupola {
 
 namespace {
 
-/// J^T (6 nb columns): J^T J is N.
+/// J^T (3 nc x 6 nb) of the whitened problem, in which N = J^T J.
 Eigen::SparseMatrix<double, Eigen::RowMajor> whitened_contact_matrix(const ContactProblem& p) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(36 * p.num_contacts());
@@ -28,7 +29,9 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> whitened_contact_matrix(const Conta
   return JT;
 }
 
+/// |gamma - P(gamma - rho (u + s n))|.
 double natural_map(const DelassusProblem& p, const VecX& gamma, FrictionLaw law, const VecX& rho) {
+  CUPOLA_ASSERT(gamma.size() == p.q.size() && rho.size() == p.num_contacts());
   const VecX u = p.W * gamma + p.q;
   double squared = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {

@@ -7,11 +7,11 @@
 
 namespace cupola {
 
-/// A contact problem reduced to its impulses, the local form of FCLIB (there W, r; here N or N + E, gamma):
+/// A contact problem reduced to its impulses, the local form of FCLIB (W, r there; N or N + E, gamma here):
 ///
 ///     u = W gamma + q,   gamma in Y  _|_  u + s n in Y*,   s = mu |u_t| (coulomb) or 0 (associated)
 ///
-/// W may have full 3x3 blocks, be singular, and even be slightly unsymmetric, as the problems of other codes
+/// W may have full 3x3 blocks, may be singular, and may be slightly unsymmetric: problems from other codes
 /// are.
 struct DelassusProblem {
   Eigen::SparseMatrix<double> W;  ///< 1/kg (3 nc x 3 nc)
@@ -23,13 +23,14 @@ struct DelassusProblem {
 /// W = D^T M^-1 D + diag(E), q = D^T v_star + b.
 DelassusProblem make_delassus(const ContactProblem& problem);
 
-/// FCLIB's merit function 1 of impulses gamma, for either law: |gamma - P(gamma - (u + s n))| / (1 +
-/// sqrt(|q|)), P the Euclidean projection on the cone. It mixes N s and m/s: quote it beside a residual that
-/// does not.
+/// FCLIB's merit function 1, for either friction law:
+///
+///     |gamma - P(gamma - (u + s n))| / (1 + sqrt(|q|)),   P the Euclidean projection on the cone
+///
+/// It adds N s and m/s. Report it together with scaled_merit, whose terms share a unit.
 double fclib_merit(const DelassusProblem& problem, const VecX& gamma, FrictionLaw law);
 
-/// |gamma - P(gamma - rho (u + s n))| / |gamma| with rho_i = 3 / trace W_ii: the contact-law residual without
-/// units.
+/// Contact-law residual, no unit: |gamma - P(gamma - rho (u + s n))| / |gamma| with rho_i = 3 / trace W_ii.
 double scaled_merit(const DelassusProblem& problem, const VecX& gamma, FrictionLaw law);
 
 /// trace(W_ii) / 3 of every contact, 1/kg (nc).

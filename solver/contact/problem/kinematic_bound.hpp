@@ -4,17 +4,22 @@
 
 namespace cupola {
 
-/// Why a structure cannot stand, from the velocities v of its mechanism: the least sum of normal forces (N)
-/// that any equilibrium of its loads would need, whatever the joints' compliance. By virtual power, impulses
-/// in the cones that balance the loads M v_star satisfy
+/// Lower bound (N) of the sum of the normal forces in any equilibrium of the loads, from the velocities v of
+/// a mechanism. It holds for every compliance of the joints and can prove that a structure cannot stand.
 ///
-///     v . M v_star = - sum_i gamma_i . u_i  <=  sum_i gamma_n,i delta_i,   u = D^T v,  delta = (mu |u_t| -
-///     u_n)+
+/// By virtual power, impulses in the cones that balance the loads M v_star satisfy
 ///
-/// so that their normal parts sum to at least v . M v_star / max delta. Velocities that open or slide along
-/// every joint (u in Y*) while the loads do work give infinity: the kinematic theorem of limit analysis. Of a
-/// structure that stands the bound stays below the sum of its normal forces, for every v. 0 when the loads do
-/// no work. Needs a problem at rest: v_star = h M^-1 f.
+///     v . M v_star  =  - sum_i gamma_i . u_i  <=  sum_i gamma_n,i delta_i,
+///     u = D^T v,    delta = (mu |u_t| - u_n)+
+///
+/// so their normal components sum to at least (v . M v_star) / max delta. The result is
+///
+///     infinity    if v opens every joint or slides along it (u in Y*) while the loads do work:
+///                 the kinematic theorem of limit analysis;
+///     0           if the loads do no work;
+///     a value below the sum of the actual normal forces, for every v, if the structure stands.
+///
+/// Requires a problem at rest: v_star = h M^-1 f.
 double required_normal_force(const ContactProblem& problem, const VecX& v);
 
 /// Sum of the normal forces gamma_n / h, N.

@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
 double delassus_trace(const ContactProblem& p, int i) {
@@ -20,7 +22,7 @@ double delassus_trace(const ContactProblem& p, int i) {
 
 namespace {
 
-/// 1/2 sum and largest of the blocks' squared M^-1 norms of r = M (v - v_star) - D gamma.
+/// M^-1 norms of r = M (v - v_star) - D gamma per block: half the sum of their squares, and the largest.
 struct MomentumError {
   double half_squared_norm = 0.0;
   double largest = 0.0;
@@ -40,7 +42,7 @@ MomentumError momentum_error(const ContactProblem& p, const ContactSolution& x) 
   return error;
 }
 
-/// The tangential compliance of a frictionless contact plays no part.
+/// The tangential compliance of a frictionless contact is unused.
 bool is_rigid(const ContactLaw& law) {
   return law.e_n == 0.0 || (law.mu > 0.0 && law.e_t == 0.0);
 }
@@ -77,7 +79,7 @@ double contact_law_rounding(const ContactProblem& p, const ContactSolution& x) {
   constexpr double kEps = std::numeric_limits<double>::epsilon();
   double squared = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {
-    if (x.gamma.segment<3>(3 * i).isZero(0.0)) continue;  // an open contact is not near any kink
+    if (x.gamma.segment<3>(3 * i).isZero(0.0)) continue;  // open: gamma = 0 exactly
     double speed = p.b.segment<3>(3 * i).norm();
     const auto add = [&](int k, const Mat63& D) {
       if (k != ContactProblem::kFixed)
@@ -93,20 +95,20 @@ double contact_law_rounding(const ContactProblem& p, const ContactSolution& x) {
 }
 
 double cone_violation(const ContactProblem& p, const VecX& gamma) {
-  double worst = 0.0, largest = 0.0;
+  double violation = 0.0, largest = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {
     const double gamma_n = gamma[3 * i];
     const double gamma_t = gamma.segment<2>(3 * i + 1).norm();
-    worst = std::max({worst, gamma_t - p.mu[i] * gamma_n, -gamma_n});
+    violation = std::max({violation, gamma_t - p.mu[i] * gamma_n, -gamma_n});
     largest = std::max(largest, std::abs(gamma_n));
   }
-  return worst > 0.0 ? worst / std::max(largest, std::numeric_limits<double>::min()) : 0.0;
+  return violation > 0.0 ? violation / std::max(largest, std::numeric_limits<double>::min()) : 0.0;
 }
 
 }  // namespace
 
 double excess(const Residuals& residuals, double tolerance) {
-  constexpr double kRoundingMargin = 16.0;  // several roundings add up
+  constexpr double kRoundingMargin = 16.0;  // for the sum of several rounding errors
   const double law =
       residuals.contact_law / std::max(tolerance, kRoundingMargin * residuals.contact_law_rounding);
   return std::max({residuals.momentum / tolerance, law, residuals.rigid_contact_speed / tolerance});
@@ -125,7 +127,7 @@ double contact_duality_gap(const ContactLaw& law, const Vec3& y, const Vec3& gam
   const Vec3 gamma_v = contact_impulse(law, y);
   const double e_t = law.mu > 0.0 ? law.e_t : 0.0;
   const Vec3 E(law.e_n, e_t, e_t);
-  Vec3 z = Vec3::Zero();  // y + E gamma(v), by regions so that nothing cancels
+  Vec3 z = Vec3::Zero();  // y + E gamma(v), by regions to avoid cancellation
   switch (contact_region(law, y)) {
     case ContactRegion::separation:
       z = y;
@@ -164,6 +166,8 @@ double duality_gap(const ContactProblem& problem, const ContactSolution& solutio
 
 Residuals compute_residuals(const ContactProblem& problem, const ContactSolution& solution,
                             double reference_speed, FrictionLaw law) {
+  CUPOLA_ASSERT(reference_speed > 0.0);
+  CUPOLA_ASSERT(solution.gamma.size() == problem.b.size());
   const VecX y0 = relative_velocity(problem, solution.v) + problem.b;
   Residuals residuals;
   residuals.momentum =
@@ -172,7 +176,7 @@ Residuals compute_residuals(const ContactProblem& problem, const ContactSolution
   residuals.contact_law_rounding = contact_law_rounding(problem, solution);
   residuals.cone_violation = cone_violation(problem, solution.gamma);
 
-  constexpr double kRounding = 1e-14;  // |gamma_t| = mu gamma_n is met to a few eps
+  constexpr double kRounding = 1e-14;  // |gamma_t| = mu gamma_n holds to a few eps
   const double min_E = smallest_compliance(problem);
   const double norm = solution.gamma.norm();
   if (law == FrictionLaw::associated && min_E > 0.0 && norm > 0.0 && residuals.cone_violation <= kRounding) {

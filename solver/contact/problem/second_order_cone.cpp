@@ -31,7 +31,7 @@ double step_to_boundary(const Vec3& x, const Vec3& d, double limit) {
   const double c = cone_determinant(x);
   const double discriminant = b * b - a * c;
   if (discriminant < 0.0 || (a >= 0.0 && b >= 0.0)) return limit;
-  // Of the two forms of the root, c / (-b + s) never cancels for b < 0, (-b - s) / a never for b >= 0 > a.
+  // The form of the root without cancellation: c / (-b + s) for b < 0, (-b - s) / a for b >= 0 > a.
   const double s = std::sqrt(discriminant);
   const double t = b < 0.0 ? c / (s - b) : (-b - s) / a;
   return std::clamp(t, 0.0, limit);
@@ -39,8 +39,8 @@ double step_to_boundary(const Vec3& x, const Vec3& d, double limit) {
 
 namespace {
 
-/// Symmetric function of the scaling point w (unit determinant): eigenvalues f_plus and f_minus on (1, +-u) /
-/// sqrt 2, f_cross across.
+/// Symmetric matrix with the eigenvectors (1, +-u) / sqrt(2) and the one across, and the eigenvalues f_plus,
+/// f_minus and f_cross. u: unit direction of the tangential part of the scaling point.
 Mat3 spectral(const Eigen::Vector2d& u, double f_plus, double f_minus, double f_cross) {
   const Eigen::Vector2d s(-u[1], u[0]);
   const double mean = 0.5 * (f_plus + f_minus), difference = 0.5 * (f_plus - f_minus);
@@ -67,7 +67,7 @@ NesterovTodd nesterov_todd(const Vec3& z, const Vec3& gamma) {
 
   const double w_t = w.tail<2>().norm();
   const Eigen::Vector2d u = w_t > 0.0 ? Eigen::Vector2d(w.tail<2>() / w_t) : Eigen::Vector2d::UnitX();
-  const double p = w[0] + w_t, q = 1.0 / p;  // w_0 - |w_t| by the unit determinant
+  const double p = w[0] + w_t, q = 1.0 / p;  // q = w_0 - |w_t|, as det w = 1
   NesterovTodd scaling;
   scaling.W = spectral(u, eta * p, eta * q, eta);
   scaling.W_inverse = spectral(u, q / eta, p / eta, 1.0 / eta);

@@ -2,23 +2,31 @@
 
 #include <optional>
 
+#include "assembly/model/choices.hpp"
+
 namespace cupola {
 
 /// Options that every method takes.
 struct SolveOptions {
   /// The method has converged when its measure <= tolerance. In (0, 1), no unit. The measure is the momentum
-  /// residual for newton and interior_point, and the certified force error or the contact-law residual for the
-  /// other methods (see the header of each).
+  /// residual for newton and interior_point, and the certified force error or the contact-law residual for
+  /// the other methods (see the header of each).
   double tolerance = 1e-10;
   /// m/s, > 0: h |g|, the speed that a free block gains in the step. Makes residuals relative.
   double reference_speed = 0.0;
   std::optional<int> max_iterations;  ///< >= 1; none: the default of the method
-  /// Newton only: keep the factor from step to step as the preconditioner of conjugate gradients, and renew it
-  /// when they need more than 25 iterations. Faster while few contacts change state, at the same accuracy.
+  /// Newton only: keep the factor from step to step as the preconditioner of conjugate gradients, and renew
+  /// it when they need more than 25 iterations. Faster while few contacts change state, at the same accuracy.
   bool lag_factor = false;
 
   /// Throws std::invalid_argument with name, value and rule.
   void validate() const;
+};
+
+/// Options of a contact problem of any friction law, solved by a given method.
+struct ContactSolverOptions : SolveOptions {
+  ContactMethod method = ContactMethod::newton;
+  FrictionLaw law = FrictionLaw::associated;
 };
 
 }  // namespace cupola

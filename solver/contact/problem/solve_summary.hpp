@@ -8,21 +8,21 @@ namespace cupola {
 /// How a contact solve ended. Not converging is a result, not an exception.
 enum class SolveEnding {
   converged,       ///< the stopping rule of the method was met
-  max_iterations,  ///< the answer is the best iterate; its residuals say what it is worth
-  stalled,         ///< no further decrease in double precision
-  failed           ///< factorisation broke down or a value became infinite; the answer must not be used
+  max_iterations,  ///< the solution is the best iterate; its residuals give its accuracy
+  stalled,         ///< no further progress in double precision; the solution is the best iterate
+  failed  ///< invalid input, breakdown of a factorisation or infinite values; the solution is invalid
 };
 std::string to_string(SolveEnding ending);
 
 struct SolveSummary {
   SolveEnding ending = SolveEnding::failed;
-  std::string message;  ///< the inequality that fired, with its numbers
+  std::string message;  ///< the criterion that ended the solve, with its numbers
   int iterations = 0;
   int outer_iterations = 0;  ///< of outer_iterations.hpp; 0 when one convex solve was enough
   int factorizations = 0;
-  int conjugate_gradients = 0;  ///< inner iterations of lagged Newton steps
+  int conjugate_gradients = 0;  ///< CG iterations of Newton directions
   int line_search_evaluations = 0;
-  std::vector<double> residual_history;  ///< the method's own stopping measure per iteration
+  std::vector<double> residual_history;  ///< measure of the method's stopping rule, per iteration
   double time_seconds = 0.0;
   bool usable() const { return ending != SolveEnding::failed; }
 

@@ -2,9 +2,12 @@
 
 #include <Eigen/Cholesky>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
 VecX WhitenedProblem::to_w(const VecX& v) const {
+  CUPOLA_ASSERT(v.size() == 6 * std::ssize(L));
   VecX w(v.size());
   for (int k = 0; k < static_cast<int>(L.size()); ++k) {
     w.segment<6>(6 * k).noalias() = L[k].triangularView<Eigen::Lower>().transpose() * v.segment<6>(6 * k);
@@ -13,6 +16,7 @@ VecX WhitenedProblem::to_w(const VecX& v) const {
 }
 
 VecX WhitenedProblem::to_v(const VecX& w) const {
+  CUPOLA_ASSERT(w.size() == 6 * std::ssize(L));
   VecX v(w.size());
   for (int k = 0; k < static_cast<int>(L.size()); ++k) {
     v.segment<6>(6 * k).noalias() = L_inverse[k].transpose() * w.segment<6>(6 * k);
@@ -26,7 +30,9 @@ WhitenedProblem whiten(const ContactProblem& problem) {
   white.L.reserve(nb);
   white.L_inverse.reserve(nb);
   for (const Mat6& M : problem.M) {
-    white.L.push_back(M.llt().matrixL());
+    const Eigen::LLT<Mat6> factor(M);
+    CUPOLA_ASSERT(factor.info() == Eigen::Success);
+    white.L.push_back(factor.matrixL());
     white.L_inverse.push_back(white.L.back().triangularView<Eigen::Lower>().solve(Mat6::Identity()));
   }
   ContactProblem& p = white.problem;

@@ -4,9 +4,9 @@
 
 namespace cupola {
 
-/// The same problem in the unknowns w = L^T v with M = L L^T per block: unit mass, J = L^-1 D. Impulses,
-/// compliances and relative velocities stay what they are (J^T w = D^T v), so the Hessian I + J G J^T has
-/// comparable rows whatever the blocks weigh and however small they are.
+/// The problem in the unknowns w = L^T v with M = L L^T per block: unit mass, J = L^-1 D. Impulses,
+/// compliances and relative velocities do not change (J^T w = D^T v). The rows of the Hessian I + J G J^T are
+/// then of comparable size for blocks of any mass and size.
 struct WhitenedProblem {
   ContactProblem problem;       ///< M = identity, v_star = L^T v_star, D = L^-1 D
   std::vector<Mat6> L;          ///< lower triangles (nb)

@@ -1,7 +1,7 @@
 #pragma once
 
-// Small contact problems built by hand, for the tests of solver/contact. Mass 6x6 blocks, contact frames and
-// signs as contact_problem.hpp states them; nothing of the project's own problem builder is used.
+// Small contact problems for the tests of solver/contact, built without the project's own problem builder.
+// Mass matrices, contact frames and signs follow the conventions in contact_problem.hpp.
 
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace cupola::scenes {
 constexpr double kGravity = 9.81;
 constexpr int kGround = ContactProblem::kFixed;
 
-/// What a contact is made of in a scene.
+/// Friction and compliance of a contact in a scene.
 struct Joint {
   double mu = 0.4;
   double c_n = 1e-8;  ///< m/N
@@ -47,8 +47,8 @@ class Scene {
     return add_block(centroid, mass, R_WB * inertia.asDiagonal() * R_WB.transpose());
   }
 
-  /// Contact at a point, normal from a to b; `first_tangent` fixes the frame when given. Of a cyclic scene a
-  /// and b may be images of their blocks, turned by turn_a and turn_b.
+  /// Contact at a point with the normal from a to b; `first_tangent` fixes the frame if given. In a cyclic
+  /// scene a and b may be images of their blocks, rotated by turn_a and turn_b.
   void add_contact(int a, int b, const Vec3& point, const Vec3& normal, const Joint& joint, double gap = 0.0,
                    const Vec3& first_tangent = Vec3::Zero(), const Mat3& turn_a = Mat3::Identity(),
                    const Mat3& turn_b = Mat3::Identity()) {
@@ -121,8 +121,8 @@ inline ContactProblem stack(const std::vector<double>& densities, double h, cons
   return scene.problem();
 }
 
-/// Block 1 x 1 x 0.2 m on a plane inclined by tan(angle) = slope (VERIFICATION 1.1); axes of the plane, x
-/// down the slope, z its normal.
+/// Block of 1 x 1 x 0.2 m on a plane inclined by tan(angle) = slope, in the axes of the plane: x down the
+/// slope, z its normal.
 inline ContactProblem incline(double slope, double h, const Joint& joint, double speed = 0.0,
                               double gap = 0.0) {
   const double angle = std::atan(slope);
@@ -137,8 +137,8 @@ inline ContactProblem incline(double slope, double h, const Joint& joint, double
   return scene.problem();
 }
 
-/// Rigid plate on four legs at (+-1, +-1), weight W at (x, y) of the centroid (VERIFICATION 1.7). Order of
-/// the contacts: (++), (+-), (-+), (--).
+/// Rigid plate of weight W, centroid at (x, y), on four legs at (+-1, +-1). Order of the contacts: (++),
+/// (+-), (-+), (--).
 inline ContactProblem table(double weight, double x, double y, double h, const Joint& joint) {
   Scene scene(h, {0, 0, -kGravity});
   const double mass = weight / kGravity;
@@ -149,8 +149,8 @@ inline ContactProblem table(double weight, double x, double y, double h, const J
   return scene.problem();
 }
 
-/// Prism in a V of two planes, each `phi` from the horizontal, the groove's axis x tilted by theta down x
-/// (VERIFICATION 1.3); axes of the groove. `velocity` in m/s.
+/// Prism in a V-shaped groove of two planes, each inclined by `phi` to the horizontal. The axis x of the
+/// groove is tilted down by theta. In the axes of the groove; `velocity` in m/s.
 inline ContactProblem groove(double phi, double theta, double h, const Joint& joint, const Vec3& velocity) {
   Scene scene(h, kGravity * Vec3(std::sin(theta), 0, -std::cos(theta)));
   const double mass = 1000.0;
@@ -168,10 +168,9 @@ inline ContactProblem groove(double phi, double theta, double h, const Joint& jo
   return scene.problem();
 }
 
-/// Arch of n voussoirs, half embrace beta, springings fixed, one metre deep, R = 1 m, in the x-z plane;
-/// gravity tilted by `tilt` towards x (VERIFICATION 2). Intrados and extrados of a voussoir are chains of
-/// `facets` flat faces with vertices on the radii R +- t/2: one for the polygonal voussoirs of the tables,
-/// many for their exact sectors.
+/// Arch of n voussoirs in the x-z plane: half embrace beta, fixed springings, depth 1 m, R = 1 m, gravity
+/// tilted by `tilt` towards x. Intrados and extrados of a voussoir consist of `facets` flat faces with
+/// vertices on the radii R +- t/2: one facet for polygonal voussoirs, many for sectors of a ring.
 inline ContactProblem arch(int n, double thickness, double beta, double tilt, double h, const Joint& joint,
                            int facets = 1) {
   Scene scene(h, kGravity * Vec3(std::sin(tilt), 0, -std::cos(tilt)));
@@ -215,14 +214,15 @@ inline ContactProblem arch(int n, double thickness, double beta, double tilt, do
   return scene.problem();
 }
 
-/// Spherical dome of centreline radius `radius`: rings of equal angle, running bond, corner contacts on beds
-/// and heads, base on the ground. Blocks have the mass and inertia of boxes of their mean sizes.
+/// Spherical dome of centreline radius `radius`: rings of equal angle in running bond, contacts at the
+/// corners of beds and heads, base on the ground. Blocks have the mass and inertia of boxes of their mean
+/// dimensions.
 struct DomeShape {
   int rings = 40, blocks_per_ring = 32;
   double radius = 25.0, thickness = 2.2, top_angle = std::numbers::pi / 3;  ///< m, m, rad from the springing
   double gap = 0.0;  ///< m: largest random gap, uniform in [0, gap] per contact
   unsigned seed = 1;
-  int sectors = 1;  ///< > 1: the blocks of one sector, their neighbours the images of its own
+  int sectors = 1;  ///< > 1: the blocks of one sector, whose neighbours are images of its own blocks
 };
 
 inline ContactProblem dome(const DomeShape& shape, double h, const Joint& joint) {
@@ -237,7 +237,7 @@ inline ContactProblem dome(const DomeShape& shape, double h, const Joint& joint)
   const std::array radii{shape.radius - shape.thickness / 2, shape.radius + shape.thickness / 2};
   const int slots = shape.blocks_per_ring / shape.sectors;
   const auto index = [&](int ring, int slot) { return ring * slots + (slot + slots) % slots; };
-  const auto turn = [&](int slot) -> Mat3 {  // of the sector that holds the slot, -1 <= slot <= slots
+  const auto turn = [&](int slot) -> Mat3 {  // of the sector that contains the slot, -1 <= slot <= slots
     const int turns = slot < 0 ? -1 : slot / slots;
     return Eigen::AngleAxisd(2 * std::numbers::pi * turns / shape.sectors, Vec3::UnitZ()).toRotationMatrix();
   };

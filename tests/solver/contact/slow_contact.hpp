@@ -7,8 +7,8 @@
 
 namespace cupola::scenes {
 
-/// Slow and independent: minimises 1/2 g E g + g y over the cone in nested steps. Given g_n, the best g_t
-/// points against y_t with the radius min(mu g_n, |y_t| / e_t); what is left is convex in g_n, and its slope
+/// Slow, independent reference: minimises 1/2 g E g + g y over the cone. For given g_n the optimal g_t points
+/// against y_t, with the radius min(mu g_n, |y_t| / e_t). The remaining problem is convex in g_n; its slope
 /// is bisected.
 inline Vec3 slow_impulse(const ContactLaw& law, const Vec3& y) {
   const double y_t = y.tail<2>().norm();

@@ -13,7 +13,7 @@
 namespace cupola::fclib_test {
 namespace {
 
-/// A file name of this test in the temporary folder.
+/// Path of a file of this test in the temporary folder.
 std::string temporary(const std::string& name) {
   return (std::filesystem::temp_directory_path() / ("cupola_fclib_test_" + name)).string();
 }
@@ -42,7 +42,7 @@ VecX solved_impulses(const ContactProblem& problem, FrictionLaw law) {
   return x.gamma;
 }
 
-TEST(Delassus, IsTheProblemInItsImpulses) {
+TEST(Delassus, MatchesTheVelocityForm) {
   const ContactProblem problem = sample_problem();
   const DelassusProblem local = make_delassus(problem);
   const VecX gamma = VecX::Random(problem.b.size());
@@ -55,7 +55,7 @@ TEST(Delassus, IsTheProblemInItsImpulses) {
   EXPECT_LE((local.W * gamma + local.q - u).norm(), 1e-12 * u.norm());
 }
 
-TEST(Delassus, NewtonAgreesWithTheVelocityForm) {
+TEST(Delassus, NewtonFindsTheImpulsesOfTheVelocityForm) {
   const ContactProblem problem = sample_problem();
   const DelassusProblem local = make_delassus(problem);
   for (const FrictionLaw law : {FrictionLaw::associated, FrictionLaw::coulomb}) {
@@ -84,12 +84,12 @@ TEST(Fclib, RoundTripKeepsEveryBit) {
   EXPECT_EQ(read.local.mu, local.mu);
   ASSERT_TRUE(read.impulses.has_value());
   EXPECT_EQ(*read.impulses, gamma);
-  write_fclib(path, "again, without an answer", local, VecX());
+  write_fclib(path, "without a solution", local, VecX());
   EXPECT_FALSE(read_fclib(path).impulses.has_value());
   std::filesystem::remove(path);
 }
 
-TEST(Fclib, BadFilesAreExplained) {
+TEST(Fclib, RejectsInvalidFilesWithAMessage) {
   const auto message_of = [](const std::string& path) -> std::string {
     try {
       read_fclib(path);
@@ -120,10 +120,10 @@ TEST(Fclib, BadFilesAreExplained) {
   std::filesystem::remove(path);
 }
 
-// W = 2 I of three rows, q = -e1, mu = 0.4, once sound and once with one array that lies: libfclib would
-// write past the arrays that it took for the stated sizes (bad_m, bad_nz, nzmax_too_small), or end the
-// process (bad_text).
-TEST(Fclib, SizesAreThoseOfTheArraysAndNothingElseIsOpened) {
+// W = 2 I with three rows, q = -e1, mu = 0.4: valid files, and files with one false array. libfclib would
+// write past the end of arrays of the stated sizes (bad_m, bad_nz, nzmax_too_small), or end the process
+// (bad_text).
+TEST(Fclib, ChecksSizesAndOpensNoOtherFile) {
   const std::string seeds = CUPOLA_SOURCE_DIR "/tests/fuzz/seeds/fclib/";
   for (const char* name : {"columns", "rows", "triplets", "nzmax_too_small"}) {
     const FclibProblem file = read_fclib(seeds + name + ".hdf5");
@@ -131,11 +131,13 @@ TEST(Fclib, SizesAreThoseOfTheArraysAndNothingElseIsOpened) {
     EXPECT_EQ(file.impulses.value(), Vec3(0.5, 0.0, 0.0)) << name;
   }
   const std::pair<const char*, const char*> bad[] = {
-      {"bad_m", "/fclib_local/W is 2000000000 x 3, its vectors say 3 x 3"},
+      {"bad_m", "/fclib_local/W is 2000000000 x 3, but its vectors require 3 x 3"},
       {"bad_nz", "/fclib_local/W/p has 3 elements"},
-      {"bad_huge", "/fclib_local/vectors/q declares 1000000000000 elements, the file holds 0 bytes of it"},
-      {"bad_external", "/fclib_local/vectors/q lies in another file"},
-      {"bad_link", "/fclib_local/W is a link, which is not followed"},
+      {"bad_huge",
+       "/fclib_local/vectors/q declares 1000000000000 elements, but the file has only 0 bytes of data for "
+       "it"},
+      {"bad_external", "/fclib_local/vectors/q is stored in another file"},
+      {"bad_link", "/fclib_local/W is a link: links are not followed"},
       {"bad_text", "/fclib_local/vectors/mu does not hold numbers"}};
   for (const auto& [name, phrase] : bad) {
     try {
@@ -147,9 +149,9 @@ TEST(Fclib, SizesAreThoseOfTheArraysAndNothingElseIsOpened) {
   }
 }
 
-// Problems of other codes: full 3x3 structure, no compliance, Coulomb's law, W of Capsules unsymmetric by
+// Problems from other codes: full 3x3 blocks, no compliance, Coulomb's law; W of Capsules is unsymmetric by
 // 1e-3.
-TEST(Fclib, PublicProblemsAreSolved) {
+TEST(Fclib, SolvesPublicProblems) {
   if (!std::filesystem::exists(shared_fclib())) GTEST_SKIP() << "no " << shared_fclib();
   int solved = 0;
   for (const auto& entry : std::filesystem::directory_iterator(shared_fclib())) {

@@ -1,4 +1,4 @@
-// The sparse factor against a dense one, and its bits against the number of threads.
+// The sparse factor against a dense one, and the same bits for any number of threads.
 
 #include "solver/contact/blocks/block_cholesky.hpp"
 
@@ -18,7 +18,7 @@ struct Problem {
   BlockMatrix matrix;
 };
 
-/// The Hessian of a dome whose contacts all stick; mass matrices as they are.
+/// The Hessian of a dome with all contacts sticking, not whitened.
 Problem dome_hessian(int rings, int blocks_per_ring) {
   scenes::DomeShape shape;
   shape.rings = rings;
@@ -49,8 +49,8 @@ VecX random_vector(Eigen::Index n) {
   return x;
 }
 
-// Ten digits: the condition number of these matrices is 1e4.
-TEST(BlockCholesky, SolvesAsADenseFactor) {
+// Ten digits, as the condition number of these matrices is 1e4.
+TEST(BlockCholesky, MatchesADenseFactor) {
   for (const auto& [rings, slots] : {std::pair{1, 4}, {5, 8}, {9, 12}}) {
     const Problem p = dome_hessian(rings, slots);
     const VecX rhs = random_vector(6 * p.pattern.num_blocks());
@@ -61,21 +61,21 @@ TEST(BlockCholesky, SolvesAsADenseFactor) {
   }
 }
 
-TEST(BlockCholesky, RefusesWhatIsNotPositiveDefiniteOrNoNumber) {
+TEST(BlockCholesky, RejectsIndefiniteMatricesAndNaN) {
   Problem p = dome_hessian(4, 8);
   BlockCholesky factor;
-  const Mat6 sound = p.matrix.diagonal[9];
-  p.matrix.diagonal[9] = -sound;
+  const Mat6 valid = p.matrix.diagonal[9];
+  p.matrix.diagonal[9] = -valid;
   EXPECT_FALSE(factor.factorize(p.pattern, p.matrix));
   p.matrix.diagonal[9](2, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(factor.factorize(p.pattern, p.matrix));
   EXPECT_FALSE(factor.has_factor());
-  p.matrix.diagonal[9] = sound;
+  p.matrix.diagonal[9] = valid;
   EXPECT_TRUE(factor.factorize(p.pattern, p.matrix));
 }
 
-// 1,600 blocks have panels wider than a tile, subtrees and a top.
-TEST(BlockCholesky, SameBitsOnAnyNumberOfThreads) {
+// 1,600 blocks: panels wider than a tile, subtrees, and panels above them.
+TEST(BlockCholesky, GivesTheSameBitsForAnyNumberOfThreads) {
   const VecX rhs = random_vector(6 * 1600);
   VecX expected;
   for (const int threads : {1, 2, 3}) {

@@ -20,7 +20,7 @@ Eigen::MatrixXd dense(const BlockRows& A) {
   return result;
 }
 
-/// Some blocks at random places.
+/// A quarter of the blocks filled at random.
 BlockRows random_rows(int rows, int columns, unsigned seed) {
   std::mt19937 random(seed);
   BlockRows A;
@@ -37,9 +37,9 @@ BlockRows random_rows(int rows, int columns, unsigned seed) {
   return A;
 }
 
-constexpr double kRounding = 1e-13;  // sums of some hundred products of numbers below one
+constexpr double kRounding = 1e-13;  // of sums of about a hundred products of numbers below one
 
-TEST(BlockRows, MultiplyAsDenseMatrices) {
+TEST(BlockRows, MultiplyLikeDenseMatrices) {
   const BlockRows A = random_rows(30, 20, 1), B = random_rows(20, 25, 2);
   const VecX x = VecX::LinSpaced(6 * 20, -1.0, 1.0);
   EXPECT_LT((multiply(A, x) - dense(A) * x).norm(), kRounding * x.norm());
@@ -47,14 +47,14 @@ TEST(BlockRows, MultiplyAsDenseMatrices) {
   EXPECT_EQ(dense(transpose(A)), dense(A).transpose());
 }
 
-TEST(BlockRows, OfProductsAreInOrder) {
+TEST(BlockRows, AreSortedInAProduct) {
   const BlockRows C = multiply(random_rows(30, 20, 3), random_rows(20, 25, 4));
   for (int i = 0; i < C.num_rows(); ++i) {
     for (int k = C.start[i] + 1; k < C.start[i + 1]; ++k) EXPECT_LT(C.column[k - 1], C.column[k]);
   }
 }
 
-TEST(BlockRows, HoldBothTriangles) {
+TEST(BlockRows, ContainBothTriangles) {
   const ContactProblem p = scenes::dome({.rings = 5, .blocks_per_ring = 8}, 1.0, {});
   const ContactGraph graph = contact_graph(p);
   const BlockMatrix H = assemble_hessian(p, graph, std::vector<Mat3>(p.num_contacts(), Mat3::Identity()));
@@ -67,7 +67,7 @@ TEST(BlockRows, HoldBothTriangles) {
 }
 
 // 3,200 blocks: enough work for a second thread in the product of the matrix with itself.
-TEST(BlockRows, SameBitsOnAnyNumberOfThreads) {
+TEST(BlockRows, GiveTheSameBitsForAnyNumberOfThreads) {
   const ContactProblem p = scenes::dome({.rings = 50, .blocks_per_ring = 64}, 1.0, {});
   const ContactGraph graph = contact_graph(p);
   const BlockRows A = both_triangles(

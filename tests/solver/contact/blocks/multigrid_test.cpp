@@ -1,4 +1,4 @@
-// The multigrid preconditioner of very many blocks, and Newton's method with it.
+// The multigrid preconditioner for many blocks, and Newton's method with it.
 
 #include "solver/contact/blocks/multigrid.hpp"
 
@@ -22,7 +22,7 @@ struct System {
   ContactProblem problem;
   WhitenedProblem white;
   ContactGraph graph;
-  BlockMatrix H;  ///< all contacts stick
+  BlockMatrix H;  ///< with all contacts sticking
   RigidMotions motions;
 };
 
@@ -36,24 +36,25 @@ System system_of(const ContactProblem& problem) {
   return s;
 }
 
-/// Unlike all modes: deterministic, of mean zero.
+/// A deterministic vector that is no single mode.
 VecX some_vector(int num_blocks) {
   VecX x(6 * num_blocks);
   for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = std::sin(1.7 * static_cast<double>(i * i % 1009));
   return x;
 }
 
-int gradients_to_six_digits(const System& s, const Multigrid& hierarchy) {
-  constexpr int kMost = 500;
+/// CG iterations that reduce the residual by six digits.
+int iterations_to_six_digits(const System& s, const Multigrid& multigrid) {
+  constexpr int kMaxIterations = 500;
   VecX r = s.white.problem.v_star;
-  VecX z = hierarchy.cycle(r), p = z;
+  VecX z = multigrid.cycle(r), p = z;
   double rz = r.dot(z);
   const double target = 1e-12 * rz;
   int k = 0;
-  for (; k < kMost && rz > target; ++k) {
-    const VecX Hp = hierarchy.multiply(p);
+  for (; k < kMaxIterations && rz > target; ++k) {
+    const VecX Hp = multigrid.multiply(p);
     r -= rz / p.dot(Hp) * Hp;
-    z = hierarchy.cycle(r);
+    z = multigrid.cycle(r);
     const double next = r.dot(z);
     p = z + next / rz * p;
     rz = next;
@@ -61,9 +62,9 @@ int gradients_to_six_digits(const System& s, const Multigrid& hierarchy) {
   return k;
 }
 
-// What a common rigid motion is to the blocks moves no contact between them. Rounding: arms of metres, D of
-// one.
-TEST(RigidMotions, LeaveTouchingBlocksTogether) {
+// A common rigid motion of all blocks causes no relative velocity at the contacts between them. Rounding:
+// arms of metres, D of order one.
+TEST(RigidMotions, CauseNoRelativeVelocity) {
   const System s = system_of(scenes::dome({.rings = 10, .blocks_per_ring = 16}, 1.0, kJoint));
   const Eigen::Matrix<double, 6, 1> common{0.3, -0.2, 0.1, 0.05, -0.04, 0.02};
   VecX w(6 * s.problem.num_blocks());
@@ -75,8 +76,8 @@ TEST(RigidMotions, LeaveTouchingBlocksTogether) {
   }
 }
 
-// Across the seam of a sector as well, but for one line of joints where going round the axis ends.
-TEST(RigidMotions, CrossTheSeamOfASector) {
+// The same across the seam of a sector, except at one line of joints, where the path around the axis closes.
+TEST(RigidMotions, ContinueAcrossTheSeamOfASector) {
   const System s = system_of(scenes::dome({.rings = 10, .blocks_per_ring = 64, .sectors = 8}, 1.0, kJoint));
   const Eigen::Matrix<double, 6, 1> common{0.3, -0.2, 0.1, 0.05, -0.04, 0.02};
   VecX w(6 * s.problem.num_blocks());
@@ -90,24 +91,25 @@ TEST(RigidMotions, CrossTheSeamOfASector) {
     torn += relative_velocity(s.white.problem, i, w).norm() > 1e-12;
   }
   EXPECT_GT(torn, 0);
-  EXPECT_LT(torn, 0.3 * free);  // of 8 blocks around, 1 and a half lie at the tear
+  EXPECT_LT(torn, 0.3 * free);  // 1.5 of the 8 blocks of a ring lie at this line
 }
 
-TEST(RigidMotions, AreNotMadeUpWhereLeversAreNone) {
+TEST(RigidMotions, AreEmptyIfContactsAreNotInSpace) {
   ContactProblem problem = scenes::dome({.rings = 4, .blocks_per_ring = 8}, 1.0, kJoint);
   for (Mat63& D : problem.D_b) D(0, 0) += 0.1;
   const WhitenedProblem white = whiten(problem);
   EXPECT_TRUE(rigid_motions(problem, contact_graph(problem), white.L).empty());
 }
 
-// Under gravity. The bound is twice what was found (10 and 11); motions that neighbours do not share take ten
-// times as many (117 and 238), so the count tells whether groups keep theirs.
-TEST(Multigrid, TakesAFewGradientsWhateverTheNumberOfBlocks) {
+// Under gravity. The bound is twice the measured number (10 and 11). With motions that neighbours do not
+// share it is ten times as large (117 and 238), so the number shows whether aggregates preserve rigid
+// motions.
+TEST(Multigrid, NeedsFewIterationsForAnyNumberOfBlocks) {
   for (const int refine : {1, 2}) {
     System s = system_of(scenes::dome({.rings = 40 * refine, .blocks_per_ring = 40 * refine}, 100.0, kJoint));
-    Multigrid hierarchy;
-    ASSERT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
-    EXPECT_LE(gradients_to_six_digits(s, hierarchy), 22) << refine;
+    Multigrid multigrid;
+    ASSERT_TRUE(multigrid.build(s.graph.pattern, s.H, s.motions));
+    EXPECT_LE(iterations_to_six_digits(s, multigrid), 22) << refine;
     for (std::size_t k = 0; k < s.motions.motion.size(); ++k) {
       const auto scrambled = [k](Eigen::Index r, Eigen::Index c) {
         return (r == c) + 0.5 * std::sin(3.7 * static_cast<double>(k) + 1.3 * static_cast<double>(r) +
@@ -115,51 +117,51 @@ TEST(Multigrid, TakesAFewGradientsWhateverTheNumberOfBlocks) {
       };
       s.motions.motion[k] = Mat6::NullaryExpr(scrambled);
     }
-    ASSERT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
-    EXPECT_GT(gradients_to_six_digits(s, hierarchy), 60) << refine;
+    ASSERT_TRUE(multigrid.build(s.graph.pattern, s.H, s.motions));
+    EXPECT_GT(iterations_to_six_digits(s, multigrid), 60) << refine;
   }
 }
 
-TEST(Multigrid, IsSymmetricAndPositive) {
+TEST(Multigrid, IsSymmetricPositiveDefinite) {
   const System s = system_of(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
-  Multigrid hierarchy;
-  ASSERT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
+  Multigrid multigrid;
+  ASSERT_TRUE(multigrid.build(s.graph.pattern, s.H, s.motions));
   const VecX x = some_vector(s.problem.num_blocks()), y = x.reverse();
-  const VecX Bx = hierarchy.cycle(x), By = hierarchy.cycle(y);
+  const VecX Bx = multigrid.cycle(x), By = multigrid.cycle(y);
   EXPECT_GT(x.dot(Bx), 0.0);
-  // Rounding: the matrix has a condition number of 1e8.
+  // Rounding: the condition number of the matrix is 1e8.
   EXPECT_NEAR(y.dot(Bx), x.dot(By), 1e-8 * std::sqrt(x.dot(Bx) * y.dot(By)));
 }
 
-// 6,400 blocks: two pieces of a sweep, and products that are worth a second thread.
-TEST(Multigrid, SameBitsOnAnyNumberOfThreads) {
+// 6,400 blocks: two pieces of a sweep, and enough work for a second thread in products.
+TEST(Multigrid, GivesTheSameBitsForAnyNumberOfThreads) {
   const System s = system_of(scenes::dome({.rings = 80, .blocks_per_ring = 80}, 100.0, kJoint));
   const VecX x = some_vector(s.problem.num_blocks());
   VecX expected;
   for (const int threads : {1, 2, 3}) {
     set_num_threads(threads);
-    Multigrid hierarchy;
-    ASSERT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
-    const VecX y = hierarchy.cycle(x);
+    Multigrid multigrid;
+    ASSERT_TRUE(multigrid.build(s.graph.pattern, s.H, s.motions));
+    const VecX y = multigrid.cycle(x);
     if (threads == 1) expected = y;
     EXPECT_TRUE((y.array() == expected.array()).all()) << threads << " threads";
   }
   set_num_threads(1);
 }
 
-TEST(Multigrid, RefusesWhatIsNotPositiveDefiniteOrNoNumber) {
+TEST(Multigrid, RejectsIndefiniteMatricesAndNaN) {
   System s = system_of(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
-  Multigrid hierarchy;
-  const Mat6 sound = s.H.diagonal[9];
-  s.H.diagonal[9] = -sound;
-  EXPECT_FALSE(hierarchy.build(s.graph.pattern, s.H, s.motions));
+  Multigrid multigrid;
+  const Mat6 valid = s.H.diagonal[9];
+  s.H.diagonal[9] = -valid;
+  EXPECT_FALSE(multigrid.build(s.graph.pattern, s.H, s.motions));
   s.H.diagonal[9](2, 1) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(hierarchy.build(s.graph.pattern, s.H, s.motions));
-  s.H.diagonal[9] = sound;
-  EXPECT_TRUE(hierarchy.build(s.graph.pattern, s.H, s.motions));
+  EXPECT_FALSE(multigrid.build(s.graph.pattern, s.H, s.motions));
+  s.H.diagonal[9] = valid;
+  EXPECT_TRUE(multigrid.build(s.graph.pattern, s.H, s.motions));
 }
 
-TEST(NewtonDirection, OfNothingIsNothing) {
+TEST(NewtonDirection, IsZeroForAZeroRightHandSide) {
   const System s = system_of(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
   VecX d;
   SolveSummary summary;
@@ -169,13 +171,13 @@ TEST(NewtonDirection, OfNothingIsNothing) {
   EXPECT_EQ(summary.conjugate_gradients, 0);
 }
 
-/// Forces of a dome by the hierarchy, and by factors, which a lagged solve takes.
+/// Compares forces found with multigrid to those found with factors (which lag_factor selects).
 void expect_same_forces(const ContactProblem& problem) {
   SolveOptions options;
   options.tolerance = 1e-10;
   options.reference_speed = scenes::kGravity * problem.h;
-  ContactSolution by_hierarchy, by_factor;
-  const SolveSummary with = NewtonSolver().solve(problem, options, &by_hierarchy);
+  ContactSolution by_multigrid, by_factor;
+  const SolveSummary with = NewtonSolver().solve(problem, options, &by_multigrid);
   ASSERT_EQ(with.ending, SolveEnding::converged) << with.message;
   EXPECT_EQ(with.factorizations, 0);
   EXPECT_GT(with.conjugate_gradients, 0);
@@ -183,20 +185,20 @@ void expect_same_forces(const ContactProblem& problem) {
   const SolveSummary without = NewtonSolver().solve(problem, options, &by_factor);
   ASSERT_EQ(without.ending, SolveEnding::converged) << without.message;
   EXPECT_GT(without.factorizations, 0);
-  // c = 1e-8 m/N, both to a momentum residual of 1e-10
-  EXPECT_LT((by_hierarchy.gamma - by_factor.gamma).norm(), 1e-6 * by_factor.gamma.norm());
+  // c = 1e-8 m/N, both solved to a momentum residual of 1e-10
+  EXPECT_LT((by_multigrid.gamma - by_factor.gamma).norm(), 1e-6 * by_factor.gamma.norm());
 }
 
-TEST(NewtonByHierarchy, FindsTheForcesThatFactorsFind) {
+TEST(NewtonWithMultigrid, FindsTheForcesFoundWithFactors) {
   expect_same_forces(scenes::dome({.rings = 100, .blocks_per_ring = 104, .gap = 1e-5}, 100.0, kJoint));
 }
 
-TEST(NewtonByHierarchySlow, FindsThemInASector) {
+TEST(NewtonWithMultigridSlow, FindsTheForcesInASector) {
   expect_same_forces(scenes::dome({.rings = 128, .blocks_per_ring = 640, .sectors = 8}, 100.0, kJoint));
 }
 
-// Contacts whose directions are not orthonormal tell nothing of where blocks lie: factors it is.
-TEST(NewtonByHierarchySlow, LeavesOtherLeversToAFactor) {
+// Contacts whose directions are not orthonormal do not give the positions of the blocks: factors are used.
+TEST(NewtonWithMultigridSlow, UsesFactorsIfContactsAreNotInSpace) {
   ContactProblem problem = scenes::dome({.rings = 100, .blocks_per_ring = 104}, 100.0, kJoint);
   for (Mat63& D : problem.D_a) D *= 2.0;
   for (Mat63& D : problem.D_b) D *= 2.0;
@@ -210,10 +212,10 @@ TEST(NewtonByHierarchySlow, LeavesOtherLeversToAFactor) {
   EXPECT_EQ(summary.conjugate_gradients, 0);
 }
 
-// A chain of 10,000 voussoirs bends so softly (condition number 1e16) that few digits of a direction lead
-// nowhere: the loop notices, and starts once more with factors, which at least balance it as far as rounding
-// lets them.
-TEST(NewtonByHierarchySlow, GivesWayToFactorsWhereItLeadsNowhere) {
+// A chain of 10,000 voussoirs is so flexible (condition number 1e16) that directions of a few digits make no
+// progress. The loop detects this and restarts with factors, which reduce the residual as far as rounding
+// permits.
+TEST(NewtonWithMultigridSlow, FallsBackToFactorsWithoutProgress) {
   const ContactProblem problem = scenes::arch(10000, 0.3, 1.4, 0.0, 100.0, kJoint);
   SolveOptions options;
   options.tolerance = 1e-8;

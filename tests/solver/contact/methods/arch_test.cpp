@@ -1,5 +1,11 @@
-// Published and derived limits of arches (VERIFICATION 0, 2) on one step of exact rigidity, and scenes at the
-// extremes.
+// Limits of arches with rigid contacts, in one step from rest.
+//
+// For rigid contacts without gaps, one step from rest under the associated law gives zero velocity if and
+// only if contact forces inside the friction cones can balance the loads (strong duality). The limits below
+// are thresholds of that linear program, which independent scripts solved with HiGHS; they are exact for
+// voussoirs of the stated shape. Continuum limits for comparison: t/R = 0.1075 for the semicircle
+// (Milankovitch, radial joints; Makris and Alexakis), 0.107426 (Cocchetti and Rizzi 2020, Frattura ed
+// Integrita Strutturale 51, table 3).
 
 #include <gtest/gtest.h>
 
@@ -36,7 +42,7 @@ double speed_ratio(int n, double thickness, double mu, double tilt_deg = 0.0, do
   return fastest / (kGravity * h);
 }
 
-// VERIFICATION 0: exact one-step speeds by an independent QP, to 1e-3.
+// Exact speeds after one step from an independent quadratic program (2D, NNLS), to 1e-3.
 TEST(Arch, OneStepSpeedsOfMechanisms) {
   for (const auto& [below, expected] :
        {std::pair{0.99, .006331}, {0.98, .01264}, {0.95, .03142}, {0.90, .06221}, {.08 / .10672, .1587}}) {
@@ -50,13 +56,14 @@ TEST(Arch, OneStepSpeedsOfMechanisms) {
   }
 }
 
-TEST(Arch, StandsAtTheLimitsOfTheTables) {
+TEST(Arch, StandsJustAboveTheLimits) {
   EXPECT_LT(speed_ratio(27, 0.1068, 0.8), 1e-5);
   EXPECT_LT(speed_ratio(27, 0.25, 0.31), 1e-5);
   EXPECT_LT(speed_ratio(27, 0.15, 0.8, 8.2), 1e-5);
 }
 
-// VERIFICATION 2.1: minimum t/R of n polygonal voussoirs, rotation mode: 1 % on either side.
+// Minimum t/R of a semicircle of n polygonal voussoirs at mu = 0.8, which fails by rotation. 1 % on either
+// side.
 TEST(Arch, MinimumThickness) {
   for (const auto& [n, limit] : {std::pair{7, .09570},
                                  {8, .09997},
@@ -77,12 +84,13 @@ TEST(Arch, MinimumThickness) {
   }
 }
 
-// Voussoirs that are sectors of a ring are heavier outside than polygonal ones: their limits lie up to 0.9 %
-// higher. 32 facets per voussoir leave a thousandth of that difference, the tables' last digit 0.05 %.
+// Voussoirs that are sectors of a ring have more mass outside than polygonal ones; their limits are up to 0.9
+// % higher. 32 facets per voussoir leave a thousandth of that difference; the last digit of the limits is
+// 0.05 %.
 constexpr int kSectorFacets = 32;
 constexpr double kSectorTolerance = 2e-3;
 
-// VERIFICATION 2.1, exact sectors: 0.2 % on either side, which tells them from polygons up to n = 16.
+// Sectors of a ring: 0.2 % on either side, which distinguishes them from polygonal voussoirs up to n = 16.
 TEST(Arch, MinimumThicknessOfExactSectors) {
   for (const auto& [n, limit] : {std::pair{7, .09624},
                                  {8, .10086},
@@ -106,7 +114,7 @@ TEST(Arch, MinimumThicknessOfExactSectors) {
   }
 }
 
-// VERIFICATION 2.3, exact sectors of a hundredth of the arch: 0.3 % on either side.
+// 100 sectors of a ring, by half embrace in degrees: 0.3 % on either side.
 TEST(Arch, MinimumThicknessByEmbraceOfExactSectors) {
   for (const auto& [beta, limit] : {std::pair{45.0, .007496},
                                     {60.0, .022849},
@@ -122,7 +130,8 @@ TEST(Arch, MinimumThicknessByEmbraceOfExactSectors) {
   }
 }
 
-// VERIFICATION 2.2: minimum thickness of 27 voussoirs by friction, to 0.5 %; below 0.305 none stands.
+// Minimum t/R of 27 voussoirs by friction, to 0.5 %; at mu <= 0.305 no thickness stands. The modes are those
+// of Gilbert, Casapulla and Ahmed (2006): rotation above mu of about 0.395, mixed between 0.31 and 0.395.
 TEST(Arch, MinimumThicknessByFriction) {
   for (const auto& [mu, limit] : {std::pair{.39, .11163},
                                   {.38, .12112},
@@ -140,7 +149,7 @@ TEST(Arch, MinimumThicknessByFriction) {
     EXPECT_GT(speed_ratio(27, thickness, 0.305), 1e-4) << thickness;
 }
 
-// VERIFICATION 2.2: minimum friction, to +-0.003.
+// Minimum friction by number of voussoirs and t/R, to +-0.003.
 TEST(Arch, MinimumFriction) {
   for (const auto& [n, thickness, limit] : {std::tuple{27, .12, .38118},
                                             {27, .15, .35114},
@@ -161,7 +170,7 @@ TEST(Arch, MinimumFriction) {
   }
 }
 
-// VERIFICATION 2.3: minimum thickness by half embrace, to 1 %.
+// Minimum t/R of 27 polygonal voussoirs by half embrace in degrees, to 1 %.
 TEST(Arch, MinimumThicknessByEmbrace) {
   for (const auto& [beta, limit] : {std::pair{30.0, .001520},
                                     {40.0, .004703},
@@ -181,7 +190,8 @@ TEST(Arch, MinimumThicknessByEmbrace) {
   }
 }
 
-// VERIFICATION 2.4: collapse tilt, to 3 %.
+// Collapse tilt of gravity in degrees, to 3 %: arctan of the horizontal load factor (problems of Oppenheim
+// 1992 and Clemente 1998).
 TEST(Arch, CollapseTilt) {
   for (const auto& [n, beta, thickness, mu, limit] : {std::tuple{27, 90.0, .15, .4, 2.997},
                                                       {27, 90.0, .15, .8, 8.269},

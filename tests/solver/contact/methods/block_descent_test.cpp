@@ -11,8 +11,8 @@ namespace {
 
 const scenes::Joint kJoint{.mu = 0.4};
 
-/// Velocities (whitened) and cost of the answer.
-PrimalPoint answer_of(const ContactProblem& problem, const WhitenedProblem& white) {
+/// The solution in whitened velocities, with its cost.
+PrimalPoint solution_of(const ContactProblem& problem, const WhitenedProblem& white) {
   SolveOptions options;
   options.tolerance = 1e-12;
   options.reference_speed = scenes::kGravity * problem.h;
@@ -21,22 +21,22 @@ PrimalPoint answer_of(const ContactProblem& problem, const WhitenedProblem& whit
   return primal_point(white.problem, white.to_w(solution.v));
 }
 
-TEST(BlockDescent, SolvesWhatIsOneBlock) {
+TEST(BlockDescent, SolvesProblemsOfOneBlock) {
   for (const double slope : {0.2, 0.39, 0.6}) {  // sticks, nearly slides, slides
     const ContactProblem problem = scenes::incline(slope, 0.01, kJoint);
     const WhitenedProblem white = whiten(problem);
-    const PrimalPoint answer = answer_of(problem, white);
+    const PrimalPoint exact = solution_of(problem, white);
     const BlockDescent descent(white.problem);
     PrimalPoint point = primal_point(white.problem, white.problem.v_star);
     for (int k = 0; k < 20; ++k) point = descent.descend(point, 0.0);
-    EXPECT_LT((point.w - answer.w).norm(), 1e-10 * white.problem.v_star.norm()) << slope;
+    EXPECT_LT((point.w - exact.w).norm(), 1e-10 * white.problem.v_star.norm()) << slope;
   }
 }
 
-TEST(BlockDescent, LowersTheCostAndNotBelowTheAnswers) {
+TEST(BlockDescent, LowersTheCostTowardsTheMinimum) {
   const ContactProblem problem = scenes::arch(20, 0.15, 1.2, 0.1, 0.01, kJoint);
   const WhitenedProblem white = whiten(problem);
-  const PrimalPoint answer = answer_of(problem, white);
+  const PrimalPoint exact = solution_of(problem, white);
   const BlockDescent descent(white.problem);
   PrimalPoint point = primal_point(white.problem, white.problem.v_star);
   const double first = point.cost;
@@ -44,17 +44,17 @@ TEST(BlockDescent, LowersTheCostAndNotBelowTheAnswers) {
     const double before = point.cost;
     point = descent.descend(point, 0.0);
     EXPECT_LE(point.cost, before * (1.0 + 1e-15));  // rounding of a sum
-    EXPECT_GE(point.cost, answer.cost * (1.0 - 1e-12));
+    EXPECT_GE(point.cost, exact.cost * (1.0 - 1e-12));
   }
-  EXPECT_LT(point.cost - answer.cost, 0.5 * (first - answer.cost));
+  EXPECT_LT(point.cost - exact.cost, 0.5 * (first - exact.cost));
 }
 
-TEST(BlockDescent, LeavesBlocksInBalanceAlone) {
+TEST(BlockDescent, SkipsBlocksInEquilibrium) {
   const ContactProblem problem = scenes::arch(20, 0.15, 1.2, 0.0, 0.01, kJoint);
   const WhitenedProblem white = whiten(problem);
-  const PrimalPoint answer = answer_of(problem, white);
-  const PrimalPoint same = BlockDescent(white.problem).descend(answer, 2.0 * answer.largest_block_gradient);
-  EXPECT_EQ(same.w, answer.w);
+  const PrimalPoint exact = solution_of(problem, white);
+  const PrimalPoint same = BlockDescent(white.problem).descend(exact, 2.0 * exact.largest_block_gradient);
+  EXPECT_EQ(same.w, exact.w);
 }
 
 }  // namespace

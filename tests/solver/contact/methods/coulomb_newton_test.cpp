@@ -18,7 +18,7 @@ SolveOptions options_for(const ContactProblem& problem, double tolerance) {
   return options;
 }
 
-/// Solves from nothing and checks the answer against the problem alone.
+/// Solves with a cold start and checks the residuals of the solution.
 ContactSolution solve(const ContactProblem& problem, double tolerance = 1e-10) {
   ContactSolution x;
   const SolveSummary summary = solve_coulomb_newton(problem, options_for(problem, tolerance), &x);
@@ -29,8 +29,8 @@ ContactSolution solve(const ContactProblem& problem, double tolerance = 1e-10) {
   return x;
 }
 
-// Coulomb's block on an incline gains g (sin a - mu cos a) h in a step, compliant (its springs are soft
-// against h by 1e-10 of the weight) or rigid.
+// A block on an incline under Coulomb's law gains the speed g (sin a - mu cos a) h in a step, with rigid
+// contacts or with compliant ones (whose effect is 1e-10 of the weight here).
 TEST(CoulombNewton, SlidesDownTheIncline) {
   const double h = 0.01, angle = std::atan(0.5), A = kGravity * (std::sin(angle) - 0.4 * std::cos(angle));
   for (const double c : {0.0, 1e-15}) {
@@ -40,7 +40,7 @@ TEST(CoulombNewton, SlidesDownTheIncline) {
   }
 }
 
-TEST(CoulombNewton, AgreesWithTheConvexPasses) {
+TEST(CoulombNewton, AgreesWithTheOuterIterations) {
   scenes::DomeShape shape;
   shape.rings = 8;
   shape.blocks_per_ring = 12;
@@ -49,19 +49,19 @@ TEST(CoulombNewton, AgreesWithTheConvexPasses) {
     ContactSolverOptions options;
     static_cast<SolveOptions&>(options) = options_for(problem, 1e-10);
     options.law = FrictionLaw::coulomb;
-    ContactSolution passes;
-    const SolveSummary summary = solve_contact(problem, options, &passes);
+    ContactSolution reference;
+    const SolveSummary summary = solve_contact(problem, options, &reference);
     ASSERT_EQ(summary.ending, SolveEnding::converged) << summary.message;
-    EXPECT_LE((solve(problem).gamma - passes.gamma).norm(), 1e-7 * passes.gamma.norm()) << mu;
+    EXPECT_LE((solve(problem).gamma - reference.gamma).norm(), 1e-7 * reference.gamma.norm()) << mu;
   }
 }
 
-TEST(CoulombNewton, EndsWithAStatusWhateverItIsGiven) {
+TEST(CoulombNewton, ReportsItsEndingForAnyInput) {
   ContactProblem broken = scenes::incline(0.5, 0.01, {0.4, 1e-8, 1e-8});
   broken.mu[0] = -1.0;
   ContactSolution x;
   EXPECT_EQ(solve_coulomb_newton(broken, options_for(broken, 1e-8), &x).ending, SolveEnding::failed);
-  // Beyond mu = 1 there may be no answer; a converged that is not would show in the residuals.
+  // Above mu = 1 there may be no solution. `converged` must agree with the residuals.
   scenes::DomeShape shape;
   shape.rings = 4;
   shape.blocks_per_ring = 8;

@@ -1,4 +1,4 @@
-// Contact problems at the extremes of mass ratio, step, friction, compliance, height and size.
+// Contact problems with extreme mass ratios, time steps, friction, compliance, heights and sizes.
 
 #include <gtest/gtest.h>
 
@@ -28,12 +28,12 @@ TEST(Extremes, MassRatios) {
     EXPECT_LE(r.contact_law, 1e-10);
     double joint = 0.0;
     for (int i = 0; i < 4; ++i) joint += x.gamma[3 * i] / problem.h;
-    EXPECT_NEAR(joint, (2 + 2 * ratio) * kGravity, 1e-6 * ratio * kGravity);  // 1e-7: inertia's share
+    EXPECT_NEAR(joint, (2 + 2 * ratio) * kGravity, 1e-6 * ratio * kGravity);  // 1e-7: share of inertia
   }
 }
 
-// Steps of 1e-5 to 10 s, friction 0 to 10, compliance 1e-14 to 1e-4 m/N. Where blocks fall freely on contacts
-// of tiny compliance, no pair of doubles meets the law better than contact_law_rounding.
+// Steps of 1e-5 to 10 s, friction 0 to 10, compliance 1e-14 to 1e-4 m/N. Where blocks slide on contacts of
+// tiny compliance, contact_law_rounding limits the accuracy of the contact law.
 TEST(Extremes, TimeStepsAndFriction) {
   scenes::DomeShape shape;
   shape.rings = 6;
@@ -65,7 +65,7 @@ TEST(Extremes, HundredBlockStack) {
     solve(problem, 1e-10, &x);
     double joint = 0.0;
     for (int i = 0; i < 4; ++i) joint += x.gamma[3 * i] / problem.h;
-    // Inertia takes 100 m v / h of it: displacement of the top is c W n / 8, divided by h^2 g.
+    // Share of inertia, 100 m v / h: the displacement of the top is c W n / 8, divided by h^2 g.
     EXPECT_NEAR(joint / (100 * 2000.0 * kGravity), 1.0, 1e-8 + c * 100 * 2000.0 * 100 / (h * h));
   }
 }
@@ -77,7 +77,7 @@ TEST(Extremes, SizesFromMillimetresToKilometres) {
     shape.blocks_per_ring = 12;
     shape.radius *= size;
     shape.thickness *= size;
-    const double c = 1e-8 / (size * size);  // displacement over size as at size 1
+    const double c = 1e-8 / (size * size);  // the same displacement over size as at size 1
     const ContactProblem problem = scenes::dome(shape, 1e2 * std::sqrt(size), {0.4, c, c});
     ContactSolution x;
     solve(problem, 1e-10, &x);

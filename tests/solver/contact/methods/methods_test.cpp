@@ -40,7 +40,7 @@ scenes::DomeShape small_dome() {
   return shape;
 }
 
-TEST(ContactMethods, AllAgreeOnTheForcesOfAStep) {
+TEST(ContactMethods, AgreeOnTheForcesOfAStep) {
   for (const double mu : {0.0, 0.4, 2.0}) {
     const ContactProblem problem = scenes::dome(small_dome(), 0.01, {mu, 1e-8, 3e-9});
     const Solved reference = solve(problem, ContactMethod::newton, 1e-13);
@@ -50,7 +50,7 @@ TEST(ContactMethods, AllAgreeOnTheForcesOfAStep) {
       EXPECT_LE((s.x.gamma - reference.x.gamma).norm(), 1e-8 * reference.x.gamma.norm())
           << to_string(method) << " mu " << mu;
       EXPECT_LE(s.residuals.cone_violation, 1e-14) << to_string(method);
-      // The certificate bounds the true error, up to the reference's own.
+      // The certificate bounds the true error, up to the error of the reference.
       EXPECT_GE(s.residuals.certified_force_error.value() * reference.x.gamma.norm() +
                     1e-11 * reference.x.gamma.norm(),
                 (s.x.gamma - reference.x.gamma).norm())
@@ -59,7 +59,7 @@ TEST(ContactMethods, AllAgreeOnTheForcesOfAStep) {
   }
 }
 
-TEST(ContactMethods, AllAgreeUnderCoulomb) {
+TEST(ContactMethods, AgreeUnderCoulombsLaw) {
   const ContactProblem problem = scenes::dome(small_dome(), 0.01, {0.2, 1e-8, 1e-8});
   const Solved reference = solve(problem, ContactMethod::newton, 1e-12, FrictionLaw::coulomb);
   ASSERT_EQ(reference.summary.ending, SolveEnding::converged) << reference.summary.message;
@@ -71,7 +71,7 @@ TEST(ContactMethods, AllAgreeUnderCoulomb) {
   }
 }
 
-TEST(ContactMethods, RigidStackCarriesTheWeightsAbove) {
+TEST(ContactMethods, RigidJointsCarryTheWeightAbove) {
   const std::vector<double> densities{2000, 1000, 3000};
   const ContactProblem problem = scenes::stack(densities, 0.01, {0.4, 0.0, 0.0});
   for (const ContactMethod method : kMethods) {
@@ -87,8 +87,8 @@ TEST(ContactMethods, RigidStackCarriesTheWeightsAbove) {
   }
 }
 
-// What a method did not reach it says: the ending, and residuals that agree with it.
-TEST(ContactMethods, RunningOutOfIterationsIsSaid) {
+// The ending says that the limit was reached, and the residuals agree.
+TEST(ContactMethods, ReportThatTheIterationLimitWasReached) {
   const ContactProblem problem = scenes::dome(small_dome(), 1e3, {0.4, 1e-8, 1e-8});
   for (const ContactMethod method :
        {ContactMethod::spg, ContactMethod::apgd, ContactMethod::nsgs, ContactMethod::admm}) {
@@ -105,7 +105,7 @@ TEST(ContactMethods, RunningOutOfIterationsIsSaid) {
   }
 }
 
-TEST(ContactMethods, WarmStartFromTheAnswerIsTheAnswer) {
+TEST(ContactMethods, WarmStartFromTheSolutionNeedsNoIteration) {
   const ContactProblem problem = scenes::dome(small_dome(), 0.01, {0.4, 1e-8, 1e-8});
   const Solved reference = solve(problem, ContactMethod::newton, 1e-12);
   for (const ContactMethod method : {ContactMethod::spg, ContactMethod::apgd, ContactMethod::nsgs}) {
@@ -118,7 +118,7 @@ TEST(ContactMethods, WarmStartFromTheAnswerIsTheAnswer) {
   }
 }
 
-// Independent slow answer: projected gradient with a tiny step, many times.
+// Slow, independent reference: projected gradient with small steps.
 Vec3 slow_local(const Mat3& A, const Vec3& r, double mu) {
   const double L = A.trace();
   Vec3 gamma = Vec3::Zero();
@@ -150,7 +150,7 @@ TEST(LocalContact, SolvesStickSlipAndSeparation) {
   }
 }
 
-TEST(LocalContact, FrictionlessNeedsTheNormalRowOnly) {
+TEST(LocalContact, FrictionlessContactUsesTheNormalRowOnly) {
   Mat3 A = Mat3::Constant(std::nan(""));
   A(0, 0) = 2.0;
   EXPECT_EQ(solve_local_contact(A, {-3.0, std::nan(""), 1.0}, 0.0, Vec3::Zero()), Vec3(1.5, 0, 0));

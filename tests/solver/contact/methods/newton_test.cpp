@@ -43,15 +43,16 @@ TEST(Newton, FreeBlocksFallFreely) {
   EXPECT_EQ(s.x.gamma.size(), 0);
 }
 
-TEST(Newton, NoBlocksIsAnAnswer) {
+TEST(Newton, SolvesAProblemWithoutBlocks) {
   ContactProblem problem;
   problem.h = 0.01;
   const Solved s = solve(problem);
   EXPECT_EQ(s.summary.ending, SolveEnding::converged) << s.summary.message;
 }
 
-// VERIFICATION 1.2, first step from rest: v1 = -g h / (1 + k h^2 / m), k = n / c.
-TEST(Newton, CompliantRestIsAnImplicitSpring) {
+// A block on n compliant contacts, first step from rest, by implicit Euler: v1 = -g h / (1 + k h^2 / m), k =
+// n / c.
+TEST(Newton, CompliantContactIsAnImplicitSpring) {
   const double h = 0.002, c = 1e-6;
   const ContactProblem problem = scenes::stack({1000.0}, h, {0.4, c, c});
   const Solved s = solve(problem);
@@ -60,8 +61,9 @@ TEST(Newton, CompliantRestIsAnImplicitSpring) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(normal_force(s, problem, i), -expected * h / c, 1e-9);
 }
 
-// VERIFICATION 1.1: associated incline of zero compliance; c / h^2 m = 1e-12 stands for it to about that
-// ratio.
+// Closed form of the discrete scheme for a block on an incline with rigid contacts under the associated law:
+// speed after N steps A h (N - mu^2 (1 - r^N)), gap h mu times the speed, with A = g (sin a - mu cos a) and
+// r = mu^2 / (1 + mu^2). Here the compliance is c m / h^2 = 1e-12; its effect is of that order.
 TEST(Newton, InclineSlidesWithAssociatedDilation) {
   const double h = 0.01, mu = 0.4, slope = 0.5, angle = std::atan(slope);
   const double c = 1e-12 * h * h / 400.0;
@@ -71,7 +73,7 @@ TEST(Newton, InclineSlidesWithAssociatedDilation) {
     ContactProblem problem = scenes::incline(slope, h, {mu, c, c}, speed, gap);
     problem.v_star[2] += normal_speed;
     const Solved s = solve(problem, 1e-12);
-    // gamma(v) is known to eps v / E only, so this ends `stalled`; the velocities are exact all the same.
+    // gamma(v) is accurate to eps v / E only, so the solve may end as `stalled`; the velocities are exact.
     ASSERT_TRUE(s.summary.usable()) << s.summary.message;
     speed = s.x.v[0];
     normal_speed = s.x.v[2];
@@ -85,25 +87,25 @@ TEST(Newton, InclineSlidesWithAssociatedDilation) {
 TEST(Newton, InclineSticksBelowTheFrictionAngle) {
   const double h = 0.01, c = 1e-14;
   const Solved stick = solve(scenes::incline(std::tan(21.7 * std::numbers::pi / 180), h, {0.4, c, c}));
-  EXPECT_LT(stick.x.v.norm(), 1e-8);  // elastic creep c T / h = 4e-10 m/s and the pitch that goes with it
+  EXPECT_LT(stick.x.v.norm(), 1e-8);  // elastic creep c T / h = 4e-10 m/s, and the pitch caused by it
   const Solved slip = solve(scenes::incline(std::tan(21.9 * std::numbers::pi / 180), h, {0.4, c, c}));
   EXPECT_GT(slip.x.v[0], 1e-4);
 }
 
-// VERIFICATION 1.7: F_i = W (1/4 + x x_i / 4 + y y_i / 4), whatever the compliance.
-TEST(Newton, TableLegsShareTheLoadByTheirLevers) {
+// F_i = W (1/4 + x x_i / 4 + y y_i / 4) for legs of equal compliance, whatever its value.
+TEST(Newton, TableLegsShareTheLoadByTheirLeverArms) {
   for (const double c : {1e-12, 1e-8, 1e-4}) {
     const ContactProblem problem = scenes::table(1000.0, 0.3, 0.2, 1e3, {0.4, c, c});
     const Solved s = solve(problem);
     ASSERT_EQ(s.summary.ending, SolveEnding::converged) << s.summary.message;
-    const double share = 1.0 - 1000.0 / kGravity * c / (4 * 1e6);  // what inertia leaves to the legs
+    const double share = 1.0 - 1000.0 / kGravity * c / (4 * 1e6);  // the rest is carried by inertia
     const std::array expected{0.375, 0.275, 0.225, 0.125};
     for (int i = 0; i < 4; ++i) EXPECT_NEAR(normal_force(s, problem, i), share * 1000.0 * expected[i], 1e-6);
   }
 }
 
-// VERIFICATION 0.B: a sticking contact with b_t = 0 under T creeps at c_t T / h, whatever c_n. The contacts
-// lie at the height of the centroid, so that nothing pitches.
+// With b_t = 0 (paper eq. 8, 13-14) a sticking contact under the tangential force T creeps at the speed c_t T
+// / h, independent of c_n. The contacts are at the height of the centroid, so the block does not pitch.
 TEST(Newton, StickingContactCreepsWithoutMemory) {
   const double h = 0.01, c_n = 1e-9, c_t = 1e-8, mass = 400.0, T = 900.0;
   const double creep = c_t * T / 4 / h;
@@ -114,8 +116,9 @@ TEST(Newton, StickingContactCreepsWithoutMemory) {
   EXPECT_NEAR(s.x.v[0], creep, 1e-12 * creep);
 }
 
-TEST(Newton, SelfStressOfOnePercentIsSeen) {
-  // A wedge between two walls has self-stress: gamma + t gamma_0 with D gamma_0 = 0.
+TEST(Newton, ContactLawResidualDetectsSelfStress) {
+  // A block between two walls admits self-stress: gamma + t gamma_0 with D gamma_0 = 0. Add one percent of
+  // it.
   scenes::Scene scene(1e3, {0, 0, -kGravity});
   const int block = scene.add_box({0, 0, 0}, {1, 1, 1}, 2000.0);
   const scenes::Joint joint{0.8, 1e-8, 1e-8};
@@ -149,7 +152,7 @@ TEST(Newton, DomeConvergesAtEveryStiffness) {
   }
 }
 
-TEST(Newton, CertifiedErrorBoundsTheTrueOne) {
+TEST(Newton, CertifiedErrorBoundsTheTrueError) {
   scenes::DomeShape shape;
   shape.rings = 10;
   shape.blocks_per_ring = 16;
@@ -162,7 +165,7 @@ TEST(Newton, CertifiedErrorBoundsTheTrueOne) {
   }
 }
 
-TEST(Newton, WarmStartFromTheAnswerNeedsNoIteration) {
+TEST(Newton, WarmStartFromTheSolutionNeedsNoIteration) {
   const ContactProblem problem = scenes::stack({2000, 1000, 3000}, 0.01, {0.4, 1e-8, 1e-8});
   Solved s = solve(problem);
   SolveOptions options;
@@ -170,15 +173,15 @@ TEST(Newton, WarmStartFromTheAnswerNeedsNoIteration) {
   EXPECT_EQ(NewtonSolver().solve(problem, options, &s.x).iterations, 0);
 }
 
-TEST(Newton, HeavyOnLightKeepsTheWeightsAbove) {
+TEST(Newton, HeavyBlockOnALightOne) {
   const ContactProblem problem = scenes::stack({1.0, 1e6}, 1e3, {0.4, 1e-10, 1e-10});
   const Solved s = solve(problem);
   ASSERT_EQ(s.summary.ending, SolveEnding::converged) << s.summary.message;
   for (int i = 0; i < 4; ++i)
-    EXPECT_NEAR(normal_force(s, problem, i), (1e6 + 1) * kGravity / 4, 1.0);  // 1e-7 W: inertia share
+    EXPECT_NEAR(normal_force(s, problem, i), (1e6 + 1) * kGravity / 4, 1.0);  // 1e-7 W: share of inertia
 }
 
-TEST(Newton, UnsoundInputFailsWithASentence) {
+TEST(Newton, InvalidInputFailsWithAMessage) {
   const ContactProblem good = scenes::stack({2000}, 0.01, {0.4, 1e-8, 1e-8});
   const auto message_of = [](const ContactProblem& p) {
     const Solved s = solve(p);
@@ -211,21 +214,21 @@ TEST(Newton, UnsoundInputFailsWithASentence) {
   EXPECT_NE(message_of(p).find("mu of contact 2"), std::string::npos);
   p = good;
   p.block_b[1] = 7;
-  EXPECT_NE(message_of(p).find("unknown blocks"), std::string::npos);
+  EXPECT_NE(message_of(p).find("contact 1 joins blocks "), std::string::npos);
   p = good;
   p.b.conservativeResize(2);
   EXPECT_NE(message_of(p).find("b has 2 entries, expected 12"), std::string::npos);
 }
 
-TEST(Newton, FixedSidesAndIdleRowsMayHoldPoison) {
+TEST(Newton, DoesNotReadTheRowsOfFixedBlocks) {
   ContactProblem problem = scenes::stack({2000}, 0.01, {0.0, 1e-8, 1e-8});
   const Solved clean = solve(problem);
-  for (Mat63& D : problem.D_a) D.setConstant(std::nan(""));  // the ground's side
+  for (Mat63& D : problem.D_a) D.setConstant(std::nan(""));  // the side of the ground
   const Solved poisoned = solve(problem);
   EXPECT_EQ(poisoned.x.v, clean.x.v);
 }
 
-TEST(Newton, SameBitsOnEveryRun) {
+TEST(Newton, GivesTheSameBitsOnEveryRun) {
   scenes::DomeShape shape;
   shape.rings = 10;
   shape.blocks_per_ring = 16;
@@ -236,8 +239,8 @@ TEST(Newton, SameBitsOnEveryRun) {
   EXPECT_EQ(first.x.gamma, second.x.gamma);
 }
 
-// One sector whose neighbours are its own images stands for the whole dome: same forces at its contacts.
-TEST(Newton, SectorOfACyclicDome) {
+// One sector whose neighbours are images of its own blocks has the same contact forces as the whole dome.
+TEST(Newton, SectorHasTheForcesOfTheWholeDome) {
   scenes::DomeShape shape;
   shape.rings = 8;
   shape.blocks_per_ring = 16;

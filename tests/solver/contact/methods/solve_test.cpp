@@ -33,7 +33,7 @@ Solved solve(const ContactProblem& problem, FrictionLaw law, double tolerance = 
 constexpr auto kAssociated = FrictionLaw::associated;
 constexpr auto kCoulomb = FrictionLaw::coulomb;
 
-/// Steps of a block that slides down an incline, as (speed, gap) pairs.
+/// Steps of a block that slides down an incline, as pairs (speed, gap).
 std::vector<std::pair<double, double>> slide(double h, double c, FrictionLaw law, int num_steps) {
   std::vector<std::pair<double, double>> history;
   double speed = 0.0, normal_speed = 0.0, gap = 0.0;
@@ -50,8 +50,9 @@ std::vector<std::pair<double, double>> slide(double h, double c, FrictionLaw law
   return history;
 }
 
-// VERIFICATION 1.1, zero compliance: s_N = A h (N - mu^2 (1 - r^N)), gap h mu s_N.
-TEST(SolveContact, RigidInclineSlidesByTheClosedForm) {
+// Closed form for zero compliance under the associated law: speed s_N = A h (N - mu^2 (1 - r^N)), gap h mu
+// s_N.
+TEST(SolveContact, RigidInclineMatchesTheClosedForm) {
   const double h = 0.01, mu = 0.4, angle = std::atan(0.5);
   const double A = kGravity * (std::sin(angle) - mu * std::cos(angle)), r = mu * mu / (1 + mu * mu);
   for (const double c : {0.0, 1e-12 * h * h / 400.0}) {
@@ -76,8 +77,8 @@ TEST(SolveContact, CoulombInclineKeepsContact) {  // s_N = A h N, gap 0
   }
 }
 
-TEST(SolveContact,
-     RigidTableCarriesItsLoad) {  // VERIFICATION 1.7 without compliance: any split with right resultants
+// Without compliance any distribution of the load over the legs with the correct resultants is a solution.
+TEST(SolveContact, RigidTableHasTheCorrectResultants) {
   const ContactProblem problem = scenes::table(1000.0, 0.3, 0.2, 0.01, {0.4, 0.0, 0.0});
   const Solved s = solve(problem, kAssociated);
   ASSERT_EQ(s.summary.ending, SolveEnding::converged) << s.summary.message;
@@ -90,9 +91,10 @@ TEST(SolveContact,
   EXPECT_FALSE(s.residuals.certified_force_error.has_value());
 }
 
-// VERIFICATION 1.3: from rest the associated law sticks to 47.96 deg; Coulomb's balances a moving prism
-// at 44.13 deg. (At rest and exactly rigid, self-stress may hold the prism under Coulomb's law too.)
-TEST(SolveContact, GrooveTellsTheLawsApart) {
+// Limits of tilt. Associated law, from rest: tan theta = mu / sqrt(cos^2 phi - mu^2 sin^2 phi), 47.96 deg.
+// Coulomb's law, prism in motion: tan theta = mu / cos phi, 44.13 deg. (At rest and with rigid contacts
+// self-stress may hold the prism under Coulomb's law too.)
+TEST(SolveContact, GrooveDistinguishesTheLaws) {
   const double phi = std::numbers::pi / 6, deg = std::numbers::pi / 180, mu = 0.84, h = 0.01;
   const double associated =
       std::atan(mu / std::sqrt(std::pow(std::cos(phi), 2) - std::pow(mu * std::sin(phi), 2)));
@@ -110,7 +112,7 @@ TEST(SolveContact, GrooveTellsTheLawsApart) {
   EXPECT_GT(speed_after(coulomb + 0.1 * deg, 0.5, kCoulomb), 0.5);
 }
 
-TEST(SolveContact, CoulombGrooveSlidesAtItsOwnFriction) {  // a = g (sin th - mu cos th / cos phi)
+TEST(SolveContact, CoulombGrooveMatchesTheClosedForm) {  // a = g (sin th - mu cos th / cos phi)
   const double phi = std::numbers::pi / 6, theta = 49 * std::numbers::pi / 180, mu = 0.84, h = 0.01;
   const Solved s = solve(scenes::groove(phi, theta, h, {mu, 0, 0}, {0.5, 0, 0}), kCoulomb);
   ASSERT_EQ(s.summary.ending, SolveEnding::converged) << s.summary.message;
@@ -119,8 +121,8 @@ TEST(SolveContact, CoulombGrooveSlidesAtItsOwnFriction) {  // a = g (sin th - mu
   EXPECT_NEAR(s.x.v[2], 0.0, 1e-9);
 }
 
-// At rest and below the cone both laws give the same forces.
-TEST(SolveContact, LawsAgreeWhereNothingSlides) {
+// At rest, with all contacts sticking, both laws give the same forces.
+TEST(SolveContact, LawsAgreeWithoutSliding) {
   scenes::DomeShape shape;
   shape.rings = 8;
   shape.blocks_per_ring = 12;
@@ -130,7 +132,7 @@ TEST(SolveContact, LawsAgreeWhereNothingSlides) {
   EXPECT_LE((associated.x.gamma - coulomb.x.gamma).norm(), 1e-8 * coulomb.x.gamma.norm());
 }
 
-TEST(SolveContact, CompliantDomeUnderCoulomb) {
+TEST(SolveContact, CompliantDomeUnderCoulombsLaw) {
   scenes::DomeShape shape;
   shape.rings = 8;
   shape.blocks_per_ring = 12;
@@ -142,9 +144,8 @@ TEST(SolveContact, CompliantDomeUnderCoulomb) {
   }
 }
 
-// Beyond mu = 1 Coulomb's law may have no answer in one step: whatever the passes reach is said, never a
-// crash or a converged that is not.
-TEST(SolveContact, CoulombBeyondOneEndsWithAStatus) {
+// Above mu = 1 a step under Coulomb's law may have no solution. The ending must agree with the residuals.
+TEST(SolveContact, CoulombAboveOneReportsItsEnding) {
   scenes::DomeShape shape;
   shape.rings = 8;
   shape.blocks_per_ring = 12;
@@ -160,8 +161,8 @@ TEST(SolveContact, CoulombBeyondOneEndsWithAStatus) {
   }
 }
 
-// Random gaps open and close many contacts: interior point takes over from Newton.
-TEST(SolveContact, GapsAreSolvedByTheFallBack) {
+// With random gaps many contacts open and close: the interior point method takes over from Newton.
+TEST(SolveContact, FallbackSolvesProblemsWithGaps) {
   scenes::DomeShape shape;
   shape.rings = 12;
   shape.blocks_per_ring = 16;

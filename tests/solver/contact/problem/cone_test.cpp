@@ -18,8 +18,8 @@ struct Sample {
   ContactRegion region;
 };
 
-/// Each region, its boundaries and a hair on both sides, with c_n != c_t; e_n = 2, e_t = 0.5, mu = 0.4:
-/// stick while |y_t| <= mu (-y_n) e_t / e_n = 0.1 (-y_n); separation from y_n >= 0.4 |y_t|.
+/// Each region, its boundaries, and points close to both sides of them, with c_n != c_t. For e_n = 2, e_t =
+/// 0.5, mu = 0.4: stick if |y_t| <= mu (-y_n) e_t / e_n = 0.1 (-y_n); separation if y_n >= 0.4 |y_t|.
 const std::vector<Sample> kSamples{
     {{2.0, 0.5, 0.4}, {-1.0, 0.0, 0.0}, ContactRegion::stick},
     {{2.0, 0.5, 0.4}, {-1.0, 0.03, -0.04}, ContactRegion::stick},
@@ -39,14 +39,14 @@ const std::vector<Sample> kSamples{
     {{1e-9, 1e-9, 1e-3}, {-1e-3, 1e-2, 2e-3}, ContactRegion::slip},
 };
 
-TEST(Cone, RegionsFollowTheClosedForm) {
+TEST(Cone, RegionsMatchTheClosedForm) {
   for (const Sample& s : kSamples) EXPECT_EQ(contact_region(s.law, s.y), s.region) << s.y.transpose();
 }
 
 TEST(Cone, ImpulseMinimisesTheEnergyOverTheCone) {
   for (const Sample& s : kSamples) {
     const Vec3 gamma = contact_impulse(s.law, s.y), slow = slow_impulse(s.law, s.y);
-    // Half an ulp of the slope moves the root by a few ulp of its largest term.
+    // Half an ulp of the slope changes the root by a few ulp of its largest term.
     EXPECT_LE((gamma - slow).norm(), 1e-14 * (std::abs(s.y[0]) + s.law.mu * s.y.norm()) / s.law.e_n)
         << gamma.transpose() << " | " << slow.transpose();
   }
@@ -81,7 +81,7 @@ TEST(Cone, StiffnessIsTheDerivativeOfTheImpulse) {
   }
 }
 
-TEST(Cone, FrictionlessContactIgnoresItsTangents) {
+TEST(Cone, FrictionlessContactIgnoresTangentialValues) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const ContactLaw law{2.0, nan, 0.0};
   EXPECT_EQ(contact_impulse(law, {-1.0, 5.0, 7.0}), Vec3(0.5, 0.0, 0.0));
@@ -90,7 +90,7 @@ TEST(Cone, FrictionlessContactIgnoresItsTangents) {
   EXPECT_EQ(contact_stiffness(law, {-1.0, 5.0, 7.0}), Mat3(Vec3(0.5, 0.0, 0.0).asDiagonal()));
 }
 
-TEST(Cone, ProjectionKeepsTheConeAndDropsItsPolar) {
+TEST(Cone, ProjectionKeepsTheConeAndMapsItsPolarToZero) {
   const ContactLaw metric{2.0, 0.5, 0.4};
   EXPECT_LE((project_on_cone(metric, {1.0, 0.3, 0.2}) - Vec3(1.0, 0.3, 0.2)).norm(), 1e-15);
   EXPECT_EQ(project_on_cone(metric, {-1.0, 0.3, 0.2}), Vec3::Zero().eval());
@@ -99,7 +99,7 @@ TEST(Cone, ProjectionKeepsTheConeAndDropsItsPolar) {
   EXPECT_NEAR(on_cone.tail<2>().norm(), 0.4 * on_cone[0], 1e-15);
 }
 
-TEST(Cone, ScalingVelocitiesScalesImpulses) {  // the cone has no length of its own
+TEST(Cone, ScalingVelocitiesScalesImpulses) {  // the cone has no length scale
   for (const Sample& s : kSamples) {
     const Vec3 gamma = contact_impulse(s.law, s.y);
     EXPECT_LE((contact_impulse(s.law, 1024.0 * s.y) - 1024.0 * gamma).norm(), 1e-15 * 1024.0 * gamma.norm());

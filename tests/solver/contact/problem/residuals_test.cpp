@@ -1,4 +1,4 @@
-// Each residual of residuals.hpp against its definition, by routines that are slow and share nothing with it.
+// Each residual of residuals.hpp against its definition, with slow routines that share no code with it.
 
 #include "solver/contact/problem/residuals.hpp"
 
@@ -19,7 +19,7 @@ using scenes::kGravity;
 constexpr double kStep = 0.01;  // s
 constexpr double kReference = kGravity * kStep;
 
-/// A block of 2 kg that meets the ground in one contact under its centroid, frame along the axes: u = v.
+/// A block of 2 kg with one contact to the ground at its centroid, frame along the axes: u = v.
 ContactProblem one_contact(double mu, double e_n, double e_t) {
   ContactProblem p;
   p.M.push_back(2.0 * Mat6::Identity());
@@ -35,8 +35,8 @@ ContactProblem one_contact(double mu, double e_n, double e_t) {
   return p;
 }
 
-/// |gamma - P(gamma - rho (y + s n))| / max(|gamma|, |P|) of the definition, P in the norm of E or, where it
-/// is zero, the Euclidean one with rho = 1 / trace N = 2 kg / 3.
+/// |gamma - P(gamma - rho (y + s n))| / max(|gamma|, |P|) by definition. P is in the norm of E; where E is
+/// zero, P is Euclidean and rho = 1 / trace N = 2 kg / 3.
 double slow_contact_law(const ContactProblem& p, const Vec3& v, const Vec3& gamma, FrictionLaw kind) {
   const Vec3 E = p.E.head<3>();
   Vec3 y = v + E.cwiseProduct(gamma);
@@ -54,16 +54,17 @@ struct Pair {
   Vec3 v, gamma;
 };
 
-// e_n = 2, e_t = 0.5, mu = 0.4. Where the impulse is -E^-1 v or on the cone's edge the law holds.
+// e_n = 2, e_t = 0.5, mu = 0.4. The law holds where the impulse is -E^-1 v, or on the surface of the cone in
+// slip.
 const std::vector<Pair> kPairs{
-    {"stick, right", {-2.0, 0.1, 0.0}, {1.0, -0.2, 0.0}},
+    {"stick, correct", {-2.0, 0.1, 0.0}, {1.0, -0.2, 0.0}},
     {"stick, wrong", {-2.0, 0.1, 0.0}, {1.1, -0.1, 0.05}},
     {"slip", {-1.0, 3.0, 4.0}, {0.7, -0.1, -0.2}},
     {"slip, on the cone", {-1.0, 3.0, 4.0}, {1.0, -0.24, -0.32}},
-    {"separation, right", {3.0, 1.0, 1.0}, {0.0, 0.0, 0.0}},
+    {"separation, correct", {3.0, 1.0, 1.0}, {0.0, 0.0, 0.0}},
     {"separation, wrong", {3.0, 1.0, 1.0}, {0.1, 0.0, 0.01}},
     {"apex", {1.0, 1.5, -2.0}, {0.01, 0.0, 0.0}},
-    {"apex, a hair inside", {1.0 - 1e-9, 1.5, -2.0}, {0.01, 0.0, 0.0}},
+    {"apex, just inside", {1.0 - 1e-9, 1.5, -2.0}, {0.01, 0.0, 0.0}},
     {"outside the cone", {-1.0, 0.2, 0.0}, {0.2, 0.5, 0.1}},
 };
 
@@ -85,7 +86,7 @@ TEST(ResidualsOfAPair, ContactLawIsTheNaturalMap) {
   }
 }
 
-TEST(ResidualsOfAPair, WhatIsRightHasNone) {
+TEST(ResidualsOfAPair, AreZeroForASolution) {
   const ContactProblem p = one_contact(0.4, 2.0, 0.5);
   for (const int i : {0, 4}) {
     ContactSolution x{VecX::Zero(6), kPairs[i].gamma};
@@ -104,7 +105,7 @@ TEST(ResidualsOfAPair, ConeViolationIsTheWorstContactOverTheLargestImpulse) {
   EXPECT_NEAR(violation({-2.0, 0.0, 0.0}), 1.0, 1e-15);
 }
 
-/// A dome's problem with v and gamma some way off its solution; gamma inside the cones.
+/// The problem of a dome, with v and gamma away from its solution and gamma inside the cones.
 struct Disturbed {
   ContactProblem problem;
   ContactSolution x;
@@ -142,7 +143,7 @@ TEST(ResidualsOfAPair, MomentumIsTheUnbalancedImpulseOverTheMeanWeight) {
   EXPECT_NEAR(compute_residuals(p, x, kReference).momentum, expected, 1e-12 * expected);
 }
 
-// Primal minus dual objective, as they are written: here the pair is far enough off that nothing cancels.
+// Primal minus dual objective by definition. The pair is far enough from the solution to avoid cancellation.
 TEST(ResidualsOfAPair, CertifiedErrorIsTheDualityGap) {
   const auto [p, x] = disturbed_dome();
   const VecX y = relative_velocity(p, x.v) + p.b;
@@ -167,7 +168,7 @@ TEST(ResidualsOfAPair, CertifiedErrorIsTheDualityGap) {
   EXPECT_NEAR(*r.certified_force_error, expected, 1e-9 * expected);
 }
 
-TEST(ResidualsOfAPair, NotANumberIsNeverSmall) {
+TEST(ResidualsOfAPair, AreNotSmallForNaN) {
   auto [p, x] = disturbed_dome();
   x.v[7] = std::nan("");
   const Residuals r = compute_residuals(p, x, kReference);

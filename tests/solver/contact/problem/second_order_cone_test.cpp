@@ -14,8 +14,8 @@ TEST(SecondOrderCone, NesterovTodScalingMapsThePairOntoOnePoint) {
       const NesterovTodd nt = nesterov_todd(z, gamma);
       const double condition =
           std::sqrt(gamma.squaredNorm() / cone_determinant(gamma) * z.squaredNorm() / cone_determinant(z));
-      const double tolerance =
-          1e-15 * 16 * condition * nt.lambda.norm();  // rounding grows as the pair nears the boundary
+      // Rounding grows as the pair approaches the boundary.
+      const double tolerance = 1e-15 * 16 * condition * nt.lambda.norm();
       EXPECT_LE((nt.W * gamma - nt.lambda).norm(), tolerance);
       EXPECT_LE((nt.W_inverse * z - nt.lambda).norm(), tolerance);
       EXPECT_LE((nt.W_squared * gamma - z).norm(), 1e-15 * 16 * condition * condition * z.norm());
@@ -24,7 +24,7 @@ TEST(SecondOrderCone, NesterovTodScalingMapsThePairOntoOnePoint) {
   }
 }
 
-TEST(SecondOrderCone, QuotientUndoesTheProduct) {
+TEST(SecondOrderCone, QuotientInvertsTheProduct) {
   for (const Vec3& x : kInterior) {
     for (const Vec3& y : kInterior) {
       const double condition = x.squaredNorm() / cone_determinant(x);
@@ -34,7 +34,7 @@ TEST(SecondOrderCone, QuotientUndoesTheProduct) {
   }
 }
 
-TEST(SecondOrderCone, StepEndsOnTheBoundaryAndNotBefore) {
+TEST(SecondOrderCone, StepEndsExactlyOnTheBoundary) {
   const std::vector<Vec3> directions{{-1, 0, 0},  {0, 1, 0}, {1, 2, -1}, {-1, 0.5, 3},
                                      {-1, -1, 0}, {1, 1, 0}, {2, 0, 1}};
   for (const Vec3& x : kInterior) {
@@ -52,7 +52,7 @@ TEST(SecondOrderCone, StepEndsOnTheBoundaryAndNotBefore) {
   }
 }
 
-TEST(SecondOrderCone, DeterminantKeepsThinMargins) {
+TEST(SecondOrderCone, DeterminantIsAccurateNearTheBoundary) {
   const Vec3 x(1.0, 1.0 - 1e-15, 0.0);
   EXPECT_NEAR(cone_determinant(x), 2e-15, 1e-16 * 4);
 }
