@@ -4,34 +4,28 @@
 
 #include "assembly/case/case.hpp"
 #include "assembly/model/assembly.hpp"
+#include "solver/cost_estimate.hpp"
 
 namespace cupola {
 
-/// What a run will have to do, counted on the model itself.
+/// Size of the model that a run solves.
 struct ModelCounts {
   int free_blocks = 0, fixed_blocks = 0, parts = 0;
-  int unknowns = 0;  ///< velocities
+  int unknowns = 0;  ///< velocity components
   int contacts = 0, joints = 0, ties = 0;
-  int force_rows = 0;  ///< unknown force components: one per frictionless contact, else three (plane: two)
-  int islands = 0;     ///< groups of free blocks that no contact joins
-  long long factor_entries = 0;  ///< of the Cholesky factor, 0 for methods without one
-};
-
-/// What it will take.
-struct CostEstimate {
-  double seconds = 0.0;  ///< processor time of one thread, reading and writing left out
-  double bytes = 0.0;    ///< peak memory
-  std::string basis;     ///< what was timed
+  int force_rows = 0;  ///< unknown force components: 1 per frictionless contact, otherwise 3 (plane: 2)
+  int islands = 0;     ///< groups of free blocks that are not connected by contacts
 };
 
 struct ModelExplanation {
   ModelCounts counts;
   CostEstimate cost;
-  std::string text;  ///< for `--explain`: the model, the features that are active and why, the cost
+  std::string text;  ///< printed by `--explain`: the model, the active features with their values, the cost
 };
 
-/// Builds the model without solving it. For the estimate one factorisation of a static problem is timed, of a
-/// motion its first steps.
+/// Builds the first contact problem from the same options as the run and counts its unknowns. For the
+/// estimate it times one factorisation and, for a dynamic analysis, the static start and the first steps.
+/// Throws InputError for the same cases as the run.
 ModelExplanation explain_model(const Case& scene, const Assembly& assembly);
 
 }  // namespace cupola

@@ -12,47 +12,47 @@
 
 namespace cupola {
 
-/// Where an analysis hands its frames and lines of log; it writes no files itself.
+/// Receives the output of an analysis, which writes no files itself.
 struct AnalysisSinks {
   std::function<void(const Frame&)> frame = [](const Frame&) {};
-  /// One line per step, fixed columns.
+  /// One log line per step, fixed columns.
   std::function<void(const std::string&)> log = [](const std::string&) {};
   /// One CSV row per step, header first.
   std::function<void(const std::string&)> history = [](const std::string&) {};
-  /// A table of the analysis' own, whole: file name (ending .csv) and text.
+  /// A complete table that belongs to this analysis: file name (ending in .csv) and text.
   std::function<void(const std::string& name, const std::string& text)> table = [](const std::string&,
                                                                                    const std::string&) {};
   /// The contact problem of the static solve or of the last step, and its impulses.
   std::function<void(const ContactProblem&, const VecX& gamma)> problem = [](const ContactProblem&,
                                                                              const VecX&) {};
-  /// How much is done, in [0, 1].
+  /// Fraction of the work that is done, in [0, 1].
   std::function<void(double share)> progress = [](double) {};
-  /// Everything needed to go on with the same bits after the last frame and row handed over.
+  /// The state after the last frame and row, as bytes from which the analysis resumes with the same bits.
   std::function<void(const std::string& bytes)> checkpoint = [](const std::string&) {};
-  /// True when the user wants to stop: the analysis finishes its step, hands over a checkpoint and returns.
+  /// True if the user wants to stop. The analysis then finishes its step, passes a checkpoint and returns.
   std::function<bool()> interrupted = [] { return false; };
-  /// Contacts of the assembly as built, from analyses that keep no others; not called by the rest.
+  /// The contacts of the assembly as built. Called only by the static analysis, which detects no others.
   std::function<void(const ContactSet&)> as_built = [](const ContactSet&) {};
-  std::string resume_from = {};  ///< bytes of a checkpoint; empty: from the start
+  std::string resume_from = {};  ///< bytes of a checkpoint; empty: start from the beginning
 };
 
-/// Runs the analysis that the case asks for and returns its summary, times and provenance left to the caller;
-/// none when it was interrupted.
+/// Runs the analysis of the case. Returns its summary, in which the caller fills in times and provenance, or
+/// nothing if it was interrupted.
 std::optional<Summary> run_analysis(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
-/// Equilibrium under dead load: solve_static() on the assembly as built.
+/// Equilibrium of the assembly as built under its loads: solve_static().
 Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
-/// Time stepping (paper eq. 8-15) from the unloaded assembly, or from its static equilibrium.
+/// Time stepping (paper eq. 8-15) from the unloaded assembly or from its static equilibrium.
 std::optional<Summary> run_dynamic(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
-/// Searches the critical value of one parameter: the structure stands on one side of the bracket and moves on
-/// the other. Every value is judged by a static solve; `spread` follows the equilibria while supports move.
-/// Frames: the last equilibrium, and the mechanism with its velocities scaled to 1 m/s.
+/// Searches for the critical value of one parameter: the structure stands at one end of the bracket and moves
+/// at the other. Each value takes one static solve; `spread` follows the equilibria while the supports move.
+/// Frames: the last equilibrium, and the mechanism with its largest speed scaled to 1 m/s.
 std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
-/// Builds ring after ring. Each stage is a static solve of what stands so far, the bed of its last ring with
-/// the friction of fresh mortar; the critical fresh friction of each stage is searched on request.
+/// Construction ring by ring. Each stage is a static solve of the rings laid so far; the bed of the last ring
+/// has the friction of fresh mortar. On request, the critical fresh friction of each stage is searched for.
 std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
 }  // namespace cupola

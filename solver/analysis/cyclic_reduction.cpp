@@ -1,11 +1,13 @@
 #include "solver/analysis/cyclic_reduction.hpp"
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
-/// Turns both halves of generalised velocities, or of the columns that act on them.
+/// Rotates the translational and the rotational half of generalised velocities, or of matrix columns.
 template <class Matrix>
-Matrix turned(const Mat3& R, const Matrix& x) {
+Matrix rotated(const Mat3& R, const Matrix& x) {
   Matrix y = x;
   y.template topRows<3>() = R * x.template topRows<3>();
   y.template bottomRows<3>() = R * x.template bottomRows<3>();
@@ -15,6 +17,8 @@ Matrix turned(const Mat3& R, const Matrix& x) {
 }  // namespace
 
 ContactProblem reduce(const ContactProblem& problem, const CyclicSymmetry& symmetry) {
+  CUPOLA_ASSERT(static_cast<int>(symmetry.blocks.size()) == problem.num_blocks());
+  CUPOLA_ASSERT(static_cast<int>(symmetry.contacts.size()) == problem.num_contacts());
   ContactProblem reduced;
   reduced.h = problem.h;
   const int nb = static_cast<int>(symmetry.block_of_orbit.size());
@@ -33,16 +37,16 @@ ContactProblem reduce(const ContactProblem& problem, const CyclicSymmetry& symme
     reduced.b.segment<3>(3 * i) = problem.b.segment<3>(3 * row);
     reduced.E.segment<3>(3 * i) = problem.E.segment<3>(3 * row);
     reduced.mu[i] = problem.mu[row];
-    // u = D^T v and v = R v_representative: the representative's columns are R^T D.
+    // u = D^T v and v = R v_representative, so that the columns of the representative are R^T D.
     const auto side = [&](int block, const Mat63& D, int* orbit) -> Mat63 {
       *orbit = block == ContactProblem::kFixed ? block : symmetry.blocks[block].orbit;
       if (block == ContactProblem::kFixed) return D;
-      return turned(symmetry.rotation(-symmetry.blocks[block].turns), D);
+      return rotated(symmetry.rotation(-symmetry.blocks[block].turns), D);
     };
     int a = 0, b = 0;
     Mat63 D_a = side(problem.block_a[row], problem.D_a[row], &a);
     Mat63 D_b = side(problem.block_b[row], problem.D_b[row], &b);
-    if (a == b) {  // a block against its own image
+    if (a == b) {  // contact between a block and its own image
       D_b += D_a;
       a = ContactProblem::kFixed;
     }
@@ -71,12 +75,14 @@ ContactSolution restrict(const ContactSolution& whole, const CyclicSymmetry& sym
 
 ContactSolution expand(const ContactSolution& reduced, const ContactProblem& problem,
                        const CyclicSymmetry& symmetry) {
+  CUPOLA_ASSERT(reduced.v.size() == 6 * static_cast<Eigen::Index>(symmetry.block_of_orbit.size()));
+  CUPOLA_ASSERT(reduced.gamma.size() == 3 * static_cast<Eigen::Index>(symmetry.contact_of_orbit.size()));
   ContactSolution whole;
   whole.v.resize(6 * problem.num_blocks());
   for (int i = 0; i < problem.num_blocks(); ++i) {
     const CyclicSymmetry::Image& image = symmetry.blocks[i];
     const Eigen::Matrix<double, 6, 1> v = reduced.v.segment<6>(6 * image.orbit);
-    whole.v.segment<6>(6 * i) = turned(symmetry.rotation(image.turns), v);
+    whole.v.segment<6>(6 * i) = rotated(symmetry.rotation(image.turns), v);
   }
   whole.gamma.resize(3 * problem.num_contacts());
   const auto frame = [&](int contact) -> Mat3 { return problem.D_b[contact].topRows<3>(); };

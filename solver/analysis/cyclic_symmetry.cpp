@@ -15,7 +15,8 @@
 namespace cupola {
 namespace {
 
-// Of the block's size. The generator's own rounding is 1e-14; imported coordinates have six digits or more.
+// Relative to the size of a block. Rounding in the generator is 1e-14; imported coordinates have at least six
+// digits.
 constexpr double kTolerance = 1e-6;
 
 class SymmetryFinder {
@@ -24,11 +25,11 @@ class SymmetryFinder {
   CyclicSymmetry find();
 
  private:
-  [[noreturn]] void broken(const std::string& reason) const;
-  std::vector<int> turned_blocks() const;
-  void check_turned_block(int row, int image) const;
-  std::vector<int> turned_contacts(const std::vector<int>& blocks, std::vector<char>* swapped) const;
-  void check_turned_contact(int contact, int image) const;
+  [[noreturn]] void refuse(const std::string& reason) const;
+  std::vector<int> block_images() const;
+  void check_block_image(int row, int image) const;
+  std::vector<int> contact_images(const std::vector<int>& blocks, std::vector<char>* swapped) const;
+  void check_contact_image(int contact, int image) const;
   std::pair<int, int> pair_of(const Contact& contact) const;
   Vec3 point_of(const Contact& contact) const { return 0.5 * (contact.point_a + contact.point_b); }
   double size_of(int row) const { return std::cbrt(model_.assembly->blocks[model_.free_blocks[row]].volume); }
@@ -37,7 +38,7 @@ class SymmetryFinder {
   const ContactSet& contacts_;
   double time_;
   std::vector<Vec3> centroids_;        ///< of the free blocks
-  std::vector<Vec3> patch_centroids_;  ///< two patches may share a corner and a normal
+  std::vector<Vec3> patch_centroids_;  ///< tell apart two patches that share a corner and a normal
   VecX loads_;
   int sectors_;
   Mat3 turn_;
@@ -59,13 +60,13 @@ SymmetryFinder::SymmetryFinder(const Model& model, const State& start, const Con
   }
 }
 
-void SymmetryFinder::broken(const std::string& reason) const {
-  throw InputError(
-      fmt::format("analysis.cyclic_sectors = {}: not a symmetry of this model: {}", sectors_, reason));
+void SymmetryFinder::refuse(const std::string& reason) const {
+  throw InputError(fmt::format("analysis.cyclic_sectors = {}: the model does not have this symmetry: {}",
+                               sectors_, reason));
 }
 
-/// Row after a turn by one sector, for every row.
-std::vector<int> SymmetryFinder::turned_blocks() const {
+/// Row of the image of each free block under a rotation by one sector.
+std::vector<int> SymmetryFinder::block_images() const {
   std::vector<int> by_x(centroids_.size());
   std::iota(by_x.begin(), by_x.end(), 0);
   const auto x_of = [&](int row) { return centroids_[row].x(); };
@@ -78,39 +79,39 @@ std::vector<int> SymmetryFinder::turned_blocks() const {
     for (; it != by_x.end() && x_of(*it) <= target.x() + tolerance && image[row] < 0; ++it)
       if ((centroids_[*it] - target).norm() <= tolerance) image[row] = *it;
     if (image[row] < 0)
-      broken(fmt::format("the turn takes block {} to ({:.3f}, {:.3f}, {:.3f}) m, where no block is",
+      refuse(fmt::format("the rotation moves block {} to ({:.3f}, {:.3f}, {:.3f}) m, where there is no block",
                          model_.free_blocks[row], target.x(), target.y(), target.z()));
-    check_turned_block(row, image[row]);
+    check_block_image(row, image[row]);
   }
   return image;
 }
 
-void SymmetryFinder::check_turned_block(int row, int image) const {
+void SymmetryFinder::check_block_image(int row, int image) const {
   const Block& block = model_.assembly->blocks[model_.free_blocks[row]];
   const Block& other = model_.assembly->blocks[model_.free_blocks[image]];
   const Mat3 inertia = turn_ * block.inertia * turn_.transpose();
   if (std::abs(block.mass - other.mass) > kTolerance * block.mass ||
       (inertia - other.inertia).norm() > kTolerance * inertia.norm())
-    broken(fmt::format("blocks {} and {} have different masses or shapes", model_.free_blocks[row],
+    refuse(fmt::format("blocks {} and {} have different masses or shapes", model_.free_blocks[row],
                        model_.free_blocks[image]));
   const auto force = [&](int i) -> Vec3 { return loads_.segment<3>(6 * i); };
   const auto moment = [&](int i) -> Vec3 { return loads_.segment<3>(6 * i + 3); };
   const double scale = kTolerance * (force(row).norm() + moment(row).norm() / size_of(row));
   if ((turn_ * force(row) - force(image)).norm() > scale ||
       (turn_ * moment(row) - moment(image)).norm() > scale * size_of(row))
-    broken(fmt::format("the loads on blocks {} and {} differ", model_.free_blocks[row],
+    refuse(fmt::format("the loads on blocks {} and {} differ", model_.free_blocks[row],
                        model_.free_blocks[image]));
 }
 
-/// Rows of the two blocks, the smaller first; all fixed blocks are one.
+/// Rows of the two blocks, the smaller first; all fixed blocks have the same row.
 std::pair<int, int> SymmetryFinder::pair_of(const Contact& contact) const {
   return std::minmax(model_.free_index[contact.block_a], model_.free_index[contact.block_b]);
 }
 
-/// Contact after a turn by one sector, for every contact. Several may lie at one point, with different
-/// normals or in different patches, and a contact is the image of one only.
-std::vector<int> SymmetryFinder::turned_contacts(const std::vector<int>& blocks,
-                                                 std::vector<char>* swapped) const {
+/// Image of each contact under a rotation by one sector. Several contacts may lie at one point, with
+/// different normals or in different patches; each is the image of exactly one contact.
+std::vector<int> SymmetryFinder::contact_images(const std::vector<int>& blocks,
+                                                std::vector<char>* swapped) const {
   const std::vector<Contact>& contacts = contacts_.points;
   std::vector<int> by_pair(contacts.size());
   std::iota(by_pair.begin(), by_pair.end(), 0);
@@ -145,33 +146,35 @@ std::vector<int> SymmetryFinder::turned_contacts(const std::vector<int>& blocks,
       (*swapped)[i] = swaps;
     }
     if (image[i] < 0)
-      broken(fmt::format("the contact of blocks {} and {} at ({:.3f}, {:.3f}, {:.3f}) m has no image",
+      refuse(fmt::format("the contact between blocks {} and {} at ({:.3f}, {:.3f}, {:.3f}) m has no image",
                          contact.block_a, contact.block_b, point_of(contact).x(), point_of(contact).y(),
                          point_of(contact).z()));
     taken[image[i]] = 1;
-    check_turned_contact(i, image[i]);
+    check_contact_image(i, image[i]);
   }
   return image;
 }
 
-void SymmetryFinder::check_turned_contact(int contact, int image) const {
+void SymmetryFinder::check_contact_image(int contact, int image) const {
   const Contact& c = contacts_.points[contact];
   const Contact& d = contacts_.points[image];
   const std::string between = fmt::format("between blocks {} and {}, and blocks {} and {}", c.block_a,
                                           c.block_b, d.block_a, d.block_b);
   const double size = size_of(std::max(model_.free_index[c.block_a], model_.free_index[c.block_b]));
-  // Gaps are compared with elastic depths, which are small: 1e-12 of a block is beyond the coordinates.
+  // Gaps act through their ratio to the small elastic penetrations. Coordinates are less accurate than 1e-12
+  // of a block.
   if (std::abs(c.gap - d.gap) > 1e-12 * size + 1e-9 * std::abs(c.gap))
-    broken(fmt::format("gaps of {:.3e} m and {:.3e} m {}", c.gap, d.gap, between));
+    refuse(fmt::format("gaps of {:.3e} m and {:.3e} m {}", c.gap, d.gap, between));
   const JointLaw law = joint_law(model_, contacts_, c, time_);
   const JointLaw other = joint_law(model_, contacts_, d, time_);
   const auto differ = [](double x, double y) { return std::abs(x - y) > kTolerance * std::abs(x); };
   if (differ(law.mu, other.mu) || differ(law.compliance_normal, other.compliance_normal) ||
       differ(law.compliance_tangential, other.compliance_tangential))
-    broken("different joint laws " + between);
+    refuse("different joint laws " + between);
 }
 
-/// Follows every element around its orbit. `next` is a permutation; `swapped` may be empty.
+/// Follows each element around its orbit. `next` is a permutation; `swapped` may be empty. `short_orbit` is
+/// set to an element that returns to its place after fewer than `sectors` rotations.
 std::vector<CyclicSymmetry::Image> orbits(const std::vector<int>& next, const std::vector<char>& swapped,
                                           int sectors, std::vector<int>* representatives, int* short_orbit) {
   std::vector<CyclicSymmetry::Image> images(next.size());
@@ -198,20 +201,20 @@ std::vector<CyclicSymmetry::Image> orbits(const std::vector<int>& next, const st
 }
 
 CyclicSymmetry SymmetryFinder::find() {
-  if (!model_.ties.empty()) broken("it has ties");
-  if (!model_.support_motions.empty()) broken("its supports move");
+  if (!model_.ties.empty()) refuse("ties are not supported");
+  if (!model_.support_motions.empty()) refuse("moving supports are not supported");
   CyclicSymmetry symmetry;
   symmetry.sectors = sectors_;
-  const std::vector<int> blocks = turned_blocks();
+  const std::vector<int> blocks = block_images();
   int short_orbit = -1;
   symmetry.blocks = orbits(blocks, {}, sectors_, &symmetry.block_of_orbit, &short_orbit);
   if (short_orbit >= 0)
-    broken(fmt::format("block {} comes back before a full turn", model_.free_blocks[short_orbit]));
+    refuse(fmt::format("block {} returns to its place before a full turn", model_.free_blocks[short_orbit]));
   std::vector<char> swapped;
-  const std::vector<int> contacts = turned_contacts(blocks, &swapped);
+  const std::vector<int> contacts = contact_images(blocks, &swapped);
   symmetry.contacts = orbits(contacts, swapped, sectors_, &symmetry.contact_of_orbit, &short_orbit);
   if (short_orbit >= 0)
-    broken(fmt::format("the contact of blocks {} and {} comes back before a full turn",
+    refuse(fmt::format("the contact between blocks {} and {} returns to its place before a full turn",
                        contacts_.points[short_orbit].block_a, contacts_.points[short_orbit].block_b));
   return symmetry;
 }

@@ -6,28 +6,29 @@
 
 namespace cupola {
 
-/// How a model repeats around the z axis: a turn by 2 pi / sectors takes every block, contact and load to
-/// another one. Then one block and one contact of each orbit stand for all, and a static solve has 1/sectors
-/// of the unknowns. Rows are those of StepProblem.
+/// Cyclic symmetry of a model about the z axis: a rotation by 2 pi / sectors maps every block, contact and
+/// load to another one. One block and one contact then represent each orbit, and a static solve has 1 /
+/// sectors of the unknowns. Row numbers are those of StepProblem.
 struct CyclicSymmetry {
   int sectors = 1;
-  /// An element of the model as the image of another: after `turns` sectors.
+  /// A block or contact as the image of the representative of its orbit.
   struct Image {
     int orbit = 0;         ///< row in the reduced problem
-    int turns = 0;         ///< of the orbit's representative
-    bool swapped = false;  ///< contacts: block a of the representative goes to block b
+    int turns = 0;         ///< sectors by which the representative is rotated to this image
+    bool swapped = false;  ///< contacts only: block a of the representative maps to block b of the image
   };
   std::vector<Image> blocks;          ///< (nb)
   std::vector<Image> contacts;        ///< (nc)
-  std::vector<int> block_of_orbit;    ///< its representative (nb / sectors)
-  std::vector<int> contact_of_orbit;  ///< (nc / sectors)
+  std::vector<int> block_of_orbit;    ///< row of the representative (nb / sectors)
+  std::vector<int> contact_of_orbit;  ///< row of the representative (nc / sectors)
 
-  /// Rotation by that many sectors about z.
+  /// Rotation by `turns` sectors about z.
   Mat3 rotation(int turns) const;
 };
 
-/// Finds the images of all blocks and contacts after a turn by one sector. Throws InputError saying what
-/// breaks the symmetry: a block, its mass or its load, a contact, its gap or its law, ties, moving supports.
+/// Finds the image of every block and contact under a rotation by one sector. Throws InputError if the model
+/// is not symmetric; the message names the cause: the position, mass or load of a block, the position, gap or
+/// law of a contact, ties, or moving supports.
 CyclicSymmetry find_cyclic_symmetry(const Model& model, const State& start, const ContactSet& contacts,
                                     int sectors);
 

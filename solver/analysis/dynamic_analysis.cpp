@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -8,50 +7,49 @@
 #include "assembly/base/process.hpp"
 #include "assembly/files/byte_archive.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/dynamic_history.hpp"
 #include "solver/analysis/record.hpp"
+#include "solver/analysis/static_start.hpp"
 #include "solver/dynamics/scene_options.hpp"
-#include "solver/dynamics/simulation.hpp"
 
 namespace cupola {
 
-/// How far a run has come, apart from the simulation itself.
+/// Progress of a run, apart from the simulation itself.
 struct RunProgress {
   int steps = 0;
-  int frames = 0;
   int iterations = 0;
   int unconverged_steps = 0;
   double worst_momentum = 0.0;
   double friction_work = 0.0;  // J
-  double calm_since = 0.0;     // s, time since which no block is faster than the settled speed
+  double calm_since = 0.0;     // s, time since which no block has been faster than the settled speed
 };
 
 template <class Archive>
 void visit(Archive& archive, RunProgress& x) {
-  archive(x.steps, x.frames, x.iterations, x.unconverged_steps, x.worst_momentum, x.friction_work,
-          x.calm_since);
+  archive(x.steps, x.iterations, x.unconverged_steps, x.worst_momentum, x.friction_work, x.calm_since);
 }
 
 namespace {
 
-constexpr int kStepsPerFactor = 10;  // at least so often a run can be interrupted
+constexpr int kStepsPerFactor = 10;  // a run can be interrupted at least this often
 
 enum class Stop { no, time_over, collapsed, settled, solver_failed };
 
-/// One dynamic analysis: the simulation, its progress, and where its results go.
+/// One dynamic analysis: the simulation, its progress and its output.
 class DynamicRun {
  public:
   DynamicRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
   bool starts_static() const { return simulation_.options().static_start; }
-  /// Takes over the static equilibrium under the loads at time 0; false (and a summary) when there is none.
+  /// Starts from the static equilibrium under the loads at time 0. Returns false, and a summary, if there is
+  /// none.
   bool start_static(Summary* summary);
   void resume(const std::string& bytes);
-  /// Steps until a stop rule fires; none when interrupted.
+  /// Steps until a stop rule is met. Returns nothing if interrupted.
   std::optional<Summary> run();
 
  private:
-  double step_limit() const;
   void step();
   Stop stop_reason() const;
   bool frame_is_due(Stop stop) const;
@@ -75,24 +73,15 @@ DynamicRun::DynamicRun(const Case& scene, const Assembly& assembly, const Analys
       simulation_(make_simulation(scene, assembly)) {}
 
 bool DynamicRun::start_static(Summary* summary) {
+  const StaticStart start = start_from_equilibrium(scene_, sinks_.log, &simulation_);
+  if (start.solution.outcome == StaticOutcome::equilibrium) return true;
   const Model& model = simulation_.model();
-  const State rest = state_at_rest(model);
-  ContactDetector detector(*model.assembly, simulation_.options().detection);
-  const ContactSet& contacts = detector.update(rest.poses);
-  const ContactMemories memories = match_memories({}, contacts.points);
-  StaticOptions options = static_options(analysis_);
-  options.tolerance = std::min(analysis_.tolerance, 1e-6);
-  options.log = sinks_.log;
-  const StaticSolution equilibrium = solve_static(model, rest, contacts, memories, options);
-  if (equilibrium.verdict == Verdict::equilibrium) {
-    simulation_.start_from(loaded_state(model, rest, contacts, memories, equilibrium, options));
-    return true;
-  }
-  const Frame frame = static_frame(model, rest, contacts, memories, equilibrium, options);
+  const Frame frame =
+      static_frame(model, start.rest, start.contacts, start.memories, start.solution, start.options);
   sinks_.frame(frame);
   summarize_frame(frame, model, summary);
-  summarize_static(equilibrium, options.tolerance, summary);
-  summary->message = "analysis.start: static: " + summary->message;
+  summarize_static(start.solution, start.options.tolerance, summary);
+  summary->message = "static start failed (analysis.start: static): " + summary->message;
   return false;
 }
 
@@ -111,17 +100,9 @@ std::string DynamicRun::checkpoint() const {
   return archive.bytes();
 }
 
-/// Adaptive steps end on the times of frames and on the end of the run.
-double DynamicRun::step_limit() const {
-  if (!analysis_.adaptive) return analysis_.time_step;
-  const double every = scene_.output.frames_every;
-  const double time = simulation_.state().time;
-  const double next_frame = (std::floor(time / every + 1e-9) + 1.0) * every;
-  return std::min(next_frame, analysis_.duration) - time;
-}
-
 void DynamicRun::step() {
-  report_ = simulation_.advance(step_limit());
+  report_ = simulation_.advance(step_limit(scene_, simulation_.state().time));
+  CUPOLA_ASSERT(!report_.solve.usable() || simulation_.state().v.allFinite());
   now_ = take_snapshot(simulation_);
   ++progress_.steps;
   progress_.iterations += report_.solve.iterations;
@@ -161,7 +142,6 @@ bool DynamicRun::frame_is_due(Stop stop) const {
 void DynamicRun::write_frame() {
   sinks_.frame(make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(),
                           report_.forces.contacts, simulation_.memories(), simulation_.displacements()));
-  ++progress_.frames;
 }
 
 std::optional<Summary> DynamicRun::run() {
@@ -174,7 +154,8 @@ std::optional<Summary> DynamicRun::run() {
     if (due) write_frame();
     if (stop != Stop::no) sinks_.problem(report_.problem.problem, report_.step_solution.gamma);
     if (stop != Stop::no) return summarize(stop, wall_seconds() - started);
-    // A resumed run starts without a factor. So does this one at every step at which it can be cut off.
+    // A resumed run starts without a factor. To give the same bits, this run drops its factor at every step
+    // at which it can be interrupted.
     if (!due && progress_.steps % kStepsPerFactor != 0) continue;
     simulation_.forget_factor();
     const bool interrupted = sinks_.interrupted();
@@ -185,9 +166,9 @@ std::optional<Summary> DynamicRun::run() {
 
 std::string stop_note(Stop stop, const Analysis& analysis) {
   if (stop == Stop::settled)
-    return fmt::format("; settled: below {:.3g} m/s for {:.3g} s", analysis.stop.settled_speed,
-                       analysis.stop.settled_time);
-  if (stop == Stop::collapsed) return "; stopped there";
+    return fmt::format("; settled: all blocks slower than {:.3g} m/s for {:.3g} s",
+                       analysis.stop.settled_speed, analysis.stop.settled_time);
+  if (stop == Stop::collapsed) return "; the analysis stopped there";
   return "";
 }
 
@@ -198,22 +179,23 @@ void judge(const Analysis& analysis, const RunProgress& progress, Summary* summa
   const double displacement = summary->max_displacement_m;
   if (progress.unconverged_steps > 0) {
     summary->status = Status::unconverged;
-    summary->message =
-        fmt::format("{} of {} steps missed the momentum residual {:.1e}; worst {:.2e}",
-                    progress.unconverged_steps, progress.steps, analysis.tolerance, progress.worst_momentum);
+    summary->message = fmt::format(
+        "{} of {} steps did not reach the momentum residual {:.1e}; the worst reached {:.2e}. "
+        "Try a shorter `analysis.time_step` or a larger `analysis.tolerance`",
+        progress.unconverged_steps, progress.steps, analysis.tolerance, progress.worst_momentum);
   } else if (displacement > analysis.thresholds.displacement) {
     summary->status = Status::collapsed;
-    summary->message = fmt::format("largest displacement {:.3g} m > {:.3g} m", displacement,
+    summary->message = fmt::format("largest displacement {:.3g} m > threshold {:.3g} m", displacement,
                                    analysis.thresholds.displacement);
   } else if (speed > analysis.thresholds.speed) {
     summary->status = Status::moving;
-    summary->message =
-        fmt::format("largest speed {:.3g} m/s > {:.3g} m/s at the end", speed, analysis.thresholds.speed);
+    summary->message = fmt::format("largest speed {:.3g} m/s > threshold {:.3g} m/s at the end", speed,
+                                   analysis.thresholds.speed);
   } else {
     summary->status = Status::stable;
-    summary->message =
-        fmt::format("largest speed {:.3g} m/s <= {:.3g} m/s, displacement {:.3g} m <= {:.3g} m", speed,
-                    analysis.thresholds.speed, displacement, analysis.thresholds.displacement);
+    summary->message = fmt::format(
+        "largest speed {:.3g} m/s <= threshold {:.3g} m/s, displacement {:.3g} m <= threshold {:.3g} m",
+        speed, analysis.thresholds.speed, displacement, analysis.thresholds.displacement);
   }
 }
 

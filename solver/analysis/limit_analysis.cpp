@@ -5,6 +5,7 @@
 
 #include "assembly/base/process.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/limit_parameter.hpp"
 #include "solver/analysis/limit_search.hpp"
 #include "solver/analysis/mechanism.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 const char* const kHistoryHeader = "value,verdict,speed_ratio,equilibrium_residual,iterations";
 
-/// Where an equilibrium was looked for, and what came of it.
+/// A static solve at one value of the parameter, with the model it was made for.
 struct Probe {
   std::shared_ptr<const Assembly> assembly;
   Model model;
@@ -28,7 +29,7 @@ struct Probe {
   StaticSolution solution;
 };
 
-/// One limit analysis and the last probe on either side of the critical value.
+/// One limit analysis, with the last probe on either side of the critical value.
 struct LimitRun {
   const Case& scene;
   const Assembly& assembly;
@@ -40,7 +41,7 @@ struct LimitRun {
   bool interrupted = false;
 
   Probe probe_at(double value) const;
-  /// Keeps and reports a trial; false when the user wants to stop.
+  /// Stores and reports a probe. Returns false if the user wants to stop.
   bool keep(double value, Probe probe);
   Bracket search_value();
   Bracket follow_spread();
@@ -65,13 +66,13 @@ bool LimitRun::keep(double value, Probe probe) {
   iterations += solution.iterations;
   ++num_trials;
   sinks.log(fmt::format("trial {:3d}  {} {:12.8g}  {:<11}  |v|/(g h) {:9.2e}  iterations {:4d}", num_trials,
-                        to_string(scene.analysis.limit.parameter), value, to_string(solution.verdict),
+                        to_string(scene.analysis.limit.parameter), value, to_string(solution.outcome),
                         solution.speed_ratio, solution.iterations));
-  sinks.history(fmt::format("{:.17g},{},{:.9e},{:.9e},{}", value, to_string(solution.verdict),
+  sinks.history(fmt::format("{:.17g},{},{:.9e},{:.9e},{}", value, to_string(solution.outcome),
                             solution.speed_ratio, solution.balance.residual, solution.iterations));
-  if (solution.verdict == Verdict::equilibrium)
+  if (solution.outcome == StaticOutcome::equilibrium)
     stable = std::move(probe);
-  else if (solution.verdict == Verdict::moving)
+  else if (solution.outcome == StaticOutcome::moving)
     moving = std::move(probe);
   interrupted = sinks.interrupted();
   return !interrupted;
@@ -82,7 +83,7 @@ Bracket LimitRun::search_value() {
   return bisect(limit.low, limit.high, {limit.relative_width, 0.0},
                 [this](double value) -> std::optional<LimitTrial> {
                   Probe probe = probe_at(value);
-                  const LimitTrial trial{value, probe.solution.verdict, probe.solution.speed_ratio};
+                  const LimitTrial trial{value, probe.solution.outcome, probe.solution.speed_ratio};
                   if (!keep(value, std::move(probe))) return std::nullopt;
                   return trial;
                 });
@@ -99,8 +100,9 @@ Bracket LimitRun::follow_spread() {
       });
 }
 
-/// Two frames: the last equilibrium, and the mechanism with its velocities scaled to 1 m/s.
-void write_frames(const LimitRun& run, Summary* summary) {
+/// Writes two frames: the last equilibrium, and the mechanism with its largest speed scaled to 1 m/s. Returns
+/// a description of the mechanism, empty if none was found.
+std::string write_frames(const LimitRun& run, Summary* summary) {
   if (run.stable) {
     const Probe& probe = *run.stable;
     const Frame frame =
@@ -111,7 +113,7 @@ void write_frames(const LimitRun& run, Summary* summary) {
     first.time = 0.0;
     run.sinks.frame(first);
   }
-  if (!run.moving) return;
+  if (!run.moving) return "";
   const Probe& probe = *run.moving;
   const Mechanism mechanism = find_mechanism(probe.model, probe.start, probe.contacts, probe.solution);
   State moving = probe.start;
@@ -121,15 +123,13 @@ void write_frames(const LimitRun& run, Summary* summary) {
                              probe.memories, std::vector<Vec3>(moving.poses.size(), Vec3::Zero())));
   run.sinks.table("mechanism_blocks.csv", mechanism_blocks_csv(probe.model, mechanism));
   run.sinks.table("mechanism_joints.csv", mechanism_joints_csv(mechanism));
-  summary->message += "; " + describe(mechanism);
+  return describe(mechanism);
 }
 
 }  // namespace
 
 std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
   LimitRun run{scene, assembly, sinks, static_options(scene.analysis), {}, {}};
-  run.options.tolerance = std::max(run.options.tolerance, kVerdictTolerance);
-  run.options.may_move = true;
   const LimitSearch::Parameter parameter = scene.analysis.limit.parameter;
   const double started = wall_seconds();
   sinks.history(kHistoryHeader);
@@ -138,10 +138,10 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   if (run.interrupted) return std::nullopt;
 
   Summary summary;
-  write_frames(run, &summary);
-  const std::string mechanism = run.moving ? summary.message.substr(summary.message.find("; ")) : "";
+  const std::string mechanism = write_frames(run, &summary);
   summary.status = bracket.narrow ? Status::stable : Status::unconverged;
-  summary.message = fmt::format("{}: {}{}", to_string(parameter), bracket.message, mechanism);
+  summary.message = fmt::format("{}: {}{}{}", to_string(parameter), bracket.message,
+                                mechanism.empty() ? "" : "; ", mechanism);
   summary.steps = run.num_trials;
   summary.iterations = run.iterations;
   summary.accuracy_asked = scene.analysis.limit.relative_width;

@@ -8,16 +8,17 @@
 namespace cupola {
 namespace {
 
-/// Unit horizontal direction: what of `direction` is normal to gravity.
+/// Unit vector along the component of `analysis.limit.direction` normal to gravity.
 Vec3 horizontal(const Case& scene) {
   const Vec3 down = scene.loads.gravity.normalized();
-  const Vec3& wanted = scene.analysis.limit.direction;
-  const Vec3 level = wanted - wanted.dot(down) * down;
-  if (!(level.norm() > 1e-6 * wanted.norm()))
-    throw InputError("analysis.limit.direction must not be along gravity");
+  const Vec3& direction = scene.analysis.limit.direction;
+  const Vec3 level = direction - direction.dot(down) * down;
+  if (!(level.norm() > 1e-6 * direction.norm()))
+    throw InputError("analysis.limit.direction: must not be parallel to gravity");
   return level.normalized();
 }
 
+/// Makes a time function constant, with its value at time 0.
 void freeze(TimeFunction* time) {
   const double factor = factor_at(*time, 0.0);
   *time = RampInTime{factor, factor, 0.0, 1.0};
@@ -56,7 +57,7 @@ Case case_at(const Case& scene, double value) {
       }
       break;
     case LimitSearch::Parameter::thickness:
-      break;  // a matter of the assembly: with_thickness()
+      break;  // changes the assembly, not the case: with_thickness()
     case LimitSearch::Parameter::spread:
       for (SupportMove& move : at.supports.moves) move.time = TableInTime{"", {0.0, 1e6}, {0.0, 1e6}};
       break;

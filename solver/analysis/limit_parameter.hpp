@@ -4,8 +4,8 @@
 
 namespace cupola {
 
-/// The case at one value of the searched parameter; loads and friction stay as they are at time 0. For
-/// `spread` the clock is the factor on the support moves.
+/// The case at one value of the limit parameter. Loads and friction keep their values at time 0. For `spread`
+/// the time is the factor on the support displacements.
 Case case_at(const Case& scene, double value);
 
 }  // namespace cupola

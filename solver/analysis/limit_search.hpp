@@ -8,36 +8,37 @@
 
 namespace cupola {
 
-/// What one static solve said at one value of the parameter.
+/// Result of the static solve at one value of the parameter.
 struct LimitTrial {
   double value = 0.0;
-  Verdict verdict = Verdict::unconverged;
+  StaticOutcome outcome = StaticOutcome::unconverged;
   double speed_ratio = 0.0;  ///< |v| / (g h)
 };
 
-/// A bracket of the critical value.
+/// Bracket of the critical value, and how the search for it ended.
 struct Bracket {
-  LimitTrial stable, moving;
+  LimitTrial stable, moving;  ///< the two ends
   int trials = 0;
-  bool found = false;   ///< both ends have their verdict
-  bool narrow = false;  ///< and are as near to each other as wanted
-  std::string message;  ///< how it ended
+  bool found = false;   ///< one end stands, the other moves
+  bool narrow = false;  ///< found, and of the required width
+  std::string message;  ///< how the search ended
   double middle() const { return 0.5 * (stable.value + moving.value); }
 };
 
-/// When a bracket is narrow enough: the wider of the two.
+/// Required width of a bracket; the larger of the two counts.
 struct BracketWidth {
-  double relative = 1e-3;  ///< of its middle
+  double relative = 1e-3;  ///< of the middle of the bracket
   double absolute = 0.0;
 };
 
-/// What happens at a value; none: the search is given up.
+/// Result at a value; none if the search is to be abandoned.
 using TryValue = std::function<std::optional<LimitTrial>(double value)>;
 
-/// Bisects between a value at which the structure stands and one at which it moves, until the bracket is
-/// narrow enough. A trial that does not converge says nothing: the bracket then closes in on it from either
-/// side, stays wider than wanted, and the message tells what is not known. No bracket is found when both ends
-/// behave alike or one of them does not converge.
-Bracket bisect(double low, double high, const BracketWidth& wanted, const TryValue& try_value);
+/// Bisects between a value at which the structure stands and one at which it moves, until the bracket has the
+/// required width. A trial that does not converge decides nothing: the bracket then closes in on that value
+/// from both sides and stays wider than required, and the message gives the undecided interval. No bracket is
+/// found if the structure stands at both ends, moves at both ends, or if the solve at one end does not
+/// converge.
+Bracket bisect(double low, double high, const BracketWidth& required, const TryValue& try_value);
 
 }  // namespace cupola

@@ -5,17 +5,19 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
-constexpr double kStopped = 1e-3;  // of the fastest block: slower is not moving
+constexpr double kStopped = 1e-3;  // speed relative to the fastest block below which a block is at rest
 
 int root_of(std::vector<int>& parent, int block) {
   while (parent[block] != block) block = parent[block] = parent[parent[block]];
   return block;
 }
 
-/// What the points of each joint do; contacts of one joint may be scattered over the set.
+/// Motion of each joint. The contacts of one joint need not be consecutive in the set.
 std::vector<MovingJoint> joint_motions(const ContactSet& contacts, const VecX& u, double fastest) {
   const JointNumbers numbers = number_joints(contacts);
   std::vector<MovingJoint> joints(numbers.count);
@@ -30,7 +32,7 @@ std::vector<MovingJoint> joint_motions(const ContactSet& contacts, const VecX& u
     joint.ring = contacts.patches[contact.patch].ring;
     const Vec3 at_point = u.segment<3>(3 * static_cast<Eigen::Index>(i)) / fastest;
     joint.opening = std::max(joint.opening, at_point[0]);
-    // Under the associated law a sliding point lifts off by mu |u_t|: it counts as closed.
+    // Under the associated law a sliding point opens at mu |u_t|; it counts as closed.
     if (at_point[0] <= std::max(kStopped, at_point.tail<2>().norm())) {
       any_closed[j] = true;
       joint.sliding = std::max(joint.sliding, at_point.tail<2>().norm());
@@ -48,7 +50,7 @@ std::vector<MovingJoint> joint_motions(const ContactSet& contacts, const VecX& u
   return joints;
 }
 
-/// Blocks joined by closed joints move as one; those at rest are group 0, the others count from 1.
+/// Blocks connected by closed joints form a group. Blocks at rest are group 0; moving groups count from 1.
 void find_groups(const Model& model, Mechanism* mechanism) {
   const int num_blocks = static_cast<int>(model.assembly->blocks.size());
   std::vector<int> parent(num_blocks);
@@ -91,6 +93,8 @@ std::string to_string(JointMotion motion) {
 
 Mechanism find_mechanism(const Model& model, const State& start, const ContactSet& contacts,
                          const StaticSolution& solution) {
+  CUPOLA_ASSERT(solution.step_solution.v.size() == 6 * static_cast<Eigen::Index>(model.num_free()));
+  CUPOLA_ASSERT(solution.step.num_contacts == static_cast<int>(contacts.points.size()));
   const double fastest = std::max(largest_speed(solution.step_solution.v), 1e-300);
   const ContactProblem& problem = solution.step.problem;
   const VecX u = relative_velocity(problem, solution.step_solution.v) + solution.step.support_velocity;
@@ -139,8 +143,8 @@ std::string describe(const Mechanism& mechanism) {
                          [motion](const MovingJoint& joint) { return joint.motion == motion; });
   };
   return fmt::format(
-      "{} groups of blocks move; {} joints slide, {} open, {} hinge; work of the loads {:.3g} > 0, contacts "
-      "hindered by {:.1e}",
+      "{} groups of blocks move; {} joints slide, {} open, {} hinge; relative power of the loads {:.3g}, "
+      "largest violation of the friction cones {:.1e}",
       mechanism.num_groups, count(JointMotion::sliding), count(JointMotion::opening),
       count(JointMotion::hinging), mechanism.load_power, mechanism.violation);
 }

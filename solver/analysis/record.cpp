@@ -4,19 +4,21 @@
 #include <map>
 #include <tuple>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
 constexpr double kSlipping = 1.0 - 1e-6;  // friction use from which a contact counts as slipping
-constexpr double kLoaded = 1e-9;          // of the largest normal force; less is rounding, and slips nowhere
+constexpr double kLoaded = 1e-9;          // of the largest normal force; smaller forces are rounding errors
 
-Status status_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::equilibrium:
+Status status_of(StaticOutcome outcome) {
+  switch (outcome) {
+    case StaticOutcome::equilibrium:
       return Status::stable;
-    case Verdict::moving:
+    case StaticOutcome::moving:
       return Status::moving;
-    case Verdict::unconverged:
+    case StaticOutcome::unconverged:
       break;
   }
   return Status::unconverged;
@@ -41,6 +43,9 @@ JointNumbers number_joints(const ContactSet& contacts) {
 Frame make_frame(const Model& model, const State& state, const ContactSet& contacts,
                  const std::vector<Vec3>& contact_forces, const ContactMemories& memories,
                  const std::vector<Vec3>& displacement) {
+  CUPOLA_ASSERT(contact_forces.size() == contacts.points.size());
+  CUPOLA_ASSERT(memories.values.size() == contacts.points.size());
+  CUPOLA_ASSERT(displacement.size() == state.poses.size());
   Frame frame;
   frame.time = state.time;
   ContactTable& table = frame.contacts;
@@ -123,21 +128,12 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   return frame;
 }
 
-StaticOptions static_options(const Analysis& analysis) {
-  StaticOptions options;
-  options.tolerance = analysis.tolerance;
-  options.method = analysis.method;
-  options.law = analysis.friction_law;
-  options.max_iterations = analysis.iteration_limit();
-  return options;
-}
-
 void summarize_static(const StaticSolution& solution, double tolerance, Summary* summary) {
-  summary->status = status_of(solution.verdict);
+  summary->status = status_of(solution.outcome);
   summary->message = solution.message;
   summary->accuracy_asked = tolerance;
   summary->accuracy_reached =
-      solution.verdict == Verdict::moving ? solution.residuals.momentum : solution.balance.residual;
+      solution.outcome == StaticOutcome::moving ? solution.residuals.momentum : solution.balance.residual;
   summary->iterations = solution.iterations;
   summary->steps = 1;
   summary->time_step_s = solution.h;

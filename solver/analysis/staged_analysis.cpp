@@ -5,6 +5,7 @@
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/limit_search.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/dynamics/scene_options.hpp"
@@ -13,20 +14,20 @@
 namespace cupola {
 namespace {
 
-constexpr double kNarrowest = 1e-4;  // of a bracket of friction: below it no mortar can be told from another
+constexpr double kNarrowest = 1e-4;  // width of a bracket of friction; mortars do not differ by less
 
-/// What one stage showed.
+/// Result of one stage.
 struct StageResult {
   int ring = 0;
   int blocks = 0;
   double weight = 0.0;  // N
-  Verdict verdict = Verdict::unconverged;
+  StaticOutcome outcome = StaticOutcome::unconverged;
   double speed_ratio = 0.0;
   std::optional<Bracket> critical;  // of the fresh friction
-  bool needs_none = false;          // stands on a bed without friction
+  bool needs_none = false;          // stands without friction in the fresh bed
 };
 
-/// One stage with its contacts, which do not depend on friction.
+/// One stage with its contacts, which are detected once because they do not depend on friction.
 class StageRun {
  public:
   StageRun(const Case& scene, const Assembly& complete, int ring)
@@ -37,15 +38,13 @@ class StageRun {
     contacts_ = detector.update(initial_poses(stage_.assembly));
     memories_ = match_memories({}, contacts_.points);
     options_ = static_options(scene.analysis);
-    options_.tolerance = std::max(options_.tolerance, kVerdictTolerance);
-    options_.may_move = true;
   }
 
   StaticSolution solve(double fresh_friction) {
     model_ = make_model(case_of_stage(scene_, stage_, fresh_friction, complete_), stage_.assembly);
     return solve_static(model_, state_at_rest(model_), contacts_, memories_, options_);
   }
-  /// Frame of the last solve, in the blocks of the complete assembly.
+  /// Frame of the last solve, with the block numbers of the complete assembly.
   Frame frame(const StaticSolution& solution, const Assembly& complete) const;
   const Model& model() const { return model_; }
   const StaticOptions& options() const { return options_; }
@@ -83,31 +82,31 @@ Frame StageRun::frame(const StaticSolution& solution, const Assembly& complete) 
   return frame;
 }
 
-/// Smallest fresh friction at which the stage stands, between none and that of hardened joints.
+/// Bracket of the smallest fresh friction at which the stage stands, between 0 and that of hardened joints.
 Bracket critical_friction(const Case& scene, StageRun* run) {
   double hardened = scene.joints.friction;
   if (scene.joints.bed && scene.joints.bed->friction) hardened = *scene.joints.bed->friction;
   return bisect(0.0, hardened, {scene.analysis.staged.relative_width, kNarrowest}, [run](double friction) {
     const StaticSolution solution = run->solve(friction);
-    return LimitTrial{friction, solution.verdict, solution.speed_ratio};
+    return LimitTrial{friction, solution.outcome, solution.speed_ratio};
   });
 }
 
-/// Searches the fresh friction below which the stage does not stand, if there is one.
+/// Searches for the fresh friction below which the stage does not stand.
 void search_critical_friction(const Case& scene, StageRun* run, StageResult* stage) {
-  stage->needs_none = run->solve(0.0).verdict == Verdict::equilibrium;
+  stage->needs_none = run->solve(0.0).outcome == StaticOutcome::equilibrium;
   if (!stage->needs_none) stage->critical = critical_friction(scene, run);
 }
 
 std::string note(const StageResult& stage) {
-  if (stage.needs_none) return "stands without any";
+  if (stage.needs_none) return "stands without friction";
   return stage.critical ? stage.critical->message : "";
 }
 
 std::string row(const StageResult& stage) {
   const bool found = stage.critical && stage.critical->found;
   return fmt::format(
-      "{},{},{:.9g},{},{:.6e},{},\"{}\"\n", stage.ring, stage.blocks, stage.weight, to_string(stage.verdict),
+      "{},{},{:.9g},{},{:.6e},{},\"{}\"\n", stage.ring, stage.blocks, stage.weight, to_string(stage.outcome),
       stage.speed_ratio,
       found ? fmt::format("{:.9g},{:.9g}", stage.critical->stable.value, stage.critical->moving.value)
       : stage.needs_none ? "0,"
@@ -117,26 +116,26 @@ std::string row(const StageResult& stage) {
 
 void judge(const std::vector<StageResult>& stages, double fresh_friction, Summary* summary) {
   const StageResult* worst = nullptr;
-  int falling = 0, unconverged = 0, need_none = 0;
+  int moving = 0, unconverged = 0, need_none = 0;
   for (const StageResult& stage : stages) {
-    falling += stage.verdict == Verdict::moving;
-    unconverged += stage.verdict == Verdict::unconverged;
+    moving += stage.outcome == StaticOutcome::moving;
+    unconverged += stage.outcome == StaticOutcome::unconverged;
     need_none += stage.needs_none;
     if (stage.critical && stage.critical->found &&
         (worst == nullptr || stage.critical->stable.value > worst->critical->stable.value))
       worst = &stage;
   }
-  summary->status = unconverged > 0 ? Status::unconverged : falling > 0 ? Status::moving : Status::stable;
-  summary->message = fmt::format("{} of {} stages do not stand with fresh friction {:g}", falling,
+  summary->status = unconverged > 0 ? Status::unconverged : moving > 0 ? Status::moving : Status::stable;
+  summary->message = fmt::format("{} of {} stages do not stand with a fresh friction of {:g}", moving,
                                  stages.size(), fresh_friction);
   if (unconverged > 0) summary->message += fmt::format(", {} did not converge", unconverged);
-  if (need_none > 0) summary->message += fmt::format("; {} stand without any", need_none);
+  if (need_none > 0) summary->message += fmt::format("; {} stand without friction", need_none);
   if (worst == nullptr) return;
   const Bracket& bracket = *worst->critical;
   summary->critical =
       CriticalValue{"fresh friction", bracket.middle(), bracket.stable.value, bracket.moving.value};
-  summary->message +=
-      fmt::format("; the most demanding is ring {}, which needs {:.4g}", worst->ring, bracket.stable.value);
+  summary->message += fmt::format("; the most demanding stage is ring {}, which needs {:.4g}", worst->ring,
+                                  bracket.stable.value);
 }
 
 }  // namespace
@@ -147,8 +146,8 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
   for (const Block& block : assembly.blocks) last_laid = std::max(last_laid, block.ring);
   const int last = staged.last_ring < 0 ? last_laid : std::min(staged.last_ring, last_laid);
   if (staged.first_ring > last)
-    throw InputError(
-        fmt::format("analysis.staged.first_ring = {}: the last ring is {}", staged.first_ring, last));
+    throw InputError(fmt::format("analysis.staged.first_ring = {}: must not exceed the last ring, {}",
+                                 staged.first_ring, last));
 
   Summary summary;
   std::vector<StageResult> results;
@@ -161,7 +160,7 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
     stage.ring = ring;
     stage.blocks = run.model().num_free();
     stage.weight = run.model().free_weight;
-    stage.verdict = solution.verdict;
+    stage.outcome = solution.outcome;
     stage.speed_ratio = solution.speed_ratio;
     const Frame frame = run.frame(solution, assembly);
     sinks.frame(frame);
@@ -172,7 +171,7 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
     results.push_back(stage);
     sinks.table("stages.csv", table);
     sinks.log(fmt::format("ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}", ring, stage.blocks,
-                          to_string(stage.verdict), stage.speed_ratio, note(stage)));
+                          to_string(stage.outcome), stage.speed_ratio, note(stage)));
     sinks.progress(static_cast<double>(ring - staged.first_ring + 1) / (last - staged.first_ring + 1));
     if (sinks.interrupted()) return std::nullopt;
   }

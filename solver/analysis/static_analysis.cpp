@@ -6,6 +6,7 @@
 
 #include "assembly/base/process.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/analysis/static_solve.hpp"
 #include "solver/analysis/wrench_error.hpp"
@@ -15,7 +16,7 @@
 namespace cupola {
 namespace {
 
-/// Statics finds displacements on the geometry as built.
+/// Warns if displacements are large: equilibrium is found on the geometry as built.
 std::string linearity_note(const Assembly& assembly, double displacement) {
   constexpr double kSmall = 0.1;  // of the smallest free block
   double smallest = std::numeric_limits<double>::infinity();
@@ -23,8 +24,9 @@ std::string linearity_note(const Assembly& assembly, double displacement) {
     if (!block.fixed) smallest = std::min(smallest, std::cbrt(block.volume));
   if (displacement <= kSmall * smallest) return "";
   return fmt::format(
-      "; blocks move by up to {:.2g} m, which is not little beside the smallest of {:.2g} m: the "
-      "forces are those of the geometry as built",
+      "; the largest displacement of {:.2g} m is not small compared with the smallest block of {:.2g} m: "
+      "forces "
+      "are those of the geometry as built. Check `joints.compliance`",
       displacement, smallest);
 }
 
@@ -33,7 +35,7 @@ std::string linearity_note(const Assembly& assembly, double displacement) {
 Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
   const Model model = make_model(scene, assembly);
   const State rest = state_at_rest(model);
-  // The detector goes at once: of a large model it is as big as the contact problem.
+  // The detector is destroyed at once: for a large model it is as large as the contact problem.
   const ContactSet contacts = ContactDetector(assembly, detection_options(scene)).update(rest.poses);
   sinks.as_built(contacts);
   release_freed_memory();
@@ -61,12 +63,12 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   summarize_static(solution, options.tolerance, &summary);
   if (wrench_error) {
     summary.accuracy_asked = *wrench_error;
-    if (solution.verdict != Verdict::moving) summary.accuracy_reached = wrench_error_reached;
+    if (solution.outcome != StaticOutcome::moving) summary.accuracy_reached = wrench_error_reached;
   }
   summary.unknowns /= scene.analysis.cyclic_sectors;
   summary.message += linearity_note(assembly, summary.max_displacement_m);
   sinks.problem(solution.step.problem, solution.step_solution.gamma);
-  solution.step = {};  // of a large model it is as big as the frame, and what is written takes as much again
+  solution.step = {};  // for a large model as large as the frame, whose writing takes as much memory again
   sinks.frame(frame);
   return summary;
 }

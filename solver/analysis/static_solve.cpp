@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "solver/analysis/cyclic_reduction.hpp"
 #include "solver/contact/methods/method_table.hpp"
 #include "solver/contact/problem/kinematic_bound.hpp"
@@ -14,7 +15,8 @@ namespace cupola {
 namespace {
 
 constexpr int kMaxSolves = 10;
-constexpr double kSolveShare = 0.1;  // of the asked residual is left to the solve, the rest to inertia
+constexpr double kSolveShare =
+    0.1;  // of the tolerance: residual of the contact solve; inertia takes the rest
 
 /// Largest displacement of a support in the step, m.
 double imposed_displacement(const Model& model, const State& start, const StaticOptions& options) {
@@ -26,11 +28,12 @@ double imposed_displacement(const Model& model, const State& start, const Static
   return largest;
 }
 
-/// First guess of h. A displacement d reached in one step costs the inertia m d / h^2, so h^2 >= d / (g tol).
-/// The crown sinks by about c F at the support's contacts, once per course.
+/// First guess of h. A displacement d reached in one step causes the inertia force m d / h^2, so that the
+/// tolerance requires h^2 >= d / (g tolerance). The crown sinks by about c F per course, where F is the force
+/// on one contact of the supports.
 double first_step(const Model& model, const State& start, const ContactSet& contacts, double acceleration,
                   const StaticOptions& options) {
-  constexpr double kShortShare = 1e-2;  // inertia share to begin with where the structure may move
+  constexpr double kShortShare = 1e-2;  // inertia share at the first h of a structure that may move
   const double tolerance = options.may_move ? std::max(kShortShare, options.tolerance) : options.tolerance;
   double compliance = 0.0;
   int at_supports = 0;
@@ -48,9 +51,9 @@ double first_step(const Model& model, const State& start, const ContactSet& cont
   const double displacement =
       courses * compliance * load / std::max(1, at_supports) + imposed_displacement(model, start, options);
   if (displacement == 0.0) return 1.0;
-  // Shells sink by more than their columns shorten, thin ones of many blocks by tens of times as much. Where
-  // nothing moves a larger h costs nothing, and a second solve as much as the first: with 6 the inertia share
-  // of a dome of 330,000 bricks is a quarter of the tolerance.
+  // Shells sink further than their columns shorten; thin shells of many blocks, by tens of times as much. For
+  // a structure that stands a larger h costs nothing, but a second solve costs as much as the first. With a
+  // margin of 6 the inertia share of a dome of 330,000 bricks is a quarter of the tolerance.
   const double margin = options.may_move ? 2.5 : 6.0;
   return margin * std::sqrt(displacement / (acceleration * tolerance));
 }
@@ -62,20 +65,20 @@ StepOptions step_options(const StaticOptions& options, double h) {
   return step;
 }
 
-/// Whether the equilibrium may be tried with one large h, because a failure shows early. Under Coulomb's law it
-/// shows late with every method.
-bool tries_at_once(const StaticOptions& options) {
-  return !options.may_move && method_traits(options.method).fails_fast &&
-         options.law == FrictionLaw::associated;
+/// True if the equilibrium is first sought with one large h within a few iterations, because a failure costs
+/// little. Under Coulomb's law it costs much with every method.
+bool limits_first_solve(const StaticOptions& options) {
+  return !options.may_move && method_traits(options.solve.method).fails_fast &&
+         options.solve.law == FrictionLaw::associated;
 }
 
-/// Relative momentum residual up to which a speed is known.
-double known_to(double speed_ratio) {
+/// Largest residual of a solve whose |v| / (g h) can be trusted.
+double residual_for_speed(double speed_ratio) {
   constexpr double kShare = 1e-2;
   return kShare * speed_ratio;
 }
 
-/// Solves the whole problem, or one sector of it.
+/// Solves the whole problem, or one sector of it if the model has cyclic symmetry.
 SolveSummary solve_problem(const ContactProblem& problem, const CyclicSymmetry* symmetry,
                            const ContactSolverOptions& options, ContactSolver* solver,
                            ContactSolution* solution) {
@@ -86,40 +89,40 @@ SolveSummary solve_problem(const ContactProblem& problem, const CyclicSymmetry* 
   return summary;
 }
 
-/// Equilibrium counts in mean block weights, a solve in the largest acceleration that a load gives to a
-/// block: far more where the load stays and the blocks are made smaller.
+/// Mean block weight over the largest load on a block. The equilibrium residual is relative to the former,
+/// the residual of a solve to the latter, which is far larger where small blocks carry large loads.
 double weight_over_load(const Model& model, double acceleration) {
   return model.block_weight > 0.0 ? model.loads.gravity.norm() / acceleration : 1.0;
 }
 
-/// Solves at trial->h. What moves fast is not solved finer than its verdict needs: its impulses lose digits
-/// with h^2, and no answer to the full tolerance may exist in double precision.
-/// `share`: of the asked residual that is left to the solve.
+/// Solves at trial->h. A structure that moves fast is solved only as accurately as its outcome requires: its
+/// impulses lose digits with h^2, and double precision may not allow the full tolerance.
+/// `share`: part of the tolerance that the contact solve may use.
 void solve_at(const Model& model, const State& start, const ContactSet& contacts,
               const ContactMemories& memories, const StaticOptions& options, double acceleration,
               double share, ContactSolver* solver, StaticSolution* trial) {
   constexpr double kCoarse = 1e-4;
-  constexpr double kRounding = 1e-12;  // of what a load needs, no more is asked
-  ContactSolverOptions solve;
-  solve.method = options.method;
-  solve.law = options.law;
+  constexpr double kRounding = 1e-12;  // smallest tolerance that weight_over_load() may cause
+  CUPOLA_ASSERT(trial->h > 0.0 && acceleration > 0.0);
+  ContactSolverOptions solve = options.solve;
   solve.reference_speed = trial->h * acceleration;
   const double own = share * options.tolerance;
   const double fine = std::max(own * weight_over_load(model, acceleration), std::min(own, kRounding));
   trial->step = build_step_problem(model, start, contacts, memories, step_options(options, trial->h));
   trial->step_solution = {};
-  solve.max_iterations = options.max_iterations;
-  // An equilibrium that takes more iterations than usual is found more easily in several smaller steps.
-  if (!solve.max_iterations && tries_at_once(options))
+  // An equilibrium that takes more iterations than most is found faster by raising h stepwise.
+  if (!solve.max_iterations && limits_first_solve(options))
     solve.max_iterations = usual_newton_iterations(trial->step.problem);
   for (const double tolerance : {std::max(fine, kCoarse), fine}) {
     solve.tolerance = tolerance;
     trial->solve = solve_problem(trial->step.problem, options.symmetry, solve, solver, &trial->step_solution);
     trial->iterations += trial->solve.iterations;
     trial->speed_ratio = largest_speed(trial->step_solution.v) / solve.reference_speed;
-    if (tolerance == fine || known_to(trial->speed_ratio) >= kCoarse) break;
-    if (tries_at_once(options) && trial->solve.ending != SolveEnding::converged) break;
+    if (tolerance == fine || residual_for_speed(trial->speed_ratio) >= kCoarse) break;
+    if (limits_first_solve(options) && trial->solve.ending != SolveEnding::converged) break;
   }
+  CUPOLA_ASSERT(!trial->solve.usable() ||
+                (trial->step_solution.v.allFinite() && trial->step_solution.gamma.allFinite()));
   trial->residuals =
       compute_residuals(trial->step.problem, trial->step_solution, solve.reference_speed, solve.law);
   trial->forces = joint_forces(contacts, trial->step_solution.gamma, trial->h);
@@ -132,27 +135,27 @@ struct SpeedTrial {
   double h, ratio;
 };
 
-/// Elastic displacements make the ratio fall with h^2, a mechanism keeps it. In between lies the square root
-/// of what h grew.
+/// True if the ratio fell by less than the square root of the growth of h. The ratio of elastic displacements
+/// falls with h^2; that of a mechanism is constant.
 bool falls_slowly(const SpeedTrial& before, const SpeedTrial& after) {
   return after.ratio > before.ratio * std::sqrt(before.h / after.h);
 }
 
-/// Neither of the last two raises of h slowed the structure down.
+/// True if neither of the last two increases of h slowed the structure down.
 bool keeps_moving(const std::vector<SpeedTrial>& trials) {
   const size_t n = trials.size();
   return n >= 3 && falls_slowly(trials[n - 3], trials[n - 2]) && falls_slowly(trials[n - 2], trials[n - 1]);
 }
 
-/// A ratio beyond what an equilibrium shows at the first h.
+/// A speed ratio larger than that of any equilibrium at the first h.
 constexpr double kFast = 3e-2;
 
-/// No mechanism is as slow, unless its load is within a millionth of what it can carry.
+/// A speed ratio smaller than that of any mechanism whose load exceeds the critical one by a millionth.
 constexpr double kAtRest = 1e-6;
 
-/// An h at which elastic displacements are a trifle: c m / h^2 = kRigid for the most compliant contact.
+/// An h at which elastic displacements are negligible: c m / h^2 = kRigid for the most compliant contact.
 double rigid_step(const Model& model, const State& start, const ContactSet& contacts) {
-  constexpr double kRigid = 1e-8;  // leaves the impulses of what moves fast half of their digits
+  constexpr double kRigid = 1e-8;  // leaves half of the digits to the impulses of a fast mechanism
   double compliance = 0.0;
   for (const Contact& contact : contacts.points)
     compliance = std::max(compliance, joint_law(model, contacts, contact, start.time).compliance_normal);
@@ -161,55 +164,61 @@ double rigid_step(const Model& model, const State& start, const ContactSet& cont
   return std::sqrt(compliance * mass / std::max(1, model.num_free()) / kRigid);
 }
 
-/// The inertia share falls with h^2: a little more than needed. But impulses of a moving structure lose
-/// digits with h^2, so h leaps only when the last raise has shown that it slows down.
-double raise_of_h(const std::vector<SpeedTrial>& trials, double residual, const StaticOptions& options) {
-  constexpr double kCareful = 2.0;
-  constexpr double kByDegrees = 6.0;
-  constexpr double kFarthest = 100.0;
+/// Factor on h for the next trial. The inertia share falls with h^2; the factor is twice the one that meets
+/// the tolerance. The impulses of a moving structure lose digits with h^2, so h grows fast only if the last
+/// increase slowed the structure down.
+double growth_of_h(const std::vector<SpeedTrial>& trials, double residual, const StaticOptions& options) {
+  constexpr double kSmallest = 2.0;
+  constexpr double kStepwise = 6.0;
+  constexpr double kLargest = 100.0;
+  CUPOLA_ASSERT(!trials.empty());
   const size_t n = trials.size();
   const bool slows_down = n >= 2 ? !falls_slowly(trials[n - 2], trials[n - 1])
                                  : trials[0].ratio < (options.may_move ? kFast : kAtRest);
-  const double leap = options.may_move ? kByDegrees : kFarthest;
-  return std::clamp(2.0 * std::sqrt(residual / options.tolerance), kCareful, slows_down ? leap : kCareful);
+  const double largest = options.may_move ? kStepwise : kLargest;
+  return std::clamp(2.0 * std::sqrt(residual / options.tolerance), kSmallest,
+                    slows_down ? largest : kSmallest);
 }
 
-/// What the motion proves: the sum of normal forces that an equilibrium would need, over the sum found.
+/// Lower bound, from the motion, of the sum of normal forces in any equilibrium, over the sum found.
 double needed_over_found(const StaticSolution& trial) {
   return required_normal_force(trial.step.problem, trial.step_solution.v) /
          normal_force_sum(trial.step.problem, trial.step_solution.gamma);
 }
 
-/// From here on a motion counts as proven: no other forces of that size balance the loads either.
+/// needed_over_found() from which a motion counts as proven: no contact forces of the size found balance the
+/// loads.
 constexpr double kProven = 10.0;
 
 constexpr const char* kNotCertified =
-    "not certified: other forces in the friction cones might balance the loads";
+    "not certified: other contact forces inside the friction cones might balance the loads";
 
 std::string proof(const StaticSolution& trial) {
   const double needed = needed_over_found(trial);
   if (needed < kProven) return kNotCertified;
-  return fmt::format("an equilibrium would need normal forces {:.2g} times those found", needed);
+  return fmt::format("proof: an equilibrium would need normal forces {:.2g} times those found", needed);
 }
 
 void judge(const StaticOptions& options, bool moving, StaticSolution* trial) {
   if (moving) {
-    trial->verdict = Verdict::moving;
-    trial->message =
-        fmt::format("no equilibrium: |v|/(g h) = {:.3e} at h = {:.3g} s no longer falls as h grows",
-                    trial->speed_ratio, trial->h);
+    trial->outcome = StaticOutcome::moving;
+    trial->message = fmt::format(
+        "no equilibrium: the speed ratio |v|/(g h) = {:.3e} at h = {:.3g} s no longer falls as h grows",
+        trial->speed_ratio, trial->h);
   } else if (trial->solve.ending == SolveEnding::converged && trial->balance.residual <= options.tolerance) {
-    trial->verdict = Verdict::equilibrium;
-    trial->message = fmt::format("equilibrium residual {:.2e} <= {:.2e} asked, h = {:.3g} s",
+    trial->outcome = StaticOutcome::equilibrium;
+    trial->message = fmt::format("equilibrium residual {:.2e} <= tolerance {:.2e} at h = {:.3g} s",
                                  trial->balance.residual, options.tolerance, trial->h);
   } else {
-    trial->verdict = Verdict::unconverged;
-    trial->message = fmt::format("equilibrium residual {:.2e} > {:.2e} asked, h = {:.3g} s: {}",
-                                 trial->balance.residual, options.tolerance, trial->h, trial->solve.message);
+    trial->outcome = StaticOutcome::unconverged;
+    trial->message = fmt::format(
+        "equilibrium residual {:.2e} > tolerance {:.2e} at h = {:.3g} s: {}. Try a larger "
+        "`analysis.tolerance` or a larger compliance",
+        trial->balance.residual, options.tolerance, trial->h, trial->solve.message);
   }
 }
 
-/// Solves at a first h, and at larger ones until the residual is as small as asked or the structure is seen
+/// Solves at the first h and at larger ones until the residual meets the tolerance or the structure is found
 /// to move.
 StaticSolution raise_step(const Model& model, const State& start, const ContactSet& contacts,
                           const ContactMemories& memories, const StaticOptions& options) {
@@ -229,21 +238,22 @@ StaticSolution raise_step(const Model& model, const State& start, const ContactS
                     trial.balance.residual, trial.speed_ratio));
     const bool converged = trial.solve.ending == SolveEnding::converged;
     if (converged && trial.balance.residual <= options.tolerance) break;
-    // First-order methods balance momentum by construction: what they miss shows in the contact law.
+    // First-order methods balance momentum by construction; their error is in the contact law.
     const double missed = std::max(trial.residuals.momentum, trial.residuals.contact_law);
-    if (!converged && !(missed <= known_to(trial.speed_ratio))) break;
+    if (!converged && !(missed <= residual_for_speed(trial.speed_ratio))) break;
     trials.push_back({trial.h, trial.speed_ratio});
     const double rigid = rigid_step(model, start, contacts);
     if (!keeps_moving(trials)) {
-      trial.h *= raise_of_h(trials, trial.balance.residual, options);
-    } else if (options.law == FrictionLaw::associated && trial.speed_ratio > kFast && trial.h < rigid) {
-      // Joints so soft that blocks nearly fall freely in h show nothing yet: ask once more, rigid. (Under
-      // Coulomb's law the rigid problem is another one: it admits self-stress that no compliance builds up.)
+      trial.h *= growth_of_h(trials, trial.balance.residual, options);
+    } else if (options.solve.law == FrictionLaw::associated && trial.speed_ratio > kFast && trial.h < rigid) {
+      // If the joints are so soft that blocks nearly fall freely during h, the ratio proves nothing yet:
+      // solve again with nearly rigid joints. (Not under Coulomb's law: its rigid problem admits states of
+      // self-stress that compliant joints do not build up.)
       trial.h = rigid;
     } else if (trial.speed_ratio <= kAtRest) {
-      share *= 0.1;  // rigid joints do not slow down with h: what moves is what the solve left over
+      share *= 0.1;  // rigid joints do not slow down with h: the motion is the residual of the solve
     } else if (options.certify && k + 1 < kMaxSolves && needed_over_found(trial) < kProven) {
-      // What the joints give way is less and less of the motion: the proof grows with h^2.
+      // The share of elastic deformation in the motion falls, so the bound grows, with h^2.
       trial.h *= std::clamp(std::sqrt(2.0 * kProven / needed_over_found(trial)), 2.0, 10.0);
     } else {
       moving = true;
@@ -253,29 +263,29 @@ StaticSolution raise_step(const Model& model, const State& start, const ContactS
   return trial;
 }
 
-/// The motion under the associated law, if it proves that nothing holds the structure: where no forces in the
-/// cones balance the loads, none do by Coulomb's law, whose own solves tell it much later. (What slides by
-/// Coulomb's law proves nothing.)
+/// The motion under the associated law, if it proves that the structure does not stand. Where no forces
+/// inside the friction cones balance the loads, none do under Coulomb's law either, whose own solves find
+/// this out much later. (A sliding motion under Coulomb's law proves nothing.)
 std::optional<StaticSolution> proven_motion(const Model& model, const State& start,
                                             const ContactSet& contacts, const ContactMemories& memories,
                                             StaticOptions options) {
-  options.law = FrictionLaw::associated;
+  options.solve.law = FrictionLaw::associated;
   options.may_move = options.certify = true;
   StaticSolution answer = raise_step(model, start, contacts, memories, options);
-  if (answer.verdict != Verdict::moving || needed_over_found(answer) < kProven) return std::nullopt;
-  answer.message += "; " + proof(answer) + ", by whichever law";
+  if (answer.outcome != StaticOutcome::moving || needed_over_found(answer) < kProven) return std::nullopt;
+  answer.message += "; " + proof(answer) + ", under either friction law";
   return answer;
 }
 
 }  // namespace
 
-std::string to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::equilibrium:
+std::string to_string(StaticOutcome outcome) {
+  switch (outcome) {
+    case StaticOutcome::equilibrium:
       return "equilibrium";
-    case Verdict::moving:
+    case StaticOutcome::moving:
       return "moving";
-    case Verdict::unconverged:
+    case StaticOutcome::unconverged:
       return "unconverged";
   }
   return "";
@@ -283,28 +293,35 @@ std::string to_string(Verdict verdict) {
 
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
-  const bool coulomb = options.law == FrictionLaw::coulomb;
+  const bool coulomb = options.solve.law == FrictionLaw::coulomb;
   const auto motion = [&] { return proven_motion(model, start, contacts, memories, options); };
   if (coulomb && options.may_move) {
     if (std::optional<StaticSolution> moves = motion()) return *moves;
   }
   StaticSolution answer = raise_step(model, start, contacts, memories, options);
-  const bool budget = options.max_iterations.has_value();  // it is used up
-  if (options.may_move || budget || answer.verdict == Verdict::equilibrium) return answer;
+  const bool budget_spent = options.solve.max_iterations.has_value();  // no second search within the user's limit
+  if (options.may_move || budget_spent || answer.outcome == StaticOutcome::equilibrium) return answer;
   if (coulomb) {
     if (std::optional<StaticSolution> moves = motion()) return *moves;
   }
-  if (answer.verdict == Verdict::unconverged) {
-    // A mechanism, or joints that open and close in numbers: both show themselves at short h.
-    StaticOptions by_degrees = options;
-    by_degrees.may_move = true;
-    by_degrees.certify = !coulomb;
+  if (answer.outcome == StaticOutcome::unconverged) {
+    // A mechanism, or many joints that open and close: both are solved in few iterations at short h.
+    StaticOptions stepwise = options;
+    stepwise.may_move = true;
+    stepwise.certify = !coulomb;
     const int iterations = answer.iterations;
-    answer = raise_step(model, start, contacts, memories, by_degrees);
+    answer = raise_step(model, start, contacts, memories, stepwise);
     answer.iterations += iterations;
   }
-  if (answer.verdict == Verdict::moving) answer.message += "; " + (coulomb ? kNotCertified : proof(answer));
+  if (answer.outcome == StaticOutcome::moving)
+    answer.message += "; " + (coulomb ? kNotCertified : proof(answer));
   return answer;
+}
+
+StepProblem first_static_problem(const Model& model, const State& start, const ContactSet& contacts,
+                                 const ContactMemories& memories, const StaticOptions& options) {
+  const double h = first_step(model, start, contacts, reference_acceleration(model, start), options);
+  return build_step_problem(model, start, contacts, memories, step_options(options, h));
 }
 
 LoadedState loaded_state(const Model& model, const State& start, const ContactSet& contacts,
@@ -313,7 +330,7 @@ LoadedState loaded_state(const Model& model, const State& start, const ContactSe
   LoadedState loaded{start, memories, solution.h};
   loaded.state.v = solution.step_solution.v;
   integrate_positions(model, solution.h, options.time_advance, &loaded.state);
-  loaded.state.v.setZero();  // equilibrium: the step's velocity is only the displacement's carrier
+  loaded.state.v.setZero();  // v was only the displacement over h
   update_memories(solution.step, solution.step_solution, start, contacts, step_options(options, solution.h),
                   &loaded.memories);
   return loaded;

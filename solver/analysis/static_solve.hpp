@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "solver/analysis/cyclic_symmetry.hpp"
@@ -14,34 +13,35 @@
 namespace cupola {
 
 struct StaticOptions {
-  double tolerance = 1e-9;  ///< largest equilibrium residual, inertia share included
-  ContactMethod method = ContactMethod::newton;
-  FrictionLaw law = FrictionLaw::associated;
-  /// Expects that the structure may move: begins with a short h, where a mechanism is told in few iterations,
-  /// and raises it by degrees. Otherwise h is at once what an equilibrium of that tolerance needs.
+  double tolerance = 1e-9;  ///< largest equilibrium residual accepted, inertia share included; no unit
+  /// Method, friction law and iteration limit of each contact solve. Tolerance and reference speed follow
+  /// from `tolerance` and h and need not be set.
+  ContactSolverOptions solve;
+  /// The structure may be a mechanism: start with a short h, at which a mechanism shows after few iterations,
+  /// and raise it stepwise. If false, start with the h that an equilibrium to `tolerance` needs.
   bool may_move = false;
-  /// Goes on raising h until the motion proves that nothing balances the loads (kinematic_bound.hpp).
+  /// Keep raising h until the motion proves that no contact forces balance the loads (kinematic_bound.hpp).
   bool certify = false;
-  const CyclicSymmetry* symmetry = nullptr;          ///< of the model; then one sector is solved for all
-  std::optional<int> max_iterations = std::nullopt;  ///< of the method per trial of h; none: its own limit
-  double time_advance = 0.0;                         ///< s by which loads and supports go on in the step
+  const CyclicSymmetry* symmetry = nullptr;  ///< if set, only one sector of the model is solved
+  double time_advance = 0.0;                 ///< time by which loads and supports advance, s
   std::function<void(const std::string&)> log = [](const std::string&) {};
 };
 
-/// Equilibrium residual up to which a structure counts as standing where only the verdict matters.
-constexpr double kVerdictTolerance = 1e-5;
+/// Equilibrium residual that is small enough to decide whether a structure stands.
+constexpr double kOutcomeTolerance = 1e-5;
 
-enum class Verdict {
+/// How a static solve ended.
+enum class StaticOutcome {
   equilibrium,  ///< residual <= tolerance
-  moving,       ///< nothing holds it: the speed it picks up grows with h
+  moving,       ///< no equilibrium: the speed grows in proportion to h
   unconverged   ///< the contact problem was not solved
 };
 
-std::string to_string(Verdict verdict);
+std::string to_string(StaticOutcome outcome);
 
-/// The answer at the last h and what it is worth.
+/// The solution at the last h, with its accuracy.
 struct StaticSolution {
-  Verdict verdict = Verdict::unconverged;
+  StaticOutcome outcome = StaticOutcome::unconverged;
   std::string message;
   double h = 0.0;  ///< s
   StepProblem step;
@@ -51,18 +51,23 @@ struct StaticSolution {
   JointForces forces;
   Equilibrium balance;
   double speed_ratio = 0.0;  ///< max |v| / (g h)
-  int iterations = 0;        ///< of all trials
+  int iterations = 0;        ///< sum over all h
 };
 
-/// Equilibrium in one contact problem with v = 0 and a large step (paper 2.1). The inertia term carries a
-/// share of the load that falls with h^2: h is raised until the equilibrium residual, share included, is as
-/// small as asked. Displacement is h v. A structure that stands has |v| / (g h) falling with h^2; where it
-/// ceases to fall there is no equilibrium, and v is the collapse mechanism. What one large h does not settle
-/// in a few iterations is asked for again from a short h, by degrees, and its motion certified.
+/// Finds the equilibrium as one contact problem with v = 0 at the start and a large step (paper 2.1). The
+/// displacement is h v. The inertia term carries a share of the load that falls with h^2; h is raised until
+/// the equilibrium residual, which includes this share, meets the tolerance. In a structure that stands,
+/// |v| / (g h) falls with h^2. Where it stops falling there is no equilibrium, and v is the collapse
+/// mechanism. If one large h does not converge within a few iterations, the solve is repeated from a short h
+/// raised stepwise, and a motion found then is certified.
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options);
 
-/// The state after the step, at rest, with joints that remember their load.
+/// The contact problem at the first h that solve_static() tries.
+StepProblem first_static_problem(const Model& model, const State& start, const ContactSet& contacts,
+                                 const ContactMemories& memories, const StaticOptions& options);
+
+/// The state after the step, at rest, with the load of each joint in its memory.
 LoadedState loaded_state(const Model& model, const State& start, const ContactSet& contacts,
                          const ContactMemories& memories, const StaticSolution& solution,
                          const StaticOptions& options);

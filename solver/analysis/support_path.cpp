@@ -18,33 +18,35 @@ StaticSolution SupportPath::advance(double value) {
   memories_ = match_memories(loaded_.memories, contacts.points);
   options_.time_advance = value - start_.time;
   StaticSolution solution = solve_static(model_, start_, contacts, memories_, options_);
-  if (solution.verdict == Verdict::equilibrium)
+  if (solution.outcome == StaticOutcome::equilibrium)
     loaded_ = loaded_state(model_, start_, contacts, memories_, solution, options_);
   return solution;
 }
 
 Bracket follow(SupportPath* path, double low, double high, double relative_width,
                const std::function<bool(const LimitTrial&, const StaticSolution&)>& report) {
-  constexpr int kFirstSteps = 40;  // the path is straight to second order in the step
-  constexpr double kGrowth = 1.5;  // after a step that held
+  constexpr int kFirstSteps = 40;  // each step is accurate to second order in its length
+  constexpr double kGrowth = 1.5;  // after a step that found an equilibrium
   Bracket bracket;
   const double longest = (high - low) / kFirstSteps;
   double step = longest;
   double next = low;
   while (true) {
     const StaticSolution solution = path->advance(next);
-    const LimitTrial trial{next, solution.verdict, solution.speed_ratio};
+    const LimitTrial trial{next, solution.outcome, solution.speed_ratio};
     ++bracket.trials;
     if (!report(trial, solution)) return bracket;
-    if (trial.verdict == Verdict::equilibrium) {
+    if (trial.outcome == StaticOutcome::equilibrium) {
       bracket.stable = trial;
       if (next >= high) {
-        bracket.message = fmt::format("stands up to the end of the bracket, {:g}", high);
+        bracket.message =
+            fmt::format("the structure stands up to the end of the bracket, {:g}; widen the bracket", high);
         return bracket;
       }
       step = std::min(longest, kGrowth * step);
     } else if (next == low) {
-      bracket.message = fmt::format("{} at the start of the bracket, {:g}", to_string(trial.verdict), low);
+      bracket.message = fmt::format("{} at the start of the bracket, {:g}, where the structure must stand",
+                                    to_string(trial.outcome), low);
       return bracket;
     } else {
       bracket.moving = trial;
@@ -53,9 +55,9 @@ Bracket follow(SupportPath* path, double low, double high, double relative_width
     }
     next = std::min(high, path->value() + step);
   }
-  bracket.found = bracket.narrow = bracket.moving.verdict == Verdict::moving;
-  bracket.message = fmt::format("follows to {:.6g}, {} at {:.6g}", bracket.stable.value,
-                                to_string(bracket.moving.verdict), bracket.moving.value);
+  bracket.found = bracket.narrow = bracket.moving.outcome == StaticOutcome::moving;
+  bracket.message = fmt::format("stands up to {:.6g}, {} at {:.6g}", bracket.stable.value,
+                                to_string(bracket.moving.outcome), bracket.moving.value);
   return bracket;
 }
 

@@ -6,18 +6,18 @@
 
 namespace cupola {
 
-/// A structure followed through equilibria while its supports move slowly: the clock is the factor on the
-/// support moves, each step is a static solve from the last equilibrium with contacts found again.
+/// Sequence of equilibria of a structure whose supports move slowly. The time is the factor on the support
+/// displacements. Each step detects the contacts anew and is a static solve from the last equilibrium.
 class SupportPath {
  public:
   SupportPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options);
 
-  /// Tries to go on to `value`. Where an equilibrium is found it is taken over; else the path stays.
+  /// Static solve at `value`. If it finds an equilibrium the path advances to it; otherwise it stays.
   StaticSolution advance(double value);
 
   double value() const { return loaded_.state.time; }
   const Model& model() const { return model_; }
-  /// Start of the last step tried, and the contacts there.
+  /// State at the start of the last step tried, and its contacts.
   const State& start() const { return start_; }
   const ContactSet& contacts() const { return detector_.contacts(); }
   const ContactMemories& memories() const { return memories_; }
@@ -31,8 +31,9 @@ class SupportPath {
   ContactMemories memories_;
 };
 
-/// Follows a path from `low` (where it must stand) to `high`, halving the step where nothing holds, until the
-/// step is below relative_width times the value. `report` sees every trial.
+/// Follows a path from `low`, at which the structure must stand, to `high`. The step is halved where no
+/// equilibrium is found, until it is below relative_width times the value. `report` receives every trial and
+/// returns false to abandon the search.
 Bracket follow(SupportPath* path, double low, double high, double relative_width,
                const std::function<bool(const LimitTrial&, const StaticSolution&)>& report);
 

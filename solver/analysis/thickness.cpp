@@ -15,7 +15,7 @@ std::set<int> vertices_on(const Assembly& assembly, const Part& part, FaceKind k
   return vertices;
 }
 
-/// Adds the edges of a part from its intrados to its extrados.
+/// Adds the edges of a part that connect its intrados with its extrados.
 void add_edges_across(const Assembly& assembly, const Part& part, std::map<int, int>* extrados_of) {
   const std::set<int> inner = vertices_on(assembly, part, FaceKind::intrados);
   const std::set<int> outer = vertices_on(assembly, part, FaceKind::extrados);
@@ -26,7 +26,10 @@ void add_edges_across(const Assembly& assembly, const Part& part, std::map<int, 
       if (!inner.contains(a)) std::swap(a, b);
       if (!inner.contains(a) || !outer.contains(b)) continue;
       if (const auto [edge, is_new] = extrados_of->emplace(a, b); !is_new && edge->second != b)
-        throw InputError("a vertex of the intrados has edges to two of the extrados: no thickness to vary");
+        throw InputError(
+            "analysis.limit.parameter: thickness: a vertex of the intrados has edges to two vertices of the "
+            "extrados, so "
+            "that the thickness is not defined");
     }
   }
 }
@@ -34,11 +37,10 @@ void add_edges_across(const Assembly& assembly, const Part& part, std::map<int, 
 }  // namespace
 
 Assembly with_thickness(const Assembly& assembly, double factor) {
-  std::map<int, int> extrados_of;  // vertex on the intrados -> the one across
+  std::map<int, int> extrados_of;  // vertex on the intrados -> vertex across the thickness
   for (const Part& part : assembly.parts) add_edges_across(assembly, part, &extrados_of);
   if (extrados_of.empty())
-    throw InputError(
-        "no block has an intrados and an extrados: analysis.limit.parameter thickness has nothing to vary");
+    throw InputError("analysis.limit.parameter: thickness: no block has both an intrados and an extrados");
   Assembly changed = assembly;
   for (const auto& [inner, outer] : extrados_of) {
     const Vec3 middle = 0.5 * (assembly.vertices[inner] + assembly.vertices[outer]);

@@ -12,19 +12,19 @@
 namespace cupola {
 namespace {
 
-constexpr double kLoosest = 0.1;      // of the wrench error: first tolerance of the equilibrium
-constexpr double kTighter = 0.1;      // from one tolerance to the next
-constexpr double kTightest = 1e-12;   // rounding of the momentum balance is met below it
-constexpr double kComparison = 1e-2;  // tolerance of the finer solution, where nothing is certified
+constexpr double kFirst = 0.1;        // first tolerance, relative to the wrench error
+constexpr double kReduction = 0.1;    // factor from one tolerance to the next
+constexpr double kSmallest = 1e-12;   // below this tolerance the momentum balance meets rounding
+constexpr double kComparison = 1e-2;  // tolerance of the finer solution, relative to that of the compared one
 
 using Mat36 = Eigen::Matrix<double, 3, 6>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-/// Bed and base joints: which contacts they have and where they are.
+/// Bed and base joints.
 struct BedJoints {
   std::vector<int> of_contact;  // joint of each contact, -1 for other kinds
-  std::vector<Vec3> centroid;   // m, of the contacts' points
-  double length = 1.0;          // m, root of the mean joint area
+  std::vector<Vec3> centroid;   // m, mean of the contact points of each joint
+  double length = 1.0;          // m, square root of the mean joint area
 };
 
 Vec3 point_of(const Contact& contact) {
@@ -57,7 +57,7 @@ BedJoints bed_joints(const ContactSet& contacts) {
   return beds;
 }
 
-/// d(wrench) / d(force) of one contact, transposed: force and moment over the length.
+/// Transpose of d(wrench) / d(force) for one contact. Moments are divided by `length`.
 Mat36 wrench_of_force(const BedJoints& beds, const Contact& contact, int joint) {
   const Vec3 r = (point_of(contact) - beds.centroid[joint]) / beds.length;
   Mat36 A_transposed;
@@ -81,7 +81,7 @@ double norm(const std::vector<Vec6>& w) {
   return std::sqrt(sum);
 }
 
-/// |A|, 1.
+/// Spectral norm of A.
 double largest_gain(const ContactSet& contacts, const BedJoints& beds) {
   std::vector<Mat6> AAt(beds.centroid.size(), Mat6::Zero());
   for (size_t i = 0; i < contacts.points.size(); ++i) {
@@ -123,34 +123,35 @@ StaticSolution solve_static_to_wrench_error(const Model& model, const State& sta
                                             StaticOptions options, double wrench_error, double* reached) {
   StaticSolution solution;
   int iterations = 0;
-  for (options.tolerance = kLoosest * wrench_error; options.tolerance >= kTightest;
-       options.tolerance *= kTighter) {
+  for (options.tolerance = kFirst * wrench_error; options.tolerance >= kSmallest;
+       options.tolerance *= kReduction) {
     solution = solve_static(model, start, contacts, memories, options);
     iterations += solution.iterations;
     *reached = std::numeric_limits<double>::infinity();
-    if (solution.verdict != Verdict::equilibrium) break;  // a tighter tolerance would not be met either
-    std::string how = "certified";
+    if (solution.outcome != StaticOutcome::equilibrium) break;  // a smaller tolerance would not be met either
+    std::string source = "certified";
     if (const std::optional<double> bound = certified_wrench_error(contacts, solution)) {
       *reached = *bound;
     } else {
       StaticOptions finer = options;
-      finer.tolerance = std::max(kComparison * options.tolerance, kTightest);
+      finer.tolerance = std::max(kComparison * options.tolerance, kSmallest);
       const StaticSolution right = solve_static(model, start, contacts, memories, finer);
       iterations += right.iterations;
-      if (right.verdict == Verdict::equilibrium) *reached = compared_wrench_error(contacts, solution, right);
-      how = fmt::format("compared with equilibrium to {:.0e}, no certificate exists", finer.tolerance);
+      if (right.outcome == StaticOutcome::equilibrium)
+        *reached = compared_wrench_error(contacts, solution, right);
+      source = fmt::format("measured against tolerance {:.0e}, no certificate exists", finer.tolerance);
     }
     if (*reached <= wrench_error) {
       solution.message =
-          fmt::format("wrench error {:.1e} <= {:.1e} asked, {}; ", *reached, wrench_error, how) +
+          fmt::format("wrench error {:.1e} <= {:.1e} requested ({}); ", *reached, wrench_error, source) +
           solution.message;
       break;
     }
   }
-  if (solution.verdict == Verdict::equilibrium && !(*reached <= wrench_error)) {
-    solution.verdict = Verdict::unconverged;
+  if (solution.outcome == StaticOutcome::equilibrium && !(*reached <= wrench_error)) {
+    solution.outcome = StaticOutcome::unconverged;
     solution.message =
-        fmt::format("wrench error {:.1e} > {:.1e} asked; ", *reached, wrench_error) + solution.message;
+        fmt::format("wrench error {:.1e} > {:.1e} requested; ", *reached, wrench_error) + solution.message;
   }
   solution.iterations = iterations;
   return solution;

@@ -6,25 +6,26 @@
 
 namespace cupola {
 
-/// Bound of the relative error of the bed and base joints' wrenches, root mean square, against the exact
-/// solution of the contact problem that was solved; none where the solution has no certified force error.
+/// Upper bound of the relative error of the wrenches on bed and base joints (root mean square) against the
+/// exact solution of the same contact problem. None if the solution has no certified force error.
 ///
-/// The wrenches are w = A gamma / h, with rows (force, moment about the joint's centroid over the root of the
-/// mean joint area). With the certified |gamma - exact| <= eps |gamma|:
+/// The wrenches are w = A gamma / h. The rows of A give the force on a joint, and the moment about the joint
+/// centroid over the square root of the mean joint area. With the certified |gamma - exact| <= eps |gamma|:
 ///
 ///     |w - w_exact| / |w| <= |A| eps |gamma| / (h |w|),   |A|^2 = max over joints of lambda_max(A_j A_j^T)
 ///
-/// The inertia share of the static step is not in it: it is what the equilibrium residual measures.
+/// The bound does not include the inertia share of the static step, which the equilibrium residual measures.
 std::optional<double> certified_wrench_error(const ContactSet& contacts, const StaticSolution& solution);
 
-/// The same error of one solution against another, measured.
+/// The same error of `solution`, measured against `finer`.
 double compared_wrench_error(const ContactSet& contacts, const StaticSolution& solution,
                              const StaticSolution& finer);
 
-/// solve_static() at the loosest tolerance whose joint wrenches are within `wrench_error` (> 0): certified
-/// where a certificate exists, else compared with a solution a hundred times tighter; the message says which.
-/// The equilibrium residual stays below a tenth of it. Where neither is met before the tolerance reaches
-/// rounding, the verdict is `unconverged`. `reached` gets the error.
+/// solve_static() with the largest tolerance at which the error of the joint wrenches is at most
+/// `wrench_error` (> 0). The error is certified if a certificate exists; otherwise it is measured against a
+/// solution with a tolerance a hundred times smaller. The message names which. The equilibrium residual stays
+/// below a tenth of `wrench_error`. If the error is still larger when the tolerance reaches rounding, the
+/// outcome is `unconverged`. `reached` returns the error.
 StaticSolution solve_static_to_wrench_error(const Model& model, const State& start,
                                             const ContactSet& contacts, const ContactMemories& memories,
                                             StaticOptions options, double wrench_error, double* reached);

@@ -1,4 +1,4 @@
-// `accuracy: {wrench_error: ...}`: what is certified holds against a reference, and every preset is within
+// `accuracy: {wrench_error: ...}`: certified errors hold against a reference, and each preset stays within
 // its documented error.
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace cupola::accuracy_test {
 namespace {
 
-/// A case set up for static solves.
+/// A case with everything that a static solve needs.
 struct StaticScene {
   Case input;
   Assembly assembly;
@@ -34,44 +34,42 @@ struct StaticScene {
   StaticSolution solve(double tolerance) const {
     StaticOptions options;
     options.tolerance = tolerance;
-    options.law = input.analysis.friction_law;
+    options.solve.law = input.analysis.friction_law;
     return solve_static(model, rest, contacts, memories, options);
   }
   StaticSolution solve_to(double wrench_error, double* reached,
                           ContactMethod method = ContactMethod::newton) const {
     StaticOptions options;
-    options.law = input.analysis.friction_law;
-    options.method = method;
+    options.solve.law = input.analysis.friction_law;
+    options.solve.method = method;
     return solve_static_to_wrench_error(model, rest, contacts, memories, options, wrench_error, reached);
   }
 };
 
 const std::vector<std::string> kSmallDome{"geometry.bond.rings=12", "geometry.bond.blocks_per_ring=16"};
 
-TEST(WrenchError, WhatIsCertifiedHoldsAgainstAReference) {
+TEST(WrenchError, CertifiedErrorHoldsAgainstAReference) {
   const StaticScene dome("dome_circular", kSmallDome);
   const StaticSolution exact = dome.solve(1e-11);
   for (const double asked : {1e-1, 1e-2, 1e-3, 1e-5}) {
     double reached = 0.0;
     const StaticSolution solution = dome.solve_to(asked, &reached);
-    ASSERT_EQ(solution.verdict, Verdict::equilibrium) << solution.message;
+    ASSERT_EQ(solution.outcome, StaticOutcome::equilibrium) << solution.message;
     EXPECT_LE(reached, asked);
     EXPECT_NE(solution.message.find("certified"), std::string::npos) << solution.message;
     EXPECT_LE(compared_wrench_error(dome.contacts, solution, exact), asked);
   }
 }
 
-TEST(WrenchError, OfAnInexactMethodIsBoundedByItsCertificate) {
+TEST(WrenchError, CertificateBoundsTheErrorOfAFirstOrderMethod) {
   const StaticScene dome("dome_circular", kSmallDome);
   StaticOptions options;
   options.tolerance = 1e-2;
-  options.method = ContactMethod::admm;
+  options.solve.method = ContactMethod::admm;
   const StaticSolution rough = solve_static(dome.model, dome.rest, dome.contacts, dome.memories, options);
-  options.method = ContactMethod::newton;
-  options.tolerance = 1e-2;
   const std::optional<double> bound = certified_wrench_error(dome.contacts, rough);
   ASSERT_TRUE(bound);
-  // The certificate speaks of the problem at this h: compare with Newton's answer to the same problem.
+  // The certificate holds for the problem at this h: compare with Newton's solution of the same problem.
   ContactSolverOptions tight;
   tight.tolerance = 1e-12;
   tight.reference_speed = rough.h * 9.81;
@@ -83,13 +81,13 @@ TEST(WrenchError, OfAnInexactMethodIsBoundedByItsCertificate) {
   EXPECT_GT(compared_wrench_error(dome.contacts, rough, same), 0.0);
 }
 
-TEST(WrenchError, UnderCoulombsLawIsComparedAndSaysSo) {
+TEST(WrenchError, IsMeasuredInsteadOfCertifiedUnderCoulombsLaw) {
   std::vector<std::string> settings = kSmallDome;
   settings.push_back("analysis.friction_law=coulomb");
   const StaticScene dome("dome_circular", settings);
   double reached = 0.0;
   const StaticSolution solution = dome.solve_to(1e-2, &reached);
-  ASSERT_EQ(solution.verdict, Verdict::equilibrium) << solution.message;
+  ASSERT_EQ(solution.outcome, StaticOutcome::equilibrium) << solution.message;
   EXPECT_NE(solution.message.find("no certificate exists"), std::string::npos) << solution.message;
   EXPECT_LE(reached, 1e-2);
 }
@@ -100,25 +98,25 @@ TEST(WrenchError, IsZeroBetweenASolutionAndItself) {
   EXPECT_EQ(compared_wrench_error(dome.contacts, exact, exact), 0.0);
 }
 
-/// Every case of the paper's statics.
-class PresetPromiseSlow : public ::testing::TestWithParam<const char*> {};
+/// Each static case of the paper.
+class AccuracyPresetSlow : public ::testing::TestWithParam<const char*> {};
 
-/// Documented in docs/accuracy.md.
+/// The error of `accuracy: standard`, documented in docs/accuracy.md.
 constexpr double kStandardError = 1e-4;
 
-TEST_P(PresetPromiseSlow, StandardIsWithinItsDocumentedWrenchError) {
+TEST_P(AccuracyPresetSlow, StandardIsWithinItsDocumentedWrenchError) {
   const StaticScene scene(GetParam(), {});
   const double standard = read_case(scene.input.file, {"analysis.accuracy=standard"}).analysis.tolerance;
   const StaticSolution asked = scene.solve(standard);
-  ASSERT_EQ(asked.verdict, Verdict::equilibrium) << asked.message;
+  ASSERT_EQ(asked.outcome, StaticOutcome::equilibrium) << asked.message;
   const StaticSolution exact = scene.solve(1e-9);
-  ASSERT_EQ(exact.verdict, Verdict::equilibrium) << exact.message;
+  ASSERT_EQ(exact.outcome, StaticOutcome::equilibrium) << exact.message;
   const double error = compared_wrench_error(scene.contacts, asked, exact);
   RecordProperty("wrench_error", fmt::format("{:.1e}", error));
   EXPECT_LE(error, kStandardError);
 }
 
-INSTANTIATE_TEST_SUITE_P(Paper, PresetPromiseSlow,
+INSTANTIATE_TEST_SUITE_P(Paper, AccuracyPresetSlow,
                          ::testing::Values("wall_large", "wall_medium", "wall_small", "wall_herringbone",
                                            "dome_circular", "dome_circular_herringbone", "octagon_planar",
                                            "octagon_circular", "brunelleschi"));

@@ -13,9 +13,9 @@
 #include "solver/dynamics/scene_options.hpp"
 #include "tests/generators/shared_data.hpp"
 
-// Assemblies of BlockResearchGroup/compas_cra (MIT licence). What the associated law says of them was found
-// by linear programmes over the friction cones; where Coulomb's law says something else, the associated law
-// jams: sliding would open the joint, and the neighbours do not let it.
+// Assemblies of BlockResearchGroup/compas_cra (MIT licence). Expected results under the associated law come
+// from linear programmes over the friction cones. Where Coulomb's law gives a different result, the
+// associated law jams: sliding would open the joint, and the neighbouring blocks prevent that.
 
 namespace cupola::compas_assemblies_test {
 namespace {
@@ -47,8 +47,8 @@ StaticSolution solve(const Case& c, const Assembly& assembly, FrictionLaw law) {
   ContactDetector detector(assembly, detection_options(c));
   const ContactSet& contacts = detector.update(rest.poses);
   StaticOptions options;
-  options.tolerance = kVerdictTolerance;
-  options.law = law;
+  options.tolerance = kOutcomeTolerance;
+  options.solve.law = law;
   options.may_move = true;
   return solve_static(model, rest, contacts, match_memories({}, contacts.points), options);
 }
@@ -61,14 +61,14 @@ StaticSolution solve(const Scene& scene, FrictionLaw law, double compliance = 1e
   return solve(c, import_scene(scene), law);
 }
 
-void expect_verdict(const Scene& scene, FrictionLaw law, Verdict expected) {
+void expect_outcome(const Scene& scene, FrictionLaw law, StaticOutcome expected) {
   const StaticSolution solution = solve(scene, law);
-  EXPECT_EQ(to_string(solution.verdict), to_string(expected))
+  EXPECT_EQ(to_string(solution.outcome), to_string(expected))
       << scene.file << ", mu " << scene.mu << ", gravity " << scene.gravity.transpose() << ", "
       << to_string(law) << ": " << solution.message;
 }
 
-/// Gravity as the blocks see it once they are tilted about x or y, deg.
+/// Gravity in the frame of blocks that are tilted about x or y, deg.
 Vec3 tilted_about_x(double deg) {
   const double a = deg * std::numbers::pi / 180.0;
   return kG * Vec3(0.0, -std::sin(a), -std::cos(a));
@@ -87,29 +87,31 @@ class CompasAssembly : public ::testing::Test {
 
 const std::vector<std::string> kWalls{"0", "1"};
 
-// A beam between two vertical walls: the associated law holds it at any friction by prestress, Coulomb's law
-// lets it fall.
+// A beam between two vertical walls: under the associated law prestress holds it at any friction; under
+// Coulomb's law it falls.
 TEST_F(CompasAssembly, BeamBetweenWallsJamsOrFalls) {
   for (const double mu : {0.1, 0.84}) {
-    expect_verdict({"H.json", kWalls, mu}, FrictionLaw::associated, Verdict::equilibrium);
-    expect_verdict({"H.json", kWalls, mu}, FrictionLaw::coulomb, Verdict::moving);
+    expect_outcome({"H.json", kWalls, mu}, FrictionLaw::associated, StaticOutcome::equilibrium);
+    expect_outcome({"H.json", kWalls, mu}, FrictionLaw::coulomb, StaticOutcome::moving);
   }
 }
 
 // Between walls that lean inward by 30 deg the associated law needs mu >= tan 30 deg.
-TEST_F(CompasAssembly, KeystoneUpsideDownJamsFromTheSlopeOfItsWalls) {
+TEST_F(CompasAssembly, InvertedKeystoneJamsIfFrictionExceedsTheSlopeOfItsWalls) {
   const double tan30 = std::tan(std::numbers::pi / 6.0);
-  expect_verdict({"A.json", kWalls, 1.01 * tan30}, FrictionLaw::associated, Verdict::equilibrium);
-  expect_verdict({"A.json", kWalls, 0.99 * tan30}, FrictionLaw::associated, Verdict::moving);
-  expect_verdict({"A.json", kWalls, 0.84}, FrictionLaw::coulomb, Verdict::moving);
+  expect_outcome({"A.json", kWalls, 1.01 * tan30}, FrictionLaw::associated, StaticOutcome::equilibrium);
+  expect_outcome({"A.json", kWalls, 0.99 * tan30}, FrictionLaw::associated, StaticOutcome::moving);
+  expect_outcome({"A.json", kWalls, 0.84}, FrictionLaw::coulomb, StaticOutcome::moving);
 }
 
-// A wedge of 60 deg jams at every tilt.
+// A wedge of 60 deg jams at every tilt under the associated law.
 TEST_F(CompasAssembly, SteepWedgeJamsAtEveryTilt) {
   for (const char* file : {"type-a.json", "type-b.json"})
     for (const double deg : {0.0, 30.0, 60.0, 89.0, 120.0, 150.0, 180.0}) {
-      expect_verdict({file, kWalls, .84, tilted_about_x(deg)}, FrictionLaw::associated, Verdict::equilibrium);
-      expect_verdict({file, kWalls, .84, tilted_about_y(deg)}, FrictionLaw::associated, Verdict::equilibrium);
+      expect_outcome({file, kWalls, .84, tilted_about_x(deg)}, FrictionLaw::associated,
+                     StaticOutcome::equilibrium);
+      expect_outcome({file, kWalls, .84, tilted_about_y(deg)}, FrictionLaw::associated,
+                     StaticOutcome::equilibrium);
     }
 }
 
@@ -120,9 +122,11 @@ struct Tilt {
   double critical_deg;
 };
 
-// Wedges of 30 deg on tilting ground: with a tall head it topples; the low one slides up a flank at 30 deg +
-// atan mu, and along the groove at tan(theta) = mu / sqrt(cos^2 30 - mu^2 sin^2 30) under the associated law
-// but at mu / cos 30 under Coulomb's.
+// Wedges of 30 deg on tilting ground. The wedge with a tall head topples. The low wedge slides up a flank at
+// 30 deg + atan(mu), and along the groove at
+//
+//     tan(theta) = mu / sqrt(cos^2 30 - mu^2 sin^2 30)    under the associated law,
+//     tan(theta) = mu / cos 30                            under Coulomb's law.
 TEST_F(CompasAssembly, FlatWedgesSlideOrTopple) {
   const double mu = 0.84, rad = 180.0 / std::numbers::pi, cos30 = std::sqrt(0.75);
   const double coulomb = std::atan(mu / cos30) * rad;
@@ -135,31 +139,33 @@ TEST_F(CompasAssembly, FlatWedgesSlideOrTopple) {
                                    {"type-d.json", true, FrictionLaw::coulomb, coulomb}}) {
     for (const double factor : {0.99, 1.01}) {
       const double deg = factor * tilt.critical_deg;
-      expect_verdict({tilt.file, kWalls, mu, tilt.about_x ? tilted_about_x(deg) : tilted_about_y(deg)},
-                     tilt.law, factor < 1.0 ? Verdict::equilibrium : Verdict::moving);
+      expect_outcome({tilt.file, kWalls, mu, tilt.about_x ? tilted_about_x(deg) : tilted_about_y(deg)},
+                     tilt.law, factor < 1.0 ? StaticOutcome::equilibrium : StaticOutcome::moving);
     }
   }
 }
 
-// What stands under the associated law may need less than that law gives: Coulomb's law holds no more.
+// Toppling does not depend on dilatancy: the critical tilt under Coulomb's law is not larger than under the
+// associated law.
 TEST_F(CompasAssembly, TallHeadTopplesNoLaterUnderCoulombsLaw) {
-  expect_verdict({"type-c.json", kWalls, 0.84, tilted_about_y(0.95 * 65.71)}, FrictionLaw::coulomb,
-                 Verdict::equilibrium);
-  expect_verdict({"type-c.json", kWalls, 0.84, tilted_about_y(1.01 * 65.71)}, FrictionLaw::coulomb,
-                 Verdict::moving);
+  expect_outcome({"type-c.json", kWalls, 0.84, tilted_about_y(0.95 * 65.71)}, FrictionLaw::coulomb,
+                 StaticOutcome::equilibrium);
+  expect_outcome({"type-c.json", kWalls, 0.84, tilted_about_y(1.01 * 65.71)}, FrictionLaw::coulomb,
+                 StaticOutcome::moving);
 }
 
-TEST_F(CompasAssembly, ThatStandUnderEitherLaw) {
+TEST_F(CompasAssembly, StandsUnderBothLaws) {
   for (const FrictionLaw law : {FrictionLaw::associated, FrictionLaw::coulomb}) {
-    expect_verdict({"cubes.json", {"0"}, 0.84}, law, Verdict::equilibrium);
-    for (const double mu : {0.4, 1.0}) expect_verdict({"bridge.json", kWalls, mu}, law, Verdict::equilibrium);
+    expect_outcome({"cubes.json", {"0"}, 0.84}, law, StaticOutcome::equilibrium);
+    for (const double mu : {0.4, 1.0})
+      expect_outcome({"bridge.json", kWalls, mu}, law, StaticOutcome::equilibrium);
     for (const double mu : {0.5, 0.9}) {
-      expect_verdict({"shelf-stable.json", {"0"}, mu}, law, Verdict::equilibrium);
+      expect_outcome({"shelf-stable.json", {"0"}, mu}, law, StaticOutcome::equilibrium);
     }
   }
 }
 
-/// Farthest that a block has moved after a second and a half, the weight put on within the first second.
+/// Largest displacement of a block after 1.5 s, m. The weight is applied within the first second.
 double displacement_in_motion(const Scene& scene, FrictionLaw law) {
   Case c;
   c.joints.friction = scene.mu;
@@ -177,11 +183,11 @@ double displacement_in_motion(const Scene& scene, FrictionLaw law) {
   return summary.max_displacement_m;
 }
 
-// Where Coulomb's law decides otherwise than the associated one, no programme over the cones tells: the
-// motion does. The shelf at 0.4 jams by the associated law and drops a block by Coulomb's; the wedge with the
-// tall head, whose groove would hold it up to 44 deg were it low, tips onto its front and slides from 35.1
-// deg on.
-TEST_F(CompasAssembly, VerdictsUnderCoulombsLawAreThoseOfTheMotion) {
+// Where the two laws give different results, no linear programme decides for Coulomb's law; the reference is
+// the motion. The shelf at mu = 0.4 jams under the associated law and drops a block under Coulomb's law. The
+// groove would hold a low wedge up to 44 deg, but the wedge with the tall head tips forward and slides from
+// 35.1 deg.
+TEST_F(CompasAssembly, OutcomesUnderCoulombsLawAgreeWithTheMotion) {
   struct Row {
     Scene scene;
     bool stands;
@@ -191,24 +197,26 @@ TEST_F(CompasAssembly, VerdictsUnderCoulombsLawAreThoseOfTheMotion) {
                                   {{"shelf-stable.json", {"0"}, 0.7}, true},
                                   {{"type-c.json", kWalls, 0.84, tilted_about_x(34.7)}, true},
                                   {{"type-c.json", kWalls, 0.84, tilted_about_x(35.5)}, false}}) {
-    expect_verdict(row.scene, FrictionLaw::associated, Verdict::equilibrium);
-    expect_verdict(row.scene, FrictionLaw::coulomb, row.stands ? Verdict::equilibrium : Verdict::moving);
-    // The rest sinks by 1e-4 m on its springs.
+    expect_outcome(row.scene, FrictionLaw::associated, StaticOutcome::equilibrium);
+    expect_outcome(row.scene, FrictionLaw::coulomb,
+                   row.stands ? StaticOutcome::equilibrium : StaticOutcome::moving);
+    // Blocks that stand sink by 1e-4 m on their compliant joints.
     const double moved = displacement_in_motion(row.scene, FrictionLaw::coulomb);
     EXPECT_EQ(moved < 1e-3, row.stands) << row.scene.file << " mu " << row.scene.mu << " moved " << moved;
     EXPECT_EQ(moved > 0.1, !row.stands) << row.scene.file << " mu " << row.scene.mu << " moved " << moved;
   }
 }
 
-TEST_F(CompasAssembly, SnakeNeedsFriction) {
+TEST_F(CompasAssembly, SnakeStandsOnlyWithEnoughFriction) {
   for (const FrictionLaw law : {FrictionLaw::associated, FrictionLaw::coulomb}) {
-    expect_verdict({"snake.json", {"0"}, 0.4}, law, Verdict::moving);
-    expect_verdict({"snake.json", {"0"}, 0.6}, law, Verdict::equilibrium);
+    expect_outcome({"snake.json", {"0"}, 0.4}, law, StaticOutcome::moving);
+    expect_outcome({"snake.json", {"0"}, 0.6}, law, StaticOutcome::equilibrium);
   }
 }
 
-// Blocks with curved faces, meshed block by block, so that neighbours' faces do not mate: the file brings the
-// 40 strips along in which they touch. Facets within 0.03 rad count as plane, volumes are those of the file.
+// Blocks with curved faces. Each block is meshed separately, so that the faces of neighbours do not match;
+// the file contains the 40 strips in which they touch. Facets within 0.03 rad are treated as plane, and the
+// volumes are those of the file.
 TEST_F(CompasAssembly, CurvedBlocksStandOnTheInterfacesOfTheirFile) {
   ImportedBlocks source;
   source.path = shared_data() + "/compas_cra/curve-3-blocks.json";
@@ -219,7 +227,7 @@ TEST_F(CompasAssembly, CurvedBlocksStandOnTheInterfacesOfTheirFile) {
   double volume = 0.0;
   for (const Block& block : assembly.blocks) volume += block.volume;
   EXPECT_NEAR(volume, 4.269792, 1e-6);
-  EXPECT_LE(assembly.parts.size(), 20u);  // a person would draw one wedge for each strip of a hollow face
+  EXPECT_LE(assembly.parts.size(), 20u);  // one wedge per strip of a concave face would suffice
 
   const std::string file =
       (std::filesystem::temp_directory_path() / fmt::format("cupola_curve_{}.csv", ::getpid())).string();
@@ -231,10 +239,11 @@ TEST_F(CompasAssembly, CurvedBlocksStandOnTheInterfacesOfTheirFile) {
   for (const double mu : {0.2, 0.5, 0.84}) {
     c.joints.friction = mu;
     const StaticSolution solution = solve(c, assembly, FrictionLaw::associated);
-    EXPECT_EQ(to_string(solution.verdict), to_string(Verdict::equilibrium)) << mu << solution.message;
+    EXPECT_EQ(to_string(solution.outcome), to_string(StaticOutcome::equilibrium)) << mu << solution.message;
   }
   c.joints.friction = 0.02;
-  EXPECT_NE(to_string(solve(c, assembly, FrictionLaw::associated).verdict), to_string(Verdict::equilibrium));
+  EXPECT_NE(to_string(solve(c, assembly, FrictionLaw::associated).outcome),
+            to_string(StaticOutcome::equilibrium));
   std::filesystem::remove(file);
 }
 

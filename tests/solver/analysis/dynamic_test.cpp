@@ -13,8 +13,8 @@ using testing::kG;
 using testing::make_case;
 using testing::simulate;
 
-/// Tips the block on the floor by `angle` (rad, about y) over its lower edge at +x; it touches the floor
-/// there.
+/// Rotates the block on the floor by `angle` (rad, about y) over its lower edge at +x, which stays on the
+/// floor.
 void tip(double half_width, double half_height, double angle, State* state) {
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Vec3::UnitY()));
   const Vec3 edge(half_width, 0, 0);
@@ -26,10 +26,14 @@ double tilt_of(const State& state) {
   return 2.0 * std::atan2(state.poses[1].q_WB.y(), state.poses[1].q_WB.w());
 }
 
-// Rocking block (Housner 1963), half-width b, half-height H, released at theta0: the exact equation of motion
-// theta'' = -p^2 sin(alpha - theta) gives the quarter period and the angular velocity at impact; the impact
-// keeps 1 - 1.5 sin^2 alpha of it.
-TEST(Rocking, KeepsQuarterPeriodAndImpactRatio) {
+// Rocking block (Housner 1963) of half-width b and half-height H, released at theta0. The exact equation of
+// motion
+//
+//     theta'' = -p^2 sin(alpha - theta)
+//
+// gives the quarter period and the angular velocity before the impact. The impact multiplies the angular
+// velocity by 1 - 1.5 sin^2 alpha.
+TEST(Rocking, QuarterPeriodAndImpactRatioAgreeWithHousner) {
   struct Row {
     double b, H, share, quarter, omega, ratio;
   };
@@ -58,33 +62,33 @@ TEST(Rocking, KeepsQuarterPeriodAndImpactRatio) {
   }
 }
 
-// Block of 1 kg driven by F = 8 cos t on mu = 0.8: slides four times in 10 s and is parked in between.
-// Positions of the true Coulomb law; the associated law lags by its dilation.
-TEST(Driven, StickSlipBlockMovesAsTheCoulombLaw) {
+// Block of 1 kg driven by F = 8 cos t with mu = 0.8: it slides four times in 10 s and sticks in between. The
+// expected positions are those of Coulomb's law.
+TEST(StickSlip, DrivenBlockMovesAsUnderCoulombsLaw) {
   Assembly assembly = testing::box_on_floor({0.3, 0.3, 0.1}, 1.0 / (0.3 * 0.3 * 0.1));
   Case scene = make_case(0.8, 1e-10, 1e-3);
   scene.analysis.tolerance = 1e-9;
   HarmonicInTime cosine{.frequency = 0.5 / std::numbers::pi, .phase_deg = 90.0};
   scene.loads.forces = {{.block = 1, .point = Vec3(0, 0, 0), .force = Vec3(8, 0, 0), .time = cosine}};
   Simulation simulation = simulate(scene, assembly);
-  struct Parked {
+  struct Stop {
     double time, x;
   };
   double largest = 0.0, smallest = 0.0;
-  for (const Parked& parked : std::initializer_list<Parked>{{0.5, 0.004349},
-                                                            {2.9, 0.004349},
-                                                            {3.7, -0.008697},
-                                                            {6.0, -0.008697},
-                                                            {6.8, 0.004349},
-                                                            {9.2, 0.004349},
-                                                            {10.0, -0.008697}}) {
-    while (simulation.state().time < parked.time - 5e-4) {
+  for (const Stop& stop : std::initializer_list<Stop>{{0.5, 0.004349},
+                                                      {2.9, 0.004349},
+                                                      {3.7, -0.008697},
+                                                      {6.0, -0.008697},
+                                                      {6.8, 0.004349},
+                                                      {9.2, 0.004349},
+                                                      {10.0, -0.008697}}) {
+    while (simulation.state().time < stop.time - 5e-4) {
       simulation.advance();
       largest = std::max(largest, simulation.state().v[0]);
       smallest = std::min(smallest, simulation.state().v[0]);
     }
-    EXPECT_NEAR(simulation.state().poses[1].p_WB.x(), parked.x, 1e-4) << "t = " << parked.time;
-    EXPECT_LT(std::abs(simulation.state().v[0]), 1e-6) << "parked at t = " << parked.time;
+    EXPECT_NEAR(simulation.state().poses[1].p_WB.x(), stop.x, 1e-4) << "t = " << stop.time;
+    EXPECT_LT(std::abs(simulation.state().v[0]), 1e-6) << "stopped at t = " << stop.time;
   }
   EXPECT_NEAR(smallest, -0.039545, 2e-4);
   EXPECT_NEAR(largest, 0.039545, 2e-4);
@@ -100,15 +104,15 @@ double oscillate(double h) {
 }
 
 // Exact: y = -(m g / k)(1 - cos w t), k = 4/c. The scheme is implicit Euler: first order.
-TEST(ConvergenceOrder, IsOneInTheStep) {
+TEST(ConvergenceOrder, IsOneInTheTimeStep) {
   const double k = 4e5, w = std::sqrt(k / 1000.0);
   const double exact = -1000.0 * kG / k * (1.0 - std::cos(w * 0.05));
   const double coarse = oscillate(2e-4) - exact, fine = oscillate(1e-4) - exact;
   EXPECT_NEAR(std::log2(coarse / fine), 1.0, 0.05) << coarse << " " << fine;
 }
 
-// Sliding on an incline: energy lost is the friction's work, to the order of the scheme.
-TEST(EnergyBalance, OfASlidingBlockClosesToFirstOrder) {
+// Sliding on an incline: the energy lost equals the work of friction, to first order in h.
+TEST(EnergyBalance, SlidingBlockLosesTheFrictionWorkToFirstOrder) {
   double worst[2] = {0, 0};
   for (int i = 0; i < 2; ++i) {
     const double h = i == 0 ? 2e-3 : 1e-3;
@@ -126,8 +130,8 @@ TEST(EnergyBalance, OfASlidingBlockClosesToFirstOrder) {
   EXPECT_NEAR(worst[0] / worst[1], 2.0, 0.2);
 }
 
-// A rocking block can only lose energy, up to the first order error of its free rotation.
-TEST(EnergyBalance, OfARockingBlockNeverGrowsBeyondTheScheme) {
+// A rocking block can only lose energy, up to the first-order error of its free rotation.
+TEST(EnergyBalance, RockingBlockGainsNoEnergyBeyondTheTruncationError) {
   const Assembly assembly = testing::box_on_floor({0.4, 1.0, 2.0});
   double growth[2] = {0, 0};
   for (int i = 0; i < 2; ++i) {
@@ -147,8 +151,8 @@ TEST(EnergyBalance, OfARockingBlockNeverGrowsBeyondTheScheme) {
   EXPECT_LT(growth[1], 5e-3);
 }
 
-// Free flight: the centroid falls as implicit Euler does, to rounding; energy drifts to first order.
-TEST(EnergyBalance, OfATumblingBlockDriftsToFirstOrder) {
+// Free rotation without contacts: the energy error is first order in h.
+TEST(EnergyBalance, TumblingBlockDriftsToFirstOrder) {
   double drift[2] = {0, 0};
   for (int i = 0; i < 2; ++i) {
     const double h = i == 0 ? 2e-3 : 1e-3;
@@ -165,12 +169,13 @@ TEST(EnergyBalance, OfATumblingBlockDriftsToFirstOrder) {
   EXPECT_NEAR(drift[0] / drift[1], 2.0, 0.3);
 }
 
-// Heavy on light: joint forces are the weights above, whatever the ratio, and nothing sinks.
-TEST(MassRatio, HeavyOnLightCarriesTheWeightAbove) {
+// A heavy cube on two light ones: at any mass ratio the joint forces equal the weight above and the
+// penetration stays elastic.
+TEST(MassRatio, JointsUnderAHeavyCubeCarryTheWeightAbove) {
   for (const double ratio : {1e2, 1e4, 1e6}) {
     const Assembly stack = testing::stack_of_cubes(1.0, {1000.0, 1000.0, 1000.0 * ratio});
-    // Joints sink by 1e-5 m under the stack, whatever it weighs; the first swing has died out long before 2
-    // s.
+    // The compliance is chosen so that the lowest joint closes by 1e-5 m; the first oscillation dies out
+    // within 2 s.
     const double depth = 1e-5, W = 1000.0 * kG;
     Case scene = make_case(0.4, 4.0 * depth / (W * (2 + ratio)), 0.01);
     scene.analysis.tolerance = 1e-9;
@@ -188,9 +193,9 @@ TEST(MassRatio, HeavyOnLightCarriesTheWeightAbove) {
   }
 }
 
-// A rod that slides on its end: beyond mu = 4/3 a rigid slender rod has no acceleration, or two, at some
-// leans (Painleve 1895). A step of the scheme has an answer in impulses nevertheless: speeds stay finite, and
-// no energy comes from nowhere.
+// A rod that slides on its end. Above mu = 4/3, at some inclinations, a rigid slender rod has no acceleration
+// or two (Painleve 1895). The time step still has a solution in impulses: speeds stay finite and the energy
+// does not grow.
 TEST(Painleve, SlidingRodKeepsFiniteSpeedsAndGainsNoEnergy) {
   const Vec3 size(0.02, 0.02, 1.0);
   for (const FrictionLaw law : {FrictionLaw::associated, FrictionLaw::coulomb})
@@ -216,7 +221,7 @@ TEST(Painleve, SlidingRodKeepsFiniteSpeedsAndGainsNoEnergy) {
             ASSERT_TRUE(simulation.state().v.allFinite());
             highest = std::max(highest, simulation.energy().total() - start);
           }
-          // The associated law lifts what slides by h mu |u_t|, at most 15 mm here: 1.2 % of the energy.
+          // The associated law lifts a sliding block by h mu |u_t|, at most 15 mm here: 1.2 % of the energy.
           EXPECT_LE(highest, (law == FrictionLaw::coulomb ? 1e-3 : 1.3e-2) * kinetic)
               << to_string(law) << ", mu " << mu << ", speed " << speed << ", lean " << lean;
         }
@@ -226,7 +231,7 @@ TEST(Painleve, SlidingRodKeepsFiniteSpeedsAndGainsNoEnergy) {
 struct RunResult {
   Summary summary;
   Frame last;
-  int rows = -1;  // without the header
+  int rows = -1;  // of history.csv without the header
 };
 
 RunResult run(const Case& scene, const Assembly& assembly) {
@@ -238,9 +243,9 @@ RunResult run(const Case& scene, const Assembly& assembly) {
   return result;
 }
 
-// Released in equilibrium nothing moves, and the forces stay those of the static analysis: c F = 2e-6 m of
-// elastic displacement changes lever arms of 1 m by as much.
-TEST(StaticStart, IsAtRestWithItsElasticDepthAndTangentialMemory) {
+// A block released in equilibrium does not move, and its forces stay those of the static analysis. The
+// tolerance of 1e-7 allows for the elastic displacement c F = 2e-6 m, which changes the lever arms of 1 m.
+TEST(StaticStart, KeepsTheBlockAtRestWithItsStaticForces) {
   const Assembly assembly = testing::box_on_floor({1.0, 0.5, 0.2});
   Case scene = make_case(0.6, 1e-8, 0.01);
   scene.analysis.tolerance = 1e-10;
@@ -261,9 +266,9 @@ TEST(StaticStart, IsAtRestWithItsElasticDepthAndTangentialMemory) {
     EXPECT_LT((moved.last.contacts.force[i] - still.contacts.force[i]).norm(), 1e-7 * W);
 }
 
-// A beam that jams between two walls under the associated law has slid in the static step and opened its
-// joints by mu times the slip, under load. Released there it rests.
-TEST(StaticStart, OfJointsThatSlidIsAtRest) {
+// A beam that jams between two walls under the associated law slides in the static step, and its loaded
+// joints open by mu times the slip. After the static start it stays at rest.
+TEST(StaticStart, KeepsJointsThatHaveSlidAtRest) {
   const Assembly assembly = testing::make_boxes({{.center = {-1.6, 0, 0}, .size = {1, 1, 3}, .fixed = true},
                                                  {.center = {1.6, 0, 0}, .size = {1, 1, 3}, .fixed = true},
                                                  {.center = {0, 0, 0}, .size = {2.2, 0.5, 0.5}}});
@@ -273,11 +278,11 @@ TEST(StaticStart, OfJointsThatSlidIsAtRest) {
   scene.analysis.start = Analysis::Start::static_;
   const RunResult moved = run(scene, assembly);
   EXPECT_EQ(moved.summary.status, Status::stable) << moved.summary.message;
-  // One step of free fall would be 0.1 m/s.
+  // One step of free fall gives 0.1 m/s.
   EXPECT_LT(moved.summary.max_speed_m_per_s, 1e-6);
 }
 
-TEST(StaticStart, SaysWhenThereIsNoEquilibriumToStartFrom) {
+TEST(StaticStart, ReportsThatThereIsNoEquilibrium) {
   Case scene = make_case(0.2, 1e-6, 0.01);
   scene.analysis.start = Analysis::Start::static_;
   scene.loads.gravity = testing::tilted_gravity(0.3);
@@ -287,7 +292,8 @@ TEST(StaticStart, SaysWhenThereIsNoEquilibriumToStartFrom) {
   EXPECT_EQ(moved.summary.steps, 1);
 }
 
-// The dead load at once makes a spring overshoot to twice its static depth; applied slowly it does not.
+// A dead load applied suddenly compresses a spring to twice its static penetration; applied slowly, to the
+// static one.
 TEST(Ramp, AppliesTheDeadLoadWithoutOvershoot) {
   const Assembly assembly = testing::box_on_floor({1, 1, 1});
   const double depth = 1000.0 * kG * 1e-6 / 4.0;
@@ -301,12 +307,12 @@ TEST(Ramp, AppliesTheDeadLoadWithoutOvershoot) {
       simulation.advance();
       deepest = std::max(deepest, 0.5 - simulation.state().poses[1].p_WB.z());
     }
-    // Numerical damping takes a little of the first swing, w h / 2 per radian of pi.
-    EXPECT_NEAR(deepest / depth, ramped ? 1.0 : 2.0, ramped ? 0.02 : 0.02);
+    // Numerical damping reduces the first oscillation by w h / 2 per radian.
+    EXPECT_NEAR(deepest / depth, ramped ? 1.0 : 2.0, 0.02);
   }
 }
 
-TEST(AdaptiveStep, FollowsTheMotionAndHitsTheFrames) {
+TEST(AdaptiveStep, TakesFewStepsAndEndsOnTheTimesOfFrames) {
   const Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {20, 20, 1}, .fixed = true},
                                                  {.center = {0, 0, 0.9}, .size = {1, 1, 1}}});
   Case scene = make_case(0.4, 1e-10, 0.001);
@@ -321,10 +327,10 @@ TEST(AdaptiveStep, FollowsTheMotionAndHitsTheFrames) {
   EXPECT_EQ(summary.status, Status::stable) << summary.message;
   ASSERT_EQ(times.size(), 8u);
   for (size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], 0.25 * (static_cast<double>(i) + 1), 1e-9);
-  EXPECT_LT(summary.steps, 400) << "2,000 steps of the first size";
+  EXPECT_LT(summary.steps, 400) << "2,000 steps of constant length";
 }
 
-TEST(StopRules, EndARunThatHasSettledOrCollapsed) {
+TEST(StopRules, EndTheAnalysisWhenSettledOrCollapsed) {
   const Assembly assembly = testing::box_on_floor({1, 1, 1});
   Case scene = make_case(0.4, 1e-8, 0.01);
   scene.analysis.tolerance = 1e-9;
@@ -342,8 +348,8 @@ TEST(StopRules, EndARunThatHasSettledOrCollapsed) {
   EXPECT_LT(fallen.last.time, 1.0);
 }
 
-// Pressure on the upper faces of a wall weighs on its foot; a traction pushes it sideways.
-TEST(FaceLoads, ReachTheSupports) {
+// Pressure and traction on the upper faces of a wall are balanced by the support reaction.
+TEST(FaceLoads, AreBalancedByTheSupports) {
   Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 3, 2);
   for (const Part& part : wall.parts)
     if (part.ring == 1) wall.face_kinds[part.face_start + 1] = FaceKind::top;

@@ -10,9 +10,9 @@
 #include "solver/analysis/thickness.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
-// Critical values of plane problems. The expected numbers are linear programmes over the friction cones
-// (static and kinematic limit analysis with associated flow), or closed forms; the solver's static verdict is
-// exact in the limit of small inertia share.
+// Critical values of plane problems. The expected numbers are closed forms or solutions of linear programmes
+// over the friction cones (static and kinematic limit analysis with associated flow). The outcome of the
+// static solve is exact in the limit of a small inertia share.
 
 namespace cupola::limit_test {
 namespace {
@@ -42,18 +42,18 @@ bool stands(const Assembly& assembly, double friction) {
   ContactDetector detector(assembly, {});
   const ContactSet& contacts = detector.update(rest.poses);
   StaticOptions options;
-  options.tolerance = kVerdictTolerance;
+  options.tolerance = kOutcomeTolerance;
   options.may_move = true;
   const StaticSolution solution =
       solve_static(model, rest, contacts, match_memories({}, contacts.points), options);
-  EXPECT_NE(solution.verdict, Verdict::unconverged) << solution.message;
-  return solution.verdict == Verdict::equilibrium;
+  EXPECT_NE(solution.outcome, StaticOutcome::unconverged) << solution.message;
+  return solution.outcome == StaticOutcome::equilibrium;
 }
 
-TEST(Bisect, EndsOnABracketOrSaysWhyNot) {
+TEST(Bisect, FindsABracketOrReportsWhyNot) {
   const auto step_at = [](double critical) {
     return [critical](double x) {
-      return LimitTrial{x, x < critical ? Verdict::moving : Verdict::equilibrium, 0.0};
+      return LimitTrial{x, x < critical ? StaticOutcome::moving : StaticOutcome::equilibrium, 0.0};
     };
   };
   const Bracket found = bisect(0.0, 1.0, {1e-6, 0.0}, step_at(0.3));
@@ -62,33 +62,33 @@ TEST(Bisect, EndsOnABracketOrSaysWhyNot) {
   EXPECT_LT(found.moving.value, 0.3);
   EXPECT_LE(found.stable.value - found.moving.value, 1e-6 * 0.3);
   EXPECT_EQ(bisect(0.4, 1.0, {1e-6, 0.0}, step_at(0.3)).message,
-            "stands at both ends of the bracket, 0.4 and 1");
+            "the structure stands at both ends of the bracket, 0.4 and 1; widen the bracket");
   EXPECT_EQ(bisect(0.0, 0.2, {1e-6, 0.0}, step_at(0.3)).message,
-            "moves at both ends of the bracket, 0 and 0.2");
+            "the structure moves at both ends of the bracket, 0 and 0.2; widen the bracket");
   EXPECT_EQ(bisect(0.0, 1.0, {1e-6, 0.05}, step_at(0.3)).trials, 2 + 5) << "absolute width 1/32 < 0.05";
   const Bracket lost = bisect(0.0, 1.0, {1e-6, 0.0}, [&](double x) {
-    return x == 0.5 ? LimitTrial{x, Verdict::unconverged, 0.0} : step_at(0.3)(x);
+    return x == 0.5 ? LimitTrial{x, StaticOutcome::unconverged, 0.0} : step_at(0.3)(x);
   });
-  // 0.5 lies on the standing side: the bracket 0.5 would have made is found without it.
+  // 0.5 lies on the stable side; the bracket is found without it.
   EXPECT_TRUE(lost.narrow);
   EXPECT_GE(lost.stable.value, 0.3);
   EXPECT_LT(lost.moving.value, 0.3);
 }
 
-// Trials that do not converge are no verdicts: the bracket keeps them inside and says so.
-TEST(Bisect, WidensTheBracketByWhatIsNotKnown) {
+// Trials that do not converge decide nothing: the bracket contains them and the message gives their interval.
+TEST(Bisect, KeepsUndecidedValuesInsideTheBracket) {
   const Bracket bracket = bisect(0.0, 1.0, {1e-3, 0.0}, [](double x) {
-    if (x > 0.28 && x < 0.31) return LimitTrial{x, Verdict::unconverged, 0.0};
-    return LimitTrial{x, x < 0.3 ? Verdict::moving : Verdict::equilibrium, 0.0};
+    if (x > 0.28 && x < 0.31) return LimitTrial{x, StaticOutcome::unconverged, 0.0};
+    return LimitTrial{x, x < 0.3 ? StaticOutcome::moving : StaticOutcome::equilibrium, 0.0};
   });
   EXPECT_TRUE(bracket.found);
   EXPECT_FALSE(bracket.narrow);
   EXPECT_NEAR(bracket.stable.value, 0.31, 1e-3);
   EXPECT_NEAR(bracket.moving.value, 0.28, 1e-3);
-  EXPECT_NE(bracket.message.find("not known from 0.30"), std::string::npos) << bracket.message;
+  EXPECT_NE(bracket.message.find("undecided from 0.30"), std::string::npos) << bracket.message;
 }
 
-// Toppling of a block of base B and height H on a tilting plane: tan a = B / H; k stacked cubes: tan a = 1 /
+// Toppling of a block of base B and height H on a tilting plane: tan a = B / H. Stack of k cubes: tan a = 1 /
 // k.
 TEST(Tilt, TopplesABlockAtItsDiagonal) {
   const Summary summary =
@@ -107,8 +107,8 @@ TEST(Tilt, TopplesAStackOfCubes) {
   }
 }
 
-// Semicircular arch of n flat voussoirs, mu = 0.8: least thickness over radius.
-TEST(Arch, LeastThicknessOfTheSemicircle) {
+// Minimum thickness over radius of a semicircular arch of n voussoirs with flat faces, mu = 0.8.
+TEST(Arch, MinimumThicknessOfTheSemicircle) {
   struct Row {
     int n;
     double t;
@@ -132,8 +132,8 @@ TEST(Arch, LeastThicknessOfTheSemicircle) {
   }
 }
 
-// Other embraces, 27 voussoirs.
-TEST(Arch, LeastThicknessOfOtherEmbraces) {
+// The same for other half-angles of embrace, 27 voussoirs.
+TEST(Arch, MinimumThicknessOfOtherEmbraces) {
   struct Row {
     double beta_deg, t;
   };
@@ -151,8 +151,8 @@ TEST(Arch, LeastThicknessOfOtherEmbraces) {
   }
 }
 
-// Least friction; the published continuum needs 0.309215 however thick it is.
-TEST(Arch, LeastFriction) {
+// Minimum friction. The published value for a continuous arch is 0.309215 at any thickness.
+TEST(Arch, MinimumFriction) {
   struct Row {
     int n;
     double t, mu;
@@ -171,8 +171,8 @@ TEST(Arch, LeastFriction) {
   }
 }
 
-// Horizontal acceleration multiplier; the tilt of the collapse has that tangent.
-TEST(Arch, HorizontalAcceleration) {
+// Critical horizontal acceleration over g, which equals the tangent of the critical tilt.
+TEST(Arch, CriticalAccelerationAndTilt) {
   struct Row {
     ArchSpec arch;
     double mu, lambda;
@@ -198,8 +198,8 @@ TEST(Arch, HorizontalAcceleration) {
   }
 }
 
-// Thrust over weight at the springings lies between the least and the greatest of limit analysis.
-TEST(Arch, ThrustLiesWithinItsBounds) {
+// Thrust over weight at the springings lies between the minimum and the maximum of limit analysis.
+TEST(Arch, ThrustLiesBetweenMinimumAndMaximum) {
   struct Row {
     int n;
     double t, low, high;
@@ -226,10 +226,10 @@ TEST(Arch, ThrustLiesWithinItsBounds) {
   }
 }
 
-// At its least thickness the semicircle is a chain of five hinges, symmetrical: with an odd number of
-// voussoirs the keystone sinks between two of them. Four blocks of voussoirs and the keystone move, the
+// At its minimum thickness the semicircle becomes a symmetric five-hinge mechanism. With an odd number of
+// voussoirs the crown hinge splits into two, one on each side of the keystone: five groups move and six
 // joints hinge.
-TEST(Mechanism, OfTheSemicircleHasFiveHinges) {
+TEST(Mechanism, SemicircleFormsFiveMovingGroups) {
   const Assembly assembly = make_arch({.voussoirs = 27, .thickness = 0.10138});
   const Model model = make_model(make_case(0.8, 1e-8, 0.01), assembly);
   const State rest = state_at_rest(model);
@@ -237,7 +237,7 @@ TEST(Mechanism, OfTheSemicircleHasFiveHinges) {
   const ContactSet& contacts = detector.update(rest.poses);
   const StaticSolution solution = solve_static(model, rest, contacts, match_memories({}, contacts.points),
                                                {.tolerance = 1e-5, .may_move = true});
-  ASSERT_EQ(solution.verdict, Verdict::moving) << solution.message;
+  ASSERT_EQ(solution.outcome, StaticOutcome::moving) << solution.message;
   const Mechanism mechanism = find_mechanism(model, rest, contacts, solution);
   EXPECT_EQ(mechanism.num_groups, 5);
   int hinges = 0;
@@ -246,9 +246,9 @@ TEST(Mechanism, OfTheSemicircleHasFiveHinges) {
     hinges += joint.motion == JointMotion::hinging;
   }
   EXPECT_EQ(hinges, 6);
-  EXPECT_EQ(mechanism.group.front(), 0) << "the support rests";
+  EXPECT_EQ(mechanism.group.front(), 0) << "the support is at rest";
   EXPECT_GT(mechanism.load_power, 1e-3);
-  // What hinders is the compliance's closing E gamma, and nothing else.
+  // The only violation is the elastic closing E gamma of the joints.
   const ContactProblem& problem = solution.step.problem;
   const double closing = problem.E.cwiseProduct(solution.step_solution.gamma).cwiseAbs().maxCoeff();
   EXPECT_LT(mechanism.violation, 1.8 * closing / largest_speed(solution.step_solution.v) + 1e-8)
@@ -256,8 +256,8 @@ TEST(Mechanism, OfTheSemicircleHasFiveHinges) {
   EXPECT_LT(mechanism.violation, 1e-3);
 }
 
-// Load multiplier: a block on a rough floor is pushed by lambda W at its foot; it slides at lambda = mu.
-TEST(Load, PushesABlockAtItsFriction) {
+// Load multiplier: a block on a rough floor is pushed with lambda W at its foot and slides at lambda = mu.
+TEST(Load, CriticalPushOfABlockIsItsFriction) {
   const Assembly assembly = testing::box_on_floor({2, 2, 0.5});
   Case scene = limit_case(LimitSearch::Parameter::load, 0.0, 1.0, 0.45);
   const double W = assembly.blocks[1].mass * testing::kG;
@@ -267,13 +267,13 @@ TEST(Load, PushesABlockAtItsFriction) {
   EXPECT_NEAR(summary.critical->value, 0.45, 1e-3);
 }
 
-// Blocks of length 1 that jut out one over the other by 1/(2 k), counted from the top: the harmonic overhang.
+// Stack of blocks of length 1; the k-th from the top projects by 1 / (2 k): the harmonic overhang.
 TEST(Overhang, StandsUpToTheHarmonicSum) {
   for (const int n : {3, 4, 10}) {
     for (const double factor : {0.999, 1.001}) {
       std::vector<testing::BoxSpec> boxes;
       double x = 0.0;
-      for (int k = n; k >= 1; --k) {  // from the bottom: the k-th from the top juts out by 1/(2k)
+      for (int k = n; k >= 1; --k) {  // from the bottom up
         x += factor * 0.5 / k;
         boxes.push_back({.center = {x, 0, 0.1 + 0.2 * (n - k)}, .size = {1, 0.5, 0.2}, .ring = n - k});
       }
@@ -283,7 +283,7 @@ TEST(Overhang, StandsUpToTheHarmonicSum) {
   }
 }
 
-TEST(Wall, HorizontalLoadFactorOfFerrisAndTinLoi) {
+TEST(Wall, HorizontalLoadFactorAgreesWithFerrisAndTinLoi) {
   struct Row {
     int courses;
     bool whole_first;
@@ -300,8 +300,8 @@ TEST(Wall, HorizontalLoadFactorOfFerrisAndTinLoi) {
   }
 }
 
-/// Two cards that lean against each other at `phi` from the vertical on a floor: strips whose feet reach from
-/// a to a + w and which meet on a plumb face.
+/// Two cards on a floor that lean against each other at `phi` from the vertical. Their feet reach from a to a
+/// + w, and they meet on a vertical face.
 struct Cards {
   double phi, a = 0.5, w = 0.02;
 
@@ -314,29 +314,29 @@ struct Cards {
     compute_mass_properties(&cards);
     return cards;
   }
-  /// The least thrust H keeps a card from falling inwards about the inner edge of its foot, from the top of
-  /// the face; by symmetry it is horizontal there, and the floor must give H <= mu W.
+  /// The minimum thrust H at the top of the vertical face keeps a card from falling inwards about the inner
+  /// edge of its foot. By symmetry the thrust is horizontal there, and the floor must resist it: H <= mu W.
   double least_friction() const {
     const double k = (a + w) / a, centroid = a / 3.0 * (k * k * k - 1.0) / (k * k - 1.0);
     return (a - centroid) / height(a + w);
   }
 };
 
-TEST(Cards, NeedHalfTheTangentOfTheirLean) {
+TEST(Cards, CriticalFrictionIsHalfTheTangentOfTheInclination) {
   for (const double phi_deg : {15.0, 30.0, 45.0}) {
     const Cards cards{.phi = phi_deg * std::numbers::pi / 180.0};
     const Summary summary =
         run(limit_case(LimitSearch::Parameter::friction, 0.02, 1.0, 0.5), cards.assembly());
     ASSERT_TRUE(summary.critical) << summary.message;
     EXPECT_NEAR(summary.critical->value / cards.least_friction(), 1.0, 2e-3) << phi_deg << " deg";
-    // tan(phi) / 2 where cards have no thickness: a share of w / a off.
+    // tan(phi) / 2 for cards without thickness; the relative difference is of order w / a.
     EXPECT_NEAR(cards.least_friction() / (0.5 * std::tan(cards.phi)), 1.0, 2.0 * cards.w / cards.a);
   }
 }
 
-// A springing that moves away: three hinges follow until a fourth forms. The arch of t/R = 0.15 stands a
-// spread that is found by following equilibria; a thicker arch stands a wider one.
-TEST(Spread, IsFollowedUntilAFourthHingeForms) {
+// One springing moves outwards: the arch follows on three hinges until a fourth forms. A thicker arch reaches
+// a larger spread.
+TEST(Spread, ThickerArchReachesALargerSpread) {
   double last = 0.0;
   for (const double t : {0.13, 0.15}) {
     Case scene = limit_case(LimitSearch::Parameter::spread, 0.0, 1.0, 0.8);
@@ -353,9 +353,8 @@ TEST(Spread, IsFollowedUntilAFourthHingeForms) {
   EXPECT_LT(last, 1.0);
 }
 
-// Thickness is varied about the centreline: arches of R = 1 at their least thickness, and a closed form of
-// what the change does to an assembly.
-TEST(Thickness, OfTheSemicircleAndOfAShallowArch) {
+// The thickness is scaled about the centreline of radius 1, down to the minimum thickness.
+TEST(Thickness, MinimumOfTheSemicircleAndOfAShallowArch) {
   struct Row {
     double beta_deg, t, least;
   };
@@ -367,7 +366,7 @@ TEST(Thickness, OfTheSemicircleAndOfAShallowArch) {
   }
 }
 
-TEST(Thickness, StretchesAboutTheMiddleSurface) {
+TEST(Thickness, IsScaledAboutTheMiddleSurface) {
   const Assembly thin = with_thickness(make_arch({.thickness = 0.2}), 0.6);
   const Assembly expected = make_arch({.thickness = 0.12});
   ASSERT_EQ(thin.vertices.size(), expected.vertices.size());
@@ -383,7 +382,7 @@ TEST(Limit, RefusesADirectionAlongGravity) {
   EXPECT_THROW(run(scene, testing::box_on_floor({1, 1, 1})), InputError);
 }
 
-TEST(Limit, SaysWhenTheBracketHoldsNoCriticalValue) {
+TEST(Limit, ReportsABracketWithoutACriticalValue) {
   const Summary summary =
       run(limit_case(LimitSearch::Parameter::tilt, 1, 2, 0.5), testing::box_on_floor({1, 1, 1}));
   EXPECT_EQ(summary.status, Status::unconverged);

@@ -11,7 +11,7 @@
 namespace cupola::resume_test {
 namespace {
 
-/// Everything that an analysis hands over, as it would land on the disk.
+/// Records everything that an analysis writes.
 struct Recorder {
   std::string history;
   std::vector<Frame> frames;
@@ -31,7 +31,7 @@ struct Recorder {
   }
 };
 
-/// A wall whose floor is pulled away under it: blocks slide, rock and fall, contacts come and go.
+/// A wall whose floor is pulled away: blocks slide, rock and fall, contacts open and close.
 Case collapsing_case() {
   Case scene = testing::make_case(0.4, 1e-8, 0.005);
   scene.analysis.tolerance = 1e-9;
@@ -59,13 +59,13 @@ void expect_same_bits(const Recorder& expected, const Recorder& got) {
   }
 }
 
-/// Interrupts when asked for the `asked`th time (a run asks at its frames and every ten steps), resumes from
-/// the checkpoint in a new analysis, and compares.
-void interrupt_and_resume(const Case& scene, const Assembly& assembly, int asked, const Recorder& whole) {
+/// Interrupts at the `query`-th call of AnalysisSinks::interrupted (made at frames and every ten steps),
+/// resumes from the checkpoint in a new analysis, and compares.
+void interrupt_and_resume(const Case& scene, const Assembly& assembly, int query, const Recorder& whole) {
   Recorder first;
   AnalysisSinks sinks = first.sinks();
   int seen = 0;
-  sinks.interrupted = [&] { return ++seen >= asked; };
+  sinks.interrupted = [&] { return ++seen >= query; };
   ASSERT_FALSE(run_dynamic(scene, assembly, sinks));
   ASSERT_FALSE(first.checkpoint.empty());
 
@@ -79,26 +79,26 @@ void interrupt_and_resume(const Case& scene, const Assembly& assembly, int asked
   expect_same_bits(whole, second);
 }
 
-TEST(Resume, EndsInTheSameBits) {
+TEST(Resume, GivesTheSameBits) {
   const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 3, 4);
   const Case scene = collapsing_case();
   Recorder whole;
   ASSERT_TRUE(run_dynamic(scene, wall, whole.sinks()));
-  ASSERT_GT(whole.frames.back().blocks.displacement[5].norm(), 0.1) << "the wall must really move";
-  for (const int asked : {1, 4, 11}) interrupt_and_resume(scene, wall, asked, whole);
+  ASSERT_GT(whole.frames.back().blocks.displacement[5].norm(), 0.1) << "the wall must move";
+  for (const int query : {1, 4, 11}) interrupt_and_resume(scene, wall, query, whole);
 }
 
-TEST(Resume, EndsInTheSameBitsWithAdaptiveStepsAndAStaticStart) {
+TEST(Resume, GivesTheSameBitsWithAdaptiveStepsAndAStaticStart) {
   const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 3, 4);
   Case scene = collapsing_case();
   scene.analysis.adaptive = AdaptiveStep{.smallest = 1e-4, .largest = 0.02, .displacement_error = 1e-4};
   scene.analysis.start = Analysis::Start::static_;
   Recorder whole;
   ASSERT_TRUE(run_dynamic(scene, wall, whole.sinks()));
-  for (const int asked : {1, 3}) interrupt_and_resume(scene, wall, asked, whole);
+  for (const int query : {1, 3}) interrupt_and_resume(scene, wall, query, whole);
 }
 
-TEST(Checkpoint, ReadsBackAndRefusesDamage) {
+TEST(Checkpoint, IsReadBackAndRefusedIfDamaged) {
   const std::string path = ::testing::TempDir() + "/checkpoint";
   const Checkpoint written{"0.1", "case", "assembly", {0.1, 0.2}, "a,b\n1,2\n", std::string("\0\1\2", 3)};
   write_checkpoint(path, written);
@@ -120,13 +120,13 @@ TEST(Checkpoint, ReadsBackAndRefusesDamage) {
   }
 }
 
-// A write that fails leaves the last good checkpoint.
+// A failed write leaves the previous checkpoint intact.
 TEST(Checkpoint, SurvivesAFailedWrite) {
   const std::string folder = ::testing::TempDir() + "/readonly_checkpoint";
   make_folder(folder);
   const std::string path = folder + "/checkpoint";
   write_checkpoint(path, {"0.1", "a", "b", {}, "", "good"});
-  // A folder in the place of the side file's target makes the rename fail, whoever runs the test.
+  // The target is a folder, so that the rename fails, even for root.
   EXPECT_THROW(write_checkpoint(folder, {"0.1", "a", "b", {}, "", "bad"}), SystemError);
   EXPECT_EQ(read_checkpoint(path)->analysis, "good");
 }

@@ -42,9 +42,9 @@ StagedResult run(const Case& scene, const Assembly& assembly) {
   return result;
 }
 
-// A wall on a slope of 0.3: each course slides on fresh mortar of less friction than the slope, whatever
-// stands below it; hardened joints hold.
-TEST(Staged, EveryCourseNeedsTheSlopeItLiesOn) {
+// A wall on a slope of 0.3: each course slides if the friction of the fresh mortar is below the slope.
+// Hardened joints hold.
+TEST(Staged, CriticalFreshFrictionEqualsTheSlope) {
   const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 3, 3);
   Case scene = staged_case(0.7, 0.31);
   scene.loads.gravity = testing::tilted_gravity(0.3);
@@ -72,22 +72,23 @@ TEST(Staged, EveryCourseNeedsTheSlopeItLiesOn) {
       << slides.summary.message;
 }
 
-// On level ground no course slides, whatever it lies on.
-TEST(Staged, SaysWhereNoFrictionIsNeeded) {
+// On level ground no course slides, even without friction.
+TEST(Staged, ReportsStagesThatNeedNoFriction) {
   const StagedResult built = run(staged_case(0.6, 0.1), testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 2));
   EXPECT_EQ(built.summary.status, Status::stable) << built.summary.message;
-  EXPECT_NE(built.summary.message.find("; 2 stand without any"), std::string::npos) << built.summary.message;
+  EXPECT_NE(built.summary.message.find("; 2 stand without friction"), std::string::npos)
+      << built.summary.message;
   EXPECT_FALSE(built.summary.critical);
   for (const std::vector<std::string>& row : built.rows) {
     EXPECT_EQ(row[5], "0");
     EXPECT_EQ(row[6], "");
-    EXPECT_EQ(row[7], "\"stands without any\"");
+    EXPECT_EQ(row[7], "\"stands without friction\"");
   }
 }
 
-// Frames count blocks as the complete assembly does; those not laid yet are where they will be, without
-// contacts.
-TEST(Staged, FramesShowTheCompleteAssembly) {
+// Frames number the blocks as the complete assembly does. Blocks that are not laid yet have their final
+// position and no contacts.
+TEST(Staged, FramesContainTheCompleteAssembly) {
   const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 3);
   Case scene = staged_case(0.6, 0.5);
   scene.analysis.staged.first_ring = 1;
@@ -101,8 +102,8 @@ TEST(Staged, FramesShowTheCompleteAssembly) {
   EXPECT_GT(built.frames[1].contacts.size(), built.frames[0].contacts.size());
 }
 
-// Loads of the finished building, and ties to blocks that are not laid yet, wait.
-TEST(Staged, PartsThatAreNotThereYetCarryNothing) {
+// Loads on the finished building, and ties to blocks that are not laid yet, are inactive.
+TEST(Staged, LoadsAndTiesActOnlyOnceTheirBlocksAreLaid) {
   const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 3);
   Case scene = staged_case(0.6, 0.5);
   scene.loads.forces = {{.block = 4, .point = {}, .force = Vec3(0, 0, -1e5), .time = {}}};
@@ -122,7 +123,7 @@ TEST(Staged, PartsThatAreNotThereYetCarryNothing) {
   EXPECT_EQ(at_last.ties.pairs.size(), 1u);
 }
 
-TEST(Staged, RefusesToBeginAboveTheTop) {
+TEST(Staged, RefusesAFirstRingAboveTheLast) {
   Case scene = staged_case(0.6, 0.5);
   scene.analysis.staged.first_ring = 7;
   EXPECT_THROW(run(scene, testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 3)), InputError);

@@ -6,11 +6,12 @@
 namespace cupola::winkler_test {
 namespace {
 
-// A block on a bed of area compliance c (m3/N), pushed sideways so that its resultant stays inside the kern:
-// no point lifts, and the bed is a Winkler foundation. Settlement c W / A, sway of the centroid
+// A block on a bed of area compliance c (m3/N) under a horizontal load. The resultant stays inside the kern,
+// so that no point opens and the bed is a Winkler foundation. The settlement is c W / A; the centroid moves
+// sideways by
 //
-//     c_t T / A + theta H / 2,    theta = c M / I,    M = T H / 2,  I = depth width^3 / 12.
-TEST(Winkler, BlockTiltsAsTheExactFoundation) {
+//     c_t T / A + theta H / 2,    theta = c M / I,    M = T H / 2,    I = depth width^3 / 12
+TEST(Winkler, SettlementAndTiltAgreeWithTheClosedForm) {
   const double width = 1.2, depth = 0.7, H = 0.9;
   const Assembly assembly = testing::box_on_floor({width, depth, H});
   const double c = 2e-9, c_t = 3e-9;

@@ -86,7 +86,7 @@ TEST(Tie, StaticForceIsTheWeightAndThePrestressHoldsACubeUpAgainstAStop) {
   const ContactSet& contacts = detector.update(rest.poses);
   const StaticSolution solution = solve_static(model, rest, contacts, match_memories({}, contacts.points),
                                                {.tolerance = 1e-10, .time_advance = 0.0});
-  ASSERT_EQ(solution.verdict, Verdict::equilibrium) << solution.message;
+  ASSERT_EQ(solution.outcome, StaticOutcome::equilibrium) << solution.message;
   // The joint (k_j = 4/c) closes by d: P - k d - W = k_j d.
   const double d = (P - W) / (4.0 / c + k);
   EXPECT_NEAR(solution.forces.ties[0] / (P - k * d), 1.0, 1e-9);
@@ -148,7 +148,7 @@ TEST(Chain, CarriesTheHoopForceOfARing) {
   const ContactSet& contacts = detector.update(rest.poses);
   const StaticSolution solution = solve_static(model, rest, contacts, match_memories({}, contacts.points),
                                                {.tolerance = 1e-9, .time_advance = 0.0});
-  ASSERT_EQ(solution.verdict, Verdict::equilibrium) << solution.message;
+  ASSERT_EQ(solution.outcome, StaticOutcome::equilibrium) << solution.message;
   for (const double force : solution.forces.ties)
     EXPECT_NEAR(force / (Q / (2.0 * std::sin(std::numbers::pi / n))), 1.0, 1e-6);
 }

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assembly/case/case.hpp"
+#include "assembly/model/assembly.hpp"
+#include "solver/contact/problem/contact_problem.hpp"
+
+namespace cupola {
+
+/// One step of a motion that was computed for the estimate.
+struct TimedStep {
+  double h = 0.0;        ///< s
+  int iterations = 0;    ///< of the contact method
+  double seconds = 0.0;  ///< processor time
+};
+
+/// Estimated cost of a run.
+struct CostEstimate {
+  double seconds = 0.0;          ///< processor time of one thread, without reading and writing files
+  double bytes = 0.0;            ///< peak memory
+  std::string basis;             ///< what was timed
+  std::vector<TimedStep> steps;  ///< first steps of a motion, with the options of the run
+  long long factor_entries = 0;  ///< of the Cholesky factor; 0 for methods without one
+};
+
+/// Static solves of the whole model in one analysis, on average. A limit analysis takes one for each end of
+/// the bracket and one per halving; a construction takes one per ring, of half the model on average.
+double num_equilibria(const Analysis& analysis, int num_rings);
+
+/// Times one factorisation (or multigrid solve) of `problem`, the first contact problem of the run, and for a
+/// dynamic analysis also its static start and its first steps.
+CostEstimate estimate_cost(const Case& scene, const Assembly& assembly, const ContactProblem& problem);
+
+}  // namespace cupola
