@@ -5,7 +5,7 @@
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --output low/ --set joints.friction=0.2
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --explain
 //   cupola-solve --fclib Capsules-i125-1213.hdf5
-//   cupola-solve cases/collapse.yaml --assembly assembly.vtu --output results/ --resume
+//   cupola-solve cases/dome_circular_dynamic.yaml --assembly assembly.vtu --output results/ --resume
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ namespace {
 using namespace cupola;
 
 ExitCode solve(int argc, char** argv) {
-  // 1. What is asked
+  // 1. Command line
   SolveRequest request;
   bool explain = false;
   std::string fclib_path;
@@ -27,16 +27,16 @@ ExitCode solve(int argc, char** argv) {
                    "  cupola-solve dome.yaml --assembly assembly.vtu --output results/\n"
                    "  cupola-solve dome.yaml --assembly assembly.vtu --explain");
   line.required("--assembly", &request.assembly_path, "FILE",
-                "assembly that cupola-generate made from the case");
+                "assembly that cupola-generate wrote for the case");
   line.optional("--output", &request.output_folder, "FOLDER", "results folder to write");
-  line.flag("--explain", &explain, "print the model that would be solved, and stop");
-  line.flag("--force", &request.force, "take an assembly that was made from another geometry or material");
-  line.flag("--resume", &request.resume, "go on from the checkpoint in the output folder, if there is one");
+  line.flag("--explain", &explain, "print the model, its cost and the active features without solving it");
+  line.flag("--force", &request.force, "use an assembly that was made from another geometry or material");
+  line.flag("--resume", &request.resume, "resume from the checkpoint in the output folder, if there is one");
   line.optional("--threads", &request.threads, 1,
-                "threads of assembly and factorisation (default 1); the results are the same to the bit");
+                "number of threads (default 1); the results do not depend on it");
   line.optional("--dump-fclib", &request.dump_fclib, "FILE",
                 "write the contact problem of the static solve or of the last step (HDF5)");
-  line.instead_of_case("--fclib", &fclib_path, "FILE", "solve a problem of the frictional contact library");
+  line.instead_of_case("--fclib", &fclib_path, "FILE", "solve a contact problem in the FCLIB format");
   if (const auto ended = line.parse(argc, argv)) return *ended;
 
   if (!fclib_path.empty()) return solve_fclib(fclib_path, line.quiet());
@@ -46,7 +46,7 @@ ExitCode solve(int argc, char** argv) {
   request.quiet = line.quiet();
   if (line.check_only()) return ExitCode::done;
 
-  // 3. The model, or its solution
+  // 3. Explain or solve
   if (explain) {
     fmt::print("{}", explain_case(request));
     return ExitCode::done;

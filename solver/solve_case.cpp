@@ -30,9 +30,9 @@ Assembly read_matching_assembly(const SolveRequest& request) {
   Assembly assembly = read_assembly(path);
   if (assembly.geometry_hash == request.scene.geometry_hash) return assembly;
   const std::string differs =
-      fmt::format("was not made from {}: its geometry or material differ", request.scene.file);
+      fmt::format("was not made from {}: geometry or material differ", request.scene.file);
   if (!request.force)
-    throw InputError(FileLocation{path}, differs + "; run cupola-generate again, or take it with --force");
+    throw InputError(FileLocation{path}, differs + "; run cupola-generate again, or use it with --force");
   fmt::print(stderr, "cupola-solve: warning: {} {}\n", path, differs);
   return assembly;
 }
@@ -41,7 +41,8 @@ void print_warnings(const std::vector<std::string>& warnings) {
   constexpr std::size_t kShown = 10;
   for (std::size_t i = 0; i < std::min(kShown, warnings.size()); ++i)
     fmt::print(stderr, "warning: {}\n", warnings[i]);
-  if (warnings.size() > kShown) fmt::print(stderr, "warning: {} more like these\n", warnings.size() - kShown);
+  if (warnings.size() > kShown)
+    fmt::print(stderr, "warning: {} more of the same kind\n", warnings.size() - kShown);
 }
 
 std::string provenance(const Summary& summary) {
@@ -70,7 +71,7 @@ void print_summary(const Summary& summary) {
              summary.wall_time_seconds, static_cast<double>(summary.peak_memory_bytes) / 1e6);
 }
 
-/// The checkpoint that a run asked to resume can go on from; none: from the beginning.
+/// The checkpoint from which the run resumes. None if it starts from the beginning.
 std::optional<Checkpoint> find_checkpoint(const SolveRequest& request, const std::string& path,
                                           const std::string& assembly_hash) {
   if (!request.resume) return std::nullopt;
@@ -81,11 +82,13 @@ std::optional<Checkpoint> find_checkpoint(const SolveRequest& request, const std
                       : checkpoint->program_version != program_version() ? "program version"
                                                                          : nullptr;
   if (other == nullptr) return checkpoint;
-  fmt::print(stderr, "{}: of another {}; starting from the beginning\n", path, other);
+  fmt::print(stderr,
+             "cupola-solve: warning: {}: the checkpoint belongs to another {}; starting from the beginning\n",
+             path, other);
   return std::nullopt;
 }
 
-/// Connects an analysis with the results folder and the terminal.
+/// Connects an analysis to the results folder and the terminal.
 AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpoint_path,
                          const StopRequest& stop, ResultsWriter* writer, Checkpoint* run,
                          ProgressBar* progress) {
@@ -129,7 +132,7 @@ ExitCode solve_case(const SolveRequest& request) {
   set_num_threads(request.threads);
   print_warnings(geometry_warnings(assembly, detection_options(request.scene)));
 
-  // 1. Where the run stands
+  // 1. Start or resume
   Checkpoint run = find_checkpoint(request, checkpoint_path, assembly_hash).value_or(Checkpoint{});
   if (!run.analysis.empty() && !request.quiet)
     fmt::print("resuming {}\n",
@@ -140,7 +143,7 @@ ExitCode solve_case(const SolveRequest& request) {
   run.case_hash = request.scene.hash;
   run.assembly_hash = assembly_hash;
   ResultsWriter writer(request.output_folder, assembly_hash, run.frame_times);
-  // A summary says that a folder is complete: the old one goes before the first frame is replaced.
+  // A summary marks a folder as complete: remove the old one before the first frame is replaced.
   std::filesystem::remove(std::filesystem::path(request.output_folder) / "summary.json");
 
   // 2. The analysis
@@ -156,11 +159,11 @@ ExitCode solve_case(const SolveRequest& request) {
   std::optional<Summary> summary = run_analysis(request.scene, assembly, sinks);
   progress.finish();
   if (!summary) {
-    fmt::print(stderr, "interrupted; go on with --resume\n");
+    fmt::print(stderr, "interrupted; resume with --resume\n");
     return ExitCode::interrupted;
   }
 
-  // 3. What it gave
+  // 3. Summary
   summary->program_version = program_version();
   summary->case_hash = request.scene.hash;
   summary->geometry_hash = request.scene.geometry_hash;
@@ -170,7 +173,7 @@ ExitCode solve_case(const SolveRequest& request) {
   summary->cpu_time_seconds = cpu_seconds();
   summary->peak_memory_bytes = peak_memory_bytes();
   writer.write_text("run.yaml", provenance(*summary) + request.scene.effective_yaml);
-  // Also where it was written before an interruption: the summary names what this run wrote.
+  // Written again even if an interrupted run wrote it: the summary lists the files that this run wrote.
   if (!run.history.empty()) writer.write_text("history.csv", run.history);
   if (!patches_written)
     sinks.as_built(

@@ -7,25 +7,26 @@
 
 namespace cupola {
 
-/// What the user asks of one run of cupola-solve.
+/// Input of one run of cupola-solve.
 struct SolveRequest {
   Case scene;
   std::string assembly_path;
   std::string output_folder;
-  std::string dump_fclib;  ///< file for the contact problem of the static solve or the last step; empty: none
+  std::string
+      dump_fclib;  ///< file for the contact problem of the static solve or the last step; may be empty
   bool quiet = false;
-  bool force = false;   ///< take an assembly that was made from another geometry or material
+  bool force = false;   ///< use an assembly that was made from another geometry or material
   int threads = 1;      ///< >= 1
-  bool resume = false;  ///< go on from the checkpoint in the output folder, if there is one
+  bool resume = false;  ///< resume from the checkpoint in the output folder, if there is one
 };
 
 /// Reads the assembly, checks that it was made from this case, runs the analysis and writes the results
-/// folder: frames as they come, history.csv, run.yaml, and summary.json last, so that a folder with a summary
-/// is complete. Returns `accuracy_not_reached` when the analysis did not converge. Throws InputError and
-/// SystemError.
+/// folder. Frames are written as they are computed and summary.json last, so that a folder with a summary is
+/// complete. Returns `accuracy_not_reached` if the analysis did not converge and `interrupted` if the user
+/// stopped it. Throws InputError and SystemError.
 ExitCode solve_case(const SolveRequest& request);
 
-/// The model that would be solved: bodies, unknowns, contacts, active features and why (`--explain`).
+/// Text of `--explain`: blocks, unknowns, contacts, active features and estimated cost.
 std::string explain_case(const SolveRequest& request);
 
 }  // namespace cupola

@@ -11,8 +11,9 @@
 #include "solver/analysis/analysis.hpp"
 #include "tests/generators/shared_data.hpp"
 
-// The wall with a window of DigitalDynamicsLab/Masonry: 318 bricks, a lintel on two springs that only pull
-// and two rods, shaken along itself by ten seconds of a displacement record. Minutes, hence `slow`.
+// The wall with a window of DigitalDynamicsLab/Masonry: 318 bricks and a lintel on two tension-only springs
+// and two rods. Its base moves in the plane of the wall by a displacement record of ten seconds. Takes
+// minutes, hence `slow`.
 
 namespace cupola::base_motion_test {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 struct Shaking {
   Summary summary;
   std::vector<Frame> frames;
-  std::vector<std::vector<double>> history;  // rows without the header
+  std::vector<std::vector<double>> history;  // rows of history.csv without the header
 };
 
 // Columns of history.csv.
@@ -41,7 +42,7 @@ Shaking shake(const Case& scene, const Assembly& assembly) {
   return result;
 }
 
-/// Second column of the record, one row per 5 ms.
+/// Second column of the record: displacement, one row per 5 ms.
 std::vector<double> ground_displacements(const std::string& path) {
   std::vector<double> values;
   std::ifstream in(path);
@@ -53,7 +54,7 @@ std::vector<double> ground_displacements(const std::string& path) {
   return values;
 }
 
-TEST(BaseMotionSlow, WallOfOthersIsShakenToTheEndOfItsRecord) {
+TEST(BaseMotionSlow, ImportedWallFollowsItsRecord) {
   if (shared_data().empty()) GTEST_SKIP() << "no shared data";
   const std::string folder = shared_data() + "/masonry/";
   ImportedBlocks source;
@@ -75,12 +76,12 @@ TEST(BaseMotionSlow, WallOfOthersIsShakenToTheEndOfItsRecord) {
   scene.output.frames_every = 0.5;
   const Shaking wall = shake(scene, assembly);
 
-  // Every step converged, to the last.
+  // Every step converged.
   EXPECT_NE(wall.summary.status, Status::unconverged) << wall.summary.message;
   ASSERT_EQ(wall.history.size(), 2000u);
   EXPECT_NEAR(wall.history.back()[kTime], duration, 1e-9);
 
-  // The fixed blocks stand where the record says.
+  // The fixed blocks follow the record.
   const std::vector<double> ground = ground_displacements(folder + "wall_motionfile.txt");
   ASSERT_EQ(wall.frames.size(), 20u);
   for (const Frame& frame : wall.frames) {
@@ -95,7 +96,7 @@ TEST(BaseMotionSlow, WallOfOthersIsShakenToTheEndOfItsRecord) {
     }
   }
 
-  // What the supports give is what the bricks gain, apart from what each step may leave unbalanced.
+  // The impulse of the supports equals the momentum gained by the bricks, up to the tolerance of each step.
   Vec3 gained = -Vec3(0, 0, duration * wall.summary.weight_N);
   double friction_work = 0.0, tie_force = 0.0;
   for (const std::vector<double>& row : wall.history) {
@@ -108,7 +109,7 @@ TEST(BaseMotionSlow, WallOfOthersIsShakenToTheEndOfItsRecord) {
   const Vec3 momentum(last[kMomentum], last[kMomentum + 1], last[kMomentum + 2]);
   EXPECT_LT((gained - momentum).norm(), scene.analysis.tolerance * wall.summary.weight_N * duration);
   EXPECT_GT(friction_work, 0.0);
-  EXPECT_GT(tie_force, 0.0) << "the springs hold the lintel";
+  EXPECT_GT(tie_force, 0.0) << "the springs carry the lintel";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The commands around the three stages, run as a user runs them: reports, bond maps, problems of the
-// frictional contact library, sweeps, claims, studies, comparisons, explanations, pictures.
+// The commands besides the three stages, run as a user runs them: reports, bond maps, FCLIB problems, sweeps,
+// claims, studies, comparisons, explanations, pictures.
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ namespace {
 
 const std::string kWall = CUPOLA_SOURCE_DIR "/cases/wall_large.yaml";
 
-/// 48 blocks, and a title that is not to be taken for markup.
+/// A dome of 48 blocks. Its title contains characters that HTML must escape.
 constexpr const char* kSmallDome = R"(title: Six rings <b>& a crown
 geometry:
   surface: {type: dome, span: 45, radius_ratio: 0.8, thickness: 2.2, crown_angle_deg: 60}
@@ -25,12 +25,12 @@ postproc:
   sections: [10]
 )";
 
-/// A folder with the dome's case in it.
+/// A folder that contains the case of the dome.
 struct DomeFolder : ProgramFolder {
   DomeFolder() { std::ofstream(file("dome.yaml")) << kSmallDome; }
 };
 
-/// The three stages into runs/NAME.
+/// Runs the three stages into runs/NAME.
 void run_dome(const ProgramFolder& folder, const std::string& name, const std::string& set) {
   const std::string run = "runs/" + name, dome = " dome.yaml --quiet " + set;
   for (const std::string& stage :
@@ -49,7 +49,7 @@ size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-bool says(const std::string& text, const std::string& part) {
+bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
@@ -59,7 +59,7 @@ TEST(Commands, ReportTheStereotomy) {
   ASSERT_EQ(folder.run(generate + " --report new/wall.json").code, 0);
   const auto report = nlohmann::json::parse(slurp(folder.file("new/wall.json")));
   EXPECT_EQ(report["blocks"], 10);
-  EXPECT_EQ(report["volume_m3"], 12.0 * 6.0 * 1.0);  // to the bit: every side is a whole number of quarters
+  EXPECT_EQ(report["volume_m3"], 12.0 * 6.0 * 1.0);  // exact: every side is a multiple of 0.25 m
   EXPECT_EQ(report["sizes_by_kind"]["standard"]["mean_m3"], 7.2);
   int blocks = 0;
   for (const auto& ring : report["sizes_by_ring"]) blocks += ring["blocks"].get<int>();
@@ -67,12 +67,13 @@ TEST(Commands, ReportTheStereotomy) {
   ASSERT_EQ(folder.run(generate + " --report wall.txt").code, 0);
   const std::string text = slurp(folder.file("wall.txt"));
   for (const char* part : {"Wall of large blocks", "10 blocks", "standard", "ring 3"})
-    EXPECT_TRUE(says(text, part)) << part << " in\n" << text;
+    EXPECT_TRUE(contains(text, part)) << part << " in\n" << text;
 }
 
-TEST(Commands, MapTheBond) {
+TEST(Commands, DrawTheBondMap) {
   const DomeFolder folder;
-  // Background and clip path; a block each; in a closed ring, what the seam cuts comes at both ends.
+  // Background, clip path and one rectangle per block. In a closed ring, blocks across the seam are drawn at
+  // both ends.
   ASSERT_EQ(folder.run("cupola-generate " + kWall + " --output wall.vtu --quiet --bond-map wall.svg").code,
             0);
   EXPECT_EQ(count(slurp(folder.file("wall.svg")), "<rect "), 2u + 10u);
@@ -80,14 +81,14 @@ TEST(Commands, MapTheBond) {
   EXPECT_EQ(count(slurp(folder.file("dome.svg")), "<rect "), 2u + 48u + 3u) << "every other ring is shifted";
 }
 
-TEST(Commands, OnlyImportedBlocksBringInterfaces) {
+TEST(Commands, RefuseInterfacesOfGeneratedBlocks) {
   const ProgramFolder folder;
   const ProgramRun run = folder.run("cupola-generate " + kWall + " --output w.vtu --contacts c.csv");
   EXPECT_EQ(run.code, 2);
-  EXPECT_TRUE(says(run.err, "generated blocks have no interfaces")) << run.err;
+  EXPECT_TRUE(contains(run.err, "generated blocks have no interfaces")) << run.err;
 }
 
-TEST(Commands, SolveTheProblemThatTheyWrote) {
+TEST(Commands, SolveAContactProblemWrittenByTheSolver) {
   const DomeFolder folder;
   const std::string step = " --set analysis.type=dynamic --set analysis.duration=0.01";
   ASSERT_EQ(folder.run("cupola-generate dome.yaml --output dome.vtu --quiet").code, 0);
@@ -100,13 +101,13 @@ TEST(Commands, SolveTheProblemThatTheyWrote) {
   const ProgramRun run = folder.run("cupola-solve --fclib dome.hdf5");
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.out.find("converged: "), 0u) << run.out;
-  EXPECT_TRUE(says(run.out, "576 contacts, local form")) << run.out;
-  EXPECT_TRUE(says(run.out, "the file's own solution has FCLIB merit")) << run.out;
+  EXPECT_TRUE(contains(run.out, "576 contacts, local form")) << run.out;
+  EXPECT_TRUE(contains(run.out, "the file's own solution has FCLIB merit")) << run.out;
   EXPECT_EQ(folder.run("cupola-solve --quiet --fclib dome.hdf5").out, "");
   EXPECT_EQ(folder.run("cupola-solve --fclib dome.yaml").code, 2);
 }
 
-TEST(Commands, TabulateASweepAndSayWhatIsMissing) {
+TEST(Commands, TabulateASweepAndReportMissingMembers) {
   const DomeFolder folder;
   ASSERT_EQ(folder.run("cupola-post sweep dome.yaml --members members.txt").code, 0);
   std::istringstream members(slurp(folder.file("members.txt")));
@@ -117,18 +118,18 @@ TEST(Commands, TabulateASweepAndSayWhatIsMissing) {
   const std::string tabulate = "cupola-post sweep dome.yaml --runs runs --output table";
   const ProgramRun half = folder.run(tabulate);
   EXPECT_EQ(half.code, 1) << half.err;
-  EXPECT_TRUE(says(half.out, "1 of 2 members are finished, 1 missing")) << half.out;
-  EXPECT_TRUE(says(half.out, "no assembly: its own output says why")) << half.out;
+  EXPECT_TRUE(contains(half.out, "1 of 2 members are finished, 1 missing")) << half.out;
+  EXPECT_TRUE(contains(half.out, "no assembly: its own output says why")) << half.out;
   run_dome(folder, second, "--set joints.friction=0.5");
   EXPECT_EQ(folder.run(tabulate).code, 0);
   EXPECT_EQ(count(slurp(folder.file("table/sweep.csv")), ",stable,"), 2u);
   const std::string page = slurp(folder.file("table/sweep.html"));
-  EXPECT_TRUE(says(page, "Six rings &lt;b&gt;&amp; a crown"));
-  EXPECT_FALSE(says(page, "Six rings <b>"));
+  EXPECT_TRUE(contains(page, "Six rings &lt;b&gt;&amp; a crown"));
+  EXPECT_FALSE(contains(page, "Six rings <b>"));
   EXPECT_EQ(folder.run("cupola-post sweep dome.yaml").code, 2);
 }
 
-TEST(Commands, TestClaims) {
+TEST(Commands, EvaluateClaims) {
   const DomeFolder folder;
   run_dome(folder, "low", "");
   std::ofstream(folder.file("claims.yaml")) << R"(claims:
@@ -146,15 +147,15 @@ TEST(Commands, TestClaims) {
   EXPECT_EQ(folder.run("cupola-post claims claims.yaml --needs").out, "low\nhigh\n");
   const ProgramRun run = folder.run("cupola-post claims claims.yaml --runs runs --output told");
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_TRUE(says(run.out, "high")) << "the run that is missing\n" << run.out;
+  EXPECT_TRUE(contains(run.out, "high")) << "the missing run\n" << run.out;
   const std::string table = slurp(folder.file("told/claims.csv"));
   EXPECT_EQ(count(table, ",reproduced"), 1u) << table;
   EXPECT_EQ(count(table, ",not reproduced"), 1u) << table;
-  EXPECT_TRUE(says(slurp(folder.file("told/claims.html")), "All blocks &lt;i&gt;are there."));
+  EXPECT_TRUE(contains(slurp(folder.file("told/claims.html")), "All blocks &lt;i&gt;are there."));
   EXPECT_EQ(folder.run("cupola-post claims claims.yaml").code, 2);
 }
 
-TEST(Commands, MeasureAStudyAgainstItsReference) {
+TEST(Commands, CompareAStudyWithItsReference) {
   const DomeFolder folder;
   run_dome(folder, "exact", "--set analysis.tolerance=1e-10");
   run_dome(folder, "coarse", "--set analysis.tolerance=1e-2");
@@ -168,8 +169,8 @@ TEST(Commands, MeasureAStudyAgainstItsReference) {
   std::vector<std::string> rows;
   for (std::string row; std::getline(table, row);) rows.push_back(row);
   ASSERT_EQ(rows.size(), 4u);
-  EXPECT_TRUE(says(rows[2], ",stable,")) << rows[2];
-  EXPECT_TRUE(says(rows[3], ",not run,")) << rows[3];
+  EXPECT_TRUE(contains(rows[2], ",stable,")) << rows[2];
+  EXPECT_TRUE(contains(rows[3], ",not run,")) << rows[3];
 }
 
 TEST(Commands, CompareRuns) {
@@ -179,16 +180,16 @@ TEST(Commands, CompareRuns) {
   const std::string compare = "cupola-post compare runs/thick/post ";
   const ProgramRun run = folder.run(compare + "runs/thin/post --output both");
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_TRUE(says(run.out, "B: Six rings <b>& a crown (runs/thin/post)")) << run.out;
-  EXPECT_TRUE(says(run.out, "The least geometric safety of the thrust lines is")) << run.out;
+  EXPECT_TRUE(contains(run.out, "B: Six rings <b>& a crown (runs/thin/post)")) << run.out;
+  EXPECT_TRUE(contains(run.out, "The least geometric safety of the thrust lines is")) << run.out;
   const std::string page = slurp(folder.file("both/comparison.html"));
-  EXPECT_TRUE(says(page, "Six rings &lt;b&gt;&amp; a crown"));
-  EXPECT_FALSE(says(page, "Six rings <b>"));
+  EXPECT_TRUE(contains(page, "Six rings &lt;b&gt;&amp; a crown"));
+  EXPECT_FALSE(contains(page, "Six rings <b>"));
   EXPECT_EQ(folder.run(compare + "--output one").code, 2);
   EXPECT_EQ(folder.run(compare + "runs/none/post --output one").code, 2);
 }
 
-TEST(Commands, ExplainWhatWouldBeSolved) {
+TEST(Commands, ExplainTheModelWithoutSolvingIt) {
   const DomeFolder folder;
   ASSERT_EQ(folder.run("cupola-generate dome.yaml --output dome.vtu --quiet").code, 0);
   const auto explained = [&folder](const std::string& set) {
@@ -200,32 +201,32 @@ TEST(Commands, ExplainWhatWouldBeSolved) {
   for (const char* part :
        {"48 free, 1 fixed", "288 velocities, 1728 force components at 576 contacts in 136 joints",
         "static, newton", "friction    0.4, associated", "one factorisation"})
-    EXPECT_TRUE(says(statics, part)) << part << " in\n" << statics;
+    EXPECT_TRUE(contains(statics, part)) << part << " in\n" << statics;
   const std::string motion = explained(
       " --set analysis.type=dynamic --set analysis.duration=0.1 --set joints.friction=0 "
       "--set contact.method=perturbed_gjk");
   for (const char* part : {"none: normal forces only", "dynamic, newton: 10 steps of 0.01 s",
                            "perturbed GJK, 16 queries", "3 steps, the last"})
-    EXPECT_TRUE(says(motion, part)) << part << " in\n" << motion;
-  // Ends, then halvings of 0.3 down to a hundredth of 0.4.
+    EXPECT_TRUE(contains(motion, part)) << part << " in\n" << motion;
+  // Two ends, then seven halvings of 0.3 down to a hundredth of 0.4.
   const std::string limit = explained(
       " --set analysis.type=limit --set analysis.limit.parameter=friction --set analysis.limit.low=0.1 "
       "--set analysis.limit.high=0.4 --set analysis.limit.relative_width=0.01");
-  EXPECT_TRUE(says(limit, "limit, newton: about 9 equilibria between 0.1 and 0.4")) << limit;
+  EXPECT_TRUE(contains(limit, "limit, newton: about 9 equilibria between 0.1 and 0.4")) << limit;
   EXPECT_EQ(folder.contents().size(), 2u) << "case and assembly";
 }
 
-TEST(Commands, DrawWhatIsAskedFor) {
+TEST(Commands, DrawTheFiguresOfTheCase) {
   const DomeFolder folder;
   run_dome(folder, "drawn", "");
   for (const char* figure : {"thrust_east", "hoop_east", "levels", "rings", "section_10m", "map_forces"}) {
     const std::string picture = slurp(folder.file(std::string("runs/drawn/post/figures/") + figure + ".svg"));
-    EXPECT_TRUE(says(picture, "</svg>")) << figure;
-    EXPECT_FALSE(says(picture, "nan")) << figure;
+    EXPECT_TRUE(contains(picture, "</svg>")) << figure;
+    EXPECT_FALSE(contains(picture, "nan")) << figure;
   }
   const std::string report = slurp(folder.file("runs/drawn/post/report.html"));
-  EXPECT_TRUE(says(report, "Six rings &lt;b&gt;&amp; a crown"));
-  EXPECT_FALSE(says(report, "Six rings <b>"));
+  EXPECT_TRUE(contains(report, "Six rings &lt;b&gt;&amp; a crown"));
+  EXPECT_FALSE(contains(report, "Six rings <b>"));
 }
 
 }  // namespace

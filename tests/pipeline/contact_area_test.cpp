@@ -9,8 +9,8 @@
 #include "solver/collision/contact_detector.hpp"
 #include "tests/generators/shared_data.hpp"
 
-// Contact detection against brute force: every face of every block against every other, no boxes, no trees,
-// no separating axes, no joining of patches.
+// Contact detection against brute force: each face of each block against all others, without bounding boxes,
+// trees, separating axes or merging of patches.
 
 namespace cupola::contact_area_test {
 namespace {
@@ -18,8 +18,8 @@ namespace {
 using BlockPair = std::pair<int, int>;
 using Polygon = std::vector<Vec3>;
 
-/// Area of the part of the convex polygon p that lies over the convex polygon q, both in the plane with that
-/// normal: p cut by the plane through each edge of q, one after the other.
+/// Area of the intersection of the convex polygons p and q, which lie in the plane with this normal: p is
+/// clipped at each edge of q.
 double overlap_area(Polygon p, const Polygon& q, const Vec3& normal) {
   for (std::size_t k = 0; k < q.size() && !p.empty(); ++k) {
     const Vec3 inward = normal.cross(q[(k + 1) % q.size()] - q[k]);
@@ -65,8 +65,8 @@ std::map<BlockPair, double> brute_force(const Assembly& assembly, double distanc
   return areas;
 }
 
-/// Every pair of blocks has the area that brute force finds, to 1e-9 of a block's face; overlaps below
-/// `smallest` (m2) are slivers, which make no joint.
+/// Checks the contact area of every pair of blocks against brute force, to 1e-9 of the largest area. Overlaps
+/// below `smallest` (m2) are slivers and form no joint.
 void expect_same_areas(const Assembly& assembly, double smallest, double distance) {
   std::map<BlockPair, double> found;
   const ContactSet set = ContactDetector(assembly, {}).update(initial_poses(assembly));
@@ -104,7 +104,7 @@ TEST(ContactArea, AgreesWithBruteForceOnSmallDomes) {
   }
 }
 
-// Models that others cut: faces lie as they drew them, to a micrometre and less.
+// Models from other programs, whose faces coincide to a micrometre or better.
 TEST(ContactArea, AgreesWithBruteForceOnImportedModels) {
   if (shared_data().empty()) GTEST_SKIP() << "no shared data";
   for (const char* file :

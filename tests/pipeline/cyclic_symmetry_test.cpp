@@ -1,4 +1,4 @@
-// One sector with cyclic boundary conditions against the whole model.
+// The solution of one sector with cyclic boundary conditions equals that of the whole model.
 
 #include <map>
 #include <ostream>
@@ -13,7 +13,7 @@ namespace cupola::cyclic_symmetry_test {
 namespace {
 
 struct Answer {
-  std::map<std::pair<int, int>, Vec3> forces;  // N, of each joint
+  std::map<std::pair<int, int>, Vec3> forces;  // on each joint, N
   Summary summary;
   std::vector<Vec3> displacement;
 };
@@ -32,7 +32,7 @@ Answer solve(const Case& scene, const Assembly& assembly) {
   return answer;
 }
 
-/// Largest difference of a joint's force over the largest force of a joint.
+/// Largest difference of a joint force, over the largest joint force.
 double worst_difference(const Answer& whole, const Answer& sector) {
   EXPECT_EQ(whole.forces.size(), sector.forces.size());
   double worst = 0.0, largest = 0.0;
@@ -89,9 +89,9 @@ TEST_P(CyclicSymmetry, OneSectorGivesTheWholeModelsForces) {
   scene.analysis.cyclic_sectors = GetParam().sectors;
   const Answer sector = solve(scene, assembly);
   EXPECT_EQ(sector.summary.unknowns * GetParam().sectors, whole.summary.unknowns);
-  // Both equilibrium residuals are below 1e-10 of a block's weight; the joints carry up to ten.
+  // Both equilibrium residuals are below 1e-10 of a block weight; the joints carry up to ten block weights.
   EXPECT_LE(worst_difference(whole, sector), 1e-8);
-  // Residuals are those of the whole model, recomputed from its own contacts.
+  // Residuals are computed from the contacts of the whole model.
   EXPECT_LE(sector.summary.equilibrium_residual, 1e-10);
   double highest = 0.0, difference = 0.0;
   for (size_t i = 0; i < whole.displacement.size(); ++i) {
@@ -115,8 +115,8 @@ std::string refusal(Case scene, int sectors) {
   return "accepted";
 }
 
-TEST(CyclicSymmetryRefusal, SaysWhatBreaksTheSymmetry) {
-  EXPECT_NE(refusal(dome(12), 5).find("where no block is"), std::string::npos) << refusal(dome(12), 5);
+TEST(CyclicSymmetryRefusal, NamesTheCause) {
+  EXPECT_NE(refusal(dome(12), 5).find("where there is no block"), std::string::npos) << refusal(dome(12), 5);
 
   Case pushed = dome(12);
   pushed.loads.forces.push_back({5, std::nullopt, Vec3(1000.0, 0.0, 0.0), {}});

@@ -3,9 +3,10 @@
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 
-// Critical friction and thickness of domes against linear programmes over the friction cones: aligned joints
-// by the symmetry of one lune, half bond by a reduction that was checked against a full three-dimensional
-// one. Their beds are ideal cones; ours are cut into flat pieces. Minutes together, hence `slow`.
+// Critical friction and thickness of domes against linear programmes over the friction cones. Domes with
+// aligned joints are reduced to one lune by symmetry; half bond uses a reduction that was checked against the
+// full three-dimensional programme. The programmes assume conical beds; ours consist of plane facets. Takes
+// minutes, hence `slow`.
 
 namespace cupola::dome_limit_test {
 namespace {
@@ -42,7 +43,7 @@ TEST(DomeLimitSlow, FrictionOfThePapersDomeWithAlignedJoints) {
   EXPECT_NEAR(critical_value(friction_case({}, aligned(39, 33), 0.1, 0.2)) / 0.1446, 1.0, 0.01);
 }
 
-/// Hemisphere of centreline radius 1 m up to a small oculus.
+/// Hemisphere of centreline radius 1 m with a small oculus.
 DomeSurface hemisphere(double thickness, double crown_angle_deg) {
   return {.span = 2.0 - thickness,
           .radius_ratio = 0.5,
@@ -52,10 +53,11 @@ DomeSurface hemisphere(double thickness, double crown_angle_deg) {
 constexpr double kToTheCrown = 89.5;
 constexpr double kCutOff = 84.2704220486918;  // 0.1 rad below
 
-// A bed that bends around the axis is as much thicker as it bulges, 1 - cos(pi / blocks): narrow blocks.
+// A faceted bed is effectively thicker than a conical one by the share 1 - cos(pi / blocks); narrow blocks
+// keep it small.
 constexpr int kNarrow = 96;
 
-TEST(DomeLimitSlow, ThicknessOfTheHemisphere) {
+TEST(DomeLimitSlow, MinimumThicknessOfTheHemisphere) {
   Case scene = friction_case(hemisphere(0.06, kToTheCrown), aligned(20, kNarrow), 0.5, 1.2);
   scene.joints.friction = 1.0;
   scene.analysis.limit.parameter = LimitSearch::Parameter::thickness;

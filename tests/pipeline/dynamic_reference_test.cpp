@@ -1,5 +1,5 @@
-// Motion of whole models against their static answer: the time-stepping scheme has the same equilibria as the
-// static solve, reaches them, and does not drift from them. Minutes, hence `slow`.
+// Motion of complete models against their static solution: the time-stepping scheme reaches the same
+// equilibria as the static solve and does not drift away from them. Takes minutes, hence `slow`.
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ JointForceMap static_forces(const Case& scene, const Assembly& assembly) {
   return forces;
 }
 
-/// Of the step before: detection has not yet been asked about the new positions.
+/// Joint forces of the last step, whose contacts the simulation still holds.
 JointForceMap step_forces(const Simulation& simulation, const StepReport& report) {
   JointForceMap forces;
   const std::vector<Contact>& contacts = simulation.contacts().points;
@@ -53,7 +53,7 @@ double rms_difference(const JointForceMap& reference, const JointForceMap& force
   return std::sqrt(difference / scale);
 }
 
-/// Contacts that carry force and have slid by more than a micrometre on the way.
+/// Number of contacts that carry force and have slid by more than a micrometre.
 int count_slipped(const Simulation& simulation) {
   int count = 0;
   for (const ContactMemory& memory : simulation.memories().values)
@@ -73,7 +73,7 @@ Simulation dome_simulation(const Case& scene, const Assembly& assembly, double d
 
 struct Settled {
   double residual, difference;
-  double friction_work;  // J, lost on the way
+  double friction_work;  // J
   int slipped, contacts;
 };
 
@@ -96,7 +96,7 @@ Settled settle(double friction) {
 TEST(DomeMotionSlow, WithoutSlipSettlesToTheStaticForces) {
   const Settled dome = settle(10.0);
   EXPECT_LE(dome.residual, 1e-3);
-  // The static solve forgets that the blocks have moved by 7 cm: 0.1 %.
+  // The static solve neglects the displacement of 7 cm, which changes the forces by 0.1 %.
   EXPECT_LE(dome.difference, 1e-3);
   std::printf("mu 10: forces differ from the static ones by %.3f %%, %d contacts opened and slid, %.1f J\n",
               100.0 * dome.difference, dome.slipped, dome.friction_work);
@@ -112,15 +112,15 @@ TEST(DomeMotionSlow, WithSlipSettlesToOtherForces) {
       "mu 0.4: %d of %d contacts slipped on the way (%.0f J), forces differ from the static ones by %.2f "
       "%%\n",
       dome.slipped, dome.contacts, dome.friction_work, 100.0 * dome.difference);
-  // Friction leaves the forces of a dome undetermined; which it takes depends on the way there.
+  // Friction leaves the forces of a dome undetermined; they depend on the loading history.
   EXPECT_GT(dome.difference, 1e-6);
   EXPECT_LT(dome.difference, 0.5);
 }
 
-/// Heights of a block of the crown, one per step, and the balance of momentum over the last second.
-struct Swing {
-  std::vector<double> sunk;
-  double momentum_error = 0.0;  // of the mean base reaction, over the weight
+/// Oscillation of the dome under its suddenly applied weight.
+struct Oscillation {
+  std::vector<double> sunk;     // settlement of a crown block after each step, m
+  double momentum_error = 0.0;  // of the mean base reaction over the last second, relative to the weight
 
   double mean(int from, int to) const {
     double sum = 0.0;
@@ -133,13 +133,13 @@ struct Swing {
   }
 };
 
-Swing swing(TangentialSpring tangential) {
+Oscillation oscillate(TangentialSpring tangential) {
   Case scene;
   scene.analysis.tangential = tangential;
   const Assembly assembly = generate(scene);
   Simulation simulation = dome_simulation(scene, assembly, 0.0);
   const int crown = static_cast<int>(assembly.blocks.size()) - 1;
-  Swing swing;
+  Oscillation result;
   Vec3 impulse = Vec3::Zero(), momentum = Vec3::Zero();
   Vec3 weight = Vec3::Zero();
   for (int step = 0; step < 400; ++step) {
@@ -147,34 +147,36 @@ Swing swing(TangentialSpring tangential) {
     const StepReport report = simulation.advance();
     weight = report.balance.applied_load;
     if (step >= 300) impulse += report.h * report.balance.support_reaction;
-    swing.sunk.push_back(-simulation.displacements()[crown].z());
+    result.sunk.push_back(-simulation.displacements()[crown].z());
   }
   const Vec3 change = simulation.linear_momentum() - momentum;
-  swing.momentum_error = (impulse + weight - change).norm() / weight.norm();  // over 1 s
-  return swing;
+  result.momentum_error = (impulse + weight - change).norm() / weight.norm();  // over 1 s
+  return result;
 }
 
-TEST(DomeMotionSlow, SwingsWithFallingAmplitudeAndWithoutDrift) {
-  const Swing dome = swing(TangentialSpring::memory);
+TEST(DomeMotionSlow, OscillatesWithDecreasingAmplitudeAndWithoutDrift) {
+  const Oscillation dome = oscillate(TangentialSpring::memory);
   EXPECT_LE(dome.momentum_error, 1e-6);
   EXPECT_LT(dome.amplitude(200, 300), dome.amplitude(100, 200));
   EXPECT_LT(dome.amplitude(300, 400), dome.amplitude(200, 300));
-  // Means over two swings of 0.48 s each. That this is known to two steps leaves amplitude x 4 / 96 in them.
+  // Means over two periods of 0.48 s each. The period is known to two steps, which leaves an error of
+  // amplitude x 4 / 96.
   const double before = dome.mean(208, 304), after = dome.mean(304, 400);
-  std::printf("memory: mean sinking %.7f m, then %.7f m\n", before, after);
+  std::printf("memory: mean settlement %.7f m, then %.7f m\n", before, after);
   EXPECT_NEAR(after, before, dome.amplitude(208, 304) * 4.0 / 96.0);
-  EXPECT_NEAR(after / 0.069384, 1.0, 0.02);  // static answer, m; slip on the way down takes it further
+  EXPECT_NEAR(after / 0.069384, 1.0, 0.02);  // static solution, m; slip makes the dome sink further
 }
 
 TEST(DomeMotionSlow, CreepsInThePapersLiteralScheme) {
-  const Swing dome = swing(TangentialSpring::literal);
+  const Oscillation dome = oscillate(TangentialSpring::literal);
   const double creep = dome.mean(300, 400) - dome.mean(200, 300);
   std::printf("literal: sinks by %.6f m from the third to the fourth second\n", creep);
   EXPECT_GT(creep, 0.05 * dome.mean(200, 300));
 }
 
-// The paper's solver became unstable here: 5,050 blocks on joints of 1e-12 m/N, top load of ten weights.
-TEST(WallMotionSlow, SmallBlocksOnStiffJointsSettleToTheStaticAnswer) {
+// The solver of the paper became unstable for this wall: 5,050 blocks, joints of 1e-12 m/N, top load of ten
+// weights.
+TEST(WallMotionSlow, SmallBlocksOnStiffJointsSettleToTheStaticSolution) {
   Case scene;
   RunningBond bond;
   bond.rings = 100;
@@ -192,7 +194,8 @@ TEST(WallMotionSlow, SmallBlocksOnStiffJointsSettleToTheStaticAnswer) {
   EXPECT_LE(report.balance.residual, 1e-6);
   for (size_t i = 0; i < assembly.blocks.size(); ++i) {
     if (assembly.blocks[i].ring != 99) continue;
-    // Closed form of the static wall; the top sinks by 3 um, held in doubles of 6 m to 1e-15 m per step.
+    // Closed form of the static wall. The top sinks by 3 um; rounding of coordinates of 6 m is 1e-15 m per
+    // step.
     EXPECT_NEAR(-simulation.displacements()[i].z() / (1e-12 * 3.373914e6), 1.0, 1e-4) << "block " << i;
   }
 }

@@ -11,7 +11,7 @@
 namespace cupola::invariance_test {
 namespace {
 
-/// A small dome with a lantern: every kind of joint, forces of every direction.
+/// A small dome with a lantern: all kinds of joints, forces in all directions.
 Case small_dome() {
   Case scene;
   RunningBond bond;
@@ -61,7 +61,7 @@ int same_block(int block) {
   return block;
 }
 
-// Ten times the equilibrium residual asked of each solve, per ring of the dome.
+// Ten times the tolerance of each solve, per ring of the dome.
 constexpr double kTolerance = 1e-8;
 
 class Invariance : public ::testing::Test {
@@ -83,7 +83,7 @@ TEST_F(Invariance, UnderRotationOfTheWorld) {
 TEST_F(Invariance, UnderReflection) {
   const Mat3 mirror = Vec3(1, -1, 1).asDiagonal();
   for (Vec3& vertex : assembly_.vertices) vertex = mirror * vertex;
-  for (int f = 0; f < assembly_.num_faces(); ++f)  // a mirror turns faces inside out
+  for (int f = 0; f < assembly_.num_faces(); ++f)  // a reflection reverses the orientation of faces
     std::reverse(assembly_.face_vertices.begin() + assembly_.face_vertex_start[f],
                  assembly_.face_vertices.begin() + assembly_.face_vertex_start[f + 1]);
   compute_mass_properties(&assembly_);
@@ -91,11 +91,12 @@ TEST_F(Invariance, UnderReflection) {
             kTolerance);
 }
 
-TEST_F(Invariance, UnderAFarOrigin) {
-  const Vec3 far(3e4, -2e4, 1e4);  // beyond any site plan; vertices keep 12 digits of a millimetre
+TEST_F(Invariance, UnderTranslationFarFromTheOrigin) {
+  const Vec3 far(3e4, -2e4, 1e4);  // site coordinates; rounding is 1e-11 m
   for (Vec3& vertex : assembly_.vertices) vertex += far;
   compute_mass_properties(&assembly_);
-  // Rounding the vertices to eps * 4e4 m = 7e-12 m opens gaps that are 1e-9 of the elastic depth 1e-2 m.
+  // Rounding of the vertices to eps * 4e4 m = 7e-12 m causes gaps of 1e-9 times the elastic penetration of
+  // 1e-2 m.
   EXPECT_LT(worst_difference(forces_, joint_forces(scene_, assembly_), Mat3::Identity(), same_block, weight_),
             1e-7);
 }
@@ -113,8 +114,8 @@ TEST_F(Invariance, UnderPermutationOfTheBlocks) {
             kTolerance);
 }
 
-// Lengths x 1000: weights grow by 1e9; at zero gap the resultants over the weight depend on nothing else.
-TEST_F(Invariance, UnderChangeOfSize) {
+// Lengths times 1000 give weights times 1e9; with zero gaps the resultants are proportional to the weight.
+TEST_F(Invariance, UnderScalingOfLengths) {
   for (Vec3& vertex : assembly_.vertices) vertex *= 1000.0;
   compute_mass_properties(&assembly_);
   std::map<Pair, Vec3> scaled = joint_forces(scene_, assembly_);
@@ -122,7 +123,7 @@ TEST_F(Invariance, UnderChangeOfSize) {
   EXPECT_LT(worst_difference(forces_, scaled, Mat3::Identity(), same_block, weight_), kTolerance);
 }
 
-// Static forces at zero gap do not depend on the compliance, only on its ratios: an exact law.
+// With zero gaps, static forces depend only on ratios of compliances.
 TEST_F(Invariance, UnderScalingOfAllCompliances) {
   for (const double c : {2e-8, 2e-10, 1e-12}) {
     scene_.joints.compliance = {c, c, Compliance::Per::point};

@@ -9,7 +9,7 @@
 namespace cupola::joint_area_test {
 namespace {
 
-/// A model of the paper.
+/// A surface and a bond.
 struct Model {
   std::string name;
   Surface surface;
@@ -28,7 +28,8 @@ OctagonalVault vault(OctagonalVault::Construction construction) {
   return surface;
 }
 
-/// Semicircle of centreline radius 1 m and t/R = 0.12. At 300 its voussoirs are a twelfth as long as deep.
+/// Semicircular arch of centreline radius 1 m and t/R = 0.12. The length of 300 voussoirs is a twelfth of
+/// their depth.
 Model arch(int voussoirs) {
   ArchSurface surface;
   surface.span = 1.88;
@@ -67,7 +68,7 @@ class JointArea : public ::testing::TestWithParam<Model> {
   }
 };
 
-/// Area of the bed and head faces of every block.
+/// Area of the bed and head faces of each block.
 std::vector<double> joint_faces(const Assembly& assembly) {
   std::vector<double> areas(assembly.blocks.size(), 0.0);
   for (const Part& part : assembly.parts)
@@ -79,8 +80,8 @@ std::vector<double> joint_faces(const Assembly& assembly) {
   return areas;
 }
 
-// No joint missed, none invented: the beds and heads of every block are covered by patches, once.
-TEST_P(JointArea, CoversBedsAndHeads) {
+// The patches cover the bed and head faces of every block exactly once.
+TEST_P(JointArea, CoversBedsAndHeadsOnce) {
   const Assembly model = assembly();
   const ContactSet set = ContactDetector(model, {}).update(initial_poses(model));
   std::vector<double> detected(model.blocks.size(), 0.0);
@@ -102,7 +103,7 @@ TEST_P(JointArea, HasClosedFaceContactsOnly) {
   for (const Contact& contact : set.points) {
     EXPECT_GE(std::min(contact.id.face_a, contact.id.face_b), 0)
         << "edge contact at rest, blocks " << contact.block_a << " " << contact.block_b;
-    EXPECT_NEAR(contact.gap, 0.0, 1e-11);  // planes of cells 40 m from the origin, a thousand roundings
+    EXPECT_NEAR(contact.gap, 0.0, 1e-11);  // rounding at 40 m from the origin
   }
 }
 

@@ -13,9 +13,9 @@ namespace cupola::joint_stiffness_test {
 namespace {
 
 using BlockPair = std::pair<int, int>;
-using Wrench = Eigen::Matrix<double, 6, 1>;  ///< N and N m about the origin, on block b
+using Wrench = Eigen::Matrix<double, 6, 1>;  ///< force (N) and moment about the origin (N m) on block b
 
-/// Static joint wrenches of a scene.
+/// Joint wrenches of the static solution.
 std::map<BlockPair, Wrench> joint_wrenches(const Case& scene) {
   Frame frame;
   AnalysisSinks sinks;
@@ -34,7 +34,8 @@ std::map<BlockPair, Wrench> joint_wrenches(const Case& scene) {
   return wrenches;
 }
 
-/// Largest difference between two sets of wrenches, forces over the largest force, moments likewise.
+/// Largest difference between two sets of wrenches: forces over the largest force, moments over the largest
+/// moment.
 double difference(const std::map<BlockPair, Wrench>& p, const std::map<BlockPair, Wrench>& q) {
   EXPECT_EQ(p.size(), q.size());
   double force = 0.0, moment = 0.0, largest_force = 0.0, largest_moment = 0.0;
@@ -61,8 +62,8 @@ Case sliced(const Surface& surface, int rings, int blocks, int slices, Complianc
   return scene;
 }
 
-// A wall that leans: cutting its blocks into more slices changes nothing, under either compliance, because
-// coplanar patches are joined.
+// A wall under inclined gravity: the number of slices per block has no influence with either kind of
+// compliance, because coplanar patches are merged.
 TEST(Slices, DoNotChangeTheJointsOfAWall) {
   for (const auto per : {Compliance::Per::area, Compliance::Per::point}) {
     std::vector<std::map<BlockPair, Wrench>> wrenches;
@@ -71,7 +72,8 @@ TEST(Slices, DoNotChangeTheJointsOfAWall) {
       scene.loads.gravity = {0.5, 0.3, -9.81};
       wrenches.push_back(joint_wrenches(scene));
     }
-    // The solver's own: equilibrium to 1e-9 of the block weight, in joints that are stiff to each other.
+    // The tolerance of the solver is 1e-9 of a block weight; differences are larger between stiff joints in
+    // parallel.
     EXPECT_LT(difference(wrenches[0], wrenches[1]), 1e-6);
     EXPECT_LT(difference(wrenches[0], wrenches[2]), 1e-6);
   }
@@ -85,8 +87,8 @@ TEST(Slices, DoNotChangeTheJointsOfAPlanarOctagon) {
     EXPECT_LT(difference(two, joint_wrenches(sliced(vault, 20, 16, slices, Compliance::Per::area))), 1e-6);
 }
 
-// On conical beds more slices are another geometry: chords of the circle, whose error is O(1 / slices^2).
-TEST(Slices, ChangeConicalBedsBySecondOrder) {
+// On conical beds the slices are chords of the circle: the geometry changes with an error of O(1 / slices^2).
+TEST(Slices, ChangeConicalBedsToSecondOrder) {
   std::map<Compliance::Per, std::vector<double>> changes;
   for (const auto per : {Compliance::Per::area, Compliance::Per::point}) {
     std::vector<std::map<BlockPair, Wrench>> wrenches;
@@ -103,7 +105,7 @@ TEST(Slices, ChangeConicalBedsBySecondOrder) {
   EXPECT_NEAR(area[1] / area[2], 4.0, 1.0);
 }
 
-/// Standard deviation over mean of the vertical forces at the base of a symmetric dome.
+/// Coefficient of variation of the vertical forces at the base of a symmetric dome.
 double scatter_at_base(const Case& scene) {
   std::vector<double> forces;
   for (const auto& [pair, wrench] : joint_wrenches(scene))
@@ -114,7 +116,7 @@ double scatter_at_base(const Case& scene) {
   return std::sqrt(square) / mean;
 }
 
-/// Smallest and largest scatter over ten seeds of the paper's detection.
+/// Smallest and largest scatter over ten seeds of the contact detection of the paper.
 std::pair<double, double> perturbed_scatter(Case scene) {
   scene.contact.method = ContactDetection::Method::perturbed_gjk;
   std::pair<double, double> range(1.0, 0.0);
@@ -128,7 +130,7 @@ std::pair<double, double> perturbed_scatter(Case scene) {
   return range;
 }
 
-// The price of the paper's contact detection: equal blocks of a symmetric dome get unequal forces.
+// The contact detection of the paper gives unequal forces on equal blocks of a symmetric dome.
 TEST(PerturbedGjk, BreaksTheSymmetryThatFaceClippingKeeps) {
   const Case scene = sliced(DomeSurface{}, 12, 16, 4, Compliance::Per::point);
   EXPECT_LT(scatter_at_base(scene), 1e-8);

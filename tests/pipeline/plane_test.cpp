@@ -1,4 +1,4 @@
-// A plane wall solved in the plane gives what it gives in space: the same resultants with half the unknowns.
+// A plane wall solved in the plane has the same resultants as in space, with half the unknowns.
 
 #include <map>
 
@@ -46,7 +46,7 @@ std::map<std::pair<int, int>, Resultant> resultants(const Frame& frame) {
   return sums;
 }
 
-/// Largest difference of a joint's resultant over the largest resultant.
+/// Largest difference of a joint resultant, over the largest resultant.
 double difference(const Solved& space, const Solved& plane) {
   const auto p = resultants(space.frame), q = resultants(plane.frame);
   EXPECT_EQ(p.size(), q.size());
@@ -54,14 +54,14 @@ double difference(const Solved& space, const Solved& plane) {
   for (const auto& [pair, sum] : p) {
     largest = std::max(largest, sum.force.norm());
     error = std::max(error, (q.at(pair).force - sum.force).norm());
-    error = std::max(error, (q.at(pair).moment - sum.moment).norm() / 10.0);  // the walls are some 10 m long
+    error = std::max(error, (q.at(pair).moment - sum.moment).norm() / 10.0);  // walls of about 10 m
   }
   return error / largest;
 }
 
 class PlaneWall : public ::testing::TestWithParam<std::vector<std::string>> {};
 
-TEST_P(PlaneWall, HasTheResultantsOfTheWallInSpace) {
+TEST_P(PlaneWall, HasTheSameResultantsAsInSpace) {
   std::vector<std::string> settings = GetParam();
   const Solved space = solve_case("wall_medium", settings);
   settings.push_back("analysis.plane=true");
@@ -69,7 +69,7 @@ TEST_P(PlaneWall, HasTheResultantsOfTheWallInSpace) {
   ASSERT_EQ(space.summary.status, plane.summary.status) << plane.summary.message;
   EXPECT_EQ(2 * plane.summary.unknowns, space.summary.unknowns);
   EXPECT_LT(plane.summary.contacts, space.summary.contacts);
-  // Both are in equilibrium to the tolerance 1e-8 of a block's weight; joints amplify it a little.
+  // Both are in equilibrium to 1e-8 of a block weight; stiff joints in parallel amplify the difference.
   EXPECT_LT(difference(space, plane), 1e-6);
   EXPECT_NEAR(plane.summary.max_displacement_m / space.summary.max_displacement_m, 1.0, 1e-6);
 }
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
                       std::vector<std::string>{"analysis.type=dynamic", "analysis.duration=0.05",
                                                "analysis.tolerance=1e-9"}));
 
-TEST(PlaneScene, RefusesWhatIsNotPlane) {
+TEST(PlaneScene, RefusesScenesThatAreNotPlane) {
   const auto message = [](const std::string& name, const std::vector<std::string>& settings) {
     try {
       solve_case(name, settings);

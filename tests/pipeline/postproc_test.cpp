@@ -1,4 +1,4 @@
-// What the postprocessor makes of solved models, against closed forms and published numbers.
+// Evaluation of solved models against closed forms and published numbers.
 
 #include <cmath>
 #include <numbers>
@@ -38,8 +38,9 @@ Case paper_dome(double lantern) {
   return scene;
 }
 
-// Smooth shell of the paper's profile, 18 kN/m3, with a lantern of 2 % of its weight: vertical force through
-// the joint at angle theta, kN (dblquad of the volumes), and the membrane's N_phi, kN/m.
+// Smooth shell with the profile of the paper, 18 kN/m3, and a lantern of 2 % of its weight: vertical force
+// through the joint at angle theta, kN (numerical integration of the volumes), and the membrane force N_phi,
+// kN/m.
 struct MembraneRow {
   double theta_deg, force, n_phi;
 };
@@ -49,7 +50,7 @@ constexpr MembraneRow kMembrane[] = {{0, 169498.1022, 1143.070}, {6, 146739.7467
                                      {36, 46440.2934, 553.212},  {42, 31623.7900, 481.333},
                                      {48, 19318.7181, 405.751},  {54, 9802.8733, 319.536}};
 
-TEST(PostprocDome, CarriesTheMembranesForces) {
+TEST(PostprocDome, ForcesAgreeWithMembraneTheory) {
   const Evaluation e = solved(paper_dome(0.02));
   ASSERT_EQ(e.summary.status, Status::stable);
   const double weight = e.rings[0].joint_force.z();
@@ -59,8 +60,9 @@ TEST(PostprocDome, CarriesTheMembranesForces) {
     EXPECT_LE(ring.relative_difference, 1e-7) << "ring " << k;
     EXPECT_NEAR(ring.joint_force.z() / weight, row.force / kMembrane[0].force, 1e-4)
         << row.theta_deg << " deg";
-    // The facets weigh 6e-4 less than the smooth shell. N_phi of a block stands for its middle, so the bed's
-    // is the mean of the blocks on both sides; bending, which the membrane has not, adds a few per cent.
+    // The faceted shell weighs 6e-4 less than the smooth one. N_phi of a block applies at its middle, so that
+    // the value at a bed is the mean of the blocks on both sides. Bending adds a few per cent to membrane
+    // theory.
     if (row.theta_deg < 6 || row.theta_deg > 48) continue;
     double n_phi = 0.0;
     int count = 0;
@@ -74,10 +76,10 @@ TEST(PostprocDome, CarriesTheMembranesForces) {
   }
 }
 
-TEST(PostprocDome, HoopsPullBelowAndPressAbove) {
+TEST(PostprocDome, HoopForcesAreTensileBelowAndCompressiveAbove) {
   const Evaluation e = solved(paper_dome(0.02));
-  // Membrane theory changes sign at 26.9 deg, ring 18. Friction lets the hoops carry less tension than it
-  // asks, so that the sign changes somewhere near.
+  // In membrane theory the sign changes at 26.9 deg, ring 18. Friction allows less hoop tension than membrane
+  // theory requires, so that the sign changes nearby.
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
     const Block& block = e.assembly.blocks[b];
     if (block.fixed) continue;
@@ -90,9 +92,9 @@ TEST(PostprocDome, HoopsPullBelowAndPressAbove) {
   }
 }
 
-// 27 polygonal voussoirs, t/R = 0.15, mu = 0.6: every admissible thrust over weight lies in [0.17557,
+// 27 polygonal voussoirs, t/R = 0.15, mu = 0.6. Every admissible thrust over weight lies in [0.17557,
 // 0.22737] (linear programme), and each springing carries half the weight.
-TEST(PostprocArch, ThrustLiesBetweenItsBounds) {
+TEST(PostprocArch, ThrustLiesBetweenMinimumAndMaximum) {
   Case scene;
   ArchSurface arch;
   arch.span = 1.85;
@@ -126,9 +128,9 @@ TEST(PostprocArch, ThrustLiesBetweenItsBounds) {
     EXPECT_NEAR(p.r, line.points[27 - static_cast<size_t>(p.bed)].r, 1e-6 * e.summary.weight_N);
 }
 
-// Strips one block wide tile the shell: what crosses a bed in all of them together is what stands on it,
-// uprights cut through included.
-TEST(PostprocHerringbone, StripsTogetherCarryWhatStandsOnTheBed) {
+// Strips one block wide cover the shell. The vertical forces of all strips across a bed add up to the weight
+// above it, including the upright blocks that the bed cuts.
+TEST(PostprocHerringbone, StripsTogetherCarryTheWeightAboveTheBed) {
   Case scene;
   DomeSurface dome;
   dome.crown_angle_deg = 30.0;

@@ -16,7 +16,7 @@
 
 namespace cupola {
 
-/// How a program ended and what it said.
+/// Exit code and output of a program.
 struct ProgramRun {
   int code = -1;
   std::string out, err;
@@ -29,7 +29,7 @@ inline std::string slurp(const std::string& path) {
   return text.str();
 }
 
-/// A folder of the running test's own in which the built programs run.
+/// A temporary folder for one test, in which the built programs run.
 class ProgramFolder {
  public:
   ProgramFolder() {
@@ -53,7 +53,7 @@ class ProgramFolder {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
   }
 
-  /// Every file of the folder with a hash of its bytes.
+  /// Each file of the folder with a hash of its bytes.
   std::map<std::string, std::string> contents() const {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(path_ / "work"))

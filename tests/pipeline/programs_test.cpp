@@ -1,4 +1,4 @@
-// The built programs, run as a user runs them: what they say, what they return, what they leave on the disk.
+// The built programs, run as a user runs them: messages, exit codes and files.
 
 #include <algorithm>
 #include <cstdlib>
@@ -49,7 +49,7 @@ TEST(Programs, AnswerHelpVersionSchemaAndCheck) {
   EXPECT_TRUE(folder.contents().empty());
 }
 
-TEST(Programs, BadUsageEndsWithTwoAndOneLine) {
+TEST(Programs, BadUsageReturnsTwoWithOneLine) {
   const ProgramFolder folder;
   expect_one_line(folder.run("cupola-generate"), "CASE.yaml is missing");
   expect_one_line(folder.run("cupola-generate " + kWall), "--output is missing");
@@ -68,7 +68,7 @@ TEST(Programs, SolveTheSmallestCase) {
   EXPECT_EQ(summary.free_blocks, 10);
   EXPECT_EQ(summary.accuracy_asked, 1e-8);
   EXPECT_LE(summary.accuracy_reached, 1e-8);
-  // Closed form of a column of springs: compliance times the bed forces over their contacts, 42.511635 mm.
+  // Closed form of springs in series, c sum F_bed / n_bed: 42.511635 mm.
   EXPECT_NEAR(summary.max_displacement_m, 42.511635e-3, 1e-4 * 42.5e-3);
 }
 
@@ -77,11 +77,11 @@ TEST(Programs, WriteTheSameBytesEveryTime) {
   solve_wall(first);
   solve_wall(second);
   auto a = first.contents(), b = second.contents();
-  for (auto* files : {&a, &b}) files->erase("work/results/summary.json");  // holds wall time and memory
+  for (auto* files : {&a, &b}) files->erase("work/results/summary.json");  // contains wall time and memory
   EXPECT_EQ(a, b);
 }
 
-// 1,280 blocks: the factor's dense blocks are large enough for a BLAS that were allowed to split them.
+// 1,280 blocks: the dense blocks of the factor are large enough for a multithreaded BLAS to split them.
 TEST(Programs, WriteTheSameBytesOnOneAndTwoThreads) {
   const std::string dome = kCases + "dome_circular.yaml";
   std::map<std::string, std::string> files[2];
@@ -96,15 +96,15 @@ TEST(Programs, WriteTheSameBytesOnOneAndTwoThreads) {
                   .code,
               0);
     files[threads - 1] = folder.contents();
-    files[threads - 1].erase("work/results/summary.json");  // holds wall time and memory
-    files[threads - 1].erase("work/results/run.yaml");      // holds the number of threads
+    files[threads - 1].erase("work/results/summary.json");  // contains wall time and memory
+    files[threads - 1].erase("work/results/run.yaml");      // contains the number of threads
   }
   for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"}) unsetenv(name);
   EXPECT_GT(files[0].size(), 4u);
   EXPECT_EQ(files[0], files[1]);
 }
 
-TEST(Programs, RunYamlIsACaseThatGivesTheSameModel) {
+TEST(Programs, RunYamlIsACaseOfTheSameModel) {
   const ProgramFolder folder;
   solve_wall(folder, " --set joints.friction=0.3 --set geometry.bond.rings=3");
   const ProgramRun again =
@@ -116,7 +116,7 @@ TEST(Programs, RunYamlIsACaseThatGivesTheSameModel) {
   EXPECT_EQ(hash("results"), hash("again"));
 }
 
-TEST(Programs, RefuseADamagedAssemblyAndTouchNothing) {
+TEST(Programs, RefuseADamagedAssemblyAndLeaveAllFiles) {
   const ProgramFolder folder;
   solve_wall(folder);
   const std::string assembly = slurp(folder.file("assembly.vtu"));
@@ -153,7 +153,7 @@ TEST(Programs, AnalyseTheSmallestCase) {
     EXPECT_TRUE(std::filesystem::exists(folder.file(std::string("post/") + file))) << file;
 }
 
-TEST(Programs, SayWhichFramesAreMissing) {
+TEST(Programs, ReportMissingFrames) {
   const ProgramFolder folder;
   const std::string motion =
       " --set analysis.type=dynamic --set analysis.duration=0.04 --set output.frames_every=0.01";
@@ -171,7 +171,7 @@ TEST(Programs, SayWhichFramesAreMissing) {
   }
 }
 
-TEST(Programs, RefuseResultsThatDoNotBelongAndTouchNothing) {
+TEST(Programs, RefuseResultsOfAnotherCaseAndLeaveAllFiles) {
   const ProgramFolder folder;
   solve_wall(folder, " --set geometry.surface.length=9");
   std::filesystem::rename(folder.file("results"), folder.file("other"));
@@ -198,9 +198,9 @@ TEST(Programs, RefuseResultsThatDoNotBelongAndTouchNothing) {
   EXPECT_EQ(folder.contents(), before);
 }
 
-// Program, case, assembly, threads and residuals are in the file itself or, of a text table, in the summary
+// Program, case, assembly, threads and residuals are stored in each file or, for text tables, in the summary
 // beside it.
-TEST(Programs, EveryFileSaysWhereItComesFrom) {
+TEST(Programs, EveryFileStoresItsProvenance) {
   const ProgramFolder folder;
   solve_wall(folder);
   ASSERT_EQ(analyse(folder, "results").code, 0);
@@ -230,7 +230,7 @@ TEST(Programs, EveryFileSaysWhereItComesFrom) {
   }
 }
 
-TEST(Programs, TakeWhatDoesNotBelongWhenForced) {
+TEST(Programs, ForceAcceptsFilesOfAnotherCase) {
   const ProgramFolder folder;
   solve_wall(folder);
   const ProgramRun solved = folder.run("cupola-solve " + kWall +
@@ -241,7 +241,7 @@ TEST(Programs, TakeWhatDoesNotBelongWhenForced) {
   const ProgramRun drawn = analyse(folder, "results", " --force --set joints.friction=0.3");
   EXPECT_EQ(drawn.code, 0) << drawn.err;
   EXPECT_NE(drawn.err.find("warning"), std::string::npos) << drawn.err;
-  // The results of one assembly with another: of as many blocks, then of fewer.
+  // Results of another assembly: first with the same number of blocks, then with fewer.
   const auto other = [&folder](const std::string& set) {
     EXPECT_EQ(folder.run("cupola-generate " + kWall + " --output other.vtu --quiet" + set).code, 0);
     const std::string call =
@@ -253,11 +253,11 @@ TEST(Programs, TakeWhatDoesNotBelongWhenForced) {
   EXPECT_EQ(heavier.code, 0) << heavier.err;
   EXPECT_NE(heavier.err.find("the results are of another assembly"), std::string::npos) << heavier.err;
   expect_one_line(other(" --set geometry.bond.rings=3"), "blocks, the assembly");
-  // What is drawn is not what is computed: another figure needs no other run.
+  // Keys that only affect figures need no new run.
   EXPECT_EQ(analyse(folder, "results", " --set postproc.sections=[1.5] --set title=other").code, 0);
 }
 
-TEST(Programs, AFailedRunLeavesTheOldAssembly) {
+TEST(Programs, AFailedRunKeepsTheOldAssembly) {
   const ProgramFolder folder;
   solve_wall(folder);
   const auto before = folder.contents();
@@ -267,8 +267,8 @@ TEST(Programs, AFailedRunLeavesTheOldAssembly) {
   EXPECT_EQ(folder.contents(), before);
 }
 
-// Batch systems limit the address space. OpenBLAS, which cannot be loaded then, tries again for ever.
-TEST(Programs, TooLittleAddressSpaceIsSaid) {
+// Batch systems limit the address space. If OpenBLAS cannot allocate its buffers it retries for ever.
+TEST(Programs, ReportTooLittleAddressSpace) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers take all the address space";
 #endif
@@ -280,7 +280,7 @@ TEST(Programs, TooLittleAddressSpaceIsSaid) {
 }
 
 // A hundred threads do not fit into this address space; OpenBLAS would wait for its buffers for ever.
-TEST(Programs, TooManyThreadsForTheAddressSpaceAreRefused) {
+TEST(Programs, RefuseTooManyThreadsForTheAddressSpace) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers take all the address space";
 #endif
@@ -294,7 +294,7 @@ TEST(Programs, TooManyThreadsForTheAddressSpaceAreRefused) {
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
-TEST(Programs, ACutRunYamlIsNotTaken) {
+TEST(Programs, RefuseATruncatedRunYaml) {
   const ProgramFolder folder;
   solve_wall(folder);
   const std::string run_yaml = slurp(folder.file("results/run.yaml"));
@@ -303,7 +303,7 @@ TEST(Programs, ACutRunYamlIsNotTaken) {
   EXPECT_TRUE(std::filesystem::exists(folder.file("post/report.html")));
 }
 
-TEST(Programs, SayWhichFileCannotBeWritten) {
+TEST(Programs, ReportAFileThatCannotBeWritten) {
   const ProgramFolder folder;
   const ProgramRun run =
       folder.run("cupola-generate " + kWall + " --quiet --output /proc/nowhere/assembly.vtu");
@@ -312,13 +312,13 @@ TEST(Programs, SayWhichFileCannotBeWritten) {
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
-TEST(Programs, InterruptedBeforeTheFirstFrameGoesOn) {
+TEST(Programs, ResumeAfterAnInterruptionBeforeTheFirstFrame) {
   const ProgramFolder folder;
   const std::string set =
       " --set analysis.type=dynamic --set analysis.duration=1000 --set output.frames_every=1000";
   ASSERT_EQ(folder.run("cupola-generate " + kWall + " --output assembly.vtu --quiet" + set).code, 0);
   const std::string solve = "cupola-solve " + kWall + " --assembly assembly.vtu --output results" + set;
-  // Ctrl-C once the first steps are said; the frame is due after 100,000.
+  // Ctrl-C after the first steps; the first frame is due after 100,000 steps.
   const auto interrupted = [&folder](const std::string& command) {
     return folder.run("sh -c '" + command + " >log 2>&1 & until grep -q ^step log; do sleep 0.05; done; " +
                       "kill -INT $!; wait $!'");

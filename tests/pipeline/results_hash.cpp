@@ -1,7 +1,7 @@
-// results_hash: fingerprints of runs that depend on their numbers only.
+// results_hash: hashes of the numeric results of runs.
 //
-// Two versions of the program whose results differ in no bit print the same hashes, even when versions, messages, keys,
-// file names or column names have changed. Times, memory and thread counts are left out.
+// Two versions of the programs with bit-identical results give the same hashes, even if versions, messages,
+// keys, file names or column names differ. Times, memory and numbers of threads are not included.
 //
 //   results_hash out/brunelleschi out/wall_small
 
@@ -70,7 +70,7 @@ std::string hash_of(const Summary& s) {
   return hash.hex();
 }
 
-/// The numbers of a table of the postprocessor, in the order of rows and columns; words count for nothing.
+/// Hash of the numbers in a table of the postprocessor, in the order of rows and columns. Words are ignored.
 std::string hash_of_table(const std::filesystem::path& file) {
   Hash hash;
   std::ifstream lines(file);
@@ -96,7 +96,7 @@ std::string hash_of_run(const std::filesystem::path& folder) {
   std::vector<std::string> tables;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "post"))
     if (entry.path().extension() == ".csv") tables.push_back(hash_of_table(entry.path()));
-  std::sort(tables.begin(), tables.end());  // whatever their names
+  std::sort(tables.begin(), tables.end());  // independent of file names
   Hash hash;
   for (const std::string& part : hashes) hash.add(std::string_view(part));
   for (const std::string& part : tables) hash.add(std::string_view(part));

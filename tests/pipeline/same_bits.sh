@@ -1,6 +1,6 @@
 #!/bin/bash
-# Same input, same bits: runs five cases, hashes everything that they write, and compares repeated runs, one and two
-# threads, a run that was interrupted and resumed, and other builds (debug against release, with sanitizers).
+# Same input, same bits. Runs five cases, hashes all files they write, and compares repeated runs, one and two threads,
+# an interrupted and resumed run, and other builds (debug, release, with sanitizers).
 #
 #   same_bits.sh BIN_FOLDER [OTHER_BIN_FOLDER ...]
 set -u
@@ -8,12 +8,12 @@ bins=$(realpath "$@") || exit 1
 cd "$(dirname "$0")/../.." || exit 1
 . tests/faults/common.sh
 first=$(echo "$bins" | head -n 1)
-# The revision is in every file.
+# Every file contains the revision.
 [ "$(for bin in $bins; do "$bin/cupola-solve" --version; done | sort -u | wc -l)" -eq 1 ] ||
   { echo "the builds are of different revisions: run cmake again in each"; exit 1; }
 differ=0; compared=0
 
-# Five cases: a bond each, three surfaces, both friction laws, static and dynamic.
+# Five cases: different bonds, three surfaces, both friction laws, static and dynamic.
 settings() {
   case $1 in
     dome_circular) ;;
@@ -33,7 +33,7 @@ run() {
     "$bin/cupola-solve" cases/"$name".yaml --quiet --assembly "$folder/assembly.vtu" --output "$folder/results" \
       "${sets[@]}" "${@:4}"
 }
-# All files, without what tells times, memory and threads, and without the checkpoint, which an ended run need not have.
+# Hash of all files, without times, memory and threads, and without the checkpoint, which a finished run may lack.
 hash_of() { contents "$1" 'threads|"run.yaml"' | grep -v '/checkpoint ' | md5sum | cut -c1-16; }
 # compare WHAT FOLDER
 compare() {
@@ -43,7 +43,7 @@ compare() {
 
 for name in dome_circular octagon_planar_horizontal brunelleschi wall_herringbone dome_circular_dynamic; do
   reference=$work/$name
-  export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 # of libraries; --threads are the program's own
+  export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 # threads of libraries; those of the program are set by --threads
   run $name "$first" "$reference"; code=$?
   [ $code -eq 0 ] || [ $code -eq 3 ] || { echo "$name ended with $code"; exit 1; }
   expected=$(hash_of "$reference")
@@ -55,7 +55,7 @@ for name in dome_circular octagon_planar_horizontal brunelleschi wall_herringbon
     run $name "$bin" "$work/other"; compare "$bin" "$work/other"; rm -r "$work/other"; done
 done
 
-# The dynamic case once more, interrupted as soon as a new frame is there, five times, then to its end.
+# The dynamic case again, interrupted five times as soon as a new frame is written, then resumed to its end.
 interruptions=0; folder=$work/resumed; resume=()
 while :; do
   run $name "$first" "$folder" "${resume[@]}" & pid=$!

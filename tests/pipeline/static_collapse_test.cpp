@@ -3,8 +3,7 @@
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 
-// Structures that cannot stand, under dead load: the answer is a mechanism, proven to be one, whatever step
-// the analysis would have liked.
+// Structures that do not stand under dead load: a static analysis finds the mechanism and proves it.
 
 namespace cupola::static_collapse_test {
 namespace {
@@ -21,7 +20,7 @@ Case dome(double friction) {
   return scene;
 }
 
-TEST(StaticCollapse, DomeWithoutFrictionEnoughMovesAndIsProvenTo) {
+TEST(StaticCollapse, DomeWithTooLittleFrictionIsProvenToMove) {
   for (const double friction : {0.0, 0.02, 0.05}) {
     const Summary summary = statics_of(dome(friction));
     EXPECT_EQ(summary.status, Status::moving) << friction << ": " << summary.message;
@@ -30,7 +29,7 @@ TEST(StaticCollapse, DomeWithoutFrictionEnoughMovesAndIsProvenTo) {
   EXPECT_EQ(statics_of(dome(0.4)).status, Status::stable);
 }
 
-// No forces in the cones balance the loads: that proves it for Coulomb's law too.
+// No forces inside the friction cones balance the loads, which is a proof under Coulomb's law too.
 TEST(StaticCollapseSlow, DomeMovesUnderCoulombsLaw) {
   Case scene = dome(0.05);
   scene.geometry.bond = RunningBond{.rings = 6, .blocks_per_ring = 12, .slices_per_block = 2};
@@ -40,9 +39,9 @@ TEST(StaticCollapseSlow, DomeMovesUnderCoulombsLaw) {
   EXPECT_NE(summary.message.find("would need normal forces"), std::string::npos) << summary.message;
 }
 
-TEST(StaticCollapse, ThinArchMovesAndTheThickerOneStands) {
+TEST(StaticCollapse, ArchMovesBelowItsMinimumThicknessAndStandsAboveIt) {
   for (const auto& [ratio, expected] : {std::pair{0.99, Status::moving}, {1.01, Status::stable}}) {
-    const double thickness = ratio * 0.10672;  // limit of 27 polygonal voussoirs, centreline radius 1
+    const double thickness = ratio * 0.10672;  // minimum for 27 polygonal voussoirs, centreline radius 1 m
     ArchSurface arch;
     arch.span = 2.0 - thickness;
     arch.thickness = thickness;
@@ -51,7 +50,8 @@ TEST(StaticCollapse, ThinArchMovesAndTheThickerOneStands) {
     scene.geometry.surface = arch;
     scene.geometry.bond = StackBond{27, 1, 1, {}};
     scene.joints.friction = 0.8;
-    scene.joints.compliance = {1e-11, 1e-11, Compliance::Per::point};  // sinks by far less than the margin
+    scene.joints.compliance = {1e-11, 1e-11,
+                               Compliance::Per::point};  // elastic settlement far below the margin of 1 %
     const Summary summary = statics_of(scene);
     EXPECT_EQ(summary.status, expected) << ratio << ": " << summary.message;
   }

@@ -26,14 +26,16 @@ Answer solve(const Case& scene) {
 struct WallSize {
   const char* name;
   int rows, blocks_per_row, num_blocks;
-  double top_displacement_over_compliance;  // closed form: c sum F_bed / n_bed, N
+  double top_displacement_over_compliance;  // closed form: sum of F_bed / n_bed, N
 };
 
 class Wall : public ::testing::TestWithParam<std::tuple<WallSize, double>> {};
 
-// 12 x 6 x 1 m, 1800 kg/m3, top load of ten weights: uniform pressure, so that every contact of a bed carries
-// the same force and the top sinks by c sum over the beds of F_bed / n_bed.
-TEST_P(Wall, SinksAsTheLinearSpringAssembly) {
+// Wall of 12 x 6 x 1 m, 1800 kg/m3, top load of ten weights. The pressure is uniform, so that all contacts of
+// a bed carry the same force, and the top sinks by
+//
+//     c sum over beds of F_bed / n_bed
+TEST_P(Wall, SinksAsLinearSpringsInSeries) {
   const auto& [size, compliance] = GetParam();
   Case scene;
   RunningBond bond;
@@ -55,7 +57,7 @@ TEST_P(Wall, SinksAsTheLinearSpringAssembly) {
   for (size_t i = 0; i < answer.assembly.blocks.size(); ++i) {
     if (answer.assembly.blocks[i].ring != size.rows - 1) continue;
     const double sunk = -answer.frame.blocks.displacement[i].z();
-    // 1e-6: the reference has seven digits.
+    // The reference has seven digits.
     EXPECT_NEAR(sunk / (compliance * size.top_displacement_over_compliance), 1.0, 1e-6) << "block " << i;
   }
   for (int i = 0; i < answer.frame.contacts.size(); ++i) {
