@@ -159,7 +159,7 @@ ExitCode solve_case(const SolveRequest& request) {
   std::optional<Summary> summary = run_analysis(request.scene, assembly, sinks);
   progress.finish();
   if (!summary) {
-    fmt::print(stderr, "interrupted; resume with --resume\n");
+    fmt::print(stderr, "interrupted; run the same command with --resume to continue\n");
     return ExitCode::interrupted;
   }
 

@@ -164,13 +164,13 @@ void SymmetryFinder::check_contact_image(int contact, int image) const {
   // Gaps act through their ratio to the small elastic penetrations. Coordinates are less accurate than 1e-12
   // of a block.
   if (std::abs(c.gap - d.gap) > 1e-12 * size + 1e-9 * std::abs(c.gap))
-    refuse(fmt::format("gaps of {:.3e} m and {:.3e} m {}", c.gap, d.gap, between));
+    refuse(fmt::format("the gaps of {:.3e} m and {:.3e} m differ {}", c.gap, d.gap, between));
   const JointLaw law = joint_law(model_, contacts_, c, time_);
   const JointLaw other = joint_law(model_, contacts_, d, time_);
   const auto differ = [](double x, double y) { return std::abs(x - y) > kTolerance * std::abs(x); };
   if (differ(law.mu, other.mu) || differ(law.compliance_normal, other.compliance_normal) ||
       differ(law.compliance_tangential, other.compliance_tangential))
-    refuse("different joint laws " + between);
+    refuse("the joint laws differ " + between);
 }
 
 /// Follows each element around its orbit. `next` is a permutation; `swapped` may be empty. `short_orbit` is

@@ -24,9 +24,8 @@ std::string linearity_note(const Assembly& assembly, double displacement) {
     if (!block.fixed) smallest = std::min(smallest, std::cbrt(block.volume));
   if (displacement <= kSmall * smallest) return "";
   return fmt::format(
-      "; the largest displacement of {:.2g} m is not small compared with the smallest block of {:.2g} m: "
-      "forces "
-      "are those of the geometry as built. Check `joints.compliance`",
+      "; the largest displacement of {:.2g} m is not small compared with the smallest block of {:.2g} m, but "
+      "forces are those of the geometry as built. Check `joints.compliance`",
       displacement, smallest);
 }
 

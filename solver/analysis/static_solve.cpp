@@ -15,8 +15,7 @@ namespace cupola {
 namespace {
 
 constexpr int kMaxSolves = 10;
-constexpr double kSolveShare =
-    0.1;  // of the tolerance: residual of the contact solve; inertia takes the rest
+constexpr double kSolveShare = 0.1;  // part of the tolerance for the contact solve; inertia takes the rest
 
 /// Largest displacement of a support in the step, m.
 double imposed_displacement(const Model& model, const State& start, const StaticOptions& options) {

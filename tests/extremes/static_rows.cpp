@@ -70,7 +70,7 @@ void add_softness(std::vector<ExtremeScene>* rows) {
                      return Scene{statics(0.4, 1.0), small_wall()};
                    },
                    [](const Summary& s, const Frame&) {
-                     return s.message.find("not little beside the smallest") != std::string::npos
+                     return s.message.find("not small compared with the smallest") != std::string::npos
                                 ? std::string()
                                 : fmt::format("sinks by {:.2g} m without a word", s.max_displacement_m);
                    }});
