@@ -177,6 +177,7 @@ void SymmetryFinder::check_contact_image(int contact, int image) const {
 /// set to an element that returns to its place after fewer than `sectors` rotations.
 std::vector<CyclicSymmetry::Image> orbits(const std::vector<int>& next, const std::vector<char>& swapped,
                                           int sectors, std::vector<int>* representatives, int* short_orbit) {
+  CUPOLA_ASSERT(swapped.empty() || swapped.size() == next.size());
   std::vector<CyclicSymmetry::Image> images(next.size());
   std::vector<char> visited(next.size(), 0);
   for (int i = 0; i < static_cast<int>(next.size()); ++i) {

@@ -5,6 +5,59 @@
 #include <fmt/format.h>
 
 namespace cupola {
+namespace {
+
+/// Everything that a row of history.csv is made of.
+struct HistoryStep {
+  double time;
+  const StepReport& report;
+  const Snapshot& now;
+  double friction_work;
+};
+
+struct HistoryColumn {
+  const char* key;
+  std::string (*cell)(const HistoryStep&);
+};
+
+std::string exact(double x) {
+  return fmt::format("{:.17g}", x);
+}
+
+double largest_tie_force(const StepReport& report) {
+  double largest = 0.0;
+  for (double force : report.forces.ties) largest = std::max(largest, force);
+  return largest;
+}
+
+constexpr HistoryColumn kHistoryColumns[] = {
+    {"time_s", [](const HistoryStep& s) { return exact(s.time); }},
+    {"contacts", [](const HistoryStep& s) { return std::to_string(s.report.forces.contacts.size()); }},
+    {"iterations", [](const HistoryStep& s) { return std::to_string(s.report.solve.iterations); }},
+    {"momentum_residual",
+     [](const HistoryStep& s) { return fmt::format("{:.6e}", s.report.residuals.momentum); }},
+    {"contact_law_residual",
+     [](const HistoryStep& s) { return fmt::format("{:.6e}", s.report.residuals.contact_law); }},
+    {"kinetic_energy_J", [](const HistoryStep& s) { return exact(s.now.energy.kinetic); }},
+    {"potential_energy_J", [](const HistoryStep& s) { return exact(s.now.energy.potential); }},
+    {"elastic_energy_J", [](const HistoryStep& s) { return exact(s.now.energy.elastic); }},
+    {"friction_work_J", [](const HistoryStep& s) { return exact(s.friction_work); }},
+    {"support_reaction_x_N",
+     [](const HistoryStep& s) { return exact(s.report.balance.support_reaction.x()); }},
+    {"support_reaction_y_N",
+     [](const HistoryStep& s) { return exact(s.report.balance.support_reaction.y()); }},
+    {"support_reaction_z_N",
+     [](const HistoryStep& s) { return exact(s.report.balance.support_reaction.z()); }},
+    {"momentum_x_Ns", [](const HistoryStep& s) { return exact(s.now.momentum.x()); }},
+    {"momentum_y_Ns", [](const HistoryStep& s) { return exact(s.now.momentum.y()); }},
+    {"momentum_z_Ns", [](const HistoryStep& s) { return exact(s.now.momentum.z()); }},
+    {"max_speed_m_per_s", [](const HistoryStep& s) { return exact(s.now.speed); }},
+    {"max_displacement_m", [](const HistoryStep& s) { return exact(s.now.displacement); }},
+    {"time_step_s", [](const HistoryStep& s) { return exact(s.report.h); }},
+    {"largest_tie_force_N", [](const HistoryStep& s) { return exact(largest_tie_force(s.report)); }},
+};
+
+}  // namespace
 
 Snapshot take_snapshot(const Simulation& simulation) {
   Snapshot snapshot;
@@ -20,24 +73,17 @@ Snapshot take_snapshot(const Simulation& simulation) {
 }
 
 std::string history_header() {
-  return "time_s,contacts,iterations,momentum_residual,contact_law_residual,kinetic_energy_J,"
-         "potential_energy_J,elastic_energy_J,friction_work_J,support_reaction_x_N,support_reaction_y_N,"
-         "support_reaction_z_N,momentum_x_Ns,momentum_y_Ns,momentum_z_Ns,max_speed_m_per_s,"
-         "max_displacement_m,time_step_s,largest_tie_force_N";
+  std::string header;
+  for (const HistoryColumn& column : kHistoryColumns)
+    header += std::string(header.empty() ? "" : ",") + column.key;
+  return header;
 }
 
 std::string history_row(double time, const StepReport& report, const Snapshot& now, double friction_work) {
-  const Vec3& R = report.balance.support_reaction;
-  const Vec3& p = now.momentum;
-  double tie_force = 0.0;
-  for (double force : report.forces.ties) tie_force = std::max(tie_force, force);
-  return fmt::format(
-      "{:.17g},{},{},{:.6e},{:.6e},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},"
-      "{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}",
-      time, report.forces.contacts.size(), report.solve.iterations, report.residuals.momentum,
-      report.residuals.contact_law, now.energy.kinetic, now.energy.potential, now.energy.elastic,
-      friction_work, R.x(), R.y(), R.z(), p.x(), p.y(), p.z(), now.speed, now.displacement, report.h,
-      tie_force);
+  std::string row;
+  for (const HistoryColumn& column : kHistoryColumns)
+    row += (row.empty() ? "" : ",") + column.cell({time, report, now, friction_work});
+  return row;
 }
 
 std::string log_line(int step, double time, const StepReport& report, const Snapshot& now) {

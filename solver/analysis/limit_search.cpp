@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
@@ -47,6 +49,7 @@ void update(const LimitTrial& trial, Bracket* bracket, std::optional<Undecided>*
 }  // namespace
 
 Bracket bisect(double low, double high, const BracketWidth& required, const TryValue& try_value) {
+  CUPOLA_ASSERT(low <= high);
   Bracket bracket;
   const auto attempt = [&](double value) {
     ++bracket.trials;

@@ -74,6 +74,7 @@ Frame StageRun::frame(const StaticSolution& solution, const Assembly& complete) 
   }
   for (size_t i = 0; i < stage_.complete_block.size(); ++i) {
     const auto block = static_cast<size_t>(stage_.complete_block[i]);
+    CUPOLA_ASSERT(block < complete.blocks.size());
     blocks.position[block] = frame.blocks.position[i];
     blocks.quaternion_wxyz[block] = frame.blocks.quaternion_wxyz[i];
     blocks.displacement[block] = frame.blocks.displacement[i];

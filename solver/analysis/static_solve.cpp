@@ -298,7 +298,8 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
     if (std::optional<StaticSolution> moves = motion()) return *moves;
   }
   StaticSolution answer = raise_step(model, start, contacts, memories, options);
-  const bool budget_spent = options.solve.max_iterations.has_value();  // no second search within the user's limit
+  const bool budget_spent =
+      options.solve.max_iterations.has_value();  // no second search within the user's limit
   if (options.may_move || budget_spent || answer.outcome == StaticOutcome::equilibrium) return answer;
   if (coulomb) {
     if (std::optional<StaticSolution> moves = motion()) return *moves;

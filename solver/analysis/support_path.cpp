@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
 SupportPath::SupportPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options)
@@ -27,6 +29,7 @@ Bracket follow(SupportPath* path, double low, double high, double relative_width
                const std::function<bool(const LimitTrial&, const StaticSolution&)>& report) {
   constexpr int kFirstSteps = 40;  // each step is accurate to second order in its length
   constexpr double kGrowth = 1.5;  // after a step that found an equilibrium
+  CUPOLA_ASSERT(low < high && relative_width > 0.0);
   Bracket bracket;
   const double longest = (high - low) / kFirstSteps;
   double step = longest;

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "solver/analysis/record.hpp"
 
 namespace cupola {
@@ -68,6 +69,7 @@ Mat36 wrench_of_force(const BedJoints& beds, const Contact& contact, int joint) 
 
 std::vector<Vec6> wrenches(const ContactSet& contacts, const BedJoints& beds,
                            const std::vector<Vec3>& forces) {
+  CUPOLA_ASSERT(forces.size() == contacts.points.size());
   std::vector<Vec6> w(beds.centroid.size(), Vec6::Zero());
   for (size_t i = 0; i < contacts.points.size(); ++i)
     if (const int j = beds.of_contact[i]; j >= 0)
@@ -121,6 +123,7 @@ double compared_wrench_error(const ContactSet& contacts, const StaticSolution& s
 StaticSolution solve_static_to_wrench_error(const Model& model, const State& start,
                                             const ContactSet& contacts, const ContactMemories& memories,
                                             StaticOptions options, double wrench_error, double* reached) {
+  CUPOLA_ASSERT(wrench_error > 0.0);
   StaticSolution solution;
   int iterations = 0;
   for (options.tolerance = kFirst * wrench_error; options.tolerance >= kSmallest;

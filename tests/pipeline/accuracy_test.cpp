@@ -51,13 +51,13 @@ const std::vector<std::string> kSmallDome{"geometry.bond.rings=12", "geometry.bo
 TEST(WrenchError, CertifiedErrorHoldsAgainstAReference) {
   const StaticScene dome("dome_circular", kSmallDome);
   const StaticSolution exact = dome.solve(1e-11);
-  for (const double asked : {1e-1, 1e-2, 1e-3, 1e-5}) {
+  for (const double requested : {1e-1, 1e-2, 1e-3, 1e-5}) {
     double reached = 0.0;
-    const StaticSolution solution = dome.solve_to(asked, &reached);
+    const StaticSolution solution = dome.solve_to(requested, &reached);
     ASSERT_EQ(solution.outcome, StaticOutcome::equilibrium) << solution.message;
-    EXPECT_LE(reached, asked);
+    EXPECT_LE(reached, requested);
     EXPECT_NE(solution.message.find("certified"), std::string::npos) << solution.message;
-    EXPECT_LE(compared_wrench_error(dome.contacts, solution, exact), asked);
+    EXPECT_LE(compared_wrench_error(dome.contacts, solution, exact), requested);
   }
 }
 
@@ -107,11 +107,11 @@ constexpr double kStandardError = 1e-4;
 TEST_P(AccuracyPresetSlow, StandardIsWithinItsDocumentedWrenchError) {
   const StaticScene scene(GetParam(), {});
   const double standard = read_case(scene.input.file, {"analysis.accuracy=standard"}).analysis.tolerance;
-  const StaticSolution asked = scene.solve(standard);
-  ASSERT_EQ(asked.outcome, StaticOutcome::equilibrium) << asked.message;
+  const StaticSolution solution = scene.solve(standard);
+  ASSERT_EQ(solution.outcome, StaticOutcome::equilibrium) << solution.message;
   const StaticSolution exact = scene.solve(1e-9);
   ASSERT_EQ(exact.outcome, StaticOutcome::equilibrium) << exact.message;
-  const double error = compared_wrench_error(scene.contacts, asked, exact);
+  const double error = compared_wrench_error(scene.contacts, solution, exact);
   RecordProperty("wrench_error", fmt::format("{:.1e}", error));
   EXPECT_LE(error, kStandardError);
 }
