@@ -77,20 +77,6 @@ void find_groups(const Model& model, Mechanism* mechanism) {
 
 }  // namespace
 
-std::string to_string(JointMotion motion) {
-  switch (motion) {
-    case JointMotion::closed:
-      return "closed";
-    case JointMotion::sliding:
-      return "sliding";
-    case JointMotion::opening:
-      return "opening";
-    case JointMotion::hinging:
-      return "hinging";
-  }
-  return "";
-}
-
 Mechanism find_mechanism(const Model& model, const State& start, const ContactSet& contacts,
                          const StaticSolution& solution) {
   CUPOLA_ASSERT(solution.step_solution.v.size() == 6 * static_cast<Eigen::Index>(model.num_free()));

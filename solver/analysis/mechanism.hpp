@@ -3,13 +3,16 @@
 #include <string>
 #include <vector>
 
+#include "assembly/base/named_enum.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/analysis/static_solve.hpp"
 
 namespace cupola {
 
 enum class JointMotion { closed, sliding, opening, hinging };
-std::string to_string(JointMotion motion);
+constexpr auto enum_names(JointMotion) {
+  return std::array{"closed", "sliding", "opening", "hinging"};
+}
 
 /// Relative motion at a joint of a mechanism. Speeds are relative to that of the fastest block.
 struct MovingJoint {

@@ -278,18 +278,6 @@ std::optional<StaticSolution> proven_motion(const Model& model, const State& sta
 
 }  // namespace
 
-std::string to_string(StaticOutcome outcome) {
-  switch (outcome) {
-    case StaticOutcome::equilibrium:
-      return "equilibrium";
-    case StaticOutcome::moving:
-      return "moving";
-    case StaticOutcome::unconverged:
-      return "unconverged";
-  }
-  return "";
-}
-
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
   const bool coulomb = options.solve.law == FrictionLaw::coulomb;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "assembly/base/named_enum.hpp"
 #include "solver/analysis/cyclic_symmetry.hpp"
 #include "solver/contact/methods/solve_contact.hpp"
 #include "solver/contact/problem/residuals.hpp"
@@ -36,8 +37,9 @@ enum class StaticOutcome {
   moving,       ///< no equilibrium: the speed grows in proportion to h
   unconverged   ///< the contact problem was not solved
 };
-
-std::string to_string(StaticOutcome outcome);
+constexpr auto enum_names(StaticOutcome) {
+  return std::array{"equilibrium", "moving", "unconverged"};
+}
 
 /// The solution at the last h, with its accuracy.
 struct StaticSolution {
