@@ -31,8 +31,8 @@ constexpr int kTimedSteps = 3;  // of a motion; the last one represents all that
 /// The Hessian in which every contact sticks.
 BlockMatrix sticking_hessian(const ContactProblem& problem, const WhitenedProblem& white,
                              const ContactGraph& graph) {
-  constexpr double kProximal =
-      1e-4;  // a rigid contact is solved with a proximal term instead of a compliance
+  // A rigid contact is solved with a proximal term in place of its compliance.
+  constexpr double kProximal = 1e-4;
   std::vector<Mat3> G;
   for (int i = 0; i < problem.num_contacts(); ++i) {
     ContactLaw law = contact_law(problem, i);

@@ -14,7 +14,7 @@ struct ModelCounts {
   int unknowns = 0;  ///< velocity components
   int contacts = 0, joints = 0, ties = 0;
   int force_rows = 0;  ///< unknown force components: 1 per frictionless contact, otherwise 3 (plane: 2)
-  int islands = 0;     ///< groups of free blocks that are not connected by contacts
+  int islands = 0;     ///< groups of free blocks without contact with each other
 };
 
 struct ModelExplanation {

@@ -16,7 +16,7 @@
 namespace cupola {
 namespace {
 
-/// Warns if displacements are large: equilibrium is found on the geometry as built.
+/// A note for the message if displacements are large, because equilibrium is found on the geometry as built.
 std::string linearity_note(const Assembly& assembly, double displacement) {
   constexpr double kSmall = 0.1;  // of the smallest free block
   double smallest = std::numeric_limits<double>::infinity();
