@@ -74,15 +74,19 @@ Snapshot take_snapshot(const Simulation& simulation) {
 
 std::string history_header() {
   std::string header;
-  for (const HistoryColumn& column : kHistoryColumns)
-    header += std::string(header.empty() ? "" : ",") + column.key;
+  for (const HistoryColumn& column : kHistoryColumns) {
+    if (!header.empty()) header += ',';
+    header += column.key;
+  }
   return header;
 }
 
 std::string history_row(double time, const StepReport& report, const Snapshot& now, double friction_work) {
   std::string row;
-  for (const HistoryColumn& column : kHistoryColumns)
-    row += (row.empty() ? "" : ",") + column.cell({time, report, now, friction_work});
+  for (const HistoryColumn& column : kHistoryColumns) {
+    if (!row.empty()) row += ',';
+    row += column.cell({time, report, now, friction_work});
+  }
   return row;
 }
 

@@ -1,0 +1,104 @@
+// `--explain` builds the same objects as the run: the first steps are equal, and what the run refuses is refused.
+
+#include "solver/explain.hpp"
+
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "tests/solver/motion_scenes.hpp"
+
+namespace cupola::explain_test {
+namespace {
+
+/// A wall under inclined gravity, whose blocks slide on each other.
+Case moving_wall() {
+  Case scene = testing::make_case(0.2, 1e-8, 0.005);
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.duration = 0.1;
+  scene.output.frames_every = 0.004;
+  scene.loads.gravity = testing::tilted_gravity(0.1);
+  return scene;
+}
+
+using Steps = std::vector<std::pair<double, int>>;  // time step (s) and iterations of each step
+
+/// The first three steps of the run, from history.csv.
+Steps run_steps(const Case& scene, const Assembly& assembly) {
+  Steps steps;
+  AnalysisSinks sinks;
+  sinks.history = [&, header = true](const std::string& row) mutable {
+    if (std::exchange(header, false) || steps.size() == 3) return;
+    std::vector<std::string> cells;
+    std::istringstream in(row);
+    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+    steps.emplace_back(std::stod(cells.at(17)), std::stoi(cells.at(2)));
+  };
+  run_analysis(scene, assembly, sinks);
+  return steps;
+}
+
+Steps timed_steps(const Case& scene, const Assembly& assembly) {
+  Steps steps;
+  for (const TimedStep& step : explain_model(scene, assembly).cost.steps)
+    steps.emplace_back(step.h, step.iterations);
+  return steps;
+}
+
+// Every option changes the first steps, so that an estimate that forgets it fails.
+TEST(ExplainMotion, TimesTheFirstStepsOfTheRun) {
+  const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 3, 4);
+  const Case plain = moving_wall();
+  Case adaptive = plain;
+  adaptive.analysis.adaptive = AdaptiveStep{.smallest = 1e-6, .largest = 0.05, .displacement_error = 1e-6};
+  Case sleeping = plain;
+  sleeping.analysis.sleep = Sleep{.speed = 100.0, .time = 1e-4};
+  Case from_equilibrium = plain;
+  from_equilibrium.analysis.start = Analysis::Start::static_;
+  const Steps steps = timed_steps(plain, wall);
+  ASSERT_EQ(steps.size(), 3u);
+  EXPECT_EQ(steps, run_steps(plain, wall));
+  for (const auto& [name, scene] : std::initializer_list<std::pair<const char*, const Case*>>{
+           {"adaptive", &adaptive}, {"sleep", &sleeping}, {"static start", &from_equilibrium}}) {
+    const Steps timed = timed_steps(*scene, wall);
+    EXPECT_EQ(timed, run_steps(*scene, wall)) << name;
+    EXPECT_NE(timed, steps) << name;
+  }
+}
+
+TEST(ExplainMotion, NamesItsOptions) {
+  const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 2, 2);
+  const auto expect_phrase = [&](const Case& scene, const std::string& phrase) {
+    const std::string text = explain_model(scene, wall).text;
+    EXPECT_NE(text.find(phrase), std::string::npos) << phrase << "\n" << text;
+  };
+  Case scene = moving_wall();
+  scene.analysis.adaptive = AdaptiveStep{.smallest = 1e-5, .largest = 0.05, .displacement_error = 1e-4};
+  expect_phrase(scene, "step        adaptive, 1e-05 to 0.05 s");
+  scene = moving_wall();
+  scene.analysis.sleep = Sleep{.speed = 1e-3, .time = 0.2};
+  expect_phrase(scene, "sleep       islands slower than 0.001 m/s for 0.2 s");
+  scene = moving_wall();
+  scene.analysis.start = Analysis::Start::static_;
+  expect_phrase(scene, "start       static equilibrium");
+  expect_phrase(scene, "(static start, ");
+}
+
+TEST(ExplainMotion, RefusesWhatTheRunRefuses) {
+  const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 2, 2);
+  Case varying = moving_wall();
+  varying.analysis.sleep = Sleep{.speed = 1e-3, .time = 0.2};
+  varying.loads.dead_load_time = RampInTime{.from = 0.0, .to = 1.0, .start = 0.0, .duration = 1.0};
+  Case cyclic = moving_wall();
+  cyclic.analysis.type = AnalysisType::static_;
+  cyclic.analysis.cyclic_sectors = 3;
+  for (const Case& scene : {varying, cyclic}) {
+    EXPECT_THROW(run_analysis(scene, wall, {}), InputError);
+    EXPECT_THROW(explain_model(scene, wall), InputError);
+  }
+}
+
+}  // namespace
+}  // namespace cupola::explain_test
