@@ -17,7 +17,7 @@ struct StaticOptions {
   double tolerance = 1e-9;  ///< largest equilibrium residual accepted, inertia share included; no unit
   /// Method, friction law and iteration limit of each contact solve. Tolerance and reference speed follow
   /// from `tolerance` and h and need not be set.
-  ContactSolverOptions solve;
+  ContactSolverOptions solve = {};
   /// The structure may be a mechanism: start with a short h, at which a mechanism shows after few iterations,
   /// and raise it stepwise. If false, start with the h that an equilibrium to `tolerance` needs.
   bool may_move = false;
