@@ -43,7 +43,7 @@ HistoryRow history_row(const Evaluation& e, const Frame& frame) {
 std::vector<HistoryRow> write_frames(const ResultsReader& results, const std::string& folder,
                                      Evaluation* evaluation) {
   const Evaluation& e = *evaluation;
-  const DisplacedBlocks blocks(e.assembly);
+  const DisplacedBlocks blocks(e);
   std::vector<PvdEntry> entries;
   std::vector<HistoryRow> history;
   for (size_t i = 0; i < e.times.size(); ++i) {

@@ -6,6 +6,7 @@
 //   cupola-post claims cases/claims.yaml --runs out/ --output out/paper/
 //   cupola-post sweep cases/friction_sweep.yaml --runs out/ --output out/friction_sweep/
 //   cupola-post tradeoff cases/tradeoff.txt --runs out/tradeoff/dome_circular --output study/
+//   cupola-post columns > columns.md
 
 #include <cstring>
 
@@ -19,6 +20,7 @@
 #include "postproc/compare/compare.hpp"
 #include "postproc/studies/sweep.hpp"
 #include "postproc/studies/tradeoff_command.hpp"
+#include "postproc/tables/result_columns.hpp"
 
 namespace {
 
@@ -30,7 +32,8 @@ constexpr const char* kUsage =
     "  cupola-post compare POST POST ... --output FOLDER\n"
     "  cupola-post claims CLAIMS.yaml --runs FOLDER --output FOLDER\n"
     "  cupola-post sweep CASE.yaml --runs FOLDER --output FOLDER\n"
-    "  cupola-post tradeoff STUDY.txt --runs FOLDER --output FOLDER\n\n"
+    "  cupola-post tradeoff STUDY.txt --runs FOLDER --output FOLDER\n"
+    "  cupola-post columns\n\n"
     "`cupola-post COMMAND --help` tells the options.\n";
 
 ExitCode run_analyse(int argc, char** argv) {
@@ -64,6 +67,10 @@ ExitCode run(int argc, char** argv) {
   if (command == "claims") return run_claims(argc - 1, argv + 1);
   if (command == "sweep") return run_sweep(argc - 1, argv + 1);
   if (command == "tradeoff") return run_tradeoff(argc - 1, argv + 1);
+  if (command == "columns") {
+    fmt::print("{}", column_reference());
+    return ExitCode::done;
+  }
   if (command == "--version") {
     fmt::print("cupola-post {}\n", program_version());
     return ExitCode::done;
@@ -72,9 +79,11 @@ ExitCode run(int argc, char** argv) {
     fmt::print("{}", kUsage);
     return ExitCode::done;
   }
-  if (command.empty()) throw InputError("a command is missing: analyse, compare, claims, sweep or tradeoff");
+  if (command.empty())
+    throw InputError("a command is missing: analyse, compare, claims, sweep, tradeoff or columns");
   throw InputError(fmt::format(
-      "`{}` is not a command; the commands are: analyse, compare, claims, sweep, tradeoff", command));
+      "`{}` is not a command; the commands are: analyse, compare, claims, sweep, tradeoff, columns",
+      command));
 }
 
 }  // namespace

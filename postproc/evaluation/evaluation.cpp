@@ -14,8 +14,8 @@
 namespace cupola {
 namespace {
 
-/// Joints between blocks that move apart by less than this share of the largest displacement belong to one
-/// body of the mechanism.
+/// Blocks belong to one body of a mechanism if their joint moves by less than this share of the largest
+/// displacement.
 constexpr double kGroupShare = 0.02;
 
 double largest_displacement(const Frame& frame) {
@@ -26,17 +26,18 @@ double largest_displacement(const Frame& frame) {
 
 void check_blocks(const Frame& frame, const Assembly& assembly) {
   if (frame.blocks.position.size() != assembly.blocks.size())
-    throw InputError(fmt::format("the results hold {} blocks, the assembly {}", frame.blocks.size(),
-                                 assembly.blocks.size()));
+    throw InputError(fmt::format("the results hold {} blocks and the assembly {}: solve this assembly again",
+                                 frame.blocks.size(), assembly.blocks.size()));
 }
 
 bool is_mechanism(const Summary& summary, const Frame& frame) {
   return summary.analysis == AnalysisType::limit && frame.time > 0.0;
 }
 
-/// Moves the blocks of a mechanism along its velocities, until the fastest has gone a twentieth of the model.
-void show_mechanism(const Assembly& assembly, Frame* frame) {
-  constexpr double kShown = 0.05;
+/// Displaces the blocks of a mechanism along their velocities until the fastest has moved by kShown times the
+/// model's size.
+void displace_mechanism(const Assembly& assembly, Frame* frame) {
+  constexpr double kShown = 0.05;  // share of the diagonal of the block centroids
   Eigen::AlignedBox3d box;
   for (const Block& block : assembly.blocks)
     if (!block.fixed) box.extend(block.centroid);
@@ -59,8 +60,8 @@ std::string frame_name(int index) {
   return fmt::format("frame {}", index);
 }
 
-/// The last frame that can be read. Of a limit analysis, the last equilibrium, which comes before the
-/// mechanism.
+/// The last frame that can be read. For a limit analysis it is the first frame, the last equilibrium; the
+/// mechanism follows it.
 Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
   const bool limit = results.summary().analysis == AnalysisType::limit;
   for (int i = limit ? 0 : static_cast<int>(results.times().size()) - 1;; --i) {
@@ -75,12 +76,11 @@ Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
 
 void add_status_warnings(const Summary& summary, std::vector<std::string>* warnings) {
   if (summary.status == Status::unconverged)
-    warnings->push_back(
-        "the solver did not reach the accuracy asked: the forces below are not to be trusted. " +
-        summary.message);
+    warnings->push_back("the solver did not reach the requested accuracy: do not use the forces below. " +
+                        summary.message);
   if (summary.status == Status::moving)
     warnings->push_back(
-        "the structure is moving, its forces are those of an instant, not of an equilibrium. " +
+        "the structure is moving: its forces are those of one instant, not of an equilibrium. " +
         summary.message);
   if (summary.status == Status::collapsed)
     warnings->push_back("the structure has collapsed. " + summary.message);
@@ -107,10 +107,11 @@ void count_lost_joints(const ResultsReader& results, Evaluation* e) {
   }
   if (e->lost_joints.value_or(0) > 0)
     e->warnings.push_back(
-        fmt::format("{} joints of the first frame have parted completely in the last", *e->lost_joints));
+        fmt::format("{} joints that carried force in the first frame have separated completely in the last",
+                    *e->lost_joints));
 }
 
-/// The applied forces at an instant.
+/// The applied forces at a time, s.
 std::vector<PointForce> loads_at(const Evaluation& e, double time) {
   const std::vector<TimeFunction> times = load_times(e.scene.loads);
   std::vector<PointForce> loads = e.loads;
@@ -124,8 +125,8 @@ ThrustInput thrust_input(const Evaluation& e) {
   return {&e.assembly, &e.shell, &e.last.frame.contacts, &e.last.joints, e.last.from_below, e.last.gravity};
 }
 
-/// Every block that a bed touches from below or runs through, uprights included. Where an upright is one
-/// convex part (walls), nothing tells what crosses it half-way up: it counts with the wrench at its own foot.
+/// Resultants of all blocks that stand on a bed or that the bed runs through. An upright block of a wall is
+/// one convex part: the force half-way up is unknown, so the wrench at its foot is taken.
 std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput& input, int bed) {
   std::set<int> blocks;
   for (const BedFacet& facet : e.shell.beds[bed]) blocks.insert(facet.block);
@@ -139,7 +140,7 @@ std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput&
     const double height = e.rings[on_bed ? bed : block.ring].height;
     if (axis.exists)
       resultants.push_back(
-          {b, wrench, axis_in_plane(axis, wrench.force, {e.up, height}), axis.couple_length});
+          {b, block.kind, wrench, axis_in_plane(axis, wrench.force, {e.up, height}), axis.couple_length});
   }
   return resultants;
 }
@@ -177,12 +178,12 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e) {
 }  // namespace
 
 void leave_out(const std::string& part, const std::string& reason, Evaluation* e) {
-  std::string text = fmt::format("{} is left out: {}", part, reason);
+  std::string text = fmt::format("{} was left out: {}", part, reason);
   if (std::find(e->unreadable.begin(), e->unreadable.end(), text) == e->unreadable.end())
     e->unreadable.push_back(std::move(text));
 }
 
-std::vector<std::string> said_first(const Evaluation& e) {
+std::vector<std::string> notices(const Evaluation& e) {
   std::vector<std::string> all = e.unreadable;
   all.insert(all.end(), e.warnings.begin(), e.warnings.end());
   return all;
@@ -193,7 +194,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   FrameEvaluation out;
   out.frame = std::move(frame);
   const bool mechanism = is_mechanism(e.summary, out.frame);
-  if (mechanism) show_mechanism(e.assembly, &out.frame);
+  if (mechanism) displace_mechanism(e.assembly, &out.frame);
   const Loads& loads = e.scene.loads;
   out.gravity = factor_at(loads.dead_load_time, out.frame.time) * loads.gravity;
   out.loads = loads_at(e, out.frame.time);
@@ -233,14 +234,17 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.axes = shell_axes(e.assembly, e.shell);
   add_status_warnings(e.summary, &e.warnings);
   if (e.summary.geometry_hash != scene.geometry_hash || e.assembly.geometry_hash != scene.geometry_hash)
-    e.warnings.push_back("the case's geometry has changed since the assembly was made or solved");
+    e.warnings.push_back(
+        "the geometry of the case has changed since the assembly was generated or solved: generate and solve "
+        "it again");
   else if (e.summary.case_hash != scene.hash)
-    e.warnings.push_back("the case has changed since the run: loads, joints or analysis may differ");
+    e.warnings.push_back(
+        "the case has changed since it was solved: its loads, joints or analysis may differ");
   if (e.summary.assembly_hash != content_hash(e.assembly))
-    e.warnings.push_back("the results are of another assembly: what is drawn need not fit them");
+    e.warnings.push_back("the results belong to another assembly: the drawings may not match them");
 
   if (!e.assembly.ties.empty() || !scene.ties.pairs.empty() || !scene.ties.chains.empty())
-    e.warnings.push_back("ties carry forces too: ring sums and wrenches count the joints only");
+    e.warnings.push_back("ring sums and wrenches count joints only, not the forces in ties");
 
   e.last = evaluate_frame(e, evaluated_frame(results, &e));
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads);

@@ -14,40 +14,41 @@
 
 namespace cupola {
 
-/// What one frame says, derived from its contacts.
+/// One frame and all quantities derived from its contacts.
 struct FrameEvaluation {
   Frame frame;
-  Vec3 gravity = Vec3::Zero();    ///< m/s2, at that instant
-  std::vector<PointForce> loads;  ///< at that instant
+  Vec3 gravity = Vec3::Zero();    ///< m/s2, at the time of the frame
+  std::vector<PointForce> loads;  ///< at the time of the frame
   JointWrenches joints;
-  std::vector<Wrench> from_below;   ///< per block
+  std::vector<Wrench> from_below;   ///< per block, wrench from the ring below
   std::vector<BlockFields> fields;  ///< per block
-  std::vector<int> groups;          ///< per block, bodies of the mechanism
+  std::vector<int> groups;          ///< per block, group that moves as one body
 };
 
-/// A meridian with what crosses it.
+/// A meridian: the thrust line along it and the hoop forces across it.
 struct MeridianEvaluation {
   ThrustLine thrust;
   std::vector<HoopRow> hoop;  ///< empty for an arch
 };
 
-/// What crosses a bed within one block's width, on the part above.
+/// The resultant across a bed within the width of one block, on the part above.
 struct BedResultant {
   int block = 0;
+  BlockKind kind = BlockKind::standard;
   Wrench wrench;               ///< about the block's centroid
-  Vec3 point = Vec3::Zero();   ///< m, of its central axis at the bed's mean height
+  Vec3 point = Vec3::Zero();   ///< m, on its central axis, at the mean height of the bed
   double couple_length = 0.0;  ///< m
 };
 
-/// A horizontal section: the blocks that the plane cuts, and the bed below the nearest ring.
+/// A horizontal section: the blocks that the plane cuts, and the forces across the nearest bed.
 struct SectionEvaluation {
   double height = 0.0;  ///< m
-  int ring = -1;        ///< ring whose bed lies nearest; -1 where there are no rings
+  int ring = -1;        ///< ring above the nearest bed; -1 without rings
   std::vector<CutPolygon> polygons;
-  std::vector<BedResultant> resultants;  ///< of that bed, by block; none where nothing presses
+  std::vector<BedResultant> resultants;  ///< across that bed, by block; empty if it carries no force
 };
 
-/// Everything the postprocessor knows about a run: the last frame in full.
+/// Everything the postprocessor derives from a run, for its last readable frame.
 struct Evaluation {
   Case scene;
   Assembly assembly;
@@ -62,27 +63,28 @@ struct Evaluation {
   std::vector<MeridianEvaluation> meridians;
   std::vector<SectionEvaluation> sections;
   std::vector<PlaneCut> planes;
-  std::optional<double> rib_over_mid_sail;  ///< mean ratio of r on the meridians `rib` and `mid_sail`
-  std::optional<int> lost_joints;           ///< loaded in the first frame, gone in the last; none: not known
-  std::vector<std::string> warnings;        ///< what a reader must know before the numbers
-  std::vector<std::string> unreadable;      ///< what is missing from the results or damaged, once each
+  std::optional<double> rib_over_mid_sail;  ///< mean ratio of r, if both meridians exist
+  std::optional<int> lost_joints;           ///< loaded in the first frame, gone in the last; none: unknown
+  std::vector<std::string> warnings;        ///< what the reader must know before using the numbers
+  std::vector<std::string> unreadable;      ///< parts of the results that are missing or damaged
 };
 
-/// Notes that a part of the results is left out, if that is not noted yet.
+/// Records that a part of the results was left out and why, once per part.
 void leave_out(const std::string& part, const std::string& reason, Evaluation* evaluation);
 
-/// What comes before all numbers: first what could not be read, then the warnings.
-std::vector<std::string> said_first(const Evaluation& evaluation);
+/// Everything to report before the numbers: first the parts that could not be read, then the warnings.
+std::vector<std::string> notices(const Evaluation& evaluation);
 
-/// Evaluates the last readable frame. Frames that are missing or damaged are left out, unless none is left:
-/// then InputError.
+/// Evaluates the last readable frame. Missing or damaged frames are left out and recorded; InputError if none
+/// can be read.
 Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results);
 
-/// Evaluates one frame against an evaluation's assembly, loads and shell. The second frame of a limit
-/// analysis, its mechanism, is shown displaced along its velocities.
+/// Evaluates one frame with the assembly, loads and shell of an evaluation. The second frame of a limit
+/// analysis holds the mechanism: its blocks are displaced along their velocities, far enough to be seen.
 FrameEvaluation evaluate_frame(const Evaluation& evaluation, Frame frame);
 
-/// Mean over common beds of r of one line over r of the other; none without common beds.
+/// Mean, over the beds that two thrust lines share, of r of the first over r of the second; none without
+/// common beds.
 std::optional<double> mean_ratio(const ThrustLine& numerator, const ThrustLine& denominator);
 
 }  // namespace cupola

@@ -25,9 +25,9 @@ Figure ring_figure(const Evaluation& e) {
   f.name = "rings";
   f.title = "Ring cuts";
   f.caption =
-      "Vertical sum of the joint forces below each ring against the load above it, their relative "
-      "difference, the coefficient of variation of the blocks' resultants and bed pressures, and the largest "
-      "utilisations of the ring's bed joints.";
+      "Vertical sum of the joint forces below each ring and the load above it; their relative difference; "
+      "the coefficient of variation of the block resultants and bed pressures; and the largest friction and "
+      "kern utilisation of the bed joints. Above a kern utilisation of 1, part of the joint is unloaded.";
   f.width = 1100;
   f.height = 760;
   f.commands =
@@ -46,7 +46,7 @@ Figure ring_figure(const Evaluation& e) {
           "lp lc rgb '{1}' pt 5 ps 0.5 title 'bed pressures'\n"
           "set ylabel 'largest utilisation of a bed joint'\nset yrange [0:*]\n"
           "plot $rings using 1:7 w lp lc rgb '{2}' pt 7 ps 0.5 title 'friction', $rings using 1:8 w lp lc "
-          "rgb '{3}' pt 5 ps 0.5 title 'eccentricity over kern', 1 w l lc rgb '#444444' dt 3 notitle\n"
+          "rgb '{3}' pt 5 ps 0.5 title 'kern', 1 w l lc rgb '#444444' dt 3 notitle\n"
           "unset multiplot\n",
           kBlue, kOrange, kGreen, kPurple, unit.name);
   return f;
@@ -64,17 +64,18 @@ Figure hoop_figure(const MeridianEvaluation& m) {
   f.name = "hoop_" + m.thrust.name;
   f.title = fmt::format("Hoop forces across the meridian {} ({:g} deg)", m.thrust.name, m.thrust.azimuth_deg);
   f.caption =
-      "What one side of the meridian passes to the other in each course: through head joints, which only "
-      "press, and through beds, whose friction also holds tension (negative).";
+      "Hoop force of each ring across the meridian. Head joints carry compression only; bed joints also "
+      "carry tension by friction (negative).";
   f.width = 900;
   f.height = 480;
   f.commands =
       plot_style() + data_block("hoop", rows) +
       fmt::format(
-          "set xlabel 'height (m)'\nset ylabel 'hoop force of a course ({2}), compression positive'\n"
+          "set xlabel 'height (m)'\nset ylabel 'hoop force of a ring ({2}), compression positive'\n"
           "set xzeroaxis lc rgb '#444444'\nset key left top\n"
           "plot $hoop using 1:4 w lp lc rgb 'black' lw 2 pt 7 ps 0.5 title 'sum', $hoop using 1:2 w lp lc "
-          "rgb '{0}' pt 5 ps 0.5 title 'heads', $hoop using 1:3 w lp lc rgb '{1}' pt 9 ps 0.6 title 'beds'\n",
+          "rgb '{0}' pt 5 ps 0.5 title 'head joints', $hoop using 1:3 w lp lc rgb '{1}' pt 9 ps 0.6 title "
+          "'bed joints'\n",
           kBlue, kOrange, unit.name);
   return f;
 }
@@ -88,9 +89,8 @@ Figure history_figure(const Evaluation& e, const std::vector<HistoryRow>& histor
   f.name = "history";
   f.title = "Motion over time";
   f.caption =
-      "Largest displacement and speed of a block, and the reaction of the supports over the weight of the "
-      "free "
-      "blocks, frame by frame.";
+      "Largest displacement and speed of a block in each frame, and the reaction of the supports over the "
+      "weight of the free blocks.";
   f.width = 1000;
   f.height = 700;
   f.commands = plot_style() + data_block("history", rows) +

@@ -16,10 +16,10 @@ std::string in_folder(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
 }
 
-/// A file that goes when its user does, whatever happens.
-struct HelperFile {
+/// A temporary file, deleted at the end of its scope.
+struct TemporaryFile {
   std::string path;
-  ~HelperFile() {
+  ~TemporaryFile() {
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
   }
@@ -27,8 +27,8 @@ struct HelperFile {
 
 std::string draw(const std::string& folder, const Figure& figure, const char* terminal, const char* ending) {
   const std::string out = in_folder(folder, figure.name + ending);
-  const HelperFile script{in_folder(folder, "." + figure.name + ".run.gp")};
-  const HelperFile log{in_folder(folder, "." + figure.name + ".log")};
+  const TemporaryFile script{in_folder(folder, "." + figure.name + ".run.gp")};
+  const TemporaryFile log{in_folder(folder, "." + figure.name + ".log")};
   std::string problem;
   write_atomically(out, [&](const std::string& side) {
     const std::string head = fmt::format(
@@ -39,9 +39,9 @@ std::string draw(const std::string& folder, const Figure& figure, const char* te
     const int status = run_process({"gnuplot", script.path}, log.path);
     if (status == kNotFound) problem = "gnuplot is not installed";
     if (status != 0 && status != kNotFound) problem = "gnuplot: " + last_line(read_text(log.path));
-    // Cairo, when it gets no memory, writes nothing and says nothing.
+    // Without enough memory, Cairo writes nothing and reports no error.
     if (status == 0 && (!std::filesystem::exists(side) || std::filesystem::file_size(side) == 0))
-      throw SystemError(fmt::format("{}: gnuplot wrote nothing; is there enough memory?", out));
+      throw SystemError(fmt::format("{}: gnuplot wrote an empty file, as it does when memory runs out", out));
     if (!problem.empty()) write_text_atomically(side, "");
     return true;
   });
@@ -60,7 +60,8 @@ std::vector<std::string> draw_figures(const std::string& folder, const std::vect
                                       figure.commands));
     std::string problem = draw(folder, figure, "pngcairo", ".png");
     if (problem.empty() && figure.vector) problem = draw(folder, figure, "svg", ".svg");
-    if (!problem.empty()) problems.push_back(fmt::format("figure {} is not drawn: {}", figure.name, problem));
+    if (!problem.empty())
+      problems.push_back(fmt::format("figure {} was not drawn: {}", figure.name, problem));
   }
   return problems;
 }
@@ -83,8 +84,8 @@ std::string data_block(const std::string& name, const std::vector<std::vector<do
 std::string gnuplot_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '\'') out += '\'';                            // doubled inside single quotes
-    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;  // a line end would begin a command
+    if (c == '\'') out += '\'';                            // a single quote is doubled
+    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;  // a line end would start a new command
   }
   return out;
 }

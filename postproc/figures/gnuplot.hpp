@@ -5,25 +5,25 @@
 
 namespace cupola {
 
-/// A figure as gnuplot commands: everything but the terminal and the output. Its data stand in the script
-/// (named blocks), so that the .gp file draws it again anywhere.
+/// A figure as gnuplot commands, without terminal and output. The script contains its data as named blocks,
+/// so the .gp file alone can draw the figure again.
 struct Figure {
-  std::string name;               ///< of its files, without ending
-  std::string title;              ///< what it shows, a phrase
-  std::string caption;            ///< what to see in it, a sentence or two
+  std::string name;               ///< name of its files without ending
+  std::string title;              ///< a phrase: what it shows
+  std::string caption;            ///< a sentence or two: how to read it
   std::string commands;           ///< gnuplot
   int width = 900, height = 600;  ///< px
-  bool vector = true;             ///< false: PNG only, for maps of very many blocks
+  bool vector = true;             ///< false: PNG only, for maps of thousands of blocks
 };
 
-/// Writes NAME.gp, NAME.svg (when `vector`) and NAME.png into a folder. Returns what went wrong, one line
-/// per figure: gnuplot missing or failing costs the pictures, not the numbers.
+/// Writes NAME.gp, NAME.png and, if `vector`, NAME.svg into a folder. Returns one line for each figure that
+/// could not be drawn; a missing or failing gnuplot is no error, since the numbers do not depend on it.
 std::vector<std::string> draw_figures(const std::string& folder, const std::vector<Figure>& figures);
 
-/// A named data block of gnuplot: $NAME << EOD, one row per line.
+/// A named data block of gnuplot, `$NAME << EOD`, with one row per line.
 std::string data_block(const std::string& name, const std::vector<std::vector<double>>& rows);
 
-/// Text for a quoted gnuplot string with enhanced text switched off.
+/// Escapes text for a gnuplot string in single quotes, for use without enhanced text.
 std::string gnuplot_text(const std::string& text);
 
 }  // namespace cupola

@@ -12,7 +12,7 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// A parallel projection: what is right and what is up on the page, unit vectors.
+/// A parallel projection: the unit vectors that point right and up on the page.
 struct Projection {
   Vec3 right, up;
   std::vector<double> row(const Vec3& x) const { return {right.dot(x), up.dot(x)}; }
@@ -20,7 +20,7 @@ struct Projection {
 
 Projection projection_of(const Evaluation& e) {
   if (!is_vault(e)) return {Vec3::UnitX(), Vec3::UnitZ()};
-  const double a = -60.0 / kDegrees, slant = 30.0 / kDegrees;  // seen from azimuth a, from above
+  const double a = -60.0 / kDegrees, slant = 30.0 / kDegrees;  // seen from azimuth a and from above
   return {Vec3(-std::sin(a), std::cos(a), 0.0),
           Vec3(-std::sin(slant) * std::cos(a), -std::sin(slant) * std::sin(a), std::cos(slant))};
 }
@@ -31,7 +31,7 @@ void add_outline(const Projection& page, const std::vector<Vec3>& corners, Rows*
   rows->push_back({});
 }
 
-/// Beds of the sections, facet by facet; a wall also shows every block's face.
+/// Outlines of the bed facets at the sections of a vault, or of the block faces of a wall.
 Rows outlines_of(const Evaluation& e, const Projection& page) {
   Rows rows;
   if (is_vault(e)) {
@@ -50,7 +50,7 @@ Rows outlines_of(const Evaluation& e, const Projection& page) {
   return rows;
 }
 
-/// Largest 1, 2 or 5 times a power of ten that does not exceed `value`.
+/// Largest number of the form 1, 2 or 5 times a power of ten that does not exceed `value`.
 double round_below(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   return value >= 5.0 * power ? 5.0 * power : value >= 2.0 * power ? 2.0 * power : power;
@@ -71,21 +71,22 @@ Figure levels_figure(const Evaluation& e) {
   for (const SectionEvaluation& section : e.sections)
     for (const BedResultant& r : section.resultants) {
       const std::vector<double> from = page.row(r.point), along = page.row(scale * r.wrench.force);
-      Rows& rows = e.assembly.blocks[r.block].kind == BlockKind::herringbone ? upright : flat;
+      Rows& rows = r.kind == BlockKind::herringbone ? upright : flat;
       rows.push_back({from[0], from[1], along[0], along[1]});
       lowest = std::min(lowest, from[1]);
       left = std::min(left, from[0]);
     }
-  const double sample = round_below(largest);  // N, drawn as the scale
+  const double sample = round_below(largest);  // N, length of the scale bar
   const Rows measure = {{left, lowest - 0.6 * scale * largest, scale * sample, 0.0}};
 
   Figure f;
   f.name = "levels";
-  f.title = "Resultants across the beds, level by level";
+  f.title = "Resultants across the beds at each level";
   f.caption = fmt::format(
-      "What each block passes on across the beds nearest to the sections, on the part above, drawn where it "
-      "acts to one scale (bottom left). Blue: blocks laid flat; orange: the narrow upright blocks of a "
-      "herringbone, of which several together have a block's width.");
+      "Resultant of each block across the beds nearest to the sections, acting on the part above, drawn "
+      "where "
+      "it acts and to one scale (bottom left). Blue: blocks laid flat. Orange: upright blocks of a "
+      "herringbone, several of which share the width of one flat block.");
   f.width = 1000;
   f.height = 760;
   f.commands =

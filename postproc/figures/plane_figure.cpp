@@ -12,7 +12,8 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// Axes of the page: `up` is as vertical as the plane allows, `right` completes it seen against the normal.
+/// Axes of the page in the plane: `up` as close to the vertical as possible, `right` perpendicular to it as
+/// seen against the normal.
 struct Page {
   Vec3 right, up;
   Page(const Vec3& normal, const Vec3& vertical) {
@@ -29,17 +30,20 @@ std::string caption_of(const Evaluation& e, const PlaneCut& cut, double largest,
   const double through = f.dot(cut.normal), along = (f - through * cut.normal).norm();
   const ForceUnit sum = force_unit(f.norm());
   std::string text = fmt::format(
-      "The plane through ({:g}, {:g}, {:g}) m across ({:.3g}, {:.3g}, {:.3g}). Circles: what each joint "
-      "across it presses (blue) or pulls (orange) in the plane's normal, area to scale, the largest {:.3g} "
-      "{}. "
-      "Together the {} joints press with {:.4g} {} and push along the plane with {:.4g} {} on the blocks "
-      "beyond.",
+      "The plane through ({:g}, {:g}, {:g}) m with normal ({:.3g}, {:.3g}, {:.3g}). Circles: normal force of "
+      "each joint across it, compression blue and tension orange; their areas are to scale, the largest is "
+      "{:.3g} {}. On the blocks beyond, the {} joints together exert {:.4g} {} along the normal and "
+      "{:.4g} {} "
+      "in the plane.",
       cut.point.x(), cut.point.y(), cut.point.z(), cut.normal.x(), cut.normal.y(), cut.normal.z(),
       unit.per_newton * largest, unit.name, cut.joints.size(), sum.per_newton * through, sum.name,
       sum.per_newton * along, sum.name);
   const ForceUnit load = force_unit(cut.load_beyond.norm());
-  return text + fmt::format(" With their supports they carry the load beyond, {:.5g} {}, to {:.1e} of it.",
-                            load.per_newton * cut.load_beyond.dot(-e.up), load.name, cut.relative_difference);
+  return text +
+         fmt::format(
+             " Together with the supports beyond, they balance the load beyond of {:.5g} {} to a relative "
+             "difference of {:.1e}.",
+             load.per_newton * cut.load_beyond.dot(-e.up), load.name, cut.relative_difference);
 }
 
 }  // namespace
@@ -71,13 +75,13 @@ Figure plane_figure(const Evaluation& e, const PlaneCut& cut) {
   f.caption = caption_of(e, cut, largest, force_unit(largest));
   f.width = 1000;
   f.height = 700;
-  f.commands =
-      plot_style() + data_block("outlines", outlines) + data_block("presses", presses) +
-      data_block("pulls", pulls) +
-      "set size ratio -1\nset xlabel 'along the plane (m)'\nset ylabel 'up the plane (m)'\nunset key\n"
-      "plot $outlines w l lc rgb '#999999' lw 0.8" +
-      (presses.empty() ? "" : fmt::format(", $presses w p pt 7 ps variable lc rgb '{}'", kBlue)) +
-      (pulls.empty() ? "" : fmt::format(", $pulls w p pt 7 ps variable lc rgb '{}'", kOrange)) + "\n";
+  f.commands = plot_style() + data_block("outlines", outlines) + data_block("presses", presses) +
+               data_block("pulls", pulls) +
+               "set size ratio -1\nset xlabel 'across (m)'\nset ylabel 'up (m)'\nunset key\n"
+               "plot $outlines w l lc rgb '#999999' lw 0.8" +
+               (presses.empty() ? "" : fmt::format(", $presses w p pt 7 ps variable lc rgb '{}'", kBlue)) +
+               (pulls.empty() ? "" : fmt::format(", $pulls w p pt 7 ps variable lc rgb '{}'", kOrange)) +
+               "\n";
   return f;
 }
 

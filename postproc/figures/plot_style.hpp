@@ -1,15 +1,13 @@
 #pragma once
 
-#include <numbers>
 #include <string>
 
 #include "postproc/evaluation/evaluation.hpp"
 
 namespace cupola {
 
-inline constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-/// Colours that colour-blind readers tell apart (Okabe and Ito), as gnuplot and CSS write them.
+/// Colours that colour-blind readers can distinguish (Okabe and Ito, 2008), in the notation of gnuplot and
+/// CSS.
 inline constexpr const char* kBlue = "#0072B2";
 inline constexpr const char* kOrange = "#D55E00";
 inline constexpr const char* kGreen = "#009E73";
@@ -19,14 +17,14 @@ inline constexpr const char* kSky = "#56B4E9";
 /// Gnuplot commands that every figure starts with: borders, grid, key.
 std::string plot_style();
 
-/// Unit in which forces up to `largest` (N) are read without many zeros.
+/// The unit N, kN or MN in which forces up to `largest` (N) have few zeros.
 struct ForceUnit {
   double per_newton = 1.0;
   const char* name = "N";
 };
 ForceUnit force_unit(double largest);
 
-/// Whether the model is a vault about the z axis, so that azimuths mean something.
+/// True for a vault about the z axis, where azimuths are meaningful.
 bool is_vault(const Evaluation& evaluation);
 
 }  // namespace cupola

@@ -38,13 +38,13 @@ int run_process(const std::vector<std::string>& words, const std::string& log) {
   if (error != 0) throw SystemError(fmt::format("{}: cannot be started: {}", words[0], std::strerror(error)));
   int status = 0;
   if (waitpid(child, &status, 0) != child)
-    throw SystemError(fmt::format("{}: cannot be waited for: {}", words[0], std::strerror(errno)));
+    throw SystemError(fmt::format("{}: waiting for it failed: {}", words[0], std::strerror(errno)));
   if (WIFSIGNALED(status))
     throw SystemError(
-        fmt::format("{}: ended by signal {}; is there enough memory?", words[0], WTERMSIG(status)));
-  constexpr int kNotLoaded = 127;  // the loader's code, for want of memory or of a library
+        fmt::format("{}: ended by signal {}, as happens when memory runs out", words[0], WTERMSIG(status)));
+  constexpr int kNotLoaded = 127;  // exit code of the loader if memory or a library is missing
   if (WEXITSTATUS(status) == kNotLoaded)
-    throw SystemError(fmt::format("{}: cannot be loaded, for want of memory or of a library: {}", words[0],
+    throw SystemError(fmt::format("{}: cannot be loaded, memory or a library is missing: {}", words[0],
                                   last_line(read_text(log))));
   return WEXITSTATUS(status);
 }

@@ -5,13 +5,13 @@
 
 namespace cupola {
 
-/// Runs a program found on the PATH, without a shell, and waits for it. What it prints goes to the file
-/// `log`. Returns its exit code, kNotFound when there is none of that name. SystemError when it cannot be
-/// started though it is there, or was ended by a signal: too little memory, as a rule.
+/// Runs a program on the PATH without a shell and waits for it; its output goes to the file `log`. Returns
+/// its exit code, or kNotFound if there is no such program. SystemError if the program exists but cannot be
+/// started or is ended by a signal, usually for lack of memory.
 int run_process(const std::vector<std::string>& words, const std::string& log);
 
 inline constexpr int kNotFound = -1;
 
-std::string last_line(const std::string& text);  ///< that is not blank; "" where there is none
+std::string last_line(const std::string& text);  ///< last line that is not blank, or ""
 
 }  // namespace cupola

@@ -11,7 +11,7 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// Outlines of the cut blocks, closed, with a blank row between.
+/// Closed outlines of the cut blocks, separated by blank rows.
 Rows outlines_of(const SectionEvaluation& section) {
   Rows rows;
   for (const CutPolygon& polygon : section.polygons) {
@@ -22,7 +22,7 @@ Rows outlines_of(const SectionEvaluation& section) {
   return rows;
 }
 
-/// The resultants of the section's ring: as segments in plan, and their norms along the ring.
+/// Resultants across the bed of a section: as segments in plan, and their norms along the ring.
 struct SectionForces {
   Rows segments, norms;
   double scale = 0.0;  // m per N
@@ -36,8 +36,8 @@ SectionForces forces_of(const Evaluation& e, const SectionEvaluation& section) {
   for (const BedResultant& r : section.resultants) largest = std::max(largest, r.wrench.force.norm());
   out.scale = segment_scale(e.assembly, largest);
   out.unit = force_unit(largest);
-  for (const auto& [block, wrench, x, couple_length] : section.resultants) {
-    const Vec3& f = wrench.force;
+  for (const BedResultant& r : section.resultants) {
+    const Vec3 &x = r.point, &f = r.wrench.force;
     out.segments.push_back({x.x(), x.y(), out.scale * f.x(), out.scale * f.y()});
     out.norms.push_back({is_vault(e) ? azimuth(x) * kDegrees : x.x(), out.unit.per_newton * f.norm()});
   }
@@ -50,15 +50,14 @@ std::string caption_of(const Evaluation& e, const SectionEvaluation& section, co
   if (forces.segments.empty()) return caption;
   const RingSum& ring = e.rings[section.ring];
   const ForceUnit sum = force_unit(ring.load_above.norm());
-  return caption + fmt::format(
-                       " Segments: the horizontal part of the resultants that the blocks of the nearest ring "
-                       "({}) receive "
-                       "from below; 1 m stands for {:.3g} {}. The joints below this ring carry {:.5g} {}, "
-                       "the load above "
-                       "is {:.5g} {}, relative difference {:.1e}.",
-                       section.ring, forces.unit.per_newton / forces.scale, forces.unit.name,
-                       sum.per_newton * ring.joint_force.dot(e.up), sum.name,
-                       sum.per_newton * ring.load_above.dot(-e.up), sum.name, ring.relative_difference);
+  return caption +
+         fmt::format(
+             " Segments: horizontal part of the resultants across the bed of the nearest ring ({}), "
+             "on the part above; 1 m represents {:.3g} {}. The joints below this ring carry {:.5g} "
+             "{}, the load above is {:.5g} {}, relative difference {:.1e}.",
+             section.ring, forces.unit.per_newton / forces.scale, forces.unit.name,
+             sum.per_newton * ring.joint_force.dot(e.up), sum.name,
+             sum.per_newton * ring.load_above.dot(-e.up), sum.name, ring.relative_difference);
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// Blocks as boxes of the unrolled shell: column centre, row, column range, row range, two values.
+/// One row per block and ring of the unrolled shell, as gnuplot's boxxyerror takes it: x, y, x range, y
+/// range, two values.
 Rows unrolled(const Evaluation& e, double (*first)(const BlockFields&),
               double (*second)(const BlockFields&)) {
   const bool vault = is_vault(e);
@@ -38,7 +39,7 @@ Rows unrolled(const Evaluation& e, double (*first)(const BlockFields&),
     const BlockFields& fields = e.last.fields[block];
     const double unit = vault ? kDegrees : 1.0;
     const double r = ring;
-    // A block across the seam shows on both ends.
+    // A block that crosses +-180 degrees is drawn at both ends.
     for (const double turn : {0.0, vault && box.to > std::numbers::pi ? -360.0 : 0.0,
                               vault && box.from < -std::numbers::pi ? 360.0 : 0.0}) {
       if (turn == 0.0 && !rows.empty() && rows.back()[6] == first(fields) && rows.back()[1] == r + 0.5 &&
@@ -60,7 +61,7 @@ std::string map_axes(const Evaluation& e) {
 
 constexpr const char* kBoxes = "using 1:2:3:4:5:6:{} with boxxyerror fc palette notitle\n";
 
-constexpr size_t kMostVectorBoxes = 3000;  // more make the SVG slower to open than it is worth
+constexpr size_t kMostVectorBoxes = 3000;  // with more, browsers are slow to open the SVG
 
 }  // namespace
 
@@ -72,11 +73,10 @@ Figure force_map(const Evaluation& e) {
   for (const auto& row : rows) most = std::max(most, std::abs(row[7]));
   Figure f;
   f.name = "map_forces";
-  f.title = "Meridional and hoop force over the shell";
+  f.title = "Meridional and hoop forces over the shell";
   f.caption =
-      "The shell unrolled. Forces per metre from each block's mean stress, compression positive; tension in "
-      "the "
-      "rings is orange.";
+      "The unrolled shell. Forces per metre from the mean stress of each block, compression positive; hoop "
+      "tension is orange.";
   f.width = 1100;
   f.height = 820;
   f.vector = rows.size() <= kMostVectorBoxes;
@@ -99,9 +99,8 @@ Figure utilisation_map(const Evaluation& e) {
   f.name = "map_utilisation";
   f.title = "Utilisation of the joints over the shell";
   f.caption =
-      "Largest friction utilisation of each block's joints (1: every point slides), and largest eccentricity "
-      "of its "
-      "bed joints over the kern's (above 1 a part of the joint is unloaded).";
+      "Largest friction utilisation of the joints of each block (1: every point slides), and largest kern "
+      "utilisation of its bed joints (above 1: part of the joint is unloaded).";
   f.width = 1100;
   f.height = 820;
   f.vector = rows.size() <= kMostVectorBoxes;
@@ -109,8 +108,7 @@ Figure utilisation_map(const Evaluation& e) {
                "set multiplot layout 2,1 margins 0.07,0.88,0.08,0.97 spacing 0.10\n"
                "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n"
                "set cbrange [0:1]\nset cblabel 'friction utilisation'\nplot $boxes " +
-               fmt::format(kBoxes, 7) +
-               "set cbrange [0:*]\nset cblabel 'eccentricity over kern'\nplot $boxes " +
+               fmt::format(kBoxes, 7) + "set cbrange [0:*]\nset cblabel 'kern utilisation'\nplot $boxes " +
                fmt::format(kBoxes, 8) + "unset multiplot\n";
   return f;
 }

@@ -12,7 +12,7 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// Lowest and highest value with a margin of 3 %, never an empty range.
+/// Range of values; widen() adds a margin of 3 % and makes an empty range positive.
 struct Range {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -27,7 +27,7 @@ struct Range {
   }
 };
 
-/// Abscissa of a profile: distance from the axis along the meridian, x in an arch.
+/// Abscissa of a profile: horizontal distance from the axis in the meridian plane; x for an arch.
 double abscissa(const ThrustLine& line, bool arch, const Vec3& p) {
   const double angle = arch ? 0.0 : line.azimuth_deg / kDegrees;
   return std::cos(angle) * p.x() + std::sin(angle) * p.y();
@@ -71,7 +71,7 @@ std::string profile_plot() {
       kOrange, kGreen, kSky);
 }
 
-/// Four panels that share the height axis: profile, resultant, couple length, distance to the nearer face.
+/// Four panels with a common height axis: profile, resultant, couple length, distance to the nearer face.
 std::string vault_panels(const ThrustLine& line, int width, int height, const ForceUnit& unit) {
   Range x, z;
   for (const ThrustPoint& p : line.points) {
@@ -82,7 +82,7 @@ std::string vault_panels(const ThrustLine& line, int width, int height, const Fo
   }
   z.widen();
   x.widen();
-  // One metre is as long across as up: the panel's height in pixels sets its width.
+  // Both axes of the profile have the same scale: the height of the panel in pixels sets its width.
   constexpr double kBottom = 0.10, kTop = 0.93, kLeft = 0.07;
   const double pixels_per_metre = (kTop - kBottom) * height / (z.high - z.low);
   const double right = std::min(0.50, kLeft + (x.high - x.low) * pixels_per_metre / width);
@@ -118,7 +118,7 @@ std::string vault_panels(const ThrustLine& line, int width, int height, const Fo
              kGreen);
 }
 
-/// Profile above; resultant, couple length and distance to the nearer face below, over the arch's length.
+/// Profile on top; below it resultant, couple length and distance to the nearer face, over x.
 std::string arch_panels(const ForceUnit& unit) {
   const auto band = [](double bottom, double top) {
     return fmt::format("set bmargin at screen {}\nset tmargin at screen {}\n", bottom, top);
@@ -134,12 +134,12 @@ std::string arch_panels(const ForceUnit& unit) {
              kBlue, kOrange, unit.name) +
          band(0.245, 0.345) +
          fmt::format(
-             "set ylabel 'couple (m)'\nset yrange [0:0.001<*]\n"
+             "set ylabel 'couple length (m)'\nset yrange [0:0.001<*]\n"
              "plot $graphs using 1:4 w lp lc rgb '{}' pt 7 ps 0.4 notitle\n",
              kPurple) +
          band(0.08, 0.18) +
          fmt::format(
-             "set xlabel 'x (m)'\nset ylabel 'to the face (m)'\nset yrange [*<0:*]\n"
+             "set xlabel 'x (m)'\nset ylabel 'to face (m)'\nset yrange [*<0:*]\n"
              "plot $graphs using 1:5 w lp lc rgb '{}' pt 7 ps 0.4 notitle\nunset multiplot\n",
              kGreen);
 }
@@ -160,14 +160,13 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
   f.title = arch ? "Thrust line of the arch"
                  : fmt::format("Thrust line, meridian {} ({:g} deg)", line.name, line.azimuth_deg);
   f.caption = fmt::format(
-      "The line {} between intrados and extrados; it comes within {:.3g} m of a face, geometric safety "
-      "{:.3g}{}. r is the "
-      "norm of the resultant that crosses the bed in one block's width, v its vertical component; the "
-      "largest couple "
-      "length is {:.3g} m.",
+      "The line {} between intrados and extrados; its least distance to a face is {:.3g} m, its geometric "
+      "safety {:.3g}{}. r is the norm of the resultant across a bed within one block's width, v its vertical "
+      "component. The largest couple length is {:.3g} m.",
       line.inside ? "stays" : "does not stay", line.least_face_distance, line.least_geometric_safety,
-      line.undefined == 0 ? ""
-                          : fmt::format(", {} beds left out whose resultant runs along them", line.undefined),
+      line.undefined == 0
+          ? ""
+          : fmt::format("; {} beds are left out because their resultants run along them", line.undefined),
       couple);
   f.width = 1400;
   f.height = arch ? 900 : 640;

@@ -5,11 +5,14 @@
 
 #include <Eigen/Geometry>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
 std::vector<Mat3> mean_stresses(const Assembly& assembly, const Frame& frame,
                                 const std::vector<PointForce>& loads) {
+  CUPOLA_ASSERT(frame.blocks.position.size() == assembly.blocks.size());
   std::vector<Mat3> stress(assembly.blocks.size(), Mat3::Zero());
   const ContactTable& c = frame.contacts;
   for (int i = 0; i < c.size(); ++i) {
@@ -22,7 +25,7 @@ std::vector<Mat3> mean_stresses(const Assembly& assembly, const Frame& frame,
   return stress;
 }
 
-/// Displacement of a block's material point that lies at `point` now.
+/// Displacement of the material point of a block whose current position is `point`.
 Vec3 displacement_at(const Assembly& assembly, const BlockTable& blocks, int block, const Vec3& point) {
   const Eigen::Vector4d& q = blocks.quaternion_wxyz[block];
   const Mat3 R = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
@@ -30,6 +33,7 @@ Vec3 displacement_at(const Assembly& assembly, const BlockTable& blocks, int blo
   return point - at_start;
 }
 
+/// Root of a union-find tree, with path halving.
 int root(std::vector<int>* parent, int i) {
   while ((*parent)[i] != i) i = (*parent)[i] = (*parent)[(*parent)[i]];
   return i;
@@ -41,6 +45,7 @@ std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& fra
                                       const JointWrenches& joints, const std::vector<Wrench>& from_below,
                                       const std::vector<PointForce>& loads,
                                       const std::vector<ShellAxes>& axes) {
+  CUPOLA_ASSERT(from_below.size() == assembly.blocks.size() && axes.size() == assembly.blocks.size());
   std::vector<BlockFields> fields(assembly.blocks.size());
   const std::vector<Mat3> stress = mean_stresses(assembly, frame, loads);
   for (size_t b = 0; b < fields.size(); ++b) {
@@ -67,7 +72,7 @@ std::vector<int> mechanism_groups(const Assembly& assembly, const Frame& frame, 
   std::iota(parent.begin(), parent.end(), 0);
   const auto unite = [&parent](int a, int b) {
     const int i = root(&parent, a), j = root(&parent, b);
-    parent[std::max(i, j)] = std::min(i, j);  // the smallest block stays the root
+    parent[std::max(i, j)] = std::min(i, j);  // the block of lowest index is the root
   };
   int first_fixed = -1;
   for (size_t b = 0; b < parent.size(); ++b) {
@@ -85,7 +90,7 @@ std::vector<int> mechanism_groups(const Assembly& assembly, const Frame& frame, 
     }
     if (relative <= threshold) unite(joint.block_a, joint.block_b);
   }
-  // Numbers in the order of the groups' first blocks, the supports' group first.
+  // Number the groups: the supports first, then in the order of first blocks.
   std::vector<int> number(parent.size(), -1), group(parent.size());
   int count = 0;
   if (first_fixed >= 0) number[root(&parent, first_fixed)] = count++;

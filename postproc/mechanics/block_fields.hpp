@@ -8,29 +8,37 @@
 
 namespace cupola {
 
-/// What one frame says about one block.
+/// Derived quantities of one block in one frame.
 struct BlockFields {
-  double resultant = 0.0;         ///< N, norm of the wrench from the ring below
+  double resultant = 0.0;         ///< N, norm of the force from the ring below
   double couple_length = 0.0;     ///< m, of that wrench
   double meridional_force = 0.0;  ///< N per metre of ring, compression positive
   double hoop_force = 0.0;        ///< N per metre of meridian, compression positive
-  double friction_use = 0.0;      ///< largest of its loaded joints
-  double kern = 0.0;              ///< largest kern_use of its loaded bed joints
+  double friction_use = 0.0;      ///< largest friction utilisation of its loaded joints
+  double kern = 0.0;              ///< largest kern utilisation of its loaded bed joints
   double opening = 0.0;           ///< m, largest gap at its joints
   double slip = 0.0;              ///< m, largest accumulated slip at its joints
 };
 
-/// Meridional and hoop force come from the block's mean stress
-/// sigma = 1/V sum (x - c) (x) f over its contacts and loads (Love, Weber), which holds for a block in
-/// equilibrium: -m.sigma.m and -t.sigma.t times the shell's thickness. They average over the block what
-/// its beds carry by friction and its heads by pressure. Zero for blocks outside the shell.
+/// The fields of every block, by block.
+///
+/// Meridional and hoop force come from the mean stress of the block, summed over its contacts and loads,
+///
+///     sigma = 1/V  sum (x - c) f^T        (Love, Weber; holds for a block in equilibrium)
+///
+/// as -m.sigma.m and -t.sigma.t times the thickness of the shell. They thus average over the block the
+/// friction on its beds and the pressure on its heads. They are zero for fixed blocks and blocks without
+/// shell axes.
 std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& frame,
                                       const JointWrenches& joints, const std::vector<Wrench>& from_below,
                                       const std::vector<PointForce>& loads,
                                       const std::vector<ShellAxes>& axes);
 
-/// Groups of blocks that move as one body, numbered by their first block: the connected pieces when every
-/// joint is cut whose two sides part or slide by more than `threshold` (m). Fixed blocks make group 0.
+/// Group number of every block; the blocks of one group move as one body.
+///
+/// A joint connects its blocks unless its two sides have moved apart or slid by more than `threshold` (m);
+/// the groups are the connected components. All fixed blocks form group 0, the others are numbered in the
+/// order of their first block.
 std::vector<int> mechanism_groups(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
                                   double threshold);
 

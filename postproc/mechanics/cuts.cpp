@@ -4,9 +4,12 @@
 #include <map>
 #include <numbers>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
 std::vector<CutPolygon> cut_by_plane(const Assembly& assembly, const Plane& plane) {
+  CUPOLA_ASSERT(std::abs(plane.normal.norm() - 1.0) < 1e-9);
   std::vector<CutPolygon> polygons;
   std::vector<Vec3> crossings;
   for (size_t p = 0; p < assembly.parts.size(); ++p) {
@@ -18,7 +21,7 @@ std::vector<CutPolygon> cut_by_plane(const Assembly& assembly, const Plane& plan
         const Vec3& a = assembly.vertices[face[i]];
         const Vec3& b = assembly.vertices[face[(i + 1) % face.size()]];
         const double s = plane.normal.dot(a) - plane.offset, t = plane.normal.dot(b) - plane.offset;
-        // Every edge is met from both of its faces; the one that rises through the plane counts.
+        // Two faces share every edge and run along it in opposite directions; count the one that rises.
         if (s < 0.0 && t >= 0.0) crossings.push_back(a + s / (s - t) * (b - a));
       }
     }
@@ -42,7 +45,7 @@ std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& 
   for (const JointWrench& joint : joints.wrenches) {
     const int a = joint.block_a, b = joint.block_b;
     if (assembly.blocks[a].fixed || assembly.blocks[b].fixed || positive(a) == positive(b)) continue;
-    if (outwards.dot(joint.patch.centroid) <= 0.0) continue;  // the half-plane on the other side of the axis
+    if (outwards.dot(joint.patch.centroid) <= 0.0) continue;  // beyond the axis
     const double force = along.dot(wrench_on(joint, positive(b) ? b : a).force);
     HoopRow& row = rows[joint.ring];
     row.ring = joint.ring;

@@ -6,23 +6,25 @@
 
 namespace cupola {
 
-/// A convex part cut by a plane.
+/// The outline along which a plane cuts a convex part.
 struct CutPolygon {
   int part = 0, block = 0, ring = 0;
   std::vector<Vec3> outline;  ///< m
 };
 
-/// Everything of the assembly that a plane cuts; parts that it only touches give nothing.
+/// Outlines of all parts that a plane cuts. Parts that the plane only touches are left out.
 std::vector<CutPolygon> cut_by_plane(const Assembly& assembly, const Plane& plane);
 
-/// Forces across the meridian half-plane at an azimuth, by course: what the blocks on its positive side
-/// receive from the others along the ring, compression positive.
+/// Force of one ring across a meridian half-plane: the component along the ring that the blocks on the side
+/// of greater azimuth receive from the others, compression positive.
 struct HoopRow {
   int ring = 0;
-  double height = 0.0;      ///< m, mean of the joints' heights
+  double height = 0.0;      ///< m, mean height of the joints crossed
   double head_force = 0.0;  ///< N, through head joints
-  double bed_force = 0.0;   ///< N, through beds, by friction and their inclination
+  double bed_force = 0.0;   ///< N, through bed joints, by friction and by their inclination
 };
+
+/// Forces across the meridian at an azimuth, one row per ring that has joints across it.
 std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& joints, double azimuth_deg);
 
 }  // namespace cupola

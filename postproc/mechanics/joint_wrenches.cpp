@@ -5,20 +5,24 @@
 
 #include <Eigen/Geometry>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
-/// Course whose direction tells a joint's upper side; a support has none of its own.
-int course(const Assembly& assembly, const Joint& joint) {
+/// Ring whose direction defines the upper side of a joint. Supports belong to no ring: their neighbour
+/// decides.
+int reference_ring(const Assembly& assembly, const Joint& joint) {
   const Block &a = assembly.blocks[joint.block_a], &b = assembly.blocks[joint.block_b];
   if (a.fixed == b.fixed) return joint.ring;
   return a.fixed ? b.ring : a.ring;
 }
 
-/// Sums over the points of one joint.
+/// Sums the joint over its contact points, `rows` of the contacts.
 void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrench* joint) {
   const auto begin = rows.begin() + joint->contact_start;
   const auto end = begin + joint->num_contacts;
+  CUPOLA_ASSERT(begin < end && joint->block_a < joint->block_b);
   std::vector<Vec3> points;
   Vec3 normal = Vec3::Zero();
   for (auto row = begin; row != end; ++row) {
@@ -55,6 +59,7 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
   for (auto row = begin; row != end; ++row)
     joint->wrench.add_force(contacts.point[*row], contacts.force[*row]);
   joint->axis = central_axis(joint->wrench);
+  CUPOLA_ASSERT(joint->wrench.force.allFinite() && joint->wrench.moment.allFinite());
 }
 
 }  // namespace
@@ -76,13 +81,14 @@ JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& conta
     if (joint.kind != JointKind::bed && joint.kind != JointKind::base) continue;
     joint.upper = joint.block_b;
     joint.lower = joint.block_a;
-    if (joint.patch.plane.normal.dot(shell.direction(course(assembly, joint))) < 0.0)
+    if (joint.patch.plane.normal.dot(shell.direction(reference_ring(assembly, joint))) < 0.0)
       std::swap(joint.upper, joint.lower);
   }
   return out;
 }
 
 Wrench wrench_on(const JointWrench& joint, int block) {
+  CUPOLA_ASSERT(block == joint.block_a || block == joint.block_b);
   return block == joint.block_b ? joint.wrench : -1.0 * joint.wrench;
 }
 

@@ -9,20 +9,20 @@
 
 namespace cupola {
 
-/// One joint of a frame: what its contact points add up to.
+/// A joint of one frame, summed over its contact points.
 struct JointWrench : Joint {
   int upper = -1, lower = -1;  ///< blocks of a bed or base joint; -1 for other kinds
   PlanarHull patch;            ///< hull of the contact points in their mean plane
   Wrench wrench;               ///< on block_b, about the centre of pressure
   CentralAxis axis;
-  Vec3 centre_of_pressure = Vec3::Zero();   ///< m, of the normal forces; the patch's centroid without force
+  Vec3 centre_of_pressure = Vec3::Zero();   ///< m, of the normal forces; the patch centroid if unloaded
   double normal_force = 0.0;                ///< N, sum over the points
-  double eccentricity = 0.0;                ///< m, centre of pressure from the patch's centroid
-  double edge_distance = 0.0;               ///< m, centre of pressure from the patch's outline
-  double kern = 0.0;                        ///< kern_use: <= 1 inside the kern
-  double friction_use = 0.0;                ///< sum |t_i| / mu over sum n_i: 1 where every point slides
+  double eccentricity = 0.0;                ///< m, distance of the centre of pressure from the patch centroid
+  double edge_distance = 0.0;               ///< m, distance of the centre of pressure from the outline
+  double kern = 0.0;                        ///< kern utilisation, at most 1 inside the kern
+  double friction_use = 0.0;                ///< (sum |t_i| / mu) / sum n_i; 1: every point slides
   double opening = 0.0;                     ///< m, largest gap of its points, >= 0
-  double open_share = 0.0;                  ///< part of its points' area without force
+  double open_share = 0.0;                  ///< share of the area whose points carry no force
   double slip = 0.0;                        ///< m, largest accumulated slip of its points
   int contact_start = 0, num_contacts = 0;  ///< into JointWrenches::contacts
 };
@@ -32,15 +32,16 @@ struct JointWrenches {
   std::vector<int> contacts;          ///< contact rows sorted by joint
 };
 
-/// The upper block of a bed or base joint is the one further along the shell, from ring to ring: the right
-/// support of an arch lies above its last joint.
+/// Sums the contacts of every joint. The upper block of a bed or base joint is the one further along the
+/// shell in the direction from ring to ring; the right support of an arch therefore lies above its last
+/// joint.
 JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell);
 
-/// The joint's wrench as it acts on `block`, one of its two.
+/// The wrench of the joint on `block`, which must be one of its two.
 Wrench wrench_on(const JointWrench& joint, int block);
 
-/// Wrench on each block from the ring below: its bed and base joints in which it is the upper block, about
-/// the block's centroid (paper 3.2). Zero for blocks without such a joint.
+/// Wrench on each block from the ring below, about the block's centroid (paper, section 3.2): the sum over
+/// the bed and base joints in which it is the upper block. Zero for blocks without such a joint.
 std::vector<Wrench> wrenches_from_below(const Assembly& assembly, const JointWrenches& joints);
 
 }  // namespace cupola

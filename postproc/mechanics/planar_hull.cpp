@@ -1,10 +1,13 @@
 #include "postproc/mechanics/planar_hull.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 namespace {
@@ -15,7 +18,7 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Andrew's monotone chain, counter-clockwise, without points on the edges.
+/// Andrew's monotone chain (1979): corners counter-clockwise, without collinear points.
 std::vector<Vec2> convex_outline(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(),
             [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
@@ -34,7 +37,7 @@ std::vector<Vec2> convex_outline(std::vector<Vec2> points) {
   return hull;
 }
 
-/// Area, centroid and second moment of a polygon by triangles from its first corner.
+/// Computes area, centroid and second moment of the polygon by triangles from its first corner.
 void integrate(PlanarHull* hull) {
   const std::vector<Vec2>& p = hull->outline;
   double area = 0.0;
@@ -73,6 +76,7 @@ Vec3 PlanarHull::position(const Vec2& x) const {
 }
 
 PlanarHull planar_hull(const std::vector<Vec3>& points, const Vec3& normal) {
+  CUPOLA_ASSERT(!points.empty() && std::abs(normal.norm() - 1.0) < 1e-9);
   PlanarHull hull;
   for (const Vec3& p : points) hull.centroid += p / static_cast<double>(points.size());
   hull.plane = {normal, normal.dot(hull.centroid)};

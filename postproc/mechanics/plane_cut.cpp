@@ -1,5 +1,7 @@
 #include "postproc/mechanics/plane_cut.hpp"
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
 Vec3 force_beyond(const PlaneCut& cut, const Assembly& assembly, const JointWrench& joint) {
@@ -13,6 +15,7 @@ PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointW
   PlaneCut cut;
   cut.name = plane.name;
   cut.point = cut.across.point = plane.point;
+  CUPOLA_ASSERT(plane.normal.norm() > 0.0);
   cut.normal = plane.normal.normalized();
   cut.polygons = cut_by_plane(assembly, {cut.normal, cut.normal.dot(cut.point)});
 

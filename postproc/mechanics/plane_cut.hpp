@@ -9,20 +9,20 @@
 
 namespace cupola {
 
-/// A plane through the model and what its two sides pass to each other.
+/// A plane through the model and the forces that its two sides exert on each other.
 ///
-/// A block lies on the side of its centroid, so that the cut follows the joints. "Beyond" are the free blocks
-/// on the side that the normal points to.
+/// A block counts for the side on which its centroid lies, so the cut follows the joints. The blocks "beyond"
+/// are the free blocks on the side to which the normal points.
 struct PlaneCut {
   std::string name;
   Vec3 point = Vec3::Zero();          ///< m
   Vec3 normal = Vec3::UnitX();        ///< unit
-  std::vector<CutPolygon> polygons;   ///< the blocks that it cuts
-  std::vector<int> joints;            ///< joints across it, between free blocks; into JointWrenches::joints
-  Wrench across;                      ///< on the blocks beyond through these, about `point`
-  Vec3 from_supports = Vec3::Zero();  ///< N, on the blocks beyond from their supports
-  Vec3 load_beyond = Vec3::Zero();    ///< N, weight and loads of the blocks beyond
-  double relative_difference = 0.0;   ///< |across + from supports + load| / |load|
+  std::vector<CutPolygon> polygons;   ///< outlines of the parts that it cuts
+  std::vector<int> joints;            ///< between free blocks on either side; into JointWrenches::wrenches
+  Wrench across;                      ///< of these joints on the blocks beyond, about `point`
+  Vec3 from_supports = Vec3::Zero();  ///< N, of the supports on the blocks beyond
+  Vec3 load_beyond = Vec3::Zero();    ///< N, weight of the blocks beyond and loads on them
+  double relative_difference = 0.0;   ///< |across + from_supports + load_beyond| / |load_beyond|
 
   bool is_beyond(const Vec3& x) const { return normal.dot(x - point) > 0.0; }
 };
@@ -30,7 +30,7 @@ struct PlaneCut {
 PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointWrenches& joints,
                    const Vec3& gravity, const std::vector<PointForce>& loads);
 
-/// The joint's force on the block beyond the plane.
+/// The force of a joint across the plane on the block beyond.
 Vec3 force_beyond(const PlaneCut& cut, const Assembly& assembly, const JointWrench& joint);
 
 }  // namespace cupola

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
@@ -11,7 +13,7 @@ int first_ring(const Assembly& assembly, int block) {
   return b.fixed ? -1 : std::max(b.ring, 0);
 }
 
-/// Sums that need one entry per ring and hold for all cuts at or below it.
+/// Turns the load of each ring into the load above each cut.
 void accumulate_downwards(std::vector<RingSum>* rings) {
   for (size_t k = rings->size(); k-- > 1;) (*rings)[k - 1].load_above += (*rings)[k].load_above;
 }
@@ -31,7 +33,8 @@ void add_loads(const Assembly& assembly, const Vec3& gravity, const std::vector<
   accumulate_downwards(rings);
 }
 
-/// A joint between first rings p < q is cut by the cuts p + 1 .. q: added where they begin, removed after.
+/// Sums the joint forces across each cut. A joint between blocks of first rings p < q crosses the cuts p + 1
+/// .. q, so its force is added at p + 1, removed at q + 1, and the changes are summed from the base upwards.
 void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, std::vector<RingSum>* rings) {
   std::vector<Vec3> change(rings->size() + 1, Vec3::Zero());
   for (const JointWrench& joint : joints.wrenches) {
@@ -49,9 +52,9 @@ void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, std
   }
 }
 
-/// What tells how evenly a ring's blocks are loaded.
-void add_block_spread(const Assembly& assembly, const JointWrenches& joints,
-                      const std::vector<Wrench>& from_below, std::vector<RingSum>* rings) {
+/// Fills in how evenly the blocks of each ring are loaded.
+void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
+                    const std::vector<Wrench>& from_below, std::vector<RingSum>* rings) {
   std::vector<double> normal_force(from_below.size(), 0.0), area(from_below.size(), 0.0);
   std::vector<double> ring_area(rings->size(), 0.0);
   for (const JointWrench& joint : joints.wrenches) {
@@ -102,6 +105,7 @@ double coefficient_of_variation(const std::vector<double>& values) {
 std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
                                const std::vector<PointForce>& loads) {
+  CUPOLA_ASSERT(from_below.size() == assembly.blocks.size());
   int num_rings = 0;
   if (assembly.num_rings > 0)
     for (const Block& block : assembly.blocks)
@@ -111,7 +115,7 @@ std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& jo
   for (int k = 0; k < num_rings; ++k) rings[k].ring = k;
   add_loads(assembly, gravity, loads, &rings);
   add_joint_forces(assembly, joints, &rings);
-  add_block_spread(assembly, joints, from_below, &rings);
+  add_uniformity(assembly, joints, from_below, &rings);
   for (RingSum& ring : rings) {
     const double load = ring.load_above.norm();
     if (load > 0.0) ring.relative_difference = (ring.joint_force + ring.load_above).norm() / load;

@@ -7,29 +7,30 @@
 
 namespace cupola {
 
-/// The cut below ring k: what the blocks with first ring >= k receive from the rest, against what they weigh.
+/// The cut below ring k: forces of all other blocks on the blocks whose first ring is k or higher, against
+/// the weight of these blocks and the loads on them.
 struct RingSum {
   int ring = 0;
-  double height = 0.0;                 ///< m, mean height of the bed joints of the ring, weighted by area
-  int blocks = 0;                      ///< blocks whose first ring it is
-  Vec3 joint_force = Vec3::Zero();     ///< N, on the blocks above the cut
-  Vec3 load_above = Vec3::Zero();      ///< N, their weight and the loads applied to them
-  double relative_difference = 0.0;    ///< |joint_force + load_above| / |load_above|
-  double mean_resultant = 0.0;         ///< N, of the blocks' wrenches from below
-  double cv_resultant = 0.0;           ///< their coefficient of variation
-  double cv_pressure = 0.0;            ///< of normal force over joint area: evens out unequal blocks
-  double radial_thrust = 0.0;          ///< N, sum of the outward horizontal components passed downwards
-  double largest_couple_length = 0.0;  ///< m
+  double height = 0.0;               ///< m, mean height of the ring's bed joints, weighted by area
+  int blocks = 0;                    ///< number of blocks whose first ring is k
+  Vec3 joint_force = Vec3::Zero();   ///< N, on the blocks above the cut
+  Vec3 load_above = Vec3::Zero();    ///< N, weight of these blocks and loads on them
+  double relative_difference = 0.0;  ///< |joint_force + load_above| / |load_above|
+  double mean_resultant = 0.0;       ///< N, mean force of the ring's blocks from the ring below
+  double cv_resultant = 0.0;         ///< coefficient of variation of these forces
+  double cv_pressure = 0.0;          ///< the same of normal force over joint area, for blocks of unequal size
+  double radial_thrust = 0.0;        ///< N, sum of the horizontal outward forces on the ring below
+  double largest_couple_length = 0.0;  ///< m, of a block's wrench from below
   double largest_friction_use = 0.0;   ///< of the ring's bed joints
-  double largest_kern = 0.0;           ///< kern_use of the ring's bed joints, loaded ones
+  double largest_kern = 0.0;           ///< kern utilisation of the ring's bed joints
 };
 
-/// One row per ring; none for blocks without rings.
+/// One cut per ring, from the base upwards; empty for blocks without rings.
 std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
                                const std::vector<PointForce>& loads);
 
-/// Standard deviation over mean; 0 for fewer than two values or no mean.
+/// Standard deviation over |mean|; 0 for fewer than two values or a mean of zero.
 double coefficient_of_variation(const std::vector<double>& values);
 
 }  // namespace cupola

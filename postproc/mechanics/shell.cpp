@@ -8,9 +8,12 @@
 
 #include <Eigen/Geometry>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
+/// Number of rings that the blocks occupy; 0 for imported blocks without rings.
 int rings_present(const Assembly& assembly) {
   int rings = 0;
   if (assembly.num_rings == 0) return 0;
@@ -18,7 +21,8 @@ int rings_present(const Assembly& assembly) {
   return rings;
 }
 
-/// Direction from ring to ring: up in a vault and a wall, along the line of pressure in an arch.
+/// Direction from ring to ring, from the centroids of neighbouring rings: upwards in a vault or wall, along
+/// the axis of an arch.
 std::vector<Vec3> progress_directions(const Assembly& assembly, int num_rings, const Vec3& up) {
   std::vector<Vec3> centroid(static_cast<size_t>(num_rings), Vec3::Zero());
   std::vector<double> volume(centroid.size(), 0.0);
@@ -37,28 +41,27 @@ std::vector<Vec3> progress_directions(const Assembly& assembly, int num_rings, c
   return progress;
 }
 
-/// The edge of a face that it shares with a face of the given kind in the same part, as its position in the
-/// face.
+/// Index of the edge of `face` that it shares with a face of the given kind of the same part.
 std::optional<size_t> edge_on(const Assembly& assembly, const Part& part, std::span<const int> face,
                               FaceKind kind) {
   for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
     if (assembly.face_kinds[f] != kind) continue;
     const auto skin = assembly.face(f);
     for (size_t i = 0; i < face.size(); ++i)
-      for (size_t j = 0; j < skin.size(); ++j)  // neighbours run along a common edge in opposite senses
+      for (size_t j = 0; j < skin.size(); ++j)  // neighbouring faces run along an edge in opposite directions
         if (face[i] == skin[(j + 1) % skin.size()] && face[(i + 1) % face.size()] == skin[j]) return i;
   }
   return std::nullopt;
 }
 
-/// Adds a part's face to a bed when it touches both skins.
+/// Adds face `f` of a part to a bed if it touches both skins.
 void add_facet(const Assembly& assembly, const Part& part, int f, std::vector<BedFacet>* bed) {
   const auto face = assembly.face(f);
   const auto inner = edge_on(assembly, part, face, FaceKind::intrados);
   const auto outer = edge_on(assembly, part, face, FaceKind::extrados);
   if (!inner || !outer) return;
   const auto vertex = [&](size_t i) { return assembly.vertices[face[i % face.size()]]; };
-  // Around the face the two edges run against each other.
+  // Going round the face, the two edges run in opposite directions.
   bed->push_back({part.block, vertex(*inner), vertex(*inner + 1), vertex(*outer + 1), vertex(*outer),
                   assembly.face_kinds[f] == FaceKind::internal});
 }
@@ -70,8 +73,9 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// Median width in azimuth of the standard blocks, rad.
 double standard_width(const Assembly& assembly, const Shell& shell) {
-  std::map<int, double> widths;  // block -> azimuth it covers on its own bed
+  std::map<int, double> widths;  // rad, by block: range of azimuths on its own bed
   for (const auto& bed : shell.beds)
     for (const BedFacet& facet : bed)
       if (!facet.internal && &bed != &shell.beds.back() &&
@@ -112,7 +116,7 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
       const bool inside = kind == FaceKind::internal && block.num_rings > 1 && part.ring > block.ring;
       if (!joint && !inside) continue;
       const double along = polygon_plane(face_points(assembly, f)).normal.dot(shell.progress[part.ring]);
-      constexpr double kSideways = 0.1;  // internal faces towards the next slice are at right angles
+      constexpr double kSideways = 0.1;  // internal faces between slices are perpendicular to this direction
       if (along < -kSideways) add_facet(assembly, part, f, &shell.beds[part.ring]);
       if (along > kSideways && joint && part.ring == num_rings - 1)
         add_facet(assembly, part, f, &shell.beds.back());
@@ -147,6 +151,7 @@ std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell) 
     a.m.normalize();
     a.t = a.m.cross(a.n);
     a.thickness = 2.0 * block.volume / skin_area[b];
+    CUPOLA_ASSERT(std::isfinite(a.thickness) && std::abs(a.t.norm() - 1.0) < 1e-9);
     a.exists = true;
   }
   return axes;

@@ -1,44 +1,48 @@
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "assembly/model/assembly.hpp"
 
 namespace cupola {
 
-/// One facet of a bed, seen along the shell: its intrados and its extrados edge, from side a to side b.
+/// One facet of a bed: its edges on the intrados and on the extrados, both from side a to side b.
 struct BedFacet {
-  int block = 0;  ///< the block above the bed; below it for the last bed
+  int block = 0;  ///< block above the bed; block below it for the last bed
   Vec3 intrados_a, intrados_b, extrados_a, extrados_b;  ///< m
-  bool internal = false;                                ///< runs through a block that spans several rings
+  bool internal = false;  ///< the bed runs through a block that spans several rings
 };
 
-/// What an assembly looks like as a shell: beds 0 .. num_rings from the springing upwards, and local axes of
-/// its blocks. Imported blocks without rings have no beds.
+/// An assembly seen as a shell of rings: bed k lies below ring k, counted from the springing, and bed
+/// num_rings closes the last ring. Imported blocks without rings have no beds.
 struct Shell {
-  std::vector<std::vector<BedFacet>> beds;  ///< (num_beds)
-  std::vector<Vec3> progress;               ///< unit direction from ring to ring (num_rings)
+  std::vector<std::vector<BedFacet>> beds;  ///< (num_rings + 1), facets of each bed
+  std::vector<Vec3> progress;               ///< (num_rings), unit direction from ring to ring
   Vec3 up = Vec3::UnitZ();                  ///< against gravity
-  double block_width_rad = 0.0;  ///< rad, median azimuth width of the standard blocks; 0 where none
+  double block_width_rad = 0.0;             ///< rad, median width in azimuth of the standard blocks; 0: none
   int num_rings() const { return static_cast<int>(progress.size()); }
-  /// Unit direction from ring to ring at a course; up where there are no rings.
+  /// Unit direction from ring to ring at the given ring; up for a shell without rings.
   const Vec3& direction(int ring) const;
 };
 Shell shell_of(const Assembly& assembly, const Vec3& up);
 
-/// Axes of a block within the shell: n from intrados to extrados, m along the meridian upwards, t along the
-/// ring, with its thickness; `exists` is false where the block has no intrados or extrados.
+/// Local axes of a block in the shell, unit and orthogonal, and its thickness.
 struct ShellAxes {
-  bool exists = false;
-  Vec3 n = Vec3::Zero(), m = Vec3::Zero(), t = Vec3::Zero();
-  double thickness = 0.0;  ///< m, volume over the mean of the two skins' areas
+  bool exists = false;     ///< false for a block without intrados and extrados
+  Vec3 n = Vec3::Zero();   ///< from intrados to extrados
+  Vec3 m = Vec3::Zero();   ///< along the meridian, upwards
+  Vec3 t = Vec3::Zero();   ///< along the ring, m x n
+  double thickness = 0.0;  ///< m, volume over the mean area of the two skins
 };
 std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell);
+
+inline constexpr double kDegrees = 180.0 / std::numbers::pi;  ///< degrees per radian
 
 /// Azimuth of a point about the z axis, rad, in (-pi, pi].
 double azimuth(const Vec3& point);
 
-/// The angle's representative in [-pi, pi].
+/// The same angle in [-pi, pi].
 double wrapped(double angle);
 
 }  // namespace cupola

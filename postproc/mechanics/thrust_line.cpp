@@ -8,16 +8,19 @@
 
 #include <Eigen/Geometry>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
-/// A resultant that presses on its bed with less than this share of itself runs along the bed: its line of
-/// action meets the bed's plane far outside, or anywhere. Dry joints stay above it up to a friction of 10.
-constexpr double kLeastPressing = 0.1;
-/// A resultant below this share of the line's largest is what the solver's residual leaves.
+/// Least normal component of a resultant on its bed, as a share of its norm. Below it, the line of action
+/// meets the plane of the bed too far away to have a position. Dry joints exceed it for any friction
+/// coefficient up to 10.
+constexpr double kLeastNormalShare = 0.1;
+/// A resultant below this share of the largest one of the line is the solver's residual.
 constexpr double kLeastResultant = 1e-6;
 
-/// The facets of one block on one bed, the azimuths they cover, and their mean plane.
+/// The facets of one block on one bed, their range of azimuths and their mean plane.
 struct BlockBed {
   std::vector<const BedFacet*> facets;
   double from = 0.0, to = 0.0;  // rad, unwrapped
@@ -50,6 +53,7 @@ std::map<int, BlockBed> blocks_on(const std::vector<BedFacet>& bed) {
   return blocks;
 }
 
+/// Share of a block's width that lies in the strip.
 double overlap(const BlockBed& block, double center, double width) {
   const double middle = 0.5 * (block.from + block.to);
   const double offset = wrapped(center - middle);
@@ -58,7 +62,8 @@ double overlap(const BlockBed& block, double center, double width) {
   return half > 0.0 ? std::max(0.0, common) / (2.0 * half) : 0.0;
 }
 
-/// Position through the thickness of a point of the bed plane: distances to the two edges of its facet.
+/// Position through the thickness of a point in the plane of the bed, from its distances to the intrados and
+/// extrados edges of the nearest facet.
 double position_in(const BlockBed& block, const Vec3& x) {
   const BedFacet* facet = block.facets.front();
   double nearest = std::numeric_limits<double>::infinity();
@@ -80,7 +85,8 @@ double position_in(const BlockBed& block, const Vec3& x) {
   return inner / (inner + outer);
 }
 
-/// Wrench on the piece of a block above an inner bed: it balances the piece's weight and contacts.
+/// Wrench on the piece of a block above a bed inside the block: it balances the weight of the piece and its
+/// contact forces.
 Wrench wrench_through(const ThrustInput& in, int block, int bed) {
   Wrench w;
   w.point = in.assembly->blocks[block].centroid;
@@ -102,7 +108,7 @@ Wrench wrench_through(const ThrustInput& in, int block, int bed) {
   return w;
 }
 
-/// What a block passes upwards through the last bed: a support's joint in an arch, nothing under free loads.
+/// Wrench of a block on what lies above the last bed: a support in an arch; zero under a free edge.
 Wrench wrench_onwards(const ThrustInput& in, int block) {
   Wrench w;
   w.point = in.assembly->blocks[block].centroid;
@@ -117,7 +123,8 @@ Wrench turned(const Wrench& w, double angle) {
   return {R * w.point, R * w.force, R * w.moment};
 }
 
-/// Where the bed's skins meet the meridian plane; an arch takes the middle of its width.
+/// Finds intrados and extrados of the bed in the meridian plane, or in the middle of the width of an arch.
+/// False if the bed does not cross the meridian.
 bool find_skins(const std::vector<BedFacet>& bed, std::optional<double> meridian, ThrustPoint* point) {
   if (!meridian) {
     point->intrados = point->extrados = Vec3::Zero();
@@ -144,11 +151,11 @@ bool find_skins(const std::vector<BedFacet>& bed, std::optional<double> meridian
   return false;
 }
 
-/// Sums the strip's blocks on one bed. False when nothing presses there.
+/// Sums the blocks of the strip on one bed. False if none of them carries a force.
 ///
-/// The strip's position is the mean of the blocks' own, weighted by how hard each presses on its bed: so the
-/// moments of the normal forces add up, and a force along the bed, whose line meets it anywhere, counts for
-/// nothing.
+/// The position of the strip is the mean of the blocks' positions weighted by their normal forces on the bed.
+/// The moments of the normal forces thus add up, and a force along the bed, whose position is ill-defined,
+/// has no weight.
 bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, ThrustPoint* point) {
   Wrench sum;
   sum.point = 0.5 * (point->intrados + point->extrados);
@@ -169,7 +176,7 @@ bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, T
     ++point->blocks;
   }
   if (point->blocks == 0) return false;
-  if (pressing > kLeastPressing * sum.force.norm()) point->position = weighted_position / pressing;
+  if (pressing > kLeastNormalShare * sum.force.norm()) point->position = weighted_position / pressing;
   point->force = sum.force;
   point->r = sum.force.norm();
   point->v = sum.force.z();
@@ -177,7 +184,7 @@ bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, T
   return true;
 }
 
-/// Places the resultant in the thickness; NaN all through where its position is not defined.
+/// Fills in point, distance and safety from the position; all become NaN if the position is undefined.
 void measure(ThrustPoint* point, double largest_resultant) {
   if (point->r <= kLeastResultant * largest_resultant)
     point->position = std::numeric_limits<double>::quiet_NaN();
@@ -187,8 +194,8 @@ void measure(ThrustPoint* point, double largest_resultant) {
   point->geometric_safety = 0.5 / std::abs(point->position - 0.5);
 }
 
-/// Where two lines of action meet in the plane spanned by `outwards` and z: none where they run so parallel
-/// that the point lies more than twice their distance away.
+/// Intersection of two lines of action in the plane spanned by `outwards` and z. None if they are nearly
+/// parallel, so that it lies further from the middle of the two points than twice the distance between them.
 std::optional<Vec3> meeting(const ThrustPoint& p, const ThrustPoint& q, const Vec3& outwards) {
   const auto flat = [&outwards](const Vec3& x) { return Eigen::Vector2d(outwards.dot(x), x.z()); };
   const Eigen::Vector2d d = flat(p.force), e = flat(q.force), offset = flat(q.point - p.point);
@@ -203,11 +210,15 @@ std::optional<Vec3> meeting(const ThrustPoint& p, const ThrustPoint& q, const Ve
 }  // namespace
 
 Wrench wrench_at_bed(const ThrustInput& in, int block, int bed) {
+  CUPOLA_ASSERT(bed >= 0 && bed <= in.shell->num_rings());
   if (bed == in.shell->num_rings()) return wrench_onwards(in, block);
   return in.assembly->blocks[block].ring == bed ? in.from_below[block] : wrench_through(in, block, bed);
 }
 
 ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg) {
+  CUPOLA_ASSERT(input.from_below.size() == input.assembly->blocks.size());
+  CUPOLA_ASSERT(input.shell->num_rings() == 0 ||
+                static_cast<int>(input.shell->beds.size()) == input.shell->num_rings() + 1);
   ThrustLine line;
   line.name = name;
   line.azimuth_deg = azimuth_deg.value_or(0.0);

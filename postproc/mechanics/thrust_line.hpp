@@ -11,45 +11,51 @@
 
 namespace cupola {
 
-/// The resultant that crosses one bed of a meridian strip. Where it runs along the bed or is nothing but
-/// rounding it has no place in the thickness: position, point, distance and safety are NaN.
+/// The resultant of a meridian strip across one bed.
+///
+/// Its position is undefined if the resultant runs along the bed or is a rounding error: `position`, `point`,
+/// `face_distance` and `geometric_safety` are then NaN.
 struct ThrustPoint {
   int bed = 0;
-  int blocks = 0;           ///< blocks that the strip meets
+  int blocks = 0;           ///< number of blocks in the strip
   Vec3 intrados, extrados;  ///< m, of the bed in the meridian plane
-  double position =
-      std::numeric_limits<double>::quiet_NaN();  ///< through the thickness: 0 intrados, 1 extrados
-  Vec3 point = Vec3::Zero();                     ///< m, of the thrust line
-  Vec3 force = Vec3::Zero();                     ///< N, on the upper side, turned into the meridian plane
-  double r = 0.0;                                ///< N, norm of the resultant
-  double v = 0.0;                                ///< N, its vertical component
-  double couple_length = 0.0;                    ///< m
-  double face_distance = 0.0;                    ///< m, to the nearer skin along the bed, negative outside
+  /// Through the thickness: 0 on the intrados, 1 on the extrados.
+  double position = std::numeric_limits<double>::quiet_NaN();
+  Vec3 point = Vec3::Zero();      ///< m, of the thrust line
+  Vec3 force = Vec3::Zero();      ///< N, on the part above, turned into the meridian plane
+  double r = 0.0;                 ///< N, norm of the resultant
+  double v = 0.0;                 ///< N, its vertical component
+  double couple_length = 0.0;     ///< m
+  double face_distance = 0.0;     ///< m, to the nearer skin along the bed, negative outside
   double geometric_safety = 0.0;  ///< half the thickness over the eccentricity; infinite when centred
   double height() const { return 0.5 * (intrados.z() + extrados.z()); }
   bool is_placed() const { return std::isfinite(position); }
 };
 
-/// Thrust line of a meridian (paper 3.2).
+/// Thrust line of a meridian (paper, section 3.2).
 ///
-/// The strip is one standard block wide and centred on the meridian. Each block that it meets counts with the
-/// share of its width inside, its wrench turned about the axis into the meridian plane; where a herringbone
-/// crosses, these are its narrow blocks together. A bed that runs inside a block carries the wrench that
-/// balances the block's upper piece. Where the resultant crosses a block's bed is told as a position through
-/// the thickness, measured on that block, and drawn at the same position on the meridian. Several blocks
-/// count by how hard they press on the bed.
+/// The strip is one standard block wide and centred on the meridian. On every bed:
+///
+/// - Each block in the strip counts with the share of its width that lies inside, and its wrench is turned
+///   about the z axis into the meridian plane. Where a herringbone crosses, several narrow blocks share the
+///   strip.
+/// - If the bed runs through a block, the wrench is the one that balances the piece of the block above the
+///   bed.
+/// - The position of each block's resultant is measured through the thickness on the block's own bed. The
+///   position of the strip is the mean of these, weighted by the normal forces on the bed, and is drawn on
+///   the meridian.
 struct ThrustLine {
   std::string name;
   double azimuth_deg = 0.0;
   std::vector<ThrustPoint> points;   ///< from the springing upwards
-  std::vector<Vec3> envelope;        ///< m, where successive lines of action meet
-  int undefined = 0;                 ///< points without a place in the thickness
-  bool inside = false;               ///< every point that has one lies between the skins
+  std::vector<Vec3> envelope;        ///< m, intersections of successive lines of action
+  int undefined = 0;                 ///< number of points of undefined position
+  bool inside = false;               ///< every point of defined position lies between the skins
   double least_face_distance = 0.0;  ///< m
   double least_geometric_safety = 0.0;
 };
 
-/// What the thrust lines of one frame share.
+/// The data of one frame that all thrust lines use.
 struct ThrustInput {
   const Assembly* assembly = nullptr;
   const Shell* shell = nullptr;
@@ -59,11 +65,12 @@ struct ThrustInput {
   Vec3 gravity = Vec3::Zero();
 };
 
-/// Wrench that crosses a bed upwards within one block's width, on the part above, about the block's centroid.
-/// A bed that runs inside the block carries the wrench that balances the block's upper piece.
+/// Wrench across a bed within the width of one block: on the part above, about the block's centroid. If the
+/// bed runs through the block, it is the wrench that balances the piece of the block above the bed.
 Wrench wrench_at_bed(const ThrustInput& input, int block, int bed);
 
-/// Along a meridian of a vault about the z axis; `azimuth_deg` none: along an arch, all blocks of a ring.
+/// Thrust line along a meridian of a vault about the z axis. Without azimuth: along an arch, where the strip
+/// is the full width.
 ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg);
 
 }  // namespace cupola

@@ -37,7 +37,7 @@ CentralAxis central_axis(const Wrench& wrench) {
 }
 
 Vec3 axis_in_plane(const CentralAxis& axis, const Vec3& force, const Plane& plane) {
-  constexpr double kAlong = 1e-6;  // sine of the angle to the plane below which they never meet usefully
+  constexpr double kAlong = 1e-6;  // sine of the angle to the plane below which the axis counts as parallel
   const double across = plane.normal.dot(force);
   if (!axis.exists || std::abs(across) <= kAlong * force.norm()) return axis.point;
   return axis.point + (plane.offset - plane.normal.dot(axis.point)) / across * force;

@@ -17,19 +17,19 @@ struct View {
   const char* caption;
 };
 
-// In the order of the report; views.py leaves out what a run has nothing to show for.
+// In the order of the report. views.py skips views for which a run has no data.
 constexpr View kViews[] = {
-    {"joints", "Resultant of every joint, drawn from its centre of pressure to the scale in joints.vtp."},
+    {"joints", "Resultant of every joint, drawn from its centre of pressure; joints.vtp holds the scale."},
     {"thrust_lines", "Thrust lines (orange) between intrados and extrados (black)."},
-    {"sections", "Sections with the resultants that the nearest ring receives from below."},
+    {"sections", "Sections and the resultants across the beds nearest to them."},
     {"blocks_meridional", "Meridional force per metre of ring, compression positive."},
-    {"blocks_hoop", "Hoop force per metre of meridian: compression and tension of the rings."},
-    {"blocks_friction", "Largest friction utilisation of each block's joints."},
+    {"blocks_hoop", "Hoop force per metre of meridian, compression positive."},
+    {"blocks_friction", "Largest friction utilisation of the joints of each block."},
     {"cracks", "Open joints."},
-    {"motion_1", "The motion after a quarter of the frames; colours are the bodies of the mechanism."},
-    {"motion_2", "After half of the frames."},
-    {"motion_3", "After three quarters of the frames."},
-    {"motion_4", "The last frame."},
+    {"motion_1", "Motion after a quarter of the frames; each colour is one body of the mechanism."},
+    {"motion_2", "Motion after half of the frames."},
+    {"motion_3", "Motion after three quarters of the frames."},
+    {"motion_4", "Motion in the last frame."},
 };
 
 std::vector<std::string> words_of(const std::string& command) {
@@ -48,16 +48,16 @@ void write_views(const std::string& folder) {
 std::vector<Picture> draw_pictures(const std::string& folder, const std::string& pvbatch,
                                    std::vector<std::string>* problems) {
   const std::filesystem::path base(folder), log = base / "views.log";
-  for (const View& view : kViews)  // pictures of an earlier run must not pass for this one's
+  for (const View& view : kViews)  // pictures of an earlier run must not appear in this report
     std::filesystem::remove(base / "pictures" / (std::string(view.name) + ".png"));
   std::vector<std::string> words = words_of(pvbatch);
   words.push_back((base / "views.py").string());
   const int code = run_process(words, log.string());
   if (code == kNotFound)
-    problems->push_back(fmt::format("the 3-D pictures are not complete: there is no `{}`", pvbatch));
+    problems->push_back(fmt::format("the 3-D pictures are incomplete: command `{}` was not found", pvbatch));
   else if (code != 0)
-    problems->push_back(
-        fmt::format("the 3-D pictures are not complete: `{}` ended with {}, see views.log", pvbatch, code));
+    problems->push_back(fmt::format(
+        "the 3-D pictures are incomplete: `{}` ended with exit code {}, see views.log", pvbatch, code));
   else
     std::filesystem::remove(log);
   std::vector<Picture> pictures;

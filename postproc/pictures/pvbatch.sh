@@ -1,9 +1,9 @@
 #!/bin/sh
 # Runs ParaView's pvbatch without a display:  postproc/pictures/pvbatch.sh views.py
 #
-# Debian's ParaView draws through X only, and its Python module comes in a package that cannot be installed
-# beside VTK's headers. This script unpacks that module into a cache of its own and lends pvbatch a virtual
-# display, one at a time: parallel ones crash.
+# Debian's ParaView requires an X display, and the package of its Python module conflicts with the VTK
+# headers. This script unpacks the module into a cache and runs pvbatch on a virtual display. A lock lets only
+# one run at a time, because parallel runs crash.
 set -eu
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/cupola
 modules=$cache/python3-paraview/usr/lib/python3/dist-packages
@@ -16,8 +16,8 @@ fi
 if [ -d "$modules/paraview" ]; then PYTHONPATH=$modules${PYTHONPATH:+:$PYTHONPATH}; export PYTHONPATH; fi
 if [ -n "${DISPLAY:-}" ]; then exec pvbatch "$@"; fi
 
-# A display of a number that nobody else takes; its socket shows when it is ready to serve. Without -noreset
-# the server starts anew when a client leaves, and refuses the next one meanwhile.
+# The display number depends on the process id, so that it is free. The server is ready when its socket
+# exists. Without -noreset it would restart whenever a client leaves and refuse the next one meanwhile.
 number=$((1000 + $$ % 30000))
 Xvfb :$number -screen 0 1280x1024x24 -nolisten tcp -noreset >/dev/null 2>&1 9>&- &
 server=$!

@@ -1,6 +1,6 @@
-"""Standard views of a Cupola run: pvbatch views.py, or Macros > Import new macro in ParaView.
+"""Draws the standard views of a Cupola run: `pvbatch views.py`, or Macros > Import new macro in ParaView.
 
-Reads the files beside it (CUPOLA_POST names another folder) and writes pictures/NAME.png.
+Reads the files in its own folder, or in the folder CUPOLA_POST, and writes pictures/NAME.png there.
 """
 import os
 
@@ -18,7 +18,7 @@ def path(name):
 
 
 def new_view(direction, up=(0, 0, 1)):
-    """A view towards the model's middle from a direction."""
+    """A view of the model from the given direction."""
     view = CreateView("RenderView")
     view.ViewSize = [1200, 900]
     view.UseColorPaletteForBackground = 0
@@ -31,7 +31,7 @@ def new_view(direction, up=(0, 0, 1)):
 
 
 def colour(display, view, association, array, title, diverging=False):
-    """Colours by an array with a legend; diverging maps are symmetric about zero."""
+    """Colours by an array and adds a legend. Diverging colour maps are symmetric about zero."""
     ColorBy(display, (association, array))
     table = GetColorTransferFunction(array)
     table.ApplyPreset("Cool to Warm" if diverging else "Viridis (matplotlib)", True)
@@ -48,7 +48,7 @@ def colour(display, view, association, array, title, diverging=False):
 
 
 def plain(display, rgb):
-    """One colour, no array."""
+    """Uses one colour instead of an array."""
     display.ColorArrayName = ("POINTS", "")
     display.AmbientColor = display.DiffuseColor = list(rgb)
 
@@ -66,7 +66,7 @@ def has_cells(source):
 
 
 def only(source, array, value):
-    """The cells whose array has a value."""
+    """The cells where the array has the given value."""
     picked = Threshold(Input=source, Scalars=["CELLS", array])
     picked.LowerThreshold = picked.UpperThreshold = value
     return picked
@@ -76,7 +76,7 @@ def show_blocks(view, blocks, array=None, title="", diverging=False, opacity=1.0
     display = Show(blocks, view)
     display.Representation = "Surface"
     display.Opacity = opacity
-    if opacity == 1.0:  # outlines of the blocks, without the triangles that faces are drawn by
+    if opacity == 1.0:  # block edges, without the edges of the triangles that draw the faces
         outlines = FeatureEdges(Input=ExtractSurface(Input=blocks))
         outlines.FeatureAngle = 20.0
         outlines.Coloring = 0
@@ -85,7 +85,6 @@ def show_blocks(view, blocks, array=None, title="", diverging=False, opacity=1.0
         colour(display, view, "CELLS", array, title, diverging)
     else:
         plain(display, STONE)
-
 
 
 series = PVDReader(FileName=path("blocks.pvd"))
@@ -116,7 +115,7 @@ if has_cells(joints):
 
 lines = XMLPolyDataReader(FileName=[path("thrust_lines.vtp")])
 if has_cells(lines):
-    # Across the first meridian's plane; an arch's lies in x and z.
+    # Look perpendicular to the plane of the first meridian. The plane of an arch is x-z.
     first = only(lines, "meridian", 0)
     first.UpdatePipeline()
     low_x, high_x, low_y, high_y = first.GetDataInformation().GetBounds()[:4]
@@ -137,7 +136,7 @@ if has_cells(sections):
     display.Representation = "Surface With Edges"
     segments = Show(only(sections, "what", 0), view)
     segments.LineWidth = 4.0
-    colour(segments, view, "CELLS", "resultant_N", "resultant from below (N)")
+    colour(segments, view, "CELLS", "resultant_N", "resultant on the part above (N)")
     save(view, "sections")
 
 cracks = XMLPolyDataReader(FileName=[path("cracks.vtp")])
@@ -149,7 +148,7 @@ if has_cells(cracks):
     colour(display, view, "CELLS", "opening_m", "opening (m)")
     save(view, "cracks")
 
-if len(times) > 1:  # the motion in four pictures, the last one included
+if len(times) > 1:  # four pictures of the motion, the last frame included
     for i in range(4):
         scene.AnimationTime = times[(len(times) - 1) * (i + 1) // 4]
         view = new_view(OBLIQUE)

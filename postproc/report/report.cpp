@@ -23,7 +23,7 @@ std::string paragraph(const std::string& text) {
 
 std::string verdict_section(const Evaluation& e) {
   std::string out;
-  for (const std::string& warning : said_first(e))
+  for (const std::string& warning : notices(e))
     out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
   const bool good = e.summary.status == Status::stable;
   return out + fmt::format("<p class=\"verdict{}\"><strong>{}</strong> {}</p>\n", good ? "" : " bad",

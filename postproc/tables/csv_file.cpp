@@ -45,10 +45,10 @@ size_t CsvFile::column(const std::string& name) const {
 double CsvFile::number(size_t row, size_t column) const {
   const std::string& cell = rows[row][column];
   char* end = nullptr;
-  const double value = std::strtod(cell.c_str(), &end);  // admits inf, which tables hold
+  const double value = std::strtod(cell.c_str(), &end);  // accepts inf and nan, which tables contain
   if (cell.empty() || *end != '\0')
     throw InputError(FileLocation{path, static_cast<int>(row) + 2, 0},
-                     fmt::format("{} = {}: is not a number", columns[column], cell));
+                     fmt::format("{} = `{}`: is not a number", columns[column], cell));
   return value;
 }
 
@@ -61,14 +61,14 @@ CsvFile parse_csv(const std::string& text, const std::string& path) {
   CsvFile file;
   file.path = path;
   std::string line;
-  if (!std::getline(stream, line)) throw InputError(FileLocation{path}, "has no header line");
+  if (!std::getline(stream, line)) throw InputError(FileLocation{path}, "is empty: expected a header line");
   file.columns = cells_of(line);
   while (std::getline(stream, line)) {
     file.rows.push_back(cells_of(line));
     if (file.rows.back().size() != file.columns.size())
-      throw InputError(
-          FileLocation{path, static_cast<int>(file.rows.size()) + 1, 0},
-          fmt::format("{} cells under {} columns", file.rows.back().size(), file.columns.size()));
+      throw InputError(FileLocation{path, static_cast<int>(file.rows.size()) + 1, 0},
+                       fmt::format("{} cells in a row, but {} columns in the header", file.rows.back().size(),
+                                   file.columns.size()));
   }
   return file;
 }

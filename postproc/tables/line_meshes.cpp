@@ -1,7 +1,9 @@
+#include <functional>
 #include <utility>
 
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/mesh_parts.hpp"
+#include "postproc/tables/result_columns.hpp"
 
 namespace cupola {
 namespace {
@@ -13,16 +15,14 @@ using CellType = Mesh::CellType;
 Mesh thrust_lines_mesh(const Evaluation& e) {
   const double scale = common_scale(e);
   Mesh mesh;
-  MeshInts what, meridian;
-  MeshDoubles resultant;
-  const auto add_line = [&](const std::vector<Vec3>& points, int kind, int index, double r) {
+  std::vector<LineCell> cells;
+  const auto add_line = [&](const std::vector<Vec3>& points, LineCell::What what, int meridian,
+                            double resultant = 0.0) {
     if (points.size() < 2) return;
     std::vector<int> ids;
     for (const Vec3& p : points) ids.push_back(add_point(&mesh, p));
     mesh.add_cell(CellType::polyline, ids);
-    what.push_back(kind);
-    meridian.push_back(index);
-    resultant.push_back(r);
+    cells.push_back({what, meridian, resultant});
   };
   for (size_t m = 0; m < e.meridians.size(); ++m) {
     const ThrustLine& line = e.meridians[m].thrust;
@@ -33,19 +33,17 @@ Mesh thrust_lines_mesh(const Evaluation& e) {
       extrados.push_back(p.extrados);
       if (p.is_placed()) {
         thrust.push_back(p.point);
-        add_line({p.point, p.point + scale * p.force}, 2, index, p.r);
+        add_line({p.point, p.point + scale * p.force}, LineCell::line_of_action, index, p.r);
       } else {  // the line is interrupted
-        add_line(std::exchange(thrust, {}), 0, index, 0.0);
+        add_line(std::exchange(thrust, {}), LineCell::thrust_line, index);
       }
     }
-    add_line(thrust, 0, index, 0.0);
-    add_line(line.envelope, 1, index, 0.0);
-    add_line(intrados, 3, index, 0.0);
-    add_line(extrados, 4, index, 0.0);
+    add_line(thrust, LineCell::thrust_line, index);
+    add_line(line.envelope, LineCell::envelope, index);
+    add_line(intrados, LineCell::intrados, index);
+    add_line(extrados, LineCell::extrados, index);
   }
-  mesh.cell_data = {{"what", 1, std::move(what)},
-                    {"meridian", 1, std::move(meridian)},
-                    {"resultant_N", 1, std::move(resultant)}};
+  mesh.cell_data = mesh_arrays(line_cell_columns(), cells, kLineCellKeys);
   mesh.field_data = about(e, scale);
   return mesh;
 }
@@ -53,22 +51,14 @@ Mesh thrust_lines_mesh(const Evaluation& e) {
 Mesh sections_mesh(const Evaluation& e) {
   const double scale = common_scale(e);
   Mesh mesh;
-  MeshInts what, cut, block;
-  MeshDoubles height, resultant;
-  int index = 0;  // sections first, then planes
-  const auto note = [&](int kind, int b, double z, double r) {
-    what.push_back(kind);
-    cut.push_back(index);
-    block.push_back(b);
-    height.push_back(z);
-    resultant.push_back(r);
-  };
-  const auto add_segment = [&](const Vec3& from, const Vec3& force, int b, double z) {
+  std::vector<SectionCell> cells;
+  int index = 0;  // of the cut: sections first, then planes
+  const auto add_segment = [&](const Vec3& from, const Vec3& force, int block, double height) {
     const int start = add_point(&mesh, from);
     mesh.add_cell(CellType::polyline, {start, add_point(&mesh, from + scale * force)});
-    note(0, b, z, force.norm());
+    cells.push_back({SectionCell::segment, index, block, height, force.norm()});
   };
-  // Lines come before polygons in a file of this kind.
+  // In a .vtp file, lines come before polygons.
   for (const SectionEvaluation& section : e.sections) {
     for (const BedResultant& r : section.resultants)
       add_segment(r.point, r.wrench.force, r.block, section.height);
@@ -81,23 +71,19 @@ Mesh sections_mesh(const Evaluation& e) {
     }
     ++index;
   }
-  const auto add_outlines = [&](const std::vector<CutPolygon>& polygons, double z) {
+  const auto add_outlines = [&](const std::vector<CutPolygon>& polygons, double height) {
     for (const CutPolygon& polygon : polygons) {
       std::vector<int> ids;
       for (const Vec3& p : polygon.outline) ids.push_back(add_point(&mesh, p));
       mesh.add_cell(CellType::polygon, ids);
-      note(1, polygon.block, z, 0.0);
+      cells.push_back({SectionCell::outline, index, polygon.block, height});
     }
     ++index;
   };
   index = 0;
   for (const SectionEvaluation& section : e.sections) add_outlines(section.polygons, section.height);
   for (const PlaneCut& plane : e.planes) add_outlines(plane.polygons, plane.point.z());
-  mesh.cell_data = {{"what", 1, std::move(what)},
-                    {"cut", 1, std::move(cut)},
-                    {"block", 1, std::move(block)},
-                    {"height_m", 1, std::move(height)},
-                    {"resultant_N", 1, std::move(resultant)}};
+  mesh.cell_data = mesh_arrays(section_cell_columns(), cells, kSectionCellKeys);
   mesh.field_data = about(e, scale);
   return mesh;
 }
@@ -105,8 +91,8 @@ Mesh sections_mesh(const Evaluation& e) {
 Mesh cracks_mesh(const Evaluation& e) {
   const ContactTable& c = e.last.frame.contacts;
   Mesh mesh;
-  MeshInts joint_id, kind;
-  MeshDoubles opening, slip;
+  MeshInts joint_id;
+  std::vector<std::reference_wrapper<const JointWrench>> cracked;
   for (size_t j = 0; j < e.last.joints.wrenches.size(); ++j) {
     const JointWrench& joint = e.last.joints.wrenches[j];
     std::vector<Vec3> open;
@@ -122,14 +108,10 @@ Mesh cracks_mesh(const Evaluation& e) {
     if (ids.size() > 2) ids.push_back(ids.front());
     mesh.add_cell(CellType::polyline, ids);
     joint_id.push_back(static_cast<int>(j));
-    kind.push_back(static_cast<int>(joint.kind));
-    opening.push_back(joint.opening);
-    slip.push_back(joint.slip);
+    cracked.push_back(joint);
   }
-  mesh.cell_data = {{"opening_m", 1, std::move(opening)},
-                    {"slip_m", 1, std::move(slip)},
-                    {"joint", 1, std::move(joint_id)},
-                    {"kind", 1, std::move(kind)}};
+  mesh.cell_data = mesh_arrays(joint_columns(), cracked, kCrackKeys);
+  mesh.cell_data.insert(mesh.cell_data.end() - 1, {"joint", 1, std::move(joint_id)});
   mesh.field_data = about(e, 0.0);
   return mesh;
 }

@@ -5,40 +5,44 @@
 
 namespace cupola {
 
-/// The blocks where a frame puts them, with its fields per cell. Built once per assembly, filled per frame.
+/// Displaced blocks with the fields of a frame per cell. Built once per evaluation, filled per frame; the
+/// evaluation must outlive it.
 class DisplacedBlocks {
  public:
-  explicit DisplacedBlocks(const Assembly& assembly);
+  explicit DisplacedBlocks(const Evaluation& evaluation);
   Mesh at(const FrameEvaluation& frame) const;
 
  private:
-  const Assembly& assembly_;
-  Assembly split_;                 // every block with vertices of its own
-  std::vector<int> vertex_block_;  // block of each of them
+  const Evaluation& evaluation_;
+  Assembly split_;                 // the assembly, with vertices that no two blocks share
+  std::vector<int> vertex_block_;  // block of each vertex
   Mesh cells_;
 };
 
-/// Length of a drawn force, m per N: the largest becomes a tenth of the model's size, rounded down to 1, 2 or
-/// 5 times a power of ten.
+/// Length of a drawn force, m per N: the largest force is drawn a tenth as long as the model, rounded down to
+/// 1, 2 or 5 times a power of ten.
 double segment_scale(const Assembly& assembly, double largest_force);
 
-/// Every joint as a point with its wrench, and as a segment from that point along the force on its upper (or
-/// second) block, drawn to the scale in the field data. The array `tip` is 1 at a segment's far end.
+/// joints.vtp: every joint as a point that carries its wrench, and as a segment from that point along the
+/// force on the joint's upper (or second) block. The segments are drawn to the scale in the field data; `tip`
+/// is 1 at their far ends.
 Mesh joints_mesh(const Evaluation& evaluation);
 
-/// The wrench on every block from the ring below: a segment from its central axis, to the joints' scale.
+/// wrenches.vtp: the wrench on every block from the ring below as a segment from its central axis, to the
+/// same scale.
 Mesh wrenches_mesh(const Evaluation& evaluation);
 
-/// Thrust lines, their envelopes and lines of action, and the skins along each meridian, as polylines told
-/// apart by the cell array `what`: 0 thrust line, 1 envelope, 2 line of action, 3 intrados, 4 extrados.
+/// thrust_lines.vtp: per meridian, the thrust line, its envelope, the lines of action and the two skins, as
+/// polylines. The cell array `what` says which (LineCell).
 Mesh thrust_lines_mesh(const Evaluation& evaluation);
 
-/// Outlines of the blocks cut by sections and planes, with the resultants across the bed nearest to each
-/// section and the joint forces across each plane as segments to the joints' scale. `what`: 0 segment, 1
-/// outline.
+/// sections.vtp: outlines of the blocks cut by sections and planes. Segments show the resultants across the
+/// bed nearest to each section and the joint forces across each plane, to the same scale. The cell array
+/// `what` tells segments from outlines (SectionCell).
 Mesh sections_mesh(const Evaluation& evaluation);
 
-/// Open joints: the outline of each joint's points without force and with a gap, one polyline per joint.
+/// cracks.vtp: open joints. One polyline per joint, around its contact points that carry no force and have a
+/// gap.
 Mesh cracks_mesh(const Evaluation& evaluation);
 
 }  // namespace cupola

@@ -8,18 +8,20 @@
 
 namespace cupola {
 
-// What the writers of mesh files share.
+// Helpers of the functions that write mesh files.
 
 using MeshInts = std::vector<std::int32_t>;
 using MeshDoubles = std::vector<double>;
 
+/// Returns the index of the new point.
 int add_point(Mesh* mesh, const Vec3& p);
+/// Appends the three components.
 void append(const Vec3& v, MeshDoubles* values);
 
-/// Field data that say what a file is of; `scale` is that of its segments, 0 without any.
+/// Field data that describe the run. `scale` is the scale of the segments, 0 for a file without segments.
 std::vector<MeshArray> about(const Evaluation& evaluation, double scale);
 
-/// The scale of all segments of a run, m per N.
+/// Scale of all segments of a run, m per N.
 double common_scale(const Evaluation& evaluation);
 
 }  // namespace cupola

@@ -10,7 +10,9 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
+#include "assembly/base/variant.hpp"
 #include "assembly/files/atomic_file.hpp"
+#include "postproc/tables/result_columns.hpp"
 
 namespace cupola {
 namespace {
@@ -19,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kFormatVersion = 1;
 
-/// The one list of the keys that describe a run, for writing and for reading.
+/// The keys that describe a run, in one list for writing and reading.
 template <class SummaryType, class Visit>
 void for_each_field(SummaryType& s, Visit visit) {
   visit("title", s.title);
@@ -63,16 +65,23 @@ void from_value(const Json& json, T* value) {
   json.get_to(*value);
 }
 
+Json to_json(const Value& value) {
+  return std::visit(
+      Overloaded{[](const Vec3& v) {
+                   return Json{v.x(), v.y(), v.z()};
+                 },
+                 [](double number) { return Json(number); }, [](int number) { return Json(number); },
+                 [](auto kind) { return Json(to_string(kind)); }},
+      value);
+}
+
 Json rings_json(const Evaluation& e) {
   Json rings = Json::array();
-  for (const RingSum& r : e.rings)
-    rings.push_back({{"ring", r.ring},
-                     {"height_m", r.height},
-                     {"joint_force_N", {r.joint_force.x(), r.joint_force.y(), r.joint_force.z()}},
-                     {"load_above_N", r.load_above.dot(-e.up)},
-                     {"relative_difference", r.relative_difference},
-                     {"cv_resultant", r.cv_resultant},
-                     {"cv_pressure", r.cv_pressure}});
+  for (const RingSum& cut : e.rings) {
+    Json& ring = rings.emplace_back();
+    for (const char* key : kRingSummaryKeys)
+      ring[key] = to_json(column_named(ring_columns(), key).value({cut, e.up}));
+  }
   return rings;
 }
 
@@ -127,7 +136,7 @@ std::string post_summary_json(const Evaluation& e) {
   json["time_s"] = e.last.frame.time;
   json["frames"] = e.times.size();
   json["lost_joints"] = e.lost_joints ? Json(*e.lost_joints) : Json();
-  json["warnings"] = said_first(e);
+  json["warnings"] = notices(e);
   json["thrust_lines"] = Json::array();
   for (const PostSummary::Line& line : s.thrust_lines)
     json["thrust_lines"].push_back({{"name", line.name},
@@ -149,13 +158,16 @@ std::string post_summary_json(const Evaluation& e) {
 PostSummary read_post_summary(const std::string& folder) {
   const std::string path = (std::filesystem::path(folder) / "summary.json").string();
   if (!std::filesystem::exists(path))
-    throw InputError(FileLocation{path}, "does not exist: is this a folder of `cupola-post analyse`?");
+    throw InputError(FileLocation{path},
+                     "does not exist: expected a folder written by `cupola-post analyse`");
   const Json json = Json::parse(read_text(path), nullptr, /*allow_exceptions=*/false);
   PostSummary s;
   s.folder = folder;
-  if (!json.is_object()) throw InputError(FileLocation{path}, "is not a complete JSON object");
+  if (!json.is_object())
+    throw InputError(FileLocation{path}, "is not a complete JSON object: run `cupola-post analyse` again");
   if (json.value("format_version", 0) != kFormatVersion || !json.contains("thrust_lines"))
-    throw InputError(FileLocation{path}, "is not a summary of `cupola-post analyse`, or of another version");
+    throw InputError(FileLocation{path},
+                     "was not written by this version of `cupola-post analyse`: run it again");
   const auto read = [&path](const Json& from, const char* key, auto* value) {
     try {
       from_value(from.at(key), value);

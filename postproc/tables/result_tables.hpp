@@ -12,10 +12,10 @@ Table joint_table(const Evaluation& evaluation);
 Table block_table(const Evaluation& evaluation);
 Table thrust_table(const ThrustLine& line);
 Table hoop_table(const MeridianEvaluation& meridian);
-Table section_table(const Evaluation& evaluation, const SectionEvaluation& section);
+Table section_table(const SectionEvaluation& section);
 Table plane_table(const Evaluation& evaluation, const PlaneCut& cut);
 
-/// All of them, in the order of the report.
+/// The tables above that have rows to show, in the order of the report.
 std::vector<Table> result_tables(const Evaluation& evaluation);
 
 }  // namespace cupola

@@ -17,11 +17,13 @@ using UnorderedJson = nlohmann::json;
 
 UnorderedJson read_json(const std::string& path) {
   UnorderedJson json = UnorderedJson::parse(read_text(path), nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object()) throw InputError(FileLocation{path}, "is not a complete JSON object");
+  if (!json.is_object())
+    throw InputError(FileLocation{path},
+                     "is not a complete JSON object: run the program that writes it again");
   return json;
 }
 
-/// nullptr where the path ends nowhere.
+/// The value at a path of keys separated by dots; nullptr if there is none.
 const UnorderedJson* descend(const UnorderedJson& root, const std::string& key) {
   const UnorderedJson* at = &root;
   for (size_t start = 0; start <= key.size();) {
@@ -54,14 +56,14 @@ std::string RunFiles::status() {
   const std::string path = folder_ + "/results/summary.json";
   if (!summaries_->results) summaries_->results = read_json(path);
   const UnorderedJson* status = descend(*summaries_->results, "status");
-  if (!status || !status->is_string()) throw InputError(FileLocation{path}, "has no status");
+  if (!status || !status->is_string()) throw InputError(FileLocation{path}, "has no `status`");
   return status->get<std::string>();
 }
 
 double RunFiles::number(const std::string& key) {
   const bool of_results = key.starts_with("results.");
   if (!of_results && !key.starts_with("post."))
-    throw InputError(fmt::format("claims: key {}: must begin with results. or post.", key));
+    throw InputError(fmt::format("claims: key {}: must begin with `results.` or `post.`", key));
   const std::string path = folder_ + (of_results ? "/results/" : "/post/") + "summary.json";
   std::optional<UnorderedJson>& json = of_results ? summaries_->results : summaries_->post;
   if (!json) json = read_json(path);
@@ -69,7 +71,7 @@ double RunFiles::number(const std::string& key) {
   const UnorderedJson* value = descend(*json, inner);
   if (value && value->is_boolean()) return value->get<bool>() ? 1.0 : 0.0;
   if (!value || !value->is_number())
-    throw InputError(FileLocation{path}, fmt::format("has no number {}", inner));
+    throw InputError(FileLocation{path}, fmt::format("has no number `{}`", inner));
   return value->get<double>();
 }
 
@@ -81,8 +83,8 @@ const CsvFile& RunFiles::table(const std::string& name) {
 
 std::vector<std::string> RunFiles::table_names(const std::string& start) const {
   std::vector<std::string> names;
-  std::error_code none_there;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_ + "/post", none_there)) {
+  std::error_code missing_folder;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ + "/post", missing_folder)) {
     const std::filesystem::path& path = entry.path();
     if (path.extension() == ".csv" && path.stem().string().starts_with(start))
       names.push_back(path.stem().string());

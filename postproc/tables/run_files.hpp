@@ -9,18 +9,18 @@
 
 namespace cupola {
 
-/// The files of one finished run, read when asked for.
+/// The files of one finished run, each read on first use.
 class RunFiles {
  public:
   explicit RunFiles(std::string folder);
   ~RunFiles();
 
   std::string status();  ///< of results/summary.json
-  /// `results.KEY` or `post.KEY`; KEY descends with dots into maps and, by index, into lists. Booleans count
-  /// as 0 and 1. InputError when there is no such number.
+  /// Number `results.KEY` or `post.KEY` of the two summaries. Dots in KEY descend into maps and, by index,
+  /// into lists. Booleans count as 0 and 1. InputError if there is no such number.
   double number(const std::string& key);
   const CsvFile& table(const std::string& name);  ///< post/NAME.csv
-  /// Names of the tables that begin with `start`, sorted.
+  /// Sorted names of the tables whose name begins with `start`.
   std::vector<std::string> table_names(const std::string& start) const;
 
  private:
@@ -30,7 +30,7 @@ class RunFiles {
   std::map<std::string, CsvFile> tables_;
 };
 
-/// Runs by name, each below the folder `out`.
+/// Runs by name, each in a folder of that name in `out`.
 class RunCache {
  public:
   explicit RunCache(std::string out) : out_(std::move(out)) {}

@@ -6,25 +6,26 @@
 
 namespace cupola {
 
-/// A table with a meaning and a unit for every column: written as CSV, shown in the report.
+/// A table with the unit and meaning of every column. It is written as CSV and shown in the report.
 struct Table {
   struct Column {
-    std::string key;      ///< snake_case, unit at the end, as in the CSV's header
+    std::string key;      ///< header of the CSV file: snake_case, unit last
     std::string unit;     ///< "" for pure numbers and names
     std::string meaning;  ///< one phrase
   };
   using Cell = std::variant<double, int, std::string>;
 
-  std::string name;   ///< of the file, without ending
+  std::string name;   ///< name of the file without its ending
   std::string title;  ///< a sentence
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows;
 };
 
-/// Header line of keys, then the rows; numbers with all digits, texts quoted where needed.
+/// Header line of keys, then the rows. Numbers have all digits; texts are quoted where needed.
 std::string to_csv(const Table& table);
 
-/// Number for a reader: four significant digits, no exponent from 1e-3 to 1e7; texts as they are.
+/// A cell as the report shows it: four significant digits, without exponent from 1e-3 to 1e7; texts
+/// unchanged.
 std::string to_display(const Table::Cell& cell);
 
 }  // namespace cupola

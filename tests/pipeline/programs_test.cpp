@@ -164,7 +164,7 @@ TEST(Programs, ReportMissingFrames) {
   const ProgramRun run = analyse(folder, "results", motion);
   ASSERT_EQ(run.code, 2) << run.err;
   const std::string report = slurp(folder.file("post/report.html"));
-  for (const char* said : {"frame 1 is left out: ", "frame 3 is left out: ", "run.yaml is left out: "}) {
+  for (const char* said : {"frame 1 was left out: ", "frame 3 was left out: ", "run.yaml was left out: "}) {
     EXPECT_NE(run.err.find(said), std::string::npos) << said << run.err;
     EXPECT_EQ(run.err.find(said), run.err.rfind(said)) << "said once";
     EXPECT_LT(report.find(said), report.find("<h2")) << said;
@@ -251,7 +251,7 @@ TEST(Programs, ForceAcceptsFilesOfAnotherCase) {
   };
   const ProgramRun heavier = other(" --set material.density=2500");
   EXPECT_EQ(heavier.code, 0) << heavier.err;
-  EXPECT_NE(heavier.err.find("the results are of another assembly"), std::string::npos) << heavier.err;
+  EXPECT_NE(heavier.err.find("the results belong to another assembly"), std::string::npos) << heavier.err;
   expect_one_line(other(" --set geometry.bond.rings=3"), "blocks, the assembly");
   // Keys that only affect figures need no new run.
   EXPECT_EQ(analyse(folder, "results", " --set postproc.sections=[1.5] --set title=other").code, 0);

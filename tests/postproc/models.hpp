@@ -13,9 +13,9 @@
 
 namespace cupola::test {
 
-/// Starts a part of the newest vertices' eight corners: bit 0 along the first direction, bit 1 along the
-/// second, bit 2 upwards. `kinds`: lower, upper, then the sides of the first direction (low, high), then of
-/// the second (low, high).
+/// Adds a part whose corners are the last eight vertices: bit 0 of a corner's number counts along the first
+/// direction, bit 1 along the second, bit 2 upwards. `kinds`: bottom, top, low and high side of the first
+/// direction, low and high side of the second.
 inline void add_hexahedron(Assembly* a, int block, int ring, const std::array<FaceKind, 6>& kinds) {
   const int v = static_cast<int>(a->vertices.size()) - 8;
   a->parts.push_back({block, ring, 0, a->num_faces(), 0, 0.0});
@@ -36,8 +36,8 @@ inline void add_box(Assembly* a, int block, int ring, const Vec3& low, const Vec
   add_hexahedron(a, block, ring, {bed, upper, head, head, intrados, extrados});
 }
 
-/// A support and a column of `n` blocks, each 1.2 x 0.8 x 0.5 m, numbered upwards from 1; its skins look
-/// along y.
+/// A support and a column of `n` blocks, each 1.2 x 0.8 x 0.5 m, numbered upwards from 1. The intrados and
+/// extrados faces are normal to y.
 inline Assembly column(int n, double density = 1800.0) {
   Assembly a;
   a.title = "Column";
@@ -62,8 +62,8 @@ inline Assembly column(int n, double density = 1800.0) {
   return a;
 }
 
-/// The column at rest under gravity g and a load on top: every bed carries what stands above it on its four
-/// corners, shared so that the resultant passes at (x, y).
+/// The column at rest under gravity g and a load on top. The four corners of every bed carry the weight
+/// above, divided so that the resultant acts at (x, y).
 inline Frame column_at_rest(const Assembly& a, double g, double load, double x, double y) {
   Frame frame;
   ContactTable& c = frame.contacts;
@@ -96,7 +96,8 @@ inline Frame column_at_rest(const Assembly& a, double g, double load, double x, 
   return frame;
 }
 
-/// A vault of revolution about z in running bond, without supports: every block one cell, beds on cones.
+/// A vault of revolution about z in running bond, without supports. Every block is one hexahedron; beds lie
+/// on cones.
 inline Assembly ring_vault(int rings, int blocks_per_ring, double offset) {
   Assembly a;
   a.num_rings = rings;

@@ -11,7 +11,7 @@ inline constexpr double kGravity = 9.81;
 /// The case of a column of three blocks.
 inline Case column_case() {
   Case scene;
-  scene.title = "Column <b>&amp; \"beds\"";  // to be escaped wherever it is shown
+  scene.title = "Column <b>&amp; \"beds\"";  // must be escaped in HTML
   scene.geometry.surface = WallSurface{1.2, 1.5, 0.8};
   scene.geometry_hash = "geometry of the column";
   scene.hash = "case of the column";
@@ -40,7 +40,8 @@ inline Evaluation evaluated(const Assembly& a, const std::vector<Frame>& frames,
   return evaluate(scene, a, ResultsReader(folder, content_hash(a)));
 }
 
-/// Three blocks with the resultant at (x, y) of every bed, and a load of `fraction` weights on top.
+/// Three blocks with the resultant of every bed at (x, y), and a load of `fraction` times their weight on
+/// top.
 inline Evaluation column_evaluation(double x, double y, double fraction = 0.0) {
   const Assembly a = column(3);
   Case scene = column_case();

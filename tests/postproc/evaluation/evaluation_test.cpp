@@ -26,7 +26,7 @@ using test::kGravity;
 
 const double kBlockWeight = 0.48 * 1800.0 * kGravity;
 
-TEST(Evaluation, EveryRingCarriesWhatStandsOnIt) {
+TEST(Evaluation, EveryRingCarriesTheLoadAbove) {
   const Evaluation e = column_evaluation(0.6, 0.4, 10.0);
   ASSERT_EQ(e.rings.size(), 3u);
   for (int k = 0; k < 3; ++k) {
@@ -38,7 +38,7 @@ TEST(Evaluation, EveryRingCarriesWhatStandsOnIt) {
   EXPECT_TRUE(e.warnings.empty());
 }
 
-TEST(Evaluation, AMissingForceShowsInTheRingSum) {
+TEST(Evaluation, MissingForceShowsInTheRingSum) {
   const Assembly a = test::column(3);
   Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
   for (int i = 0; i < frame.contacts.size(); ++i)
@@ -48,7 +48,7 @@ TEST(Evaluation, AMissingForceShowsInTheRingSum) {
   EXPECT_NEAR(e.rings[1].relative_difference, 0.01, 1e-12);
 }
 
-TEST(Evaluation, EccentricColumn) {
+TEST(Evaluation, EccentricColumnHasEccentricityKernAndEdgeDistance) {
   // Resultant at (0.9, 0.4) of a 1.2 x 0.8 m bed: eccentricity 0.3 m, kern 6 e / b = 1.5, edge 0.3 m away.
   const Evaluation e = column_evaluation(0.9, 0.4);
   for (const JointWrench& joint : e.last.joints.wrenches) {
@@ -59,13 +59,13 @@ TEST(Evaluation, EccentricColumn) {
     EXPECT_LT(joint.wrench.moment.norm(), 1e-12 * kBlockWeight) << "about the centre of pressure";
     EXPECT_EQ(joint.upper, joint.block_b);
   }
-  // Meridional force of the middle block: the mean of what it carries below and above, per metre of length.
+  // Meridional force of the middle block: mean of the forces on its lower and upper bed, per metre of length.
   EXPECT_NEAR(e.last.fields[2].meridional_force, 1.5 * kBlockWeight / 1.2, 1e-9 * kBlockWeight);
   EXPECT_NEAR(e.last.fields[2].hoop_force, 0.0, 1e-9 * kBlockWeight);
   EXPECT_NEAR(e.axes[2].thickness, 0.8, 1e-12);
 }
 
-TEST(Evaluation, TheWrenchOfAJointIsTheSumOfItsContacts) {
+TEST(Evaluation, WrenchOfAJointIsTheSumOfItsContacts) {
   const Assembly a = test::column(2);
   Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.7, 0.3);
   for (int i = 0; i < frame.contacts.size(); ++i)
@@ -80,7 +80,7 @@ TEST(Evaluation, TheWrenchOfAJointIsTheSumOfItsContacts) {
           direct.add_force(frame.contacts.point[i], frame.contacts.force[i]);
       const Wrench moved = moved_to(joints.wrenches[j].wrench, about);
       EXPECT_LT((moved.force - direct.force).norm(), 1e-12 * direct.force.norm());
-      EXPECT_LT((moved.moment - direct.moment).norm(), 1e-11 * direct.force.norm()) << "arms of 10 m";
+      EXPECT_LT((moved.moment - direct.moment).norm(), 1e-11 * direct.force.norm()) << "lever arms of 10 m";
     }
   }
 }
@@ -94,8 +94,8 @@ TEST(Evaluation, SectionsCutTheBlocks) {
   EXPECT_NEAR(polygon_area(e.sections[0].polygons[0].outline), 0.96, 1e-12);
 }
 
-TEST(Evaluation, LoadsCountAsMuchAsTheirTimeSays) {
-  // Half of gravity and of the top load at the frame's time, and forces to match.
+TEST(Evaluation, LoadsFollowTheirTimeFunction) {
+  // At the time of the frame, gravity and top load have half their values, and so do the contact forces.
   const Assembly a = test::column(3);
   Case scene = column_case();
   scene.loads.top_load = TopLoad{2.0};
@@ -108,7 +108,7 @@ TEST(Evaluation, LoadsCountAsMuchAsTheirTimeSays) {
   EXPECT_NEAR(e.rings[0].load_above.z(), -4.5 * kBlockWeight, 1e-9 * kBlockWeight);
 }
 
-TEST(Evaluation, ProblemsAreSaidFirst) {
+TEST(Evaluation, UnreadableFramesAreReportedBeforeWarnings) {
   const Assembly a = test::column(3);
   const Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
   Summary summary = column_summary(a);
@@ -124,15 +124,15 @@ TEST(Evaluation, ProblemsAreSaidFirst) {
   std::filesystem::remove(folder + "/contacts_0001.vtp");
   const Evaluation e = evaluate(column_case(), a, ResultsReader(folder, content_hash(a)));
   EXPECT_EQ(e.last.frame.time, 0.0);
-  const std::vector<std::string> said = said_first(e);
-  ASSERT_EQ(said.size(), 3u);
-  EXPECT_NE(said[0].find("frame 1 is left out"), std::string::npos);
-  EXPECT_NE(said[0].find("contacts_0001.vtp"), std::string::npos);
-  EXPECT_NE(said[1].find("did not reach the accuracy"), std::string::npos);
-  EXPECT_NE(said[2].find("the case has changed"), std::string::npos);
+  const std::vector<std::string> reported = notices(e);
+  ASSERT_EQ(reported.size(), 3u);
+  EXPECT_NE(reported[0].find("frame 1 was left out"), std::string::npos);
+  EXPECT_NE(reported[0].find("contacts_0001.vtp"), std::string::npos);
+  EXPECT_NE(reported[1].find("did not reach the requested accuracy"), std::string::npos);
+  EXPECT_NE(reported[2].find("the case has changed"), std::string::npos);
 }
 
-TEST(Evaluation, ResultsOfAnotherAssemblyAreRefused) {
+TEST(Evaluation, ResultsOfAnotherAssemblyAreRejected) {
   const Assembly a = test::column(3), b = test::column(4);
   const std::string folder = test::fresh_folder("results");
   evaluated(a, {test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4)}, column_summary(a), column_case(), folder);
@@ -142,7 +142,7 @@ TEST(Evaluation, ResultsOfAnotherAssemblyAreRefused) {
 TEST(Evaluation, MechanismGroupsFollowTheMotion) {
   const Assembly a = test::column(3);
   Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
-  for (const size_t b : {2u, 3u}) {  // the two upper blocks slide together
+  for (const size_t b : {2u, 3u}) {  // the two upper blocks slide as one
     frame.blocks.displacement[b] = Vec3(0.2, 0, 0);
     frame.blocks.position[b] += Vec3(0.2, 0, 0);
   }
@@ -151,11 +151,11 @@ TEST(Evaluation, MechanismGroupsFollowTheMotion) {
   EXPECT_EQ(mechanism_groups(a, frame, joints, 0.3), (std::vector{0, 0, 0, 0}));
 }
 
-TEST(Evaluation, ALimitAnalysisShowsForcesOfTheEquilibriumAndTheMechanismDisplaced) {
+TEST(Evaluation, LimitAnalysisEvaluatesTheEquilibriumAndDisplacesTheMechanism) {
   const Assembly a = test::column(3);
   Frame stands = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4), moves = stands;
   moves.time = 1.0;
-  for (int i = 0; i < moves.contacts.size(); ++i) moves.contacts.force[i] *= 0.5;  // not in balance
+  for (int i = 0; i < moves.contacts.size(); ++i) moves.contacts.force[i] *= 0.5;  // not in equilibrium
   moves.blocks.velocity[3] = Vec3(1.0, 0, 0);                                      // the top block slides off
   Summary summary = column_summary(a);
   summary.analysis = AnalysisType::limit;
@@ -170,14 +170,15 @@ TEST(Evaluation, ALimitAnalysisShowsForcesOfTheEquilibriumAndTheMechanismDisplac
             std::string::npos);
 
   const FrameEvaluation mechanism = evaluate_frame(e, ResultsReader(folder, content_hash(a)).read_frame(1));
-  // A twentieth of the model: centroids from 0.25 to 1.25 m, or the first block's cube root, the larger.
+  // 5 % of the model size: of the range of centroids, 0.25 to 1.25 m, or of the cube root of the first
+  // block's volume.
   const double shown = 0.05 * std::max(1.0, std::cbrt(a.blocks[0].volume));
   EXPECT_NEAR(mechanism.frame.blocks.displacement[3].x(), shown, 1e-12);
   EXPECT_EQ(mechanism.frame.blocks.displacement[2].norm(), 0.0);
   EXPECT_EQ(mechanism.groups, (std::vector{0, 0, 0, 1}));
 }
 
-TEST(Evaluation, AStagedRunHasATableOfItsRings) {
+TEST(Evaluation, StagedRunHasATableOfRings) {
   const Assembly a = test::column(3);
   Summary summary = column_summary(a);
   summary.analysis = AnalysisType::staged;
@@ -196,11 +197,11 @@ TEST(Evaluation, AStagedRunHasATableOfItsRings) {
   EXPECT_EQ(std::get<double>(table.rows[2][4]), 0.0);
   Table without = table;
   for (auto& row : without.rows) row[4] = std::nan("");
-  EXPECT_FALSE(stage_figure(without)) << "no critical friction was asked for";
+  EXPECT_FALSE(stage_figure(without)) << "no critical friction was requested";
   EXPECT_NE(stage_figure(table)->commands.find("0.5 0.115"), std::string::npos);
 }
 
-TEST(Evaluation, CracksOutlineTheOpenPoints) {
+TEST(Evaluation, CracksEncloseTheOpenPoints) {
   const Assembly a = test::column(2);
   Frame frame = test::column_at_rest(a, kGravity, 0.0, 1.2, 0.4);  // on the edge x = 1.2: x = 0 is unloaded
   for (int i = 0; i < frame.contacts.size(); ++i)
@@ -213,7 +214,7 @@ TEST(Evaluation, CracksOutlineTheOpenPoints) {
   EXPECT_NEAR(e.last.joints.wrenches[0].open_share, 0.5, 1e-12);
 }
 
-TEST(Evaluation, SummaryRoundTrips) {
+TEST(Evaluation, SummaryReadsBackUnchanged) {
   const Evaluation e = column_evaluation(0.9, 0.4);
   const std::string folder = test::fresh_folder("post");
   write_text_atomically(folder + "/summary.json", post_summary_json(e));

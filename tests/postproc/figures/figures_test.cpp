@@ -1,4 +1,4 @@
-// What stands in the figures' data: resultants across beds, and the drawing to scale.
+// The data of the figures: resultants across beds, drawn to scale.
 
 #include "postproc/figures/figures.hpp"
 
@@ -18,7 +18,7 @@ using test::kGravity;
 
 const double kBlockWeight = 0.48 * 1800.0 * kGravity;
 
-/// Rows of a figure's data block; blank ones are left out.
+/// Rows of a data block of a figure, without the blank ones.
 std::vector<std::vector<double>> data_of(const Figure& figure, const std::string& name) {
   std::vector<std::vector<double>> rows;
   const std::string head = "$" + name + " << EOD\n";
@@ -34,20 +34,20 @@ std::vector<std::vector<double>> data_of(const Figure& figure, const std::string
   return rows;
 }
 
-TEST(BedResultants, CarryWhatStandsOnTheBedWhereItActs) {
+TEST(BedResultants, CarryTheLoadAboveTheBedWhereItActs) {
   const Evaluation e = test::column_evaluation(0.9, 0.3, 10.0);
   ASSERT_EQ(e.sections.size(), 1u);
   ASSERT_EQ(e.sections[0].resultants.size(), 1u);
   const BedResultant& r = e.sections[0].resultants[0];
   EXPECT_EQ(r.block, 3);
-  // One block of three and ten times their weight.
+  // The weight of one block, and ten times the weight of all three.
   EXPECT_LT((r.wrench.force - Vec3(0, 0, 31.0 * kBlockWeight)).norm(), 1e-9 * kBlockWeight);
   EXPECT_LT((r.point - Vec3(0.9, 0.3, 1.0)).norm(), 1e-12);
   EXPECT_NEAR(r.couple_length, 0.0, 1e-12);
 }
 
-TEST(BedResultants, AWallsUprightCountsWithTheWrenchAtItsFoot) {
-  // Courses 1 and 2 are one upright block of one part: no joint crosses it at the bed nearest to 0.8 m.
+TEST(BedResultants, UprightBlockOfAWallCountsWithTheWrenchAtItsFoot) {
+  // Rings 1 and 2 are one upright block of one part: no joint crosses it at the bed nearest to 0.8 m.
   Assembly a = test::column(3);
   a.blocks[2].num_rings = 2;
   a.blocks[2].kind = BlockKind::herringbone;
@@ -57,32 +57,32 @@ TEST(BedResultants, AWallsUprightCountsWithTheWrenchAtItsFoot) {
   ASSERT_EQ(e.sections[0].resultants.size(), 2u) << "the block on the bed and the upright through it";
   EXPECT_EQ(e.sections[0].resultants[0].block, 2);
   EXPECT_NEAR(e.sections[0].resultants[0].wrench.force.z(), 2.0 * kBlockWeight, 1e-9 * kBlockWeight);
-  EXPECT_NEAR(e.sections[0].resultants[0].point.z(), 0.5, 1e-12) << "at its own foot";
+  EXPECT_NEAR(e.sections[0].resultants[0].point.z(), 0.5, 1e-12) << "at its foot";
   EXPECT_EQ(data_of(levels_figure(e), "upright").size(), 1u);
   EXPECT_EQ(data_of(levels_figure(e), "flat").size(), 1u);
 }
 
-TEST(LevelsFigure, DrawsSegmentsAndTheirMeasureToOneScale) {
+TEST(LevelsFigure, DrawsSegmentsAndScaleBarToOneScale) {
   const Evaluation e = test::column_evaluation(0.9, 0.3, 10.0);
   const Figure figure = levels_figure(e);
   const auto flat = data_of(figure, "flat"), measure = data_of(figure, "measure");
   ASSERT_EQ(flat.size(), 1u);
   ASSERT_EQ(measure.size(), 1u);
   EXPECT_TRUE(data_of(figure, "upright").empty());
-  // A wall is seen along y: from (x, z), straight up.
+  // A wall is seen along y: the segment starts at (x, z) and points straight up.
   EXPECT_NEAR(flat[0][0], 0.9, 1e-8);
   EXPECT_NEAR(flat[0][1], 1.0, 1e-8);
   EXPECT_NEAR(flat[0][2], 0.0, 1e-8);
   const double metres_per_newton = flat[0][3] / (31.0 * kBlockWeight);
   EXPECT_NEAR(metres_per_newton, segment_scale(e.assembly, 31.0 * kBlockWeight), 1e-8 * metres_per_newton);
-  // 262.8 kN are read in MN; the measure is the largest round force below: 0.2 MN.
+  // 262.8 kN are shown in MN; the scale bar is the largest round force below, 0.2 MN.
   EXPECT_NEAR(measure[0][2], 2e5 * metres_per_newton, 1e-8);
   EXPECT_NE(figure.commands.find("'0.2 MN'"), std::string::npos);
-  // Faces of the three free blocks, five corners each, the first one twice.
+  // Faces of the three free blocks: five rows each, since outlines are closed.
   EXPECT_EQ(data_of(figure, "outlines").size(), 15u);
 }
 
-TEST(SectionFigure, TellsScaleAndGlobalCheck) {
+TEST(SectionFigure, StatesScaleAndGlobalCheck) {
   const Evaluation e = test::column_evaluation(0.9, 0.3, 10.0);
   const Figure figure = section_figure(e, e.sections[0]);
   const auto norms = data_of(figure, "norms");

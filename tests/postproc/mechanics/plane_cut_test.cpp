@@ -25,12 +25,12 @@ Evaluation column_with(const std::vector<CutPlane>& planes) {
                          scene, test::fresh_folder("results"));
 }
 
-TEST(PlaneCut, ALevelPlaneCarriesWhatStandsOnIt) {
+TEST(PlaneCut, HorizontalPlaneCarriesTheWeightAbove) {
   const Evaluation e = column_with({{"level", {0, 0, 0.9}, {0, 0, 3}}});
   ASSERT_EQ(e.planes.size(), 1u);
   const PlaneCut& cut = e.planes[0];
   EXPECT_NEAR(cut.normal.norm(), 1.0, 1e-15);
-  // Centroids at 0.25, 0.75, 1.25 m: one block lies beyond, on one joint.
+  // Centroids at 0.25, 0.75 and 1.25 m: one block lies beyond, on one joint.
   ASSERT_EQ(cut.joints.size(), 1u);
   EXPECT_NEAR(cut.across.force.z(), kBlockWeight, 1e-12 * kBlockWeight);
   EXPECT_NEAR(cut.load_beyond.z(), -kBlockWeight, 1e-12 * kBlockWeight);
@@ -38,20 +38,21 @@ TEST(PlaneCut, ALevelPlaneCarriesWhatStandsOnIt) {
   EXPECT_EQ(cut.from_supports.norm(), 0.0);
   ASSERT_EQ(cut.polygons.size(), 1u);
   EXPECT_NEAR(polygon_area(cut.polygons[0].outline), 0.96, 1e-12);
-  // The resultant passes at (0.7, 0.3): its moment about the plane's point.
+  // The resultant acts at (0.7, 0.3); moment about the point of the plane.
   EXPECT_NEAR(cut.across.moment.x(), 0.3 * kBlockWeight, 1e-12 * kBlockWeight);
   EXPECT_NEAR(cut.across.moment.y(), -0.7 * kBlockWeight, 1e-12 * kBlockWeight);
 }
 
-TEST(PlaneCut, SupportsCountApartAndTheBalanceCloses) {
-  // Everything lies beyond a level plane below the ground: nothing crosses it, the support carries it all.
+TEST(PlaneCut, SupportForcesCountSeparatelyInTheBalance) {
+  // All blocks lie beyond a horizontal plane below the ground: no joint crosses it, and the support carries
+  // the load.
   const Evaluation e = column_with({{"ground", {0, 0, -0.2}, {0, 0, 1}}});
   EXPECT_TRUE(e.planes[0].joints.empty());
   EXPECT_NEAR(e.planes[0].from_supports.z(), 3.0 * kBlockWeight, 1e-12 * kBlockWeight);
   EXPECT_LT(e.planes[0].relative_difference, 1e-14);
 }
 
-TEST(PlaneCut, TurningTheNormalTurnsTheForces) {
+TEST(PlaneCut, ReversingTheNormalReversesTheForces) {
   const Vec3 oblique(0.5, -0.2, 1.0);
   const Evaluation e = column_with({{"a", {0.6, 0.4, 0.6}, oblique}, {"b", {0.6, 0.4, 0.6}, -oblique}});
   const PlaneCut &a = e.planes[0], &b = e.planes[1];
@@ -59,13 +60,13 @@ TEST(PlaneCut, TurningTheNormalTurnsTheForces) {
   ASSERT_EQ(a.joints.size(), 1u);
   EXPECT_LT((a.across.force + b.across.force).norm(), 1e-12 * kBlockWeight) << "action and reaction";
   EXPECT_LT((a.across.moment + b.across.moment).norm(), 1e-12 * kBlockWeight);
-  // What presses one side presses the other.
+  // Compression is positive seen from either side.
   EXPECT_NEAR(a.across.force.dot(a.normal), b.across.force.dot(b.normal), 1e-12 * kBlockWeight);
   EXPECT_LT(a.relative_difference, 1e-14);
   EXPECT_LT(b.relative_difference, 1e-14);
 }
 
-TEST(PlaneCut, ReachesTheTablesFiguresAndFiles) {
+TEST(PlaneCut, AppearsInTablesFiguresAndFiles) {
   const Evaluation e =
       column_with({{"level", {0, 0, 0.9}, {0, 0, 1}}, {"upright", {0.6, 0.4, 0}, {1, 0, 0}}});
   const Table table = plane_table(e, e.planes[0]);
@@ -75,13 +76,13 @@ TEST(PlaneCut, ReachesTheTablesFiguresAndFiles) {
   const Figure figure = plane_figure(e, e.planes[0]);
   EXPECT_EQ(figure.name, "cut_level");
   EXPECT_NE(figure.commands.find("$presses w p"), std::string::npos);
-  EXPECT_EQ(figure.commands.find("$pulls w p"), std::string::npos) << "nothing pulls";
+  EXPECT_EQ(figure.commands.find("$pulls w p"), std::string::npos) << "no joint is in tension";
   const Mesh sections = sections_mesh(e);
   const auto what = sections.array<std::int32_t>(sections.cell_data, "what", 1);
   const auto cut = sections.array<std::int32_t>(sections.cell_data, "cut", 1);
   int segments = 0;
   for (size_t i = 0; i < what.size(); ++i) segments += what[i] == 0 && cut[i] == 1 ? 1 : 0;
-  EXPECT_EQ(segments, 1) << "cut 0 is the horizontal section at 0.8 m";
+  EXPECT_EQ(segments, 1) << "cut 0 is the section at 0.8 m";
   EXPECT_NE(post_summary_json(e).find("\"upright\""), std::string::npos);
 }
 

@@ -8,7 +8,7 @@
 namespace cupola::wrench_test {
 namespace {
 
-constexpr double kTolerance = 1e-12;  // a few dozen roundings of numbers near 1
+constexpr double kTolerance = 1e-12;  // some dozen rounding errors of numbers near 1
 
 struct PointedForce {
   Vec3 point, force;
@@ -21,13 +21,16 @@ Wrench sum_about(const Vec3& about, const std::vector<PointedForce>& forces) {
   return w;
 }
 
-// Along x at the origin, along y at (0, 0, 1), along z at (1, 0, 0): F = (1, 1, 1), and about the origin
-// M = (0,0,1) x (0,1,0) + (1,0,0) x (0,0,1) = (-1, -1, 0). M.F = -2 and |F|^2 = 3, so the couple is -2/3 F,
-// its length 2/3 m, and the axis passes F x M / |F|^2 = (1, -1, 0) / 3.
+// Unit forces along x at the origin, along y at (0, 0, 1) and along z at (1, 0, 0). About the origin
+//
+//     F = (1, 1, 1),   M = (0,0,1) x (0,1,0) + (1,0,0) x (0,0,1) = (-1, -1, 0)
+//
+// With M.F = -2 and |F|^2 = 3, the couple is -2/3 F, its length 2/3 m, and the axis passes through
+// F x M / |F|^2 = (1, -1, 0) / 3.
 const std::vector<PointedForce> kThreeSkewForces{
     {{0, 0, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 1, 0}}, {{1, 0, 0}, {0, 0, 1}}};
 
-TEST(Wrench, ThreeSkewForces) {
+TEST(Wrench, CentralAxisOfThreeSkewForces) {
   const Wrench w = sum_about(Vec3::Zero(), kThreeSkewForces);
   const CentralAxis axis = central_axis(w);
   ASSERT_TRUE(axis.exists);
@@ -38,11 +41,11 @@ TEST(Wrench, ThreeSkewForces) {
   EXPECT_NEAR(axis.couple_length, 2.0 / 3.0, kTolerance);
 }
 
-TEST(Wrench, SameAxisFromEveryPoint) {
+TEST(Wrench, CentralAxisDoesNotDependOnTheReferencePoint) {
   const CentralAxis reference = central_axis(sum_about(Vec3::Zero(), kThreeSkewForces));
   const Vec3 direction = Vec3(1, 1, 1).normalized();
   for (const Vec3& about : {Vec3(3, -2, 5), Vec3(-0.1, 0.7, 0.2), Vec3(10, 20, -30)}) {
-    const double tolerance = kTolerance * (1.0 + about.norm());  // moments grow with the arm
+    const double tolerance = kTolerance * (1.0 + about.norm());  // moments grow with the lever arm
     const Wrench direct = sum_about(about, kThreeSkewForces);
     const Wrench moved = moved_to(sum_about(Vec3::Zero(), kThreeSkewForces), about);
     EXPECT_LT((direct.moment - moved.moment).norm(), tolerance);
@@ -52,7 +55,7 @@ TEST(Wrench, SameAxisFromEveryPoint) {
   }
 }
 
-TEST(Wrench, TurnsAndShiftsWithTheScene) {
+TEST(Wrench, CentralAxisRotatesAndTranslatesWithTheForces) {
   const Mat3 R = Eigen::AngleAxisd(1.1, Vec3(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
   const Vec3 shift(7.0, -4.0, 2.0);
   std::vector<PointedForce> moved;
@@ -64,7 +67,7 @@ TEST(Wrench, TurnsAndShiftsWithTheScene) {
   EXPECT_NEAR(a.couple_length, b.couple_length, 10 * kTolerance);
 }
 
-TEST(Wrench, AddingWrenchesIsAddingForces) {
+TEST(Wrench, SumOfWrenchesIsTheWrenchOfTheSum) {
   Wrench sum;
   sum.point = {2, 2, 2};
   for (const PointedForce& f : kThreeSkewForces) {
@@ -84,12 +87,12 @@ TEST(Wrench, PureCoupleHasNoAxis) {
   EXPECT_EQ(central_axis(couple).couple_length, 0.0);
 }
 
-TEST(Wrench, AxisMeetsPlane) {
+TEST(Wrench, CentralAxisIntersectsAPlane) {
   const Wrench w = sum_about(Vec3::Zero(), kThreeSkewForces);
   const Plane plane{Vec3(0, 0, 1), 4.0};
   const Vec3 x = axis_in_plane(central_axis(w), w.force, plane);
   EXPECT_LT((x - Vec3(1.0 / 3.0 + 4.0, -1.0 / 3.0 + 4.0, 4.0)).norm(), 10 * kTolerance);
-  // Along the plane they never meet: the axis' own point.
+  // An axis parallel to the plane returns its own point.
   const Plane along{Vec3(1, -1, 0).normalized(), 9.0};
   EXPECT_EQ(axis_in_plane(central_axis(w), w.force, along), central_axis(w).point);
 }

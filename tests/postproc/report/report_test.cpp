@@ -141,7 +141,7 @@ TEST(Report, NoTextFromAFileBecomesMarkup) {
 
 TEST(Report, AnUnconvergedRunIsSaidBeforeAnythingElse) {
   const std::string html = read_text(analysed_column("column", "", Status::unconverged) + "/report.html");
-  const size_t warning = html.find("the solver did not reach the accuracy asked");
+  const size_t warning = html.find("the solver did not reach the requested accuracy");
   ASSERT_NE(warning, std::string::npos);
   EXPECT_LT(warning, html.find("<h2>"));
   EXPECT_NE(html.find("No verdict"), std::string::npos);
@@ -149,7 +149,7 @@ TEST(Report, AnUnconvergedRunIsSaidBeforeAnythingElse) {
 
 TEST(Report, ABrokenPvbatchCostsThePicturesOnly) {
   const std::string post = analysed_column("column", "/nowhere/pvbatch");
-  EXPECT_NE(read_text(post + "/report.html").find("the 3-D pictures are not complete"), std::string::npos);
+  EXPECT_NE(read_text(post + "/report.html").find("the 3-D pictures are incomplete"), std::string::npos);
 }
 
 TEST(Comparison, OpensInABrowserAndNamesTheRuns) {

@@ -23,7 +23,7 @@ Table example() {
            {std::string("<b>&"), 5e-324, 0}}};
 }
 
-TEST(Table, CsvReadsBackWithEveryDigit) {
+TEST(Table, CsvKeepsAllDigits) {
   const std::string path = test::fresh_folder("a") + "/example.csv";
   write_text_atomically(path, to_csv(example()));
   const CsvFile csv = read_csv(path);
@@ -35,7 +35,7 @@ TEST(Table, CsvReadsBackWithEveryDigit) {
   EXPECT_EQ(csv.number(2, 1), 5e-324);
 }
 
-TEST(Table, NumbersForAReader) {
+TEST(Table, ReportShowsFourSignificantDigits) {
   EXPECT_EQ(to_display(0.0), "0");
   EXPECT_EQ(to_display(1234567.8), "1234568");
   EXPECT_EQ(to_display(0.0123456), "0.01235");
@@ -46,7 +46,7 @@ TEST(Table, NumbersForAReader) {
   EXPECT_EQ(to_display(42), "42");
 }
 
-TEST(Html, EverythingFromOutsideIsEscaped) {
+TEST(Html, TextFromUsersIsEscaped) {
   EXPECT_EQ(markup_text("<script>\"&'"), "&lt;script&gt;&quot;&amp;&#39;");
   const std::string table = html_table(example());
   EXPECT_EQ(table.find("<b>&"), std::string::npos);
@@ -54,17 +54,18 @@ TEST(Html, EverythingFromOutsideIsEscaped) {
   EXPECT_NE(table.find("&lt;count&gt;"), std::string::npos);
 }
 
-// A quote would end the string of a gnuplot command and a line end the comment; both could begin a command.
-TEST(Gnuplot, TextFromOutsideStaysText) {
+// A quote would end a gnuplot string and a line end would end a comment; either could start a command.
+TEST(Gnuplot, TextFromUsersCannotStartACommand) {
   EXPECT_EQ(gnuplot_text("a'b\nsystem('x')\r`x`"), "a''b system(''x'') `x`");
 }
 
-TEST(Html, PicturesTravelInside) {
+TEST(Html, PicturesAreEmbedded) {
   const std::string folder = test::fresh_folder("a");
   write_text_atomically(folder + "/a.svg", "Many hands make light work.");
   EXPECT_EQ(html_picture(folder + "/a.svg", "x\"y"),
             "<img alt=\"x&quot;y\" src=\"data:image/svg+xml;base64,TWFueSBoYW5kcyBtYWtlIGxpZ2h0IHdvcmsu\">");
-  for (const auto& [text, code] : {std::pair{"M", "TQ=="}, {"Ma", "TWE="}, {"Man", "TWFu"}}) {  // RFC 4648's
+  for (const auto& [text, code] :
+       {std::pair{"M", "TQ=="}, {"Ma", "TWE="}, {"Man", "TWFu"}}) {  // RFC 4648, section 10
     write_text_atomically(folder + "/b.png", text);
     EXPECT_NE(html_picture(folder + "/b.png", "").find(std::string("base64,") + code + "\""),
               std::string::npos);

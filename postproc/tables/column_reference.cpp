@@ -1,0 +1,57 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "postproc/tables/result_columns.hpp"
+
+namespace cupola {
+namespace {
+
+struct MeshFile {
+  const char* name;
+  std::vector<Keys> keys;
+};
+
+bool holds(const MeshFile& mesh, const std::string& array) {
+  return std::any_of(mesh.keys.begin(), mesh.keys.end(), [&](const Keys& keys) {
+    return std::find(keys.begin(), keys.end(), array) != keys.end();
+  });
+}
+
+template <class Row>
+std::string reference_of(const std::string& heading, const Columns<Row>& columns,
+                         const std::vector<MeshFile>& meshes) {
+  std::string text = "### " + heading + "\n\n| column | unit | meaning | also in |\n|---|---|---|---|\n";
+  for (const Column<Row>& column : columns) {
+    const std::string array = column.array_name();
+    std::vector<std::string> names = column.in_table ? column.table_keys() : std::vector{array}, files;
+    for (const MeshFile& mesh : meshes)
+      if (holds(mesh, array)) files.push_back(mesh.name);
+    text += fmt::format("| `{}` | {} | {} |", fmt::join(names, "`, `"), column.unit, column.meaning);
+    if (!files.empty())
+      text += fmt::format(" `{}`{}", fmt::join(files, "`, `"),
+                          array == names.front() ? "" : fmt::format(", as `{}`", array));
+    text += " |\n";
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string column_reference() {
+  return reference_of("rings.csv: ring cuts", ring_columns(), {{"summary.json", {kRingSummaryKeys}}}) +
+         reference_of("thrust_NAME.csv: thrust line of a meridian", thrust_columns(), {}) +
+         reference_of("hoop_NAME.csv: hoop forces across a meridian", hoop_columns(), {}) +
+         reference_of("section_HEIGHTm.csv: resultants across a bed", section_columns(), {}) +
+         reference_of("cut_NAME.csv: joints across a plane", plane_columns(), {}) +
+         reference_of("joints.csv, joints.vtp, cracks.vtp: joints", joint_columns(),
+                      {{"joints.vtp", {kJointCellKeys, kJointPointKeys}}, {"cracks.vtp", {kCrackKeys}}}) +
+         reference_of(
+             "blocks.csv, blocks_NNNN.vtu, wrenches.vtp: blocks", block_columns(),
+             {{"blocks_NNNN.vtu", {kBlockMeshKeys}}, {"wrenches.vtp", {kWrenchCellKeys, kWrenchPointKeys}}}) +
+         reference_of("thrust_lines.vtp: cells", line_cell_columns(),
+                      {{"thrust_lines.vtp", {kLineCellKeys}}}) +
+         reference_of("sections.vtp: cells", section_cell_columns(), {{"sections.vtp", {kSectionCellKeys}}});
+}
+
+}  // namespace cupola

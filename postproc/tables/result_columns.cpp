@@ -1,0 +1,244 @@
+#include "postproc/tables/result_columns.hpp"
+
+namespace cupola {
+namespace {
+
+/// Per block, 1 for a block laid flat that has a head joint with a herringbone block.
+std::vector<int> beside_spiral(const Assembly& assembly, const JointWrenches& joints) {
+  std::vector<int> beside(assembly.blocks.size(), 0);
+  const auto upright = [&](int b) { return assembly.blocks[b].kind == BlockKind::herringbone; };
+  for (const JointWrench& joint : joints.wrenches) {
+    if (joint.kind != JointKind::head) continue;
+    const int a = joint.block_a, b = joint.block_b;
+    if (upright(b) && !upright(a)) beside[a] = 1;
+    if (upright(a) && !upright(b)) beside[b] = 1;
+  }
+  return beside;
+}
+
+}  // namespace
+
+std::vector<BlockRow> block_rows(const Evaluation& e, const FrameEvaluation& frame) {
+  const double g = e.scene.loads.gravity.norm();
+  const std::vector<int> beside = beside_spiral(e.assembly, frame.joints);
+  std::vector<BlockRow> rows;
+  rows.reserve(e.assembly.blocks.size());
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
+    const Block& block = e.assembly.blocks[b];
+    rows.push_back({.block = block,
+                    .fields = frame.fields[b],
+                    .from_below = frame.from_below[b],
+                    .axis = central_axis(frame.from_below[b]),
+                    .displacement = frame.frame.blocks.displacement[b],
+                    .weight = block.mass * g,
+                    .index = static_cast<int>(b),
+                    .ring = block.ring,
+                    .beside_spiral = beside[b],
+                    .mechanism_group = frame.groups[b]});
+  }
+  return rows;
+}
+
+std::vector<PlaneJoint> plane_joints(const Evaluation& e, const PlaneCut& cut) {
+  std::vector<PlaneJoint> rows;
+  for (const int j : cut.joints) {
+    const JointWrench& joint = e.last.joints.wrenches[j];
+    const Vec3 force = force_beyond(cut, e.assembly, joint);
+    const double through = force.dot(cut.normal);
+    rows.push_back({joint, force, through, (force - through * cut.normal).norm()});
+  }
+  return rows;
+}
+
+// clang-format off: one line per column.
+
+const Columns<RingRow>& ring_columns() {
+  using R = RingRow;
+  static const Columns<R> columns{
+      {"ring", "", "the cut runs below this ring", [](const R& r) { return r.cut.ring; }},
+      {"height_m", "m", "mean height of the ring's bed joints", [](const R& r) { return r.cut.height; }},
+      {"blocks", "", "blocks that begin in the ring", [](const R& r) { return r.cut.blocks; }},
+      {"joint_force_{}_N", "N", "sum of the joint forces on the blocks above the cut",
+       [](const R& r) { return r.cut.joint_force; }},
+      {"load_above_N", "N", "weight and applied loads above the cut, positive downwards",
+       [](const R& r) { return r.cut.load_above.dot(-r.up); }},
+      {"relative_difference", "", "norm of joint force plus load, over the norm of the load",
+       [](const R& r) { return r.cut.relative_difference; }},
+      {"mean_resultant_N", "N", "mean of the blocks' resultants",
+       [](const R& r) { return r.cut.mean_resultant; }},
+      {"cv_resultant", "", "coefficient of variation of the blocks' resultants",
+       [](const R& r) { return r.cut.cv_resultant; }},
+      {"cv_pressure", "", "coefficient of variation of the blocks' bed pressures",
+       [](const R& r) { return r.cut.cv_pressure; }},
+      {"radial_thrust_N", "N", "sum of the outward force components on the ring below",
+       [](const R& r) { return r.cut.radial_thrust; }},
+      {"largest_couple_length_m", "m", "largest couple length of a block's wrench",
+       [](const R& r) { return r.cut.largest_couple_length; }},
+      {"largest_friction_use", "", "largest friction utilisation of a bed joint",
+       [](const R& r) { return r.cut.largest_friction_use; }},
+      {"largest_kern_use", "",
+       "largest kern utilisation of a bed joint; above 1: part of the joint is unloaded",
+       [](const R& r) { return r.cut.largest_kern; }},
+  };
+  return columns;
+}
+
+const Columns<JointWrench>& joint_columns() {
+  using J = JointWrench;
+  static const Columns<J> columns{
+      {"block_a", "", "first block", &J::block_a},
+      {"block_b", "", "second block", &J::block_b},
+      {"kind", "", "bed (0), head (1), base (2) or other (3)", &J::kind},
+      {"ring", "", "ring of the joint's upper part", &J::ring},
+      {"{}_m", "m", "centre of pressure", [](const J& j) { return j.wrench.point; }},
+      {"force_{}_N", "N", "resultant on the second block", [](const J& j) { return j.wrench.force; }},
+      {"moment_{}_Nm", "N m", "moment on the second block about the centre of pressure",
+       [](const J& j) { return j.wrench.moment; }},
+      {"axis_{}_m", "m", "point on the central axis", [](const J& j) { return j.axis.point; }},
+      {"couple_length_m", "m", "couple over force on the central axis",
+       [](const J& j) { return j.axis.couple_length; }},
+      {"normal_force_N", "N", "sum of the normal forces of the contact points", &J::normal_force},
+      {"area_m2", "m2", "area of the joint", [](const J& j) { return j.patch.area; }},
+      {"eccentricity_m", "m", "distance of the centre of pressure from the joint's centroid",
+       &J::eccentricity},
+      {"edge_distance_m", "m", "distance of the centre of pressure from the joint's edge", &J::edge_distance},
+      {"kern_use", "", "kern utilisation; up to 1 the force lies in the kern", &J::kern},
+      {"friction_use", "", "friction utilisation; 1: every point slides", &J::friction_use},
+      {"opening_m", "m", "largest gap of its points", &J::opening},
+      {"open_share", "", "share of the area that carries no force", &J::open_share},
+      {"slip_m", "m", "largest accumulated slip of its points", &J::slip},
+      {"force_magnitude_N", "N", "norm of the resultant", [](const J& j) { return j.wrench.force.norm(); },
+       false},
+      {"normal", "", "unit normal, from the first block to the second",
+       [](const J& j) { return j.patch.plane.normal; }, false},
+  };
+  return columns;
+}
+
+const Columns<BlockRow>& block_columns() {
+  using B = BlockRow;
+  static const Columns<B> columns{
+      {"block", "", "index in the assembly", &B::index},
+      {"kind", "", "standard (0), herringbone (1), support (2) or imported (3)",
+       [](const B& b) { return b.block.kind; }},
+      {"ring", "", "first ring of the block; in blocks_NNNN.vtu, ring of the part", &B::ring},
+      {"slot", "", "place in the first ring", [](const B& b) { return b.block.slot; }},
+      {"rib", "", "1: spans a corner of the vault", [](const B& b) { return b.block.rib ? 1 : 0; }},
+      {"beside_spiral", "", "1: laid flat, with a head joint to a herringbone block", &B::beside_spiral},
+      {"{}_m", "m", "centroid in the assembly", [](const B& b) { return b.block.centroid; }},
+      {"weight_N", "N", "weight under full gravity", &B::weight},
+      {"force_{}_N", "N", "force from the ring below", [](const B& b) { return b.from_below.force; }},
+      {"moment_{}_Nm", "N m", "moment from the ring below, about the centroid",
+       [](const B& b) { return b.from_below.moment; }},
+      {"resultant_N", "N", "norm of the force from the ring below",
+       [](const B& b) { return b.fields.resultant; }},
+      {"axis_{}_m", "m", "point on the wrench's central axis nearest to the centroid",
+       [](const B& b) { return b.axis.point; }},
+      {"couple_length_m", "m", "couple over force on the central axis",
+       [](const B& b) { return b.fields.couple_length; }},
+      {"meridional_force_N_per_m", "N/m", "meridional force per metre of ring, compression positive",
+       [](const B& b) { return b.fields.meridional_force; }},
+      {"hoop_force_N_per_m", "N/m", "hoop force per metre of meridian, compression positive",
+       [](const B& b) { return b.fields.hoop_force; }},
+      {"friction_use", "", "largest friction utilisation of its joints",
+       [](const B& b) { return b.fields.friction_use; }},
+      {"kern_use", "", "largest kern utilisation of its bed joints",
+       [](const B& b) { return b.fields.kern; }},
+      {"opening_m", "m", "largest gap at its joints", [](const B& b) { return b.fields.opening; }},
+      {"slip_m", "m", "largest accumulated slip at its joints", [](const B& b) { return b.fields.slip; }},
+      {"displacement_{}_m", "m", "displacement of the centroid", &B::displacement},
+      {"mechanism_group", "", "blocks of one number move as one body", &B::mechanism_group},
+      {"couple_{}_Nm", "N m", "couple of the wrench from the ring below, parallel to its force",
+       [](const B& b) { return b.axis.couple; }, false},
+  };
+  return columns;
+}
+
+const Columns<ThrustPoint>& thrust_columns() {
+  using P = ThrustPoint;
+  static const Columns<P> columns{
+      {"bed", "", "bed, counted from the springing", &P::bed},
+      {"height_m", "m", "height of the bed's middle", &P::height},
+      {"blocks", "", "number of blocks in the strip", &P::blocks},
+      {"{}_m", "m", "point of the thrust line", &P::point},
+      {"position", "",
+       "position through the thickness: 0 intrados, 1 extrados; nan: undefined, the resultant runs along the "
+       "bed",
+       &P::position},
+      {"r_N", "N", "norm of the resultant", &P::r},
+      {"v_N", "N", "vertical component of the resultant", &P::v},
+      {"force_{}_N", "N", "resultant on the part above, turned into the meridian plane", &P::force},
+      {"couple_length_m", "m", "couple over force on the central axis", &P::couple_length},
+      {"face_distance_m", "m", "distance to the nearer face, negative outside", &P::face_distance},
+      {"geometric_safety", "", "half the thickness over the eccentricity", &P::geometric_safety},
+  };
+  return columns;
+}
+
+const Columns<HoopRow>& hoop_columns() {
+  using H = HoopRow;
+  static const Columns<H> columns{
+      {"ring", "", "ring of the joints' upper part", &H::ring},
+      {"height_m", "m", "mean height of the joints crossed", &H::height},
+      {"head_force_N", "N", "force through head joints, compression positive", &H::head_force},
+      {"bed_force_N", "N", "force through bed joints, compression positive", &H::bed_force},
+      {"hoop_force_N", "N", "sum of the two", [](const H& h) { return h.head_force + h.bed_force; }},
+  };
+  return columns;
+}
+
+const Columns<BedResultant>& section_columns() {
+  using R = BedResultant;
+  static const Columns<R> columns{
+      {"block", "", "index in the assembly", &R::block},
+      {"kind", "", "standard, herringbone or imported", &R::kind},
+      {"azimuth_deg", "deg", "azimuth of the resultant's point",
+       [](const R& r) { return azimuth(r.point) * kDegrees; }},
+      {"{}_m", "m", "point of the resultant's line of action at the bed's mean height", &R::point},
+      {"force_{}_N", "N", "resultant on the part above the bed", [](const R& r) { return r.wrench.force; }},
+      {"resultant_N", "N", "norm of the resultant", [](const R& r) { return r.wrench.force.norm(); }},
+      {"couple_length_m", "m", "couple over force on the central axis", &R::couple_length},
+  };
+  return columns;
+}
+
+const Columns<PlaneJoint>& plane_columns() {
+  using P = PlaneJoint;
+  static const Columns<P> columns{
+      {"block_a", "", "first block", [](const P& p) { return p.joint.block_a; }},
+      {"block_b", "", "second block", [](const P& p) { return p.joint.block_b; }},
+      {"kind", "", "bed, head or other", [](const P& p) { return p.joint.kind; }},
+      {"ring", "", "ring of the joint's upper part", [](const P& p) { return p.joint.ring; }},
+      {"{}_m", "m", "centre of pressure", [](const P& p) { return p.joint.centre_of_pressure; }},
+      {"force_{}_N", "N", "force on the block beyond the plane", &P::force},
+      {"through_N", "N", "component along the plane's normal, compression positive", &P::through},
+      {"along_N", "N", "component in the plane", &P::along},
+  };
+  return columns;
+}
+
+const Columns<LineCell>& line_cell_columns() {
+  using C = LineCell;
+  static const Columns<C> columns{
+      {"what", "", "0 thrust line, 1 envelope, 2 line of action, 3 intrados, 4 extrados", &C::what},
+      {"meridian", "", "index of the meridian in the case", &C::meridian},
+      {"resultant_N", "N", "norm of the resultant on a line of action; 0 elsewhere", &C::resultant},
+  };
+  return columns;
+}
+
+const Columns<SectionCell>& section_cell_columns() {
+  using C = SectionCell;
+  static const Columns<C> columns{
+      {"what", "", "0 force as a segment, 1 outline of a block that is cut", &C::what},
+      {"cut", "", "index of the cut: sections first, then planes", &C::cut},
+      {"block", "", "index in the assembly", &C::block},
+      {"height_m", "m", "height of the section, or of the plane's point", &C::height},
+      {"resultant_N", "N", "norm of the force of a segment; 0 for outlines", &C::resultant},
+  };
+  return columns;
+}
+
+// clang-format on
+
+}  // namespace cupola

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "postproc/evaluation/evaluation.hpp"
+#include "postproc/tables/column.hpp"
+
+namespace cupola {
+
+// The columns of all results, one list per subject. To add a column, add one line to a list in
+// result_columns.cpp; to put it into a mesh file too, add its key to the file's list below.
+
+/// A ring cut, with the direction against which loads count.
+struct RingRow {
+  const RingSum& cut;
+  Vec3 up;
+};
+
+/// A block of one frame.
+struct BlockRow {
+  const Block& block;
+  const BlockFields& fields;
+  const Wrench& from_below;
+  CentralAxis axis;       ///< of `from_below`
+  Vec3 displacement;      ///< m
+  double weight = 0.0;    ///< N
+  int index = 0;          ///< into Assembly::blocks
+  int ring = 0;           ///< the block's first ring; in meshes of parts, that of the part
+  int beside_spiral = 0;  ///< 1: laid flat, with a head joint to a herringbone block
+  int mechanism_group = 0;
+};
+std::vector<BlockRow> block_rows(const Evaluation& evaluation, const FrameEvaluation& frame);
+
+/// A joint across a plane cut.
+struct PlaneJoint {
+  const JointWrench& joint;
+  Vec3 force;            ///< N, on the block beyond the plane
+  double through = 0.0;  ///< N, along the plane's normal
+  double along = 0.0;    ///< N, in the plane
+};
+std::vector<PlaneJoint> plane_joints(const Evaluation& evaluation, const PlaneCut& cut);
+
+/// A cell of thrust_lines.vtp.
+struct LineCell {
+  enum What { thrust_line, envelope, line_of_action, intrados, extrados };
+  int what = thrust_line;
+  int meridian = 0;        ///< index into Evaluation::meridians
+  double resultant = 0.0;  ///< N, of a line of action
+};
+
+/// A cell of sections.vtp.
+struct SectionCell {
+  enum What { segment, outline };
+  int what = segment;
+  int cut = 0;  ///< sections first, then planes
+  int block = 0;
+  double height = 0.0;     ///< m, of the section or of the plane's point
+  double resultant = 0.0;  ///< N, of a segment
+};
+
+const Columns<RingRow>& ring_columns();
+const Columns<JointWrench>& joint_columns();
+const Columns<BlockRow>& block_columns();
+const Columns<ThrustPoint>& thrust_columns();
+const Columns<HoopRow>& hoop_columns();
+const Columns<BedResultant>& section_columns();
+const Columns<PlaneJoint>& plane_columns();
+const Columns<LineCell>& line_cell_columns();
+const Columns<SectionCell>& section_cell_columns();
+
+/// blocks_NNNN.vtu: cell data, one value per part.
+inline constexpr std::array kBlockMeshKeys{"meridional_force_N_per_m",
+                                           "hoop_force_N_per_m",
+                                           "resultant_N",
+                                           "couple_length_m",
+                                           "friction_use",
+                                           "kern_use",
+                                           "opening_m",
+                                           "slip_m",
+                                           "mechanism_group",
+                                           "block",
+                                           "ring",
+                                           "kind"};
+/// wrenches.vtp: cell data and point data.
+inline constexpr std::array kWrenchCellKeys{"block", "ring", "kind", "resultant_N", "couple_length_m"};
+inline constexpr std::array kWrenchPointKeys{"force_N", "couple_Nm"};
+/// joints.vtp: cell data and point data.
+inline constexpr std::array kJointCellKeys{"force_magnitude_N"};
+inline constexpr std::array kJointPointKeys{
+    "force_magnitude_N", "force_N",   "moment_Nm", "normal",  "couple_length_m", "eccentricity_m", "kern_use",
+    "friction_use",      "opening_m", "slip_m",    "block_a", "block_b",         "kind",           "ring"};
+/// cracks.vtp: cell data.
+inline constexpr std::array kCrackKeys{"opening_m", "slip_m", "kind"};
+/// thrust_lines.vtp and sections.vtp: cell data.
+inline constexpr std::array kLineCellKeys{"what", "meridian", "resultant_N"};
+inline constexpr std::array kSectionCellKeys{"what", "cut", "block", "height_m", "resultant_N"};
+/// summary.json: `rings`.
+inline constexpr std::array kRingSummaryKeys{
+    "ring",         "height_m",   "joint_force_N", "load_above_N", "relative_difference",
+    "cv_resultant", "cv_pressure"};
+
+/// Every list above as Markdown: name, unit and meaning of each column, and the mesh files that hold it.
+std::string column_reference();
+
+}  // namespace cupola

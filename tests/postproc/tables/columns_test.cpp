@@ -1,0 +1,71 @@
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "postproc/tables/mesh_output.hpp"
+#include "postproc/tables/result_columns.hpp"
+#include "postproc/tables/result_tables.hpp"
+#include "tests/postproc/scene.hpp"
+
+namespace cupola::columns_test {
+namespace {
+
+template <class Row>
+void expect_sound(const Columns<Row>& columns, std::initializer_list<Keys> files) {
+  std::set<std::string> names;
+  for (const Column<Row>& column : columns) {
+    EXPECT_FALSE(column.meaning.empty()) << column.key;
+    for (const std::string& key : column.in_table ? column.table_keys() : std::vector{column.array_name()})
+      EXPECT_TRUE(names.insert(key).second) << key;
+  }
+  for (const Keys& keys : files)
+    for (const char* key : keys)
+      EXPECT_TRUE(std::any_of(columns.begin(), columns.end(), [&](const Column<Row>& column) {
+        return column.array_name() == key;
+      })) << key;
+}
+
+TEST(Columns, NamesAreUniqueAndEveryFileNamesColumnsThatExist) {
+  expect_sound(ring_columns(), {kRingSummaryKeys});
+  expect_sound(joint_columns(), {kJointCellKeys, kJointPointKeys, kCrackKeys});
+  expect_sound(block_columns(), {kBlockMeshKeys, kWrenchCellKeys, kWrenchPointKeys});
+  expect_sound(thrust_columns(), {});
+  expect_sound(hoop_columns(), {});
+  expect_sound(section_columns(), {});
+  expect_sound(plane_columns(), {});
+  expect_sound(line_cell_columns(), {kLineCellKeys});
+  expect_sound(section_cell_columns(), {kSectionCellKeys});
+}
+
+TEST(Columns, AVectorHasThreeColumnsInATableAndOneArrayInAMesh) {
+  const Column<JointWrench>& force = column_named(joint_columns(), "force_N");
+  EXPECT_EQ(force.table_keys(), (std::vector<std::string>{"force_x_N", "force_y_N", "force_z_N"}));
+  const Column<JointWrench>& ring = column_named(joint_columns(), "ring");
+  EXPECT_EQ(ring.table_keys(), std::vector<std::string>{"ring"});
+}
+
+TEST(Columns, TablesAndMeshesHoldTheSameValues) {
+  const Evaluation e = test::column_evaluation(0.7, 0.3, 2.0);
+  const Table table = joint_table(e);
+  const Mesh mesh = joints_mesh(e);
+  const auto forces = mesh.array<double>(mesh.point_data, "force_N", 3);
+  const auto kinds = mesh.array<std::int32_t>(mesh.point_data, "kind", 1);
+  ASSERT_EQ(forces.size(), 6 * table.rows.size()) << "every joint has two points";
+  size_t force_x = 0;
+  while (table.columns.at(force_x).key != "force_x_N") ++force_x;
+  for (size_t j = 0; j < table.rows.size(); ++j) {
+    for (size_t i = 0; i < 3; ++i) EXPECT_EQ(std::get<double>(table.rows[j][force_x + i]), forces[3 * j + i]);
+    EXPECT_EQ(std::get<std::string>(table.rows[j][2]), to_string(static_cast<JointKind>(kinds[j])));
+  }
+}
+
+// Readers tell integers from doubles, also where nothing has cracked.
+TEST(Columns, ArraysKeepTheirTypeWithoutRows) {
+  const Mesh cracks = cracks_mesh(test::column_evaluation(0.6, 0.4));
+  ASSERT_EQ(cracks.num_cells(), 0);
+  EXPECT_TRUE(cracks.array<double>(cracks.cell_data, "opening_m", 1).empty());
+  EXPECT_TRUE(cracks.array<std::int32_t>(cracks.cell_data, "kind", 1).empty());
+}
+
+}  // namespace
+}  // namespace cupola::columns_test
