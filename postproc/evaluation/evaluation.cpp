@@ -35,18 +35,14 @@ bool is_mechanism(const Summary& summary, const Frame& frame) {
 }
 
 /// Displaces the blocks of a mechanism along their velocities until the fastest has moved by kShown times the
-/// model's size.
+/// size of the model.
 void displace_mechanism(const Assembly& assembly, Frame* frame) {
-  constexpr double kShown = 0.05;  // share of the diagonal of the block centroids
-  Eigen::AlignedBox3d box;
-  for (const Block& block : assembly.blocks)
-    if (!block.fixed) box.extend(block.centroid);
+  constexpr double kShown = 0.05;
   BlockTable& blocks = frame->blocks;
   double fastest = 0.0;
   for (const Vec3& v : blocks.velocity) fastest = std::max(fastest, v.norm());
   if (fastest == 0.0) return;
-  const double time =
-      kShown * std::max(box.diagonal().norm(), std::cbrt(assembly.blocks.front().volume)) / fastest;
+  const double time = kShown * model_size(assembly) / fastest;
   for (size_t b = 0; b < blocks.position.size(); ++b) {
     const Vec3 turn = time * blocks.angular_velocity[b];
     const Eigen::Quaterniond q(Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()));

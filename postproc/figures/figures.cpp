@@ -34,6 +34,7 @@ Figure ring_figure(const Evaluation& e) {
       plot_style() + data_block("rings", rows) +
       fmt::format(
           "set multiplot layout 2,2 margins 0.10,0.97,0.09,0.96 spacing 0.12,0.11\nset xlabel 'height (m)'\n"
+          "set key at graph 0.5,1.0 center bottom horizontal\n"
           "set ylabel 'vertical force ({4})'\nset yrange [0:*]\n"
           "plot $rings using 1:3 w l lc rgb '{0}' lw 3 title 'load above', $rings using 1:2 w p lc rgb '{1}' "
           "pt 7 ps 0.6 title 'joint forces'\n"
@@ -64,14 +65,14 @@ Figure hoop_figure(const MeridianEvaluation& m) {
   f.name = "hoop_" + m.thrust.name;
   f.title = fmt::format("Hoop forces across the meridian {} ({:g} deg)", m.thrust.name, m.thrust.azimuth_deg);
   f.caption =
-      "Hoop force of each ring across the meridian. Head joints carry compression only; bed joints also "
-      "carry tension by friction (negative).";
+      "Hoop force of each ring across the meridian, compression positive. Head joints carry compression "
+      "only; bed joints also carry tension, by friction.";
   f.width = 900;
   f.height = 480;
   f.commands =
       plot_style() + data_block("hoop", rows) +
       fmt::format(
-          "set xlabel 'height (m)'\nset ylabel 'hoop force of a ring ({2}), compression positive'\n"
+          "set xlabel 'height (m)'\nset ylabel 'hoop force of a ring ({2})'\n"
           "set xzeroaxis lc rgb '#444444'\nset key left top\n"
           "plot $hoop using 1:4 w lp lc rgb 'black' lw 2 pt 7 ps 0.5 title 'sum', $hoop using 1:2 w lp lc "
           "rgb '{0}' pt 5 ps 0.5 title 'head joints', $hoop using 1:3 w lp lc rgb '{1}' pt 9 ps 0.6 title "

@@ -50,12 +50,6 @@ Rows outlines_of(const Evaluation& e, const Projection& page) {
   return rows;
 }
 
-/// Largest number of the form 1, 2 or 5 times a power of ten that does not exceed `value`.
-double round_below(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  return value >= 5.0 * power ? 5.0 * power : value >= 2.0 * power ? 2.0 * power : power;
-}
-
 }  // namespace
 
 Figure levels_figure(const Evaluation& e) {
@@ -76,7 +70,7 @@ Figure levels_figure(const Evaluation& e) {
       lowest = std::min(lowest, from[1]);
       left = std::min(left, from[0]);
     }
-  const double sample = round_below(largest);  // N, length of the scale bar
+  const double sample = round_down(largest);  // N, length of the scale bar
   const Rows measure = {{left, lowest - 0.6 * scale * largest, scale * sample, 0.0}};
 
   Figure f;
@@ -94,7 +88,7 @@ Figure levels_figure(const Evaluation& e) {
       data_block("upright", upright) + data_block("measure", measure) +
       fmt::format(
           "set size ratio -1\nunset border\nunset tics\nunset grid\nunset key\n"
-          "set label '{:g} {}' at {},{} offset 0,-0.8\n"
+          "set label '{:g} {}' at {},{} offset 0,0.7\n"
           "plot $outlines w l lc rgb '#bbbbbb' lw 0.8, $measure w vectors nohead lc rgb 'black' lw 2{}{}\n",
           unit.per_newton * sample, unit.name, measure[0][0], measure[0][1],
           flat.empty() ? "" : fmt::format(", $flat w vectors nohead lc rgb '{}' lw 2.5", kBlue),

@@ -33,8 +33,7 @@ std::string caption_of(const Evaluation& e, const PlaneCut& cut, double largest,
       "The plane through ({:g}, {:g}, {:g}) m with normal ({:.3g}, {:.3g}, {:.3g}). Circles: normal force of "
       "each joint across it, compression blue and tension orange; their areas are to scale, the largest is "
       "{:.3g} {}. On the blocks beyond, the {} joints together exert {:.4g} {} along the normal and "
-      "{:.4g} {} "
-      "in the plane.",
+      "{:.4g} {} in the plane.",
       cut.point.x(), cut.point.y(), cut.point.z(), cut.normal.x(), cut.normal.y(), cut.normal.z(),
       unit.per_newton * largest, unit.name, cut.joints.size(), sum.per_newton * through, sum.name,
       sum.per_newton * along, sum.name);

@@ -88,6 +88,13 @@ double standard_width(const Assembly& assembly, const Shell& shell) {
 
 }  // namespace
 
+double model_size(const Assembly& assembly) {
+  Eigen::AlignedBox3d box;
+  for (const Block& block : assembly.blocks)
+    if (!block.fixed) box.extend(block.centroid);
+  return std::max(box.diagonal().norm(), std::cbrt(assembly.blocks.front().volume));
+}
+
 double azimuth(const Vec3& point) {
   return std::atan2(point.y(), point.x());
 }

@@ -101,14 +101,14 @@ Wrench wrench_through(const ThrustInput& in, int block, int bed) {
     const double sign = joint.block_b == block ? -1.0 : 1.0;
     for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
       const int row = in.joints->contacts[i];
-      const int course = joint.lower == block ? c.ring[row] - 1 : c.ring[row];
-      if (course >= bed) w.add_force(c.point[row], sign * c.force[row]);
+      const int ring = joint.lower == block ? c.ring[row] - 1 : c.ring[row];
+      if (ring >= bed) w.add_force(c.point[row], sign * c.force[row]);
     }
   }
   return w;
 }
 
-/// Wrench of a block on what lies above the last bed: a support in an arch; zero under a free edge.
+/// Wrench of a block on the support above the last bed of an arch; zero under a free edge.
 Wrench wrench_onwards(const ThrustInput& in, int block) {
   Wrench w;
   w.point = in.assembly->blocks[block].centroid;

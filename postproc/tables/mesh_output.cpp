@@ -75,17 +75,17 @@ Mesh DisplacedBlocks::at(const FrameEvaluation& e) const {
   return mesh;
 }
 
+double round_down(double value) {
+  CUPOLA_ASSERT(value > 0.0);
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power <= value) return digit * power;
+  return power;
+}
+
 double segment_scale(const Assembly& assembly, double largest_force) {
   if (largest_force <= 0.0) return 0.0;
-  Eigen::AlignedBox3d box;
-  for (const Block& block : assembly.blocks)
-    if (!block.fixed) box.extend(block.centroid);
-  const double longest = 0.1 * std::max(box.diagonal().norm(), std::cbrt(assembly.blocks.front().volume));
-  const double exact = longest / largest_force;
-  const double power = std::pow(10.0, std::floor(std::log10(exact)));
-  for (const double digit : {5.0, 2.0})
-    if (digit * power <= exact) return digit * power;
-  return power;
+  return round_down(0.1 * model_size(assembly) / largest_force);
 }
 
 Mesh joints_mesh(const Evaluation& e) {

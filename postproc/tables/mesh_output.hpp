@@ -19,6 +19,9 @@ class DisplacedBlocks {
   Mesh cells_;
 };
 
+/// Largest number of the form 1, 2 or 5 times a power of ten that does not exceed `value` > 0.
+double round_down(double value);
+
 /// Length of a drawn force, m per N: the largest force is drawn a tenth as long as the model, rounded down to
 /// 1, 2 or 5 times a power of ten.
 double segment_scale(const Assembly& assembly, double largest_force);

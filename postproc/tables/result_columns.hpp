@@ -27,7 +27,7 @@ struct BlockRow {
   Vec3 displacement;      ///< m
   double weight = 0.0;    ///< N
   int index = 0;          ///< into Assembly::blocks
-  int ring = 0;           ///< the block's first ring; in meshes of parts, that of the part
+  int ring = 0;           ///< first ring of the block; ring of the part in meshes of parts
   int beside_spiral = 0;  ///< 1: laid flat, with a head joint to a herringbone block
   int mechanism_group = 0;
 };

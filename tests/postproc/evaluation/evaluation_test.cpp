@@ -153,15 +153,15 @@ TEST(Evaluation, MechanismGroupsFollowTheMotion) {
 
 TEST(Evaluation, LimitAnalysisEvaluatesTheEquilibriumAndDisplacesTheMechanism) {
   const Assembly a = test::column(3);
-  Frame stands = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4), moves = stands;
-  moves.time = 1.0;
-  for (int i = 0; i < moves.contacts.size(); ++i) moves.contacts.force[i] *= 0.5;  // not in equilibrium
-  moves.blocks.velocity[3] = Vec3(1.0, 0, 0);                                      // the top block slides off
+  Frame stable = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4), moving = stable;
+  moving.time = 1.0;
+  for (int i = 0; i < moving.contacts.size(); ++i) moving.contacts.force[i] *= 0.5;  // not in equilibrium
+  moving.blocks.velocity[3] = Vec3(1.0, 0, 0);  // the top block slides off
   Summary summary = column_summary(a);
   summary.analysis = AnalysisType::limit;
   summary.critical = CriticalValue{"friction", 0.1, 0.101, 0.099};
   const std::string folder = test::fresh_folder("results");
-  const Evaluation e = evaluated(a, {stands, moves}, summary, column_case(), folder);
+  const Evaluation e = evaluated(a, {stable, moving}, summary, column_case(), folder);
   EXPECT_EQ(e.last.frame.time, 0.0);
   EXPECT_LT(e.rings[0].relative_difference, 1e-14);
   EXPECT_TRUE(e.warnings.empty());
