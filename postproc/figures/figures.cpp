@@ -65,8 +65,8 @@ Figure hoop_figure(const MeridianEvaluation& m) {
   f.name = "hoop_" + m.thrust.name;
   f.title = fmt::format("Hoop forces across the meridian {} ({:g} deg)", m.thrust.name, m.thrust.azimuth_deg);
   f.caption =
-      "Hoop force of each ring across the meridian, compression positive. Head joints carry compression "
-      "only; bed joints also carry tension, by friction.";
+      "Hoop force of each ring across the meridian, compression positive. Dry head joints carry "
+      "compression only; bed joints also carry tension, by friction.";
   f.width = 900;
   f.height = 480;
   f.commands =

@@ -39,7 +39,8 @@ struct Column : ColumnInfo {
   std::function<Value(const Row&)> value;
 
   template <class Getter>
-  Column(const char* name, const char* si_unit, const char* phrase, Getter getter, bool tabulated = true)
+  Column(const std::string& name, const std::string& si_unit, const std::string& phrase, Getter getter,
+         bool tabulated = true)
       : ColumnInfo{name, si_unit, phrase, tabulated, kIsVector<Getter>, kIsReal<Getter>}, value(getter) {
     static_assert(std::is_constructible_v<Value, Result<Getter>>, "the getter returns one of Value's types");
   }

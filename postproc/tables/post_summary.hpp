@@ -38,7 +38,8 @@ struct PostSummary {
   std::vector<Line> thrust_lines;
 };
 PostSummary post_summary(const Evaluation& evaluation);
-PostSummary read_post_summary(
-    const std::string& folder);  ///< from `folder`/summary.json; InputError if not readable
+
+/// Reads `folder`/summary.json; InputError if it is missing, damaged or of another version.
+PostSummary read_post_summary(const std::string& folder);
 
 }  // namespace cupola

@@ -1,7 +1,19 @@
 #include "postproc/tables/result_columns.hpp"
 
+#include <fmt/format.h>
+
 namespace cupola {
 namespace {
+
+/// Kinds as tables and mesh files give them: "bed (0), head (1), ...".
+template <NamedEnum E>
+std::string names_and_codes() {
+  std::string text;
+  int code = 0;
+  for (const std::string& name : names_of<E>())
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", name, code++);
+  return text;
+}
 
 /// Per block, 1 for a block laid flat that has a head joint with a herringbone block.
 std::vector<int> beside_spiral(const Assembly& assembly, const JointWrenches& joints) {
@@ -88,7 +100,7 @@ const Columns<JointWrench>& joint_columns() {
   static const Columns<J> columns{
       {"block_a", "", "first block", &J::block_a},
       {"block_b", "", "second block", &J::block_b},
-      {"kind", "", "bed (0), head (1), base (2) or other (3)", &J::kind},
+      {"kind", "", names_and_codes<JointKind>(), &J::kind},
       {"ring", "", "ring of the joint's upper part", &J::ring},
       {"{}_m", "m", "centre of pressure", [](const J& j) { return j.wrench.point; }},
       {"force_{}_N", "N", "resultant on the second block", [](const J& j) { return j.wrench.force; }},
@@ -119,8 +131,7 @@ const Columns<BlockRow>& block_columns() {
   using B = BlockRow;
   static const Columns<B> columns{
       {"block", "", "index in the assembly", &B::index},
-      {"kind", "", "standard (0), herringbone (1), support (2) or imported (3)",
-       [](const B& b) { return b.block.kind; }},
+      {"kind", "", names_and_codes<BlockKind>(), [](const B& b) { return b.block.kind; }},
       {"ring", "", "first ring of the block; in blocks_NNNN.vtu, ring of the part", &B::ring},
       {"slot", "", "place in the first ring", [](const B& b) { return b.block.slot; }},
       {"rib", "", "1: spans a corner of the vault", [](const B& b) { return b.block.rib ? 1 : 0; }},
