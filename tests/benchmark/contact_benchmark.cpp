@@ -1,11 +1,11 @@
-// What the contact solvers cost and reach, as tables: methods on one static solve and on the first step,
+// Cost and accuracy of the contact solvers, as tables: methods on one static solve and on the first step,
 // random gaps, time stepping, scale. CPU seconds, one thread.
 //
 //   contact_benchmark                                    all but the two largest sizes
 //   contact_benchmark methods | gaps | stepping | scale  one table
-//   contact_benchmark threads                            factor and assembly on two threads, and without a
-//   factor contact_benchmark large                              scale to 81,920 and 327,680 blocks (10 GB)
-//   contact_benchmark million                            1,024,000 blocks by one of eight sectors
+//   contact_benchmark threads                            factor and assembly on two threads; CG on one
+//   contact_benchmark large                              scale to 81,920 and 327,680 blocks (10 GB)
+//   contact_benchmark million                            1,024,000 blocks, one of eight sectors
 
 #include <cmath>
 #include <string>
@@ -89,7 +89,7 @@ void compare_methods() {
 }
 
 void random_gaps() {
-  print_header("Random gaps, static h = 1 s, newton with fall-back, tolerance 1e-8, error against 1e-11");
+  print_header("Random gaps, static h = 1 s, newton with fallback, tolerance 1e-8, error against 1e-11");
   for (const double gap : {1e-4, 1e-2}) {
     for (const double c : {1e-8, 1e-10, 1e-12}) {
       DomeProblem dome;
@@ -200,7 +200,7 @@ double shortest(const Work& work) {
   return best;
 }
 
-/// Conjugate gradients to a residual of 1e-8: iterations.
+/// Number of CG iterations to a residual of 1e-8.
 template <class Precondition>
 int count_gradients(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
                     const Precondition& precondition) {
@@ -221,7 +221,7 @@ int count_gradients(const BlockPattern& pattern, const BlockMatrix& H, const Vec
   return k;
 }
 
-/// Preconditioned by the blocks' own 6x6 matrices.
+/// Block Jacobi: preconditioned by the diagonal 6x6 blocks.
 int block_jacobi_gradients(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs) {
   std::vector<Mat6> inverse;
   for (const Mat6& block : H.diagonal) inverse.push_back(block.inverse());
@@ -233,8 +233,8 @@ int block_jacobi_gradients(const BlockPattern& pattern, const BlockMatrix& H, co
   });
 }
 
-/// The Hessian in which every contact sticks: assembly, factor and solve on one and two threads, and the same
-/// system without a factor, on one thread.
+/// The Hessian with all contacts sticking: assembly, factor and solve on one and two threads, and the same
+/// system by CG on one thread.
 void threads() {
   fmt::print(
       "\nOne and two threads, wall s, shortest of three; conjugate gradients with block Jacobi, a "
@@ -261,7 +261,7 @@ void threads() {
       set_num_threads(n);
       assembly[n - 1] = shortest([&] { H = assemble_hessian(p, graph, G); });
       BlockCholesky factor;
-      if (!factor.factorize(graph.pattern, H)) return;  // the first one orders, too
+      if (!factor.factorize(graph.pattern, H)) return;  // the first one includes the ordering
       bool sound = true;
       factorisation[n - 1] = shortest([&] { sound = factor.factorize(graph.pattern, H) && sound; });
       if (!sound) return;

@@ -11,8 +11,7 @@
 
 namespace cupola {
 
-/// Contact problem of the circular dome at rest, as cupola-solve builds it: 40 x 32 blocks unless told
-/// otherwise.
+/// Contact problem of the circular dome at rest, as cupola-solve builds it; 40 x 32 blocks by default.
 struct DomeProblem {
   int rings = 40, blocks_per_ring = 32, slices_per_block = 4;
   double h = 1e3;            ///< s; large: static

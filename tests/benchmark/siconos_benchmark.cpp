@@ -1,13 +1,13 @@
-// Cupola against Siconos (Debian's packages, its C API) on the same problems in one run: the circular dome,
-// 1,280 blocks, Coulomb's law, static-elastic and rigid. CPU seconds, one thread (OPENBLAS_NUM_THREADS=1
-// OMP_NUM_THREADS=1).
+// Compares Cupola with Siconos (Debian's packages, its C API) on the same problems in one run: the circular
+// dome, 1,280 blocks, Coulomb's law, static-elastic and rigid. CPU seconds, one thread
+// (OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1).
 //
-// Masses and speeds are scaled by their means, so that Siconos' error, which mixes N s and m/s, has no unit.
-// `error` is Siconos' own measure of each answer, computed by its routine; `force` compares with our answer
-// at 1e-11 (where the forces are unique).
+// Masses and speeds are scaled by their means, so that Siconos' error, which adds N s and m/s, has no unit.
+// `error` is Siconos' own measure of each solution, computed by its routine; `force` is the difference from
+// our solution at 1e-11 (where the forces are unique).
 //
-// Each method of Siconos runs in a process of its own, which is stopped after so many CPU seconds or at 8 GB;
-// `error` is then that of the impulses it had reached (NSGS; the others write theirs when they end).
+// Each method of Siconos runs in its own process, which is stopped at a limit of CPU seconds or at 8 GB.
+// `error` is then that of the current impulses (NSGS; the other methods write theirs at the end).
 //
 //   siconos_benchmark [tolerance] [CPU seconds per method] [static|rigid]     1e-8, 120, both
 
@@ -44,7 +44,7 @@ namespace cupola {
 namespace {
 
 constexpr double kGravity = 9.81;
-constexpr int kUnlimited = 1'000'000;  // iterations: CPU time is what stops a method
+constexpr int kUnlimited = 1'000'000;  // iterations: CPU time is the limit
 
 NumericsMatrix* to_numerics(const Eigen::SparseMatrix<double>& A) {
   NumericsMatrix* matrix = NM_create(NM_SPARSE, static_cast<int>(A.rows()), static_cast<int>(A.cols()));
@@ -68,14 +68,14 @@ ContactProblem scaled(const ContactProblem& problem, double mass, double speed) 
   return p;
 }
 
-/// Zeros that a child process shares with its parent.
+/// Zero-initialised memory that a child process shares with its parent.
 double* shared_zeros(std::size_t n) {
   void* memory = mmap(nullptr, n * sizeof(double), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
   return static_cast<double*>(memory);
 }
 
-/// Runs `work` in a child process of at most so many CPU seconds and 8 GB. Whether it came to its end.
+/// Runs `work` in a child process with a limit of CPU seconds and of 8 GB. True if it ended by itself.
 bool run_capped(double seconds, const std::function<void()>& work) {
   std::fflush(stdout);
   const pid_t child = fork();
@@ -126,7 +126,7 @@ class Comparison {
                siconos_error(gamma), force, cpu / cupola_cpu_);
     std::fflush(stdout);
   }
-  /// `solve` fills impulses_ and tells its iterations.
+  /// `solve` fills impulses_ and returns its iterations.
   void run_peer(const std::string& name, const std::function<int()>& solve);
 
   ContactProblem problem_;
@@ -149,7 +149,8 @@ void Comparison::run_cupola() {
   ContactSolution x;
   solve_contact(problem_, options, &x);
   reference_ = x.gamma;
-  // Our residuals are not Siconos' error: the tolerance is lowered until its routine, too, is content.
+  // Our residuals differ from Siconos' error: lower the tolerance until Siconos' routine accepts the
+  // solution.
   for (options.tolerance = tolerance_; options.tolerance > 1e-12; options.tolerance *= 0.1) {
     x = {};
     const double start = cpu_seconds();
@@ -197,7 +198,7 @@ void Comparison::run_siconos_local(const std::string& name, int solver, bool blo
   solver_options_delete(options);
 }
 
-/// The global form has no slot for compliance: rigid problems only.
+/// The global form has no compliance: rigid problems only.
 void Comparison::run_siconos_global() {
   std::vector<Eigen::Triplet<double>> mass, contacts;
   for (int k = 0; k < problem_.num_blocks(); ++k) {
