@@ -1,7 +1,6 @@
 #include "solver/cost_estimate.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -129,23 +128,6 @@ CostEstimate estimate_motion(const Case& scene, const Assembly& assembly, const 
 }
 
 }  // namespace
-
-double num_equilibria(const Analysis& analysis, int num_rings) {
-  switch (analysis.type) {
-    case AnalysisType::static_:
-    case AnalysisType::dynamic:
-      return 1.0;
-    case AnalysisType::staged:
-      return 0.5 * std::max(2, num_rings);
-    case AnalysisType::limit: {
-      const LimitSearch& limit = analysis.limit;
-      const double widest = std::max(std::abs(limit.low), std::abs(limit.high));
-      const double halvings = std::log2((limit.high - limit.low) / (widest * limit.relative_width));
-      return 2.0 + std::ceil(std::max(0.0, halvings));
-    }
-  }
-  return 1.0;
-}
 
 CostEstimate estimate_cost(const Case& scene, const Assembly& assembly, const ContactProblem& problem) {
   CostEstimate cost = scene.analysis.type == AnalysisType::dynamic

@@ -25,10 +25,6 @@ struct CostEstimate {
   long long factor_entries = 0;  ///< of the Cholesky factor; 0 for methods without one
 };
 
-/// Static solves of the whole model in one analysis, on average. A limit analysis takes one for each end of
-/// the bracket and one per halving; a construction takes one per ring, of half the model on average.
-double num_equilibria(const Analysis& analysis, int num_rings);
-
 /// Times one factorisation (or multigrid solve) of `problem`, the first contact problem of the run, and for a
 /// dynamic analysis also its static start and its first steps.
 CostEstimate estimate_cost(const Case& scene, const Assembly& assembly, const ContactProblem& problem);

@@ -27,6 +27,23 @@ StaticOptions static_options(const Analysis& analysis) {
   return options;
 }
 
+double num_equilibria(const Analysis& analysis, int num_rings) {
+  switch (analysis.type) {
+    case AnalysisType::static_:
+    case AnalysisType::dynamic:
+      return 1.0;
+    case AnalysisType::staged:
+      return 0.5 * std::max(2, num_rings);
+    case AnalysisType::limit: {
+      const LimitSearch& limit = analysis.limit;
+      const double widest = std::max(std::abs(limit.low), std::abs(limit.high));
+      const double halvings = std::log2((limit.high - limit.low) / (widest * limit.relative_width));
+      return 2.0 + std::ceil(std::max(0.0, halvings));
+    }
+  }
+  return 1.0;
+}
+
 double step_limit(const Case& scene, double time) {
   const Analysis& analysis = scene.analysis;
   if (!analysis.adaptive) return analysis.time_step;

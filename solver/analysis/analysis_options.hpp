@@ -9,6 +9,10 @@ namespace cupola {
 /// motion, of each trial of a limit analysis and of each stage of a construction.
 StaticOptions static_options(const Analysis& analysis);
 
+/// Static solves of the whole model in one analysis, on average. A limit analysis takes one for each end of
+/// the bracket and one per halving; a construction takes one per ring, of half the model on average.
+double num_equilibria(const Analysis& analysis, int num_rings);
+
 /// Longest step of a dynamic analysis from `time`, s. Adaptive steps end at the times of frames and at the
 /// end of the analysis.
 double step_limit(const Case& scene, double time);
