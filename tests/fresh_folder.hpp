@@ -8,8 +8,8 @@
 
 namespace cupola::test {
 
-/// A folder of the running test's own, emptied on entry. All of a process lie below one folder that goes when
-/// the process ends, so that test programs running at the same time do not meet.
+/// An empty folder for the running test. All folders of a process are below one folder that is removed when
+/// the process ends, so that test programs can run at the same time.
 inline std::string fresh_folder(const std::string& name) {
   struct Root {
     std::filesystem::path path =

@@ -106,7 +106,7 @@ void DynamicRun::step() {
   now_ = take_snapshot(simulation_);
   ++progress_.steps;
   progress_.iterations += report_.solve.iterations;
-  progress_.friction_work += report_.slid_work;
+  progress_.friction_work += report_.friction_work;
   progress_.worst_momentum = std::max(progress_.worst_momentum, report_.residuals.momentum);
   if (report_.solve.ending != SolveEnding::converged) ++progress_.unconverged_steps;
   const double time = simulation_.state().time;

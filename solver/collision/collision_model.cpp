@@ -38,7 +38,7 @@ std::vector<int> vertices_of_part(const Assembly& assembly, const Part& part) {
   return ids;
 }
 
-/// Each edge once, as positions of its ends in the sorted vertex ids.
+/// Each edge once, as the positions of its ends in the sorted vertex ids.
 std::vector<std::pair<int, int>> edges_of_part(const Assembly& assembly, const Part& part,
                                                const std::vector<int>& vertex_ids) {
   const auto position = [&](int v) {
@@ -82,12 +82,13 @@ void add_part(const Assembly& assembly, const Part& part, CollisionModel* model)
   model->parts.push_back(shape);
 }
 
-/// The smallest of the boxes that lie on an outer face, along its longest edge: exact for a brick.
-OrientedBox closest_box(const CollisionModel& model, int block) {
+/// Smallest among the enclosing boxes whose axes are the normal and the longest edge of an outer face. Exact
+/// for a brick.
+OrientedBox smallest_box(const CollisionModel& model, int block) {
   if (model.part_start[block] == model.part_start[block + 1]) return {};
   const CollisionPart& first = model.parts[model.part_start[block]];
   const CollisionPart& last = model.parts[model.part_start[block + 1] - 1];
-  OrientedBox closest;
+  OrientedBox best;
   double smallest = std::numeric_limits<double>::infinity();
   for (int f = first.face_start; f < last.face_start + last.num_faces; ++f) {
     const CollisionFace& face = model.faces[f];
@@ -107,14 +108,15 @@ OrientedBox closest_box(const CollisionModel& model, int block) {
       extent.extend(Vec3(axes.transpose() * model.vertices[v]));
     if (!(extent.volume() < smallest)) continue;
     smallest = extent.volume();
-    closest = {axes, axes * extent.center(), 0.5 * extent.sizes()};
+    best = {axes, axes * extent.center(), 0.5 * extent.sizes()};
   }
-  return closest;
+  return best;
 }
 
 }  // namespace
 
 OrientedBox CollisionModel::box_at(int block, const Pose& pose, double padding) const {
+  CUPOLA_ASSERT(block >= 0 && block < num_blocks() && padding >= 0.0);
   const Mat3 R_WB = pose.q_WB.toRotationMatrix();
   const OrientedBox& box = block_box[block];
   return {R_WB * box.axes, R_WB * box.center + pose.p_WB, box.half_sizes.array() + padding};
@@ -125,13 +127,14 @@ CollisionModel make_collision_model(const Assembly& assembly) {
   model.block_radius.resize(assembly.blocks.size(), 0.0);
   model.part_start.resize(assembly.blocks.size() + 1, 0);
   for (const Part& part : assembly.parts) {
+    CUPOLA_ASSERT(part.block >= 0 && part.block < model.num_blocks());
     CUPOLA_ASSERT(model.parts.empty() || part.block >= model.parts.back().block);
     add_part(assembly, part, &model);
     ++model.part_start[part.block + 1];
   }
   std::partial_sum(model.part_start.begin(), model.part_start.end(), model.part_start.begin());
   for (int block = 0; block < model.num_blocks(); ++block)
-    model.block_box.push_back(closest_box(model, block));
+    model.block_box.push_back(smallest_box(model, block));
   model.faces.shrink_to_fit();
   model.corners.shrink_to_fit();
   model.vertices.shrink_to_fit();

@@ -9,14 +9,14 @@
 
 namespace cupola {
 
-/// Multithreaded loops over blocks: piece size, small enough to balance the load, and cost per block in
-/// floating-point operations (finding the joints of one block takes some tens of microseconds).
-constexpr int kBlocksPerPiece = 64;
+/// Multithreaded loops over blocks: chunk size, small enough to balance the load, and cost per block in
+/// floating-point operations. Finding the joints of one block takes some tens of microseconds.
+constexpr int kBlocksPerChunk = 64;
 constexpr double kOperationsPerBlock = 1e5;
 
-/// Face of a convex part in the axes of its block, relative to the block's centroid.
+/// Face of a convex part. Coordinates in the axes of its block, relative to the block's centroid.
 struct CollisionFace {
-  int id = 0;  ///< face of the assembly
+  int id = 0;  ///< index of the face in the assembly
   FaceKind kind = FaceKind::free;
   Vec3 normal = Vec3::UnitZ();   ///< unit, outward
   Vec3 centroid = Vec3::Zero();  ///< m
@@ -44,19 +44,19 @@ struct CollisionPart {
   Vec3 center = Vec3::Zero();  ///< m, mean of the vertices, axes of the block
 };
 
-/// The assembly as contact detection sees it: every block in its own axes, so that neither a motion nor a
-/// place far from the origin costs digits.
+/// Geometry of an assembly for contact detection. Each block is stored in its own axes, so that neither
+/// motion nor a position far from the origin loses precision.
 struct CollisionModel {
-  std::vector<CollisionPart> parts;  ///< same order as the assembly's: those of a block one after another
+  std::vector<CollisionPart> parts;  ///< in the order of the assembly; the parts of a block are contiguous
   std::vector<CollisionFace> faces;
   std::vector<Vec3> corners;  ///< m, of the faces, counter-clockwise seen from outside
   std::vector<CollisionEdge> edges;
-  std::vector<Vec3> vertices;          ///< m, of the parts, each once
-  std::vector<int> part_start;         ///< per block its first part, and the end (num_blocks + 1)
+  std::vector<Vec3> vertices;          ///< m, of the parts, each stored once
+  std::vector<int> part_start;         ///< first part of each block, then the end (num_blocks + 1)
   std::vector<double> block_radius;    ///< m, largest distance of a vertex from the centroid
   std::vector<OrientedBox> block_box;  ///< around all parts of the block, in its axes
   double smallest_block = 0.0;         ///< m, cube root of the smallest volume of a free block
-  double rounding = 0.0;               ///< m, rounding of the assembly's coordinates
+  double rounding = 0.0;               ///< m, rounding error of the assembly's coordinates
 
   std::span<const Vec3> face_corners(const CollisionFace& face) const {
     return {corners.data() + face.corner_start, static_cast<std::size_t>(face.num_corners)};
@@ -68,20 +68,22 @@ struct CollisionModel {
     return {vertices.data() + part.vertex_start, static_cast<std::size_t>(part.num_vertices)};
   }
   int num_blocks() const { return static_cast<int>(block_radius.size()); }
-  /// Boxes of two blocks overlap where they may be nearer to each other than their paddings (m) together.
+  /// The box of a block at a pose, enlarged by `padding` (m) on all sides. Two blocks whose boxes do not
+  /// overlap are farther apart than the sum of their paddings.
   OrientedBox box_at(int block, const Pose& pose, double padding) const;
   std::span<const CollisionEdge> edges_of(const CollisionPart& part) const {
     return {edges.data() + part.edge_start, static_cast<std::size_t>(part.num_edges)};
   }
 };
 
-/// Throws InputError naming block and face when a face has no area.
+/// Throws InputError with block and face when a face has no area.
 CollisionModel make_collision_model(const Assembly& assembly);
 
-/// One per block, for the broad phase: blocks of one group need not be told apart. All fixed ones are one.
+/// Group of each block for the broad phase, which never pairs blocks of one group. All fixed blocks form one
+/// group; every free block is a group of its own.
 std::vector<int> collision_groups(const CollisionModel& model);
 
-/// Poses of all blocks as the assembly was made.
+/// Poses of all blocks in the assembly as generated.
 std::vector<Pose> initial_poses(const Assembly& assembly);
 
 }  // namespace cupola

@@ -17,14 +17,17 @@
 namespace cupola {
 namespace {
 
-constexpr double kDefaultMargin = 0.01;  // of the smallest block
-// Of the smallest block. A block that sinks into its bed by the joint's compliance overlaps the sides of its
-// neighbours by that much: such slivers are no joints.
+// Lengths relative to the smallest block
+constexpr double kDefaultMargin = 0.01;
+// A block that sinks into its bed joint by compliance overlaps the sides of its neighbours by as much. Such
+// slivers are not joints.
 constexpr double kSliverWidth = 1e-3;
-constexpr int kPiecesAtOnce = 256;
-constexpr double kCornerTolerance = 1e-10;  // of the smallest block; a hundred roundings of its corners
+constexpr double kCornerTolerance = 1e-10;  // a hundred times the rounding error of its corners
 
-/// Takes coordinates in b's axes to a's. The centroids are subtracted first, far from the origin.
+constexpr int kChunksAtOnce = 256;
+
+/// Transforms coordinates from b's axes to a's. Subtracting the centroids first keeps the precision far from
+/// the origin.
 Eigen::Isometry3d relative_pose(const Pose& a, const Pose& b) {
   const Mat3 R_AW = a.q_WB.toRotationMatrix().transpose();
   Eigen::Isometry3d X_AB = Eigen::Isometry3d::Identity();
@@ -33,7 +36,7 @@ Eigen::Isometry3d relative_pose(const Pose& a, const Pose& b) {
   return X_AB;
 }
 
-/// Largest distance that a point within `radius` of the centroid has moved.
+/// Upper bound of the distance that a point within `radius` of the centroid has moved, m.
 double motion_bound(const Pose& from, const Pose& to, double radius) {
   return (to.p_WB - from.p_WB).norm() + radius * from.q_WB.angularDistance(to.q_WB);
 }
@@ -48,7 +51,7 @@ std::vector<JointPatch> clip_blocks(const CollisionModel& model, int block_a, in
   std::vector<JointPatch> patches;
   for (int a = model.part_start[block_a]; a < model.part_start[block_a + 1]; ++a) {
     for (int b = model.part_start[block_b]; b < model.part_start[block_b + 1]; ++b) {
-      if (lies_apart(model, a, b, pose_ab, options.margin)) continue;
+      if (separated_by_face(model, a, b, pose_ab, options.margin)) continue;
       const std::vector<JointPatch> faces = clip_opposed_faces(model, a, b, pose_ab, options);
       patches.insert(patches.end(), faces.begin(), faces.end());
       if (!faces.empty()) continue;
@@ -59,14 +62,14 @@ std::vector<JointPatch> clip_blocks(const CollisionModel& model, int block_a, in
   return patches;
 }
 
-/// All patches between two blocks by the paper's method.
+/// All patches between two blocks by the narrow phase of the paper.
 std::vector<JointPatch> perturb_blocks(const PerturbedGjk& gjk, const CollisionModel& model, int block_a,
                                        int block_b, const Eigen::Isometry3d& pose_ab, double margin,
                                        double reach) {
   std::vector<JointPatch> patches;
   for (int a = model.part_start[block_a]; a < model.part_start[block_a + 1]; ++a) {
     for (int b = model.part_start[block_b]; b < model.part_start[block_b + 1]; ++b) {
-      if (lies_apart(model, a, b, pose_ab, margin + reach)) continue;
+      if (separated_by_face(model, a, b, pose_ab, margin + reach)) continue;
       if (auto patch = gjk.find(model, a, b, pose_ab, reach)) patches.push_back(std::move(*patch));
     }
   }
@@ -85,7 +88,7 @@ void DetectionOptions::validate() const {
 ContactDetector::ContactDetector(const Assembly& assembly, const DetectionOptions& options)
     : options_(options), model_(make_collision_model(assembly)) {
   options_.validate();
-  if (!options_.contact_file.empty()) given_ = read_contacts(options_.contact_file, assembly);
+  if (!options_.contact_file.empty()) contacts_from_file_ = read_contacts(options_.contact_file, assembly);
   if (options_.perturbed_gjk) perturbed_gjk_.emplace(model_, *options_.perturbed_gjk);
   if (options_.margin == 0.0)
     options_.margin = perturbed_gjk_ ? perturbed_gjk_->margin() : kDefaultMargin * model_.smallest_block;
@@ -103,12 +106,12 @@ const ContactSet& ContactDetector::update(std::span<const Pose> poses, std::span
   std::vector<char> moved(poses.size(), 0);
   std::vector<int> changed;
   for (std::size_t b = 0; b < poses.size(); ++b) {
-    // A block that would cross its own size in one step is beyond what detection can promise.
-    const double goes = travel.empty() ? 0.0 : std::min(travel[b], model_.block_radius[b]);
+    // Detection does not guarantee to find the contacts of a block that moves by its own size in one step.
+    const double bound = travel.empty() ? 0.0 : std::min(travel[b], model_.block_radius[b]);
     moved[b] = !same_pose(poses[b], now.poses[b]);
-    if (moved[b] || goes != now.travel[b]) changed.push_back(static_cast<int>(b));
+    if (moved[b] || bound != now.travel[b]) changed.push_back(static_cast<int>(b));
     now.poses[b] = poses[b];
-    now.travel[b] = goes;
+    now.travel[b] = bound;
   }
   if (memory_.num_detections == 0 || needs_detection(changed)) {
     detect();
@@ -119,30 +122,32 @@ const ContactSet& ContactDetector::update(std::span<const Pose> poses, std::span
 }
 
 void ContactDetector::carry_contacts(const std::vector<char>& moved) {
+  CUPOLA_ASSERT(memory_.contacts.anchors.size() == memory_.contacts.set.points.size());
   if (moved != moved_) moved_contacts_ = moved_contacts(memory_.contacts.set, moved);
   moved_ = moved;
   move_contacts(memory_.now.poses, moved_contacts_, &memory_.contacts);
 }
 
-bool ContactDetector::still_reaches(const Reach& reach, int block) const {
+bool ContactDetector::within_reach(const Reach& reach, int block) const {
   const double moved = motion_bound(reach.poses[block], memory_.now.poses[block], model_.block_radius[block]);
   return moved + memory_.now.travel[block] <= reach.travel[block] + options_.moved_fraction * options_.margin;
 }
 
 bool ContactDetector::needs_detection(const std::vector<int>& changed) const {
-  if (given_) return false;
+  if (contacts_from_file_) return false;
   for (const int b : changed) {
-    if (!still_reaches(memory_.detection, b)) return true;
-    // A block that has come to rest need not keep the distant contacts of its flight.
+    if (!within_reach(memory_.detection, b)) return true;
+    // A block that has come to rest no longer needs the distant contacts found while it was fast.
     if (memory_.detection.travel[b] - memory_.now.travel[b] > options_.margin) return true;
   }
   return false;
 }
 
 Box ContactDetector::padded_box(const Reach& reach, int block) const {
-  // Two blocks within the margin overlap by half of it each; the rest lasts while the block still reaches.
+  // The boxes of two blocks within the margin overlap if each is enlarged by half of it. The rest of the
+  // padding keeps the box valid while the block stays within reach.
   const double padding = (0.5 + options_.moved_fraction) * options_.margin + reach.travel[block];
-  return upright_box(model_.box_at(block, reach.poses[block], padding));
+  return bounding_box(model_.box_at(block, reach.poses[block], padding));
 }
 
 void ContactDetector::make_broad_phase(const Reach& reach) {
@@ -157,7 +162,7 @@ void ContactDetector::update_broad_phase() {
   std::vector<int> blocks;
   std::vector<Box> boxes;
   for (int block = 0; block < model_.num_blocks(); ++block) {
-    if (still_reaches(memory_.boxes, block)) continue;
+    if (within_reach(memory_.boxes, block)) continue;
     blocks.push_back(block);
     boxes.push_back(padded_box(memory_.now, block));
   }
@@ -169,37 +174,38 @@ void ContactDetector::update_broad_phase() {
 }
 
 void ContactDetector::detect() {
-  AnchoredContacts fresh = given_ ? *given_ : find_contacts();
+  AnchoredContacts fresh = contacts_from_file_ ? *contacts_from_file_ : find_contacts();
   if (options_.plane) merge_across_plane(1e3 * narrow_.tolerance, &fresh);
-  std::set<ContactId> from_the_side = keep_identities(memory_.contacts, &fresh);
-  // Overlaps as built are for the solver to judge; points that stand for areas yield as little as those are.
-  if (memory_.num_detections == 0 || options_.points != PatchPoints::corners) from_the_side.clear();
+  std::set<ContactId> lateral = transfer_identities(memory_.contacts, &fresh);
+  // Overlaps as built are left to the solver. With compliance per area the points of a small area are so
+  // compliant that their force stays small.
+  if (memory_.num_detections == 0 || options_.points != PatchPoints::corners) lateral.clear();
   memory_.contacts = std::move(fresh);
-  moved_.clear();  // its list was of the old contacts
+  moved_.clear();  // moved_contacts_ refers to the old contacts
   carry_contacts(std::vector<char>(memory_.now.poses.size(), 1));
-  settle_rest_gaps(from_the_side, &memory_.contacts);
+  update_rest_gaps(lateral, &memory_.contacts);
   memory_.detection = memory_.now;
   ++memory_.num_detections;
 }
 
 AnchoredContacts ContactDetector::find_contacts() {
   update_broad_phase();
-  // Pieces of some blocks each; not all at once: of a large model they would hold as much as what they
-  // become.
+  // Chunks of blocks. They are merged in batches, because all chunks of a large model at once would take as
+  // much memory as the result.
   const int num_blocks = model_.num_blocks();
-  const int num_pieces = (num_blocks + kBlocksPerPiece - 1) / kBlocksPerPiece;
+  const int num_chunks = (num_blocks + kBlocksPerChunk - 1) / kBlocksPerChunk;
   AnchoredContacts fresh;
-  for (int first = 0; first < num_pieces; first += kPiecesAtOnce) {
-    const int count = std::min(kPiecesAtOnce, num_pieces - first);
-    std::vector<AnchoredContacts> pieces(count);
-    share_loop(kOperationsPerBlock * kBlocksPerPiece * count, count, [&](int i) {
-      const int start = (first + i) * kBlocksPerPiece;
-      pieces[i] = find_contacts(start, std::min(start + kBlocksPerPiece, num_blocks));
+  for (int first = 0; first < num_chunks; first += kChunksAtOnce) {
+    const int count = std::min(kChunksAtOnce, num_chunks - first);
+    std::vector<AnchoredContacts> chunks(count);
+    share_loop(kOperationsPerBlock * kBlocksPerChunk * count, count, [&](int i) {
+      const int start = (first + i) * kBlocksPerChunk;
+      chunks[i] = find_contacts(start, std::min(start + kBlocksPerChunk, num_blocks));
     });
-    for (AnchoredContacts& piece : pieces) append(std::move(piece), &fresh);
+    for (AnchoredContacts& chunk : chunks) append(std::move(chunk), &fresh);
     if (first > 0) continue;
-    // The rest will be like the first; what is reserved and not used takes no memory.
-    const std::size_t expected = fresh.anchors.size() * num_pieces / count;
+    // The other chunks have about as many contacts. Reserved but unused pages take no memory.
+    const std::size_t expected = fresh.anchors.size() * num_chunks / count;
     fresh.set.points.reserve(expected + expected / 4);
     fresh.anchors.reserve(expected + expected / 4);
   }
@@ -230,7 +236,7 @@ AnchoredContacts ContactDetector::find_contacts(int block_start, int block_end) 
   return fresh;
 }
 
-void ContactDetector::count_gaps_from(std::span<const double> gaps) {
+void ContactDetector::set_gaps(std::span<const double> gaps) {
   std::vector<Contact>& contacts = memory_.contacts.set.points;
   CUPOLA_ASSERT(gaps.size() == contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -240,9 +246,11 @@ void ContactDetector::count_gaps_from(std::span<const double> gaps) {
 }
 
 void ContactDetector::restore(DetectionMemory memory) {
+  CUPOLA_ASSERT(memory.num_detections == 0 || memory.now.poses.size() == model_.block_radius.size());
+  CUPOLA_ASSERT(memory.contacts.anchors.size() == memory.contacts.set.points.size());
   memory_ = std::move(memory);
   moved_.clear();
-  if (memory_.num_detections > 0 && !given_) make_broad_phase(Reach(memory_.boxes));
+  if (memory_.num_detections > 0 && !contacts_from_file_) make_broad_phase(Reach(memory_.boxes));
 }
 
 }  // namespace cupola

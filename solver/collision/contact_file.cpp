@@ -29,22 +29,23 @@ std::array<double, kColumns> read_numbers(const std::string& line, const FileLoc
   std::string cell;
   std::size_t count = 0;
   while (std::getline(stream, cell, ',')) {
-    if (count == kColumns) throw InputError(where, fmt::format("more than {} columns", kColumns));
+    if (count == kColumns)
+      throw InputError(where, fmt::format("more than {} columns; the columns are {}", kColumns, kHeader));
     const std::string broken_rule = read_number(cell, &values[count]);
     if (!broken_rule.empty())
       throw InputError(where, fmt::format("column {}: '{}': {}", count + 1, cell, broken_rule));
     ++count;
   }
   if (count < kColumns)
-    throw InputError(where, fmt::format("{} of {} columns: {}", count, kColumns, kHeader));
+    throw InputError(where, fmt::format("{} of {} columns; the columns are {}", count, kColumns, kHeader));
   return values;
 }
 
 int block_of(double value, const Assembly& assembly, const FileLocation& where) {
   const int block = static_cast<int>(std::clamp(value, -1.0, static_cast<double>(assembly.blocks.size())));
   if (block != value || block < 0 || block >= static_cast<int>(assembly.blocks.size()))
-    throw InputError(where,
-                     fmt::format("block {}: must be one of 0 .. {}", value, assembly.blocks.size() - 1));
+    throw InputError(
+        where, fmt::format("block {}: must be an integer from 0 to {}", value, assembly.blocks.size() - 1));
   return block;
 }
 
@@ -58,10 +59,12 @@ Row read_row(const std::string& line, const Assembly& assembly, const FileLocati
   row.normal = Vec3(v[6], v[7], v[8]);
   row.gap = v[9];
   row.area = v[10];
-  if (row.block_a == row.block_b) throw InputError(where, "block_a and block_b are the same");
-  if (!(row.normal.stableNorm() > 0.0)) throw InputError(where, "the normal is zero");
+  if (row.block_a == row.block_b)
+    throw InputError(where, fmt::format("block_a and block_b are both {}", row.block_a));
+  if (!(row.normal.stableNorm() > 0.0))
+    throw InputError(where, "nx, ny, nz are all zero: must be the direction from block_a to block_b");
   if (!(row.area > 0.0)) throw InputError(where, fmt::format("area_m2 = {}: must be > 0", row.area));
-  row.normal.stableNormalize();  // whatever the length
+  row.normal.stableNormalize();
   if (row.block_a > row.block_b) {
     std::swap(row.block_a, row.block_b);
     row.normal = -row.normal;
@@ -93,7 +96,7 @@ void append_row(const Row& row, const Assembly& assembly, bool new_patch, Anchor
   contact.block_a = row.block_a;
   contact.block_b = row.block_b;
   contact.patch = static_cast<int>(contacts->set.patches.size()) - 1;
-  // Patches and points are numbered through: parts and faces are the file's business.
+  // The file has no parts and faces: the number of the joint identifies the patch.
   contact.id.part_a = contact.id.part_b = contact.patch;
   contact.id.corner = new_patch ? 0 : contacts->set.points.back().id.corner + 1;
   contact.area = row.area;
@@ -120,7 +123,7 @@ AnchoredContacts read_contacts(const std::string& path, const Assembly& assembly
       rows.push_back(read_row(line, assembly, where));
     }
   }
-  if (rows.empty()) throw InputError(where, "holds no contact");
+  if (rows.empty()) throw InputError(where, "contains no contact: add a row per contact point");
   const auto joint = [](const Row& row) { return std::tuple(row.block_a, row.block_b, row.joint); };
   std::stable_sort(rows.begin(), rows.end(), [&](const Row& p, const Row& q) { return joint(p) < joint(q); });
   AnchoredContacts contacts;

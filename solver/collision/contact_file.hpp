@@ -6,16 +6,23 @@
 
 namespace cupola {
 
-/// Contact points from elsewhere, for people whose CAD knows better: a CSV file with the header
+/// Reads contact points computed by another program from a CSV file with the header
 ///
 ///     block_a,block_b,joint,x,y,z,nx,ny,nz,gap_m,area_m2
 ///
-/// and one row per point, in the configuration of the assembly: the two blocks, a number that is the same for
-/// the points of one joint, the point (m), the direction from block_a to block_b (any length), the gap
-/// (positive when apart) and the area that the point stands for. Points of a joint are kept in their order.
-/// A joint between rings is a bed, within a ring a head, with a fixed block the base.
+/// and one row per point, in the configuration of the assembly:
 ///
-/// Throws InputError with file and line for what is missing, not a number, or names no pair of blocks.
+///     block_a, block_b   indices of two different blocks
+///     joint              the same integer for all points of one joint
+///     x, y, z            the point, m
+///     nx, ny, nz         direction from block_a to block_b, of any length
+///     gap_m              m, positive when apart
+///     area_m2            tributary area of the point, m2
+///
+/// Points of a joint keep their order. A joint between two rings is a bed, one within a ring is a head, and
+/// one with a fixed block is a base joint.
+///
+/// Throws InputError with file and line for missing columns, invalid numbers and invalid block pairs.
 AnchoredContacts read_contacts(const std::string& path, const Assembly& assembly);
 
 }  // namespace cupola

@@ -10,13 +10,13 @@
 
 namespace cupola {
 
-/// Position of a block's centroid and its rotation since the assembly was made.
+/// Position of a block's centroid, and its rotation relative to the assembly as generated.
 struct Pose {
   Vec3 p_WB = Vec3::Zero();  ///< m
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
 };
 
-/// Names a contact point from step to step: which features of which parts, and which corner of their overlap.
+/// Identifies a contact point across steps by the features of two parts and the corner of their overlap.
 struct ContactId {
   int part_a = -1, part_b = -1;
   int face_a = -1, face_b = -1;  ///< face of the assembly; -1 for an edge or vertex feature
@@ -24,8 +24,8 @@ struct ContactId {
   auto operator<=>(const ContactId&) const = default;
 };
 
-/// One contact point between two blocks, a < b. The two surface points move with their blocks, so that gap
-/// and lever arms are right until the contact is detected anew.
+/// One contact point between two blocks, a < b. The two surface points move with their blocks, so that the
+/// gap and the lever arms stay correct between two detections.
 struct Contact {
   ContactId id;
   int block_a = 0, block_b = 0;
@@ -34,15 +34,15 @@ struct Contact {
   Vec3 point_b = Vec3::Zero();  ///< m, world, on b's surface
   Vec3 normal = Vec3::UnitZ();  ///< unit, from a to b
   double gap = 0.0;             ///< m, (point_b - point_a) . normal, positive when apart
-  double area = 0.0;            ///< m2 that the point stands for
-  int points = 1;               ///< contact points that it stands for: in a plane scene one for two
+  double area = 0.0;            ///< m2, tributary area
+  int multiplicity = 1;         ///< contact points merged into this one: 2 in a plane scene
 };
 
-/// Overlap polygon of two faces.
+/// Overlap polygon of two faces, block_a < block_b.
 struct Patch {
   int block_a = 0, block_b = 0;
   JointKind kind = JointKind::other;
-  int ring = 0;               ///< course of the upper part
+  int ring = 0;               ///< course of the upper block
   std::vector<Vec3> polygon;  ///< m, world, counter-clockwise about the normal from a to b
   double area = 0.0;          ///< m2
 };

@@ -8,12 +8,12 @@
 namespace cupola {
 namespace {
 
-/// Positive when b lies to the left of a.
+/// Positive when b points to the left of a.
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Keeps what lies to the left of the line from p to q. `edge` is the label of that line.
+/// Clips a polygon to the left side of the line from p to q. `edge` is the label of that line.
 std::vector<ClipCorner> clip_by_line(const std::vector<ClipCorner>& polygon, const Vec2& p, const Vec2& q,
                                      int edge, double tolerance) {
   std::vector<ClipCorner> kept;
@@ -37,7 +37,7 @@ std::vector<ClipCorner> clip_by_line(const std::vector<ClipCorner>& polygon, con
   return kept;
 }
 
-/// Drops needless corners, then tells each corner which edge ends there.
+/// Removes redundant corners, then sets `edge_in` of the others.
 void simplify(std::vector<ClipCorner>* polygon, double tolerance) {
   std::vector<Vec2> positions;
   positions.reserve(polygon->size());
@@ -57,8 +57,8 @@ double height_over_chord(const std::vector<ClipCorner>& polygon, std::size_t i) 
   return std::abs(cross(chord, polygon[i].position - previous)) / chord.norm();
 }
 
-/// Drops the flattest crossings of a subject's and a clip's edge, one by one; the edges that end and start at
-/// the other corners keep their names.
+/// Removes crossings of a subject edge with a clip edge that lie within `height` of the chord of their
+/// neighbours, flattest first. The edge labels of the other corners do not change.
 void drop_flat_crossings(std::vector<ClipCorner>* polygon, int num_subject, double height) {
   while (polygon->size() > 3) {
     std::size_t flattest = polygon->size();
@@ -105,7 +105,7 @@ std::vector<int> essential_corners(std::span<const Vec2> polygon, double toleran
     const bool straight = std::abs(cross(chord, here - previous)) <= tolerance * chord.norm();
     if (repeated || straight) {
       kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
-      i = i > 0 ? i - 1 : 0;  // the neighbour before may lie straight now
+      i = i > 0 ? i - 1 : 0;  // the previous corner may be collinear now
     } else {
       ++i;
     }
@@ -120,7 +120,7 @@ std::vector<int> convex_hull(std::span<const Vec2> points, double tolerance) {
   std::sort(order.begin(), order.end(), [&](int i, int k) {
     return std::pair(points[i].x(), points[i].y()) < std::pair(points[k].x(), points[k].y());
   });
-  // Andrew's monotone chain: the lower side from left to right, the upper one back.
+  // Andrew's monotone chain: lower side from left to right, upper side from right to left.
   std::vector<int> hull;
   const auto add_side = [&](auto first, auto last) {
     const std::size_t start = hull.size();
@@ -162,7 +162,7 @@ Vec2 polygon_centroid(std::span<const Vec2> polygon) {
 }
 
 double polygon_width(std::span<const Vec2> polygon) {
-  // The narrowest strip has one of the edges on its border.
+  // One border of the narrowest strip contains an edge.
   double width = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];

@@ -10,7 +10,7 @@
 namespace cupola {
 namespace {
 
-/// Is there a face of the other part nearly opposed to the axis's face?
+/// True if the other part has a face opposed within `max_angle` to the face of the axis.
 bool has_opposed_face(const TwoParts& parts, const SeparatingAxis& axis, double max_angle) {
   const double opposed = -std::cos(max_angle);
   if (axis.face_a)
@@ -22,8 +22,8 @@ bool has_opposed_face(const TwoParts& parts, const SeparatingAxis& axis, double 
   });
 }
 
-/// Do all points lie within min_width of one border of the axis's face? Such parts meet along their borders,
-/// as blocks on either side of a mitre do, and carry nothing there.
+/// True if all points lie within min_width of one edge of the face of the axis. Such parts meet along their
+/// borders, like the blocks on both sides of a mitre, and transfer no force there.
 bool along_border(const TwoParts& parts, const SeparatingAxis& axis, const JointPatch& points,
                   double min_width) {
   std::vector<Vec3> outline;
@@ -46,10 +46,10 @@ bool along_border(const TwoParts& parts, const SeparatingAxis& axis, const Joint
   return false;
 }
 
-/// Corners, within the margin, of the faces that look at the axis's face, clipped to its outline.
+/// Faces turned towards the face of the axis, clipped to its outline: the corners within the margin.
 JointPatch points_on_face(const TwoParts& parts, const SeparatingAxis& axis,
                           const NarrowPhaseOptions& options) {
-  constexpr double kLooksAt = -0.1;  // cosine; steeper faces have no height over the plane worth the name
+  constexpr double kFacing = -0.1;  // cosine; on steeper faces the height over the plane is ill-conditioned
   JointPatch points;
   points.origin = axis.face_a ? axis.face_a->centroid : parts.pose_ab * axis.face_b->centroid;
   points.set_normal(axis.normal);
@@ -76,10 +76,10 @@ JointPatch points_on_face(const TwoParts& parts, const SeparatingAxis& axis,
   points.face_b = axis.face_b ? axis.face_b->id : -1;
   if (axis.face_a) {
     for (const CollisionFace& face : parts.model.faces_of(parts.b))
-      if (axis.normal.dot(parts.pose_ab.linear() * face.normal) < kLooksAt) add_corners(*axis.face_a, face);
+      if (axis.normal.dot(parts.pose_ab.linear() * face.normal) < kFacing) add_corners(*axis.face_a, face);
   } else {
     for (const CollisionFace& face : parts.model.faces_of(parts.a))
-      if (-axis.normal.dot(face.normal) < kLooksAt) add_corners(face, *axis.face_b);
+      if (-axis.normal.dot(face.normal) < kFacing) add_corners(face, *axis.face_b);
   }
   if (along_border(parts, axis, points, options.min_width)) points.corners.clear();
   return points;
@@ -104,12 +104,12 @@ std::optional<JointPatch> find_edge_contact(const CollisionModel& model, int par
   const SeparatingAxis face_axis = best_face_axis(parts, options.margin);
   if (face_axis.gap > options.margin) return std::nullopt;
   const bool opposed = has_opposed_face(parts, face_axis, options.max_angle);
-  if (opposed && face_axis.gap > -options.margin) return std::nullopt;  // spares the edges of most neighbours
+  if (opposed && face_axis.gap > -options.margin) return std::nullopt;  // skips the edges of most neighbours
   const SeparatingAxis edge_axis = best_edge_axis(parts, options);
   if (edge_axis.gap > options.margin) return std::nullopt;
 
-  // Where an edge lies across the border of a face, the crossing of that border is one corner of the face
-  // contact; taken alone it would lose the other end. So edges win only with another normal.
+  // If an edge crosses the border of a face, the crossing is one corner of the face contact; the edge contact
+  // alone would lose the other corner. Therefore the edge axis is used only if its normal differs.
   const bool same_normal = edge_axis.normal.dot(face_axis.normal) > std::cos(options.max_angle);
   const CollisionFace& face = face_axis.face_a ? *face_axis.face_a : *face_axis.face_b;
   JointPatch contact;

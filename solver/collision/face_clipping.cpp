@@ -4,18 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "assembly/base/error.hpp"
 #include "solver/collision/separating_axis.hpp"
 
 namespace cupola {
 namespace {
 
-/// Face b as block a sees it.
+/// Face b in the axes of block a.
 struct MovedFace {
   Vec3 normal, centroid;
 };
 
-/// Cheap bounds: can the two faces be within the margin of each other, overlap less deeply than wide, and
-/// overlap by more than min_width across every edge of face a?
+/// Cheap necessary conditions of a face contact: the gap can be within the margin, the depth can be below the
+/// width, and face b can reach farther than min_width inside every edge of face a.
 bool may_touch(const CollisionModel& model, const CollisionFace& a, const CollisionFace& b,
                const MovedFace& moved_b, const Eigen::Isometry3d& pose_ab, const Vec3& normal,
                const NarrowPhaseOptions& options) {
@@ -27,7 +28,7 @@ bool may_touch(const CollisionModel& model, const CollisionFace& a, const Collis
   if (gap + tilt_reach < -2.0 * std::min(a.radius, b.radius)) return false;
   if ((offset - gap * normal).norm() > a.radius + b.radius) return false;
 
-  const double slant = (std::abs(gap) + tilt_reach) * tilt;  // projecting along the normal, not along a's
+  const double slant = (std::abs(gap) + tilt_reach) * tilt;  // error of projecting along a's normal
   const auto corners_a = model.face_corners(a);
   const auto corners_b = model.face_corners(b);
   for (std::size_t i = 0; i < corners_a.size(); ++i) {
@@ -53,7 +54,7 @@ Vec3 edge_of(const std::vector<Vec3>& corners, int i) {
   return corners[(i + 1) % corners.size()] - corners[i];
 }
 
-/// The normal at a corner of the overlap. Edges 0 .. n-1 of the clipping are those of face a.
+/// Normal at a corner of the overlap. Edge labels 0 .. n-1 belong to face a.
 CornerNormal corner_normal(const std::vector<Vec3>& corners_a, const std::vector<Vec3>& corners_b,
                            const JointPatch& patch, const ClipCorner& corner, double max_angle) {
   const int num_a = static_cast<int>(corners_a.size());
@@ -73,17 +74,19 @@ CornerNormal corner_normal(const std::vector<Vec3>& corners_a, const std::vector
 }
 
 bool same_planes(const JointPatch& p, const JointPatch& q) {
-  constexpr double kCosine = 1.0 - 1e-9;  // 4.5e-5 rad: facets of one plane, cut up
+  constexpr double kCosine = 1.0 - 1e-9;  // 4.5e-5 rad
   return p.plane_a.normal.dot(q.plane_a.normal) > kCosine && p.plane_b.normal.dot(q.plane_b.normal) > kCosine;
 }
 
-/// Is the overlap at the faces of the patch the least deep one? Behind the facing faces of two thin parts lie
-/// others that are opposed as well and whose planes have passed each other although the parts are apart.
-/// Along either face's normal the parts are nowhere nearer than the patch is at its nearest corner, so the
-/// faces of the true contact pass. Face normals suffice: faces within max_angle separate where edges do.
-bool is_least_deep(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
-                   const NarrowPhaseOptions& options) {
-  if (patch.min_gap >= -options.tolerance) return true;  // two points that near belong to parts that touch
+/// True if no face normal separates the parts better than the patch does. Two thin parts also have opposed
+/// faces behind those that touch; their planes have passed each other even when the parts are apart.
+///
+/// The faces of the true contact pass: along the normal of either face, the depth of the parts is at most
+/// that of the patch at its deepest corner. Face normals are sufficient, because where an edge pair separates
+/// the parts, faces within max_angle do as well.
+bool has_least_depth(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
+                     const NarrowPhaseOptions& options) {
+  if (patch.min_gap >= -options.tolerance) return true;  // the parts touch without overlap
   const TwoParts parts = place_parts(model, patch.part_a, patch.part_b, pose_ab);
   const double depth = patch.min_gap * patch.normal.dot(patch.plane_a.normal);
   return depth >= best_face_axis(parts, options.margin).gap - options.tolerance;
@@ -94,6 +97,7 @@ bool is_least_deep(const CollisionModel& model, const JointPatch& patch, const E
 JointPatch clip_faces(const CollisionModel& model, const CollisionFace& face_a, const CollisionFace& face_b,
                       const Eigen::Isometry3d& pose_ab, const Vec3& normal,
                       const NarrowPhaseOptions& options) {
+  CUPOLA_ASSERT(std::abs(normal.squaredNorm() - 1.0) < 1e-9);
   JointPatch patch;
   patch.face_a = face_a.id;
   patch.face_b = face_b.id;
@@ -107,7 +111,7 @@ JointPatch clip_faces(const CollisionModel& model, const CollisionFace& face_a, 
   const std::vector<Vec3> corners_a(span_a.begin(), span_a.end());
   std::vector<Vec3> corners_b;
   for (const Vec3& x : model.face_corners(face_b)) corners_b.push_back(pose_ab * x);
-  std::reverse(corners_b.begin(), corners_b.end());  // counter-clockwise about the normal, as a's
+  std::reverse(corners_b.begin(), corners_b.end());  // counter-clockwise about the normal, like corners_a
   patch.min_gap = std::numeric_limits<double>::infinity();
   for (const ClipCorner& corner : clip_convex_polygon(project(corners_a, patch), project(corners_b, patch),
                                                       options.tolerance, options.min_width)) {
@@ -118,8 +122,8 @@ JointPatch clip_faces(const CollisionModel& model, const CollisionFace& face_a, 
   return patch;
 }
 
-bool lies_apart(const CollisionModel& model, int part_a, int part_b, const Eigen::Isometry3d& pose_ab,
-                double margin) {
+bool separated_by_face(const CollisionModel& model, int part_a, int part_b, const Eigen::Isometry3d& pose_ab,
+                       double margin) {
   const CollisionPart& a = model.parts[part_a];
   const CollisionPart& b = model.parts[part_b];
   for (const CollisionFace& face : model.faces_of(a)) {
@@ -164,7 +168,7 @@ std::vector<JointPatch> clip_opposed_faces(const CollisionModel& model, int part
   if (patches.empty()) return patches;
   const auto by_gap = [](const JointPatch& p, const JointPatch& q) { return p.min_gap < q.min_gap; };
   const JointPatch best = *std::max_element(patches.begin(), patches.end(), by_gap);
-  if (!is_least_deep(model, best, pose_ab, options)) return {};
+  if (!has_least_depth(model, best, pose_ab, options)) return {};
   std::erase_if(patches, [&](const JointPatch& p) { return !same_planes(p, best); });
   return patches;
 }

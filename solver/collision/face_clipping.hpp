@@ -6,27 +6,28 @@
 
 namespace cupola {
 
-/// The face contact of two convex parts: pairs of opposed faces within max_angle whose gap is within the
-/// margin and whose overlap is wider than min_width and than it is deep. Convex bodies touch along one
-/// plane: of several directions the one with the largest gap is kept, as in the separating axis test, with
-/// all face pairs coplanar to it, sorted by face. Faces that overlap make a contact only where no face normal
-/// of either part shows a smaller overlap, or a gap: thin parts further apart have opposed faces too. Faces
-/// of kind `internal` make no contact. `pose_ab` takes coordinates in the axes of block b to those of block
-/// a.
+/// Face contact of two convex parts. `pose_ab` transforms coordinates from the axes of block b to those of
+/// block a.
+///
+/// - Two faces touch when they are opposed within max_angle, their gap is within the margin, and the width of
+///   their overlap exceeds both min_width and the overlap depth. Faces of kind `internal` never touch.
+/// - Convex bodies touch along one plane. Among several directions the one with the largest gap is kept, as
+///   in the separating axis test, with all face pairs coplanar to it, sorted by face.
+/// - Interpenetrating faces touch only if no face normal of either part shows a smaller overlap or a gap,
+///   because thin parts that are apart have opposed faces too.
 std::vector<JointPatch> clip_opposed_faces(const CollisionModel& model, int part_a, int part_b,
                                            const Eigen::Isometry3d& pose_ab,
                                            const NarrowPhaseOptions& options);
 
-/// Overlap of two faces of the collision model, projected along `normal` (unit, from a to b); without
-/// corners when they do not overlap. Of each corner the normal is set by what meets there.
+/// Overlap of two faces of the collision model, projected along `normal` (unit, from a to b). It has no
+/// corners when the faces do not overlap. The normal at each corner depends on the features that meet there.
 JointPatch clip_faces(const CollisionModel& model, const CollisionFace& face_a, const CollisionFace& face_b,
                       const Eigen::Isometry3d& pose_ab, const Vec3& normal,
                       const NarrowPhaseOptions& options);
 
-/// Whether a face of part a has all of part b farther than `margin` in front of it. Boxes of slender bricks
-/// that lie askew overlap by hundreds.
-/// `pose_ab` takes coordinates of b's block to those of a's.
-bool lies_apart(const CollisionModel& model, int part_a, int part_b, const Eigen::Isometry3d& pose_ab,
-                double margin);
+/// True if all of part b lies farther than `margin` in front of some face of part a. This cheap test rejects
+/// most of the many pairs of slender, inclined bricks whose boxes overlap.
+bool separated_by_face(const CollisionModel& model, int part_a, int part_b, const Eigen::Isometry3d& pose_ab,
+                       double margin);
 
 }  // namespace cupola

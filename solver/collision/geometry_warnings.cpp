@@ -14,9 +14,9 @@
 namespace cupola {
 namespace {
 
-constexpr double kOverlap = 1e-6;  // of the smallest block; ten thousand times the clipping tolerance
+constexpr double kOverlap = 1e-6;  // of the smallest block; 10,000 times the clipping tolerance
 
-/// Largest value met per pair of blocks.
+/// Largest value found for each pair of blocks.
 using PairValues = std::map<std::pair<int, int>, double>;
 
 void keep_largest(PairValues* values, std::pair<int, int> pair, double value) {
@@ -24,22 +24,24 @@ void keep_largest(PairValues* values, std::pair<int, int> pair, double value) {
   largest = std::max(largest, value);
 }
 
-/// What is wrong between blocks.
+/// Defective joints.
 struct BadJoints {
-  PairValues overlaps;  // m
-  PairValues slivers;   // m
+  PairValues overlaps;  // depth, m
+  PairValues slivers;   // width, m
 };
 
-/// A pair of parts.
-void examine(const ContactDetector& detector, const Eigen::Isometry3d& pose_ab,
-             const NarrowPhaseOptions& any_width, int i, int k, BadJoints* bad) {
+/// Checks parts i and k.
+void examine_parts(const ContactDetector& detector, const Eigen::Isometry3d& pose_ab,
+                   const NarrowPhaseOptions& any_width, int i, int k, BadJoints* bad) {
   const CollisionModel& model = detector.model();
-  if (lies_apart(model, i, k, pose_ab, any_width.margin)) return;
+  if (separated_by_face(model, i, k, pose_ab, any_width.margin)) return;
   const int a = model.parts[i].block, b = model.parts[k].block;
   const double depth = -separation(model, i, k, pose_ab, any_width);
   if (depth > detector.margin())
-    throw InputError(fmt::format("blocks {} and {} overlap by {:.3g} m, more than contact.margin = {:.3g} m",
-                                 a, b, depth, detector.margin()));
+    throw InputError(
+        fmt::format("blocks {} and {} overlap by {:.3g} m, more than contact.margin = {:.3g} m: correct the "
+                    "geometry or increase contact.margin",
+                    a, b, depth, detector.margin()));
   if (depth > kOverlap * model.smallest_block) keep_largest(&bad->overlaps, {a, b}, depth);
   for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width)) {
     const double width = polygon_width(patch.outline());
@@ -47,7 +49,7 @@ void examine(const ContactDetector& detector, const Eigen::Isometry3d& pose_ab,
   }
 }
 
-/// Block a against those after it.
+/// Checks block a against the blocks of larger index.
 void examine_block(const ContactDetector& detector, const std::vector<Pose>& poses, const BroadPhase& near,
                    const NarrowPhaseOptions& any_width, int a, BadJoints* bad) {
   const CollisionModel& model = detector.model();
@@ -59,11 +61,11 @@ void examine_block(const ContactDetector& detector, const std::vector<Pose>& pos
     pose_ab.translation() = poses[b].p_WB - poses[a].p_WB;
     for (int i = model.part_start[a]; i < model.part_start[a + 1]; ++i)
       for (int k = model.part_start[b]; k < model.part_start[b + 1]; ++k)
-        examine(detector, pose_ab, any_width, i, k, bad);
+        examine_parts(detector, pose_ab, any_width, i, k, bad);
   }
 }
 
-/// Smallest distance between a face and the vertex farthest behind it.
+/// Smallest distance between a face and the vertex farthest behind it, m.
 double thickness(const CollisionModel& model, const CollisionPart& part) {
   double thinnest = std::numeric_limits<double>::infinity();
   for (const CollisionFace& face : model.faces_of(part)) {
@@ -85,25 +87,26 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
 
   std::vector<Box> boxes;
   for (int block = 0; block < model.num_blocks(); ++block)
-    boxes.push_back(upright_box(model.box_at(block, poses[block], 0.5 * any_width.margin)));
+    boxes.push_back(bounding_box(model.box_at(block, poses[block], 0.5 * any_width.margin)));
   const BroadPhase near(boxes, collision_groups(model));
-  std::vector<BadJoints> pieces((model.num_blocks() + kBlocksPerPiece - 1) / kBlocksPerPiece);
-  share_loop(kOperationsPerBlock * model.num_blocks(), static_cast<int>(pieces.size()), [&](int piece) {
-    const int start = piece * kBlocksPerPiece;
-    for (int block = start; block < std::min(start + kBlocksPerPiece, model.num_blocks()); ++block)
-      examine_block(detector, poses, near, any_width, block, &pieces[piece]);
+  std::vector<BadJoints> chunks((model.num_blocks() + kBlocksPerChunk - 1) / kBlocksPerChunk);
+  share_loop(kOperationsPerBlock * model.num_blocks(), static_cast<int>(chunks.size()), [&](int chunk) {
+    const int start = chunk * kBlocksPerChunk;
+    for (int block = start; block < std::min(start + kBlocksPerChunk, model.num_blocks()); ++block)
+      examine_block(detector, poses, near, any_width, block, &chunks[chunk]);
   });
   PairValues overlaps, slivers;
-  for (const BadJoints& piece : pieces) {
-    for (const auto& [pair, depth] : piece.overlaps) keep_largest(&overlaps, pair, depth);
-    for (const auto& [pair, width] : piece.slivers) keep_largest(&slivers, pair, width);
+  for (const BadJoints& chunk : chunks) {
+    for (const auto& [pair, depth] : chunk.overlaps) keep_largest(&overlaps, pair, depth);
+    for (const auto& [pair, width] : chunk.slivers) keep_largest(&slivers, pair, width);
   }
 
   std::vector<std::string> warnings;
   for (const auto& [pair, depth] : overlaps)
-    warnings.push_back(fmt::format("blocks {} and {} overlap by {:.3g} m", pair.first, pair.second, depth));
+    warnings.push_back(fmt::format("blocks {} and {} overlap by {:.3g} m: their contacts start compressed",
+                                   pair.first, pair.second, depth));
   for (const auto& [pair, width] : slivers)
-    warnings.push_back(fmt::format("blocks {} and {}: a joint only {:.3g} m wide is left out", pair.first,
+    warnings.push_back(fmt::format("blocks {} and {}: a joint only {:.3g} m wide is ignored", pair.first,
                                    pair.second, width));
   std::map<int, double> thin;
   for (const CollisionPart& part : model.parts) {
@@ -113,9 +116,10 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
     thinnest = std::min(thinnest, part_thickness);
   }
   for (const auto& [block, thinnest] : thin)
-    warnings.push_back(
-        fmt::format("block {}: a part only {:.3g} m thick is thinner than contact.margin = {:.3g} m", block,
-                    thinnest, detector.margin()));
+    warnings.push_back(fmt::format(
+        "block {}: a part is only {:.3g} m thick, thinner than contact.margin = {:.3g} m; reduce the "
+        "margin",
+        block, thinnest, detector.margin()));
   return warnings;
 }
 

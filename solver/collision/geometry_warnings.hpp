@@ -7,15 +7,15 @@
 
 namespace cupola {
 
-/// One sentence for each pair of blocks, or block, whose geometry contact detection cannot serve well:
+/// Warnings, one sentence each, about geometry that degrades contact detection:
 ///
-/// - blocks that overlap by more than 1e-6 of the smallest block as built: their contacts start compressed,
-///   and a block that lies inside another has none;
-/// - joints narrower than 1e-3 of the smallest block, which are left out;
-/// - parts thinner than the margin, through which contacts reach from the wrong side.
+/// - two blocks overlap by more than 1e-6 of the smallest block (cube root of its volume): their contacts
+///   start compressed, and a block inside another one has no contacts;
+/// - a joint is narrower than 1e-3 of the smallest block: it is ignored;
+/// - a part is thinner than the margin: contacts can act through it from the wrong side.
 ///
-/// Throws InputError where two blocks overlap by more than the margin: they contradict each other, and forces
-/// that push them apart would mean nothing.
+/// Throws InputError when two blocks overlap by more than the margin, because the forces that push them apart
+/// would have no physical meaning.
 std::vector<std::string> geometry_warnings(const Assembly& assembly, const DetectionOptions& options);
 
 }  // namespace cupola

@@ -20,7 +20,7 @@ void add_vertex(const Vec3& x, double tolerance, std::vector<Vec3>* vertices) {
   if (!known) vertices->push_back(x);
 }
 
-/// Corners on a plane, in order of their angle about the plane's normal.
+/// Vertices on a plane, counter-clockwise about its normal.
 std::vector<int> face_of(const Plane& plane, double inset, const std::vector<Vec3>& vertices,
                          double tolerance) {
   std::vector<int> ids;
@@ -45,7 +45,7 @@ std::vector<int> face_of(const Plane& plane, double inset, const std::vector<Vec
 }  // namespace
 
 Polytope inset_polytope(std::span<const Plane> planes, double inset, double tolerance) {
-  constexpr double kParallel = 1e-9;  // determinant of three unit normals that have no common point
+  constexpr double kParallel = 1e-9;  // determinant below which three planes have no common point
   Polytope polytope;
   for (std::size_t i = 0; i < planes.size(); ++i)
     for (std::size_t j = i + 1; j < planes.size(); ++j)

@@ -7,15 +7,15 @@
 
 namespace cupola {
 
-/// Convex polyhedron by its corners and faces, each face counter-clockwise seen from outside.
+/// Convex polyhedron. Each face is counter-clockwise seen from outside.
 struct Polytope {
   std::vector<Vec3> vertices;           ///< m
   std::vector<std::vector<int>> faces;  ///< into vertices
 };
 
-/// The polyhedron between half-spaces n.x <= d, all moved inwards by `inset` (m): the corners are the meets
-/// of three planes that no other plane cuts off. Corners nearer than `tolerance` (m) are one. Without corners
-/// when nothing is left. Cost: cubic in the number of planes, once per part.
+/// Intersection of the half-spaces n.x <= d - inset (m). Its corners are the intersections of three planes
+/// that satisfy all inequalities; corners within `tolerance` (m) of each other are merged. Returns a polytope
+/// without corners when the intersection is empty. Cost: fourth power of the number of planes, once per part.
 Polytope inset_polytope(std::span<const Plane> planes, double inset, double tolerance);
 
 }  // namespace cupola

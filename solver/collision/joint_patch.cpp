@@ -1,7 +1,10 @@
 #include "solver/collision/joint_patch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 namespace {
@@ -26,7 +29,7 @@ double perimeter(const std::vector<Vec2>& polygon) {
   return length;
 }
 
-/// The union of p and q, seen in p's plane, when it is convex.
+/// The union of p and q in the plane of p, if it is convex.
 std::optional<JointPatch> convex_union(const JointPatch& p, const JointPatch& q, double tolerance) {
   std::vector<PatchCorner> corners = p.corners;
   for (const PatchCorner& corner : q.corners)
@@ -38,7 +41,7 @@ std::optional<JointPatch> convex_union(const JointPatch& p, const JointPatch& q,
   joined.corners.clear();
   for (int i : convex_hull(points, tolerance)) joined.corners.push_back(corners[i]);
   joined.min_gap = std::min(p.min_gap, q.min_gap);
-  // Pieces that touch along a common edge fill their hull, but for borders moved by the tolerance.
+  // Pieces with a common edge fill their hull up to the tolerance along the border.
   const double missing =
       polygon_area(joined.outline()) - polygon_area(p.outline()) - polygon_area(q.outline());
   if (missing > 4.0 * tolerance * perimeter(joined.outline())) return std::nullopt;
@@ -48,6 +51,7 @@ std::optional<JointPatch> convex_union(const JointPatch& p, const JointPatch& q,
 }  // namespace
 
 void JointPatch::set_normal(const Vec3& unit_normal) {
+  CUPOLA_ASSERT(std::abs(unit_normal.squaredNorm() - 1.0) < 1e-9);
   normal = unit_normal;
   int smallest = 0;
   normal.cwiseAbs().minCoeff(&smallest);
@@ -101,7 +105,7 @@ void merge_coplanar(std::vector<JointPatch>* patches, double tolerance) {
       }
       (*patches)[i] = std::move(*joined);
       patches->erase(patches->begin() + static_cast<std::ptrdiff_t>(k));
-      k = i + 1;  // what did not fit before may fit the larger patch
+      k = i + 1;  // patches rejected before may fit the larger patch
     }
   }
 }

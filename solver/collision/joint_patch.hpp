@@ -11,14 +11,14 @@ namespace cupola {
 
 /// Tolerances of the narrow phase. Lengths in m.
 struct NarrowPhaseOptions {
-  double margin = 0.0;      ///< widest gap that still makes a contact
+  double margin = 0.0;      ///< largest gap that still makes a contact
   double min_width = 0.0;   ///< narrower overlaps are slivers and make no contact
-  double tolerance = 0.0;   ///< corners nearer to each other than this are one
+  double tolerance = 0.0;   ///< corners nearer to each other than this are merged
   double max_angle = 0.35;  ///< rad, largest tilt between two faces in contact
 };
 
-/// The contact normal at a corner, unit, from a to b, axes of block a: where a vertex meets a face that of
-/// the face, where two edges cross their common normal.
+/// Contact normal at a corner, unit, from a to b, in the axes of block a. Where a vertex meets a face it is
+/// the normal of the face; where two edges cross it is their common normal.
 struct CornerNormal {
   Vec3 normal = Vec3::UnitZ();
   double weight_a = 0.5;  ///< 1: turns with block a, 0: with block b, 1/2: with both
@@ -29,43 +29,44 @@ struct PatchCorner {
   CornerNormal normal;
 };
 
-/// A point of a patch on either face. Coordinates in m, axes of block a.
+/// A point of a patch projected onto both faces. Coordinates in m, axes of block a.
 struct LiftedPoint {
   Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();
-  double gap = 0.0;  ///< along the patch's normal
+  double gap = 0.0;  ///< m, along the normal of the patch
 };
 
-/// Where two parts of two blocks touch: the overlap of two opposed faces, projected on the plane between
-/// them; or, where an edge or a vertex touches, the points alone. Coordinates in m, axes of block a.
+/// Contact region of two parts of two blocks: the overlap of two opposed faces, projected on the plane midway
+/// between them, or the contact points of an edge or a vertex. Coordinates in m, axes of block a.
 struct JointPatch {
   int part_a = 0, part_b = 0;
-  int face_a = -1, face_b = -1;  ///< faces of the assembly, -1 for an edge or a vertex
+  int face_a = -1, face_b = -1;  ///< faces of the assembly; -1 for an edge or a vertex
   JointKind kind = JointKind::other;
   int ring = 0;                 ///< course of the upper part, 0 at the base
-  Vec3 origin = Vec3::Zero();   ///< of the plane's coordinates
-  Vec3 normal = Vec3::UnitZ();  ///< unit, from a to b; u x v
+  Vec3 origin = Vec3::Zero();   ///< of the coordinates in the plane
+  Vec3 normal = Vec3::UnitZ();  ///< unit, from a to b; equals u x v
   Vec3 u = Vec3::UnitX(), v = Vec3::UnitY();
   Plane plane_a, plane_b;             ///< of the two faces, outward
   std::vector<PatchCorner> corners;   ///< counter-clockwise about the normal
-  double min_gap = 0.0;               ///< smallest gap over the corners, negative when they overlap
-  std::vector<LiftedPoint> touching;  ///< of an edge or a vertex: the points at the corners, on both parts
+  double min_gap = 0.0;               ///< smallest gap at the corners, negative when they overlap
+  std::vector<LiftedPoint> touching;  ///< edge or vertex contact: the points at the corners, on both parts
+  double point_area = 0.0;            ///< m2, tributary area of each point of `touching`; 0: unknown
 
-  void set_normal(const Vec3& unit_normal);  ///< and a frame (u, v) about it
+  void set_normal(const Vec3& unit_normal);  ///< also sets u and v
   Vec2 project(const Vec3& x) const { return {u.dot(x - origin), v.dot(x - origin)}; }
   std::vector<Vec2> outline() const;
-  double point_area = 0.0;  ///< m2 that each of them stands for, 0 where nothing is known
   bool has_area() const { return touching.empty(); }
 };
 
-/// The points of both faces over the position x (m) in the plane of the patch.
+/// Points of both faces above and below the position x (m) in the plane of the patch.
 LiftedPoint lift_to_faces(const JointPatch& patch, const Vec2& x);
 
-/// Kind (`base` when a block is fixed, else by the faces' kinds) and ring of a patch between two parts.
+/// Sets kind (`base` when a block is fixed, otherwise from the kinds of the faces) and ring of a patch.
 void classify(const CollisionPart& part_a, FaceKind face_a, const CollisionPart& part_b, FaceKind face_b,
               JointPatch* patch);
 
-/// Joins patches of one block pair, kind and ring that lie in one plane and whose union is convex, so that
-/// cutting a block into slices does not change its joints. A joined patch has the name of its first piece.
+/// Merges patches of one block pair that have the same kind and ring, lie in one plane and have a convex
+/// union. Cutting a block into slices therefore does not change its joints. A merged patch takes the identity
+/// of its first piece.
 void merge_coplanar(std::vector<JointPatch>* patches, double tolerance);
 
 }  // namespace cupola

@@ -4,7 +4,7 @@
 
 namespace cupola {
 
-Eigen::AlignedBox3d upright_box(const OrientedBox& box) {
+Eigen::AlignedBox3d bounding_box(const OrientedBox& box) {
   const Vec3 half = box.axes.cwiseAbs() * box.half_sizes;
   return {box.center - half, box.center + half};
 }

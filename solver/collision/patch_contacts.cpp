@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
@@ -18,8 +20,8 @@ ContactAnchor anchor_of(const LiftedPoint& point, const CornerNormal& corner,
           0.0};
 }
 
-/// What names a patch among those of two blocks.
-auto patch_name(const ContactId& id) {
+/// Identifies a patch among those of two blocks.
+auto patch_key(const ContactId& id) {
   return std::tuple(id.part_a, id.part_b, id.face_a, id.face_b);
 }
 
@@ -32,7 +34,7 @@ struct Range {
   std::size_t start = 0, end = 0;
 };
 
-/// The patches of the block pair that begins at `start`.
+/// Patches of the block pair whose contacts begin at `start`.
 std::vector<Range> patches_of_pair(const std::vector<Contact>& contacts, std::size_t start) {
   std::vector<Range> patches;
   for (std::size_t i = start; i < contacts.size() && block_pair(contacts[i]) == block_pair(contacts[start]);
@@ -44,10 +46,11 @@ std::vector<Range> patches_of_pair(const std::vector<Contact>& contacts, std::si
   return patches;
 }
 
-/// Where a patch lies, in the axes of block a.
+/// Position of a patch in the axes of block a.
 struct Place {
-  Vec3 center = Vec3::Zero(), normal = Vec3::Zero();
-  double radius = 0.0;
+  Vec3 center = Vec3::Zero();  // m
+  Vec3 normal = Vec3::Zero();  // unit
+  double radius = 0.0;         // m
 };
 
 Place place_of(const AnchoredContacts& contacts, Range range) {
@@ -62,20 +65,21 @@ Place place_of(const AnchoredContacts& contacts, Range range) {
   return place;
 }
 
-/// For each patch of a block pair the old one that it continues: of the same name, else the nearest in the
-/// same plane. A patch that was joined from several pairs of parts changes its name when a sliver joins it.
+/// For each patch of a block pair, the old patch that it continues: the one with the same key, else the
+/// nearest one in the same plane. A patch merged from several pairs of parts changes its key when a sliver is
+/// added.
 std::vector<std::optional<Range>> predecessors(const AnchoredContacts& old_contacts,
                                                std::vector<Range> old_patches,
                                                const AnchoredContacts& contacts,
                                                const std::vector<Range>& patches) {
   constexpr double kSamePlane = 0.999;  // cosine of the normals
   std::vector<std::optional<Range>> found(patches.size());
-  const auto name = [](const AnchoredContacts& set, Range range) {
-    return patch_name(set.set.points[range.start].id);
+  const auto key = [](const AnchoredContacts& set, Range range) {
+    return patch_key(set.set.points[range.start].id);
   };
   for (std::size_t n = 0; n < patches.size(); ++n)
     for (std::size_t k = 0; k < old_patches.size() && !found[n]; ++k) {
-      if (name(contacts, patches[n]) != name(old_contacts, old_patches[k])) continue;
+      if (key(contacts, patches[n]) != key(old_contacts, old_patches[k])) continue;
       found[n] = old_patches[k];
       old_patches.erase(old_patches.begin() + static_cast<std::ptrdiff_t>(k));
     }
@@ -98,17 +102,17 @@ std::vector<std::optional<Range>> predecessors(const AnchoredContacts& old_conta
   return found;
 }
 
-/// Smallest number >= 0 (corner) or largest <= -1 (inner point) that is not taken yet.
+/// Smallest unused number >= 0 (corner) or largest unused number <= -1 (inner point).
 int free_number(bool corner, const std::set<int>& taken) {
   int number = corner ? 0 : -1;
   while (taken.contains(number)) number += corner ? 1 : -1;
   return number;
 }
 
-/// Gives the points of a patch the names of the old one's nearest points; `further` ones get numbers that
-/// nobody has.
+/// Gives the points of a patch the identities of the nearest points of the old patch. Points without a
+/// partner get unused numbers and are added to `unmatched`.
 void match_patch(const AnchoredContacts& old_contacts, Range old_range, Range range, AnchoredContacts* fresh,
-                 std::set<ContactId>* further) {
+                 std::set<ContactId>* unmatched) {
   struct Candidate {
     double distance;
     std::size_t old_index, index;
@@ -135,11 +139,12 @@ void match_patch(const AnchoredContacts& old_contacts, Range old_range, Range ra
     taken.insert(number);
     id = old_contacts.set.points[old_range.start].id;
     id.corner = number;
-    if (!numbers[i - range.start]) further->insert(id);
+    if (!numbers[i - range.start]) unmatched->insert(id);
   }
 }
 
-/// A patch that took over an old name may leave another with that name as well: its points get other numbers.
+/// Renumbers points whose identity occurs twice, because a patch took over the key of an old patch that
+/// another new patch has as well.
 void make_unique(const std::vector<Range>& patches, AnchoredContacts* contacts) {
   std::set<ContactId> seen;
   for (const Range& patch : patches)
@@ -152,7 +157,7 @@ void make_unique(const std::vector<Range>& patches, AnchoredContacts* contacts) 
 
 void sort_patch(Range range, AnchoredContacts* contacts) {
   const auto number = [&](std::size_t i) { return contacts->set.points[i].id.corner; };
-  // Patches have few points: insertion keeps contacts and anchors side by side without copies.
+  // Insertion sort: patches have few points, and contacts and anchors move together.
   for (std::size_t i = range.start + 1; i < range.end; ++i)
     for (std::size_t k = i; k > range.start && number(k) < number(k - 1); --k) {
       std::swap(contacts->set.points[k], contacts->set.points[k - 1]);
@@ -178,6 +183,8 @@ void append_patch(const CollisionModel& model, const JointPatch& patch, const Ei
                   double margin, PatchPoints points, double nominal_area, AnchoredContacts* contacts) {
   const int block_a = model.parts[patch.part_a].block;
   const int block_b = model.parts[patch.part_b].block;
+  CUPOLA_ASSERT(block_a < block_b);
+  CUPOLA_ASSERT(patch.has_area() || patch.touching.size() == patch.corners.size());
   const int patch_index = static_cast<int>(contacts->set.patches.size());
   const auto append = [&](const LiftedPoint& point, const CornerNormal& normal, double area, int corner) {
     if (point.gap > margin) return;
@@ -233,6 +240,7 @@ MovedContacts moved_contacts(const ContactSet& set, const std::vector<char>& mov
 }
 
 void move_contacts(std::span<const Pose> poses, const MovedContacts& moved, AnchoredContacts* contacts) {
+  CUPOLA_ASSERT(contacts->patch_polygons.size() == contacts->set.patches.size());
   std::vector<Mat3> R_WB(poses.size());
   for (const int b : moved.blocks) R_WB[b] = poses[b].q_WB.toRotationMatrix();
   for (const int i : moved.contacts) {
@@ -247,7 +255,7 @@ void move_contacts(std::span<const Pose> poses, const MovedContacts& moved, Anch
     contact.normal = (anchor.weight_a * (R_WB[a] * anchor.normal_a) +
                       (1.0 - anchor.weight_a) * (R_WB[b] * anchor.normal_b))
                          .normalized();
-    // The centroids are subtracted first: far from the origin the points themselves have lost digits.
+    // Subtracting the centroids first keeps the precision that the points lose far from the origin.
     contact.gap = contact.normal.dot((poses[b].p_WB - poses[a].p_WB) + (r_b - r_a)) - anchor.rest_gap;
   }
   for (const int p : moved.patches) {
@@ -258,8 +266,10 @@ void move_contacts(std::span<const Pose> poses, const MovedContacts& moved, Anch
   }
 }
 
-std::set<ContactId> keep_identities(const AnchoredContacts& old_contacts, AnchoredContacts* contacts) {
-  std::set<ContactId> from_the_side;
+std::set<ContactId> transfer_identities(const AnchoredContacts& old_contacts, AnchoredContacts* contacts) {
+  CUPOLA_ASSERT(old_contacts.anchors.size() == old_contacts.set.points.size());
+  CUPOLA_ASSERT(contacts->anchors.size() == contacts->set.points.size());
+  std::set<ContactId> lateral;
   const std::vector<Contact>& old_set = old_contacts.set.points;
   std::size_t old_start = 0;
   for (std::size_t start = 0; start < contacts->set.points.size();) {
@@ -274,31 +284,32 @@ std::set<ContactId> keep_identities(const AnchoredContacts& old_contacts, Anchor
     std::size_t continued = 0;
     for (std::size_t n = 0; n < patches.size(); ++n) {
       if (!before[n]) continue;
-      match_patch(old_contacts, *before[n], patches[n], contacts, &from_the_side);
+      match_patch(old_contacts, *before[n], patches[n], contacts, &lateral);
       ++continued;
     }
     make_unique(patches, contacts);
     for (std::size_t n = 0; n < patches.size() && continued == old_patches.size(); ++n)
       for (std::size_t i = patches[n].start; i < patches[n].end && !before[n]; ++i)
-        from_the_side.insert(contacts->set.points[i].id);
+        lateral.insert(contacts->set.points[i].id);
     for (const Range& patch : patches) sort_patch(patch, contacts);
     start = patches.back().end;
   }
-  return from_the_side;
+  return lateral;
 }
 
-void settle_rest_gaps(const std::set<ContactId>& from_the_side, AnchoredContacts* contacts) {
-  const auto settle = [&](std::size_t i, double rest_gap) {
+void update_rest_gaps(const std::set<ContactId>& lateral, AnchoredContacts* contacts) {
+  const auto set_rest_gap = [&](std::size_t i, double rest_gap) {
     double& rest = contacts->anchors[i].rest_gap;
     contacts->set.points[i].gap += rest - rest_gap;
     rest = rest_gap;
   };
-  const auto whole_gap = [&](std::size_t i) {
+  const auto geometric_gap = [&](std::size_t i) {
     return contacts->set.points[i].gap + contacts->anchors[i].rest_gap;
   };
   for (std::size_t i = 0; i < contacts->anchors.size(); ++i) {
-    const bool begins = from_the_side.contains(contacts->set.points[i].id);
-    if (begins || whole_gap(i) > contacts->anchors[i].rest_gap) settle(i, std::min(0.0, whole_gap(i)));
+    const bool starts = lateral.contains(contacts->set.points[i].id);
+    if (starts || geometric_gap(i) > contacts->anchors[i].rest_gap)
+      set_rest_gap(i, std::min(0.0, geometric_gap(i)));
   }
 }
 

@@ -10,15 +10,15 @@
 
 namespace cupola {
 
-/// Where a contact sits on its blocks, each vector in the axes of its block, relative to its centroid.
+/// Position of a contact on its blocks. Each vector is in the axes of its block, relative to its centroid.
 struct ContactAnchor {
   Vec3 r_a = Vec3::Zero(), r_b = Vec3::Zero();              ///< m
-  Vec3 normal_a = Vec3::UnitZ(), normal_b = Vec3::UnitZ();  ///< the normal, from a to b
+  Vec3 normal_a = Vec3::UnitZ(), normal_b = Vec3::UnitZ();  ///< unit, from a to b
   double weight_a = 0.5;  ///< 1: the normal turns with a, 0: with b, 1/2: with both
-  double rest_gap = 0.0;  ///< m: the gap counts from here
+  double rest_gap = 0.0;  ///< m, subtracted from the geometric gap
 };
 
-/// Contacts with what is needed to move them along with their blocks.
+/// Contacts with the data that moves them along with their blocks.
 struct AnchoredContacts {
   ContactSet set;
   std::vector<ContactAnchor> anchors;             ///< one per contact
@@ -28,34 +28,39 @@ struct AnchoredContacts {
 /// Appends all contacts and patches of `more`.
 void append(AnchoredContacts more, AnchoredContacts* contacts);
 
-/// Appends a patch and its contact points within the margin; `pose_ab` as for the patch. An edge or a vertex
-/// has no area: each of its points stands for `nominal_area` (m2), unless the patch knows better. Positions
-/// in the world are left to move_contacts().
+/// Appends a patch and those of its contact points whose gap is within the margin; `pose_ab` as for the
+/// patch. An edge or vertex contact has no area: each of its points gets `nominal_area` (m2) unless the patch
+/// has a `point_area`. World positions are left to move_contacts().
 void append_patch(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
                   double margin, PatchPoints points, double nominal_area, AnchoredContacts* contacts);
 
-/// What goes along when some blocks move.
+/// Contacts and patches to update when some blocks move.
 struct MovedContacts {
-  std::vector<int> contacts;  ///< at least one of whose blocks moves
-  std::vector<int> patches;   ///< whose block a does
-  std::vector<int> blocks;    ///< of those contacts and patches, moved or not
+  std::vector<int> contacts;  ///< at least one of their blocks moves
+  std::vector<int> patches;   ///< their block a moves
+  std::vector<int> blocks;    ///< all blocks of those contacts and patches, moved or not
 };
-/// `moved`: 1 or 0 per block.
+/// `moved`: 1 or 0 (num_blocks).
 MovedContacts moved_contacts(const ContactSet& set, const std::vector<char>& moved);
 
-/// Places points, normals, gaps and patch polygons of the contacts that moved for the given poses of all
-/// blocks.
+/// Updates points, normals, gaps and patch polygons of the moved contacts; `poses` of all blocks
+/// (num_blocks).
 void move_contacts(std::span<const Pose> poses, const MovedContacts& moved, AnchoredContacts* contacts);
 
-/// Gives every new contact the name and the rest gap of the nearest old one of the same sort (corner or inner
-/// point) in the patch that its own continues, nearest pairs first; those left over get free numbers. Both
-/// sides are expected in the same poses. Returns the contacts that came in from the side: of patches that
-/// continue no old one although none of the block pair's was lost, and further points of patches that do.
-std::set<ContactId> keep_identities(const AnchoredContacts& old_contacts, AnchoredContacts* contacts);
+/// Transfers the identity and the rest gap of old contacts to new ones. Both sets must be in the same poses
+/// and sorted by block pair.
+///
+/// Within a patch and the old patch that it continues, each new point takes over the nearest old point of the
+/// same sort (corner or inner point), nearest pairs first. Points without a partner get unused numbers.
+///
+/// Returns the lateral contacts, which appeared because blocks slid along each other: further points of
+/// patches that continue an old one, and all points of other patches of a block pair whose old patches all
+/// continue.
+std::set<ContactId> transfer_identities(const AnchoredContacts& old_contacts, AnchoredContacts* contacts);
 
-/// Where blocks have slid along each other while their joints are compressed, faces meet that have already
-/// passed each other. Such contacts, `from_the_side`, begin without force: their gap counts from its present
-/// value. The others lose what of their rest gap has opened.
-void settle_rest_gaps(const std::set<ContactId>& from_the_side, AnchoredContacts* contacts);
+/// Updates the rest gaps after a detection. Where blocks slide along each other while their joints are
+/// compressed, faces meet that already overlap. Such `lateral` contacts start without force: their gap is
+/// measured from its present value. Any other contact loses the part of its rest gap that has opened.
+void update_rest_gaps(const std::set<ContactId>& lateral, AnchoredContacts* contacts);
 
 }  // namespace cupola

@@ -6,8 +6,8 @@
 
 namespace cupola {
 
-/// Writes the overlap polygons for ParaView (.vtp): one cell per patch that has an area, with `block_a`,
-/// `block_b`, `kind`, `ring`, `area_m2` and `centroid` (m). Throws SystemError.
+/// Writes the overlap polygons for ParaView (.vtp): one cell per patch with an area, with the cell data
+/// `block_a`, `block_b`, `kind`, `ring`, `area_m2` and `centroid` (m). Throws SystemError.
 void write_patches(const std::string& path, const ContactSet& contacts, const std::string& assembly_hash);
 
 }  // namespace cupola

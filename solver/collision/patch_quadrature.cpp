@@ -7,7 +7,7 @@ bool is_parallelogram(std::span<const Vec2> polygon) {
   if (polygon.size() != 4) return false;
   const Vec2 diagonal_mismatch = polygon[0] + polygon[2] - polygon[1] - polygon[3];
   const double size = (polygon[2] - polygon[0]).norm() + (polygon[3] - polygon[1]).norm();
-  // The rule errs in proportion to the mismatch; 1e-9 leaves room for corners rounded far from the origin.
+  // The error of the rule is proportional to the mismatch. 1e-9 allows for rounding far from the origin.
   return diagonal_mismatch.norm() <= 1e-9 * size;
 }
 
@@ -17,7 +17,7 @@ std::vector<PatchPoint> corners_with_area(std::span<const Vec2> polygon, double 
   return points;
 }
 
-/// Sum of the triangle rule over the triangles (centroid, corner i, corner i + 1).
+/// The triangle rule applied to the triangles (centroid, corner i, corner i + 1).
 std::vector<PatchPoint> fan_about_centroid(std::span<const Vec2> polygon) {
   const std::size_t n = polygon.size();
   const Vec2 centroid = polygon_centroid(polygon);

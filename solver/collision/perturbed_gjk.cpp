@@ -12,7 +12,7 @@
 namespace cupola {
 namespace {
 
-/// SplitMix64 (Steele, Lea and Flood 2014): the same numbers on every machine.
+/// SplitMix64 (Steele, Lea and Flood 2014), which gives the same numbers on every machine.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -28,7 +28,7 @@ class Random {
   std::uint64_t state_;
 };
 
-/// Rotation by up to `angle` about a random axis through `center`.
+/// Rotation by at most `angle` (rad) about a random axis through `center`.
 Eigen::Isometry3d small_turn(Random* random, double angle, const Vec3& center) {
   const double z = 2.0 * random->uniform() - 1.0;
   const double azimuth = 2.0 * std::numbers::pi * random->uniform();
@@ -50,12 +50,14 @@ ConvexBody make_core(const CollisionModel& model, const CollisionPart& part, dou
   }
   const Polytope core = inset_polytope(planes, margin, 1e-9 * model.smallest_block + 16.0 * model.rounding);
   if (core.vertices.empty())
-    throw InputError(fmt::format("block {}: a part of it is thinner than twice contact.margin = {} m",
-                                 part.block, margin));
+    throw InputError(
+        fmt::format("block {}: a part is thinner than twice contact.margin = {} m; reduce the "
+                    "margin",
+                    part.block, margin));
   return ConvexBody(core);
 }
 
-/// The face of a part whose outward normal is nearest to the direction.
+/// The face of a part whose outward normal is closest to the direction.
 const CollisionFace& face_along(const CollisionModel& model, const CollisionPart& part,
                                 const Vec3& direction) {
   const auto faces = model.faces_of(part);
@@ -142,7 +144,7 @@ std::vector<int> largest_patch(std::span<const Vec2> points, int keep, double to
     polygon.push_back(points[i]);
     return hull_area(polygon);
   };
-  int first = 0;  // an end of the farthest pair
+  int first = 0;  // one of the two points farthest apart
   double farthest = -1.0;
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t k = i + 1; k < points.size(); ++k)

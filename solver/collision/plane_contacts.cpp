@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
@@ -16,9 +18,10 @@ bool mirror_images(const Contact& p, const ContactAnchor& a, const Contact& q, c
 void merge_across_plane(double tolerance, AnchoredContacts* contacts) {
   std::vector<Contact>& all = contacts->set.points;
   std::vector<ContactAnchor>& anchors = contacts->anchors;
+  CUPOLA_ASSERT(anchors.size() == all.size());
   size_t kept = 0;
   for (size_t i = 0; i < all.size(); ++i) {
-    size_t partner = kept;  // a patch has a handful of points: look back through those kept
+    size_t partner = kept;  // a patch has few points: search backwards through those kept
     while (partner > 0 && all[partner - 1].patch == all[i].patch &&
            !mirror_images(all[partner - 1], anchors[partner - 1], all[i], anchors[i], tolerance))
       --partner;
@@ -26,7 +29,7 @@ void merge_across_plane(double tolerance, AnchoredContacts* contacts) {
       Contact& first = all[partner - 1];
       ContactAnchor& anchor = anchors[partner - 1];
       first.area += all[i].area;
-      first.points += all[i].points;
+      first.multiplicity += all[i].multiplicity;
       anchor.r_a.y() = 0.5 * (anchor.r_a.y() + anchors[i].r_a.y());
       anchor.r_b.y() = 0.5 * (anchor.r_b.y() + anchors[i].r_b.y());
       continue;

@@ -4,9 +4,9 @@
 
 namespace cupola {
 
-/// Of a scene that is symmetric about a plane across y and moves in x-z only: contact points of one patch
-/// that differ by more than nothing in y alone (within `tolerance`, m) become one point midway, which stands
-/// for the area and the number of both. It keeps the identity of the first.
+/// For a scene that is symmetric about a plane normal to y and moves in x-z only: merges contact points of
+/// one patch that differ only in y (within `tolerance`, m) into one point midway, with the sum of their areas
+/// and multiplicities and the identity of the first.
 void merge_across_plane(double tolerance, AnchoredContacts* contacts);
 
 }  // namespace cupola

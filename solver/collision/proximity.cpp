@@ -9,10 +9,12 @@
 #include <fcl/narrowphase/collision_object.h>
 #include <fcl/narrowphase/distance.h>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
-/// FCL keeps the bounding box of an unrotated fcl::Box exactly: that is how a bare box enters its tree.
+/// FCL has no bare boxes in its tree. An unrotated fcl::Box keeps its bounding box exactly.
 void set_box(const Box& box, fcl::Boxd* shape, fcl::CollisionObjectd* object) {
   shape->side = box.sizes();
   shape->computeLocalAABB();
@@ -35,14 +37,14 @@ bool collect_partner(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* d
   const int j = index_of(a) == collector->of ? index_of(b) : index_of(a);
   if (j > collector->of && collector->groups[j] != collector->groups[collector->of])
     collector->partners.push_back(j);
-  return false;  // go on
+  return false;  // continue
 }
 
 }  // namespace
 
 struct BroadPhase::Tree {
   std::vector<int> groups;
-  std::vector<int> indices;  ///< 0, 1, 2, ...: what the objects point to
+  std::vector<int> indices;  ///< 0, 1, 2, ...: the user data of the objects point here
   std::vector<std::shared_ptr<fcl::Boxd>> shapes;
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
   fcl::DynamicAABBTreeCollisionManagerd manager;
@@ -50,6 +52,7 @@ struct BroadPhase::Tree {
 
 BroadPhase::BroadPhase(std::span<const Box> boxes, std::span<const int> groups)
     : tree_(std::make_unique<Tree>()) {
+  CUPOLA_ASSERT(boxes.size() == groups.size());
   tree_->groups.assign(groups.begin(), groups.end());
   tree_->indices.resize(boxes.size());
   std::iota(tree_->indices.begin(), tree_->indices.end(), 0);
@@ -70,6 +73,7 @@ BroadPhase::BroadPhase(BroadPhase&&) noexcept = default;
 BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 
 void BroadPhase::move(std::span<const int> indices, std::span<const Box> boxes) {
+  CUPOLA_ASSERT(indices.size() == boxes.size());
   std::vector<fcl::CollisionObjectd*> moved;
   for (std::size_t k = 0; k < indices.size(); ++k) {
     const int i = indices[k];
@@ -80,6 +84,7 @@ void BroadPhase::move(std::span<const int> indices, std::span<const Box> boxes) 
 }
 
 std::vector<int> BroadPhase::partners(int i) const {
+  CUPOLA_ASSERT(i >= 0 && i < static_cast<int>(tree_->objects.size()));
   PartnerCollector collector{tree_->groups, i, {}};
   tree_->manager.collide(tree_->objects[i].get(), &collector, collect_partner);
   std::sort(collector.partners.begin(), collector.partners.end());
@@ -111,7 +116,7 @@ std::optional<NearestPoints> ConvexBody::nearest_points(const ConvexBody& b,
   fcl::DistanceRequestd request;
   request.enable_nearest_points = true;
   request.enable_signed_distance = false;
-  request.distance_tolerance = 1e-10;  // with the default 1e-6 some points are off by their whole face
+  request.distance_tolerance = 1e-10;  // with the default 1e-6 some points are off by the size of a face
   request.gjk_solver_type = fcl::GST_LIBCCD;
   fcl::DistanceResultd result;
   const double distance = fcl::distance(shape_->convex.get(), fcl::Transform3d::Identity(),

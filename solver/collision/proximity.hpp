@@ -17,7 +17,7 @@ using Box = Eigen::AlignedBox3d;
 /// Finds the pairs of overlapping boxes among many, in a dynamic tree of axis-aligned boxes (FCL).
 class BroadPhase {
  public:
-  /// Boxes of one group are never paired (the parts of one block, everything that is fixed).
+  /// Boxes of one group are never paired. One group per box (see collision_groups()).
   BroadPhase(std::span<const Box> boxes, std::span<const int> groups);
   ~BroadPhase();
   BroadPhase(BroadPhase&&) noexcept;
@@ -26,8 +26,8 @@ class BroadPhase {
   /// Replaces the boxes of the given indices.
   void move(std::span<const int> indices, std::span<const Box> boxes);
 
-  /// The boxes after box i that overlap it, sorted. Threads may ask at the same time. There is no list of all
-  /// pairs: boxes of slender bricks that stand askew overlap by thousands.
+  /// Indices > i of the boxes that overlap box i, sorted. Thread-safe. There is no list of all pairs, because
+  /// each axis-aligned box of a slender, inclined brick overlaps thousands of others.
   std::vector<int> partners(int i) const;
 
  private:
@@ -35,7 +35,7 @@ class BroadPhase {
   std::unique_ptr<Tree> tree_;
 };
 
-/// Nearest points of two convex bodies that are apart. Coordinates in m, axes of the first.
+/// Nearest points of two separate convex bodies. Coordinates in m, axes of the first.
 struct NearestPoints {
   Eigen::Vector3d on_a = Eigen::Vector3d::Zero();
   Eigen::Vector3d on_b = Eigen::Vector3d::Zero();
@@ -49,8 +49,8 @@ class ConvexBody {
   ConvexBody(ConvexBody&&) noexcept;
   ConvexBody& operator=(ConvexBody&&) noexcept;
 
-  /// `pose_ab` takes coordinates of b to those of this body. None when the bodies touch or overlap: FCL's
-  /// signed distance would abort the process there. Points to 1e-10 of the bodies' size.
+  /// `pose_ab` transforms coordinates of b to those of this body. Returns nothing when the bodies touch or
+  /// overlap, where FCL's signed distance would abort the process. Accuracy: 1e-10 of the size of the bodies.
   std::optional<NearestPoints> nearest_points(const ConvexBody& b, const Eigen::Isometry3d& pose_ab) const;
 
  private:

@@ -21,8 +21,8 @@ double lowest(const std::vector<Vec3>& vertices, const Vec3& direction) {
   return height;
 }
 
-/// Nearest points of the edges p + s d and q + t e, not parallel; false when those of their lines lie beyond
-/// the edges or within `border` of their ends.
+/// Nearest points of the lines of two edges p + s d and q + t e, which must not be parallel. False when one
+/// of the points lies outside its edge or within `border` (m) of an end.
 bool nearest_on_edges(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3& e, double border, Vec3* on_p,
                       Vec3* on_q) {
   const Vec3 r = q - p;
@@ -72,7 +72,8 @@ SeparatingAxis best_edge_axis(const TwoParts& parts, const NarrowPhaseOptions& o
       const Vec3& q = parts.vertices_b[k.start - parts.b.vertex_start];
       const Vec3 e = parts.vertices_b[k.end - parts.b.vertex_start] - q;
       Vec3 normal = d.cross(e);
-      if (normal.norm() < 0.05 * d.norm() * e.norm()) continue;  // parallel edges: a face normal will do
+      if (normal.norm() < 0.05 * d.norm() * e.norm())
+        continue;  // nearly parallel: a face normal separates as well
       normal.normalize();
       if (normal.dot(p - parts.a.center) < 0.0) normal = -normal;
       const double gap = normal.dot(q - p);
@@ -90,7 +91,7 @@ double separation(const CollisionModel& model, int part_a, int part_b, const Eig
                   const NarrowPhaseOptions& options) {
   const TwoParts parts = place_parts(model, part_a, part_b, pose_ab);
   const double face_gap = best_face_axis(parts, options.margin).gap;
-  if (face_gap >= -options.tolerance) return face_gap;  // they touch: edges could only say the same
+  if (face_gap >= -options.tolerance) return face_gap;  // no overlap: edge pairs cannot change the verdict
   return std::max(face_gap, best_edge_axis(parts, options).gap);
 }
 

@@ -7,7 +7,8 @@
 
 namespace cupola {
 
-/// Two convex parts in the axes of block a. Refers to the model and the pose, which must outlive it.
+/// Two convex parts, vertices in the axes of block a. Refers to the model and the pose, which must outlive
+/// it.
 struct TwoParts {
   const CollisionModel& model;
   const CollisionPart& a;
@@ -17,25 +18,25 @@ struct TwoParts {
 };
 TwoParts place_parts(const CollisionModel& model, int part_a, int part_b, const Eigen::Isometry3d& pose_ab);
 
-/// Direction from a to b and the gap along it, negative when the parts overlap along it.
+/// Unit direction from a to b and the gap along it (m), negative when the parts overlap along it.
 struct SeparatingAxis {
   Vec3 normal = Vec3::UnitZ();
   double gap = -std::numeric_limits<double>::infinity();
-  const CollisionFace* face_a = nullptr;  ///< face whose normal it is, if any
+  const CollisionFace* face_a = nullptr;  ///< the face that the axis is normal to, of a or of b, if any
   const CollisionFace* face_b = nullptr;
-  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< nearest points of two edges
+  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< m, nearest points of two edges otherwise
 };
 
-/// The face normal of either part with the largest gap; stops at the first that separates the parts by more
-/// than the margin.
+/// The face normal of either part with the largest gap. Stops at the first normal that separates the parts by
+/// more than the margin.
 SeparatingAxis best_face_axis(const TwoParts& parts, double margin);
 
-/// The common normal of two edges, outermost of their parts along it, with the largest gap.
+/// The common normal with the largest gap of two edges, each the outermost of its part along that normal.
 SeparatingAxis best_edge_axis(const TwoParts& parts, const NarrowPhaseOptions& options);
 
-/// Largest gap (m) between the parts along any face normal or common normal of two edges: their distance
-/// where a face or two edges are nearest, less than it where vertices are, and minus the depth of their
-/// overlap where it is negative.
+/// Largest gap (m) between the parts along any face normal or common normal of two edges. This is their
+/// distance if the nearest features include a face or are two edges, and a lower bound of it if they include
+/// a vertex and no face. If negative, it is minus the penetration depth.
 double separation(const CollisionModel& model, int part_a, int part_b, const Eigen::Isometry3d& pose_ab,
                   const NarrowPhaseOptions& options);
 

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <map>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
 ContactMemories match_memories(const ContactMemories& old, const std::vector<Contact>& contacts) {
+  CUPOLA_ASSERT(old.ids.size() == old.values.size());
   const auto same_id = [](const ContactId& id, const Contact& contact) { return id == contact.id; };
   if (std::equal(old.ids.begin(), old.ids.end(), contacts.begin(), contacts.end(), same_id)) return old;
   ContactMemories matched;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
 Energy compute_energy(const Model& model, const State& state, const ContactSet& contacts,
@@ -21,6 +23,7 @@ Energy compute_energy(const Model& model, const State& state, const ContactSet& 
     const Vec3 moved = pose.p_WB + pose.q_WB * load.p_BP_B - (blocks[load.block].centroid + load.p_BP_B);
     energy.potential -= model.loads.factor(load, state.time) * load.force.dot(moved);
   }
+  CUPOLA_ASSERT(memories.values.size() == contacts.points.size());
   for (size_t i = 0; i < memories.values.size(); ++i) {
     const JointLaw law = joint_law(model, contacts, contacts.points[i], state.time);
     const ContactMemory& memory = memories.values[i];

@@ -4,20 +4,21 @@
 
 namespace cupola {
 
-/// Energies of one instant, J. Potential energy counts from the assembly's own configuration, under the loads
-/// of that instant.
+/// Energies at one time, J. Potential energy is relative to the assembly as generated, under the loads at
+/// that time.
 struct Energy {
   double kinetic = 0.0;
-  double potential = 0.0;  ///< of gravity and of loads of constant direction
-  double elastic = 0.0;    ///< stored in the joints' compliance and in ties
+  double potential = 0.0;  ///< of gravity and applied loads
+  double elastic = 0.0;    ///< stored in the compliance of joints and ties
   double total() const { return kinetic + potential + elastic; }
 };
 
 Energy compute_energy(const Model& model, const State& state, const ContactSet& contacts,
                       const ContactMemories& memories);
 
-/// Work lost to sliding in one step: - sum gamma_t . u_plastic, J, >= 0 in exact arithmetic. Taken from the
-/// contact problem, where u_plastic = D^T v + b + E gamma, tangential part.
+/// Work dissipated by friction in one step, J, >= 0 in exact arithmetic:
+///
+///     - sum gamma_t . u_plastic,   u_plastic = (D^T v + b + E gamma)_t
 double friction_dissipation(const StepProblem& step, const ContactSolution& solution);
 
 }  // namespace cupola

@@ -2,12 +2,13 @@
 
 #include <cmath>
 
+#include "assembly/base/error.hpp"
 #include "solver/dynamics/time_step.hpp"
 
 namespace cupola {
 namespace {
 
-/// Forces and moments about the centroids, per block.
+/// Forces and moments about the centroids (num_blocks).
 struct BlockForces {
   std::vector<Vec3> force;   // N
   std::vector<Vec3> moment;  // N m
@@ -34,8 +35,8 @@ double inertia_share(const Equilibrium& balance) {
 
 }  // namespace
 
-Equilibrium joined(const Equilibrium& a, const Equilibrium& b) {
-  Equilibrium both = a.residual <= b.residual ? b : a;  // NaN counts as the worst
+Equilibrium combine(const Equilibrium& a, const Equilibrium& b) {
+  Equilibrium both = a.residual <= b.residual ? b : a;  // NaN counts as the largest
   if (std::isnan(b.residual)) both = b;
   both.applied_load = a.applied_load + b.applied_load;
   both.support_reaction = a.support_reaction + b.support_reaction;
@@ -46,6 +47,7 @@ Equilibrium joined(const Equilibrium& a, const Equilibrium& b) {
 JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, double h) {
   JointForces forces;
   const auto nc = static_cast<Eigen::Index>(contacts.points.size());
+  CUPOLA_ASSERT(h > 0.0 && gamma.size() >= 3 * nc && gamma.size() % 3 == 0);
   forces.contacts.resize(contacts.points.size());
   for (Eigen::Index i = 0; i < nc; ++i)
     forces.contacts[i] = contact_frame(contacts.points[i].normal) * gamma.segment<3>(3 * i) / h;
@@ -56,6 +58,9 @@ JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, double h
 Equilibrium compute_equilibrium(const Model& model, const State& state, const ContactSet& contacts,
                                 const JointForces& forces, double time) {
   const std::vector<Block>& blocks = model.assembly->blocks;
+  CUPOLA_ASSERT(state.poses.size() == blocks.size());
+  CUPOLA_ASSERT(forces.contacts.size() == contacts.points.size());
+  CUPOLA_ASSERT(forces.ties.empty() || forces.ties.size() == model.ties.size());
   Equilibrium balance;
   BlockForces sum = applied_loads(model, state, time);
   for (int block : model.free_blocks) balance.applied_load += sum.force[block];
@@ -78,14 +83,14 @@ Equilibrium compute_equilibrium(const Model& model, const State& state, const Co
     add(model.ties[k].block_a, model.ties[k].block_b, tie.point_a, tie.point_b, forces.ties[k] * tie.normal);
   }
 
-  // Without weight the loads set the scale; without either any imbalance is absolute, in newtons.
+  // Without weight the loads set the scale. Without either, the residual is in newtons.
   double scale = model.block_weight;
   if (scale == 0.0) scale = balance.applied_load.norm();
   if (scale == 0.0) scale = 1.0;
   for (int block : model.free_blocks) {
     const double size = std::cbrt(blocks[block].volume);
     const double unbalanced = std::max(sum.force[block].norm(), sum.moment[block].norm() / size) / scale;
-    // Written so that NaN counts as the worst.
+    // Written so that NaN counts as the largest.
     if (!(unbalanced <= balance.residual)) {
       balance.residual = unbalanced;
       balance.worst_block = block;

@@ -4,30 +4,31 @@
 
 namespace cupola {
 
-/// What holds the blocks together in one step.
+/// Forces between the blocks in one step.
 struct JointForces {
-  std::vector<Vec3> contacts;  ///< N, world, on block b of each contact
-  std::vector<double> ties;    ///< N, along each tie's normal, >= 0: tension of a tie, thrust of a strut
+  std::vector<Vec3> contacts;  ///< N, world, acting on block b (nc)
+  std::vector<double> ties;    ///< N, >= 0: tension of a tie, thrust of a strut (number of ties)
 };
 
-/// Impulses of a step as forces.
+/// Forces of a step from its impulses `gamma` (N s): gamma / h in world axes.
 JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, double h);
 
-/// Balance of forces recomputed from contact points and world forces, apart from the solver's matrices.
+/// Balance of forces and moments, computed from contact points and world forces independently of the matrices
+/// of the contact problem.
 struct Equilibrium {
-  /// Largest unbalanced force of a free block over the mean block weight, and moment over weight times block
-  /// size (cube root of the volume). Inertia counts as imbalance: in statics nothing moves.
+  /// Largest over the free blocks of |F| / W and |M| / (W L): F, M unbalanced force and moment about the
+  /// centroid, W mean block weight, L cube root of the volume of the block. Inertia counts as imbalance.
   double residual = 0.0;
-  int worst_block = -1;
+  int worst_block = -1;                  ///< block with the largest residual
   Vec3 applied_load = Vec3::Zero();      ///< N, gravity and loads on the free blocks
-  Vec3 support_reaction = Vec3::Zero();  ///< N, of fixed blocks on free ones
-  double inertia_share = 0.0;            ///< part of the applied load, along it, that no support carries
+  Vec3 support_reaction = Vec3::Zero();  ///< N, of fixed blocks on free blocks
+  double inertia_share = 0.0;            ///< fraction of the applied load that the supports do not carry
 };
 
-/// Balance of two parts of a scene that have no joint with each other, together.
-Equilibrium joined(const Equilibrium& a, const Equilibrium& b);
+/// Balance of a scene from the balances of two parts that no force connects.
+Equilibrium combine(const Equilibrium& a, const Equilibrium& b);
 
-/// `time`: s, at which the loads are taken.
+/// Loads are evaluated at `time` (s).
 Equilibrium compute_equilibrium(const Model& model, const State& state, const ContactSet& contacts,
                                 const JointForces& forces, double time);
 

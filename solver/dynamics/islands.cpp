@@ -18,7 +18,7 @@ bool varies(const TimeFunction& time) {
   return !std::holds_alternative<ConstantInTime>(time);
 }
 
-/// The part of the free blocks whose `chosen` is `which`.
+/// The part of the scene whose free blocks have chosen == which.
 ScenePart part_of(const Model& model, const State& state, const ContactSet& contacts,
                   const ContactMemories& memories, const std::vector<char>& chosen, char which) {
   ScenePart part{model, state, {}, {}, {}};
@@ -52,7 +52,7 @@ std::vector<int> islands_of(const Model& model, const ContactSet& contacts) {
   for (const Contact& contact : contacts.points) {
     const int a = model.free_index[contact.block_a], b = model.free_index[contact.block_b];
     if (a == ContactProblem::kFixed || b == ContactProblem::kFixed) continue;
-    // The smaller number becomes the root: the island's first block.
+    // The smaller index becomes the root, which is therefore the first block of the island.
     const int p = root_of(&parent, a), q = root_of(&parent, b);
     parent[std::max(p, q)] = std::min(p, q);
   }
@@ -60,40 +60,43 @@ std::vector<int> islands_of(const Model& model, const ContactSet& contacts) {
   return parent;
 }
 
-int Sleepers::num_asleep() const {
+int SleepState::num_asleep() const {
   return static_cast<int>(std::count(asleep.begin(), asleep.end(), 1));
 }
 
-bool update_sleepers(const Sleep& sleep, const std::vector<int>& islands, const std::vector<double>& radius,
-                     State* state, Sleepers* sleepers) {
+bool update_sleep(const Sleep& sleep, const std::vector<int>& islands, const std::vector<double>& radius,
+                  State* state, SleepState* sleep_state) {
   const int nb = static_cast<int>(islands.size());
-  sleepers->calm_since.resize(nb, state->time);
-  sleepers->asleep.resize(nb, 0);
-  std::vector<double> restless = sleepers->calm_since;  // by island: when a block was last fast
+  CUPOLA_ASSERT(radius.size() == islands.size() && state->v.size() == 6 * nb);
+  sleep_state->calm_since.resize(nb, state->time);
+  sleep_state->asleep.resize(nb, 0);
+  std::vector<double> last_fast = sleep_state->calm_since;  // by island: last time any block was fast
   for (int i = 0; i < nb; ++i) {
     const auto v = state->v.segment<6>(6 * i);
     if (v.head<3>().norm() + radius[i] * v.tail<3>().norm() > sleep.speed)
-      sleepers->calm_since[i] = state->time;
-    restless[islands[i]] = std::max(restless[islands[i]], sleepers->calm_since[i]);
+      sleep_state->calm_since[i] = state->time;
+    last_fast[islands[i]] = std::max(last_fast[islands[i]], sleep_state->calm_since[i]);
   }
   bool changed = false;
   for (int i = 0; i < nb; ++i) {
-    const char asleep = state->time - restless[islands[i]] >= sleep.time ? 1 : 0;
-    if (asleep == sleepers->asleep[i]) continue;
+    const char asleep = state->time - last_fast[islands[i]] >= sleep.time ? 1 : 0;
+    if (asleep == sleep_state->asleep[i]) continue;
     changed = true;
-    sleepers->asleep[i] = asleep;
+    sleep_state->asleep[i] = asleep;
     if (asleep) state->v.segment<6>(6 * i).setZero();
   }
   return changed;
 }
 
-SleepingScene put_to_sleep(const Model& model, const State& state, const ContactSet& contacts,
-                           const ContactMemories& memories, const Sleepers& sleepers, double h) {
-  SleepingScene scene{part_of(model, state, contacts, memories, sleepers.asleep, 0), {}, {}};
+ReducedScene reduce_to_awake(const Model& model, const State& state, const ContactSet& contacts,
+                             const ContactMemories& memories, const SleepState& sleep_state, double h) {
+  CUPOLA_ASSERT(static_cast<int>(sleep_state.asleep.size()) == model.num_free());
+  CUPOLA_ASSERT(memories.values.size() == contacts.points.size() && h > 0.0);
+  ReducedScene scene{part_of(model, state, contacts, memories, sleep_state.asleep, 0), {}, {}};
   for (size_t i = 0; i < contacts.points.size(); ++i)
     scene.forces.contacts.push_back(contact_frame(contacts.points[i].normal) * memories.values[i].impulse /
                                     h);
-  const ScenePart asleep = part_of(model, state, contacts, memories, sleepers.asleep, 1);
+  const ScenePart asleep = part_of(model, state, contacts, memories, sleep_state.asleep, 1);
   JointForces carried;
   for (const int row : asleep.contact_rows) carried.contacts.push_back(scene.forces.contacts[row]);
   scene.balance = compute_equilibrium(asleep.model, asleep.state, asleep.contacts, carried, state.time);
@@ -105,7 +108,9 @@ void require_sleepable(const Case& scene, const Model& model) {
   for (const TimeFunction& time : model.loads.times) varying = varying || varies(time);
   if (varying || scene.supports.moving() || !model.ties.empty())
     throw InputError(
-        "analysis.sleep: needs loads, friction and supports that do not vary in time, and no ties");
+        "analysis.sleep: requires loads, friction and supports that are constant in time, and no ties; "
+        "remove "
+        "analysis.sleep or what varies");
 }
 
 }  // namespace cupola

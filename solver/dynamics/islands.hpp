@@ -9,46 +9,46 @@
 
 namespace cupola {
 
-/// Island of each free block: blocks that contacts (closed or within the margin) join, fixed ones not
-/// counted. Numbered by their first block (num_free).
+/// Island of each free block (num_free): a set of free blocks connected by contacts, whether closed or open
+/// within the margin. An island is numbered by its first block.
 std::vector<int> islands_of(const Model& model, const ContactSet& contacts);
 
-/// Who sleeps. An island does when none of its blocks has been faster than the speed asked for the time
-/// asked; a block that comes within the margin of another joins its island and wakes it.
-struct Sleepers {
-  std::vector<double> calm_since;  ///< s, per free block: last time at which it was faster
-  std::vector<char> asleep;        ///< per free block
+/// Which free blocks sleep. An island falls asleep when all its blocks have been slower than Sleep::speed for
+/// Sleep::time. A block that comes within the margin of a sleeping island becomes part of it and wakes it.
+struct SleepState {
+  std::vector<double> calm_since;  ///< s, last time at which the block was faster (num_free)
+  std::vector<char> asleep;        ///< 1 or 0 (num_free)
   int num_asleep() const;
 };
 
-/// Puts islands to sleep, their velocities to zero, and wakes others; true where anyone did either. `radius`:
-/// m, of each free block: with it a rotation counts as a speed.
-bool update_sleepers(const Sleep& sleep, const std::vector<int>& islands, const std::vector<double>& radius,
-                     State* state, Sleepers* sleepers);
+/// Puts calm islands to sleep, setting their velocities to zero, and wakes the others. Returns true if the
+/// state of any block changed. The speed of a block is |v| + radius |omega|, with `radius` in m (num_free).
+bool update_sleep(const Sleep& sleep, const std::vector<int>& islands, const std::vector<double>& radius,
+                  State* state, SleepState* sleep_state);
 
-/// Some islands of a scene, as a scene of its own in which the blocks of the others are fixed.
+/// Some islands of a scene as a separate scene, in which all other blocks are fixed.
 struct ScenePart {
   Model model;
   State state;
-  /// Patches as they were when the part was made: who reads their polygons asks the whole.
+  /// Points are updated in each step. Patch polygons are not: use those of the whole scene.
   ContactSet contacts;
   ContactMemories memories;
-  std::vector<int> contact_rows;  ///< row in the whole of each of its contacts
+  std::vector<int> contact_rows;  ///< index of each contact in the whole scene
 };
 
-/// The scene while some of it sleeps. It lasts until someone falls asleep or wakes, or contacts are found
-/// anew; until then a step costs nothing for a sleeper but the watch over who wakes.
-struct SleepingScene {
+/// A scene in which some islands sleep. It is valid until a block falls asleep or wakes, or until contacts
+/// are detected again. Until then a sleeping block costs only the detection of approaching blocks.
+struct ReducedScene {
   ScenePart awake;
-  JointForces forces;   ///< of the whole: sleepers go on carrying what they carried in their last step
-  Equilibrium balance;  ///< of the sleepers under those forces
+  JointForces forces;   ///< of the whole scene; sleeping joints keep the forces of their last step
+  Equilibrium balance;  ///< of the sleeping blocks under those forces
 };
-/// `h`: s, the step in which the memories' impulses were found.
-SleepingScene put_to_sleep(const Model& model, const State& state, const ContactSet& contacts,
-                           const ContactMemories& memories, const Sleepers& sleepers, double h);
+/// `h`: s, duration of the step that gave the impulses in `memories`.
+ReducedScene reduce_to_awake(const Model& model, const State& state, const ContactSet& contacts,
+                             const ContactMemories& memories, const SleepState& sleep_state, double h);
 
-/// Throws InputError where sleepers could be roused by something else than a neighbour: loads, friction or
-/// supports that vary in time, and ties.
+/// Throws InputError if anything but a neighbour could wake a sleeping block: loads, friction or supports
+/// that vary in time, or ties.
 void require_sleepable(const Case& scene, const Model& model);
 
 }  // namespace cupola

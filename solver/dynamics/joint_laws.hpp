@@ -11,27 +11,29 @@ namespace cupola {
 /// Friction and compliance of one contact point.
 struct JointLaw {
   double mu = 0.0;
-  double compliance_normal = 0.0;      ///< m/N per point, or m3/N per area in a JointTable
+  double compliance_normal = 0.0;      ///< m/N per point; in a JointTable per area: m3/N
   double compliance_tangential = 0.0;  ///< same unit
 };
 
-/// Sorts of joints that can differ in their law. A base joint lies on a support, a herringbone joint touches
-/// a herringbone block.
-enum class JointSort { bed, head, herringbone_bed, herringbone_other, base, other };
-constexpr int kJointSorts = 6;
-JointSort joint_sort(const Assembly& assembly, const Patch& patch);
+/// Classes of joints that can have different laws. A base joint lies on a support. A herringbone joint
+/// touches a herringbone block.
+enum class JointClass { bed, head, herringbone_bed, herringbone_other, base, other };
+constexpr int kNumJointClasses = 6;
+JointClass joint_class(const Assembly& assembly, const Patch& patch);
 
-/// The law of every sort of joint in every ring, with the case's changes worked in.
+/// The law of every class of joint in every ring. Laws of rings override laws of classes, and these override
+/// the general law of the case.
 class JointTable {
  public:
   JointTable() = default;
   explicit JointTable(const Joints& joints, int num_rings);
 
-  /// Law of a contact point of the patch that stands for `area` (m2) and for `points`, at full friction.
-  JointLaw law(const Assembly& assembly, const Patch& patch, double area, int points = 1) const;
+  /// Law of a contact point of the patch with tributary area `area` (m2) and the given multiplicity (see
+  /// Contact), at full friction.
+  JointLaw law(const Assembly& assembly, const Patch& patch, double area, int multiplicity = 1) const;
 
  private:
-  std::array<std::vector<JointLaw>, kJointSorts> laws_;  // by sort, then ring
+  std::array<std::vector<JointLaw>, kNumJointClasses> laws_;  // by class, then ring
   bool per_area_ = false;
 };
 

@@ -6,18 +6,18 @@
 
 namespace cupola {
 
-/// A force of constant direction on a point that moves with its block.
+/// A force of constant direction at a point that moves with its block.
 struct PointLoad {
   int block = 0;
-  Vec3 p_BP_B = Vec3::Zero();        ///< m, from the centroid, in the block's axes
+  Vec3 p_BP_B = Vec3::Zero();        ///< m, from the centroid, axes of the block
   Vec3 force = Vec3::Zero();         ///< N, world, at factor 1
   int time = PointForce::kDeadLoad;  ///< index into LoadSet::times
 };
 
-/// Everything applied, with its variation in time.
+/// All applied loads with their variation in time.
 struct LoadSet {
   Vec3 gravity = Vec3::Zero();  ///< m/s2, at factor 1
-  TimeFunction dead_load_time;  ///< factor on gravity and on the loads that follow it
+  TimeFunction dead_load_time;  ///< factor on gravity and on loads with time == kDeadLoad
   std::vector<PointLoad> points;
   std::vector<TimeFunction> times;
 
@@ -27,7 +27,7 @@ struct LoadSet {
   Vec3 gravity_at(double time) const { return factor_at(dead_load_time, time) * gravity; }
 };
 
-/// Throws InputError when the case asks for a load that the assembly cannot carry.
+/// Throws InputError for a load that does not fit the assembly, such as one on a block that does not exist.
 LoadSet make_loads(const Loads& loads, const Assembly& assembly);
 
 }  // namespace cupola

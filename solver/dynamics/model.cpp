@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "assembly/base/error.hpp"
 #include "solver/dynamics/plane_scene.hpp"
 
 namespace cupola {
@@ -48,6 +49,7 @@ Mat6 mass_matrix(const Block& block, const Eigen::Quaterniond& q_WB) {
 }
 
 VecX applied_forces(const Model& model, const State& state, double time) {
+  CUPOLA_ASSERT(state.v.size() == 6 * model.num_free());
   VecX f(6 * model.num_free());
   const Vec3 gravity = model.loads.gravity_at(time);
   for (int i = 0; i < model.num_free(); ++i) {
@@ -60,6 +62,7 @@ VecX applied_forces(const Model& model, const State& state, double time) {
   }
   for (const PointLoad& load : model.loads.points) {
     const int i = model.free_index[load.block];
+    CUPOLA_ASSERT(i != ContactProblem::kFixed);
     const Vec3 force = model.loads.factor(load, time) * load.force;
     f.segment<3>(6 * i) += force;
     f.segment<3>(6 * i + 3) += (state.poses[load.block].q_WB * load.p_BP_B).cross(force);
@@ -81,12 +84,13 @@ double reference_acceleration(const Model& model, const State& state) {
 }
 
 void integrate_positions(const Model& model, double h, double time_advance, State* state) {
+  CUPOLA_ASSERT(state->v.size() == 6 * model.num_free() && state->v.allFinite());
   for (int i = 0; i < model.num_free(); ++i) {
     Pose& pose = state->poses[model.free_blocks[i]];
     pose.p_WB += h * state->v.segment<3>(6 * i);
     const Vec3 turn = h * state->v.segment<3>(6 * i + 3);
     const double angle = turn.norm();
-    // exp of a zero rotation has no axis; the identity is its limit.
+    // A zero rotation has no axis.
     if (angle > 0.0)
       pose.q_WB = (Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) * pose.q_WB).normalized();
   }
@@ -95,8 +99,9 @@ void integrate_positions(const Model& model, double h, double time_advance, Stat
 }
 
 JointLaw joint_law(const Model& model, const ContactSet& contacts, const Contact& contact, double time) {
+  CUPOLA_ASSERT(contact.patch >= 0 && contact.patch < static_cast<int>(contacts.patches.size()));
   JointLaw law =
-      model.joints.law(*model.assembly, contacts.patches[contact.patch], contact.area, contact.points);
+      model.joints.law(*model.assembly, contacts.patches[contact.patch], contact.area, contact.multiplicity);
   law.mu *= factor_at(model.friction_time, time);
   return law;
 }

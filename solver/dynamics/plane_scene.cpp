@@ -11,13 +11,13 @@
 namespace cupola {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of the scene's size
+constexpr double kRounding = 1e-9;  // of the size of the scene
 
 [[noreturn]] void refuse(const std::string& what) {
-  throw InputError("analysis.plane: the scene is not plane: " + what);
+  throw InputError("analysis.plane: the scene is not plane: " + what + "; set analysis.plane: false");
 }
 
-/// The vertices of one part, each with its partner on the other side of the plane.
+/// True if each vertex of the part has a mirror image in the plane y = middle (m).
 bool symmetric(const Assembly& assembly, const Part& part, double middle, double tolerance) {
   std::vector<std::array<double, 3>> here, mirrored;
   for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
@@ -39,23 +39,24 @@ void require_plane_blocks(const Assembly& assembly, double middle, double tolera
 }
 
 void require_plane_actions(const PlaneActions& actions, double tolerance) {
-  if (actions.loads.gravity.y() != 0.0) refuse("gravity has a part along y");
+  if (actions.loads.gravity.y() != 0.0) refuse("gravity has a component along y");
   for (const PointLoad& load : actions.loads.points)
     if (load.force.y() != 0.0 || std::abs(load.p_BP_B.y()) > tolerance)
       refuse(fmt::format("a load on block {} acts outside the plane", load.block));
   for (const Tie& tie : actions.ties)
     if (std::abs(tie.p_AP_A.y()) > tolerance || std::abs(tie.p_BP_B.y()) > tolerance)
-      refuse(fmt::format("the tie between blocks {} and {} lies outside it", tie.block_a, tie.block_b));
+      refuse(
+          fmt::format("the tie between blocks {} and {} lies outside the plane", tie.block_a, tie.block_b));
   for (const SupportMotion& motion : actions.support_motions)
     if (motion.displacement.y() != 0.0 || motion.rotation.x() != 0.0 || motion.rotation.z() != 0.0)
-      refuse(fmt::format("support {} moves out of it", motion.block));
+      refuse(fmt::format("support {} moves out of the plane", motion.block));
 }
 
 }  // namespace
 
 void require_plane_scene(const Case& scene, const Assembly& assembly, const PlaneActions& actions) {
   if (scene.contact.method != ContactDetection::Method::face_clipping)
-    throw InputError("analysis.plane: needs contact.method face_clipping");
+    throw InputError("analysis.plane: requires contact.method: face_clipping");
   double size = 0.0;
   for (const Vec3& x : assembly.vertices) size = std::max(size, (x - assembly.vertices[0]).norm());
   const auto free = std::find_if(assembly.blocks.begin(), assembly.blocks.end(),

@@ -9,17 +9,17 @@
 
 namespace cupola {
 
-/// What must lie in one plane besides the blocks.
+/// The actions that must lie in the plane of a plane scene.
 struct PlaneActions {
   const LoadSet& loads;
   const std::vector<Tie>& ties;
   const std::vector<SupportMotion>& support_motions;
 };
 
-/// Throws InputError naming what is not plane: a plane scene has every block symmetric about one plane across
-/// y, its vertices in pairs, and loads, ties and support motions in that plane. Then motion stays in x-z, and
-/// x, z, rot y of each block are all there is to find. Contacts from perturbed GJK or a file are not
-/// symmetric.
+/// Throws InputError if a scene is not plane. In a plane scene every block is symmetric about one plane
+/// normal to y, with its vertices in pairs, and loads, ties and support motions lie in that plane. All motion
+/// then stays in x-z, and each block has the unknowns x, z, rot y. Contacts must come from face clipping,
+/// because those of perturbed GJK or of a file are not symmetric.
 void require_plane_scene(const Case& scene, const Assembly& assembly, const PlaneActions& actions);
 
 }  // namespace cupola

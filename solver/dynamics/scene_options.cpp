@@ -24,8 +24,7 @@ DetectionOptions detection_options(const Case& scene) {
   options.contact_file = scene.contact.file;
   options.plane = scene.analysis.plane;
   if (!options.contact_file.empty() && scene.analysis.type != AnalysisType::static_)
-    throw InputError(FileLocation{scene.file},
-                     "contact.method file: contacts from a file serve a static analysis only");
+    throw InputError(FileLocation{scene.file}, "contact.method: file requires analysis.type: static");
   if (scene.contact.method == ContactDetection::Method::perturbed_gjk) {
     const ContactDetection::Perturbation& gjk = scene.contact.perturbation;
     options.perturbed_gjk = {scene.contact.margin, gjk.perturbations, gjk.angle,

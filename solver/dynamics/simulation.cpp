@@ -4,20 +4,29 @@
 #include <cmath>
 #include <utility>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
-/// Position error of implicit Euler in one step, h |v_new - v| / 2 of the fastest changing block, m.
+/// Position error of implicit Euler in one step, m: largest h |v_new - v| / 2 of a block.
 double step_error(const VecX& before, const VecX& after, double h) {
   return 0.5 * h * largest_speed(after - before);
 }
 
-/// The error grows with h^2 where the motion is smooth. Steps change gently, so that one impact does not
-/// throw the step size about.
+/// Next step size, s. The error is proportional to h^2 in smooth motion. The change per step is limited, so
+/// that a single impact does not make the step size oscillate.
 double next_step(const AdaptiveStep& adaptive, double h, double error) {
   const double wanted =
       error > 0.0 ? 0.9 * h * std::sqrt(adaptive.displacement_error / error) : adaptive.largest;
   return std::clamp(std::clamp(wanted, 0.2 * h, 2.0 * h), adaptive.smallest, adaptive.largest);
+}
+
+[[maybe_unused]] bool is_finite(const State& state) {
+  const auto finite = [](const Pose& pose) {
+    return pose.p_WB.allFinite() && pose.q_WB.coeffs().allFinite();
+  };
+  return state.v.allFinite() && std::all_of(state.poses.begin(), state.poses.end(), finite);
 }
 
 }  // namespace
@@ -38,8 +47,8 @@ StepReport Simulation::advance(double h_max) {
   const ContactSet& contacts = detector_.update(state_.poses, travel(step.h));
   if (detections_followed_ != detector_.num_detections()) follow_detection(contacts);
   if (options_.sleep) {
-    if (update_sleepers(*options_.sleep, islands_, radius_, &state_, &sleepers_)) sleeping_.reset();
-    if (sleepers_.num_asleep() > 0) return advance_awake(contacts, step);
+    if (update_sleep(*options_.sleep, islands_, radius_, &state_, &sleep_state_)) reduced_.reset();
+    if (sleep_state_.num_asleep() > 0) return advance_awake(contacts, step);
   }
   return solve_and_move(model_, contacts, step, &state_, &memories_);
 }
@@ -48,24 +57,24 @@ void Simulation::follow_detection(const ContactSet& contacts) {
   detections_followed_ = detector_.num_detections();
   memories_ = match_memories(memories_, contacts.points);
   if (options_.sleep) islands_ = islands_of(model_, contacts);
-  sleeping_.reset();
+  reduced_.reset();
 }
 
 StepReport Simulation::advance_awake(const ContactSet& contacts, const StepOptions& step) {
-  if (!sleeping_) sleeping_ = put_to_sleep(model_, state_, contacts, memories_, sleepers_, step.h);
-  ScenePart& part = sleeping_->awake;
+  if (!reduced_) reduced_ = reduce_to_awake(model_, state_, contacts, memories_, sleep_state_, step.h);
+  ScenePart& part = reduced_->awake;
   for (size_t k = 0; k < part.contact_rows.size(); ++k)
     part.contacts.points[k] = contacts.points[part.contact_rows[k]];
   StepReport report = solve_and_move(part.model, part.contacts, step, &part.state, &part.memories);
-  report.asleep = sleepers_.num_asleep();
+  report.num_asleep = sleep_state_.num_asleep();
 
-  // What the awake ones did, in the whole
+  // Transfer the results to the whole scene.
   for (size_t k = 0; k < part.contact_rows.size(); ++k) {
-    sleeping_->forces.contacts[part.contact_rows[k]] = report.forces.contacts[k];
+    reduced_->forces.contacts[part.contact_rows[k]] = report.forces.contacts[k];
     memories_.values[part.contact_rows[k]] = part.memories.values[k];
   }
-  report.forces = sleeping_->forces;
-  report.balance = joined(report.balance, sleeping_->balance);
+  report.forces = reduced_->forces;
+  report.balance = combine(report.balance, reduced_->balance);
   state_.time = part.state.time;
   for (int k = 0; k < part.model.num_free(); ++k) {
     const int block = part.model.free_blocks[k];
@@ -77,12 +86,12 @@ StepReport Simulation::advance_awake(const ContactSet& contacts, const StepOptio
 
 StepReport Simulation::solve_and_move(const Model& model, const ContactSet& contacts, StepOptions step,
                                       State* state, ContactMemories* memories) {
-  constexpr double kTolerated = 4.0;  // times the asked error: a step this bad is taken again, shorter
+  constexpr double kTolerated = 4.0;  // ratio to the allowed error above which the step is repeated
   StepReport report;
   StepProblem problem;
   ContactSolution solution;
   while (true) {
-    // 1. The contact problem and its answer
+    // 1. Build and solve the contact problem
     problem = build_step_problem(model, *state, contacts, *memories, step);
     solution = warm_start(problem, *state, *memories);
     ContactSolverOptions solve_options = options_.solve;
@@ -92,42 +101,44 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
         compute_residuals(problem.problem, solution, solve_options.reference_speed, solve_options.law);
     if (!options_.adaptive) break;
 
-    // 2. Is the step short enough?
+    // 2. Control the step size
     const double error = step_error(state->v, solution.v, step.h);
     next_h_ = next_step(*options_.adaptive, step.h, error);
     if (error <= kTolerated * options_.adaptive->displacement_error || next_h_ >= step.h) break;
     step.h = next_h_;
-    ++report.rejected;
+    ++report.num_rejected;
   }
   report.h = step.h;
   report.forces = joint_forces(contacts, solution.gamma, step.h);
   report.balance =
       compute_equilibrium(model, *state, contacts, report.forces, state->time + 0.5 * step.advance());
-  report.slid_work = friction_dissipation(problem, solution);
+  report.friction_work = friction_dissipation(problem, solution);
 
-  // 3. Memory and motion
+  // 3. Update memories and integrate
   update_memories(problem, solution, *state, contacts, step, memories);
   state->v = solution.v;
   report.problem = std::move(problem);
   report.step_solution = std::move(solution);
   integrate_positions(model, step.h, step.advance(), state);
+  CUPOLA_ASSERT(!report.solve.usable() || is_finite(*state));
   return report;
 }
 
 void Simulation::start_from(const LoadedState& loaded) {
-  // Contacts get their identity where the static solve found them.
+  CUPOLA_ASSERT(loaded.h > 0.0 && loaded.state.poses.size() == state_.poses.size());
+  // Contacts must get the identities that they had in the static solve.
   detector_.update(state_at_rest(model_).poses);
   state_ = loaded.state;
   const ContactSet& contacts = detector_.update(state_.poses);
   memories_ = match_memories(loaded.memories, contacts.points);
-  // In its one step the associated law has opened the joints that slid by mu times their slip, under load:
-  // that is where they rest.
+  // In the single static step, sliding under the associated law opens a loaded joint by mu times its slip.
+  // That opening becomes the zero of its gap.
   std::vector<double> gaps;
   for (size_t i = 0; i < contacts.points.size(); ++i) {
-    const bool loaded_joint = memories_.values[i].impulse[0] > 0.0;
-    gaps.push_back(loaded_joint ? memories_.values[i].elastic_gap : contacts.points[i].gap);
+    const bool carries_load = memories_.values[i].impulse[0] > 0.0;
+    gaps.push_back(carries_load ? memories_.values[i].elastic_gap : contacts.points[i].gap);
   }
-  detector_.count_gaps_from(gaps);
+  detector_.set_gaps(gaps);
   // The same forces act during the first step.
   for (ContactMemory& memory : memories_.values) memory.impulse = memory.impulse / loaded.h * next_h_;
   for (double& impulse : memories_.tie_impulses) impulse = impulse / loaded.h * next_h_;

@@ -14,18 +14,18 @@
 
 namespace cupola {
 
-/// What one step did: the solve, its independent residuals, and the balance at the start of the step.
+/// Results of one step.
 struct StepReport {
   double h = 0.0;  ///< s
   SolveSummary solve;
-  StepProblem problem;            ///< what was solved
-  ContactSolution step_solution;  ///< and its answer
-  Residuals residuals;
-  JointForces forces;
-  Equilibrium balance;     ///< of those forces; what is unbalanced accelerates
-  double slid_work = 0.0;  ///< J, lost to friction in this step
-  int rejected = 0;        ///< attempts at a larger h that the step control refused
-  int asleep = 0;          ///< free blocks that were left out
+  StepProblem problem;            ///< of the blocks that are awake
+  ContactSolution step_solution;  ///< of that problem
+  Residuals residuals;            ///< computed independently of the solver
+  JointForces forces;             ///< of all blocks
+  Equilibrium balance;            ///< of all blocks under those forces, at the start of the step
+  double friction_work = 0.0;     ///< J, dissipated in this step, >= 0
+  int num_rejected = 0;           ///< larger steps that the step control rejected
+  int num_asleep = 0;             ///< free blocks that slept
 };
 
 /// Options of a simulation; simulation_options() builds them from a case.
@@ -47,25 +47,25 @@ struct LoadedState {
   double h = 0.0;  ///< s, step of the static solve: the impulses in `memories` over h are the joint forces
 };
 
-/// A scene in motion: everything that is carried from step to step.
+/// A scene in motion.
 class Simulation {
  public:
   Simulation(Model model, const SimulationOptions& options);
 
-  /// One step: detect, build, solve, remember, integrate (paper eq. 8-15). h is that of the options, or, when
-  /// adaptive, what the last step's error allows; never more than `h_max` (s). Problem and solution of the
-  /// report are those of the blocks that are awake, its forces and balance those of all.
+  /// One step: detect contacts, build and solve the contact problem, update memories, integrate (paper eq.
+  /// 8-15). The step is that of the options or, if adaptive, the one that the error of the last step allows;
+  /// it never exceeds `h_max` (s).
   StepReport advance(double h_max = std::numeric_limits<double>::infinity());
 
-  /// Begins from an equilibrium instead of the unloaded assembly.
+  /// Starts from a static equilibrium instead of the unloaded assembly.
   void start_from(const LoadedState& loaded);
 
-  /// Drops the factor that the solver keeps from step to step. A restored simulation has none, so whoever
-  /// saves does this first: then both go on with the same bits.
+  /// Discards the matrix factor that the solver keeps from step to step. A restored simulation has none; call
+  /// this before save() so that both continue with the same bits.
   void forget_factor() { solver_ = ContactSolver(); }
 
-  /// Everything that later steps depend on, as bytes, and a simulation of the same scene going on from it
-  /// with the same bits. restore() throws std::runtime_error when the bytes do not fit.
+  /// Everything that later steps depend on, as bytes. A simulation of the same scene that restores them
+  /// continues with the same bits. restore() throws std::runtime_error if the bytes do not fit the scene.
   std::string save() const;
   void restore(const std::string& bytes);
 
@@ -73,23 +73,23 @@ class Simulation {
   const Model& model() const { return model_; }
   const State& state() const { return state_; }
   State* mutable_state() {
-    sleeping_.reset();
+    reduced_.reset();
     return &state_;
   }
   const ContactSet& contacts() const { return detector_.contacts(); }
   const ContactMemories& memories() const { return memories_; }
   Energy energy() const { return compute_energy(model_, state_, contacts(), memories_); }
   Vec3 linear_momentum() const;             ///< N s, of the free blocks
-  std::vector<Vec3> displacements() const;  ///< m, of the centroids since the assembly
+  std::vector<Vec3> displacements() const;  ///< m, of the centroids from the assembly as generated
 
  private:
-  /// The step from the contacts on, of a scene or of its part that is awake.
+  /// All of the step after contact detection, for the whole scene or the part that is awake.
   StepReport solve_and_move(const Model& model, const ContactSet& contacts, StepOptions step, State* state,
                             ContactMemories* memories);
   StepReport advance_awake(const ContactSet& contacts, const StepOptions& step);
-  /// After contacts were found anew: memories and islands of the new ones.
+  /// Updates memories and islands after contacts were detected again.
   void follow_detection(const ContactSet& contacts);
-  /// Farthest that a point of each block goes in a step of h at its present velocity, m.
+  /// Largest distance that a point of each block moves in a step h at its present velocity, m (num_blocks).
   std::vector<double> travel(double h) const;
 
   Model model_;
@@ -99,10 +99,10 @@ class Simulation {
   ContactMemories memories_;
   ContactSolver solver_;
   int detections_followed_ = 0;
-  std::vector<double> radius_;  ///< m, of each free block
+  std::vector<double> radius_;  ///< m, largest distance of a vertex from the centroid (num_free)
   std::vector<int> islands_;
-  Sleepers sleepers_;
-  std::optional<SleepingScene> sleeping_;  ///< none where nobody sleeps, or not yet made
+  SleepState sleep_state_;
+  std::optional<ReducedScene> reduced_;  ///< set when first needed while blocks sleep
   double next_h_;
 };
 

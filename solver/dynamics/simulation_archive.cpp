@@ -3,7 +3,7 @@
 
 namespace cupola {
 
-// The fields that a checkpoint keeps. A new field of these structs that lives from step to step belongs here.
+// The fields that a checkpoint stores. Add any new field of these structs that persists from step to step.
 
 template <class Archive>
 void visit(Archive& archive, Pose& x) {
@@ -15,7 +15,7 @@ void visit(Archive& archive, ContactId& x) {
 }
 template <class Archive>
 void visit(Archive& archive, Contact& x) {
-  archive(x.id, x.block_a, x.block_b, x.patch, x.point_a, x.point_b, x.normal, x.gap, x.area, x.points);
+  archive(x.id, x.block_a, x.block_b, x.patch, x.point_a, x.point_b, x.normal, x.gap, x.area, x.multiplicity);
 }
 template <class Archive>
 void visit(Archive& archive, Patch& x) {
@@ -51,7 +51,7 @@ void visit(Archive& archive, State& x) {
 }
 
 template <class Archive>
-void visit(Archive& archive, Sleepers& x) {
+void visit(Archive& archive, SleepState& x) {
   archive(x.calm_since, x.asleep);
 }
 
@@ -59,10 +59,10 @@ std::string Simulation::save() const {
   State state = state_;
   DetectionMemory detection = detector_.memory();
   ContactMemories memories = memories_;
-  Sleepers sleepers = sleepers_;
+  SleepState sleep_state = sleep_state_;
   double next_h = next_h_;
   ByteWriter archive;
-  archive(state, detection, memories, sleepers, next_h);
+  archive(state, detection, memories, sleep_state, next_h);
   return archive.bytes();
 }
 
@@ -70,13 +70,13 @@ void Simulation::restore(const std::string& bytes) {
   DetectionMemory detection;
   State state;
   ByteReader archive(bytes);
-  archive(state, detection, memories_, sleepers_, next_h_);
+  archive(state, detection, memories_, sleep_state_, next_h_);
   if (!archive.at_end() || state.poses.size() != state_.poses.size() || state.v.size() != state_.v.size())
-    throw std::runtime_error("is of another scene");
+    throw std::runtime_error("belongs to another scene");
   state_ = std::move(state);
   detector_.restore(std::move(detection));
-  detections_followed_ = 0;  // the islands are not kept
-  sleeping_.reset();
+  detections_followed_ = 0;  // the islands are not stored: compute them again
+  reduced_.reset();
 }
 
 }  // namespace cupola

@@ -7,7 +7,7 @@
 
 namespace cupola {
 
-/// What of an assembly stands when its rings 0 to `ring` are laid: blocks that begin there, and supports.
+/// A stage of construction with rings 0 to `ring` laid: their blocks and the supports.
 struct ConstructionStage {
   int ring = 0;  ///< last ring laid
   Assembly assembly;
@@ -15,9 +15,9 @@ struct ConstructionStage {
 };
 ConstructionStage build_stage(const Assembly& complete, int ring);
 
-/// The case for that stage: the bed of the last ring has friction `fresh_friction`. Stages carry their own
-/// weight; lantern, top load and the other loads come onto the complete model, and so do ties to blocks that
-/// are not there yet.
+/// The case of that stage, with friction `fresh_friction` in the bed of the last ring. An incomplete stage
+/// carries only its own weight: loads other than gravity, and ties to blocks that are not laid yet, apply
+/// only if the model is `complete`.
 Case case_of_stage(const Case& scene, const ConstructionStage& stage, double fresh_friction, bool complete);
 
 }  // namespace cupola

@@ -22,10 +22,11 @@ std::vector<int> blocks_of_move(const SupportMove& move, const Assembly& assembl
   const int num_blocks = static_cast<int>(assembly.blocks.size());
   for (int block : move.blocks) {
     if (block < 0 || block >= num_blocks)
-      throw InputError(
-          fmt::format("supports.moves: block {}: the assembly has blocks 0 to {}", block, num_blocks - 1));
+      throw InputError(fmt::format("supports.moves: block {} does not exist: the assembly has blocks 0 to {}",
+                                   block, num_blocks - 1));
     if (!assembly.blocks[block].fixed)
-      throw InputError(fmt::format("supports.moves: block {} is not fixed", block));
+      throw InputError(
+          fmt::format("supports.moves: block {} is not fixed; only supports can be moved", block));
   }
   return move.blocks;
 }
@@ -70,6 +71,7 @@ void place_supports(const Assembly& assembly, const std::vector<SupportMotion>& 
 
 Eigen::Matrix<double, 6, Eigen::Dynamic> block_velocities(const std::vector<Pose>& before,
                                                           const std::vector<Pose>& after, double h) {
+  CUPOLA_ASSERT(before.size() == after.size() && h > 0.0);
   Eigen::Matrix<double, 6, Eigen::Dynamic> v(6, static_cast<Eigen::Index>(before.size()));
   for (size_t i = 0; i < before.size(); ++i) {
     const Eigen::AngleAxisd turn(after[i].q_WB * before[i].q_WB.conjugate());

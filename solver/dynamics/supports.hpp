@@ -7,7 +7,7 @@
 
 namespace cupola {
 
-/// Imposed motion of one fixed block: displacement and rotation about a pivot, both times factor(t).
+/// Imposed motion of one fixed block: displacement and rotation about a pivot, both scaled by factor(t).
 struct SupportMotion {
   int block = 0;
   Vec3 displacement = Vec3::Zero();  ///< m
@@ -16,14 +16,15 @@ struct SupportMotion {
   TimeFunction time;
 };
 
-/// Throws InputError for blocks that do not exist or are free, and for an unreadable motion file.
+/// Throws InputError for blocks that do not exist or are free, and for a motion file that cannot be read.
 std::vector<SupportMotion> make_support_motions(const Case& scene, const Assembly& assembly);
 
-/// Moves the poses of the fixed blocks to where their motions put them at `time`; the others stay.
+/// Sets the poses of the moving supports to their imposed positions at `time` (s). Other poses do not change.
 void place_supports(const Assembly& assembly, const std::vector<SupportMotion>& motions, double time,
                     std::vector<Pose>* poses);
 
-/// Velocity of each block that takes `before` to `after` in h: m/s, then rad/s, world axes (6 x num_blocks).
+/// Constant velocity of each block that moves it from `before` to `after` in h (s): m/s, then rad/s, world
+/// axes (6 x num_blocks).
 Eigen::Matrix<double, 6, Eigen::Dynamic> block_velocities(const std::vector<Pose>& before,
                                                           const std::vector<Pose>& after, double h);
 

@@ -14,16 +14,17 @@ namespace {
 void check_block(const Assembly& assembly, int block, const char* key) {
   const int num_blocks = static_cast<int>(assembly.blocks.size());
   if (block < 0 || block >= num_blocks)
-    throw InputError(
-        fmt::format("{}: block {}: the assembly has blocks 0 to {}", key, block, num_blocks - 1));
+    throw InputError(fmt::format("{}: block {} does not exist: the assembly has blocks 0 to {}", key, block,
+                                 num_blocks - 1));
 }
 
-/// The tie between two points as built, without force at `length`.
+/// The tie between two points of the assembly as generated. Its force is zero at `tie.length`.
 Tie make_tie(const Assembly& assembly, ImportedTie tie, const char* key) {
   check_block(assembly, tie.block_a, key);
   check_block(assembly, tie.block_b, key);
   if (tie.block_a == tie.block_b)
-    throw InputError(fmt::format("{}: both ends are on block {}", key, tie.block_a));
+    throw InputError(
+        fmt::format("{}: both ends are on block {}; a tie connects two blocks", key, tie.block_a));
   if (tie.point_a == tie.point_b)
     throw InputError(fmt::format("{}: the ends on blocks {} and {} coincide", key, tie.block_a, tie.block_b));
   if (tie.block_a > tie.block_b) {
@@ -39,7 +40,7 @@ Tie make_tie(const Assembly& assembly, ImportedTie tie, const char* key) {
           false};
 }
 
-/// A tie that carries `prestress` as built: shorter by the stretch of that force.
+/// A tie that carries `prestress` as generated: its natural length is shorter by prestress / stiffness.
 Tie prestressed_tie(const Assembly& assembly, const PairTie& pair, const char* key) {
   check_block(assembly, pair.block_a, key);
   check_block(assembly, pair.block_b, key);
@@ -52,7 +53,9 @@ Tie prestressed_tie(const Assembly& assembly, const PairTie& pair, const char* k
   tie.length = (tie.point_b - tie.point_a).norm() - pair.prestress / pair.stiffness;
   if (!(tie.length > 0.0))
     throw InputError(
-        fmt::format("{}: the prestress {} N stretches the tie by more than its length", key, pair.prestress));
+        fmt::format("{}: the prestress {} N elongates the tie by more than its length; reduce it or "
+                    "increase the stiffness",
+                    key, pair.prestress));
   return make_tie(assembly, tie, key);
 }
 
@@ -64,8 +67,8 @@ void add_chain(const Assembly& assembly, const ChainTie& chain, std::vector<Tie>
       around.emplace_back(std::atan2(b.centroid.y(), b.centroid.x()), static_cast<int>(block));
   }
   if (around.size() < 3)
-    throw InputError(
-        fmt::format("ties.chains: ring {} has {} blocks; a chain needs three", chain.ring, around.size()));
+    throw InputError(fmt::format("ties.chains: ring {} has {} free blocks; a chain requires at least three",
+                                 chain.ring, around.size()));
   std::sort(around.begin(), around.end());
   for (size_t i = 0; i < around.size(); ++i) {
     PairTie link;
@@ -92,6 +95,7 @@ TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses) {
   const double sign = tie.strut ? 1.0 : -1.0;
   if (length > 0.0) geometry.normal = sign / length * along;
   geometry.gap = sign * (length - tie.natural_length);
+  CUPOLA_ASSERT(std::abs(geometry.normal.squaredNorm() - 1.0) < 1e-9);
   return geometry;
 }
 

@@ -5,12 +5,15 @@
 
 #include <Eigen/Cholesky>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-/// Rows of one body: u = [R_WC; r x R_WC]^T v, arm r from its centroid to the contact point.
+/// Columns of D of one body: u = [R_WC; r x R_WC]^T v, with r (`arm`, m) from its centroid to the contact
+/// point.
 Mat63 contact_columns(const Vec3& arm, const Mat3& R_WC) {
   Mat63 D;
   D.topRows<3>() = R_WC;
@@ -43,7 +46,7 @@ void set_free_velocities(const Model& model, const State& state, const StepOptio
   }
 }
 
-/// One row set between two blocks; each force acts at its own point.
+/// The three rows of a contact or tie between two blocks. The force on each block acts at its own point.
 void set_row(const Model& model, const State& state, int row, int block_a, int block_b, const Vec3& point_a,
              const Vec3& point_b, const Mat3& R_WC, ContactProblem* problem) {
   problem->block_a[row] = model.free_index[block_a];
@@ -60,8 +63,9 @@ void set_contact_rows(const Model& model, const State& state, const ContactSet& 
   for (int i = 0; i < static_cast<int>(contacts.points.size()); ++i) {
     const Contact& contact = contacts.points[i];
     const ContactMemory& memory = memories.values[i];
+    CUPOLA_ASSERT(contact.block_a < contact.block_b);
     const Mat3 R_WC = contact_frame(contact.normal);
-    // One point for both bodies, so that action and reaction have no moment when there is a gap.
+    // One point for both bodies, so that action and reaction have no net moment across a gap.
     const Vec3 point = 0.5 * (contact.point_a + contact.point_b);
     set_row(model, state, i, contact.block_a, contact.block_b, point, point, R_WC, problem);
 
@@ -71,8 +75,8 @@ void set_contact_rows(const Model& model, const State& state, const ContactSet& 
         law.compliance_tangential;
     problem->E.segment<3>(3 * i) /= h * h_alpha;
 
-    const double unexplained = std::max(contact.gap - memory.elastic_gap, -options.recovery_speed * h_alpha);
-    problem->b[3 * i] = (memory.elastic_gap + unexplained) / h_alpha;
+    const double excess = std::max(contact.gap - memory.elastic_gap, -options.recovery_speed * h_alpha);
+    problem->b[3 * i] = (memory.elastic_gap + excess) / h_alpha;
     if (options.tangential == TangentialSpring::memory) {
       const Vec3 slip_C = R_WC.transpose() * (state.poses[contact.block_a].q_WB * memory.elastic_slip_A);
       problem->b.segment<2>(3 * i + 1) = slip_C.tail<2>() / h_alpha;
@@ -94,7 +98,7 @@ void set_tie_rows(const Model& model, const State& state, const StepOptions& opt
   }
 }
 
-/// Leaves only motion in the plane x-z to the rows.
+/// Restricts all rows to motion in the x-z plane.
 void drop_rows_out_of_plane(ContactProblem* problem) {
   problem->plane = true;
   for (std::vector<Mat63>* D : {&problem->D_a, &problem->D_b})
@@ -123,7 +127,8 @@ void add_support_velocities(const Model& model, const State& state, const Contac
 }  // namespace
 
 Mat3 contact_frame(const Vec3& normal) {
-  // The world axis least aligned with n gives a tangent of good length.
+  CUPOLA_ASSERT(std::abs(normal.squaredNorm() - 1.0) < 1e-9);
+  // The world axis least aligned with n gives the best conditioned cross product.
   int axis = 0;
   normal.cwiseAbs().minCoeff(&axis);
   Mat3 R_WC;
@@ -135,6 +140,9 @@ Mat3 contact_frame(const Vec3& normal) {
 
 StepProblem build_step_problem(const Model& model, const State& state, const ContactSet& contacts,
                                const ContactMemories& memories, const StepOptions& options) {
+  CUPOLA_ASSERT(options.h > 0.0);
+  CUPOLA_ASSERT(state.v.size() == 6 * model.num_free());
+  CUPOLA_ASSERT(memories.values.size() == contacts.points.size());
   StepProblem step;
   step.num_contacts = static_cast<int>(contacts.points.size());
   step.problem.h = options.h;
@@ -150,6 +158,8 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
 void update_memories(const StepProblem& step, const ContactSolution& solution, const State& state,
                      const ContactSet& contacts, const StepOptions& options, ContactMemories* memories) {
   const ContactProblem& problem = step.problem;
+  CUPOLA_ASSERT(solution.gamma.size() == 3 * problem.num_contacts());
+  CUPOLA_ASSERT(static_cast<int>(memories->values.size()) == step.num_contacts);
   const VecX u = relative_velocity(problem, solution.v) + step.support_velocity;
   const double h = options.h;
   for (int i = 0; i < step.num_contacts; ++i) {
@@ -174,6 +184,7 @@ void update_memories(const StepProblem& step, const ContactSolution& solution, c
 }
 
 ContactSolution warm_start(const StepProblem& step, const State& state, const ContactMemories& memories) {
+  CUPOLA_ASSERT(static_cast<int>(memories.values.size()) == step.num_contacts);
   ContactSolution guess;
   guess.v = state.v;
   guess.gamma = VecX::Zero(step.problem.b.size());

@@ -1,10 +1,12 @@
-// Asks for the memory that OpenBLAS takes as the program is loaded, before OpenBLAS does.
+// Checks, before OpenBLAS is initialised, that the address space is large enough for it.
 //
-// OpenBLAS maps a buffer for every thread that it may start, before main. Where the address space is limited
-// (`ulimit -v`, batch systems) and the mapping fails, OpenBLAS 0.3.21 tries again for ever. So the program
-// refuses here. Only what runs from .preinit_array comes before the constructors of the libraries, and only
-// an executable has one: this file belongs to the program, not to the library. The C library is not set up
-// yet: no allocation, no getenv.
+// OpenBLAS maps a buffer for every thread that it may start, before main. If the mapping fails because the
+// address space is limited (`ulimit -v`, batch systems), OpenBLAS 0.3.21 retries forever. This check exits
+// with an error instead.
+//
+// Only functions in .preinit_array run before the constructors of the libraries, and only executables have
+// that section. This file therefore belongs to the program, not to the library. The C library is not
+// initialised yet: no allocation, no getenv.
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -16,12 +18,11 @@
 
 namespace {
 
-// Measured by strace (Debian 12, x86-64), and what the stack and the alignment of a thread take beside it.
-constexpr std::size_t kBuffer = 128U << 20U;
-constexpr std::size_t kBeside = 16U << 20U;
-constexpr int kMostThreads = 128;  // that Debian's OpenBLAS is built for
+constexpr std::size_t kBuffer = 128U << 20U;   // bytes per thread, measured by strace (Debian 12, x86-64)
+constexpr std::size_t kOverhead = 16U << 20U;  // bytes, stack and alignment of a thread
+constexpr int kMaxThreads = 128;               // compile-time limit of Debian's OpenBLAS
 
-/// Value of a variable NAME=, 0 when it is absent or no positive number.
+/// Value of the environment variable `name_equals` ("NAME="); 0 if it is unset or not a positive number.
 int positive_variable(char** environment, const char* name_equals) {
   const std::size_t length = std::strlen(name_equals);
   for (char** entry = environment; *entry != nullptr; ++entry)
@@ -29,33 +30,33 @@ int positive_variable(char** environment, const char* name_equals) {
   return 0;
 }
 
-/// As OpenBLAS counts them: one per processor, unless a variable says fewer.
+/// The number of threads that OpenBLAS prepares for: one per processor, or fewer if a variable sets that.
 int num_blas_threads(char** environment) {
   cpu_set_t processors;
   CPU_ZERO(&processors);
-  const int all = sched_getaffinity(0, sizeof processors, &processors) == 0 ? CPU_COUNT(&processors) : 1;
-  int threads = std::min(all, kMostThreads);
+  const int num_processors =
+      sched_getaffinity(0, sizeof processors, &processors) == 0 ? CPU_COUNT(&processors) : 1;
+  const int threads = std::min(num_processors, kMaxThreads);
   for (const char* name : {"OPENBLAS_NUM_THREADS=", "GOTO_NUM_THREADS=", "OMP_NUM_THREADS="})
-    if (const int asked = positive_variable(environment, name); asked > 0) return std::min(threads, asked);
+    if (const int limit = positive_variable(environment, name); limit > 0) return std::min(threads, limit);
   return threads;
 }
 
 void refuse_too_little_address_space(int /*argc*/, char** /*argv*/, char** environment) {
-  std::array<void*, kMostThreads> probes{};
+  std::array<void*, kMaxThreads> probes{};
   const int threads = num_blas_threads(environment);
   int got = 0;
   while (got < threads) {
     void* probe =
-        mmap(nullptr, kBuffer + kBeside, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        mmap(nullptr, kBuffer + kOverhead, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (probe == MAP_FAILED) break;
     probes[got++] = probe;
   }
-  for (int i = 0; i < got; ++i) munmap(probes[i], kBuffer + kBeside);
+  for (int i = 0; i < got; ++i) munmap(probes[i], kBuffer + kOverhead);
   if (got == threads) return;
   constexpr char kText[] =
-      "cupola-solve: error: out of memory: OpenBLAS needs 144 MB of address space for each of its threads; "
-      "raise "
-      "the limit (ulimit -v) or set OPENBLAS_NUM_THREADS=1\n";
+      "cupola-solve: error: out of memory: OpenBLAS requires 144 MB of address space per thread; "
+      "raise the limit (ulimit -v) or set OPENBLAS_NUM_THREADS=1\n";
   if (write(STDERR_FILENO, kText, sizeof kText - 1) < 0) _exit(1);
   _exit(1);
 }

@@ -22,7 +22,7 @@ void visit(Archive& archive, Checkpoint& x) {
 
 }  // namespace
 
-// The file: first line, hash of the rest in hexadecimal, bytes of the archive.
+// Format: first line, hash of the archive in hexadecimal, bytes of the archive.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
   Checkpoint copy = checkpoint;
   ByteWriter archive;
@@ -36,19 +36,20 @@ std::optional<Checkpoint> read_checkpoint(const std::string& path) {
   const std::string first_line = kFirstLine;
   const FileLocation where{path, 0, 0};
   if (text.compare(0, first_line.size(), first_line) != 0)
-    throw InputError(where, "is no checkpoint of this version");
+    throw InputError(where, "is not a checkpoint of this version; remove it to start from the beginning");
   const std::string bytes = text.size() < first_line.size() + kHashDigits
                                 ? std::string()
                                 : text.substr(first_line.size() + kHashDigits);
   if (hash_text(bytes) != text.substr(first_line.size(), kHashDigits))
-    throw InputError(where, "is damaged: its checksum does not fit; remove it to start from the beginning");
+    throw InputError(where, "is damaged: its checksum does not match; remove it to start from the beginning");
   Checkpoint checkpoint;
   try {
     ByteReader archive(bytes);
     visit(archive, checkpoint);
-    if (!archive.at_end()) throw std::runtime_error("holds more than a checkpoint");
+    if (!archive.at_end()) throw std::runtime_error("has extra bytes at its end");
   } catch (const std::runtime_error& error) {
-    throw InputError(where, fmt::format("is damaged: it {}", error.what()));
+    throw InputError(where,
+                     fmt::format("is damaged: it {}; remove it to start from the beginning", error.what()));
   }
   return checkpoint;
 }

@@ -6,18 +6,19 @@
 
 namespace cupola {
 
-/// A run of cupola-solve as it stood after a step: the analysis' own bytes and what was written so far.
+/// State of a run of cupola-solve after a step.
 struct Checkpoint {
-  std::string program_version, case_hash, assembly_hash;  ///< of the run it belongs to
-  std::vector<double> frame_times;                        ///< s
-  std::string history;                                    ///< text of history.csv
-  std::string analysis;                                   ///< bytes of the analysis
+  std::string program_version, case_hash, assembly_hash;  ///< of the run that wrote it
+  std::vector<double> frame_times;                        ///< s, of the frames written so far
+  std::string history;                                    ///< text of history.csv so far
+  std::string analysis;                                   ///< state of the analysis, as bytes
 };
 
-/// Writes it aside, with a checksum, and renames it: whatever happens, the last good one stays.
+/// Writes a temporary file with a checksum and renames it, so that the last valid checkpoint survives any
+/// failure.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 
-/// None when there is no such file. Throws InputError with the path when it is damaged.
+/// Returns nothing if the file does not exist. Throws InputError with the path if it is damaged.
 std::optional<Checkpoint> read_checkpoint(const std::string& path);
 
 }  // namespace cupola

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 
 namespace cupola {
@@ -37,14 +38,15 @@ bool StopRequest::made() const {
 }
 
 void ProgressBar::show(double share) {
+  CUPOLA_ASSERT(share >= 0.0 && share <= 1.0);
   constexpr int kWidth = 30;
-  constexpr double kEvery = 0.2;  // s
+  constexpr double kInterval = 0.2;  // s
   const double now = wall_seconds();
   if (first_share_ < 0.0) {
     first_share_ = share;
     first_time_ = now;
   }
-  if (share < 1.0 && now - last_time_ < kEvery) return;
+  if (share < 1.0 && now - last_time_ < kInterval) return;
   last_time_ = now;
   const int filled = static_cast<int>(std::floor(share * kWidth));
   const double done = share - first_share_;

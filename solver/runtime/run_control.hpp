@@ -4,7 +4,8 @@
 
 namespace cupola {
 
-/// While it lives, Ctrl-C and SIGTERM ask the run to stop instead of killing it; a second one kills.
+/// During its lifetime the first Ctrl-C or SIGTERM requests the run to stop; the second one kills the
+/// program.
 class StopRequest {
  public:
   StopRequest();
@@ -15,10 +16,11 @@ class StopRequest {
   bool made() const;
 };
 
-/// A bar on one terminal line with the time left, rewritten at most five times a second.
+/// A progress bar with the remaining time on one terminal line, updated at most five times per second.
 class ProgressBar {
  public:
-  /// `share`: done in [0, 1]. The time left follows from the share done since the first call.
+  /// `share`: completed fraction in [0, 1]. The remaining time is extrapolated from the progress since the
+  /// first call.
   void show(double share);
   /// Ends the line.
   void finish();
@@ -30,7 +32,7 @@ class ProgressBar {
   bool shown_ = false;
 };
 
-/// Whether a person watches stdout.
+/// True if stdout is a terminal.
 bool stdout_is_terminal();
 
 /// "1:02:03" or "2:03".

@@ -14,9 +14,9 @@ namespace {
 
 int count_of_threads = 1;
 
-/// OpenBLAS maps a buffer for every thread that calls it, and tries for ever where it gets none.
+/// OpenBLAS maps a buffer for every thread that calls it, and retries forever if the mapping fails.
 bool has_room_for_blas(int threads) {
-  constexpr std::size_t kEach = 144U << 20U;  // its 128 MB and what a thread takes beside them
+  constexpr std::size_t kEach = 144U << 20U;  // bytes: 128 MB buffer, stack and alignment of a thread
   std::vector<void*> probes;
   while (static_cast<int>(probes.size()) < threads) {
     void* probe = mmap(nullptr, kEach, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -42,9 +42,10 @@ void release_freed_memory() {
 void set_num_threads(int count) {
   CUPOLA_ASSERT(count >= 1);
   if (count > 1 && !has_room_for_blas(count))
-    throw SystemError(fmt::format(
-        "out of memory: {} threads need {} MB of address space; ask for fewer or raise the limit (ulimit -v)",
-        count, 144 * count));
+    throw SystemError(
+        fmt::format("out of memory: {} threads require {} MB of address space; use fewer threads or raise "
+                    "the limit (ulimit -v)",
+                    count, 144 * count));
   count_of_threads = count;
 }
 

@@ -10,18 +10,18 @@
 
 namespace cupola {
 
-/// Threads that the loops of contact detection and of the contact solvers may use, >= 1; 1 until set. Results
-/// do not depend on it.
+/// Number of threads that contact detection and the contact solvers may use, >= 1; 1 until set. Results do
+/// not depend on it.
 int num_threads();
-void set_num_threads(int count);  ///< SystemError where there is no address space for so many
+void set_num_threads(int count);  ///< throws SystemError if the address space is too small for them
 
-/// A few threads that go through the same program together, loop after loop.
+/// A team of threads that run the same program and share its loops.
 class Team {
  public:
   explicit Team(int size) : barrier_(size, Reset{this}), size_(size) {}
   int size() const { return size_; }
 
-  /// body(i) for i in [0, count), each by whichever thread is free; all wait for the last.
+  /// Calls body(i) for i in [0, count), distributed dynamically over the threads. Returns when all are done.
   template <class Body>
   void share(int count, const Body& body) {
     for (int i = next_++; i < count; i = next_++) body(i);
@@ -38,16 +38,16 @@ class Team {
   int size_;
 };
 
-/// Runs program(team, thread) on num_threads() threads, this one among them, or on this one alone where the
-/// work (operations) is not worth a second one; on as many as the system gives where limits of memory and
-/// processes stop it on the way. The program must not throw.
+/// Runs program(team, thread) on num_threads() threads including the calling one, or only on the calling one
+/// if `work` (floating-point operations) is too small for more. If the system cannot start that many threads,
+/// it uses those that could be started. The program must not throw.
 template <class Program>
 void run_team(double work, const Program& program) {
-  constexpr double kWorthATeam = 1e8;  // some hundredths of a second
-  const int size = work < kWorthATeam ? 1 : num_threads();
+  constexpr double kMinWork = 1e8;  // takes a few hundredths of a second
+  const int size = work < kMinWork ? 1 : num_threads();
   std::optional<Team> team;
   std::latch complete(1);
-  std::vector<std::jthread> others;  // joined before the team goes
+  std::vector<std::jthread> others;  // joined before the team is destroyed
   others.reserve(static_cast<std::size_t>(size));
   try {
     for (int thread = 1; thread < size; ++thread)
@@ -55,19 +55,19 @@ void run_team(double work, const Program& program) {
         complete.wait();
         program(*team, thread);
       });
-  } catch (const std::exception&) {  // no thread or no memory for one: those that came do the work
+  } catch (const std::exception&) {  // no memory or process limit: the threads started so far do the work
   }
   team.emplace(1 + static_cast<int>(others.size()));
   complete.count_down();
   program(*team, 0);
 }
 
-/// Gives back to the system what threads that are gone have freed: each took its memory from a heap of its
-/// own.
+/// Returns freed memory to the system. Each thread allocates from its own heap, which is otherwise kept after
+/// the thread has ended.
 void release_freed_memory();
 
-/// body(i) for i in [0, count), on as many threads as the work (operations) is worth. Of what the bodies
-/// throw the first, by i, is thrown again when all are done.
+/// Calls body(i) for i in [0, count) on a team (see run_team). If bodies throw, the exception of the smallest
+/// i is rethrown when all are done.
 template <class Body>
 void share_loop(double work, int count, const Body& body) {
   std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(count));

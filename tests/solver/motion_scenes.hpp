@@ -11,7 +11,7 @@ namespace cupola::testing {
 
 constexpr double kG = 9.81;  // m/s2
 
-/// A dynamic case with the given joints and step, and defaults otherwise.
+/// A dynamic case with the given friction, compliance (m/N per point), step and damping (s).
 inline Case make_case(double friction, double compliance, double h, double damping = 0.0) {
   Case scene;
   scene.joints.friction = friction;
@@ -33,8 +33,8 @@ inline Vec3 tilted_gravity(double tan_a) {
   return kG * Vec3(std::sin(a), 0.0, -std::cos(a));
 }
 
-/// A prism along y (from 0 to `width`) over a quadrilateral in the x-z plane, counter-clockwise seen from -y.
-/// The faces over the sides 0-1, 1-2, 2-3, 3-0 are bed, extrados, bed, intrados.
+/// Adds a prism along y, from 0 to `width`, over a quadrilateral in the x-z plane that is counter-clockwise
+/// seen from -y. Its sides 0-1, 1-2, 2-3, 3-0 are bed, extrados, bed, intrados.
 inline void add_voussoir(const std::array<Eigen::Vector2d, 4>& quad, double width, double density, bool fixed,
                          int ring, Assembly* assembly) {
   add_block({.density = density, .fixed = fixed, .ring = ring}, assembly);
@@ -55,9 +55,9 @@ inline void add_voussoir(const std::array<Eigen::Vector2d, 4>& quad, double widt
   assembly->add_face(std::array{first + 7, first + 6, first + 5, first + 4}, FaceKind::free);
 }
 
-/// Arch of voussoirs with flat faces: centreline radius 1, half embrace beta, radial joints, vertices at the
-/// radii 1 -+ t/2. Order of the blocks: a fixed one beyond the springing at x > 0, the voussoirs, a fixed one
-/// beyond the other springing.
+/// Arch of voussoirs with plane faces: centreline radius 1 m, angle of embrace 2 beta about the crown, radial
+/// joints, vertices at radii 1 -+ t/2, and a fixed block beyond each springing. Blocks: fixed, voussoirs from
+/// x > 0, fixed.
 struct ArchSpec {
   int voussoirs = 27;
   double thickness = 0.15;  ///< t/R
@@ -86,8 +86,8 @@ inline Assembly make_arch(const ArchSpec& arch) {
   return assembly;
 }
 
-/// Wall of Ferris and Tin-Loi (2001): courses of 5 blocks of 0.4 x 0.175 m in running bond. The first course
-/// has whole blocks, or half blocks at its ends.
+/// Wall of Ferris and Tin-Loi (2001): running bond with 5 blocks of 0.4 x 0.175 m per course. The first
+/// course has whole blocks only, or half blocks at its ends.
 inline Assembly ferris_wall(int courses, bool whole_first) {
   const double length = 0.4, height = 0.175;
   std::vector<BoxSpec> boxes{{.center = {1, 0.5, -0.5}, .size = {6, 2, 1}, .fixed = true}};

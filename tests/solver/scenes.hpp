@@ -10,8 +10,8 @@
 
 namespace cupola::testing {
 
-/// A box of the given size and centre, with its own vertices. In the axes of the box the upper and lower
-/// faces are beds and the other four are heads.
+/// A box with its own vertices. In the axes of the box, the upper and lower faces are beds and the other four
+/// are heads.
 struct BoxSpec {
   Vec3 center = Vec3::Zero();  ///< m
   Vec3 size = Vec3::Ones();    ///< m
@@ -21,7 +21,7 @@ struct BoxSpec {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
-/// Adds a block of the density and kind of the box, without parts.
+/// Adds a block with the density, kind and ring of `box`, without parts.
 inline void add_block(const BoxSpec& box, Assembly* assembly) {
   Block block;
   block.kind = box.fixed ? BlockKind::support : BlockKind::standard;
@@ -32,8 +32,8 @@ inline void add_block(const BoxSpec& box, Assembly* assembly) {
   assembly->blocks.push_back(block);
 }
 
-/// Adds the box to the last block as a convex part. `internal_low` and `internal_high`: another part of the
-/// block is adjacent to its face at -x or +x.
+/// Adds the box to the last block as a convex part. `internal_low` and `internal_high` mark its face at -x or
+/// +x as internal, for another part of the block behind it.
 inline void add_box_part(const BoxSpec& box, bool internal_low, bool internal_high, Assembly* assembly) {
   const int first = static_cast<int>(assembly->vertices.size());
   for (int k = 0; k < 8; ++k) {
@@ -56,7 +56,7 @@ inline void add_box_part(const BoxSpec& box, bool internal_low, bool internal_hi
   }
 }
 
-/// Adds a block that consists of one box.
+/// Adds a block that is one box.
 inline void add_box(const BoxSpec& box, Assembly* assembly) {
   add_block(box, assembly);
   add_box_part(box, false, false, assembly);
@@ -76,7 +76,7 @@ inline Assembly box_on_floor(const Vec3& size, double density = 1000.0) {
                      {.center = {0, 0, 0.5 * size.z()}, .size = size, .density = density}});
 }
 
-/// A stack of cubes on a fixed floor; cube k from below has the density `densities[k]`.
+/// Stack of cubes of the given side on a fixed floor; cube k from below has the density `densities[k]`.
 inline Assembly stack_of_cubes(double side, const std::vector<double>& densities) {
   std::vector<BoxSpec> boxes{
       {.center = {0, 0, -0.5 * side}, .size = {3 * side, 3 * side, side}, .fixed = true}};
@@ -89,7 +89,7 @@ inline Assembly stack_of_cubes(double side, const std::vector<double>& densities
 }
 
 /// Wall in running bond along x on a fixed slab that extends 1 m beyond it. Even courses have whole blocks,
-/// odd ones end in half blocks. Each block is cut into `slices` parts across its length.
+/// odd courses end in half blocks. Each block consists of `slices` parts along its length.
 inline Assembly running_bond_wall(const Vec3& block_size, int blocks_per_course, int courses,
                                   int slices = 1) {
   const double length = blocks_per_course * block_size.x();
@@ -114,7 +114,7 @@ inline Assembly running_bond_wall(const Vec3& block_size, int blocks_per_course,
   return assembly;
 }
 
-/// The assembly scaled about the origin, then moved.
+/// The scene scaled about the origin, then moved.
 inline Assembly transformed(Assembly assembly, const Eigen::Isometry3d& motion, double scale = 1.0) {
   for (Vec3& x : assembly.vertices) x = motion * (scale * x);
   compute_mass_properties(&assembly);

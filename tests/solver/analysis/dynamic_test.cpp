@@ -122,7 +122,7 @@ TEST(EnergyBalance, SlidingBlockLosesTheFrictionWorkToFirstOrder) {
     Simulation simulation = simulate(scene, assembly);
     double work = 0.0;
     const double start = simulation.energy().total();
-    while (simulation.state().time < 0.5) work += simulation.advance().slid_work;
+    while (simulation.state().time < 0.5) work += simulation.advance().friction_work;
     const double lost = start - simulation.energy().total();
     worst[i] = std::abs(lost - work) / work;
   }

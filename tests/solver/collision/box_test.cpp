@@ -20,7 +20,7 @@ Pose some_pose(std::mt19937* random) {
   return pose;
 }
 
-TEST(OrientedBox, IsTheBrickItself) {
+TEST(OrientedBox, OfABrickIsTheBrick) {
   const CollisionModel model = make_collision_model(box_on_floor(Vec3(1, 2, 3)));
   Vec3 half = model.block_box[1].half_sizes;
   std::ranges::sort(half);
@@ -28,41 +28,41 @@ TEST(OrientedBox, IsTheBrickItself) {
   EXPECT_LT(model.block_box[1].center.norm(), 1e-15);  // the centroid
 }
 
-TEST(OrientedBox, HoldsEveryVertexAtEveryPose) {
+TEST(OrientedBox, ContainsEveryVertexAtAnyPose) {
   std::mt19937 random(7);
   const CollisionModel model = make_collision_model(running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 3));
   for (int block = 0; block < model.num_blocks(); ++block) {
     const Pose pose = some_pose(&random);
     const double padding = 0.01;
     const OrientedBox box = model.box_at(block, pose, padding);
-    const Eigen::AlignedBox3d upright = upright_box(box);
+    const Eigen::AlignedBox3d aligned = bounding_box(box);
     for (int part = model.part_start[block]; part < model.part_start[block + 1]; ++part) {
       for (const Vec3& r : model.vertices_of(model.parts[part])) {
         const Vec3 x = pose.q_WB * r + pose.p_WB;
         const Vec3 inside = (box.axes.transpose() * (x - box.center)).cwiseAbs();
         EXPECT_LT((inside - box.half_sizes).maxCoeff(), -padding + 1e-14);
-        EXPECT_GT(upright.exteriorDistance(x), -1e-14);
-        EXPECT_TRUE(upright.contains(x));
+        EXPECT_GT(aligned.exteriorDistance(x), -1e-14);
+        EXPECT_TRUE(aligned.contains(x));
       }
     }
   }
 }
 
-/// Needles that stand askew: their upright boxes overlap, they do not.
-TEST(OrientedBox, TellsNeedlesApart) {
+/// Inclined needles do not overlap although their axis-aligned boxes do.
+TEST(OrientedBox, SeparatesInclinedNeedles) {
   OrientedBox needle;
   needle.axes = Eigen::AngleAxisd(0.25 * std::numbers::pi, Vec3::UnitY()).toRotationMatrix();
   needle.half_sizes = Vec3(1.0, 0.01, 0.01);
   OrientedBox other = needle;
   for (const double distance : {0.0199, 0.0201, 0.5}) {
     other.center = distance * needle.axes.col(2);
-    EXPECT_TRUE(upright_box(needle).intersects(upright_box(other))) << distance;
+    EXPECT_TRUE(bounding_box(needle).intersects(bounding_box(other))) << distance;
     EXPECT_EQ(overlap(needle, other), distance < 0.02) << distance;
   }
 }
 
-/// Two boxes with a common point overlap, wherever they are.
-TEST(OrientedBox, NeverLosesAPairThatTouches) {
+/// Two boxes with a common point overlap, also far from the origin.
+TEST(OrientedBox, FindsEveryTouchingPair) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int k = 0; k < 1000; ++k) {

@@ -37,7 +37,7 @@ Eigen::Isometry3d some_motion(const Vec3& shift) {
   return motion;
 }
 
-TEST(ContactDetector, BoxOnSlab) {
+TEST(ContactDetector, FindsTheCornersOfABoxOnASlab) {
   const Assembly scene = box_on_floor(Vec3(1, 2, 3));
   const ContactSet set = contacts_at_rest(scene);
   ASSERT_EQ(set.patches.size(), 1u);
@@ -54,7 +54,7 @@ TEST(ContactDetector, BoxOnSlab) {
   }
 }
 
-TEST(ContactDetector, AreaPointsSumToTheArea) {
+TEST(ContactDetector, QuadratureWeightsSumToTheArea) {
   const ContactSet set = contacts_at_rest(box_on_floor(Vec3(1, 2, 3)), PatchPoints::quadrature);
   ASSERT_EQ(set.points.size(), 5u);
   double area = 0.0;
@@ -62,11 +62,11 @@ TEST(ContactDetector, AreaPointsSumToTheArea) {
   EXPECT_NEAR(area, 2.0, 1e-14);
 }
 
-TEST(ContactDetector, WallHasEveryJoint) {
+TEST(ContactDetector, FindsEveryJointOfAWall) {
   const int nb = 4, courses = 5;
   const Assembly scene = running_bond_wall(Vec3(1.2, 1.0, 0.3), nb, courses);
   const ContactSet set = contacts_at_rest(scene);
-  // Running bond: each bed is cut in 2 nb rectangles; odd courses have one head joint more.
+  // Running bond: each bed consists of 2 nb rectangles; odd courses have one more head joint.
   const int beds = nb + (courses - 1) * 2 * nb;
   const int heads = 3 * (nb - 1) + 2 * nb;
   EXPECT_EQ(set.patches.size(), static_cast<std::size_t>(beds + heads));
@@ -93,7 +93,7 @@ TEST(ContactDetector, MovedScaledAndFarScenesHaveTheSameContacts) {
       const Assembly scene = transformed(reference, motion, scale);
       const ContactSet set = contacts_at_rest(scene);
       ASSERT_EQ(set.points.size(), expected.points.size()) << "scale " << scale << ", at " << distance;
-      // Corners are stored with eps * distance; a few of these add up in a gap or a lever arm.
+      // Corners are stored with an error of eps * distance; a few of these add up in a gap or a lever arm.
       const double rounding = 2.2e-16 * (20 * scale + 8 * distance);
       for (std::size_t i = 0; i < set.points.size(); ++i) {
         const Contact& contact = set.points[i];
@@ -122,7 +122,7 @@ TEST(ContactDetector, FixedPairsAndInternalFacesMakeNoContact) {
   EXPECT_TRUE(contacts_at_rest(internal).patches.empty());
 }
 
-TEST(ContactDetector, GapWithinTheMarginOnly) {
+TEST(ContactDetector, FindsGapsWithinTheMarginOnly) {
   DetectionOptions options;
   options.margin = 1e-3;
   const Assembly scene = box_on_floor(Vec3(1, 1, 1));
@@ -139,8 +139,8 @@ TEST(ContactDetector, GapWithinTheMarginOnly) {
   }
 }
 
-TEST(ContactDetector, SlidingOffAnEdge) {
-  // Lower box [0, 1], upper box slides along x; below the sliver width of 1e-3 there is no face contact.
+TEST(ContactDetector, LosesTheContactOfABoxThatSlidesOffAnEdge) {
+  // The upper box slides along x. Below the sliver width of 1e-3 there is no face contact.
   const Assembly scene = stack_of_cubes(1.0, {1000.0, 1000.0});
   for (const double overlap : {0.5, 0.1, 1e-2, 1e-3 + 1e-9}) {
     auto poses = initial_poses(scene);
@@ -150,7 +150,7 @@ TEST(ContactDetector, SlidingOffAnEdge) {
     EXPECT_NEAR(moved.patches[1].area, overlap, 1e-12);
     EXPECT_EQ(moved.patches[1].kind, JointKind::bed);
   }
-  // On the sliver width, off the edge, and a hair on either side of it: nothing carries.
+  // Just below the sliver width, on the edge, just on each side of it, and clear of it: no contact.
   for (const double overlap : {1e-3 - 1e-9, 1e-9, 0.0, -1e-9, -1e-3}) {
     auto poses = initial_poses(scene);
     poses[2].p_WB.x() += 1.0 - overlap;
@@ -158,8 +158,8 @@ TEST(ContactDetector, SlidingOffAnEdge) {
   }
 }
 
-// A box that rocks on its edge stands on two points, whose normal is the slab's and whose gap is exact.
-TEST(ContactDetector, RockingBoxStandsOnItsEdge) {
+// A box that rocks on its edge touches at two points, with the normal of the slab and the exact gap.
+TEST(ContactDetector, RockingBoxTouchesAlongItsEdge) {
   const Assembly scene = box_on_floor(Vec3(0.4, 1, 2));
   ContactDetector detector(scene, {});
   for (int step = 0; step <= 100; ++step) {
@@ -180,7 +180,7 @@ TEST(ContactDetector, RockingBoxStandsOnItsEdge) {
   }
 }
 
-TEST(ContactDetector, CarriesContactsAlongAndDetectsOnlyAfterMotion) {
+TEST(ContactDetector, CarriesContactsAlongUntilABlockHasMoved) {
   const Assembly scene = box_on_floor(Vec3(1, 1, 1));
   ContactDetector detector(scene, {});
   auto poses = initial_poses(scene);
@@ -205,7 +205,7 @@ TEST(ContactDetector, IdentitiesSurviveDetection) {
     poses[2].p_WB.x() += 0.01;
     poses[2].q_WB = AngleAxisd(0.01 * step, Vec3::UnitZ()) * Quaterniond::Identity();
     const ContactSet& after = detector.update(poses);
-    // Points of one identity move no further than their blocks did, overlap growing by a corner included.
+    // A point with a given identity moves no farther than its block, also when the overlap gains a corner.
     std::map<ContactId, Vec3> points;
     for (const Contact& contact : after.points) points.emplace(contact.id, contact.point_a);
     EXPECT_EQ(points.size(), after.points.size());
@@ -221,7 +221,7 @@ TEST(ContactDetector, IdentitiesSurviveDetection) {
   EXPECT_GT(detector.num_detections(), 30);
 }
 
-TEST(ContactDetector, FollowedContactsAgreeWithFreshOnes) {
+TEST(ContactDetector, TrackedContactsAgreeWithDetectedOnes) {
   const Assembly scene = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4);
   ContactDetector detector(scene, {});
   auto poses = initial_poses(scene);
@@ -241,7 +241,7 @@ TEST(ContactDetector, FollowedContactsAgreeWithFreshOnes) {
   }
 }
 
-// Slices of a block are coplanar in a wall: however many, the joints are the same polygons.
+// The slices of a block are coplanar in a wall: the joints are the same polygons for any number of slices.
 TEST(ContactDetector, SlicesDoNotChangeTheJoints) {
   const ContactSet whole = contacts_at_rest(running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4, 1));
   for (const int slices : {2, 4, 8}) {
@@ -256,7 +256,7 @@ TEST(ContactDetector, SlicesDoNotChangeTheJoints) {
   }
 }
 
-// Two feet of one block on the slab do not touch each other: they stay two patches.
+// Two separate feet of one block on the slab remain two patches.
 TEST(ContactDetector, SeparateFeetStaySeparatePatches) {
   Assembly scene = box_on_floor(Vec3(1, 1, 1));
   add_block({}, &scene);
@@ -266,9 +266,9 @@ TEST(ContactDetector, SeparateFeetStaySeparatePatches) {
   EXPECT_EQ(contacts_at_rest(scene).patches.size(), 3u);
 }
 
-// Of slabs k and k + 2 the far faces are opposed too, and their planes have passed each other. The stack is
-// turned, so that boxes along the axes cannot tell them apart.
-TEST(ContactDetector, ThinSlabsTouchTheirNeighboursOnly) {
+// Slabs k and k + 2 do not touch, although they also have opposed faces whose planes have passed each other.
+// The stack is rotated, so that axis-aligned boxes cannot separate them.
+TEST(ContactDetector, ThinSlabsTouchOnlyTheirNeighbours) {
   for (const double thickness : {0.2, 0.05, 0.02}) {
     std::vector<BoxSpec> slabs{{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true}};
     for (int k = 0; k < 20; ++k)
@@ -293,7 +293,7 @@ TEST(ContactDetector, ThinSlabsTouchTheirNeighboursOnly) {
   }
 }
 
-TEST(ContactDetector, RejectsBadOptions) {
+TEST(ContactDetector, RejectsInvalidOptions) {
   const Assembly scene = box_on_floor(Vec3(1, 1, 1));
   DetectionOptions options;
   options.margin = -1.0;
@@ -305,7 +305,7 @@ TEST(ContactDetector, RejectsBadOptions) {
   EXPECT_THROW(ContactDetector(scene, options), InputError);
 }
 
-/// Two columns side by side, face to face at x = 0, each of a part 1 m wide under one of the given width.
+/// Two columns in contact at x = 0. Each consists of a part 1 m wide below a part of the given width.
 Assembly two_columns(double upper_a, double upper_b) {
   Assembly columns;
   for (const auto& [x, upper] : {std::pair(-0.5, upper_a), std::pair(0.5, upper_b)}) {
@@ -320,10 +320,12 @@ Assembly two_columns(double upper_a, double upper_b) {
   return columns;
 }
 
-// One column sinks along the other while their joint is compressed: slivers of other pairs of parts join the
-// patches, but every contact keeps its name and its gap; new points begin without a gap or force.
-TEST(ContactDetector, SinkingBesideACompressedJointKeepsItsContacts) {
-  // 0.8 and 0.8: the sliver of upper on lower part joins a patch; 0.6 and 0.8: it makes one of its own.
+// One column sinks along the other while their joint is compressed. Slivers of other pairs of parts are added
+// to the patches, but every contact keeps its identity and its gap. New points start with zero gap and no
+// force.
+TEST(ContactDetector, ColumnSinkingAlongACompressedJointKeepsItsContacts) {
+  // 0.8 and 0.8: the sliver between upper and lower part is merged with a patch; 0.6 and 0.8: it is a new
+  // patch.
   for (const auto& [upper_a, num_after] : {std::pair(0.8, 8u), std::pair(0.6, 12u)}) {
     const Assembly columns = two_columns(upper_a, 0.8);
     ContactDetector detector(columns, {});
@@ -341,14 +343,14 @@ TEST(ContactDetector, SinkingBesideACompressedJointKeepsItsContacts) {
       EXPECT_NEAR(contact.gap, known.contains(contact.id) ? -5e-4 : 0.0, 1e-12);
     }
     EXPECT_EQ(kept, before.size());
-    // What opens loses its rest gap: back where it was built every gap is what it looks like.
+    // A rest gap vanishes as the contact opens. Back at the initial poses every gap is the geometric one.
     poses = initial_poses(columns);
     for (const Contact& contact : detector.update(poses).points) EXPECT_NEAR(contact.gap, 0.0, 1e-12);
   }
 }
 
-// 60 x 60 bricks: some 20,000 pairs of boxes, work for several threads.
-TEST(ContactDetector, SameBitsOnAnyNumberOfThreads) {
+// 60 x 60 bricks have about 20,000 pairs of boxes, enough work for several threads.
+TEST(ContactDetector, GivesTheSameBitsWithAnyNumberOfThreads) {
   std::vector<BoxSpec> boxes{{.center = {30, 0, -0.5}, .size = {100, 3, 1}, .fixed = true}};
   for (int course = 0; course < 60; ++course)
     for (int k = 0; k < 60; ++k)
@@ -374,8 +376,7 @@ TEST(ContactDetector, SameBitsOnAnyNumberOfThreads) {
   }
 }
 
-// What a thread meets is told as if there were one: of several faults the first.
-TEST(ShareLoop, ThrowsTheFirstOfWhatItsBodiesThrow) {
+TEST(ShareLoop, RethrowsTheExceptionOfTheSmallestIndex) {
   set_num_threads(3);
   try {
     share_loop(1e12, 100, [](int i) {

@@ -13,18 +13,22 @@ using namespace testing;  // the scenes
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 
-// Rocking block of half-width b and half-height H, let go at rest at half its slenderness alpha. Housner
-// (1963): theta'' = -p^2 sin(alpha - theta), p^2 = 3 g / (4 R); values by integrating that equation.
+// Rocking block of half-width b and half-height H, released at rest at half its slenderness alpha. Housner
+// (1963), between impacts:
+//
+//     theta'' = -p^2 sin(alpha - theta),   p^2 = 3 g / (4 R),   R^2 = b^2 + H^2,   tan alpha = b / H
+//
+// The reference values come from numerical integration of that equation.
 struct Rocking {
   double b, H;             ///< m
   double quarter_period;   ///< s
   double omega_at_impact;  ///< rad/s
-  double impact_ratio;     ///< 1 - 3/2 sin^2 alpha, of the speeds after and before the impact
+  double impact_ratio;     ///< 1 - 3/2 sin^2 alpha: speed after over speed before the impact
 };
 
 class RockingBlock : public ::testing::TestWithParam<Rocking> {};
 
-TEST_P(RockingBlock, SwingsAndHitsAsHousnerSays) {
+TEST_P(RockingBlock, FollowsHousnersEquationAndImpactRatio) {
   const auto& [b, H, quarter_period, omega_at_impact, impact_ratio] = GetParam();
   const double h = 1e-3;
   const Assembly assembly = box_on_floor({2 * b, 1.0, 2 * H});
@@ -47,28 +51,28 @@ TEST_P(RockingBlock, SwingsAndHitsAsHousnerSays) {
   while (hit < angle.size() && angle[hit] > 0.0) ++hit;
   ASSERT_LT(hit + 2, angle.size());
   const double time = h * (static_cast<double>(hit) + angle[hit - 1] / (angle[hit - 1] - angle[hit]));
-  EXPECT_NEAR(time / quarter_period, 1.0, 0.01);  // first-order scheme: O(h p), p = 2.7 1/s
+  EXPECT_NEAR(time / quarter_period, 1.0, 0.01);  // first-order scheme: error O(h p), p = 2.7 1/s
   EXPECT_NEAR(-omega[hit - 1] / omega_at_impact, 1.0, 0.01);
-  EXPECT_NEAR(omega[hit + 1] / omega[hit - 1] / impact_ratio, 1.0, 0.02);  // 1 ms before and after
+  EXPECT_NEAR(omega[hit + 1] / omega[hit - 1] / impact_ratio, 1.0, 0.02);  // 1 ms before and 1 ms after
 }
 
 INSTANTIATE_TEST_SUITE_P(Housner, RockingBlock,
                          ::testing::Values(Rocking{0.2, 1.0, 0.490864, 0.458240, 0.942308},
                                            Rocking{0.5, 1.0, 0.516630, 1.018535, 0.700000}));
 
-/// Random orientation from normal deviates.
+/// Uniformly distributed random orientation.
 Quaterniond random_turn(std::mt19937* random) {
   std::normal_distribution<double> normal;
   return Quaterniond(normal(*random), normal(*random), normal(*random), normal(*random)).normalized();
 }
 
-/// Drops block 1 of the scene in `count` random orientations: it ends at rest on one of its faces, and the
-/// energy never rises.
+/// Drops block 1 of the scene in `count` random orientations. It must come to rest on one of its faces, and
+/// the energy must never rise.
 void drop(const Assembly& assembly, int count, unsigned seed) {
   std::mt19937 random(seed);
   const double h = 0.01;
   for (int trial = 0; trial < count; ++trial) {
-    Case scene = make_case(0.5, 1e-10, h);  // sinks 1e-6 m by its weight
+    Case scene = make_case(0.5, 1e-10, h);  // sinks by about 1e-6 m under its weight
     scene.analysis.tolerance = 1e-8;
     Simulation simulation = simulate(scene, assembly);
     simulation.mutable_state()->poses[1].q_WB = random_turn(&random);
@@ -81,8 +85,8 @@ void drop(const Assembly& assembly, int count, unsigned seed) {
       rise = std::max(rise, next - energy);
       energy = next;
     }
-    // The solver leaves 1e-8 of the impulse h g m in each step, at up to 10 m/s: weight times 1e-9 m, or a
-    // few times that where several contacts hit at once.
+    // The solver leaves an error of 1e-8 of the impulse h g m in each step, at speeds up to 10 m/s: weight
+    // times 1e-9 m, or a few times that when several contacts close at once.
     EXPECT_LT(rise, 1e-8 * assembly.blocks[1].mass * kG) << "J, trial " << trial;
     EXPECT_LT(simulation.state().v.norm(), 1e-6) << "trial " << trial;
     const Mat3 turn = simulation.state().poses[1].q_WB.toRotationMatrix();
@@ -90,7 +94,8 @@ void drop(const Assembly& assembly, int count, unsigned seed) {
   }
 }
 
-/// A box above the floor, above a wide box on it, or above one so small that it tumbles off.
+/// A box above the floor (lower_box = 0), or above another box of that size on the floor. It can tumble off a
+/// small one.
 Assembly box_in_the_air(double lower_box) {
   std::vector<BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {40, 40, 1}, .fixed = true},
                              {.center = {0, 0, lower_box > 0.0 ? 2.5 : 1.5}, .size = {1, 1.2, 0.8}}};

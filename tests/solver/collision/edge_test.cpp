@@ -18,12 +18,12 @@ constexpr double kPi = std::numbers::pi;
 
 double lowest_corner(const Assembly& scene, const Pose& pose) {
   double z = 1e300;
-  for (std::size_t v = 8; v < 16; ++v)  // the box's; the floor has the first eight
+  for (std::size_t v = 8; v < 16; ++v)  // of the box; the first eight belong to the floor
     z = std::min(z, (pose.p_WB + pose.q_WB * (scene.vertices[v] - scene.blocks[1].centroid)).z());
   return z;
 }
 
-/// The box turned by q, its lowest corner `gap` above the floor.
+/// Poses with the box turned by q and its lowest corner `gap` (m) above the floor.
 std::vector<Pose> turned_box(const Assembly& scene, const Quaterniond& q, double gap) {
   auto poses = initial_poses(scene);
   poses[1].q_WB = q;
@@ -31,7 +31,7 @@ std::vector<Pose> turned_box(const Assembly& scene, const Quaterniond& q, double
   return poses;
 }
 
-TEST(EdgeContact, EdgeOnAFloorHasTwoPoints) {
+TEST(EdgeContact, EdgeOnAFloorGivesTwoPoints) {
   const Assembly scene = box_on_floor(Vec3(1, 2, 1));
   for (const double angle : {0.36, kPi / 6, kPi / 4, 1.2}) {
     for (const double gap : {-1e-3, 0.0, 1e-3}) {
@@ -48,7 +48,7 @@ TEST(EdgeContact, EdgeOnAFloorHasTwoPoints) {
   }
 }
 
-TEST(EdgeContact, VertexOnAFloorHasOnePoint) {
+TEST(EdgeContact, VertexOnAFloorGivesOnePoint) {
   const Assembly scene = box_on_floor(Vec3(1, 1, 1));
   const Quaterniond on_corner = Quaterniond::FromTwoVectors(Vec3(1, 1, 1), Vec3(0.02, -0.03, -1));
   for (const double gap : {-2e-3, 0.0, 2e-3}) {
@@ -59,8 +59,8 @@ TEST(EdgeContact, VertexOnAFloorHasOnePoint) {
   }
 }
 
-// Two roof ridges, crossing at right angles: one point, normal perpendicular to both.
-TEST(EdgeContact, CrossingEdges) {
+// Two roof ridges crossing at right angles: one point, with the normal perpendicular to both.
+TEST(EdgeContact, CrossingEdgesGiveOnePoint) {
   const double half_diagonal = std::sqrt(0.5);
   for (const double gap : {-3e-3, 0.0, 3e-3}) {
     const Assembly scene =
@@ -76,8 +76,8 @@ TEST(EdgeContact, CrossingEdges) {
   }
 }
 
-// Diagonal neighbours touch along an edge, or in a corner, and carry nothing there.
-TEST(EdgeContact, NeighboursAcrossAnEdgeOrACornerMakeNone) {
+// Diagonal neighbours touch along an edge or at a corner, where they transfer no force.
+TEST(EdgeContact, DiagonalNeighboursMakeNoContact) {
   const auto pair = [](const Vec3& center) { return make_boxes({{.fixed = true}, {.center = center}}); };
   for (const double hair : {-1e-9, 0.0, 1e-9}) {
     const ContactSet edge =
@@ -89,8 +89,9 @@ TEST(EdgeContact, NeighboursAcrossAnEdgeOrACornerMakeNone) {
   }
 }
 
-// From face to edge contact through the largest tilt of a face contact: lowest gap and hinge stay.
-TEST(EdgeContact, TurnsFromFaceToEdgeWithoutAJump) {
+// As a box tilts beyond max_angle, its face contact becomes an edge contact. Smallest gap and hinge must not
+// jump.
+TEST(EdgeContact, IsContinuousWithTheFaceContact) {
   const Assembly scene = box_on_floor(Vec3(1, 1, 1));
   ContactDetector detector(scene, {});
   for (int step = 0; step <= 157; ++step) {
@@ -107,8 +108,8 @@ TEST(EdgeContact, TurnsFromFaceToEdgeWithoutAJump) {
   }
 }
 
-/// Nearest distance of two boxes apart, by sampling the faces of each and projecting on the other: slow, and
-/// shares nothing with the separating axes.
+/// Distance of two separate unit cubes, from sampled points on the faces of each projected onto the other:
+/// slow, but independent of the separating axes.
 double sampled_distance(const Pose& a, const Pose& b, int n) {
   double best = 1e300;
   const auto to_box = [](const Pose& box, const Vec3& x) {
@@ -129,7 +130,7 @@ double sampled_distance(const Pose& a, const Pose& b, int n) {
   return best;
 }
 
-// Random boxes near each other: whenever they are nearer than the margin there is a contact, of that gap.
+// Random cubes near each other have a contact with the right gap if and only if they are within the margin.
 TEST(EdgeContact, RandomBoxesAgreeWithSampledDistance) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
@@ -146,10 +147,10 @@ TEST(EdgeContact, RandomBoxesAgreeWithSampledDistance) {
     const ContactSet set = ContactDetector(scene, options).update(poses);
     double gap = 1e300;
     for (const Contact& contact : set.points) gap = std::min(gap, contact.gap);
-    const double sampling = 1.0 / 60;  // the grid misses the nearest point by at most its spacing
+    const double sampling = 1.0 / 60;  // distance of the nearest point from the grid
     if (expected > sampling && expected < options.margin) {
       ++near;
-      // Along a face or edge normal the gap of two rounded-off neighbours (vertex to vertex) reads smaller.
+      // Between two vertices the gap along a face or edge normal is smaller than the distance.
       ASSERT_FALSE(set.points.empty()) << trial << " at " << expected;
       EXPECT_LT(gap, expected + 1e-12) << trial;
     }

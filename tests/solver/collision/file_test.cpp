@@ -18,7 +18,7 @@ using namespace testing;  // the scenes
 
 const std::string kHeader = "block_a,block_b,joint,x,y,z,nx,ny,nz,gap_m,area_m2\n";
 
-/// A file of its own for each test, gone with it.
+/// Each test has its own folder, removed at its end.
 class ContactFile : public ::testing::Test {
  protected:
   ContactFile()
@@ -33,8 +33,8 @@ class ContactFile : public ::testing::Test {
     write_text_atomically(path("contacts.csv"), text);
     return path("contacts.csv");
   }
-  /// The message of the error that reading the text throws.
-  std::string complaint(const std::string& text) const {
+  /// Message of the error thrown when the text is read.
+  std::string error_message(const std::string& text) const {
     try {
       read_contacts(write(text), scene_);
     } catch (const InputError& error) {
@@ -47,11 +47,11 @@ class ContactFile : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(ContactFile, GivesTheContactsThatItLists) {
+TEST_F(ContactFile, ProvidesTheContactsItLists) {
   DetectionOptions options;
   options.contact_file = write(kHeader +
                                "0,1,0,-0.4,0,0,0,0,2,0.001,0.3\n"
-                               "1,0,0,0.4,0,0,0,0,-1,0,0.7\n");  // the other way round
+                               "1,0,0,0.4,0,0,0,0,-1,0,0.7\n");  // blocks in the other order
   ContactDetector detector(scene_, options);
   auto poses = initial_poses(scene_);
   const ContactSet& set = detector.update(poses);
@@ -64,12 +64,12 @@ TEST_F(ContactFile, GivesTheContactsThatItLists) {
     EXPECT_EQ(contact.block_a, 0);
     EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 1e-15);
   }
-  poses[1].p_WB.z() += 0.5;  // far beyond any margin: still the same contacts
+  poses[1].p_WB.z() += 0.5;  // far beyond the margin: the same contacts are kept
   EXPECT_NEAR(detector.update(poses).points[1].gap, 0.5, 1e-15);
   EXPECT_EQ(detector.num_detections(), 1);
 }
 
-TEST_F(ContactFile, WhatWasFoundCanBeGivenBack) {
+TEST_F(ContactFile, ReproducesDetectedContacts) {
   const Assembly wall = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 3);
   const ContactSet found = ContactDetector(wall, {}).update(initial_poses(wall));
   std::string text = kHeader;
@@ -88,19 +88,22 @@ TEST_F(ContactFile, WhatWasFoundCanBeGivenBack) {
   }
 }
 
-TEST_F(ContactFile, ComplainsWithFileAndLine) {
-  EXPECT_NE(complaint("a,b\n").find("contacts.csv:1:1: error: the first line must be block_a,"),
+TEST_F(ContactFile, ErrorsStateFileLineAndRule) {
+  EXPECT_NE(error_message("a,b\n").find("contacts.csv:1:1: error: the first line must be block_a,"),
             std::string::npos);
-  EXPECT_NE(complaint(kHeader).find("holds no contact"), std::string::npos);
-  EXPECT_NE(complaint(kHeader + "0,1,0,0,0,0,0,0,1,0\n").find(":2:1: error: 10 of 11 columns"),
+  EXPECT_NE(error_message(kHeader).find("contains no contact"), std::string::npos);
+  EXPECT_NE(error_message(kHeader + "0,1,0,0,0,0,0,0,1,0\n").find(":2:1: error: 10 of 11 columns"),
             std::string::npos);
-  EXPECT_NE(complaint(kHeader + "0,1,0,0,0,0,0,0,1,0,1,1\n").find("more than 11"), std::string::npos);
-  EXPECT_NE(complaint(kHeader + "0,7,0,0,0,0,0,0,1,0,1\n").find("block 7: must be one of 0 .. 1"),
+  EXPECT_NE(error_message(kHeader + "0,1,0,0,0,0,0,0,1,0,1,1\n").find("more than 11"), std::string::npos);
+  EXPECT_NE(
+      error_message(kHeader + "0,7,0,0,0,0,0,0,1,0,1\n").find("block 7: must be an integer from 0 to 1"),
+      std::string::npos);
+  EXPECT_NE(error_message(kHeader + "0,nan,0,0,0,0,0,0,1,0,1\n").find("column 2"), std::string::npos);
+  EXPECT_NE(error_message(kHeader + "1,1,0,0,0,0,0,0,1,0,1\n").find("block_a and block_b are both 1"),
             std::string::npos);
-  EXPECT_NE(complaint(kHeader + "0,nan,0,0,0,0,0,0,1,0,1\n").find("column 2"), std::string::npos);
-  EXPECT_NE(complaint(kHeader + "1,1,0,0,0,0,0,0,1,0,1\n").find("are the same"), std::string::npos);
-  EXPECT_NE(complaint(kHeader + "0,1,0,0,0,0,0,0,0,0,1\n").find("the normal is zero"), std::string::npos);
-  EXPECT_NE(complaint(kHeader + "0,1,0,0,0,0,0,0,1,0,-1\n").find("area_m2 = -1: must be > 0"),
+  EXPECT_NE(error_message(kHeader + "0,1,0,0,0,0,0,0,0,0,1\n").find("nx, ny, nz are all zero"),
+            std::string::npos);
+  EXPECT_NE(error_message(kHeader + "0,1,0,0,0,0,0,0,1,0,-1\n").find("area_m2 = -1: must be > 0"),
             std::string::npos);
 }
 

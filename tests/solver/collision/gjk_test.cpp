@@ -27,23 +27,23 @@ TEST(InsetPolytope, ShrinksACube) {
   for (const auto& face : core.faces) EXPECT_EQ(face.size(), 4u);
 }
 
-TEST(InsetPolytope, NothingLeftOfAThinShape) {
+TEST(InsetPolytope, IsEmptyWhenTheInsetExceedsHalfTheThickness) {
   EXPECT_TRUE(inset_polytope(cube_planes(1.0), 1.0 + 1e-6, 1e-9).vertices.empty());
 }
 
-TEST(InsetPolytope, CutOffCornerVanishesWithTheInset) {
-  // A corner cut 0.2 deep: moved inwards as far as the rest, the cut stays, with the same shape.
+TEST(InsetPolytope, TruncatedCornerVanishesUnderALargeInset) {
+  // A cube with one corner cut off, 0.2 along the diagonal.
   auto planes = cube_planes(1.0);
   const Vec3 diagonal = Vec3::Ones().normalized();
   planes.push_back({diagonal, std::sqrt(3.0) - 0.2});
   EXPECT_EQ(inset_polytope(planes, 0.0, 1e-9).vertices.size(), 10u);
-  // The corner of the cube recedes by sqrt(3) times the inset, the cut by the inset: gone at 0.2 / (sqrt 3 -
-  // 1).
+  // The corner of the cube moves inwards by sqrt(3) times the inset, the cut only by the inset. The cut
+  // vanishes at an inset of 0.2 / (sqrt 3 - 1) = 0.273.
   EXPECT_EQ(inset_polytope(planes, 0.2, 1e-9).vertices.size(), 10u);
   EXPECT_EQ(inset_polytope(planes, 0.28, 1e-9).vertices.size(), 8u);
 }
 
-TEST(ConvexBody, NearestPointsOfTwoCubes) {
+TEST(ConvexBody, FindsTheNearestPointsOfTwoCubes) {
   const ConvexBody cube(inset_polytope(cube_planes(1.0), 0.0, 1e-9));
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::AngleAxisd(M_PI / 4, Vec3::UnitY()).toRotationMatrix() *
@@ -51,14 +51,14 @@ TEST(ConvexBody, NearestPointsOfTwoCubes) {
   pose.translation() = Vec3(0.1, 0.2, 3.5);
   const auto nearest = cube.nearest_points(cube, pose);
   ASSERT_TRUE(nearest);
-  double lowest = 1e300;  // a corner above a face: straight down
+  double lowest = 1e300;  // a corner above a face: the distance is vertical
   for (const Vec3& x : inset_polytope(cube_planes(1.0), 0.0, 1e-9).vertices)
     lowest = std::min(lowest, (pose * x).z());
   EXPECT_NEAR((nearest->on_b - nearest->on_a).norm(), lowest - 1.0, 1e-9);
   EXPECT_FALSE(cube.nearest_points(cube, Eigen::Isometry3d::Identity()));
 }
 
-TEST(LargestPatch, TakesTheCornersOfASquare) {
+TEST(LargestPatch, ChoosesTheCornersOfASquare) {
   const std::vector<Vec2> points = {{0.5, 0.5}, {0, 0}, {0.4, 0.1}, {1, 0},
                                     {1, 1},     {0, 1}, {0.9, 0.9}, {1, 1}};
   const auto chosen = largest_patch(points, 4, 1e-3);
@@ -77,7 +77,7 @@ DetectionOptions perturbed(double margin, std::uint64_t seed = 1) {
   return options;
 }
 
-// A box on the floor: four points near the corners, inset by the rounding, with the gap of the faces.
+// A box on the floor: four points near the corners, inset by the edge radius, with the gap of the faces.
 TEST(PerturbedGjk, FindsTheCornersOfABox) {
   const double margin = 0.01;
   const Assembly scene = box_on_floor(Vec3(1, 2, 1));
@@ -88,16 +88,17 @@ TEST(PerturbedGjk, FindsTheCornersOfABox) {
     ASSERT_EQ(set.points.size(), 4u) << gap;
     for (const Contact& contact : set.points) {
       EXPECT_EQ(set.patches[contact.patch].kind, JointKind::base);
-      // Shrunk by the margin; the turn of 0.01 moves a point 1.2 m away sideways by half its square.
+      // The part is shrunk by the margin. A rotation by 0.01 moves a point at 1.2 m sideways by half its
+      // square.
       EXPECT_NEAR(std::abs(contact.point_b.x()), 0.5 - margin, 1e-3);
       EXPECT_NEAR(std::abs(contact.point_b.y()), 1.0 - margin, 1e-3);
-      EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 0.011);  // the perturbed query's own
-      EXPECT_NEAR(contact.gap, gap, 2e-4);  // first order in the turn times its square root of margins
+      EXPECT_LT((contact.normal - Vec3::UnitZ()).norm(), 0.011);  // of the perturbed query
+      EXPECT_NEAR(contact.gap, gap, 2e-4);  // first order in the rotation and in the margin
     }
   }
 }
 
-TEST(PerturbedGjk, SeedChoosesThePointsAndNothingElseDoes) {
+TEST(PerturbedGjk, PointsDependOnTheSeedOnly) {
   const Assembly scene = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 3);
   const auto contacts = [&](std::uint64_t seed) {
     return ContactDetector(scene, perturbed(0.002, seed)).update(initial_poses(scene)).points;
@@ -123,12 +124,12 @@ TEST(PerturbedGjk, FindsEveryJointOfAWall) {
   EXPECT_EQ(joints, expected);
 }
 
-TEST(PerturbedGjk, RefusesPartsThinnerThanTheMargin) {
+TEST(PerturbedGjk, RejectsPartsThinnerThanTwiceTheMargin) {
   try {
     ContactDetector(box_on_floor(Vec3(1, 1, 0.1)), perturbed(0.06));
     FAIL() << "expected an InputError";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("block 1: a part of it is thinner"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("block 1: a part is thinner"), std::string::npos)
         << error.what();
   }
 }

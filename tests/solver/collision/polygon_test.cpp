@@ -9,7 +9,7 @@
 namespace cupola::polygon_test {
 namespace {
 
-constexpr double kTolerance = 1e-10;  // m, corners nearer than this are one
+constexpr double kTolerance = 1e-10;  // m, corners nearer than this are merged
 
 std::vector<Vec2> box(double x0, double y0, double x1, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
@@ -47,17 +47,19 @@ TEST(ClipConvexPolygon, EqualPolygonsGiveThatPolygon) {
   }
 }
 
-TEST(ClipConvexPolygon, RoundedCornersMakeNoSlivers) {
-  std::vector<Vec2> shaken = box(0, 0, 1, 1);
-  for (std::size_t i = 0; i < shaken.size(); ++i) shaken[i] += 1e-14 * Vec2(i % 2 ? 1 : -1, i % 3 ? -1 : 1);
-  const auto polygon = overlap(box(0, 0, 1, 1), shaken);
+TEST(ClipConvexPolygon, RoundingErrorsMakeNoSlivers) {
+  std::vector<Vec2> perturbed = box(0, 0, 1, 1);
+  for (std::size_t i = 0; i < perturbed.size(); ++i)
+    perturbed[i] += 1e-14 * Vec2(i % 2 ? 1 : -1, i % 3 ? -1 : 1);
+  const auto polygon = overlap(box(0, 0, 1, 1), perturbed);
   EXPECT_EQ(polygon.size(), 4u);
-  EXPECT_NEAR(polygon_area(polygon), 1.0, 1e-12);  // width 1 times the shaking of 1e-14, four sides
+  EXPECT_NEAR(polygon_area(polygon), 1.0, 1e-12);  // perturbation 1e-14 along four sides of length 1
 }
 
-TEST(ClipConvexPolygon, SmallTurnsMakeNoCorners) {
-  // Turned by `angle` about its centre, each border of the unit square crosses the fixed one at its middle,
-  // angle^2 / 4 to angle / 4 above the chord: eight corners, or the four of one of the squares.
+TEST(ClipConvexPolygon, SmallRotationsAddNoCorners) {
+  // If the unit square turns by `angle` about its centre, each side crosses the fixed one near its middle,
+  // between angle^2 / 4 and angle / 4 from the chord. The overlap has eight corners, or the four of one
+  // square.
   std::vector<Vec2> turned = box(-0.5, -0.5, 0.5, 0.5);
   const double angle = 1e-4;
   for (Vec2& x : turned) x = Vec2(x.x() - angle * x.y(), x.y() + angle * x.x());
@@ -66,7 +68,7 @@ TEST(ClipConvexPolygon, SmallTurnsMakeNoCorners) {
   const auto flattened = clip_convex_polygon(square, turned, kTolerance, 1e-3);
   EXPECT_EQ(flattened.size(), 4u);
   EXPECT_NEAR(polygon_area(positions(flattened)), 1.0, 2.0 * angle);
-  // The corners of one polygon stay, however flat they are.
+  // Corners of a single polygon are kept, however flat.
   EXPECT_EQ(clip_convex_polygon(regular_polygon(64, 1.0), box(-2, -2, 2, 2), kTolerance, 0.1).size(), 64u);
 }
 
@@ -75,12 +77,12 @@ TEST(ClipConvexPolygon, PolygonInsideTheOther) {
   EXPECT_DOUBLE_EQ(polygon_area(overlap(box(0, 0, 3, 3), box(1, 1, 2, 2))), 1.0);
 }
 
-TEST(ClipConvexPolygon, CollinearCornersAreDropped) {
+TEST(ClipConvexPolygon, CollinearCornersAreRemoved) {
   const std::vector<Vec2> with_middle = {{0, 0}, {0.5, 0}, {1, 0}, {1, 1}, {0, 1}};
   EXPECT_EQ(overlap(with_middle, box(-1, -1, 2, 2)).size(), 4u);
 }
 
-TEST(ClipConvexPolygon, ApartOrTouchingIsEmptyOrHasNoWidth) {
+TEST(ClipConvexPolygon, IsEmptyWhenApartOrTouching) {
   EXPECT_TRUE(overlap(box(0, 0, 1, 1), box(2, 0, 3, 1)).empty());
   for (const double hair : {-1e-9, 0.0}) {  // along an edge, at a corner
     EXPECT_TRUE(overlap(box(0, 0, 1, 1), box(1 - hair, 0, 2, 1)).empty());
@@ -89,9 +91,9 @@ TEST(ClipConvexPolygon, ApartOrTouchingIsEmptyOrHasNoWidth) {
   EXPECT_NEAR(polygon_area(overlap(box(0, 0, 1, 1), box(1 - 1e-6, 0, 2, 1))), 1e-6, 1e-15);
 }
 
-// Area of the overlap of two regular polygons by the convex combination of both half-plane sets, sampled:
-// slow and independent of clipping.
-TEST(ClipConvexPolygon, AgreesWithSampling) {
+// Area of the overlap of two regular polygons from grid points that satisfy all half-plane inequalities:
+// slow, but independent of clipping.
+TEST(ClipConvexPolygon, AgreesWithSampledArea) {
   const auto a = regular_polygon(5, 1.0, 0.1);
   const auto b = regular_polygon(7, 0.8, 0.4);
   const auto inside = [](const std::vector<Vec2>& polygon, const Vec2& x) {
@@ -113,11 +115,11 @@ TEST(ClipConvexPolygon, AgreesWithSampling) {
       const Vec2 x(-1 + (i + 0.5) * cell, -1 + (k + 0.5) * cell);
       hits += inside(a, x) && inside(moved, x);
     }
-  // A boundary of length ~4 cuts ~4 / cell cells, each wrong by half a cell with random sign.
+  // The boundary, about 4 long, cuts about 4 / cell cells. Each adds an error of half a cell of random sign.
   EXPECT_NEAR(polygon_area(overlap(a, moved)), hits * cell * cell, 5 * cell * cell * std::sqrt(4 / cell));
 }
 
-TEST(ClipConvexPolygon, LabelsTellWhichEdgesMeet) {
+TEST(ClipConvexPolygon, LabelsIdentifyTheEdgesAtEachCorner) {
   const auto corners = clip_convex_polygon(box(0, 0, 2, 2), box(1, 1, 3, 3), kTolerance);
   ASSERT_EQ(corners.size(), 4u);
   for (const ClipCorner& c : corners) {
@@ -133,7 +135,7 @@ TEST(ClipConvexPolygon, LabelsTellWhichEdgesMeet) {
   }
 }
 
-TEST(ConvexHull, DropsInnerRepeatedAndCollinearPoints) {
+TEST(ConvexHull, OmitsInnerRepeatedAndCollinearPoints) {
   const std::vector<Vec2> points = {{1, 1}, {0, 0}, {2, 0},     {1, 0}, {2, 2},
                                     {0, 2}, {2, 2}, {0.5, 0.7}, {0, 1}};
   std::vector<Vec2> hull;
@@ -142,17 +144,18 @@ TEST(ConvexHull, DropsInnerRepeatedAndCollinearPoints) {
   EXPECT_DOUBLE_EQ(polygon_area(hull), 4.0);
 }
 
-TEST(ConvexHull, PointsOnALineHaveNone) {
+TEST(ConvexHull, OfCollinearPointsIsEmpty) {
   const std::vector<Vec2> points = {{0, 0}, {1, 1}, {2, 2}, {3, 3}};
   EXPECT_TRUE(convex_hull(points, kTolerance).empty());
 }
 
-TEST(PolygonWidth, RectangleAndTriangle) {
+TEST(PolygonWidth, OfRectangleAndTriangle) {
   EXPECT_DOUBLE_EQ(polygon_width(box(0, 0, 3, 0.5)), 0.5);
   EXPECT_NEAR(polygon_width(regular_polygon(3, 1.0)), 1.5, 1e-15);  // its height
 }
 
-/// Second moments of a polygon by the closed formula over its edges, independent of the triangles used.
+/// Moments of a polygon up to second order, from the closed formula over its edges. Independent of the
+/// triangles of the quadrature.
 Eigen::Matrix3d exact_moments(const std::vector<Vec2>& p) {
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -178,30 +181,31 @@ Eigen::Matrix3d summed_moments(const std::vector<PatchPoint>& points) {
   return moments;
 }
 
-TEST(PatchQuadrature, IsExactToSecondMoments) {
-  const std::vector<std::vector<Vec2>> polygons = {{{0, 0}, {2, 0.1}, {0.3, 1}},          // triangle
-                                                   box(1, 2, 3, 2.5),                     // rectangle
-                                                   {{0, 0}, {2, 0}, {2.5, 1}, {0.5, 1}},  // parallelogram
-                                                   {{0, 0}, {4, 0}, {3, 1}, {1, 1}},      // trapezoid
-                                                   {{0, 0}, {4, -1}, {5, 3}, {1, 1}},     // any quadrilateral
-                                                   regular_polygon(5, 2.0, 0.2),
-                                                   regular_polygon(8, 0.5, 0.7)};
+TEST(PatchQuadrature, IsExactForSecondMoments) {
+  const std::vector<std::vector<Vec2>> polygons = {
+      {{0, 0}, {2, 0.1}, {0.3, 1}},          // triangle
+      box(1, 2, 3, 2.5),                     // rectangle
+      {{0, 0}, {2, 0}, {2.5, 1}, {0.5, 1}},  // parallelogram
+      {{0, 0}, {4, 0}, {3, 1}, {1, 1}},      // trapezoid
+      {{0, 0}, {4, -1}, {5, 3}, {1, 1}},     // general quadrilateral
+      regular_polygon(5, 2.0, 0.2),
+      regular_polygon(8, 0.5, 0.7)};
   for (const auto& polygon : polygons) {
     const auto points = quadrature_points(polygon);
     const Eigen::Matrix3d exact = exact_moments(polygon);
-    // A few roundings of sums over at most 17 points.
+    // Rounding errors of sums over at most 17 points.
     EXPECT_LT((summed_moments(points) - exact).norm(), 1e-14 * exact.norm()) << polygon.size() << " corners";
     for (const PatchPoint& p : points) EXPECT_GT(p.area, 0.0);
   }
 }
 
-TEST(PatchQuadrature, NumberOfPoints) {
+TEST(PatchQuadrature, HasTheDocumentedNumberOfPoints) {
   EXPECT_EQ(quadrature_points(regular_polygon(3, 1.0)).size(), 4u);
   EXPECT_EQ(quadrature_points(box(0, 0, 2, 1)).size(), 5u);
   EXPECT_EQ(corner_points(box(0, 0, 2, 1)).size(), 4u);
 }
 
-TEST(PatchQuadrature, SharesOfTheSquare) {
+TEST(PatchQuadrature, HasTheDocumentedWeightsOnASquare) {
   for (const PatchPoint& p : quadrature_points(box(0, 0, 1, 1)))
     EXPECT_NEAR(p.area, p.corner < 0 ? 2.0 / 3.0 : 1.0 / 12.0, 1e-15);
 }

@@ -9,8 +9,8 @@ namespace {
 
 using namespace testing;  // the scenes
 
-/// Contacts that a solver could be given: finite, with unit normals.
-void expect_sound_contacts(const Assembly& scene, const DetectionOptions& options = {}) {
+/// Checks that all contacts are finite and have unit normals and positive areas.
+void expect_valid_contacts(const Assembly& scene, const DetectionOptions& options = {}) {
   const ContactSet set = ContactDetector(scene, options).update(initial_poses(scene));
   for (const Contact& contact : set.points) {
     EXPECT_TRUE(contact.point_a.allFinite() && contact.point_b.allFinite());
@@ -25,19 +25,19 @@ std::string only_warning(const Assembly& scene, const DetectionOptions& options 
   return warnings.size() == 1 ? warnings[0] : std::to_string(warnings.size()) + " warnings";
 }
 
-TEST(GeometryWarnings, NoneForSoundScenes) {
+TEST(GeometryWarnings, AreEmptyForValidScenes) {
   EXPECT_TRUE(geometry_warnings(running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4, 2), {}).empty());
   const Eigen::Isometry3d far(Eigen::Translation3d(1e6, -1e6, 0));
   EXPECT_TRUE(geometry_warnings(transformed(running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4), far), {}).empty());
 }
 
-TEST(GeometryWarnings, OverlapsNameBothBlocksAndTheDepth) {
+TEST(GeometryWarnings, OfAnOverlapStateBlocksAndDepth) {
   const Assembly scene = make_boxes({{.fixed = true}, {.center = {0, 0, 0.995}}, {.center = {0, 0, 1.995}}});
-  EXPECT_EQ(only_warning(scene), "blocks 0 and 1 overlap by 0.005 m");
-  expect_sound_contacts(scene);
+  EXPECT_EQ(only_warning(scene), "blocks 0 and 1 overlap by 0.005 m: their contacts start compressed");
+  expect_valid_contacts(scene);
 }
 
-TEST(GeometryWarnings, RefuseOverlapsBeyondTheMargin) {
+TEST(GeometryWarnings, RejectOverlapsBeyondTheMargin) {
   const auto message = [](const Assembly& scene) {
     try {
       geometry_warnings(scene, {});
@@ -47,13 +47,15 @@ TEST(GeometryWarnings, RefuseOverlapsBeyondTheMargin) {
     return std::string();
   };
   const Assembly coincident = make_boxes({{}, {}});
-  EXPECT_EQ(message(coincident), "error: blocks 0 and 1 overlap by 1 m, more than contact.margin = 0.01 m");
+  const std::string what_to_do = ": correct the geometry or increase contact.margin";
+  EXPECT_EQ(message(coincident),
+            "error: blocks 0 and 1 overlap by 1 m, more than contact.margin = 0.01 m" + what_to_do);
   EXPECT_EQ(message(make_boxes({{.fixed = true}, {.center = {0, 0, 0.98}}})),
-            "error: blocks 0 and 1 overlap by 0.02 m, more than contact.margin = 0.01 m");
-  expect_sound_contacts(coincident);
+            "error: blocks 0 and 1 overlap by 0.02 m, more than contact.margin = 0.01 m" + what_to_do);
+  expect_valid_contacts(coincident);
 }
 
-TEST(GeometryWarnings, CrossingBarsThatOnlyTheirEdgesPartDoNotOverlap) {
+TEST(GeometryWarnings, AreEmptyForCrossingBarsSeparatedOnlyByAnEdgePair) {
   const double half_diagonal = std::sqrt(0.5);
   const Assembly scene =
       make_boxes({{.fixed = true, .rotation = Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 4, Vec3::UnitX()))},
@@ -62,36 +64,37 @@ TEST(GeometryWarnings, CrossingBarsThatOnlyTheirEdgesPartDoNotOverlap) {
   EXPECT_TRUE(geometry_warnings(scene, {}).empty());
 }
 
-TEST(GeometryWarnings, SliversAreLeftOutAndNamed) {
+TEST(GeometryWarnings, ReportIgnoredSlivers) {
   const Assembly scene = make_boxes({{.fixed = true}, {.center = {1 - 5e-4, 0, 1}}});
-  EXPECT_EQ(only_warning(scene), "blocks 0 and 1: a joint only 0.0005 m wide is left out");
+  EXPECT_EQ(only_warning(scene), "blocks 0 and 1: a joint only 0.0005 m wide is ignored");
   EXPECT_TRUE(ContactDetector(scene, {}).update(initial_poses(scene)).points.empty());
 }
 
-TEST(GeometryWarnings, PartsThinnerThanTheMargin) {
+TEST(GeometryWarnings, ReportPartsThinnerThanTheMargin) {
   const Assembly scene = make_boxes({{.fixed = true}, {.center = {0, 0, 0.5005}, .size = {1, 1, 0.001}}});
   DetectionOptions options;
   options.margin = 0.002;
-  EXPECT_EQ(only_warning(scene, options),
-            "block 1: a part only 0.001 m thick is thinner than contact.margin = 0.002 m");
-  expect_sound_contacts(scene, options);
+  EXPECT_EQ(
+      only_warning(scene, options),
+      "block 1: a part is only 0.001 m thick, thinner than contact.margin = 0.002 m; reduce the margin");
+  expect_valid_contacts(scene, options);
 }
 
-TEST(GeometryWarnings, SliverPartsNeitherCrashNorGiveNaN) {
+TEST(GeometryWarnings, VeryThinPartsGiveValidContacts) {
   for (const double thickness : {1e-6, 1e-9, 1e-12}) {
     Assembly scene = box_on_floor(Vec3(1, 1, 1));
     add_block({}, &scene);
     add_box_part({.center = {0, 0, 1.5}}, false, true, &scene);
     add_box_part({.center = {0.5 + thickness / 2, 0, 1.5}, .size = {thickness, 1, 1}}, true, false, &scene);
     compute_mass_properties(&scene);
-    expect_sound_contacts(scene);
+    expect_valid_contacts(scene);
     DetectionOptions perturbed;
     perturbed.perturbed_gjk = PerturbedGjkOptions{};
     EXPECT_THROW(ContactDetector(scene, perturbed), InputError) << thickness;
   }
 }
 
-TEST(GeometryWarnings, FacesWithoutAreaAreErrors) {
+TEST(GeometryWarnings, RejectFacesWithoutArea) {
   Assembly scene = box_on_floor(Vec3(1, 1, 1));
   scene.vertices[9] = scene.vertices[8];
   scene.vertices[11] = scene.vertices[10];

@@ -11,7 +11,8 @@ namespace {
 
 using testing::BoxSpec;
 
-/// A floor with `stacks` stacks of two cubes, 3 m apart, and a cube dropped from 1 m on the first stack.
+/// A floor with `number` stacks of two cubes, 3 m apart; optionally a cube dropped from 1 m onto the first
+/// stack.
 Assembly stacks(int number, bool dropped) {
   std::vector<BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {200, 3, 1}, .fixed = true}};
   for (int k = 0; k < number; ++k)
@@ -20,7 +21,7 @@ Assembly stacks(int number, bool dropped) {
   return testing::make_boxes(boxes);
 }
 
-Case sleepy(double duration) {
+Case sleeping_case(double duration) {
   Case scene = testing::make_case(0.4, 1e-9, 0.01);
   scene.analysis.tolerance = 1e-9;
   scene.analysis.duration = duration;
@@ -30,48 +31,47 @@ Case sleepy(double duration) {
   return scene;
 }
 
-TEST(Islands, AreTheBlocksThatContactsJoinWithoutTheFixedOnes) {
+TEST(Islands, AreFreeBlocksConnectedByContacts) {
   const Assembly assembly = stacks(3, false);
-  const Case scene = sleepy(1.0);
+  const Case scene = sleeping_case(1.0);
   const Model model = make_model(scene, assembly);
   ContactDetector detector(assembly, detection_options(scene));
   const std::vector<int> islands = islands_of(model, detector.update(state_at_rest(model).poses));
   EXPECT_EQ(islands, (std::vector<int>{0, 0, 2, 2, 4, 4}));
 }
 
-TEST(Islands, SleepAtRestAndCarryTheirWeightOn) {
+TEST(Islands, FallAsleepAtRestAndKeepTheirForces) {
   const Assembly assembly = stacks(3, false);
-  Simulation run = testing::simulate(sleepy(1.0), assembly);
+  Simulation run = testing::simulate(sleeping_case(1.0), assembly);
   StepReport report;
   for (int k = 0; k < 100; ++k) report = run.advance();
-  EXPECT_EQ(report.asleep, 6);
+  EXPECT_EQ(report.num_asleep, 6);
   EXPECT_EQ(report.problem.problem.num_blocks(), 0);
   EXPECT_EQ(report.problem.problem.num_contacts(), 0);
   const double weight = run.model().free_weight;
-  // They fell asleep while still slower than 1e-3 m/s, that is out of balance by less than 1e-3 / (g h).
+  // They fell asleep at speeds below 1e-3 m/s, so the relative imbalance is below 1e-3 / (g h).
   EXPECT_NEAR(report.balance.support_reaction.z() / weight, 1.0, 1e-3 / (9.81 * 0.01));
 }
 
-TEST(Islands, WakeWhenSomethingArrives) {
+TEST(Islands, WakeWhenABlockArrives) {
   const Assembly assembly = stacks(3, true);
-  Case scene = sleepy(1.0);
+  Case scene = sleeping_case(1.0);
   Simulation run = testing::simulate(scene, assembly);
   bool first_slept = false, first_woke = false;
   for (int k = 0; k < 200; ++k) {
-    const int asleep = run.advance().asleep;
+    const int asleep = run.advance().num_asleep;
     if (run.state().time < 0.4) first_slept = first_slept || asleep == 6;
     if (first_slept) first_woke = first_woke || asleep == 4;
   }
   EXPECT_TRUE(first_slept);
   EXPECT_TRUE(first_woke);
-  // The cube dropped lies on the first stack, whose blocks have not moved aside.
+  // The dropped cube rests on the first stack, whose blocks stayed in place.
   EXPECT_NEAR(run.state().poses.back().p_WB.z(), 2.5, 1e-2);
 }
 
-// What does not sleep is solved as if nobody slept.
-TEST(Islands, SleepersLeaveTheMotionOfOthersAlone) {
+TEST(Islands, SleepingOnesDoNotChangeTheMotionOfOthers) {
   const Assembly assembly = stacks(4, true);
-  Case scene = sleepy(1.0);
+  Case scene = sleeping_case(1.0);
   Simulation with = testing::simulate(scene, assembly);
   scene.analysis.sleep.reset();
   Simulation without = testing::simulate(scene, assembly);
@@ -83,22 +83,22 @@ TEST(Islands, SleepersLeaveTheMotionOfOthersAlone) {
   EXPECT_NEAR((p.p_WB - q.p_WB).norm(), 0.0, 1e-9);
 }
 
-TEST(Islands, GoOnWithTheSameBitsAfterARestore) {
+TEST(Islands, ContinueWithTheSameBitsAfterRestoring) {
   const Assembly assembly = stacks(2, true);
-  Simulation run = testing::simulate(sleepy(1.0), assembly);
+  Simulation run = testing::simulate(sleeping_case(1.0), assembly);
   for (int k = 0; k < 30; ++k) run.advance();
   run.forget_factor();
-  Simulation again = testing::simulate(sleepy(1.0), assembly);
+  Simulation again = testing::simulate(sleeping_case(1.0), assembly);
   again.restore(run.save());
   for (int k = 0; k < 60; ++k) {
-    EXPECT_EQ(run.advance().asleep, again.advance().asleep);
+    EXPECT_EQ(run.advance().num_asleep, again.advance().num_asleep);
   }
   EXPECT_EQ(run.state().v, again.state().v);
 }
 
-TEST(Islands, DoNotSleepUnderWhatVariesInTime) {
+TEST(Islands, CannotSleepIfFrictionVariesInTime) {
   const Assembly assembly = stacks(1, false);
-  Case scene = sleepy(0.1);
+  Case scene = sleeping_case(0.1);
   scene.joints.friction_time = RampInTime{};
   EXPECT_THROW(run_dynamic(scene, assembly, {}), InputError);
 }

@@ -8,15 +8,15 @@ namespace {
 
 using testing::make_case;
 
-struct Sorted {
+struct WallLaws {
   JointLaw base, bed, head;
 };
 
 /// Laws of the joints of a two-course wall: on the floor, between the courses, within the upper course.
-Sorted laws_of(const Joints& joints, const Assembly& wall) {
+WallLaws laws_of(const Joints& joints, const Assembly& wall) {
   const JointTable table(joints, 2);
   ContactDetector detector(wall, {});
-  Sorted laws;
+  WallLaws laws;
   const ContactSet& set = detector.update(initial_poses(wall));
   for (const Patch& patch : set.patches) {
     const JointLaw law = table.law(wall, patch, 2.0);
@@ -27,14 +27,14 @@ Sorted laws_of(const Joints& joints, const Assembly& wall) {
   return laws;
 }
 
-TEST(JointLaws, RingBeatsSortBeatsGeneral) {
+TEST(JointLaws, LawOfARingOverridesLawOfAClassOverridesGeneralLaw) {
   const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 3, 2);
   Joints joints;
   joints.friction = 0.4;
   joints.compliance = {1e-8, 2e-8, Compliance::Per::point};
   joints.bed = JointLawChange{.friction = 0.3, .normal = 5e-8, .tangential = {}};
   joints.base = JointLawChange{.friction = 0.7, .normal = {}, .tangential = {}};
-  Sorted laws = laws_of(joints, wall);
+  WallLaws laws = laws_of(joints, wall);
   EXPECT_EQ(laws.base.mu, 0.7);
   EXPECT_EQ(laws.bed.mu, 0.3);
   EXPECT_EQ(laws.bed.compliance_normal, 5e-8);
@@ -52,7 +52,7 @@ TEST(JointLaws, RingBeatsSortBeatsGeneral) {
   laws = laws_of(joints, wall);
   EXPECT_EQ(laws.base.mu, 0.7) << "ring 0";
   EXPECT_EQ(laws.bed.mu, 0.2) << "ring 1";
-  EXPECT_EQ(laws.head.mu, 0.1) << "the last group that fits";
+  EXPECT_EQ(laws.head.mu, 0.1) << "the last group that applies";
 }
 
 TEST(JointLaws, CompliancePerAreaIsDividedByTheArea) {
@@ -63,24 +63,23 @@ TEST(JointLaws, CompliancePerAreaIsDividedByTheArea) {
   EXPECT_EQ(laws_of(joints, wall).bed.compliance_tangential, 1e-8);
 }
 
-// A joint with a herringbone block has the herringbone law unless it lies on a support.
-TEST(JointLaws, HerringboneBlocksMakeHerringboneJoints) {
+TEST(JointLaws, JointsOfHerringboneBlocksAreHerringboneExceptOnSupports) {
   Assembly stack = testing::stack_of_cubes(1.0, {1000.0, 1000.0});
   stack.blocks[1].kind = BlockKind::herringbone;
   Patch patch;
   patch.block_a = 1;
   patch.block_b = 2;
   patch.kind = JointKind::bed;
-  EXPECT_EQ(joint_sort(stack, patch), JointSort::herringbone_bed);
+  EXPECT_EQ(joint_class(stack, patch), JointClass::herringbone_bed);
   patch.block_a = 0;
   patch.block_b = 1;
   patch.kind = JointKind::base;
-  EXPECT_EQ(joint_sort(stack, patch), JointSort::base);
+  EXPECT_EQ(joint_class(stack, patch), JointClass::base);
 }
 
-// A block on an incline of slope 0.3 under friction that falls from 0.4 to 0.2 in 1 s: it lets go when
-// mu = 0.3, at t = 0.5 s, and then gains speed at g (sin a - mu(t) cos a).
-TEST(FrictionInTime, LetsABlockGoWhenItFallsBelowTheSlope) {
+// A block on an incline with slope tan a = 0.3 while friction falls from 0.4 to 0.2 in 1 s. It starts to
+// slide when mu = 0.3, at t = 0.5 s, and then accelerates by g (sin a - mu(t) cos a).
+TEST(FrictionInTime, BlockSlidesWhenFrictionFallsBelowTheSlope) {
   const Assembly assembly = testing::box_on_floor({1.0, 1.0, 0.2});
   const double h = 1e-3;
   Case scene = make_case(0.4, 1e-14, h);
@@ -90,8 +89,9 @@ TEST(FrictionInTime, LetsABlockGoWhenItFallsBelowTheSlope) {
   for (int step = 0; step < 490; ++step) simulation.advance();
   EXPECT_LT(simulation.state().v.norm(), 1e-6);
   for (int step = 490; step < 1000; ++step) simulation.advance();
-  // Integral of g cos a (0.3 - mu) from 0.5 to 1 s with mu falling 0.2 per second; first order in h, plus the
-  // lag of the associated law, A h mu^2.
+  // Integral of g cos a (0.3 - mu) from 0.5 to 1 s with mu falling by 0.2 per second. Tolerance: the scheme
+  // is first order in h, and the associated law lags by A h mu^2 (see
+  // Incline.SlidesAsTheClosedFormOfTheAssociatedScheme).
   const double expected = testing::kG * std::cos(std::atan(0.3)) * 0.1 * 0.25;
   EXPECT_NEAR(simulation.state().v[0], expected, 3 * testing::kG * h);
 }

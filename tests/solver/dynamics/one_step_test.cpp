@@ -2,11 +2,11 @@
 
 #include "tests/solver/motion_scenes.hpp"
 
-// With rigid contacts (E = 0), closed joints and v = 0 the speed that one step from rest gives to a structure
-// is a property of geometry and friction alone: |v| / (g h) depends on neither density, scale nor h, and is 0
-// exactly where forces within the friction cones balance the dead load. The numbers come from another
-// program: non-negative least squares over the edges of the plane cones. It took the larger of the horizontal
-// and the vertical component of each block's velocity, not its norm.
+// With rigid contacts (E = 0), closed joints and v = 0, the speed after one step from rest depends only on
+// geometry and friction: |v| / (g h) is independent of density, scale and h. It is 0 exactly when forces
+// within the friction cones balance the dead load. The reference values come from another program, which
+// solved a non-negative least squares problem over the edges of the plane cones. They are the larger of the
+// horizontal and the vertical component of the block velocities, not the norm.
 
 namespace cupola::one_step_test {
 namespace {
@@ -38,14 +38,14 @@ void expect_speed(double found, double expected, double at) {
 
 const Vec3 kDown(0.0, 0.0, -testing::kG);
 
-// Thickness by fractions of the least one: the speeds near the limit hang on its fifth digit.
+// Thickness relative to the minimum thickness, on whose fifth digit the speeds near the limit depend.
 TEST(OneStep, SpeedOfASemicircleTooThin) {
-  constexpr double kLeast = 0.10672;
-  for (const Row& row : std::initializer_list<Row>{{1.0008 * kLeast, 0.0},
-                                                   {0.99 * kLeast, .006331},
-                                                   {0.98 * kLeast, .01264},
-                                                   {0.95 * kLeast, .03142},
-                                                   {0.90 * kLeast, .06221},
+  constexpr double kMinimum = 0.10672;  // t/R
+  for (const Row& row : std::initializer_list<Row>{{1.0008 * kMinimum, 0.0},
+                                                   {0.99 * kMinimum, .006331},
+                                                   {0.98 * kMinimum, .01264},
+                                                   {0.95 * kMinimum, .03142},
+                                                   {0.90 * kMinimum, .06221},
                                                    {0.08, .1587}})
     expect_speed(speed_after_one_step(testing::make_arch({.thickness = row.at}), 0.8, kDown), row.speed,
                  row.at);
@@ -71,8 +71,7 @@ TEST(OneStep, SpeedOfTheWallOfFerrisAndTinLoi) {
                  row.speed, row.at);
 }
 
-// The same block weighs, measures and steps as it likes.
-TEST(OneStep, SpeedDependsOnGeometryAndFrictionAlone) {
+TEST(OneStep, SpeedDependsOnlyOnGeometryAndFriction) {
   const testing::ArchSpec arch{.voussoirs = 11, .thickness = 0.09};
   const double speed = speed_after_one_step(testing::make_arch(arch), 0.8, kDown);
   EXPECT_GT(speed, 1e-2);

@@ -14,8 +14,12 @@ using testing::make_case;
 using testing::simulate;
 using testing::tilted_gravity;
 
-// Block 1.0 x 0.2 on an incline, tan a = 0.5 > mu = 0.4: discrete associated scheme in closed form,
-// s_N = A h [N - mu^2 (1 - r^N)], r = mu^2/(1 + mu^2), A = g (sin a - mu cos a); gap after the step h mu s_N.
+// Block 1.0 x 0.2 m on an incline with tan a = 0.5 > mu = 0.4. Closed form of the discrete associated scheme
+// for the speed s_N after step N:
+//
+//     s_N = A h [N - mu^2 (1 - r^N)],   r = mu^2 / (1 + mu^2),   A = g (sin a - mu cos a)
+//
+// The gap after the step is h mu s_N.
 TEST(Incline, SlidesAsTheClosedFormOfTheAssociatedScheme) {
   const Assembly assembly = testing::box_on_floor({1.0, 0.5, 0.2});
   const double h = 0.01, mu = 0.4;
@@ -52,7 +56,9 @@ TEST(Incline, SticksBelowTheFrictionAngleAndSlidesAbove) {
   }
 }
 
-// Mass on a spring of stiffness k = n / c, implicit Euler: v' = (v - g h - w2 h y)/(1 + w2 h (h + alpha)).
+// Mass m on a spring of stiffness k = n / c for n contacts, implicit Euler, w2 = k / m:
+//
+//     v' = (v - g h - w2 h y) / (1 + w2 h (h + alpha)),   y' = y + h v'
 TEST(NormalCompliance, IsTheImplicitEulerSpring) {
   const Assembly assembly = testing::box_on_floor({1, 1, 1}, 1000.0);
   const double h = 0.002, k = 2e6, w2 = k / 1000.0;
@@ -81,8 +87,8 @@ TEST(NormalCompliance, RestsAtItsElasticDepth) {
   EXPECT_NEAR(simulation.state().poses[1].p_WB.z() - 0.5, -2e-6 * 1000.0 * kG / 4.0, 1e-9 * 5e-3);
 }
 
-// Tangential force T per contact on a sticking block. `literal` (paper): creeps for ever at u = c T / h.
-// `memory`: rests at the static offset c T.
+// Tangential force T per contact on a sticking block. `literal` (paper): creeps at u = c T / h. `memory`:
+// rests at the static offset c T.
 TEST(TangentialSpring, CreepsWhenLiteralAndRestsWithMemory) {
   const Assembly assembly = testing::box_on_floor({4, 4, 0.5}, 1000.0);
   const double h = 0.01, c = 1e-10;
@@ -100,15 +106,15 @@ TEST(TangentialSpring, CreepsWhenLiteralAndRestsWithMemory) {
   Simulation memory = simulate(scene, assembly);
   for (int step = 0; step < 2000; ++step) memory.advance();
   EXPECT_LT(memory.state().v.norm(), 1e-10);
-  // The foot has moved by c T; the centroid also leans with the foot's tilt about y.
+  // The foot moves by c T. The centroid moves further because the block tilts about y.
   const Pose& pose = memory.state().poses[1];
   const Vec3 foot = pose.p_WB + pose.q_WB * Vec3(0, 0, -0.25);
   EXPECT_NEAR(foot.x() / (c * T), 1.0, 1e-6);
 }
 
-// With the recovery limit on, a compliant stack must keep its elastic depth c F: paper eq. 14 taken literally
-// would cap the force at eps_u h / c = 5 kN here, where the foot of the stack carries 5 MN.
-TEST(RecoveryLimit, LeavesElasticDepthAlone) {
+// A compliant stack must keep its elastic depth c F under the recovery limit. Paper eq. 14 taken literally
+// would limit the force to eps_u h / c = 5 kN, while the foot of the stack carries 5 MN.
+TEST(RecoveryLimit, DoesNotChangeElasticDepth) {
   const Assembly assembly = testing::stack_of_cubes(2.0, std::vector<double>(5, 12742.0));
   Case scene = make_case(0.4, 1e-8, 0.01, 0.05);
   scene.analysis.recovery_speed = 0.005;
@@ -123,7 +129,7 @@ TEST(RecoveryLimit, LeavesElasticDepthAlone) {
   }
 }
 
-TEST(RecoveryLimit, CapsTheSpeedOfUnexplainedPenetration) {
+TEST(RecoveryLimit, LimitsTheRecoveryOfInitialOverlap) {
   Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {20, 20, 1}, .fixed = true},
                                            {.center = {0, 0, 0.4999}, .size = {1, 1, 1}}});
   Case scene = make_case(0.4, 1e-12, 0.001);
@@ -133,9 +139,9 @@ TEST(RecoveryLimit, CapsTheSpeedOfUnexplainedPenetration) {
   EXPECT_NEAR(simulation.state().v[2], 0.01, 1e-4);
 }
 
-// Rigid plate on four legs at (+-1, +-1), load W at (0.3, 0.2): F = W (0.375, 0.275, 0.225, 0.125), whatever
-// the compliance. The legs have feet of half-width a, so that the corner points sit at 1 +- a: the eccentric
-// shares are those of point legs over (1 + a^2).
+// Rigid plate on four legs at (+-1, +-1) with its weight W at (0.3, 0.2): F = W (0.375, 0.275, 0.225, 0.125)
+// for any compliance. The feet have the half-width a, so that the contact points are at 1 +- a, which divides
+// the deviations of the forces from W / 4 by 1 + a^2.
 TEST(Table, SharesAnEccentricLoadAmongFourLegs) {
   const double a = 0.01;
   Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {20, 20, 1}, .fixed = true}});

@@ -15,39 +15,39 @@ using testing::kG;
 using testing::make_case;
 using testing::simulate;
 
-/// All fixed blocks move by `displacement` within `duration`.
-SupportMove shove(const Vec3& displacement, double duration) {
+/// All fixed blocks move by `displacement` (m) within `duration` (s).
+SupportMove move_supports(const Vec3& displacement, double duration) {
   SupportMove move;
   move.displacement = displacement;
   move.time = RampInTime{.from = 0.0, .to = 1.0, .start = 0.0, .duration = duration};
   return move;
 }
 
-// A plate that starts at V under a block: friction speeds the block up at mu g until it moves along. The
-// discrete associated scheme lags by its dilation, A h mu^2 (VERIFICATION 1.1); afterwards both move
+// A plate starts to move at speed V under a block. Friction accelerates the block by mu g until both move
 // together.
 TEST(MovingSupport, DragsABlockByFriction) {
   const Assembly assembly = testing::box_on_floor({1.0, 1.0, 0.2});
   const double h = 1e-3, mu = 0.3, V = 1.0;
   Case scene = make_case(mu, 1e-14, h);
-  scene.supports.moves = {shove({V, 0, 0}, 1.0)};
+  scene.supports.moves = {move_supports({V, 0, 0}, 1.0)};
   Simulation simulation = simulate(scene, assembly);
   for (int step = 0; step < 200; ++step) simulation.advance();
-  // Sliding dilates: mu |slip| of upward velocity in the first step, whose impulse costs friction once.
+  // Under the associated law sliding dilates: the block gains an upward velocity mu V in the first step, and
+  // the impulse that causes it adds friction once.
   EXPECT_NEAR(simulation.state().v[0], mu * kG * 0.2, mu * mu * V + 1e-3);
   for (int step = 200; step < 900; ++step) simulation.advance();
   EXPECT_NEAR(simulation.state().v[0], V, 1e-6);
   EXPECT_NEAR(simulation.state().poses[0].p_WB.x(), 0.9 * V, 1e-9);
 }
 
-// A lift: the block rises with its support, and weighs more while the support speeds up.
-TEST(MovingSupport, LiftsABlockAndLoadsItWhileItSpeedsUp) {
+// A lift: the block rises with its support, and the reaction is m (g + a) while the support accelerates.
+TEST(MovingSupport, LiftsABlockWithTheReactionOfItsAcceleration) {
   const Assembly assembly = testing::box_on_floor({1.0, 1.0, 1.0});
   const double h = 1e-3, a = 2.0;
   Case scene = make_case(0.3, 1e-12, h);
   SupportMove move;
   move.displacement = Vec3(0, 0, 1);
-  TableInTime table;  // half a t^2 on a fine grid
+  TableInTime table;  // a t^2 / 2 on a fine grid
   for (int i = 0; i <= 1000; ++i) {
     table.times.push_back(i * h);
     table.values.push_back(0.5 * a * i * h * i * h);
@@ -61,8 +61,8 @@ TEST(MovingSupport, LiftsABlockAndLoadsItWhileItSpeedsUp) {
   EXPECT_NEAR(report.balance.support_reaction.z() / (1000.0 * (kG + a)), 1.0, 1e-6);
 }
 
-// A floor that tips gently by 30 degrees about y carries along a block that sticks to it, as a rigid whole.
-TEST(MovingSupport, TurnsWhatSticksToIt) {
+// A floor rotates slowly by 30 degrees about y. A sticking block rotates with it like a rigid body.
+TEST(MovingSupport, RotatesAStickingBlock) {
   const Assembly assembly = testing::box_on_floor({1.0, 1.0, 0.2});
   Case scene = make_case(2.0, 1e-10, 1e-2, 0.01);
   SupportMove move;
@@ -79,7 +79,7 @@ TEST(MovingSupport, TurnsWhatSticksToIt) {
   for (int step = 0; step < 500; ++step) simulation.advance();
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(std::numbers::pi / 6, Vec3::UnitY()));
   const Vec3 expected = move.pivot + turn * (Vec3(0, 0, 0.1) - move.pivot);
-  // Every step of 5 mm misses the arc by its sagitta, at most 5e-3^2 / (2 * 5) each, 400 times.
+  // Each step of at most 5 mm deviates from the arc by its sagitta, 5e-3^2 / (2 * 5) m; there are 400 steps.
   EXPECT_LT((simulation.state().poses[1].p_WB - expected).norm(), 1e-3);
   EXPECT_LT(simulation.state().poses[1].q_WB.angularDistance(turn), 1e-3);
   EXPECT_LT(simulation.state().v.norm(), 1e-6);
@@ -98,7 +98,7 @@ TEST(BaseMotion, ReadsDisplacementsAndIntegratesAccelerations) {
   EXPECT_DOUBLE_EQ(displacement.values[2], 0.5);
 }
 
-TEST(BaseMotion, NamesTheLineThatIsWrong) {
+TEST(BaseMotion, ErrorsStateLineAndRule) {
   const std::string path = ::testing::TempDir() + "/motion.csv";
   const auto message = [&](const char* text) {
     std::ofstream(path) << text;
@@ -117,7 +117,7 @@ TEST(BaseMotion, NamesTheLineThatIsWrong) {
   EXPECT_THROW(read_time_table(path + ".absent"), InputError);
 }
 
-TEST(MovingSupport, RefusesFreeBlocks) {
+TEST(MovingSupport, RejectsFreeOrMissingBlocks) {
   const Assembly assembly = testing::box_on_floor({1, 1, 1});
   Case scene;
   scene.supports.moves = {SupportMove{}};

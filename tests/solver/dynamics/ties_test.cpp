@@ -15,7 +15,7 @@ using testing::kG;
 using testing::make_case;
 using testing::simulate;
 
-/// A fixed ceiling and a cube of 1000 kg hanging below it, one metre of air between.
+/// A fixed ceiling and a cube of 1000 kg, 1 m below it.
 Assembly hanging_cube() {
   return testing::make_boxes(
       {{.center = {0, 0, 3}, .size = {4, 4, 1}, .fixed = true}, {.center = {0, 0, 1}, .size = {1, 1, 1}}});
@@ -32,9 +32,11 @@ PairTie vertical_tie(double stiffness, double prestress = 0.0) {
   return tie;
 }
 
-// A weight on a spring from rest, implicit Euler with step h and damping alpha, k = stiffness:
-// v' = (v - g h - w2 h y) / (1 + w2 h (h + alpha)), y' = y + h v'.
-TEST(Tie, IsTheImplicitEulerSpringWhenItPulls) {
+// A mass m on a spring of stiffness k, released at rest; implicit Euler with step h, damping alpha, w2 = k /
+// m:
+//
+//     v' = (v - g h - w2 h y) / (1 + w2 h (h + alpha)),   y' = y + h v'
+TEST(Tie, InTensionIsTheImplicitEulerSpring) {
   const Assembly assembly = hanging_cube();
   const double h = 0.002, k = 1e6, w2 = k / 1000.0;
   for (const double alpha : {0.0, 0.01}) {
@@ -52,22 +54,22 @@ TEST(Tie, IsTheImplicitEulerSpringWhenItPulls) {
   }
 }
 
-TEST(Tie, HangsSlackWhenShort) {
+TEST(Tie, HasNoForceWhileSlack) {
   const Assembly assembly = hanging_cube();
   const double h = 0.001;
   Case scene = make_case(0.4, 1e-8, h);
   PairTie tie = vertical_tie(1e6);
-  tie.point_b = Vec3(0, 0, 0.5);  // 2 m long, through the cube: the cube falls, it tightens at once
+  tie.point_b = Vec3(0, 0, 0.5);  // 2 m long as generated
   scene.ties.pairs = {tie};
-  scene.loads.gravity = Vec3(0, 0, kG);  // the cube rises: nothing pulls
+  scene.loads.gravity = Vec3(0, 0, kG);  // the cube rises, so the tie becomes slack
   Simulation simulation = simulate(scene, assembly);
   for (int step = 0; step < 100; ++step) EXPECT_EQ(simulation.advance().forces.ties[0], 0.0);
   EXPECT_NEAR(simulation.state().v[2], kG * 0.1, 1e-12);
 }
 
-TEST(Tie, StaticForceIsTheWeightAndThePrestressHoldsACubeUpAgainstAStop) {
-  // The cube hangs below a stop that it touches: prestress P > W presses it on the stop with P - W minus what
-  // the joint yields.
+TEST(Tie, PrestressPressesACubeAgainstAStopInStatics) {
+  // The cube touches a stop above it. The prestress P > W presses it against the stop with the force P - W,
+  // less the part lost because the joint closes.
   const Assembly assembly = testing::make_boxes(
       {{.center = {0, 0, 2}, .size = {4, 4, 1}, .fixed = true}, {.center = {0, 0, 1}, .size = {1, 1, 1}}});
   const double W = 1000.0 * kG, P = 3.0 * W, k = 1e6, c = 1e-8;
@@ -95,12 +97,12 @@ TEST(Tie, StaticForceIsTheWeightAndThePrestressHoldsACubeUpAgainstAStop) {
   EXPECT_NEAR(on_stop / (P - W - k * d), 1.0, 1e-8);
 }
 
-// A rigid rod holds a cube from below as well as from above.
+// A rigid rod carries the cube in tension and, with gravity reversed, in compression.
 TEST(Rod, PushesAndPulls) {
   for (const double g : {-kG, kG}) {
     Assembly assembly = hanging_cube();
     ImportedTie rod;
-    rod.block_a = 1;  // ends given in the other order
+    rod.block_a = 1;  // blocks in the other order
     rod.block_b = 0;
     rod.point_a = Vec3(0, 0, 1.5);
     rod.point_b = Vec3(0, 0, 2.5);
@@ -122,8 +124,8 @@ TEST(Rod, PushesAndPulls) {
   }
 }
 
-// Ring of n equal radial outward forces Q on blocks on a frictionless floor: the tie force is Q / (2
-// sin(pi/n)).
+// Ring of n blocks on a frictionless floor, each under an equal outward radial force Q. The tie force is
+// Q / (2 sin(pi / n)).
 TEST(Chain, CarriesTheHoopForceOfARing) {
   const int n = 8;
   std::vector<testing::BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {40, 40, 1}, .fixed = true}};
@@ -153,7 +155,7 @@ TEST(Chain, CarriesTheHoopForceOfARing) {
     EXPECT_NEAR(force / (Q / (2.0 * std::sin(std::numbers::pi / n))), 1.0, 1e-6);
 }
 
-TEST(Tie, RefusesWhatCannotBe) {
+TEST(Tie, RejectsInvalidInput) {
   const Assembly assembly = hanging_cube();
   Case scene;
   PairTie tie = vertical_tie(1e6);
@@ -164,7 +166,7 @@ TEST(Tie, RefusesWhatCannotBe) {
   tie.point_b = tie.point_a;
   scene.ties.pairs = {tie};
   EXPECT_THROW(make_ties(scene, assembly), InputError);
-  scene.ties.pairs = {vertical_tie(1e3, 2e3)};  // stretched by 2 m, longer than it is
+  scene.ties.pairs = {vertical_tie(1e3, 2e3)};  // elongation of 2 m, more than its length
   EXPECT_THROW(make_ties(scene, assembly), InputError);
   scene.ties.pairs.clear();
   scene.ties.chains = {{.ring = 3}};
