@@ -109,8 +109,7 @@ void require_sleepable(const Case& scene, const Model& model) {
   if (varying || scene.supports.moving() || !model.ties.empty())
     throw InputError(
         "analysis.sleep: requires loads, friction and supports that are constant in time, and no ties; "
-        "remove "
-        "analysis.sleep or what varies");
+        "remove analysis.sleep or what varies in time");
 }
 
 }  // namespace cupola

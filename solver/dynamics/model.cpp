@@ -84,7 +84,7 @@ double reference_acceleration(const Model& model, const State& state) {
 }
 
 void integrate_positions(const Model& model, double h, double time_advance, State* state) {
-  CUPOLA_ASSERT(state->v.size() == 6 * model.num_free() && state->v.allFinite());
+  CUPOLA_ASSERT(state->v.size() == 6 * model.num_free());
   for (int i = 0; i < model.num_free(); ++i) {
     Pose& pose = state->poses[model.free_blocks[i]];
     pose.p_WB += h * state->v.segment<3>(6 * i);

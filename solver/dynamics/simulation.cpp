@@ -17,9 +17,9 @@ double step_error(const VecX& before, const VecX& after, double h) {
 /// Next step size, s. The error is proportional to h^2 in smooth motion. The change per step is limited, so
 /// that a single impact does not make the step size oscillate.
 double next_step(const AdaptiveStep& adaptive, double h, double error) {
-  const double wanted =
+  const double proposed =
       error > 0.0 ? 0.9 * h * std::sqrt(adaptive.displacement_error / error) : adaptive.largest;
-  return std::clamp(std::clamp(wanted, 0.2 * h, 2.0 * h), adaptive.smallest, adaptive.largest);
+  return std::clamp(std::clamp(proposed, 0.2 * h, 2.0 * h), adaptive.smallest, adaptive.largest);
 }
 
 [[maybe_unused]] bool is_finite(const State& state) {

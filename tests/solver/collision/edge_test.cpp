@@ -79,13 +79,13 @@ TEST(EdgeContact, CrossingEdgesGiveOnePoint) {
 // Diagonal neighbours touch along an edge or at a corner, where they transfer no force.
 TEST(EdgeContact, DiagonalNeighboursMakeNoContact) {
   const auto pair = [](const Vec3& center) { return make_boxes({{.fixed = true}, {.center = center}}); };
-  for (const double hair : {-1e-9, 0.0, 1e-9}) {
+  for (const double offset : {-1e-9, 0.0, 1e-9}) {
     const ContactSet edge =
-        ContactDetector(pair({1, 0, 1 + hair}), {}).update(initial_poses(pair({1, 0, 1 + hair})));
-    EXPECT_TRUE(edge.points.empty()) << hair;
+        ContactDetector(pair({1, 0, 1 + offset}), {}).update(initial_poses(pair({1, 0, 1 + offset})));
+    EXPECT_TRUE(edge.points.empty()) << offset;
     const ContactSet corner =
-        ContactDetector(pair({1, 1, 1 + hair}), {}).update(initial_poses(pair({1, 1, 1 + hair})));
-    EXPECT_TRUE(corner.points.empty()) << hair;
+        ContactDetector(pair({1, 1, 1 + offset}), {}).update(initial_poses(pair({1, 1, 1 + offset})));
+    EXPECT_TRUE(corner.points.empty()) << offset;
   }
 }
 

@@ -84,9 +84,9 @@ TEST(ClipConvexPolygon, CollinearCornersAreRemoved) {
 
 TEST(ClipConvexPolygon, IsEmptyWhenApartOrTouching) {
   EXPECT_TRUE(overlap(box(0, 0, 1, 1), box(2, 0, 3, 1)).empty());
-  for (const double hair : {-1e-9, 0.0}) {  // along an edge, at a corner
-    EXPECT_TRUE(overlap(box(0, 0, 1, 1), box(1 - hair, 0, 2, 1)).empty());
-    EXPECT_TRUE(overlap(box(0, 0, 1, 1), box(1 - hair, 1 - hair, 2, 2)).empty());
+  for (const double offset : {-1e-9, 0.0}) {  // along an edge, at a corner
+    EXPECT_TRUE(overlap(box(0, 0, 1, 1), box(1 - offset, 0, 2, 1)).empty());
+    EXPECT_TRUE(overlap(box(0, 0, 1, 1), box(1 - offset, 1 - offset, 2, 2)).empty());
   }
   EXPECT_NEAR(polygon_area(overlap(box(0, 0, 1, 1), box(1 - 1e-6, 0, 2, 1))), 1e-6, 1e-15);
 }

@@ -187,5 +187,20 @@ TEST(FreeFlight, KeepsAngularMomentumDirectionAndFallsFreely) {
   EXPECT_NEAR(simulation.energy().total() / energy, 1.0, 0.02);
 }
 
+TEST(SimulationOptions, IncludeAdaptiveStepsSleepAndStaticStart) {
+  Case scene = make_case(0.4, 1e-8, 0.01);
+  EXPECT_FALSE(simulation_options(scene).static_start);
+  scene.analysis.adaptive = AdaptiveStep{};
+  scene.analysis.sleep = Sleep{.speed = 2e-3, .time = 0.5};
+  scene.joints.friction_time = RampInTime{};
+  const SimulationOptions options = simulation_options(scene);
+  EXPECT_TRUE(options.adaptive);
+  ASSERT_TRUE(options.sleep);
+  EXPECT_EQ(options.sleep->speed, 2e-3);
+  EXPECT_TRUE(options.static_start) << "automatic: friction varies in time";
+  scene.analysis.start = Analysis::Start::rest;
+  EXPECT_FALSE(simulation_options(scene).static_start);
+}
+
 }  // namespace
 }  // namespace cupola::simulation_test
