@@ -32,6 +32,7 @@ constexpr std::array<MethodTraits, 6> kMethodTable{{
     {ContactMethod::admm,           false,  true,  false,    false,      stateless<solve_admm>},
 }};
 // clang-format on
+static_assert(kMethodTable.size() == enum_names(ContactMethod{}).size());
 
 }  // namespace
 

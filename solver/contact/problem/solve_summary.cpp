@@ -2,20 +2,6 @@
 
 namespace cupola {
 
-std::string to_string(SolveEnding ending) {
-  switch (ending) {
-    case SolveEnding::converged:
-      return "converged";
-    case SolveEnding::max_iterations:
-      return "max_iterations";
-    case SolveEnding::stalled:
-      return "stalled";
-    case SolveEnding::failed:
-      return "failed";
-  }
-  return "unknown";
-}
-
 void SolveSummary::add_work(const SolveSummary& other) {
   iterations += other.iterations;
   factorizations += other.factorizations;

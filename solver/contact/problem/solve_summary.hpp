@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "assembly/base/named_enum.hpp"
+
 namespace cupola {
 
 /// How a contact solve ended. Not converging is a result, not an exception.
@@ -12,7 +14,9 @@ enum class SolveEnding {
   stalled,         ///< no further progress in double precision; the solution is the best iterate
   failed  ///< invalid input, breakdown of a factorisation or infinite values; the solution is invalid
 };
-std::string to_string(SolveEnding ending);
+constexpr auto enum_names(SolveEnding) {
+  return std::array{"converged", "max_iterations", "stalled", "failed"};
+}
 
 struct SolveSummary {
   SolveEnding ending = SolveEnding::failed;
