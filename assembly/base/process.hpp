@@ -4,16 +4,16 @@
 
 namespace cupola {
 
-/// Version with the git revision compiled in, e.g. "0.1.0 (3f2a9c1)".
+/// Version and git revision of this build, e.g. "0.1.0 (3f2a9c1)".
 std::string program_version();
 
-/// Largest resident memory of this process so far, bytes.
+/// Peak resident memory of this process so far, bytes.
 long long peak_memory_bytes();
 
-/// Seconds of a monotonic clock.
+/// Time of a monotonic clock, s.
 double wall_seconds();
 
-/// Seconds of processor time that this process has used so far, its own and the system's for it.
+/// Processor time used by this process so far, user and system, s.
 double cpu_seconds();
 
 }  // namespace cupola

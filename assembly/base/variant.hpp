@@ -2,12 +2,12 @@
 
 namespace cupola {
 
-/// One function object out of several lambdas, for std::visit.
+/// Combines several lambdas into one function object, for std::visit.
 template <class... Ts>
 struct Overloaded : Ts... {
   using Ts::operator()...;
 };
-template <class... Ts>  // clang-tidy's compiler needs it said
+template <class... Ts>  // required by the compiler of clang-tidy
 Overloaded(Ts...)->Overloaded<Ts...>;
 
 }  // namespace cupola

@@ -18,24 +18,25 @@ struct Material {
   double density() const { return unit_weight / 9.81; }
 };
 
-/// How contacts are found.
+/// Contact detection.
 struct ContactDetection {
   enum class Method { face_clipping, perturbed_gjk, file };
   Method method = Method::face_clipping;
-  /// m, >= 0: faces up to this far apart make contacts; for perturbed_gjk also the radius of the spheres that
-  /// the shrunk shapes are swept with. 0: 1 % of the smallest free block (cube root of its volume).
+  /// m, >= 0: faces up to this far apart make contacts; for perturbed_gjk also the radius of the spheres with
+  /// which the shrunk shapes are swept. 0: 1 % of the size (cube root of the volume) of the smallest free
+  /// block.
   double margin = 0.0;
 
-  /// Of perturbed_gjk alone (paper section 2.3).
+  /// Options of perturbed_gjk (paper, section 2.3).
   struct Perturbation {
     int perturbations = 16;  ///< GJK queries per pair of parts, >= 1
     double angle = 0.01;     ///< rad, largest rotation, in (0, 0.1]
-    int seed = 1;            ///< of the rotations, >= 0
-    int keep = 4;            ///< points kept per pair of parts, >= 1
+    int seed = 1;            ///< seed of the random rotations, >= 0
+    int keep = 4;            ///< contact points kept per pair of parts, >= 1
     bool operator==(const Perturbation&) const = default;
   } perturbation;
 
-  std::string file;  ///< contact points from elsewhere, for method `file`
+  std::string file;  ///< file of contact points, for method `file`
 };
 constexpr auto enum_names(ContactDetection::Method) {
   return std::array{"face_clipping", "perturbed_gjk", "file"};
@@ -51,7 +52,7 @@ struct Postproc {
   std::vector<CutPlane> planes;
 };
 
-/// Everything a case file says, in SI units, defaults filled in.
+/// The content of a case file in SI units, with defaults filled in.
 struct Case {
   std::string title;
   Geometry geometry;
@@ -64,12 +65,12 @@ struct Case {
   Analysis analysis;
   Output output;
   Postproc postproc;
-  std::vector<SweptKey> sweep;  ///< what a study of this case varies; its own run does not
+  std::vector<SweptKey> sweep;  ///< keys varied in a study of this case; without effect on its own run
 
-  std::string file;  ///< path as given on the command line
-  std::string hash;  ///< of everything but title, postproc and sweep, which change no number of a run
-  std::string geometry_hash;   ///< of the sections the generator reads: geometry, material
-  std::string effective_yaml;  ///< every key with the value in force
+  std::string file;           ///< path as given on the command line
+  std::string hash;           ///< of all sections except title, postproc and sweep, which do not affect a run
+  std::string geometry_hash;  ///< of the sections that the generator reads: geometry, material, imperfections
+  std::string effective_yaml;  ///< every key with its value in force
 };
 
 }  // namespace cupola

@@ -8,21 +8,20 @@
 
 namespace cupola {
 
-/// A piece of a case file: a scalar, a list or a map, with the place where it was written. What YAML offers
-/// beyond that (anchors, tags, merge keys, several documents) is refused by the reader, so that a case
-/// means what it shows.
+/// A node of a case file: a scalar, a list or a map, with its position. The reader refuses other features of
+/// YAML (anchors, tags, merge keys, several documents), so that a case means exactly what it shows.
 struct CaseNode {
   enum class Kind { empty, scalar, list, map };
   struct Entry;
 
   Kind kind = Kind::empty;
   std::string text;             ///< scalar
-  bool quoted = false;          ///< scalar written in quotes: never a number
+  bool quoted = false;          ///< scalar in quotes: never a number
   std::vector<CaseNode> items;  ///< list
   std::vector<Entry> entries;   ///< map, in the order of the file
   FileLocation where;
 
-  const CaseNode* find(std::string_view key) const;  ///< nullptr when the map has no such key
+  const CaseNode* find(std::string_view key) const;  ///< nullptr if the map has no such key
   const Entry* find_entry(std::string_view key) const;
 };
 
@@ -32,12 +31,12 @@ struct CaseNode::Entry {
   CaseNode value;
 };
 
-/// Text in one line for a message: control characters shown as `?`, long text cut.
+/// Text on one line for a message: control characters become `?`, long text is shortened.
 std::string shown(std::string_view text);
 /// The same for any node: `[...]` for a list, `{...}` for a map.
 std::string shown(const CaseNode& node);
 
-/// YAML that reads back to the same tree.
+/// The map as YAML text, which reads back as the same tree.
 std::string to_yaml(const CaseNode& map);
 
 }  // namespace cupola

@@ -7,7 +7,7 @@
 namespace cupola {
 namespace {
 
-/// Fingerprint of the sections that `is_read` names.
+/// Hash of the sections for which `is_read` is true.
 std::string hash_sections(const CaseNode& effective, bool (*is_read)(const std::string& name)) {
   CaseNode chosen;
   chosen.kind = CaseNode::Kind::map;
@@ -16,12 +16,12 @@ std::string hash_sections(const CaseNode& effective, bool (*is_read)(const std::
   return hash_text(to_yaml(chosen));
 }
 
-/// Another friction or load keeps the assembly.
+/// Changes of other sections, for example friction or loads, leave the assembly valid.
 bool generator_reads(const std::string& name) {
   return name == "geometry" || name == "material" || name == "imperfections";
 }
 
-/// Another title or figure keeps the run.
+/// Changes of the other sections leave the results valid.
 bool solver_reads(const std::string& name) {
   return name != "title" && name != "postproc" && name != "sweep";
 }

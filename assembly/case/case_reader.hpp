@@ -7,12 +7,12 @@
 
 namespace cupola {
 
-/// Reads a case file strictly: `extends` resolved, `--set key.path=value` applied, every key known, every
-/// value of the right type and in range. Throws InputError with file, line, column, key path, the rule and
-/// the nearest valid key.
+/// Reads a case file: resolves `extends`, applies `--set key.path=value`, and checks that every key is known
+/// and every value has the right type and range. Throws InputError with file, line, column, key path, the
+/// rule broken and the nearest valid key.
 Case read_case(const std::string& path, const std::vector<std::string>& set_options = {});
 
-/// Table of every key: path, type, unit, range, default, meaning (`--schema`).
+/// Table of all keys: path, type, unit, range, default, meaning (`--schema`).
 std::string case_schema();
 
 }  // namespace cupola

@@ -5,15 +5,15 @@
 
 namespace cupola {
 
-// The keys of each section of the case file, one line per key; see Section. A new key is a member of the
-// struct with its default, a line in the declaration, and nothing else.
+// The keys of each section of the case file, one line per key; see Section. A new key requires a member of
+// the struct, which holds its default, and one line in the declaration.
 
 void declare_case(Section& s, Case& the_case);
 void declare_geometry(Section& s, Geometry& geometry);
 void declare_imperfections(Section& s, Imperfections& imperfections);
 void declare_material(Section& s, Material& material);
 void declare_joints(Section& s, Joints& joints);
-/// Which joints: `from`, `to`, `kind`.
+/// Keys that select joints: `from`, `to`, `kind`.
 void declare_joint_group(Section& s, RingJoints& joints);
 void declare_contact(Section& s, ContactDetection& contact);
 void declare_loads(Section& s, Loads& loads);
@@ -23,7 +23,7 @@ void declare_analysis(Section& s, Analysis& analysis);
 void declare_output(Section& s, Output& output);
 void declare_postproc(Section& s, Postproc& postproc);
 
-/// Optional map of a variation in time; left out, the factor is 1.
+/// Optional map that describes a variation in time. Without it the factor is 1.
 void declare_time(Section& s, const std::string& key, TimeFunction& time, const std::string& meaning);
 
 }  // namespace cupola

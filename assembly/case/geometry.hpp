@@ -46,15 +46,15 @@ struct WallSurface {
   double thickness = 1.0;  ///< m, > 0
 };
 
-/// Cluster vault over a regular polygon (an octagon by default): each sail is a cylinder, and the section
+/// Cloister vault over a regular polygon (an octagon by default): each sail is a cylinder, and the section
 /// through two opposite corners is the pointed-fifth profile of the dome.
 struct OctagonalVault {
   static constexpr SurfaceTraits traits{.closed = true, .meridians = SurfaceTraits::Meridians::by_azimuth};
 
-  /// How the beds lie: on cones about the axis, as Brunelleschi's; in planes normal to each sail; level.
+  /// Beds on cones about the axis, as Brunelleschi laid them; in planes normal to each sail; level.
   enum class Construction : std::uint8_t { circular, planar_radial, planar_horizontal };
-  /// Where the extrados is: `thickness` measured normal to the sail; on the corner section, as a second arc;
-  /// on the mid-sail section, as a second arc; along level beds.
+  /// Where `thickness` is measured: normal to the sail; on the corner section, whose extrados is a second
+  /// arc; on the mid-sail section, whose extrados is a second arc; along level beds.
   enum class Extrados : std::uint8_t { normal, corner, midsail, bed };
 
   int sails = 8;                  ///< >= 3
@@ -85,8 +85,8 @@ struct ArchSurface {
   double thickness = 1.0;          ///< m, > 0
   double width = 1.0;              ///< m, > 0, along the axis
   double half_embrace_deg = 90.0;  ///< angle from the crown side, at the arc's centre, to the springing
-  /// Straight pieces of each voussoir's curved faces: 1 makes polygonal voussoirs, 16 sectors whose volume
-  /// is right to (angle/16)^2 / 6.
+  /// Straight segments that approximate the curved faces of a voussoir. With n segments the relative error of
+  /// the volume is (angle/n)^2 / 6; 1 gives polygonal voussoirs.
   int voussoir_segments = 1;
 
   double radius() const { return radius_ratio * span; }         ///< R, m
@@ -99,12 +99,12 @@ inline SurfaceTraits traits_of(const Surface& surface) {
   return std::visit([](const auto& kind) { return std::decay_t<decltype(kind)>::traits; }, surface);
 }
 
-/// Every bond has `refine`: each course becomes so many courses and each block so many blocks, laid by the
-/// same rule; counts and default phases below are those before refinement. In the shell, one block stays as
-/// thick as the shell.
+// Every bond has `refine`, which splits each course into that many courses and each block into that many
+// blocks in the same bond. Counts and default phases below are those before refinement. Blocks stay as thick
+// as the shell.
 
-/// Running bond: every ring has the same number of blocks, odd rings are shifted by half a block. On a wall
-/// the odd courses end in half blocks.
+/// Running bond: every ring has the same number of blocks; odd rings are shifted by half a block. On a wall,
+/// odd courses end in half blocks.
 struct RunningBond {
   int rings = 40;            ///< courses, >= 1
   int blocks_per_ring = 32;  ///< >= 1 on a wall, >= 3 on a dome
@@ -125,7 +125,8 @@ struct StackBond {
 };
 
 /// Narrow upright blocks ("verticals") that climb through whole blocks laid flat. On closed surfaces they
-/// form spirals that move one vertical's width per ring; on a wall one diagonal from corner to corner.
+/// form spirals that advance by the width of one vertical per ring; on a wall, one diagonal from corner to
+/// corner.
 struct HerringboneBond {
   enum class Chirality : std::uint8_t { right, left };
   enum class Path : std::uint8_t { spiral, meridian };
@@ -136,14 +137,14 @@ struct HerringboneBond {
   int blocks_per_ring = 32;                ///< whole blocks that would fill a ring
   int spirals = 8;                         ///< also the number of meridian strips
   int rings_per_vertical = 3;              ///< height of a vertical
-  int verticals_per_block = 3;             ///< a vertical is a whole block's width over this
+  int verticals_per_block = 3;             ///< width of a whole block over the width of a vertical
   Path path = Path::spiral;                ///< `meridian`: strips that climb straight up
   Chirality chirality = Chirality::right;  ///< right: climbs counter-clockwise seen from above
   Beside beside = Beside::stepped;
   std::optional<double> phase = {};  ///< block widths from the first corner to the first spiral's start;
                                      ///< none: 1/6 on a vault with corners, else 0
   int slices_per_vertical = 1;       ///< azimuthal cells per vertical
-  int refine = 1;                    ///< >= 1; each spiral becomes so many side by side in its band
+  int refine = 1;                    ///< >= 1; each spiral becomes that many spirals side by side in its band
 };
 constexpr auto enum_names(HerringboneBond::Chirality) {
   return std::array{"right", "left"};
@@ -160,7 +161,7 @@ constexpr auto enum_names(HerringboneBond::Beside) {
 struct FillBond {
   int rings = 40;
   int blocks_per_ring = 32;  ///< sets the mean width
-  int slices_per_block = 8;  ///< cuts are possible at multiples of the mean width over this
+  int slices_per_block = 8;  ///< head joints lie at multiples of the mean width over this
   double narrowest = 0.75;   ///< of the mean width, in (0, 1]
   double widest = 1.25;      ///< of the mean width, >= 1
   int refine = 1;            ///< >= 1
@@ -172,10 +173,10 @@ struct Stage {
   int rings = 0;  ///< rings built so far, >= 1
 };
 
-/// Seeded deviations from the drawing. All faces stay plane.
+/// Random deviations from the ideal geometry. All faces stay plane.
 struct Imperfections {
-  double gap = 0.0;    ///< m: every bed and head of every block recedes by up to half of this, >= 0
-  double noise = 0.0;  ///< m: beds, head planes and skin corners move by up to this, >= 0; joints stay closed
+  double gap = 0.0;    ///< m, >= 0: every bed and head of every block recedes by up to half of this
+  double noise = 0.0;  ///< m, >= 0: beds, head planes and skin corners move by up to this; joints stay closed
   int seed = 1;        ///< >= 0
 };
 
@@ -185,26 +186,28 @@ struct BlockDensity {
   double density = 0.0;             ///< kg/m3, > 0
 };
 
-/// Blocks that others cut, instead of a surface and a bond.
+/// Imported blocks, instead of a surface and a bond.
 struct ImportedBlocks {
   enum class Format : std::uint8_t { automatic, obj, off, stl, ply, compas, bricks };
   enum class UpAxis : std::uint8_t { z, y };
 
-  std::string path;                     ///< file, or folder of files
-  Format format = Format::automatic;    ///< automatic: by the file's ending
-  double metres_per_unit = 1.0;         ///< > 0
-  UpAxis up = UpAxis::z;                ///< of the file; y up is turned to z up about x
-  std::vector<std::string> supports;    ///< names of fixed blocks
-  bool flagged_supports = true;         ///< also those that the file marks as fixed
-  std::optional<double> fixed_below;    ///< m: also those whose centroid lies below this z
-  std::vector<BlockDensity> densities;  ///< before those of the file, before the case's material
-  std::string springs, rods;            ///< files of ties, brick CSV; "" for none
-  double weld = 1e-6;                   ///< x block size: vertices nearer than this are one, > 0
-  /// rad: triangles within this, and within this times the block's size of one plane, are a facet, > 0.
+  std::string path;                   ///< file, or folder of files
+  Format format = Format::automatic;  ///< automatic: by the file name extension
+  double metres_per_unit = 1.0;       ///< > 0
+  UpAxis up = UpAxis::z;              ///< of the file; y up is rotated to z up about x
+  std::vector<std::string> supports;  ///< names of fixed blocks
+  bool flagged_supports = true;       ///< also fix blocks that the file marks as fixed
+  std::optional<double> fixed_below;  ///< m: also fix blocks whose centroid lies below this z
+  std::vector<BlockDensity>
+      densities;              ///< override those of the file, which override the material of the case
+  std::string springs, rods;  ///< files of ties, brick CSV; "" for none
+  double weld = 1e-6;         ///< > 0: vertices closer than this times the block size are merged
+  /// rad, > 0: neighbouring triangles form a facet if their normals agree within this and their vertices lie
+  /// within this times the block size of one plane.
   double facet_angle = 1e-6;
-  double snap = 0.0;           ///< m: opposed facets nearer than this are laid in one plane; 0 for none
+  double snap = 0.0;           ///< m: facing facets closer than this are moved into a common plane; 0: none
   double most_overlap = 1e-3;  ///< m: deeper overlaps of two blocks are an error, >= 0
-  double joint_gap = 1e-3;     ///< m: faces nearer than this count as a joint in the report, >= 0
+  double joint_gap = 1e-3;     ///< m, >= 0: faces closer than this are reported as a joint
 };
 constexpr auto enum_names(ImportedBlocks::Format) {
   return std::array{"automatic", "obj", "off", "stl", "ply", "compas", "bricks"};
@@ -214,12 +217,12 @@ constexpr auto enum_names(ImportedBlocks::UpAxis) {
 }
 
 struct Geometry {
-  std::optional<ImportedBlocks> imported;  ///< then surface, bond and stage mean nothing
+  std::optional<ImportedBlocks> imported;  ///< if set, surface, bond and stage are ignored
   Surface surface = DomeSurface{};
   Bond bond = RunningBond{};
   std::optional<Stage> stage;
-  std::optional<Imperfections> imperfections;  ///< from the case's section of that name
-  double support_width = 1.0;                  ///< m, how far the fixed base reaches beyond the shell, > 0
+  std::optional<Imperfections> imperfections;  ///< from the section `imperfections` of the case
+  double support_width = 1.0;  ///< m, > 0, distance by which the fixed base extends beyond the shell
 };
 
 }  // namespace cupola

@@ -5,11 +5,11 @@
 
 namespace cupola {
 
-/// One key of the case file, as `--schema` shows it.
+/// One key of the case file, as shown by `--schema`.
 struct SchemaRow {
   std::string path;       ///< e.g. joints.friction
-  std::string condition;  ///< e.g. "type: wall"; "" for always
-  std::string type;       ///< number, integer, text, one of the names, list, map
+  std::string condition;  ///< e.g. "type: wall"; "" if the key is always valid
+  std::string type;       ///< number, integer, text, the admissible names, list or map
   std::string unit;
   std::string range;
   std::string default_value;
@@ -18,10 +18,10 @@ struct SchemaRow {
 
 struct SchemaTable {
   std::vector<SchemaRow> rows;
-  std::string condition;  ///< of the rows that are added next
+  std::string condition;  ///< of the rows added next
 };
 
-/// The table in Markdown with aligned columns, so that a terminal and a web page both show it.
+/// The table in Markdown with aligned columns, readable on a terminal and on a web page.
 std::string to_markdown(const SchemaTable& table);
 
 }  // namespace cupola

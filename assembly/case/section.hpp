@@ -17,35 +17,35 @@
 
 namespace cupola {
 
-/// One map of the case file while it is declared. A declaration function names every key once, with unit,
-/// range and meaning; that one line reads the key, documents it in `--schema` and writes it to run.yaml:
+/// One map of the case file. A declaration function declares every key once, with unit, range and meaning.
+/// That one line reads the key, documents it in `--schema` and writes it to run.yaml:
 ///
 ///     void declare_joints(Section& s, Joints& joints) {
 ///       s.number("friction", joints.friction, {.min = 0}, "Coulomb friction coefficient mu");
 ///     }
 ///
-/// The value that the variable holds on entry is the default. Whatever the file says and no declaration
-/// names is an error.
+/// The value of the variable on entry is the default. A key in the file that no declaration names is an
+/// error.
 class Section {
  public:
-  /// Reads `node`; nullptr when the file leaves the section out, which `where` then locates. `case_file` is
-  /// the path given on the command line.
+  /// Reads `node`. It is nullptr if the file has no such section; messages then refer to `where`. `case_file`
+  /// is the path given on the command line.
   Section(const CaseNode* node, std::string path, FileLocation where, std::string case_file);
-  /// Reads nothing and adds one row per key to `schema`.
+  /// Reads nothing; adds one row per key to `schema`.
   Section(SchemaTable* schema, std::string path);
 
   void text(const std::string& key, std::string& value, const std::string& meaning);
-  /// A file that the case names, relative to the case file's folder and inside it (path_inside); `path` gets
-  /// what a program opens. Left out, it stays empty.
+  /// The name of a file in or below the folder of the case file (see path_inside). `path` gets the path to
+  /// open; without the key it stays unchanged.
   void file(const std::string& key, std::string& path, const std::string& meaning, bool or_folder = false);
   void number(const std::string& key, double& value, const NumberRule& rule, const std::string& meaning);
-  /// A number that another key has settled as `value`: what the file says is checked and set aside, and
-  /// run.yaml gets the value in force.
+  /// A number that another key overrides with `value`. The number in the file is checked and ignored;
+  /// run.yaml gets `value`.
   void settled_number(const std::string& key, double value, const NumberRule& rule);
-  /// They must be given: `value` on entry means nothing.
+  /// A required key: `value` on entry is ignored.
   void required_number(const std::string& key, double& value, const NumberRule& rule,
                        const std::string& meaning);
-  /// Left out, it stays empty; `without` tells in `--schema` what happens then.
+  /// Without the key, `value` stays empty; `without` describes that default in `--schema`.
   void optional_number(const std::string& key, std::optional<double>& value, const NumberRule& rule,
                        const std::string& without, const std::string& meaning);
   void integer(const std::string& key, int& value, const NumberRule& rule, const std::string& meaning);
@@ -63,33 +63,33 @@ class Section {
 
   void texts(const std::string& key, std::vector<std::string>& values, const std::string& meaning);
 
-  /// One quantity under several names, of which the case gives at most one: value = factor * number.
+  /// A quantity with several names, of which the case gives at most one: value = factor * number.
   struct UnitName {
     std::string key;
     double factor;
     NumberRule rule;
     std::string meaning;
   };
-  /// run.yaml writes it under the first name, whose factor is 1.
+  /// run.yaml gets the first name, whose factor must be 1.
   void quantity(double& value, const std::vector<UnitName>& names);
 
   /// One of the names of an enumeration.
   template <NamedEnum E>
   void choice(const std::string& key, E& value, const std::string& meaning);
-  /// One of some of the names; `value` on entry must be among them.
+  /// One of the names of the values in `admitted`, which must include `value` on entry.
   template <NamedEnum E>
   void choice(const std::string& key, E& value, const std::vector<E>& admitted, const std::string& meaning);
-  /// Must be given: `value` on entry means nothing.
+  /// A required key: `value` on entry is ignored.
   template <NamedEnum E>
   void required_choice(const std::string& key, E& value, const std::string& meaning);
-  /// A name, or in its place a map with keys of its own.
+  /// Either a name or a map of keys.
   template <NamedEnum E, class Keys>
   void choice_or_section(const std::string& key, E& value, Keys& keys, const std::string& meaning,
                          void (*declare)(Section&, Keys&));
 
   template <class T>
   void section(const std::string& key, T& value, const std::string& meaning, void (*declare)(Section&, T&));
-  /// Left out, it stays empty and the feature costs nothing.
+  /// Without the key, `value` stays empty.
   template <class T>
   void optional_section(const std::string& key, std::optional<T>& value, const std::string& meaning,
                         void (*declare)(Section&, T&));
@@ -97,25 +97,25 @@ class Section {
   void list(const std::string& key, std::vector<T>& values, const std::string& meaning,
             void (*declare)(Section&, T&));
 
-  /// One kind of a variant: its name after `type:` and the keys that come with it.
+  /// One alternative of a variant: its name (after `type:`) and its keys.
   template <class Variant>
   struct Alternative {
     std::string name;
     std::string meaning;
     std::function<void(Section&, Variant&)> declare;
   };
-  /// This map is one of several kinds; `key` (which has no default) says which.
+  /// A map of one of several types; the required key `key` names the type.
   template <class Variant>
   void variant(const std::string& key, Variant& value, const std::vector<Alternative<Variant>>& alternatives,
                const std::string& meaning);
 
-  /// A rule between several keys; the message is located at `key`.
+  /// Checks a rule between several keys; the message refers to `key`.
   void rule(bool holds, const std::string& key, const std::string& text) const;
 
-  /// Throws for a key that no declaration named and for a required one that is missing. Called by whoever
-  /// opened the section, after its declaration.
+  /// Throws InputError for an unknown key and for a missing required key. To be called after the declaration,
+  /// by the code that created the section.
   void finish() const;
-  /// The values in force, as a map.
+  /// The values in force, defaults included, as a map.
   const CaseNode& effective() const { return effective_; }
 
  private:
@@ -137,9 +137,10 @@ class Section {
   void record(const std::string& key, const std::string& text, bool quoted = false);
   void record(const std::string& key, CaseNode value);
   void require(const std::string& key, const std::string& hint = "");
-  void check_given(const std::string& key) const;  // a variant without its type can declare nothing more
+  void check_given(const std::string& key) const;  // a variant cannot be declared further without its type
 
-  /// Index of the chosen name; the default where the key is left out. Without a default (-1) the key is required.
+  /// Index of the chosen name, or the default without the key. If there is no default (-1), the key is
+  /// required.
   int choose(const std::string& key, const std::vector<std::string>& names, int default_index,
              const std::string& meaning);
   void open(const std::string& key, const std::string& meaning, const DeclareKeys& declare);
@@ -229,7 +230,7 @@ void Section::variant(const std::string& key, Variant& value,
   }
 }
 
-/// An alternative of a variant that starts from the defaults of T.
+/// An alternative of a variant that holds a T, starting from its defaults.
 template <class Variant, class T>
 Section::Alternative<Variant> alternative(const std::string& name, const std::string& meaning,
                                           void (*declare)(Section&, T&)) {

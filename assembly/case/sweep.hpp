@@ -5,21 +5,21 @@
 
 namespace cupola {
 
-/// One key of the case that a study varies. Several keys are combined, each value with each.
+/// One key of the case varied in a study. All combinations of the values of several keys are run.
 struct SweptKey {
-  std::string key;  ///< path, as after --set
+  std::string key;  ///< key path, as after --set
   std::vector<std::string> values;
 };
 
-/// One run of a study: the case with some keys changed.
+/// One run of a study: the case with the swept keys set.
 struct SweepMember {
-  std::string name;                   ///< of its folder: CASE_friction0.2
+  std::string name;                   ///< name of its folder, e.g. CASE_friction0.2
   std::vector<std::string> settings;  ///< key.path=value, in the order of the swept keys
 };
 
-/// The members in the order in which the values are given, the last key's fastest. `case_name` begins each
-/// name; keys appear by their last word, or whole where two share it. Throws InputError without a sweep, and
-/// for values that cannot be part of a file name.
+/// All members, in the order of the values; those of the last key vary fastest. Names start with `case_name`
+/// and contain the last word of each key, or the whole key if two keys share that word. Throws InputError if
+/// there is no sweep and for values that cannot be part of a file name.
 std::vector<SweepMember> members_of(const std::vector<SweptKey>& sweep, const std::string& case_name);
 
 }  // namespace cupola

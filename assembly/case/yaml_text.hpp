@@ -7,9 +7,9 @@
 namespace cupola {
 
 /// Parses YAML text into a tree; the only user of yaml-cpp. `file` is the name for messages. Throws
-/// InputError with line and column for what is not valid YAML and for what a case may not use: duplicate
-/// keys, anchors, aliases and tags, a second document, tabs as indentation, control characters, text that
-/// is not UTF-8, more than 1 MiB, nesting deeper than 32.
+/// InputError with line and column for invalid YAML and for what is not allowed in a case: duplicate keys,
+/// anchors, aliases and tags, a second document, tabs as indentation, control characters, text that is not
+/// UTF-8, more than 1 MiB, nesting deeper than 32.
 CaseNode parse_yaml(const std::string& text, const std::string& file);
 
 }  // namespace cupola

@@ -5,10 +5,10 @@
 
 namespace cupola {
 
-/// Writes a file aside (same folder, `.part` ending), flushes it to the disk and renames it over `path`: a
-/// reader, or a machine switched off, sees the old file or the new one, never half of one.
-/// `write` receives the name to write to and throws SystemError (or returns false) when it fails; then the
-/// side file is removed and SystemError names `path`.
+/// Writes a temporary file (same folder, `.part` in its name), flushes it to disk and renames it to `path`.
+/// Readers see either the old file or the new one, never part of one, even after a power failure. `write`
+/// gets the name of the temporary file; if it throws SystemError or returns false, the temporary file is
+/// removed and SystemError with `path` is thrown.
 void write_atomically(const std::string& path,
                       const std::function<bool(const std::string& side_path)>& write);
 void write_text_atomically(const std::string& path, const std::string& text);

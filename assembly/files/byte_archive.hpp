@@ -11,9 +11,10 @@
 
 namespace cupola {
 
-/// Turns plain data into bytes and back, bit for bit, on one kind of machine. A type takes part by a function
-/// `template <class Archive> void visit(Archive& archive, Type& value) { archive(value.x, value.y); }` that
-/// serves both directions.
+/// Converts plain data to bytes and back, bit for bit, on one kind of machine. A type is supported if there
+/// is a function for it, used in both directions:
+///
+///     template <class Archive> void visit(Archive& archive, Type& value) { archive(value.x, value.y); }
 class ByteWriter {
  public:
   template <class... Values>
@@ -61,8 +62,8 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads what ByteWriter wrote. Throws std::runtime_error when the bytes end early or declare more than there
-/// is, before any memory is taken.
+/// Reads the bytes of ByteWriter. Throws std::runtime_error if the bytes end early or declare more than they
+/// hold, before any memory is allocated.
 class ByteReader {
  public:
   explicit ByteReader(const std::string& bytes) : bytes_(bytes) {}
@@ -79,7 +80,7 @@ class ByteReader {
     if (size > 0) std::memcpy(data, bytes_.data() + next_, size);
     next_ += size;
   }
-  /// Every element takes a byte at least.
+  /// Number of elements; each takes at least one byte.
   std::size_t size() {
     std::size_t count = 0;
     raw(&count, sizeof count);

@@ -6,7 +6,7 @@
 
 namespace cupola {
 
-/// Fingerprint of everything a later stage depends on (vertices, faces, blocks), as 32 hex digits.
+/// Hash of all data that later stages depend on (vertices, faces, parts, blocks, ties), as 32 hex digits.
 std::string content_hash(const Assembly& assembly);
 
 }  // namespace cupola

@@ -9,7 +9,7 @@ struct XXH3_state_s;
 
 namespace cupola {
 
-/// 128-bit fingerprint of a stream of bytes (XXH3). It tells files apart; it does not protect from forgery.
+/// 128-bit hash of a stream of bytes (XXH3). It detects changes; it gives no protection against forgery.
 class Hash {
  public:
   Hash();

@@ -4,7 +4,7 @@
 
 namespace cupola {
 
-/// Text made safe between tags and inside quoted attributes of XML and HTML.
+/// Escapes text for use between tags and in quoted attributes of XML and HTML.
 std::string markup_text(const std::string& text);
 
 }  // namespace cupola

@@ -9,7 +9,7 @@
 
 namespace cupola {
 
-/// A named array of a mesh file: `components` values per point, per cell, or free (field data).
+/// A named array of a mesh file: `components` values per point, per cell, or per row of field data.
 struct MeshArray {
   std::string name;
   int components = 1;
@@ -18,8 +18,8 @@ struct MeshArray {
       values;
 };
 
-/// What a .vtu or .vtp file holds, without VTK's types: points, cells given by their faces or by their
-/// point lists, and named arrays. The file is what ParaView opens.
+/// Content of a .vtu or .vtp file, without VTK's types: points, cells given by their faces or their point
+/// lists, and named arrays. ParaView opens these files.
 struct Mesh {
   enum class CellType : std::uint8_t { vertex, polyline, polygon, hexahedron, polyhedron };
 
@@ -41,8 +41,8 @@ struct Mesh {
     add_cell(type, std::span(ids.begin(), ids.size()));
   }
 
-  /// The array of that name and value type, or an InputError that names the file, the array and what is
-  /// there instead.
+  /// The array with this name and value type. Throws InputError that names the file, the array and what was
+  /// found instead.
   template <class T>
   const std::vector<T>& array(const std::vector<MeshArray>& arrays, const std::string& name,
                               int components) const;
@@ -50,15 +50,15 @@ struct Mesh {
   template <class T>
   const T& field(const std::string& name) const;
   bool has(const std::vector<MeshArray>& arrays, const std::string& name) const;
-  std::string file;  ///< where it was read from, for messages
+  std::string file;  ///< path from which it was read, for messages
 };
 
 /// Writes an unstructured grid (.vtu: hexahedra, polyhedra) or polygonal data (.vtp: vertices, polylines,
-/// polygons), by the ending of `path`, doubles in full, aside and renamed. Throws SystemError.
+/// polygons), chosen by the extension of `path`, atomically and without loss of digits. Throws SystemError.
 void write_mesh(const std::string& path, const Mesh& mesh);
 
-/// Reads what write_mesh wrote, and nothing else: the last line of the file is a checksum of all before it.
-/// Throws InputError for a missing, truncated, damaged or foreign file, with the path.
+/// Reads files written by write_mesh, and no others: the last line of the file is a checksum of the bytes
+/// before it. Throws InputError with the path for a missing, truncated, damaged or foreign file.
 Mesh read_mesh(const std::string& path);
 
 /// Time series of mesh files as ParaView's collection; file names are relative to the .pvd.

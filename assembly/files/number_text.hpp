@@ -6,7 +6,7 @@
 
 namespace cupola {
 
-/// Which numbers a key admits, and in which unit.
+/// Admissible range and unit of a number.
 struct NumberRule {
   std::string_view unit = "-";
   double min = -std::numeric_limits<double>::infinity();    ///< smallest admitted
@@ -18,8 +18,8 @@ struct NumberRule {
 bool admits(const NumberRule& rule, double value);
 std::string describe_range(const NumberRule& rule);  ///< ">= 0", "> 0 and < 90", or "finite"
 
-/// Strict decimal readers: the whole text is the number. They return "" or the rule that the text breaks.
-/// Not admitted: nan, inf, what a double cannot hold (1e400), hexadecimal, 1_000, yes for true.
+/// Strict readers: the whole text must be the value. They return "" or the rule that the text breaks.
+/// Refused: nan, inf, numbers beyond double precision (1e400), hexadecimal, 1_000, and yes for true.
 std::string read_number(std::string_view text, double* value);
 std::string read_integer(std::string_view text, int* value);
 std::string read_flag(std::string_view text, bool* value);

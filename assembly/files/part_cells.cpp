@@ -7,8 +7,8 @@
 namespace cupola {
 namespace {
 
-/// The vertices of a part in VTK's order of a hexahedron, when its six faces are quadrilaterals that make
-/// one: the first face seen from inside, then the vertex across each of its corners.
+/// The vertices of a part in the order of a VTK hexahedron, if its six faces are quadrilaterals that form
+/// one: those of the first face seen from inside, then the vertex across from each of them.
 std::optional<std::array<int, 8>> hexahedron_corners(const Assembly& assembly, const Part& part) {
   if (part.num_faces != 6) return std::nullopt;
   for (int f = part.face_start; f < part.face_start + 6; ++f)

@@ -5,8 +5,8 @@
 
 namespace cupola {
 
-/// Adds one cell per part, on the assembly's vertex ids: a hexahedron where the part's faces are six
-/// quadrilaterals that make one (VTK measures and draws it exactly), else a polyhedron given by its faces.
+/// Adds one cell per part, with the vertex ids of the assembly: a hexahedron if the faces of the part are six
+/// quadrilaterals that form one (VTK draws and measures it exactly), else a polyhedron given by its faces.
 void add_part_cells(const Assembly& assembly, Mesh* mesh);
 
 }  // namespace cupola

@@ -8,16 +8,16 @@
 
 namespace cupola {
 
-/// Writes the frames of a results folder as they come: contacts_NNNN.vtp, blocks_NNNN.vtp and the two .pvd
-/// collections, rewritten after each frame.
+/// Writes the frames of a results folder one by one: contacts_NNNN.vtp, blocks_NNNN.vtp and the two .pvd
+/// collections, which are rewritten after each frame.
 class ResultsWriter {
  public:
-  /// Creates the folder. `assembly_hash` goes into every file. `times` (s) of the frames that are there
-  /// already when a run is resumed.
+  /// Creates the folder. Every file gets `assembly_hash`. `times` (s): frames that exist already when a run
+  /// is resumed.
   ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times = {});
   void write_frame(const Frame& frame);
   void write_text(const std::string& name, const std::string& text);  ///< run.yaml, history.csv
-  /// Last: a summary says that the folder is complete. It names every text file with its hash.
+  /// To be called last: a summary marks the folder as complete. It lists every text file with its hash.
   void write_summary(Summary summary);
 
   const std::string& folder() const { return folder_; }
@@ -29,16 +29,16 @@ class ResultsWriter {
   std::map<std::string, std::string> text_files_;  ///< name to hash
 };
 
-/// A results folder, read frame by frame. Throws InputError naming the file when something is missing,
-/// truncated, or belongs to another assembly.
+/// Reads a results folder frame by frame. Throws InputError that names the file if it is missing, truncated
+/// or belongs to another assembly.
 class ResultsReader {
  public:
-  /// `force`: takes results of another assembly, as long as they are all of the same one.
+  /// `force`: also accepts results of another assembly, provided that all files belong to the same one.
   ResultsReader(std::string folder, const std::string& assembly_hash, bool force = false);
   const Summary& summary() const { return summary_; }
   const std::vector<double>& times() const { return times_; }  ///< s, one per frame
   Frame read_frame(int index) const;
-  std::string read_text_file(const std::string& name) const;  ///< refuses other bytes than were written
+  std::string read_text_file(const std::string& name) const;  ///< throws InputError if the bytes have changed
 
  private:
   std::string folder_;

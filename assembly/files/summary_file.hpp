@@ -6,6 +6,8 @@
 
 namespace cupola {
 
+/// Content of summary.json, and the summary read from it. `file` is the name for messages; throws InputError
+/// that names the file and the key.
 std::string to_json(const Summary& summary);
 Summary summary_from_json(const std::string& text, const std::string& file);
 

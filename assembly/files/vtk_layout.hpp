@@ -5,11 +5,12 @@
 
 namespace cupola {
 
-/// What is wrong with the layout of a VTK XML file of ours (zlib, appended base64 data, headers of 64 bits);
-/// empty when VTK may read it. VTK trusts a file: an array without a type ends the process, and memory is
-/// taken as declared before the data are looked at, so that a few bytes could ask for petabytes. Every
-/// element must stand where our writer puts it, with the attributes that it writes, and declare no more than
-/// zlib can have packed into the file: 1,032 bytes in one.
+/// Checks the layout of a VTK XML file written by Cupola (zlib, appended base64 data, 64-bit headers).
+/// Returns the defect found, or an empty text if VTK may safely read the file. VTK trusts its input: an array
+/// without a type aborts the process, and memory is allocated as declared before the data are read, so that a
+/// few bytes could request petabytes. Every element must therefore stand where our writer puts it, with the
+/// attributes that it writes, and must not declare more data than zlib can compress into the file (ratio
+/// 1,032 at most).
 std::string layout_defect(std::string_view text);
 
 }  // namespace cupola

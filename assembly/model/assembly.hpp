@@ -19,23 +19,23 @@ constexpr auto enum_names(BlockKind) {
   return std::array{"standard", "herringbone", "support", "imported"};
 }
 
-/// What a face of a convex part is in the masonry. `top` is the free upper bed of the last ring (loads go
-/// there), `internal` lies between two parts of one block and makes no contact, `free` is everything else.
+/// Role of a face of a convex part in the masonry. `top`: free upper bed of the last ring, which carries the
+/// top load. `internal`: between two parts of one block, makes no contact. `free`: any other face.
 enum class FaceKind : std::uint8_t { bed, head, intrados, extrados, top, internal, free };
 constexpr auto enum_names(FaceKind) {
   return std::array{"bed", "head", "intrados", "extrados", "top", "internal", "free"};
 }
 
-/// One rigid block. Mass properties come from its convex parts, never from a hull.
+/// One rigid block. Its mass properties are computed from its convex parts, not from their hull.
 struct Block {
   BlockKind kind = BlockKind::standard;
-  bool fixed = false;            ///< carries no unknowns
+  bool fixed = false;            ///< has no unknowns
   bool rib = false;              ///< spans a corner of an octagonal vault
-  bool truncated = false;        ///< herringbone vertical cut off by the base or the crown
+  bool truncated = false;        ///< herringbone vertical cut short by the base or the crown
   int ring = 0;                  ///< first ring it occupies; -1 for a support
   int num_rings = 1;             ///< rings it spans
   int slot = 0;                  ///< position within the ring, counted along the azimuth
-  int sail = 0;                  ///< sail of its centroid; 0 where the surface has none
+  int sail = 0;                  ///< sail in which its centroid lies; 0 for surfaces without sails
   double sail_position = 0.0;    ///< u in [-1, 1] across the sail, 0 at mid-sail
   int spiral = -1;               ///< herringbone spiral it belongs to; -1 for none
   double density = 0.0;          ///< kg/m3
@@ -55,20 +55,20 @@ struct Part {
   double volume = 0.0;  ///< m3
 };
 
-/// A spring or a rod between points of two blocks that came with an imported model.
+/// A spring or rod between points of two blocks, from an imported model.
 struct ImportedTie {
   int block_a = 0, block_b = 0;
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< m, world, as built
   double stiffness = 0.0;                               ///< N/m; infinity for a rigid rod
-  double length = 0.0;                                  ///< m, at which it carries no force
-  bool pushes = false;                                  ///< carries compression too
+  double length = 0.0;                                  ///< m, natural length (no force)
+  bool pushes = false;                                  ///< also carries compression
 };
 
-/// What the generator makes and everybody reads: convex parts on one shared vertex table.
+/// The model that the generator writes and all programs read: convex parts on one shared vertex table.
 ///
 /// Faces are stored flat: face f has the vertices
 /// face_vertices[face_vertex_start[f] .. face_vertex_start[f + 1]), counter-clockwise seen from outside.
-/// Faces of neighbouring parts that mate use the same vertex ids, so that joints close exactly.
+/// Mating faces of neighbouring parts use the same vertex ids, so that joints close exactly.
 struct Assembly {
   std::vector<Vec3> vertices;          ///< m (num_vertices)
   std::vector<int> face_vertex_start;  ///< (num_faces + 1)
@@ -79,9 +79,9 @@ struct Assembly {
   std::vector<ImportedTie> ties;
 
   std::string title;
-  std::string geometry_hash;  ///< hash of the case's sections that the generator read
-  int num_rings = 0;          ///< rings of the complete model's grid; 0 for imported blocks
-  std::string check_report;   ///< what the generator measured and checked, lines for the reader; may be empty
+  std::string geometry_hash;  ///< hash of the case sections that the generator read
+  int num_rings = 0;          ///< rings of the complete model; 0 for imported blocks
+  std::string check_report;   ///< results of the generator's checks, as lines of text; may be empty
 
   int num_faces() const { return static_cast<int>(face_kinds.size()); }
   std::span<const int> face(int f) const {
@@ -92,22 +92,23 @@ struct Assembly {
   void add_face(std::span<const int> vertex_ids, FaceKind kind);
 };
 
-/// Unit normal n and offset of the plane n.x = offset.
+/// The plane n.x = offset with unit normal n.
 struct Plane {
   Vec3 normal = Vec3::UnitZ();
   double offset = 0.0;  ///< m
 };
 
-/// Least-squares plane of a polygon through its vertex mean (Newell's normal, counter-clockwise = outward).
+/// Plane through the mean of the vertices of a polygon, with Newell's normal (outward for counter-clockwise
+/// vertices).
 Plane polygon_plane(std::span<const Vec3> polygon);
 double polygon_area(std::span<const Vec3> polygon);
 Vec3 polygon_centroid(std::span<const Vec3> polygon);
 
 std::vector<Vec3> face_points(const Assembly& assembly, int face);
 
-/// Volume, centroid and inertia (per unit density, about the centroid) of a closed polyhedron, by signed
-/// tetrahedra of its fan-triangulated faces seen from a point of its own, so that nothing cancels far from
-/// the origin.
+/// Volume, centroid and inertia (per unit density, about the centroid) of a closed polyhedron, summed over
+/// the signed tetrahedra between its fan-triangulated faces and one of its vertices. The reference vertex
+/// avoids cancellation far from the origin.
 struct SolidProperties {
   double volume = 0.0;
   Vec3 centroid = Vec3::Zero();
@@ -115,8 +116,8 @@ struct SolidProperties {
 };
 SolidProperties solid_properties(const Assembly& assembly, const Part& part);
 
-/// Fills volume of every part and volume, mass, centroid and inertia of every block from the parts and the
-/// blocks' densities. Throws InputError naming the block when a volume is not positive.
+/// Computes the volume of every part, and the volume, mass, centroid and inertia of every block, from the
+/// parts and the densities of the blocks. Throws InputError that names the block if a volume is not positive.
 void compute_mass_properties(Assembly* assembly);
 
 /// Weight of the blocks that are not fixed, N, under a gravity of the given magnitude (m/s2).

@@ -8,7 +8,7 @@
 
 namespace cupola {
 
-/// What one contact (or one square metre of joint) yields per newton.
+/// Elastic displacement of a contact point per unit force, or of a joint per unit traction.
 struct Compliance {
   enum class Per { point, area };
   double normal = 1e-8;      ///< m/N per contact point, or m3/N per area, >= 0
@@ -19,14 +19,14 @@ constexpr auto enum_names(Compliance::Per) {
   return std::array{"point", "area"};
 }
 
-/// What a group of joints has of its own; the rest is as everywhere.
+/// Values that differ for a group of joints; the others are the general ones.
 struct JointLawChange {
   std::optional<double> friction;
   std::optional<double> normal, tangential;  ///< compliance, in the unit of Joints::compliance
 };
 
-/// Sorts of joints that may have a law of their own. `base` touches a fixed support, `herringbone` touches a
-/// herringbone block; of the others, `bed` lies between rings and `head` within one.
+/// Joints of some rings with a law of their own. `base` joints touch a fixed support, `herringbone` joints a
+/// herringbone block; of the others, `bed` joints lie between rings and `head` joints within a ring.
 struct RingJoints {
   enum class Sort {
     all,
@@ -34,9 +34,9 @@ struct RingJoints {
     head,
     herringbone,
     base,
-    laid_bed  ///< every bed, also on supports and of herringbone blocks
+    laid_bed  ///< every bed, including those on supports and of herringbone blocks
   };
-  int from = 0, to = 0;  ///< rings, both included: course of the upper part of the joint, the lowest is 0
+  int from = 0, to = 0;  ///< rings, inclusive, of the upper block of the joint; the lowest is 0
   Sort sort = Sort::all;
   JointLawChange law;
 };
@@ -44,7 +44,7 @@ constexpr auto enum_names(RingJoints::Sort) {
   return std::array{"all", "bed", "head", "herringbone", "base", "laid_bed"};
 }
 
-/// Laws of the joints. The later of these wins: the general values, those of the sort, those of the ring.
+/// Joint laws. Values for rings override values for a kind of joint, which override the general values.
 struct Joints {
   double friction = 0.4;  ///< mu, >= 0
   Compliance compliance;

@@ -9,11 +9,11 @@
 
 namespace cupola {
 
-/// Beyond every ring: the upper end of a range left open.
+/// Upper end of an open range of rings.
 constexpr int kLastRing = 1 << 20;
 
-/// Weight spread over the top faces by their area, as vertical forces at the face centroids. The lantern of
-/// a dome and the load on a wall are the same thing under two names.
+/// Weight distributed over the top faces by area, as vertical forces at the face centroids: the lantern of a
+/// dome or the load on top of a wall.
 struct TopLoad {
   double weight_fraction = 0.0;  ///< of the weight of the free blocks, >= 0
 };
@@ -26,12 +26,12 @@ struct BlockForce {
   TimeFunction time;
 };
 
-/// A traction of constant direction, or a pressure against the faces as built, on all faces of one kind.
+/// A traction of constant direction, or a pressure normal to the as-built faces, on all faces of one kind.
 struct FaceLoad {
   FaceKind faces = FaceKind::extrados;
-  int from_ring = 0, to_ring = kLastRing;  ///< of the part, both included
+  int from_ring = 0, to_ring = kLastRing;  ///< rings of the parts, inclusive
   Vec3 traction = Vec3::Zero();            ///< N/m2, world
-  double pressure = 0.0;                   ///< N/m2, pushes into the block
+  double pressure = 0.0;                   ///< N/m2, positive into the block
   TimeFunction time;
 };
 
@@ -45,43 +45,43 @@ struct Loads {
   std::vector<FaceLoad> faces;
 };
 
-/// A tie between two points of two blocks, as built. It pulls when longer than its natural length and hangs
-/// slack when shorter.
+/// A tie between points of two blocks, as built. It carries tension when longer than its natural length, and
+/// nothing when shorter.
 struct PairTie {
   int block_a = 0, block_b = 0;
   std::optional<Vec3> point_a, point_b;  ///< m, world; none: the centroid
   double stiffness = 1e8;                ///< N/m, > 0
-  double prestress = 0.0;                ///< N, force as built, >= 0
+  double prestress = 0.0;                ///< N, tension as built, >= 0
 };
 
-/// A closed chain around a dome: a tie from the centroid of each block of the ring to the next.
+/// A closed chain around a dome: ties between the centroids of successive blocks of a ring.
 struct ChainTie {
   int ring = 0;
   double stiffness = 1e8;  ///< N/m of each link, > 0
-  double prestress = 0.0;  ///< N, force as built, >= 0
+  double prestress = 0.0;  ///< N, tension as built, >= 0
 };
 
-/// Ties that the case adds to those of the assembly (imported springs and rods).
+/// Ties of the case, in addition to those of the assembly (imported springs and rods).
 struct Ties {
   std::vector<PairTie> pairs;
   std::vector<ChainTie> chains;
-  double rod_stiffness = 1e10;  ///< N/m, > 0: stands for the infinite one of imported rigid rods
+  double rod_stiffness = 1e10;  ///< N/m, > 0, replaces the infinite one of imported rigid rods
 };
 
-/// All fixed blocks move together, as the ground in an earthquake.
+/// Ground motion: all fixed blocks move together.
 struct BaseMotion {
   enum class Quantity { displacement, acceleration };
   std::string file;  ///< two columns: time (s) and value (m or m/s2)
   Quantity quantity = Quantity::displacement;
-  Vec3 direction{1.0, 0.0, 0.0};  ///< m per unit of the file
+  Vec3 direction{1.0, 0.0, 0.0};  ///< scales the values of the file; m per unit
 };
 constexpr auto enum_names(BaseMotion::Quantity) {
   return std::array{"displacement", "acceleration"};
 }
 
-/// A displacement and a rotation imposed on some fixed blocks.
+/// Displacement and rotation imposed on fixed blocks.
 struct SupportMove {
-  std::vector<int> blocks;           ///< empty: all fixed ones
+  std::vector<int> blocks;           ///< empty: all fixed blocks
   Vec3 displacement = Vec3::Zero();  ///< m
   Vec3 rotation_deg = Vec3::Zero();  ///< deg, rotation vector about `pivot`
   Vec3 pivot = Vec3::Zero();         ///< m

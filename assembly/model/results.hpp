@@ -13,22 +13,22 @@
 
 namespace cupola {
 
-/// What a joint is: `base` touches a fixed support, `bed` lies between rings, `head` within a ring.
+/// Kind of a joint: `base` touches a fixed support, `bed` lies between rings, `head` within a ring.
 enum class JointKind : std::uint8_t { bed, head, base, other };
 constexpr auto enum_names(JointKind) {
   return std::array{"bed", "head", "base", "other"};
 }
 
-/// All contact points of one block pair on one face patch. `block_a < block_b`; the normal points from a to
-/// b.
+/// All contact points between one pair of blocks on one face patch. block_a < block_b; the normal points
+/// from a to b.
 struct Joint {
   int block_a = 0;
   int block_b = 0;
   JointKind kind = JointKind::other;
-  int ring = 0;  ///< course of the upper part of the joint; 0 for the base joint
+  int ring = 0;  ///< course of the upper block; 0 for a base joint
 };
 
-/// Contacts of one instant, one row per contact point, in a fixed order (contacts_*.vtp).
+/// Contacts at one instant, one row per contact point, in a fixed order (contacts_*.vtp).
 struct ContactTable {
   std::vector<int> joint;             ///< index into the joints
   std::vector<int> block_a, block_b;  ///< a < b
@@ -37,11 +37,11 @@ struct ContactTable {
   std::vector<Vec3> point;           ///< m, world
   std::vector<Vec3> normal;          ///< unit, from a to b
   std::vector<double> gap;           ///< m, positive when apart
-  std::vector<Vec3> force;           ///< N, world, acts on b
+  std::vector<Vec3> force;           ///< N, world axes, acting on b
   std::vector<double> normal_force;  ///< N, >= 0
-  std::vector<double> friction_use;  ///< |tangential force| / (mu normal force), 0 where there is no force
-  std::vector<double> area;          ///< m2 that the point stands for
-  std::vector<double> slip;          ///< m, accumulated plastic sliding
+  std::vector<double> friction_use;  ///< |tangential force| / (mu normal force); 0 without force
+  std::vector<double> area;          ///< m2, tributary area of the point
+  std::vector<double> slip;          ///< m, accumulated sliding
 
   int size() const { return static_cast<int>(joint.size()); }
   void reserve(std::size_t contacts) {
@@ -52,10 +52,10 @@ struct ContactTable {
   }
 };
 
-/// Blocks of one instant, one row per block, at its centroid (blocks_*.vtp).
+/// Blocks at one instant, one row per block, at its centroid (blocks_*.vtp).
 struct BlockTable {
   std::vector<Vec3> position;                    ///< m
-  std::vector<Eigen::Vector4d> quaternion_wxyz;  ///< from the assembly's orientation
+  std::vector<Eigen::Vector4d> quaternion_wxyz;  ///< rotation from the orientation in the assembly
   std::vector<Vec3> velocity;                    ///< m/s
   std::vector<Vec3> angular_velocity;            ///< rad/s, world
   std::vector<Vec3> displacement;                ///< m, of the centroid
@@ -63,14 +63,14 @@ struct BlockTable {
   int size() const { return static_cast<int>(position.size()); }
 };
 
-/// One instant. `joint` of the contacts counts within the frame.
+/// Contacts and blocks at one instant. Joint numbers are valid only within the frame.
 struct Frame {
   double time = 0.0;  ///< s
   ContactTable contacts;
   BlockTable blocks;
 };
 
-/// The joints of a frame, in the order of the contacts' joint ids.
+/// The joints of a frame, indexed by ContactTable::joint.
 std::vector<Joint> joints_of(const ContactTable& contacts);
 
 enum class Status { stable, moving, collapsed, unconverged };
@@ -78,15 +78,15 @@ constexpr auto enum_names(Status) {
   return std::array{"stable", "moving", "collapsed", "unconverged"};
 }
 
-/// The value of a parameter at which a structure ceases to stand, and the bracket that was searched.
+/// The parameter value at which a structure ceases to stand, and its final bracket.
 struct CriticalValue {
   std::string parameter;
   double value = 0.0;   ///< middle of the bracket
-  double stable = 0.0;  ///< stands here
-  double moving = 0.0;  ///< moves here
+  double stable = 0.0;  ///< end of the bracket at which the structure stands
+  double moving = 0.0;  ///< end at which it moves
 };
 
-/// results/summary.json: what was solved, how it ended, how good it is. Definitions: assembly/FORMAT.md.
+/// results/summary.json: what was solved, how it ended and how accurate it is. Defined in assembly/FORMAT.md.
 struct Summary {
   Status status = Status::unconverged;
   std::string message;  ///< the reason for the status, with the numbers
@@ -97,28 +97,28 @@ struct Summary {
   std::string program_version, case_hash, geometry_hash, assembly_hash;
   int blocks = 0, free_blocks = 0, joints = 0, contacts = 0, unknowns = 0;
   double weight_N = 0.0;
-  Vec3 applied_load_N = Vec3::Zero();      ///< everything but contact forces, weight included
-  Vec3 support_reaction_N = Vec3::Zero();  ///< of the fixed blocks on the free ones
+  Vec3 applied_load_N = Vec3::Zero();      ///< all loads on the free blocks, weight included
+  Vec3 support_reaction_N = Vec3::Zero();  ///< force of the fixed blocks on the free ones
   double time_step_s = 0.0;
   double momentum_residual = 0.0;
   double equilibrium_residual = 0.0;
   double inertia_share = 0.0;  ///< static: 1 - reaction / load along gravity
   double contact_law_residual = 0.0;
-  std::optional<double> certified_force_error;  ///< none: `not certified`
+  std::optional<double> certified_force_error;  ///< none: written as `not certified`
   double friction_cone_violation = 0.0;
   double max_penetration_m = 0.0;
   double max_displacement_m = 0.0;
   double max_speed_m_per_s = 0.0;
   int slipping_contacts = 0;
   int steps = 0, iterations = 0;
-  double solve_time_seconds = 0.0;  ///< contact solves alone, without reading and writing
+  double solve_time_seconds = 0.0;  ///< contact solves only, without input and output
   double wall_time_seconds = 0.0;
-  double cpu_time_seconds = 0.0;  ///< of the whole process: what a busy machine does not change
+  double cpu_time_seconds = 0.0;  ///< of the whole process; unaffected by the load of the machine
   std::int64_t peak_memory_bytes = 0;
   int threads = 1;
   double accuracy_asked = 0.0, accuracy_reached = 0.0;
   std::optional<CriticalValue> critical;          ///< limit analysis only
-  std::map<std::string, std::string> text_files;  ///< of the results folder, by name: hash of the bytes
+  std::map<std::string, std::string> text_files;  ///< text files of the results folder: name to hash
 };
 
 }  // namespace cupola

@@ -6,13 +6,14 @@
 
 namespace cupola {
 
-/// A meridian is the half-plane at an azimuth; walls have none.
+/// Half-plane of a meridian, at an azimuth from x towards y; walls have no meridians.
 struct Meridian {
   std::string name;
   double azimuth_deg = 0.0;
 };
 
-/// Any plane, by a point and a normal of any length; the blocks that the normal points to lie beyond it.
+/// A plane given by a point and a normal of any length. Blocks on the side to which the normal points lie
+/// beyond it.
 struct CutPlane {
   std::string name;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m

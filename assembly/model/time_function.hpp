@@ -9,7 +9,7 @@ namespace cupola {
 /// factor(t) = 1.
 struct ConstantInTime {};
 
-/// Goes linearly from one value to another, constant before and after.
+/// Linear change from one value to another; constant before and after.
 struct RampInTime {
   double from = 0.0;
   double to = 1.0;
@@ -20,23 +20,23 @@ struct RampInTime {
 /// sin(2 pi frequency t + phase).
 struct HarmonicInTime {
   double frequency = 1.0;  ///< Hz, > 0
-  double phase_deg = 0.0;  ///< deg; 90 makes a cosine
+  double phase_deg = 0.0;  ///< deg; 90 gives a cosine
 };
 
-/// Linear between the points of a file (two columns: time in s, value), constant before and after.
+/// Linear interpolation between points, constant before the first and after the last.
 struct TableInTime {
-  std::string file;
-  std::vector<double> times;   ///< s, strictly increasing; filled by load_tables()
-  std::vector<double> values;  ///< as many
+  std::string file;            ///< two columns, time (s) and value; empty: the points are given in the case
+  std::vector<double> times;   ///< s, strictly increasing
+  std::vector<double> values;  ///< one per time
 };
 
-/// How a load, a support motion or a friction coefficient varies: the factor on its full value.
+/// Variation in time of a load, a support motion or a friction coefficient, as a factor on its full value.
 using TimeFunction = std::variant<ConstantInTime, RampInTime, HarmonicInTime, TableInTime>;
 
 double factor_at(const TimeFunction& function, double time);
 
-/// Displacement of a ground acceleration table (m/s2, linear between its points), from rest: integrated
-/// exactly to velocity and displacement at the table's times. No baseline correction is made.
+/// Ground displacement (m) for a ground acceleration (m/s2, linear between its points), starting from rest,
+/// integrated exactly at the times of the table. Without baseline correction.
 TableInTime integrate_twice(const TableInTime& acceleration);
 
 }  // namespace cupola

@@ -26,7 +26,7 @@ CommandLine::CommandLine(const std::string& name, const std::string& description
     : app_(std::make_unique<CLI::App>(description, name)) {
   app_->footer("Sample runs:\n" + sample_runs);
   app_->set_version_flag("--version", name + " " + program_version());
-  // Required options are checked in parse(), because --schema needs none of them.
+  // parse() checks the required options, because --schema needs none of them.
   app_->add_option("CASE", case_path_, "case file (.yaml)");
   app_->add_option("--set", set_options_, "change one key of the case, e.g. --set joints.friction=0.3")
       ->type_name("KEY.PATH=VALUE")

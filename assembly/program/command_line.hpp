@@ -15,13 +15,13 @@ class App;
 
 namespace cupola {
 
-/// Parses the arguments. Returns how the command ends when it need not go on: --help and --version print and
-/// end with `done`. Throws InputError for bad usage, naming the option.
+/// Parses the arguments. Returns an exit code if the program is to stop: --help and --version print and
+/// return `done`. Throws InputError that names the option for bad usage.
 std::optional<ExitCode> parse_arguments(CLI::App& app, int argc, const char* const* argv);
 
-/// Command line of one program: CASE.yaml and the options that all programs share, plus its own.
+/// Command line of one program: CASE.yaml, the options common to all programs, and its own.
 ///
-///     CommandLine line("cupola-generate", "Cuts a case's vault into blocks.", "cupola-generate a.yaml ...");
+///     CommandLine line("cupola-generate", "Cuts a vault into blocks.", "cupola-generate a.yaml ...");
 ///     line.required("--output", &output, "FILE", "assembly to write (.vtu)");
 ///     if (const auto ended = line.parse(argc, argv)) return *ended;
 ///     const Case scene = line.read_case();
@@ -32,22 +32,22 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  /// A string option that must be given, unless the run only checks the case or prints something.
+  /// A required string option; not required for --check, --schema, --help and --version.
   void required(const std::string& option, std::string* value, const std::string& what,
                 const std::string& help);
   void optional(const std::string& option, std::string* value, const std::string& what,
                 const std::string& help);
   void optional(const std::string& option, int* value, int smallest, const std::string& help);
-  /// A string option that replaces CASE and the required options: another kind of run.
+  /// A string option that replaces CASE and the required options, for another kind of run.
   void instead_of_case(const std::string& option, std::string* value, const std::string& what,
                        const std::string& help);
   void flag(const std::string& option, bool* value, const std::string& help);
 
-  /// Returns how the program ends when it need not go on: --help, --version and --schema print and end with
-  /// `done`. Throws InputError for bad usage, naming the option.
+  /// Returns an exit code if the program is to stop: --help, --version and --schema print and return `done`.
+  /// Throws InputError that names the option for bad usage.
   std::optional<ExitCode> parse(int argc, const char* const* argv);
 
-  /// The case named on the command line with --set applied.
+  /// Reads the case named on the command line and applies the --set options.
   Case read_case() const;
 
   bool check_only() const { return check_only_; }  ///< --check: validate and stop

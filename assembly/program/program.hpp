@@ -8,8 +8,8 @@ namespace cupola {
 /// Exit codes of every program.
 enum class ExitCode { done = 0, failed = 1, bad_input = 2, accuracy_not_reached = 3, interrupted = 4 };
 
-/// Runs `body` and turns what it throws into one clear line on stderr and the right exit code: the only try
-/// block of each program.
+/// Runs `body`. Turns an exception into one line on stderr and the corresponding exit code; it is the only
+/// try block of a program.
 int run_program(std::string_view name, const std::function<ExitCode()>& body);
 
 }  // namespace cupola

@@ -9,7 +9,7 @@
 
 namespace cupola {
 
-/// A folder of the running test's own, removed at the end.
+/// A folder used only by the running test, removed at its end.
 class ScratchFolder {
  public:
   ScratchFolder() {
