@@ -11,11 +11,11 @@ namespace {
 
 void declare_filter(Section& s, RowFilter& filter) {
   s.text("column", filter.column, "column of the table");
-  s.text("is", filter.is, "its text");
-  s.optional_number("from", filter.from, {}, "no lower limit", "smallest number that counts");
-  s.optional_number("to", filter.to, {}, "no upper limit", "largest number that counts");
+  s.text("is", filter.is, "text that the column must equal");
+  s.optional_number("from", filter.from, {}, "no lower limit", "smallest number selected");
+  s.optional_number("to", filter.to, {}, "no upper limit", "largest number selected");
   s.rule(!filter.column.empty(), "column", "must be given");
-  s.rule(filter.is.empty() || (!filter.from && !filter.to), "is", "goes without `from` and `to`");
+  s.rule(filter.is.empty() || (!filter.from && !filter.to), "is", "cannot be combined with `from` or `to`");
 }
 
 std::vector<std::string> words(const std::string& text) {
@@ -29,46 +29,47 @@ void declare_quantity(Section& s, Quantity& quantity) {
   std::string runs;
   s.text("runs", runs, "cases or variants, separated by spaces");
   quantity.runs = words(runs);
-  s.text("key", quantity.key, "of results/summary.json or post/summary.json");
-  s.text("status", quantity.status, "share of the runs that ended so");
-  s.text("table", quantity.table, "CSV of post/, without ending");
-  s.text("column", quantity.column, "of the table");
-  s.text("against", quantity.against, "linearity: the other column");
+  s.text("key", quantity.key, "entry of results/summary.json or post/summary.json");
+  s.text("status", quantity.status, "share of the runs that ended with this status");
+  s.text("table", quantity.table, "CSV file of post/, without extension");
+  s.text("column", quantity.column, "column of the table");
+  s.text("against", quantity.against, "other column, for `take: linearity`");
   s.text("reference", quantity.reference, "run whose column is subtracted first, row by row");
-  s.list("where", quantity.where, "rows of the table that count", declare_filter);
-  s.choice("take", quantity.take, "how several values become one");
+  s.list("where", quantity.where, "filters that select rows of the table", declare_filter);
+  s.choice("take", quantity.take, "how several values are reduced to one");
   const int sources = !quantity.key.empty() + !quantity.status.empty() + !quantity.table.empty();
   s.rule(!quantity.runs.empty(), "runs", "must name at least one case");
-  s.rule(sources == 1, "key", "give one of `key`, `status`, `table`");
-  s.rule(quantity.table.empty() == quantity.column.empty(), "column", "goes with `table`");
-  s.rule(!quantity.table.empty() || quantity.where.empty(), "where", "goes with `table`");
-  s.rule(!quantity.table.empty() || quantity.reference.empty(), "reference", "goes with `table`");
+  s.rule(sources == 1, "key", "give exactly one of `key`, `status` and `table`");
+  s.rule(quantity.table.empty() == quantity.column.empty(), "column",
+         "`table` and `column` must be given together");
+  s.rule(!quantity.table.empty() || quantity.where.empty(), "where", "requires `table`");
+  s.rule(!quantity.table.empty() || quantity.reference.empty(), "reference", "requires `table`");
   s.rule((quantity.take == Take::linearity) == !quantity.against.empty(), "against",
-         "goes with `take: linearity`");
+         "must be given with `take: linearity`, and only then");
 }
 
 void declare_claim(Section& s, Claim& claim) {
   s.text("source", claim.source, "section and figure of the publication");
-  s.text("says", claim.says, "the claim, in words");
-  s.text("number", claim.number, "what the number is, in words");
+  s.text("says", claim.says, "the claim in words");
+  s.text("number", claim.number, "the number in words");
   s.text("unit", claim.unit, "of the number");
-  s.text("open", claim.open, "why the text leaves it open; no verdict then");
-  s.text("note", claim.note, "what else a reader should know");
-  s.section("value", claim.value, "the number", declare_quantity);
-  s.optional_section("over", claim.over, "divides it", declare_quantity);
-  s.optional_section("minus", claim.minus, "is subtracted after that", declare_quantity);
-  s.optional_number("at_least", claim.at_least, {}, "no lower limit", "the claim holds from here");
-  s.optional_number("at_most", claim.at_most, {}, "no upper limit", "the claim holds to here");
+  s.text("open", claim.open, "replaces the verdict: why there are no limits, or what the number means");
+  s.text("note", claim.note, "remark for the reader");
+  s.section("value", claim.value, "the number that tests the claim", declare_quantity);
+  s.optional_section("over", claim.over, "divisor of the value", declare_quantity);
+  s.optional_section("minus", claim.minus, "subtracted after the division", declare_quantity);
+  s.optional_number("at_least", claim.at_least, {}, "no lower limit", "lower limit of the claim");
+  s.optional_number("at_most", claim.at_most, {}, "no upper limit", "upper limit of the claim");
   s.rule(!claim.says.empty(), "says", "must be given");
   s.rule(!claim.open.empty() || claim.at_least || claim.at_most, "at_least",
-         "give `at_least`, `at_most` or `open`");
+         "give at least one of `at_least`, `at_most` and `open`");
 }
 
 void declare_figure(Section& s, ClaimFigure& figure) {
   s.text("source", figure.source, "figure of the publication");
-  s.text("shows", figure.shows, "what to look at, in words");
-  s.text("run", figure.run, "case or variant that it is a picture of");
-  s.text("picture", figure.picture, "file below the run's folder post/");
+  s.text("shows", figure.shows, "caption: what to look at");
+  s.text("run", figure.run, "case or variant that the picture shows");
+  s.text("picture", figure.picture, "file below the folder post/ of the run");
   s.rule(!figure.source.empty(), "source", "must be given");
   s.rule(!figure.run.empty(), "run", "must name a case");
   s.rule(!figure.picture.empty(), "picture", "must name a file");
@@ -81,10 +82,11 @@ ClaimsFile read_claims(const std::string& path) {
   ClaimsFile file;
   Section root(&tree, "", tree.where, path);
   root.text("title", file.title, "of the publication");
-  root.list("claims", file.claims, "one entry per sentence", declare_claim);
-  root.list("figures", file.figures, "one entry per picture", declare_figure);
+  root.list("claims", file.claims, "one entry per claim", declare_claim);
+  root.list("figures", file.figures, "one entry per figure", declare_figure);
   root.finish();
-  if (file.claims.empty()) throw InputError(FileLocation{path}, "holds no claims");
+  if (file.claims.empty())
+    throw InputError(FileLocation{path}, "contains no claims; list at least one under `claims`");
   return file;
 }
 

@@ -9,38 +9,41 @@
 
 namespace cupola {
 
-/// Rows of a table that count: a column's text equals `is`, or its number lies in [from, to].
+/// Selects rows of a table: the text of the column equals `is`, or its number lies in [from, to].
 struct RowFilter {
   std::string column;
-  std::string is;  ///< empty: the range counts
+  std::string is;  ///< empty: the range applies
   std::optional<double> from, to;
 };
 
-/// How several values become one.
+/// Reduces several values to one.
 enum class Take : std::uint8_t {
-  only,    ///< there must be exactly one value
+  only,    ///< requires exactly one value
   mean,    ///< arithmetic mean
-  median,  ///< of an even number: mean of the middle two
+  median,  ///< for an even count the mean of the two middle values
   largest,
   smallest,
   sum,
-  spread,     ///< largest - smallest over the mean's magnitude
-  variation,  ///< standard deviation over mean
-  rms,        ///< root of the mean square
-  linearity,  ///< squared correlation (R2) with the column `against`
-  roughness,  ///< mean |second difference| over the mean's magnitude: how wiggly a curve is
+  spread,     ///< (largest - smallest) / |mean|
+  variation,  ///< coefficient of variation: standard deviation / |mean|
+  rms,        ///< root mean square
+  linearity,  ///< squared correlation coefficient (R2) with the column `against`
+  roughness,  ///< mean |second difference| / |mean|; 0 on a straight line with even spacing
 };
 constexpr auto enum_names(Take) {
   return std::array{"only",   "mean",      "median", "largest",   "smallest", "sum",
                     "spread", "variation", "rms",    "linearity", "roughness"};
 }
 
-/// A number drawn from the files of finished runs. One of three sources:
-///   key     of results/summary.json or post/summary.json: `results.max_displacement_m`,
-///   `post.rings.0.cv_pressure` status  the share of the runs that ended so: 1 when all did table   a CSV of
-///   post/ and one of its columns, rows chosen by `where`
-/// With `reference` the table's column of that run is subtracted first, row by row. The values of all runs
-/// are pooled, in the order given, before `take`.
+/// A number taken from the files of finished runs. It has exactly one of three sources:
+///
+///   key     an entry of results/summary.json or post/summary.json: `results.max_displacement_m`,
+///           `post.rings.0.cv_pressure`
+///   status  the share of the runs that ended with this status, from 0 to 1
+///   table   a CSV file of post/ and one of its columns, with the rows chosen by `where`
+///
+/// With `reference`, the same column of that run is subtracted first, row by row. The values of all runs are
+/// pooled in the order of `runs` and then reduced by `take`.
 struct Quantity {
   std::vector<std::string> runs;  ///< names of cases or variants
   std::string key;
@@ -50,26 +53,29 @@ struct Quantity {
   Take take = Take::only;
 };
 
-/// A sentence of a publication, with the number that tests it: value, divided by `over` and less `minus`
-/// where given, must lie in [at_least, at_most].
+/// A statement of a publication and the number that tests it. The statement holds if
+///
+///   at_least <= value / over - minus <= at_most
+///
+/// where `over`, `minus` and either limit may be absent.
 struct Claim {
   std::string source;  ///< section and figure
-  std::string says;    ///< the sentence
-  std::string number;  ///< what the number is, in words
+  std::string says;    ///< the statement
+  std::string number;  ///< the number in words
   std::string unit;
-  std::string open;  ///< why the text leaves it open: shown, and no verdict is given
-  std::string note;  ///< what else a reader should know
+  std::string open;  ///< replaces the verdict: why there are no limits, or what the number means
+  std::string note;  ///< remark for the reader
   Quantity value;
   std::optional<Quantity> over, minus;
   std::optional<double> at_least, at_most;
 };
 
-/// A figure of the publication and the picture of a run that stands for it.
+/// A figure of the publication and the corresponding picture of a run.
 struct ClaimFigure {
   std::string source;   ///< "Fig. 7b"
-  std::string shows;    ///< what to look at, in words
+  std::string shows;    ///< caption
   std::string run;      ///< name of a case or variant
-  std::string picture;  ///< below the run's folder post/
+  std::string picture;  ///< path below the run's folder post/
 };
 
 struct ClaimsFile {
@@ -78,7 +84,7 @@ struct ClaimsFile {
   std::vector<ClaimFigure> figures;
 };
 
-/// Reads a claims file as strictly as a case file.
+/// Reads a claims file with the strict reader of case files; throws InputError with line and key.
 ClaimsFile read_claims(const std::string& path);
 
 }  // namespace cupola

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array kVerdicts = {Verdict::reproduced, Verdict::not_reproduced, Verdict::open,
                                   Verdict::not_solved, Verdict::not_run};
 
-/// "1.27, paper: >= 1 and <= 2", with the unit.
+/// Limits of the claim, e.g. ">= 1 and <= 2"; "-" for an open question.
 std::string range(const Claim& claim) {
   if (!claim.open.empty()) return "-";
   std::string out;
@@ -41,7 +41,7 @@ std::string counts(const std::vector<ClaimResult>& results) {
   return out;
 }
 
-/// Words in lines of at most `width` characters, each after `indent`.
+/// Text broken into lines of at most `width` characters, each preceded by `indent`.
 std::string wrapped_text(const std::string& text, size_t width, const std::string& indent) {
   std::string out, line;
   for (size_t start = 0; start < text.size();) {
@@ -65,39 +65,39 @@ text-align: left; vertical-align: top }} small {{ color: #666 }}
 .reproduced {{ color: #007a5a }} .not_reproduced {{ color: #b84300 }} .open {{ color: #555 }}
 .not_solved, .not_run {{ color: #999 }} td.verdict {{ white-space: nowrap; font-weight: bold }}
 figure {{ margin: 2em 0 }} figure img {{ max-width: 100% }} figcaption {{ color: #444 }}
-</style></head><body><h1>What was claimed, and what came out</h1><p>{}.</p>
-<table><tr><th>Source</th><th>Claim</th><th>Number</th><th>Value</th><th>Claimed</th><th>Verdict</th></tr>
+</style></head><body><h1>Claims and results</h1><p>{}.</p>
+<table><tr><th>Source</th><th>Claim</th><th>Number</th><th>Value</th><th>Limits</th><th>Verdict</th></tr>
 {}</table>
 {}</body></html>
 )";
 
-/// The figures in their order, below a heading; "" without any.
+/// The figures in order, below a heading; "" if there are none.
 std::string figures_html(const std::vector<ClaimFigure>& figures, const std::string& runs) {
   std::string out;
   for (const ClaimFigure& figure : figures) {
     const std::string path = fmt::format("{}/{}/post/{}", runs, figure.run, figure.picture);
     std::string picture = html_picture(path, figure.shows);
     if (picture.empty())
-      picture = markup_text(fmt::format("Not made yet: {} of {}.", figure.picture, figure.run));
+      picture = markup_text(fmt::format("Not drawn yet: {} of the run {}.", figure.picture, figure.run));
     out += fmt::format(
         "<figure>\n{}\n<figcaption><strong>{}</strong> {} <small>{}</small></figcaption>\n</figure>\n",
         picture, markup_text(figure.source), markup_text(figure.shows), markup_text(figure.run));
   }
-  return out.empty() ? out : "<h1>Its figures, from our runs</h1>\n" + out;
+  return out.empty() ? out : "<h1>Figures of the publication, drawn from our runs</h1>\n" + out;
 }
 
 }  // namespace
 
 Table claims_table(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results) {
-  Table t{"claims", "What was claimed, and what came out", {}, {}};
+  Table t{"claims", "Claims and results", {}, {}};
   t.columns = {{"source", "", "section and figure of the publication"},
-               {"claim", "", "in words"},
-               {"number", "", "what was measured"},
-               {"value", "", "empty where a run is missing"},
+               {"claim", "", "the statement"},
+               {"number", "", "the number that tests it"},
+               {"value", "", "empty if a run is missing or not solved"},
                {"unit", "", "of the value"},
-               {"claimed", "", "range in which the claim holds"},
-               {"verdict", "", ""},
-               {"remark", "", ""}};
+               {"claimed", "", "limits within which the claim holds"},
+               {"verdict", "", "outcome"},
+               {"remark", "", "reason or note"}};
   for (size_t i = 0; i < claims.size(); ++i) {
     const Claim& claim = claims[i];
     const Table::Cell value =
@@ -115,7 +115,7 @@ std::string claims_text(const std::vector<Claim>& claims, const std::vector<Clai
     out += fmt::format("{:<15} {}\n", to_string(results[i].verdict) + ":", claim.source);
     out += wrapped_text(claim.says, 96, "    ");
     out += wrapped_text(fmt::format("{}: {}{}", claim.number, shown_number(claim, results[i]),
-                                    claim.open.empty() ? fmt::format("  (claimed: {})", range(claim)) : ""),
+                                    claim.open.empty() ? fmt::format("  (limits: {})", range(claim)) : ""),
                         96, "      ");
     out += wrapped_text(remark(claim, results[i]), 96, "      ");
   }
@@ -133,8 +133,8 @@ std::string claims_html(const ClaimsFile& file, const std::vector<ClaimResult>& 
     for (char& c : css)
       if (c == ' ') c = '_';
     rows += fmt::format(
-        "<tr><td>{}</td><td>{}<br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td>"
-        "<td class=\"verdict {}\">{}</td></tr>\n",
+        "<tr><td>{}</td><td>{}<br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td><td class=\"verdict "
+        "{}\">{}</td></tr>\n",
         markup_text(claim.source), markup_text(claim.says), markup_text(remark(claim, results[i])),
         markup_text(claim.number), markup_text(shown_number(claim, results[i])), markup_text(range(claim)),
         css, verdict);

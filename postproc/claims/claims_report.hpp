@@ -8,14 +8,14 @@
 
 namespace cupola {
 
-/// Claim, number and verdict, one row per claim.
+/// One row per claim: source, claim, number, limits and verdict.
 Table claims_table(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results);
 
-/// The same for a terminal, followed by the counts of each verdict.
+/// The table as text for a terminal, followed by the number of claims with each verdict.
 std::string claims_text(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results);
 
-/// The same as one HTML page that opens anywhere, followed by the figures, whose pictures are those of the
-/// runs below `runs`; one that was not made yet is named.
+/// The table as a self-contained HTML page, followed by the figures with the pictures from the folders
+/// `runs`/RUN/post. A picture that does not exist yet is reported by name.
 std::string claims_html(const ClaimsFile& file, const std::vector<ClaimResult>& results,
                         const std::string& runs);
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "assembly/base/error.hpp"
 #include "postproc/claims/verdict.hpp"
 
 namespace cupola {
@@ -52,6 +53,8 @@ double roughness(const std::vector<double>& values) {
 }  // namespace
 
 double reduce(Take take, const std::vector<double>& values, const std::vector<double>& against) {
+  CUPOLA_ASSERT(!values.empty());
+  CUPOLA_ASSERT(take != Take::linearity || against.size() == values.size());
   const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
   switch (take) {
     case Take::only:

@@ -11,7 +11,7 @@
 namespace cupola {
 namespace {
 
-bool counts(const CsvFile& table, size_t row, const std::vector<RowFilter>& filters) {
+bool passes(const CsvFile& table, size_t row, const std::vector<RowFilter>& filters) {
   for (const RowFilter& filter : filters) {
     const size_t column = table.column(filter.column);
     if (!filter.is.empty()) {
@@ -34,11 +34,12 @@ void append_rows(const Quantity& quantity, const std::string& name, RunCache& ca
   const CsvFile* reference =
       quantity.reference.empty() ? nullptr : &cache.run(quantity.reference).table(quantity.table);
   if (reference && reference->rows.size() != table.rows.size())
-    throw InputError(fmt::format("claims: {} of {} has {} rows, of {} {}", quantity.table, name,
-                                 table.rows.size(), quantity.reference, reference->rows.size()));
+    throw InputError(fmt::format("claims: table {} has {} rows in {} but {} in its reference {}",
+                                 quantity.table, table.rows.size(), name, reference->rows.size(),
+                                 quantity.reference));
   const size_t column = table.column(quantity.column);
   for (size_t row = 0; row < table.rows.size(); ++row) {
-    if (!counts(table, row, quantity.where)) continue;
+    if (!passes(table, row, quantity.where)) continue;
     out->values.push_back(table.number(row, column));
     if (reference) out->values.back() -= reference->number(row, reference->column(quantity.column));
     if (!quantity.against.empty()) out->against.push_back(table.number(row, table.column(quantity.against)));
@@ -56,15 +57,15 @@ double evaluate(const Quantity& quantity, RunCache& cache) {
       append_rows(quantity, name, cache, &v);
   }
   const std::string source = quantity.key + quantity.table + " of " + quantity.runs.front();
-  if (v.values.empty())
-    throw InputError(fmt::format("claims: no row of {} passes the filters of a claim", source));
+  if (v.values.empty()) throw InputError(fmt::format("claims: `where` selects no row of {}", source));
   const Take take = quantity.status.empty() ? quantity.take : Take::mean;
   if (take == Take::only && v.values.size() != 1)
-    throw InputError(fmt::format("claims: {} values in {}: say `take`", v.values.size(), source));
+    throw InputError(fmt::format("claims: {} values in {}; choose how to reduce them with `take`",
+                                 v.values.size(), source));
   return reduce(take, v.values, v.against);
 }
 
-/// The runs that a quantity reads, its reference included.
+/// The runs that a quantity reads, including its reference.
 std::vector<std::string> runs_of(const Quantity& quantity) {
   std::vector<std::string> runs = quantity.runs;
   if (!quantity.reference.empty()) runs.push_back(quantity.reference);
@@ -78,7 +79,7 @@ std::vector<const Quantity*> quantities(const Claim& claim) {
   return out;
 }
 
-std::string joined(const std::set<std::string>& names) {
+std::string listed(const std::set<std::string>& names) {
   return fmt::format("{}", fmt::join(names, " "));
 }
 
@@ -91,15 +92,15 @@ ClaimResult evaluate(const Claim& claim, RunCache& cache) {
       else if (quantity->status != "unconverged" && cache.run(name).status() == "unconverged")
         unsolved.insert(name);
     }
-  if (!missing.empty()) return {Verdict::not_run, std::nullopt, "not run: " + joined(missing)};
-  if (!unsolved.empty()) return {Verdict::not_solved, std::nullopt, "not solved: " + joined(unsolved)};
+  if (!missing.empty()) return {Verdict::not_run, std::nullopt, "not run: " + listed(missing)};
+  if (!unsolved.empty()) return {Verdict::not_solved, std::nullopt, "not solved: " + listed(unsolved)};
 
   double number = evaluate(claim.value, cache);
   if (claim.over) number /= evaluate(*claim.over, cache);
   if (claim.minus) number -= evaluate(*claim.minus, cache);
   if (!claim.open.empty()) return {Verdict::open, number, claim.open};
   const bool holds = (!claim.at_least || number >= *claim.at_least) &&
-                     (!claim.at_most || number <= *claim.at_most);  // false for nan
+                     (!claim.at_most || number <= *claim.at_most);  // false for NaN
   return {holds ? Verdict::reproduced : Verdict::not_reproduced, number, ""};
 }
 

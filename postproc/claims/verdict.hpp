@@ -9,11 +9,12 @@
 
 namespace cupola {
 
+/// Outcome of a claim.
 enum class Verdict : std::uint8_t {
   reproduced,
   not_reproduced,
-  open,        ///< the text leaves it open: the number stands alone
-  not_solved,  ///< a run did not reach the accuracy it asked for: its numbers prove nothing
+  open,        ///< the claim has no limits: the number is shown without a verdict
+  not_solved,  ///< a run did not reach its requested accuracy, so its numbers are not used
   not_run,     ///< a run has no results yet
 };
 std::string to_string(Verdict verdict);
@@ -21,17 +22,18 @@ std::string to_string(Verdict verdict);
 struct ClaimResult {
   Verdict verdict = Verdict::not_run;
   std::optional<double> number;
-  std::string reason;  ///< the runs that are missing or not solved
+  std::string reason;  ///< the runs that are missing or not solved; the text of an open claim
 };
 
-/// Evaluates the claims, in their order, on the folders `out/RUN` that Makefile.cases fills. A key, table or
-/// column that a finished run does not have is an InputError.
+/// Evaluates the claims on the finished runs in the folders `out`/RUN, in the order of `claims`. Throws
+/// InputError if a finished run lacks a key, table or column that a claim reads.
 std::vector<ClaimResult> evaluate_claims(const std::vector<Claim>& claims, const std::string& out);
 
-/// Every run that the claims and the figures draw on, once, in the order of first use.
+/// The runs that the claims and figures read, each once, in the order of first use.
 std::vector<std::string> needed_runs(const ClaimsFile& file);
 
-/// Reduces values, which must not be empty; `against` serves linearity.
+/// Reduces `values`, which must not be empty, to one number. `against` is read by Take::linearity only and
+/// has then the same size as `values`.
 double reduce(Take take, const std::vector<double>& values, const std::vector<double>& against = {});
 
 }  // namespace cupola

@@ -1,4 +1,4 @@
-// Claims: reduction of values, reading, and verdicts on runs written by hand.
+// Claims: reduction of values, reading of the file, and verdicts on handwritten runs.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ std::string claim_file(const std::string& body) {
   return "claims:\n  - says: a sentence\n" + body;
 }
 
-/// A finished run `name` below the scratch folder.
+/// Writes a finished run `name` below the scratch folder.
 void write_run(const ScratchFolder& scratch, const std::string& name, const std::string& status, double x) {
   scratch.write(name + "/results/summary.json",
                 "{\"status\": \"" + status + "\", \"deep\": {\"list\": [1, " + std::to_string(x) + "]}}");
@@ -43,9 +43,9 @@ TEST(Claims, ReduceGivesTheTextbookValues) {
   EXPECT_DOUBLE_EQ(reduce(Take::roughness, v), 1.0 / 3.0);  // second differences 0 and 2
 }
 
-TEST(Claims, LinearityIsOneOnALineAndLessOffIt) {
+TEST(Claims, LinearityIsOneOnALineAndLessOtherwise) {
   EXPECT_DOUBLE_EQ(reduce(Take::linearity, {7.0, 5.0, 3.0}, {0.0, 1.0, 2.0}), 1.0);
-  // x = -1, 0, 1 and y = 1, 0, 1: no linear part at all
+  // x = -1, 0, 1 and y = 1, 0, 1 are uncorrelated
   EXPECT_DOUBLE_EQ(reduce(Take::linearity, {-1.0, 0.0, 1.0}, {1.0, 0.0, 1.0}), 0.0);
 }
 
@@ -60,7 +60,7 @@ TEST(Claims, CsvKeepsQuotedCommasAndQuotes) {
   EXPECT_THROW(read_csv(scratch.write("bad.csv", "a,b\n1\n")), InputError);
 }
 
-TEST(Claims, KeysDescendAndFlagsCount) {
+TEST(Claims, KeysDescendIntoObjectsAndBooleansCountAsOneOrZero) {
   const ScratchFolder scratch;
   write_run(scratch, "a", "stable", 2.5);
   EXPECT_DOUBLE_EQ(
@@ -73,7 +73,7 @@ TEST(Claims, KeysDescendAndFlagsCount) {
         << key;
 }
 
-TEST(Claims, RowsAreChosenDividedAndSubtracted) {
+TEST(Claims, RowsAreSelectedDividedAndSubtracted) {
   const ScratchFolder scratch;
   write_run(scratch, "a", "stable", 1.0);
   const std::string standard = "table: blocks, column: force_N, where: [{column: kind, is: standard}]";
@@ -99,7 +99,7 @@ TEST(Claims, RowsAreChosenDividedAndSubtracted) {
                    0.0);
 }
 
-TEST(Claims, VerdictsSayWhatIsMissingOrNotSolved) {
+TEST(Claims, VerdictsNameRunsThatAreMissingOrNotSolved) {
   const ScratchFolder scratch;
   write_run(scratch, "good", "stable", 1.0);
   write_run(scratch, "bad", "unconverged", 1.0);
@@ -114,10 +114,10 @@ TEST(Claims, VerdictsSayWhatIsMissingOrNotSolved) {
   EXPECT_FALSE(missing.number);
   EXPECT_EQ(verdict(scratch, "    value: {runs: bad" + key + "    at_least: 1\n").verdict,
             Verdict::not_solved);
-  // Unconverged is neither standing nor falling.
+  // An unconverged run neither stands nor falls,
   EXPECT_EQ(verdict(scratch, "    value: {runs: bad, status: stable}\n    at_most: 0\n").verdict,
             Verdict::not_solved);
-  // Unless that is the question: which runs does a method leave unsolved?
+  // unless the claim itself asks which runs a method fails to solve.
   EXPECT_DOUBLE_EQ(
       *verdict(scratch, "    value: {runs: good bad, status: unconverged}\n    at_least: 1\n").number, 0.5);
   write_run(scratch, "fallen", "collapsed", 1.0);
@@ -156,7 +156,7 @@ TEST(Claims, ReportShowsEveryVerdictAndEscapesText) {
   EXPECT_EQ(claims_table(claims, results).rows.size(), 2u);
   EXPECT_EQ(needed_runs(file), (std::vector<std::string>{"a", "b", "c"}));
   EXPECT_NE(html.find("<img alt=\"x &gt; y\" src=\"data:image/svg"), std::string::npos);
-  EXPECT_NE(html.find("Not made yet: figures/c.svg of c."), std::string::npos);
+  EXPECT_NE(html.find("Not drawn yet: figures/c.svg of the run c."), std::string::npos);
 }
 
 }  // namespace
