@@ -39,7 +39,8 @@ HistoryRow history_row(const Evaluation& e, const Frame& frame) {
   return row;
 }
 
-/// The displaced blocks of every readable frame, and what moves over time; other frames are left out.
+/// Writes the displaced blocks of every readable frame and returns one history row per frame. Unreadable
+/// frames are left out.
 std::vector<HistoryRow> write_frames(const ResultsReader& results, const std::string& folder,
                                      Evaluation* evaluation) {
   const Evaluation& e = *evaluation;
@@ -77,18 +78,19 @@ void write_meshes(const Evaluation& e, const std::string& folder) {
   write_mesh(in_folder(folder, "cracks.vtp"), cracks_mesh(e));
 }
 
-/// A picture of one case with the numbers of another must be asked for.
+/// Throws InputError if the assembly or the results belong to another case, unless --force is given.
 void check_provenance(const AnalyseRequest& request, const Assembly& assembly, const Summary& summary) {
   if (request.force) return;
   if (assembly.geometry_hash != request.scene.geometry_hash)
     throw InputError(FileLocation{request.assembly_path},
-                     fmt::format("was not made from {}: its geometry or material differ; --force takes it",
+                     fmt::format("was generated from another case: geometry or material differ from {}. "
+                                 "Generate it again, or pass --force to accept it",
                                  request.scene.file));
   if (summary.case_hash != request.scene.hash)
-    throw InputError(
-        FileLocation{request.results_folder},
-        fmt::format("was not solved from {}: its loads, joints or analysis differ; --force takes it",
-                    request.scene.file));
+    throw InputError(FileLocation{request.results_folder},
+                     fmt::format("was solved from another case: loads, joints or analysis differ from {}. "
+                                 "Solve it again, or pass --force to accept it",
+                                 request.scene.file));
 }
 
 struct Drawn {
@@ -96,7 +98,7 @@ struct Drawn {
   std::vector<Picture> pictures;
 };
 
-/// Meshes for ParaView, figures and pictures. What cannot be drawn becomes a warning.
+/// Writes meshes for ParaView, figures and pictures. Figures that cannot be drawn become warnings.
 Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const std::optional<Table>& stages,
            Evaluation* e) {
   const std::string& folder = request.output_folder;
@@ -124,7 +126,7 @@ void write_report(const AnalyseRequest& request, const std::vector<Table>& table
                                      .run_yaml = run_yaml}));
 }
 
-/// "" where it cannot be read, which is noted.
+/// Text of a result file; "" if it cannot be read, which is recorded in the evaluation.
 std::string readable_text(const ResultsReader& results, const std::string& name, Evaluation* e) {
   try {
     return results.read_text_file(name);
@@ -134,12 +136,13 @@ std::string readable_text(const ResultsReader& results, const std::string& name,
   }
 }
 
-/// What was left out is said by the exit code too: make must not take the output for complete.
-void refuse_if_incomplete(const Evaluation& e, const std::string& output_folder) {
+/// Throws InputError if parts were left out, so that make does not take the output for complete.
+void throw_if_incomplete(const Evaluation& e, const std::string& output_folder) {
   if (e.unreadable.empty()) return;
   for (size_t i = 0; i + 1 < e.unreadable.size(); ++i)
     fmt::print(stderr, "cupola-post: error: {}\n", e.unreadable[i]);
-  throw InputError(fmt::format("{}; {} holds what the rest gives", e.unreadable.back(), output_folder));
+  throw InputError(
+      fmt::format("{}; {} contains the results of the readable parts", e.unreadable.back(), output_folder));
 }
 
 }  // namespace
@@ -152,7 +155,7 @@ ExitCode analyse(const AnalyseRequest& request) {
 
   const std::string& folder = request.output_folder;
   make_folder(folder);
-  // A summary says that a folder is complete: the old one goes before the first file is replaced.
+  // The summary marks the folder as complete: remove the old one before the first file is replaced.
   std::filesystem::remove(in_folder(folder, "summary.json"));
   std::vector<Table> tables = result_tables(e);
   std::optional<Table> stages;
@@ -169,10 +172,10 @@ ExitCode analyse(const AnalyseRequest& request) {
 
   for (const std::string& warning : e.warnings) fmt::print(stderr, "cupola-post: warning: {}\n", warning);
   if (!request.quiet)
-    fmt::print("{} tables, {} figures, {} pictures; read {}\n", tables.size(), drawn.figures.size(),
+    fmt::print("{} tables, {} figures, {} pictures; open {}\n", tables.size(), drawn.figures.size(),
                drawn.pictures.size(),
                in_folder(folder, request.tables_only ? "summary.json" : "report.html"));
-  refuse_if_incomplete(e, folder);
+  throw_if_incomplete(e, folder);
   return ExitCode::done;
 }
 

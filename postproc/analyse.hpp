@@ -8,22 +8,23 @@
 
 namespace cupola {
 
-/// What `cupola-post analyse` is asked to do.
+/// Inputs and options of `cupola-post analyse`.
 struct AnalyseRequest {
   Case scene;
   std::string assembly_path;   ///< assembly.vtu
-  std::string results_folder;  ///< of cupola-solve
+  std::string results_folder;  ///< written by cupola-solve
   std::string output_folder;   ///< post/
   std::string pvbatch;         ///< command that runs ParaView's pvbatch; "": no 3-D pictures
-  bool tables_only = false;    ///< neither meshes nor figures nor a report: what other programs read
+  bool tables_only = false;    ///< write no meshes, figures or report
   bool quiet = false;
-  bool force = false;  ///< take a run of another geometry, load, joint or analysis
+  bool force = false;  ///< accept a run whose geometry, loads, joints or analysis differ from the case
 };
 
-/// Reads the run, evaluates it and writes the output folder (FORMAT.md lists its files). What is missing from
-/// the results or damaged is left out, then InputError: make must not take the folder for complete. Figures
-/// that gnuplot cannot draw become warnings in the report; a run that is not an equilibrium is said in its
-/// first lines.
+/// Reads the run, evaluates it and writes the output folder (FORMAT.md lists its files).
+///
+/// Parts of the results that are missing or damaged are left out; the function then throws InputError at the
+/// end, so that make does not take the folder for complete. Figures that gnuplot cannot draw become warnings
+/// in the report. If the run is not an equilibrium, the first lines of the report say so.
 ExitCode analyse(const AnalyseRequest& request);
 
 }  // namespace cupola

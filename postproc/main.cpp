@@ -1,4 +1,5 @@
-// cupola-post: what the contact forces of a run mean, in tables, figures and files for ParaView.
+// cupola-post: evaluates the contact forces of a run and writes tables, figures, a report and files for
+// ParaView.
 //
 // Sample runs:
 //   cupola-post analyse cases/dome_circular.yaml --assembly assembly.vtu --results results/ --output post/
@@ -27,36 +28,37 @@ namespace {
 using namespace cupola;
 
 constexpr const char* kUsage =
-    "cupola-post: what the contact forces of a run mean.\n\n"
+    "cupola-post: evaluates the contact forces of finished runs.\n\n"
     "  cupola-post analyse CASE.yaml --assembly FILE --results FOLDER --output FOLDER\n"
     "  cupola-post compare POST POST ... --output FOLDER\n"
     "  cupola-post claims CLAIMS.yaml --runs FOLDER --output FOLDER\n"
     "  cupola-post sweep CASE.yaml --runs FOLDER --output FOLDER\n"
     "  cupola-post tradeoff STUDY.txt --runs FOLDER --output FOLDER\n"
     "  cupola-post columns\n\n"
-    "`cupola-post COMMAND --help` tells the options.\n";
+    "`cupola-post COMMAND --help` lists the options.\n";
 
 ExitCode run_analyse(int argc, char** argv) {
-  // 1. What is asked
+  // 1. Command line
   AnalyseRequest request;
   CommandLine line(
       "cupola-post analyse", "Evaluates a run: wrenches, thrust lines, sections, figures, report.",
       "  cupola-post analyse dome.yaml --assembly assembly.vtu --results results/ --output post/");
-  line.required("--assembly", &request.assembly_path, "FILE", "assembly that was solved");
-  line.required("--results", &request.results_folder, "FOLDER", "results of cupola-solve");
-  line.required("--output", &request.output_folder, "FOLDER", "folder to write");
-  line.flag("--tables", &request.tables_only, "write the tables and the summary only");
-  line.flag("--force", &request.force, "take an assembly or results of another case");
+  line.required("--assembly", &request.assembly_path, "FILE", "assembly file that was solved");
+  line.required("--results", &request.results_folder, "FOLDER", "output folder of cupola-solve");
+  line.required("--output", &request.output_folder, "FOLDER",
+                "folder for the report, tables, figures and meshes");
+  line.flag("--tables", &request.tables_only, "write only the tables and the summary");
+  line.flag("--force", &request.force, "accept an assembly or results of another case");
   line.optional("--pvbatch", &request.pvbatch, "COMMAND",
                 "draw 3-D pictures with ParaView, e.g. 'xvfb-run -a pvbatch'");
   if (const auto ended = line.parse(argc, argv)) return *ended;
 
-  // 2. The case
+  // 2. Case
   request.scene = line.read_case();
   request.quiet = line.quiet();
   if (line.check_only()) return ExitCode::done;
 
-  // 3. The evaluation and its files
+  // 3. Evaluation and output
   return analyse(request);
 }
 
@@ -80,10 +82,9 @@ ExitCode run(int argc, char** argv) {
     return ExitCode::done;
   }
   if (command.empty())
-    throw InputError("a command is missing: analyse, compare, claims, sweep, tradeoff or columns");
-  throw InputError(fmt::format(
-      "`{}` is not a command; the commands are: analyse, compare, claims, sweep, tradeoff, columns",
-      command));
+    throw InputError("the command is missing; use analyse, compare, claims, sweep, tradeoff or columns");
+  throw InputError(
+      fmt::format("unknown command `{}`; use analyse, compare, claims, sweep, tradeoff or columns", command));
 }
 
 }  // namespace

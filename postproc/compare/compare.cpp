@@ -11,7 +11,7 @@
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/program/command_line.hpp"
-#include "postproc/compare/reading.hpp"
+#include "postproc/compare/findings.hpp"
 #include "postproc/figures/gnuplot.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/html.hpp"
@@ -22,16 +22,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One curve per run from a table that several runs have.
+/// A graph with one curve per run, from a table that several runs have.
 struct Overlay {
-  std::string table;   // name of the CSV
-  std::string column;  // against height_m
-  double scale = 1.0;  // of the column's SI value
-  std::string label;   // of the axis, with unit
+  std::string table;   // name of the CSV file
+  std::string column;  // drawn over height_m
+  double scale = 1.0;  // factor from the SI value of the column
+  std::string label;   // axis label with unit
   std::string title;
 };
 
-/// Names of the runs' files that begin and end as given, in order, without repetition.
+/// Names, without `ending`, of the files in the folders that begin with `start` and end with `ending`.
 std::set<std::string> common_files(const std::vector<std::string>& folders, const std::string& start,
                                    const std::string& ending) {
   std::set<std::string> names;
@@ -54,7 +54,7 @@ std::vector<std::vector<double>> curve(const CsvFile& csv, const Overlay& overla
   return rows;
 }
 
-/// The overlaid graph, or a figure without commands when fewer than two runs have the table.
+/// The overlaid graph; a figure without commands if fewer than two runs have the table.
 Figure overlay_figure(const Overlay& overlay, const std::vector<std::string>& folders,
                       const std::vector<std::string>& labels) {
   constexpr const char* kColours[] = {kBlue, kOrange, kGreen, kPurple, kSky, "#000000"};
@@ -86,12 +86,13 @@ Figure overlay_figure(const Overlay& overlay, const std::vector<std::string>& fo
 std::vector<Figure> overlay_figures(const std::vector<std::string>& folders,
                                     const std::vector<std::string>& labels) {
   std::vector<Overlay> overlays{
-      {"rings", "cv_pressure", 100.0, "variation of bed pressures in the ring (%)",
-       "Uniformity of the rings"},
+      {"rings", "cv_pressure", 100.0, "variation of the bed pressure in the ring (%)",
+       "Uniformity of the bed pressure"},
       {"rings", "largest_friction_use", 100.0, "largest friction utilisation (%)",
-       "Friction used by the beds"},
-      {"rings", "largest_kern_use", 1.0, "largest eccentricity over the kern's", "Eccentricity of the beds"}};
-  overlays.push_back({"stages", "critical_friction", 1.0, "friction that the ring just laid needs",
+       "Friction utilisation of the beds"},
+      {"rings", "largest_kern_use", 1.0, "largest eccentricity relative to the kern edge",
+       "Eccentricity of the bed forces"}};
+  overlays.push_back({"stages", "critical_friction", 1.0, "friction required by the ring just laid",
                       "Construction, ring by ring"});
   for (const std::string& table : common_files(folders, "thrust_", ".csv")) {
     const std::string name = table.substr(7);
@@ -107,7 +108,7 @@ std::vector<Figure> overlay_figures(const std::vector<std::string>& folders,
   return figures;
 }
 
-/// The runs' own figures of one name, beside each other.
+/// The figures of the same name from all runs, side by side.
 std::string side_by_side(const std::string& name, const std::vector<std::string>& folders,
                          const std::vector<std::string>& labels) {
   std::string pictures;
@@ -134,9 +135,9 @@ std::string comparison_html(const std::vector<PostSummary>& runs, const std::vec
   body += "</dl>\n";
   for (const std::string& problem : problems)
     body += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(problem) + "</p>\n";
-  body += "<h2>Reading</h2>\n<p>";
-  for (const std::string& sentence : reading(runs)) body += markup_text(sentence) + " ";
-  body += "</p>\n<h2>Numbers</h2>\n" + html_table(plain_table(runs));
+  body += "<h2>Findings</h2>\n<ul>\n";
+  for (const std::string& sentence : findings(runs)) body += "<li>" + markup_text(sentence) + "</li>\n";
+  body += "</ul>\n<h2>Numbers</h2>\n" + html_table(plain_table(runs));
   body += "<h2>Graphs</h2>\n<div class=\"side\">\n";
   for (const Figure& figure : figures)
     body +=
@@ -170,8 +171,8 @@ ExitCode compare(const std::vector<std::string>& post_folders, const std::string
     const std::vector<std::string> labels = run_labels(runs.size());
     for (size_t i = 0; i < runs.size(); ++i)
       fmt::print("{}: {} ({})\n", labels[i], runs[i].title, post_folders[i]);
-    for (const std::string& sentence : reading(runs)) fmt::print("{}\n", sentence);
-    fmt::print("read {}\n", (fs::path(output_folder) / "comparison.html").string());
+    for (const std::string& sentence : findings(runs)) fmt::print("{}\n", sentence);
+    fmt::print("open {}\n", (fs::path(output_folder) / "comparison.html").string());
   }
   return ExitCode::done;
 }
@@ -180,14 +181,17 @@ ExitCode run_compare(int argc, const char* const* argv) {
   std::vector<std::string> folders;
   std::string output;
   bool quiet = false;
-  CLI::App app("Compares runs: reading, table, overlaid graphs, figures side by side.",
+  CLI::App app("Compares runs: findings, table, overlaid graphs, figures side by side.",
                "cupola-post compare");
-  app.add_option("POST", folders, "folders of `cupola-post analyse`, two or more")->required();
-  app.add_option("--output", output, "folder to write")->type_name("FOLDER")->required();
+  app.add_option("POST", folders, "two or more output folders of `cupola-post analyse`")->required();
+  app.add_option("--output", output, "folder for comparison.html, comparison.csv and figures/")
+      ->type_name("FOLDER")
+      ->required();
   app.add_flag("--quiet", quiet, "print errors only");
   app.footer("Sample runs:\n  cupola-post compare out/A/post out/B/post --output comparison/");
   if (const auto ended = parse_arguments(app, argc, argv)) return *ended;
-  if (folders.size() < 2) throw InputError("a comparison needs two folders or more");
+  if (folders.size() < 2)
+    throw InputError("compare needs at least two output folders of `cupola-post analyse`, but got only one");
   return compare(folders, output, quiet);
 }
 

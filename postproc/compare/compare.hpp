@@ -7,8 +7,8 @@
 
 namespace cupola {
 
-/// Compares folders of `cupola-post analyse`: comparison.html with a reading made from the numbers, the
-/// table (also comparison.csv), overlaid graphs and the runs' own figures side by side.
+/// Compares output folders of `cupola-post analyse`. Writes comparison.html with findings in words, a table,
+/// overlaid graphs and the figures of the runs side by side, and comparison.csv with the table.
 ExitCode compare(const std::vector<std::string>& post_folders, const std::string& output_folder, bool quiet);
 
 /// The command line: cupola-post compare post/A post/B ... --output FOLDER

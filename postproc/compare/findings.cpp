@@ -1,10 +1,12 @@
-#include "postproc/compare/reading.hpp"
+#include "postproc/compare/findings.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 namespace {
@@ -18,8 +20,8 @@ std::optional<double> least_safety(const PostSummary& s) {
   return least;
 }
 
-/// The smaller the better.
-double badness(const Measure& measure, double value) {
+/// Ranks the runs: the best run has the smallest value.
+double rank_value(const Measure& measure, double value) {
   switch (measure.best) {
     case Measure::Best::lowest:
       return value;
@@ -32,24 +34,26 @@ double badness(const Measure& measure, double value) {
 }
 
 bool is_negligible(const Measure& measure, const PostSummary& run, double value) {
-  return measure.noise && std::abs(value) <= measure.noise(run);
+  return measure.noise_floor && std::abs(value) <= measure.noise_floor(run);
 }
 
-/// "..., most even in A, by a factor of 3.7", or that there is nothing to choose.
+/// "most even in A, by a factor of 3.7", or a statement that the best two runs do not differ.
 std::string conclusion(const Measure& measure, const Values& values, const std::vector<PostSummary>& runs,
                        const std::vector<std::string>& labels) {
-  constexpr double kSame = 1e-3;  // numbers that differ by less are read as equal
+  constexpr double kEqual = 1e-3;  // relative difference up to which numbers are called equal
   std::vector<size_t> order;
   for (size_t i = 0; i < values.size(); ++i)
     if (values[i]) order.push_back(i);
+  CUPOLA_ASSERT(order.size() >= 2);
   std::stable_sort(order.begin(), order.end(), [&](size_t i, size_t j) {
-    return badness(measure, *values[i]) < badness(measure, *values[j]);
+    return rank_value(measure, *values[i]) < rank_value(measure, *values[j]);
   });
   const double best = *values[order[0]], next = *values[order[1]];
   const bool best_is_noise = is_negligible(measure, runs[order[0]], best);
-  if (best_is_noise && is_negligible(measure, runs[order[1]], next)) return "the best two are negligible";
-  if (best == next || std::abs(best - next) <= kSame * std::max(std::abs(best), std::abs(next)))
-    return "the best two are equal within 0.1 %";
+  const std::string pair = order.size() == 2 ? "both are" : "the best two are";
+  if (best_is_noise && is_negligible(measure, runs[order[1]], next)) return pair + " negligible";
+  if (best == next || std::abs(best - next) <= kEqual * std::max(std::abs(best), std::abs(next)))
+    return pair + " equal to within 0.1 %";
   std::string text = measure.superlative + " in " + labels[order[0]];
   const double low = std::min(best, next), high = std::max(best, next);
   if (measure.best != Measure::Best::nearest_one && !best_is_noise && low > 0.0 && std::isfinite(high))
@@ -65,8 +69,8 @@ std::string sentence(const Measure& measure, const Values& values, const std::ve
     if (!values[i]) continue;
     if (!numbers.empty()) numbers += ", ";
     if (is_negligible(measure, runs[i], *values[i]))
-      numbers += fmt::format("negligible (below {:.0e}{}, the accuracy of its forces) in {}",
-                             measure.scale * measure.noise(runs[i]), unit, labels[i]);
+      numbers += fmt::format("negligible (below {:.0e}{}, the accuracy of the forces) in {}",
+                             measure.scale * measure.noise_floor(runs[i]), unit, labels[i]);
     else
       numbers += fmt::format("{:.4g}{} in {}", measure.scale * *values[i], unit, labels[i]);
   }
@@ -82,32 +86,33 @@ const std::vector<Measure>& measures() {
   const auto of_ratio = [](const S& s) { return s.equilibrium_residual; };
   const auto of_arm = [](const S& s) { return s.equilibrium_residual * s.block_size_m; };
   static const std::vector<Measure> kMeasures{
-      {"cv_pressure_percent", "%", 100.0, "Within a ring, bed pressures vary in the mean by",
-       "How evenly the blocks of one ring share the load: 0 when all are pressed alike.", "most even",
-       Best::lowest, [](const S& s) { return O(s.mean_cv_pressure); }, of_ratio},
-      {"rib_over_mid_sail", "", 1.0, "The resultant of the rib over that of the mid-sail is",
-       "Whether a corner of the vault carries more than the middle of a sail: 1 when alike.",
-       "nearest to equal", Best::nearest_one, [](const S& s) { return s.rib_over_mid_sail; }},
-      {"friction_use_percent", "%", 100.0, "Of its friction, the most used joint needs",
-       "How near the joint that is worst off comes to sliding: at 100 % it slides.", "least used",
+      {"cv_pressure_percent", "%", 100.0, "The mean variation of the bed pressure within a ring is",
+       "How evenly the blocks of a ring share the load; 0 if the pressure is the same on every block.",
+       "most even", Best::lowest, [](const S& s) { return O(s.mean_cv_pressure); }, of_ratio},
+      {"rib_over_mid_sail", "", 1.0, "The ratio of the resultant in the rib to that at mid-sail is",
+       "Whether a corner of the vault carries more than the middle of a sail; 1 if both carry the same.",
+       "closest to 1", Best::nearest_one, [](const S& s) { return s.rib_over_mid_sail; }},
+      {"friction_use_percent", "%", 100.0, "The largest friction utilisation of a joint is",
+       "How close the joint with the highest demand is to sliding; at 100 % it slides.", "lowest",
        Best::lowest, [](const S& s) { return O(s.largest_friction_use); }, of_ratio},
-      {"critical_friction", "", 1.0, "The friction coefficient at which it falls is",
-       "How slippery its joints may become before the vault falls: the lower, the safer.",
-       "safest against sliding", Best::lowest, [](const S& s) { return s.critical_value; }},
-      {"kern_use", "", 1.0, "Over the kern's edge, the bed forces' mean eccentricity is",
-       "How centrally the beds are pressed: up to 1 the whole bed is, above it a part gapes.", "most central",
-       Best::lowest, [](const S& s) { return O(s.mean_kern_use); }, of_ratio},
-      {"geometric_safety", "", 1.0, "The least geometric safety of the thrust lines is",
-       "How much thicker the shell is than the line of thrust needs: at 1 the line touches a face.",
+      {"critical_friction", "", 1.0, "The critical value of the limit analysis is",
+       "The limit between standing and falling. For friction and thickness, lower is safer; for load, tilt, "
+       "acceleration and spread, higher is safer.",
+       "lowest", Best::lowest, [](const S& s) { return s.critical_value; }},
+      {"kern_use", "", 1.0, "The mean eccentricity of the bed forces relative to the edge of the kern is",
+       "How far off-centre the beds are loaded, on average; a bed above 1 is partly unloaded.",
+       "most central", Best::lowest, [](const S& s) { return O(s.mean_kern_use); }, of_ratio},
+      {"geometric_safety", "", 1.0, "The smallest geometric safety of the thrust lines is",
+       "How many times thicker the shell is than the thrust line requires; at 1 the line touches a face.",
        "largest", Best::highest, least_safety},
-      {"thrust_over_weight", "", 1.0, "The outward thrust of the base over the weight is",
-       "How hard the vault leans outwards on what it stands on.", "smallest", Best::lowest,
-       [](const S& s) { return O(s.thrust_over_weight); }, of_ratio},
-      {"couple_length_m", "m", 1.0, "The largest couple length of a block's wrench is",
-       "How far off its axis a force twists the worst block.", "smallest", Best::lowest,
-       [](const S& s) { return O(s.largest_couple_length_m); }, of_arm},
+      {"thrust_over_weight", "", 1.0, "The ratio of the outward base thrust to the weight is",
+       "How hard the vault pushes outwards on its supports, compared with its weight.", "lowest",
+       Best::lowest, [](const S& s) { return O(s.thrust_over_weight); }, of_ratio},
+      {"couple_length_m", "m", 1.0, "The largest couple length of a block wrench is",
+       "How strongly the force on a block also twists it: couple over force, for the worst block.",
+       "smallest", Best::lowest, [](const S& s) { return O(s.largest_couple_length_m); }, of_arm},
       {"displacement_mm", "mm", 1000.0, "The largest displacement of a block is",
-       "How far mortar yields under the weight.", "stiffest", Best::lowest,
+       "How far the block that moves most has moved under the load.", "smallest", Best::lowest,
        [](const S& s) { return O(s.max_displacement_m); }},
   };
   return kMeasures;
@@ -120,14 +125,14 @@ std::vector<std::string> run_labels(size_t num_runs) {
   return labels;
 }
 
-std::vector<std::string> reading(const std::vector<PostSummary>& runs) {
+std::vector<std::string> findings(const std::vector<PostSummary>& runs) {
   const std::vector<std::string> labels = run_labels(runs.size());
   std::vector<std::string> sentences;
   for (size_t i = 0; i < runs.size(); ++i)
     if (runs[i].status != "stable")
       sentences.push_back(
-          fmt::format("{} is {}: its forces are not those of an equilibrium (residual {:.1e}).", labels[i],
-                      runs[i].status, runs[i].equilibrium_residual));
+          fmt::format("{} ended with the status `{}`: its forces are not in equilibrium (residual {:.1e}).",
+                      labels[i], runs[i].status, runs[i].equilibrium_residual));
   for (const Measure& measure : measures()) {
     Values values;
     for (const PostSummary& run : runs) values.push_back(measure.value(run));
@@ -139,8 +144,8 @@ std::vector<std::string> reading(const std::vector<PostSummary>& runs) {
 
 Table comparison_table(const std::vector<PostSummary>& runs) {
   Table t{"comparison",
-          "The runs, measure by measure",
-          {{"run", "", "run"}, {"title", "", "case"}, {"status", "", "status"}},
+          "Every run with every measure",
+          {{"run", "", "label"}, {"title", "", "title of the case"}, {"status", "", "status"}},
           {}};
   t.columns.push_back({"blocks", "", "free blocks"});
   t.columns.push_back({"friction", "", "friction coefficient"});
@@ -158,11 +163,11 @@ Table comparison_table(const std::vector<PostSummary>& runs) {
 }
 
 Table plain_table(const std::vector<PostSummary>& runs) {
-  Table t{"numbers", "The numbers and what they tell", {{"measure", "", "what it tells"}}, {}};
+  Table t{"numbers", "The measures and their meaning", {{"measure", "", "meaning"}}, {}};
   const std::vector<std::string> labels = run_labels(runs.size());
   for (size_t i = 0; i < runs.size(); ++i) t.columns.push_back({labels[i], labels[i], runs[i].title});
   for (const Measure& m : measures()) {
-    std::vector<Table::Cell> row{m.plainly};
+    std::vector<Table::Cell> row{m.explanation};
     bool any = false;
     for (const PostSummary& run : runs) {
       const std::optional<double> value = m.value(run);

@@ -10,7 +10,7 @@
 namespace cupola {
 namespace {
 
-// Dark text on white; every colour pair keeps a contrast of 4.5 or more. No scripts, no outside files.
+// Dark text on white; every colour pair has a contrast of at least 4.5. No scripts and no external files.
 constexpr const char* kStyle = R"css(
 :root { color-scheme: light; }
 * { box-sizing: border-box; }

@@ -7,13 +7,13 @@
 
 namespace cupola {
 
-/// A picture as an <img> that needs no other file; "" when the file is not there.
+/// A picture as an <img> with the file embedded; "" if the file does not exist.
 std::string html_picture(const std::string& path, const std::string& alternative);
 
-/// A table that scrolls sideways in its own frame; units under the headings, numbers as to_display.
+/// A table that scrolls sideways in its own frame, with units below the headings and numbers as to_display.
 std::string html_table(const Table& table);
 
-/// The document around a body: charset, title, and the style for screen, small screen and paper.
+/// A complete document around `body`, with one style for wide screens, narrow screens and print.
 std::string html_page(const std::string& title, const std::string& body);
 
 }  // namespace cupola

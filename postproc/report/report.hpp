@@ -10,21 +10,21 @@
 
 namespace cupola {
 
-/// What a report is made of besides the evaluation.
+/// Contents of a report.
 struct ReportInput {
   const Evaluation* evaluation = nullptr;
   std::vector<Table> tables;
   std::vector<Figure> figures;
-  std::vector<Picture> pictures;  ///< of ParaView
-  std::string figure_folder;      ///< where the figures' files are
-  std::string run_yaml;           ///< the options in force, "" where they cannot be read
+  std::vector<Picture> pictures;  ///< drawn by ParaView
+  std::string figure_folder;      ///< folder of the figure files
+  std::string run_yaml;           ///< text of run.yaml; "" if it cannot be read
 };
 
-/// report.html: one file with everything inside, in the order verdict, quality, model, geometry check,
-/// pictures, figures, tables, files, how it was run. Warnings come first.
+/// report.html as one self-contained file: warnings, verdict, solution quality, findings, model, geometry
+/// check, pictures, figures, tables, files and run information, in this order.
 std::string report_html(const ReportInput& input);
 
-/// Verdict and quality in words, each with its numbers.
+/// The verdict and the solution quality in words, each with its numbers.
 std::string verdict_text(const Summary& summary);
 std::string quality_text(const Summary& summary);
 

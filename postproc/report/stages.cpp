@@ -13,17 +13,18 @@ namespace cupola {
 Table stage_table(const Evaluation& e, const CsvFile& csv) {
   const size_t ring = csv.column("ring"), blocks = csv.column("blocks"), verdict = csv.column("verdict");
   const size_t stands = csv.column("critical_stands"), moves = csv.column("critical_moves");
-  const auto number = [&csv](size_t row, size_t column) {  // empty where no bracket was found
+  const auto number = [&csv](size_t row, size_t column) {  // NaN if no bracket was found
     return csv.rows[row][column].empty() ? std::numeric_limits<double>::quiet_NaN() : csv.number(row, column);
   };
   Table t{"stages", "Construction, ring by ring", {}, {}};
-  t.columns = {{"ring", "", "the ring just laid"},
-               {"height_m", "m", "mean height of its bed"},
-               {"blocks", "", "blocks laid so far"},
-               {"verdict", "", "with the fresh friction of the case"},
-               {"critical_friction", "", "fresh friction below which it does not stand; 0: it needs none"},
-               {"critical_stands", "", "stands here"},
-               {"critical_moves", "", "moves here"}};
+  t.columns = {
+      {"ring", "", "the ring just laid"},
+      {"height_m", "m", "mean height of its bed joints"},
+      {"blocks", "", "blocks laid so far"},
+      {"verdict", "", "at the fresh friction of the case"},
+      {"critical_friction", "", "fresh friction below which the stage does not stand; 0: it needs none"},
+      {"critical_stands", "", "end of the bracket at which the stage stands"},
+      {"critical_moves", "", "end of the bracket at which the stage moves"}};
   for (size_t row = 0; row < csv.rows.size(); ++row) {
     const int k = static_cast<int>(csv.number(row, ring));
     const double low = number(row, moves), high = number(row, stands);
@@ -41,16 +42,17 @@ std::optional<Figure> stage_figure(const Table& stages) {
     return std::nullopt;
   Figure f;
   f.name = "stages";
-  f.title = "Construction: friction that the fresh mortar of each ring needs";
+  f.title = "Construction: friction required of the fresh mortar, ring by ring";
   f.caption =
-      "The bed of the ring just laid has the friction of fresh mortar, all others that of the case. Drawn is "
-      "the fresh friction below which the vault built so far does not stand; 0 where it needs none.";
+      "The bed of the ring just laid has the friction of fresh mortar, all other joints have that of the "
+      "case. The curve shows the fresh friction below which the vault built so far does not stand; 0 means "
+      "that it needs none.";
   f.width = 900;
   f.height = 480;
   f.commands = plot_style() + data_block("stages", rows) +
                fmt::format(
-                   "set xlabel 'height of the ring just laid (m)'\nset ylabel 'friction needed'\nset yrange "
-                   "[0:*]\nunset key\nplot $stages w lp lc rgb '{}' pt 7 ps 0.6 lw 2\n",
+                   "set xlabel 'height of the ring just laid (m)'\nset ylabel 'required friction'\nset "
+                   "yrange [0:*]\nunset key\nplot $stages w lp lc rgb '{}' pt 7 ps 0.6 lw 2\n",
                    kBlue);
   return f;
 }

@@ -9,11 +9,10 @@
 
 namespace cupola {
 
-/// What a staged analysis found ring by ring (results/stages.csv), with the rings' heights.
+/// Result of a staged analysis ring by ring (results/stages.csv), with the heights of the rings.
 Table stage_table(const Evaluation& evaluation, const CsvFile& csv);
 
-/// The fresh friction below which each ring slides off the one below, over the height; none where the case
-/// did not ask for it.
+/// Critical fresh friction of each stage over the height of its ring; none if no stage has one.
 std::optional<Figure> stage_figure(const Table& stages);
 
 }  // namespace cupola

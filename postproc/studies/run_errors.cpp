@@ -6,7 +6,7 @@
 namespace cupola {
 namespace {
 
-/// Size of a wrench (N): the moment counts with the joint's side for an arm.
+/// |F|^2 + |M|^2 / area, N^2: the lever arm that turns a moment into a force is the side of a square joint.
 double squared_size(const Wrench& wrench, double area) {
   return wrench.force.squaredNorm() + (area > 0.0 ? wrench.moment.squaredNorm() / area : 0.0);
 }
@@ -53,7 +53,7 @@ RunForces read_forces(RunFiles& run) {
 ForceErrors compare_forces(const RunForces& reference, const RunForces& run) {
   ForceErrors errors;
   double sum_error = 0.0, sum_size = 0.0, worst = 0.0;
-  const auto count = [&](const Wrench& error) {
+  const auto add_error = [&](const Wrench& error) {
     const double e2 = squared_size(error, reference.mean_area);
     sum_error += e2;
     worst = std::max(worst, e2);
@@ -61,11 +61,11 @@ ForceErrors compare_forces(const RunForces& reference, const RunForces& run) {
   for (const auto& [id, wrench] : reference.beds) {
     sum_size += squared_size(wrench, reference.mean_area);
     const auto same = run.beds.find(id);
-    // A joint that the run does not know carries nothing there.
-    count(same != run.beds.end() ? difference(same->second, wrench) : wrench);
+    // A joint that the run lacks counts as unloaded.
+    add_error(same != run.beds.end() ? difference(same->second, wrench) : wrench);
   }
   for (const auto& [id, wrench] : run.beds)
-    if (!reference.beds.contains(id)) count(wrench);
+    if (!reference.beds.contains(id)) add_error(wrench);
   if (sum_size > 0.0) {
     errors.wrench_rms = std::sqrt(sum_error / sum_size);
     errors.wrench_worst = std::sqrt(worst * static_cast<double>(reference.beds.size()) / sum_size);

@@ -21,10 +21,10 @@ StudyPoint read_point(const std::string& line, const FileLocation& where) {
   std::istringstream words(line);
   StudyPoint point;
   if (!(words >> point.knob >> point.name >> point.reference))
-    throw InputError(where, "a line is KNOB NAME REFERENCE key.path=value ...");
+    throw InputError(where, "expected KNOB NAME REFERENCE key.path=value ...");
   for (std::string setting; words >> setting;) {
     if (setting.find('=') == std::string::npos || setting.front() == '=')
-      throw InputError(where, fmt::format("{}: must be key.path=value", setting));
+      throw InputError(where, fmt::format("{}: must have the form key.path=value", setting));
     point.settings.push_back(setting);
   }
   return point;
@@ -44,17 +44,19 @@ std::vector<StudyPoint> read_study(const std::vector<std::string>& paths) {
       if (first == std::string::npos || line[first] == '#') continue;
       StudyPoint point = read_point(line, where);
       if (find_point(points, point.name))
-        throw InputError(where, fmt::format("{}: the name comes twice", point.name));
+        throw InputError(where,
+                         fmt::format("{}: another run has this name; names must be unique", point.name));
       points.push_back(std::move(point));
       places.push_back(where);
     }
   }
-  if (points.empty()) throw InputError("a study without runs");
+  if (points.empty()) throw InputError("the study files list no runs");
   for (size_t i = 0; i < points.size(); ++i) {
     const StudyPoint* reference = find_point(points, points[i].reference);
     if (!reference || !reference->is_reference())
-      throw InputError(places[i], fmt::format("{}: its reference {} is no run that is its own reference",
-                                              points[i].name, points[i].reference));
+      throw InputError(places[i],
+                       fmt::format("{}: no line defines {} as a reference, that is, with itself as reference",
+                                   points[i].name, points[i].reference));
   }
   return points;
 }

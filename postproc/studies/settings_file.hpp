@@ -5,21 +5,21 @@
 
 namespace cupola {
 
-/// One run of a trade-off study: a knob, one position of it, and the run that it is measured against.
+/// One run of a trade-off study: the knob that it turns, its settings and its reference.
 struct StudyPoint {
-  std::string knob;       ///< e.g. "tolerance"
-  std::string name;       ///< of the run and its folder; unique
-  std::string reference;  ///< name of the run with the right answer; its own name where it is one itself
+  std::string knob;                   ///< e.g. "tolerance"
+  std::string name;                   ///< of the run and its folder, unique
+  std::string reference;              ///< name of the run to compare with; a reference names itself
   std::vector<std::string> settings;  ///< key.path=value, or --option=value of cupola-solve
   bool is_reference() const { return name == reference; }
 };
 
-/// Reads files of lines
+/// Reads files with lines of the form
 ///
 ///     KNOB  NAME  REFERENCE  key.path=value ... --threads=N
 ///
-/// Empty lines and lines that begin with # do not count. Throws InputError with file and line for a line that
-/// is too short, a name that comes twice, or a reference that no line defines as its own.
+/// Empty lines and lines that begin with # are skipped. Throws InputError with file and line for an
+/// incomplete line, a repeated name, or a reference that is not defined as its own reference.
 std::vector<StudyPoint> read_study(const std::vector<std::string>& paths);
 
 }  // namespace cupola

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The forces of runs by name, each read once.
+/// Forces of the runs by name; each run is read once.
 class ForceCache {
  public:
   explicit ForceCache(const std::string& runs) : runs_(runs) {}
@@ -37,14 +37,14 @@ Summary read_summary(const std::string& runs, const std::string& name) {
 
 }  // namespace
 
-bool StudyRow::by_the_clock() const {
+bool StudyRow::uses_wall_time() const {
   return std::any_of(point.settings.begin(), point.settings.end(),
                      [](const std::string& setting) { return setting.starts_with("--threads="); });
 }
 
 double StudyRow::seconds() const {
   if (!summary) return 0.0;
-  return by_the_clock() ? summary->wall_time_seconds : summary->cpu_time_seconds;
+  return uses_wall_time() ? summary->wall_time_seconds : summary->cpu_time_seconds;
 }
 
 std::vector<StudyRow> measure_study(const std::vector<StudyPoint>& points, const std::string& runs) {
@@ -94,27 +94,27 @@ std::vector<StudyRow> pareto_front(const std::vector<StudyRow>& rows) {
 }
 
 Table study_table(const std::vector<StudyRow>& rows) {
-  Table t{"tradeoff", "Every run of the study: what it cost and how far it is from its reference", {}, {}};
-  t.columns = {{"knob", "", "what is varied"},
+  Table t{"tradeoff", "Cost and errors of every run of the study", {}, {}};
+  t.columns = {{"knob", "", "the setting that is varied"},
                {"run", "", "folder of the run"},
-               {"reference", "", "run that it is measured against"},
-               {"settings", "", "keys changed"},
-               {"status", "", "of the run; not run where its files are missing"},
+               {"reference", "", "run that it is compared with"},
+               {"settings", "", "keys changed from the case file"},
+               {"status", "", "how the run ended; not run: files are missing"},
                {"cpu_time_s", "s", "processor time of cupola-solve"},
-               {"wall_time_s", "s", "of cupola-solve"},
-               {"threads", "", "of cupola-solve"},
-               {"memory_MB", "MB", "peak"},
-               {"contacts", "", ""},
-               {"steps", "", ""},
-               {"iterations", "", "of the contact method"},
-               {"accuracy_asked", "", ""},
-               {"accuracy_reached", "", ""},
-               {"certified_force_error", "", "bound without a reference; NaN where there is none"},
-               {"wrench_error_rms", "", "of the bed joints' wrenches, over their root mean square"},
-               {"wrench_error_worst", "", "of the worst bed joint, over the root mean square"},
+               {"wall_time_s", "s", "wall time of cupola-solve"},
+               {"threads", "", "threads of cupola-solve"},
+               {"memory_MB", "MB", "peak memory"},
+               {"contacts", "", "contact points"},
+               {"steps", "", "steps of the analysis"},
+               {"iterations", "", "iterations of the contact method"},
+               {"accuracy_asked", "", "accuracy requested"},
+               {"accuracy_reached", "", "accuracy reached"},
+               {"certified_force_error", "", "bound on the force error that needs no reference; NaN: none"},
+               {"wrench_error_rms", "", "root mean square error of the bed-joint wrenches, relative"},
+               {"wrench_error_worst", "", "error of the worst bed joint over the root mean square wrench"},
                {"thrust_line_error", "", "largest shift of a thrust line over the thickness"},
-               {"base_thrust_error", "", "relative"},
-               {"critical_value_error", "", "relative, of a limit analysis"}};
+               {"base_thrust_error", "", "relative error of the outward base thrust"},
+               {"critical_value_error", "", "relative error of the critical value, limit analyses"}};
   for (const StudyRow& row : rows) {
     std::string settings;
     for (const std::string& setting : row.point.settings) settings += (settings.empty() ? "" : " ") + setting;

@@ -11,34 +11,35 @@
 
 namespace cupola {
 
-/// One run of the study with what it cost and how far it is from its reference.
+/// One run of the study with its cost and its errors against the reference.
 struct StudyRow {
   StudyPoint point;
-  std::optional<Summary> summary;  ///< none: not run
-  ForceErrors errors;              ///< zero for a reference, and where one of the two is not run
-  /// Of limit analyses: relative error of the critical value. Their last frames are of different loads, so
-  /// that their wrenches are not compared.
+  std::optional<Summary> summary;  ///< none: the run or its reference is not finished
+  ForceErrors errors;              ///< zero for a reference or if one of the two is not finished
+  /// Limit analyses only: relative error of the critical value. Their wrenches are not compared because their
+  /// last frames belong to different loads.
   std::optional<double> critical_error;
 
   bool finished() const { return summary.has_value(); }
+  /// False if the run did not reach its requested accuracy.
   bool reached() const { return finished() && summary->status != Status::unconverged; }
-  /// What the study ranks by: of the critical value where there is one, else the wrenches' root mean square.
+  /// The error used for ranking: of the critical value if there is one, otherwise wrench_rms.
   double error() const { return critical_error.value_or(errors.wrench_rms); }
-  /// Threads share the work: what they save shows on the clock alone.
-  bool by_the_clock() const;
-  /// Processor time, or wall time where threads are the knob.
+  /// True if the run sets --threads: threads reduce the wall time, not the processor time.
+  bool uses_wall_time() const;
+  /// Processor time, or wall time if uses_wall_time().
   double seconds() const;
 };
 
-/// Measures the runs in the folders runs/NAME/results and runs/NAME/post. Runs whose own folder or whose
-/// reference's is not complete come back without a summary.
+/// Reads and compares the runs in the folders `runs`/NAME/results and `runs`/NAME/post. A row whose run or
+/// reference is incomplete has no summary.
 std::vector<StudyRow> measure_study(const std::vector<StudyPoint>& points, const std::string& runs);
 
-/// Knobs in the order in which they first come.
+/// The knobs in the order of their first appearance.
 std::vector<std::string> knobs_of(const std::vector<StudyRow>& rows);
-/// Rows of a knob that are finished and not references, fastest first.
+/// The finished rows of a knob without its references, fastest first.
 std::vector<StudyRow> rows_of(const std::vector<StudyRow>& rows, const std::string& knob);
-/// Of rows sorted by time those that no faster one beats in wrench error, unreached ones left out.
+/// The Pareto front of rows sorted by time: converged runs with a smaller error() than every faster one.
 std::vector<StudyRow> pareto_front(const std::vector<StudyRow>& rows);
 
 /// tradeoff.csv: one row per run.

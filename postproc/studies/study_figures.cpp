@@ -11,25 +11,26 @@
 namespace cupola {
 namespace {
 
-constexpr double kLeastError = 1e-14;  // what is smaller, zero included, is drawn here
+constexpr double kSmallestDrawnError = 1e-14;  // smaller errors, zero included, are drawn here
 constexpr const char* kColours[] = {kBlue, kOrange, kGreen, kPurple, kSky, "#E69F00", "#444444", "#999999"};
-// gnuplot's point types, hollow and filled, of one shape each: square, circle, triangle, downward, diamond
+// Hollow point types of gnuplot: square, circle, triangle, downward triangle, diamond. Filled: the next
+// number.
 constexpr int kHollow[] = {4, 6, 8, 10, 12};
 
 double drawn_error(const StudyRow& row) {
-  return std::max(row.error(), kLeastError);
+  return std::max(row.error(), kSmallestDrawnError);
 }
 
-/// What other programs call the method, or solve with.
-std::string peer(ContactMethod method) {
-  static const std::map<ContactMethod, std::string> kPeers{
+/// The method with its name in other programs.
+std::string method_title(ContactMethod method) {
+  static const std::map<ContactMethod, std::string> kTitles{
       {ContactMethod::newton, "Newton (as Drake's SAP)"},
       {ContactMethod::interior_point, "interior point, then Newton"},
       {ContactMethod::spg, "SPG (Chrono's BB)"},
       {ContactMethod::apgd, "APGD (Chrono)"},
       {ContactMethod::nsgs, "NSGS (Siconos; NLGS in LMGC90)"},
       {ContactMethod::admm, "ADMM (Siconos, Chrono)"}};
-  return kPeers.at(method);
+  return kTitles.at(method);
 }
 
 struct Series {
@@ -37,12 +38,13 @@ struct Series {
   std::vector<StudyRow> rows;
 };
 
-/// Runs of one knob that belong on one line: those whose names agree up to the last underscore.
+/// Splits the runs of a knob into lines: runs whose names agree up to the last underscore, or that use the
+/// same method.
 std::vector<Series> series_of(const std::vector<StudyRow>& rows, bool by_method) {
   std::vector<Series> series;
   for (const StudyRow& row : rows) {
     const std::string& name = row.point.name;
-    const std::string title = by_method ? peer(row.summary->method) : name.substr(0, name.rfind('_'));
+    const std::string title = by_method ? method_title(row.summary->method) : name.substr(0, name.rfind('_'));
     auto at = std::find_if(series.begin(), series.end(), [&](const Series& s) { return s.title == title; });
     if (at == series.end()) at = series.insert(series.end(), {title, {}});
     at->rows.push_back(row);
@@ -57,15 +59,15 @@ std::string end_of_name(const std::string& name) {
 
 std::string axes(const std::vector<StudyRow>& rows) {
   const bool critical = !rows.empty() && rows.front().critical_error;
-  const bool by_the_clock = !rows.empty() && rows.front().by_the_clock();
+  const bool uses_wall_time = !rows.empty() && rows.front().uses_wall_time();
   return fmt::format("set ylabel '{}'\n",
                      critical ? "error of the critical value" : "error of the bed-joint wrenches, rms") +
-         fmt::format("set xlabel '{} time of cupola-solve (s)'\n", by_the_clock ? "wall" : "processor") +
+         fmt::format("set xlabel '{} time of cupola-solve (s)'\n", uses_wall_time ? "wall" : "processor") +
          "set logscale xy\nset format y '10^{%T}'\nset termoption enhanced\nset key noenhanced\n";
 }
 
-/// Adds a series to the data and to the plot command: a line, filled points where it was reached, hollow
-/// ones where not.
+/// Adds a series to the data and the plot command, with filled points for runs that reached their accuracy
+/// and hollow points for the others; `line` joins the points.
 void add_series(const Series& series, size_t number, bool line, std::string* data, std::string* plot) {
   std::vector<std::vector<double>> points, reached;
   for (const StudyRow& row : series.rows) {
@@ -96,9 +98,9 @@ std::string labels(const std::vector<StudyRow>& rows, bool whole_name) {
 Figure knob_figure(const std::vector<StudyRow>& rows, const std::string& knob) {
   Figure figure;
   figure.name = "tradeoff_" + knob;
-  figure.title = fmt::format("Time against wrench error: {}", knob);
+  figure.title = fmt::format("Error over time: {}", knob);
   figure.caption =
-      "Each point is a run, hollow where it did not reach what it asked for; low and left is better.";
+      "Each point is one run; hollow points did not reach the requested accuracy. Lower left is better.";
   std::string data, plot;
   size_t number = 0;
   for (const Series& series : series_of(rows, knob.starts_with("method")))
@@ -111,19 +113,19 @@ Figure knob_figure(const std::vector<StudyRow>& rows, const std::string& knob) {
 Figure overall_figure(const std::vector<StudyRow>& all) {
   Figure figure;
   figure.name = "tradeoff";
-  figure.title = "Time against wrench error: all knobs";
+  figure.title = "Error over time: all knobs";
   figure.caption =
-      "Each run against the reference of its knob: methods and tolerances against the same model solved "
-      "tightly, other knobs against the finer model. The dashed line joins the methods' runs that no other "
-      "beats.";
+      "Each run is compared with the reference of its knob: methods and tolerances with the same model "
+      "solved to a tight tolerance, the other knobs with a finer model. The dashed line is the Pareto front "
+      "of the methods.";
   figure.width = 1100;
   figure.height = 700;
   std::string data, plot;
   size_t number = 0;
   for (const std::string& knob : knobs_of(all)) {
     const std::vector<StudyRow> rows = rows_of(all, knob);
-    // Another sort of error or of time
-    if (!rows.empty() && (rows.front().critical_error || rows.front().by_the_clock())) continue;
+    // A different kind of error or time cannot share the axes
+    if (!rows.empty() && (rows.front().critical_error || rows.front().uses_wall_time())) continue;
     if (knob == "method") {
       for (const Series& series : series_of(rows, true)) add_series(series, number++, true, &data, &plot);
     } else if (!rows.empty()) {
@@ -134,7 +136,8 @@ Figure overall_figure(const std::vector<StudyRow>& all) {
   std::vector<std::vector<double>> steps;
   for (const StudyRow& row : front) steps.push_back({row.seconds(), drawn_error(row)});
   if (!steps.empty()) data += data_block("front", steps);
-  if (!steps.empty()) plot += ", $front w steps lc rgb '#000000' lw 0.8 dt 2 title 'best of the methods'";
+  if (!steps.empty())
+    plot += ", $front w steps lc rgb '#000000' lw 0.8 dt 2 title 'Pareto front of the methods'";
   figure.commands =
       plot_style() + axes(front) + "set key outside right top\n" + labels(front, true) + data + plot + "\n";
   return figure;

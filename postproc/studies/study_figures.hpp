@@ -7,8 +7,8 @@
 
 namespace cupola {
 
-/// Processor time against wrench error, both logarithmic: one figure for all knobs, with the front that no
-/// run beats, and one per knob. Runs that did not reach what they asked for are drawn hollow.
+/// Error over processor time, both logarithmic: one figure for all knobs, with the Pareto front of the
+/// methods, and one figure per knob. Runs that did not reach their requested accuracy are drawn hollow.
 std::vector<Figure> study_figures(const std::vector<StudyRow>& rows);
 
 }  // namespace cupola

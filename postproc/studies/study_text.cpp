@@ -7,44 +7,49 @@
 namespace cupola {
 namespace {
 
-std::string joined(const std::vector<std::string>& names) {
+std::string listed(const std::vector<std::string>& names) {
   std::string out;
   for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
   return out;
 }
 
+/// "NAME (2 s, 1.0e-03)": name, time and error.
 std::string with_cost(const StudyRow& row) {
   return fmt::format("{} ({:.2g} s{}, {:.1e})", row.point.name, row.seconds(),
-                     row.by_the_clock() ? " by the clock" : "", row.error());
+                     row.uses_wall_time() ? " wall time" : "", row.error());
 }
 
-/// The fastest run for each of a few errors that users ask for.
-std::string cheapest(const std::vector<StudyRow>& front) {
-  std::vector<std::string> parts;
-  std::string last;
+/// The fastest run within each of a few round errors; runs that are fastest within several errors come once.
+std::string fastest_runs(const std::vector<StudyRow>& front) {
+  std::vector<std::string> errors, parts;
   for (const double error : {1e-1, 1e-2, 1e-3, 1e-6}) {
-    const auto at =
-        std::find_if(front.begin(), front.end(), [&](const StudyRow& row) { return row.error() <= error; });
+    const auto within = [error](const StudyRow& row) { return row.error() <= error; };
+    const auto at = std::find_if(front.begin(), front.end(), within);
     if (at == front.end()) break;
-    if (at->point.name == last)
-      parts.back() += fmt::format(" and {:g}", error);
-    else
-      parts.push_back(fmt::format("{} within {:g}", with_cost(*at), error));
-    last = at->point.name;
+    const std::string run = with_cost(*at);
+    if (!parts.empty() && parts.back() == run) {
+      errors.back() += fmt::format(" and {:g}", error);
+    } else {
+      errors.push_back(fmt::format("{:g}", error));
+      parts.push_back(run);
+    }
   }
-  if (parts.empty()) return "No run comes within 0.1 of the reference's wrenches. ";
-  return "Cheapest: " + joined(parts) + ". ";
+  if (parts.empty()) return "No run reaches an error of 0.1 or less. ";
+  std::string text;
+  for (size_t i = 0; i < parts.size(); ++i)
+    text += fmt::format("{}within {}: {}", i == 0 ? "Fastest run " : "; ", errors[i], parts[i]);
+  return text + ". ";
 }
 
-/// What the whole front costs and buys.
+/// Time and error from the fastest to the most accurate run of the front.
 std::string exchange(const std::vector<StudyRow>& front) {
   if (front.size() < 2) return "";
   const StudyRow &fast = front.front(), &fine = front.back();
-  const std::string gain = fine.error() > 0.0
-                               ? fmt::format("1/{:.2g} of the error", fast.error() / fine.error())
-                               : std::string("the reference's answer");
-  return fmt::format("From {} to {}: {:.2g} times the time buys {}. ", fast.point.name, fine.point.name,
-                     fine.seconds() / fast.seconds(), gain);
+  const std::string gain =
+      fine.error() > 0.0 ? fmt::format("the error falls by a factor of {:.2g}", fast.error() / fine.error())
+                         : std::string("the error falls to zero");
+  return fmt::format("From {} to {} the time grows by a factor of {:.2g} and {}. ", fast.point.name,
+                     fine.point.name, fine.seconds() / fast.seconds(), gain);
 }
 
 std::string knob_text(const std::vector<StudyRow>& all, const std::string& knob) {
@@ -57,14 +62,13 @@ std::string knob_text(const std::vector<StudyRow>& all, const std::string& knob)
   for (const StudyRow& row : rows)
     if (!row.reached()) unreached.push_back(with_cost(row));
   const std::vector<StudyRow> front = pareto_front(rows);
-  std::string text = fmt::format("{}: ", knob) + cheapest(front) + exchange(front);
+  std::string text = fmt::format("{}: ", knob) + fastest_runs(front) + exchange(front);
   if (!worst.critical_error)
     text += fmt::format(
-        "Worst joint of all runs: {:.1e} in {}, whose thrust line shifts by {:.1e} of the thickness and "
-        "whose "
-        "base thrust by {:.1e}.",
+        "The largest error of a single joint is {:.1e}, in {}; the thrust lines of this run shift by up to "
+        "{:.1e} of the thickness, its base thrust changes by {:.1e}.",
         worst.errors.wrench_worst, worst.point.name, worst.errors.thrust_line, worst.errors.base_thrust);
-  if (!unreached.empty()) text += " Did not reach what they asked for: " + joined(unreached) + ".";
+  if (!unreached.empty()) text += " Requested accuracy not reached: " + listed(unreached) + ".";
   return text;
 }
 
@@ -74,12 +78,12 @@ std::vector<std::string> study_text(const std::vector<StudyRow>& rows) {
   std::vector<std::string> paragraphs, missing;
   for (const StudyRow& row : rows)
     if (!row.finished()) missing.push_back(row.point.name);
-  if (!missing.empty()) paragraphs.push_back("Not run: " + joined(missing) + ".");
+  if (!missing.empty()) paragraphs.push_back("Not run: " + listed(missing) + ".");
   for (const StudyRow& row : rows)
     if (row.point.is_reference() && row.finished())
       paragraphs.push_back(fmt::format(
           "Reference {}: {:.2g} s{}, {:.0f} MB, {} contacts, status {}, certified force error {}.",
-          row.point.name, row.seconds(), row.by_the_clock() ? " by the clock" : "",
+          row.point.name, row.seconds(), row.uses_wall_time() ? " wall time" : "",
           static_cast<double>(row.summary->peak_memory_bytes) / 1e6, row.summary->contacts,
           to_string(row.summary->status),
           row.summary->certified_force_error ? fmt::format("{:.1e}", *row.summary->certified_force_error)

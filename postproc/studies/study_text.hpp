@@ -7,7 +7,8 @@
 
 namespace cupola {
 
-/// What each knob costs and buys, a paragraph per knob, made from the rows alone.
+/// The exchange of time for accuracy in words: runs that are missing, one paragraph per reference, one per
+/// knob.
 std::vector<std::string> study_text(const std::vector<StudyRow>& rows);
 
 }  // namespace cupola

@@ -9,19 +9,21 @@
 
 namespace cupola {
 
-/// One line per member, NAME CASE key.path=value ..., as in cases/variants.txt.
+/// One line per member, NAME CASE key.path=value ..., in the format of cases/variants.txt.
 std::string members_text(const std::vector<SweepMember>& members, const std::string& case_name);
 
-/// One row per member: what was set, how it ended, residual, displacement, limit, time. A member without
-/// results has the status `missing` and says in words how far it came.
+/// One row per member: settings, status, residual, displacement, critical value and time. A member without
+/// results has the status `missing` and a remark that says how far it got.
 Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMember>& members,
                   const std::string& runs_folder);
 
-/// How many members are missing.
+/// Number of members with the status `missing`.
 int num_missing(const Table& table);
 
-/// `cupola-post sweep CASE.yaml --members FILE` lists the runs of a case's `sweep`; with --runs and --output
-/// it tabulates those that are finished. Ends with `failed` when members are missing.
+/// The command line: cupola-post sweep CASE.yaml --members FILE | --runs FOLDER [--output FOLDER]
+///
+/// With --members it lists the runs of the case's `sweep`; with --runs it tabulates the finished ones. The
+/// exit code is `failed` if members are missing.
 ExitCode run_sweep(int argc, const char* const* argv);
 
 }  // namespace cupola

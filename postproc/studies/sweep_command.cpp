@@ -14,7 +14,7 @@
 namespace cupola {
 namespace {
 
-/// Columns as wide as their widest cell.
+/// The table as text, each column as wide as its widest cell.
 std::string aligned_text(const Table& table) {
   std::vector<size_t> width;
   for (const Table::Column& column : table.columns) width.push_back(column.key.size());
@@ -33,18 +33,17 @@ std::string aligned_text(const Table& table) {
 }  // namespace
 
 ExitCode run_sweep(int argc, const char* const* argv) {
-  // 1. What is asked
+  // 1. Command line
   std::string case_path, members_file, runs_folder, output_folder;
-  CLI::App app("Lists the runs of a case's sweep, or tabulates those that are finished.",
-               "cupola-post sweep");
+  CLI::App app("Lists the runs of a case's sweep, or tabulates the finished ones.", "cupola-post sweep");
   app.add_option("CASE", case_path, "case file with a `sweep` (.yaml)")->required();
-  app.add_option("--members", members_file, "list to write, one run per line, and stop")->type_name("FILE");
-  app.add_option("--runs", runs_folder, "folder that holds one folder per run")->type_name("FOLDER");
-  app.add_option("--output", output_folder, "folder to write sweep.csv and sweep.html to")
-      ->type_name("FOLDER");
+  app.add_option("--members", members_file, "write the list of runs to this file, one per line, and exit")
+      ->type_name("FILE");
+  app.add_option("--runs", runs_folder, "folder with one subfolder per run")->type_name("FOLDER");
+  app.add_option("--output", output_folder, "folder for sweep.csv and sweep.html")->type_name("FOLDER");
   if (const auto ended = parse_arguments(app, argc, argv)) return *ended;
 
-  // 2. The members
+  // 2. Members of the sweep
   const Case scene = read_case(case_path, {});
   const std::string name = std::filesystem::path(case_path).stem().string();
   const std::vector<SweepMember> members = members_of(scene.sweep, name);
@@ -52,9 +51,9 @@ ExitCode run_sweep(int argc, const char* const* argv) {
     write_text_atomically(members_file, members_text(members, name));
     return ExitCode::done;
   }
-  if (runs_folder.empty()) throw InputError("--runs is missing; see cupola-post sweep --help");
+  if (runs_folder.empty()) throw InputError("option --runs is missing; see cupola-post sweep --help");
 
-  // 3. The table
+  // 3. Table
   const Table table = sweep_table(scene.sweep, members, runs_folder);
   const int missing = num_missing(table);
   const std::string verdict = fmt::format("{} of {} members are finished, {} missing",

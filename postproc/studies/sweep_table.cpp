@@ -13,8 +13,8 @@ namespace {
 
 constexpr const char* kMissing = "missing";
 
-/// A number of results/summary.json; empty where the analysis writes none.
-Table::Cell number_or_nothing(RunFiles& run, const std::string& key) {
+/// A number of results/summary.json; empty if the analysis does not write it.
+Table::Cell number_or_empty(RunFiles& run, const std::string& key) {
   try {
     return run.number("results." + key);
   } catch (const InputError&) {
@@ -22,11 +22,12 @@ Table::Cell number_or_nothing(RunFiles& run, const std::string& key) {
   }
 }
 
-std::string how_far(const std::string& folder) {
+/// The last stage that a missing member completed, and what to do.
+std::string progress(const std::string& folder) {
   const auto there = [&](const char* file) { return std::filesystem::exists(folder + "/" + file); };
-  if (there("results/checkpoint")) return "interrupted: the same command goes on";
-  if (there("assembly.vtu")) return "no results: its own output says why";
-  return "no assembly: its own output says why";
+  if (there("results/checkpoint")) return "interrupted: repeat the command to resume";
+  if (there("assembly.vtu")) return "no results: see the output of the run";
+  return "no assembly: see the output of the run";
 }
 
 }  // namespace
@@ -41,14 +42,14 @@ std::string members_text(const std::vector<SweepMember>& members, const std::str
 Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMember>& members,
                   const std::string& runs_folder) {
   Table t{"sweep", "The members of the sweep", {{"member", "", "name of the run"}}, {}};
-  for (const SweptKey& swept : sweep) t.columns.push_back({swept.key, "", "what was set"});
+  for (const SweptKey& swept : sweep) t.columns.push_back({swept.key, "", "value of the key"});
   t.columns.push_back({"status", "", "how the run ended"});
-  t.columns.push_back({"remark", "", "what a missing member lacks"});
+  t.columns.push_back({"remark", "", "how far a missing member got"});
   const std::vector<Table::Column> numbers = {
-      {"equilibrium_residual", "", "largest unbalanced force over a block's weight"},
+      {"equilibrium_residual", "", "largest unbalanced force over the mean block weight"},
       {"max_displacement_m", "m", "largest displacement of a block"},
-      {"critical_value", "", "middle of the bracket of a limit analysis"},
-      {"cpu_time_seconds", "s", "processor time of the solver"}};
+      {"critical_value", "", "critical value of a limit analysis: middle of the bracket"},
+      {"cpu_time_seconds", "s", "processor time of cupola-solve"}};
   t.columns.insert(t.columns.end(), numbers.begin(), numbers.end());
   for (const SweepMember& member : members) {
     std::vector<Table::Cell> row = {member.name};
@@ -59,10 +60,10 @@ Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMem
       RunFiles run(folder);
       row.emplace_back(run.status());
       row.emplace_back(std::string());
-      for (const Table::Column& column : numbers) row.push_back(number_or_nothing(run, column.key));
+      for (const Table::Column& column : numbers) row.push_back(number_or_empty(run, column.key));
     } else {
       row.emplace_back(std::string(kMissing));
-      row.emplace_back(how_far(folder));
+      row.emplace_back(progress(folder));
       row.resize(t.columns.size(), std::string());
     }
     t.rows.push_back(std::move(row));

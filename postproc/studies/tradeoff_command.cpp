@@ -18,14 +18,14 @@ namespace fs = std::filesystem;
 
 std::string study_html(const std::vector<StudyRow>& rows, const std::vector<Figure>& figures,
                        const std::string& figure_folder) {
-  std::string body = "<h1>Speed against accuracy</h1>\n";
+  std::string body = "<h1>Speed and accuracy</h1>\n";
   for (const std::string& paragraph : study_text(rows)) body += "<p>" + markup_text(paragraph) + "</p>\n";
   for (const Figure& figure : figures)
     body += fmt::format(
         "<h2>{}</h2>\n<figure>{}<figcaption>{}</figcaption></figure>\n", markup_text(figure.title),
         html_picture((fs::path(figure_folder) / (figure.name + ".svg")).string(), figure.title),
         markup_text(figure.caption));
-  return html_page("Speed against accuracy", body + "<h2>Numbers</h2>\n" + html_table(study_table(rows)));
+  return html_page("Speed and accuracy", body + "<h2>Numbers</h2>\n" + html_table(study_table(rows)));
 }
 
 void write_study(const std::vector<StudyRow>& rows, const std::string& folder) {
@@ -45,13 +45,14 @@ ExitCode run_tradeoff(int argc, const char* const* argv) {
   std::vector<std::string> study_paths;
   std::string runs_folder, output_folder;
   bool quiet = false;
-  CLI::App app("Measures what runs cost and how far each is from its reference.", "cupola-post tradeoff");
-  app.add_option("STUDY", study_paths, "files of lines KNOB NAME REFERENCE key.path=value ... --threads=N")
+  CLI::App app("Compares the cost and error of runs with their references.", "cupola-post tradeoff");
+  app.add_option("STUDY", study_paths,
+                 "study files; a line is KNOB NAME REFERENCE key.path=value ... --threads=N")
       ->required();
-  app.add_option("--runs", runs_folder, "folder that holds one folder per run")
+  app.add_option("--runs", runs_folder, "folder with one subfolder per run")->type_name("FOLDER")->required();
+  app.add_option("--output", output_folder, "folder for tradeoff.csv, tradeoff.html and figures/")
       ->type_name("FOLDER")
       ->required();
-  app.add_option("--output", output_folder, "folder to write")->type_name("FOLDER")->required();
   app.add_flag("--quiet", quiet, "print errors only");
   app.footer(
       "Sample runs:\n  cupola-post tradeoff cases/tradeoff.txt --runs out/tradeoff/dome --output study/");

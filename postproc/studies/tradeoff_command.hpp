@@ -6,7 +6,8 @@ namespace cupola {
 
 /// The command line: cupola-post tradeoff STUDY.txt ... --runs FOLDER --output FOLDER
 ///
-/// Writes tradeoff.csv, figures/ and tradeoff.html, and prints the text.
+/// Compares the runs of a study with their references, writes tradeoff.csv, tradeoff.html and figures/, and
+/// prints the text.
 ExitCode run_tradeoff(int argc, const char* const* argv);
 
 }  // namespace cupola

@@ -119,7 +119,7 @@ TEST(Commands, TabulateASweepAndReportMissingMembers) {
   const ProgramRun half = folder.run(tabulate);
   EXPECT_EQ(half.code, 1) << half.err;
   EXPECT_TRUE(contains(half.out, "1 of 2 members are finished, 1 missing")) << half.out;
-  EXPECT_TRUE(contains(half.out, "no assembly: its own output says why")) << half.out;
+  EXPECT_TRUE(contains(half.out, "no assembly: see the output of the run")) << half.out;
   run_dome(folder, second, "--set joints.friction=0.5");
   EXPECT_EQ(folder.run(tabulate).code, 0);
   EXPECT_EQ(count(slurp(folder.file("table/sweep.csv")), ",stable,"), 2u);

@@ -191,10 +191,11 @@ TEST(Programs, RefuseResultsOfAnotherCaseAndLeaveAllFiles) {
   expect_one_line(analyse(folder, "cut"), "contacts_0000.vtp: error: ");
   expect_one_line(analyse(folder, "headless"), "summary.json");
   expect_one_line(analyse(folder, "unlisted"), "contacts.pvd: error: ");
-  expect_one_line(analyse(folder, "results", " --set geometry.surface.length=9"), "was not made from");
-  expect_one_line(analyse(folder, "results", " --set joints.friction=0.3"), "was not solved from");
-  expect_one_line(folder.run("cupola-post"), "a command is missing");
-  expect_one_line(folder.run("cupola-post analise"), "is not a command");
+  expect_one_line(analyse(folder, "results", " --set geometry.surface.length=9"),
+                  "was generated from another case");
+  expect_one_line(analyse(folder, "results", " --set joints.friction=0.3"), "was solved from another case");
+  expect_one_line(folder.run("cupola-post"), "the command is missing");
+  expect_one_line(folder.run("cupola-post analise"), "unknown command `analise`");
   EXPECT_EQ(folder.contents(), before);
 }
 

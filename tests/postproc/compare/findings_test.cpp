@@ -1,11 +1,11 @@
-#include "postproc/compare/reading.hpp"
+#include "postproc/compare/findings.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace cupola::reading_test {
+namespace cupola::findings_test {
 namespace {
 
 /// Two runs that differ in every measure.
@@ -36,9 +36,9 @@ std::vector<PostSummary> two_runs() {
   return {a, b};
 }
 
-TEST(Reading, EverySentenceHoldsItsNumbersAndTheBest) {
+TEST(Findings, EverySentenceGivesTheNumbersAndTheBestRun) {
   const auto runs = two_runs();
-  const auto sentences = reading(runs);
+  const auto sentences = findings(runs);
   ASSERT_EQ(sentences.size(), measures().size());
   for (size_t i = 0; i < sentences.size(); ++i) {
     const Measure& m = measures()[i];
@@ -50,11 +50,11 @@ TEST(Reading, EverySentenceHoldsItsNumbersAndTheBest) {
   EXPECT_NE(sentences[0].find("by a factor of 4"), std::string::npos) << "0.124 / 0.031";
 }
 
-TEST(Reading, EverySentenceChangesWhenTheRunsAreSwapped) {
+TEST(Findings, EverySentenceChangesWhenTheRunsAreSwapped) {
   auto runs = two_runs();
-  const auto before = reading(runs);
+  const auto before = findings(runs);
   std::swap(runs[0], runs[1]);
-  const auto after = reading(runs);
+  const auto after = findings(runs);
   ASSERT_EQ(before.size(), after.size());
   for (size_t i = 0; i < before.size(); ++i) {
     EXPECT_NE(before[i], after[i]);
@@ -62,15 +62,15 @@ TEST(Reading, EverySentenceChangesWhenTheRunsAreSwapped) {
   }
 }
 
-TEST(Reading, EqualRunsAreCalledEqual) {
+TEST(Findings, EqualRunsAreCalledEqual) {
   auto runs = two_runs();
   runs[1] = runs[0];
-  for (const std::string& sentence : reading(runs))
-    EXPECT_NE(sentence.find("equal within 0.1 %"), std::string::npos) << sentence;
+  for (const std::string& sentence : findings(runs))
+    EXPECT_NE(sentence.find("equal to within 0.1 %"), std::string::npos) << sentence;
 }
 
-TEST(Reading, WhatIsBelowTheAccuracyOfTheForcesIsNegligible) {
-  // Exact symmetry leaves 1e-13; a factor of 4e11 to the other run would be a ratio with rounding.
+TEST(Findings, ValuesBelowTheAccuracyOfTheForcesAreNegligible) {
+  // Exact symmetry leaves 1e-13. A factor of 4e11 to the other run would be a ratio to a rounding error.
   auto runs = two_runs();
   for (PostSummary& run : runs) run.equilibrium_residual = 3e-9;
   for (PostSummary& run : runs) run.block_size_m = 2.0;
@@ -80,44 +80,44 @@ TEST(Reading, WhatIsBelowTheAccuracyOfTheForcesIsNegligible) {
     return std::any_of(sentences.begin(), sentences.end(),
                        [&](const std::string& s) { return s.find(part) != std::string::npos; });
   };
-  auto sentences = reading(runs);
+  auto sentences = findings(runs);
   EXPECT_TRUE(
       has(sentences,
-          "vary in the mean by negligible (below 3e-07 %, the accuracy of its forces) in A, 12.4 % in B: "
+          "within a ring is negligible (below 3e-07 %, the accuracy of the forces) in A, 12.4 % in B: "
           "most even in A."))
       << sentences[0];
   EXPECT_TRUE(
-      has(sentences, "wrench is negligible (below 6e-09 m, the accuracy of its forces) in A, 0.173 m in B"));
+      has(sentences, "wrench is negligible (below 6e-09 m, the accuracy of the forces) in A, 0.173 m in B"));
   runs[0].largest_couple_length_m = 6.1e-9;  // just above
   EXPECT_TRUE(
-      has(reading(runs), "wrench is 6.1e-09 m in A, 0.173 m in B: smallest in A, by a factor of 2.84e+07."));
+      has(findings(runs), "wrench is 6.1e-09 m in A, 0.173 m in B: smallest in A, by a factor of 2.84e+07."));
   runs[1].mean_cv_pressure = 2e-13;
-  EXPECT_TRUE(has(reading(runs), "in B: the best two are negligible."));
+  EXPECT_TRUE(has(findings(runs), "in B: both are negligible."));
 }
 
-TEST(Reading, ARunThatIsNotAtRestIsSaidFirst) {
+TEST(Findings, RunsThatAreNotStableAreReportedFirst) {
   auto runs = two_runs();
   runs[1].status = "unconverged";
   runs[1].equilibrium_residual = 0.02;
-  EXPECT_EQ(reading(runs)[0],
-            "B is unconverged: its forces are not those of an equilibrium (residual 2.0e-02).");
+  EXPECT_EQ(findings(runs)[0],
+            "B ended with the status `unconverged`: its forces are not in equilibrium (residual 2.0e-02).");
 }
 
-TEST(Reading, WhatOnlyOneRunHasIsLeftOut) {
+TEST(Findings, MeasuresThatOnlyOneRunHasAreLeftOut) {
   auto runs = two_runs();
   runs[0].rib_over_mid_sail.reset();
   runs[0].critical_value.reset();
-  EXPECT_EQ(reading(runs).size(), measures().size() - 2);
+  EXPECT_EQ(findings(runs).size(), measures().size() - 2);
 }
 
-TEST(Reading, TheTableHasARowPerRunAndAColumnPerMeasure) {
+TEST(Findings, TheTableHasARowPerRunAndAColumnPerMeasure) {
   const Table table = comparison_table(two_runs());
   ASSERT_EQ(table.rows.size(), 2u);
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
   EXPECT_EQ(std::get<std::string>(table.rows[1][1]), "Herringbone");
 }
 
-TEST(Reading, ThePlainTableExplainsEveryMeasureThatARunHas) {
+TEST(Findings, ThePlainTableExplainsEveryMeasureThatARunHas) {
   auto runs = two_runs();
   runs[0].equilibrium_residual = 1e-9;
   runs[0].mean_cv_pressure = 1e-13;
@@ -125,13 +125,13 @@ TEST(Reading, ThePlainTableExplainsEveryMeasureThatARunHas) {
   const Table table = plain_table(runs);
   ASSERT_EQ(table.columns.size(), 3u);
   EXPECT_EQ(table.columns[2].meaning, "Herringbone");
-  ASSERT_EQ(table.rows.size(), measures().size() - 1) << "no run has a critical friction";
+  ASSERT_EQ(table.rows.size(), measures().size() - 1) << "no run has a critical value";
   EXPECT_EQ(std::get<std::string>(table.rows[0][1]), "negligible");
   EXPECT_EQ(std::get<std::string>(table.rows[0][2]), "12.4 %");
   for (const auto& row : table.rows) EXPECT_GT(std::get<std::string>(row[0]).size(), 20u);
 }
 
-TEST(Reading, LabelsAreLettersThenNumbers) {
+TEST(Findings, LabelsAreLettersThenNumbers) {
   const auto labels = run_labels(28);
   EXPECT_EQ(labels[0], "A");
   EXPECT_EQ(labels[25], "Z");
@@ -139,4 +139,4 @@ TEST(Reading, LabelsAreLettersThenNumbers) {
 }
 
 }  // namespace
-}  // namespace cupola::reading_test
+}  // namespace cupola::findings_test

@@ -1,5 +1,5 @@
-// The report and the files for ParaView, opened as a user opens them: in a headless browser and in pvbatch.
-// Each test is skipped with a notice where the program that it needs is absent.
+// The report in a headless browser and the files for ParaView in pvbatch, opened as a user opens them. A test
+// is skipped if the program that it needs is not installed.
 
 #include <cstdlib>
 #include <filesystem>
@@ -23,7 +23,7 @@ bool on_path(const std::string& program) {
   return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-/// Writes an assembly, results and post/ of a column into a folder.
+/// Writes the assembly and results of a column, analyses them and returns the folder post/.
 std::string analysed_column(const std::string& name, const std::string& pvbatch = "",
                             Status status = Status::stable) {
   const std::string folder = test::fresh_folder(name);
@@ -31,7 +31,8 @@ std::string analysed_column(const std::string& name, const std::string& pvbatch 
   write_assembly(folder + "/assembly.vtu", a);
   ResultsWriter writer(folder + "/results", content_hash(a));
   for (const double time : {0.0, 0.5}) {
-    Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 1.2, 0.4);  // on the edge: half of it opens
+    Frame frame =
+        test::column_at_rest(a, test::kGravity, 0.0, 1.2, 0.4);  // at the edge: half of the joint opens
     frame.time = time;
     for (int i = 0; i < frame.contacts.size(); ++i)
       if (frame.contacts.normal_force[i] == 0.0) frame.contacts.gap[i] = 1e-3;
@@ -52,8 +53,9 @@ std::string analysed_column(const std::string& name, const std::string& pvbatch 
   return folder + "/post";
 }
 
-/// What a page measures of itself in headless Chromium, `width` pixels wide: "width overflow images broken",
-/// then what the console said. The page sits in a frame, for a window itself is at least 500 pixels wide.
+/// Loads a page in headless Chromium, `width` pixels wide, and returns "width overflow images broken" as the
+/// page measures them, followed by the console messages. The page is loaded in a frame because a window is at
+/// least 500 pixels wide.
 std::string measured_in_browser(const std::string& page, int width) {
   const std::string folder = test::fresh_folder("browser" + std::to_string(width));
   std::string text = read_text(page);
@@ -96,16 +98,16 @@ TEST(Report, OpensInABrowserWideAndNarrow) {
     EXPECT_EQ(measured_in_browser(post + "/report.html", width), fmt::format("{} 0 {} 0", width, figures));
 }
 
-TEST(Report, EscapesTheTitleAndSaysTheVerdict) {
+TEST(Report, EscapesTheTitleAndStatesTheVerdict) {
   const std::string html = read_text(analysed_column("column") + "/report.html");
   EXPECT_EQ(html.find("<b>&amp; \""), std::string::npos);
   EXPECT_NE(html.find("Column &lt;b&gt;&amp;amp; &quot;beds&quot;"), std::string::npos);
   EXPECT_NE(html.find("The structure is at rest."), std::string::npos);
-  EXPECT_EQ(html.find("http"), std::string::npos) << "nothing is fetched from outside";
+  EXPECT_EQ(html.find("http"), std::string::npos) << "the page loads no external resources";
 }
 
-// Every text that a file may hold, in the report and in a comparison of two runs.
-TEST(Report, NoTextFromAFileBecomesMarkup) {
+// Markup in every text that comes from a file, in the report and in a comparison of two runs.
+TEST(Report, TextsFromFilesNeverBecomeMarkup) {
   const std::string markup = "<script>alert('x')</script>";
   const std::string folder = std::filesystem::path(analysed_column("markup")).parent_path().string();
   const Assembly a = test::column(3);
@@ -139,7 +141,7 @@ TEST(Report, NoTextFromAFileBecomesMarkup) {
   EXPECT_EQ(html.find("<script"), std::string::npos);
 }
 
-TEST(Report, AnUnconvergedRunIsSaidBeforeAnythingElse) {
+TEST(Report, AnUnconvergedRunIsReportedFirst) {
   const std::string html = read_text(analysed_column("column", "", Status::unconverged) + "/report.html");
   const size_t warning = html.find("the solver did not reach the requested accuracy");
   ASSERT_NE(warning, std::string::npos);
@@ -147,7 +149,7 @@ TEST(Report, AnUnconvergedRunIsSaidBeforeAnythingElse) {
   EXPECT_NE(html.find("No verdict"), std::string::npos);
 }
 
-TEST(Report, ABrokenPvbatchCostsThePicturesOnly) {
+TEST(Report, AFailingPvbatchOnlyLosesThePictures) {
   const std::string post = analysed_column("column", "/nowhere/pvbatch");
   EXPECT_NE(read_text(post + "/report.html").find("the 3-D pictures are incomplete"), std::string::npos);
 }
@@ -156,7 +158,7 @@ TEST(Comparison, OpensInABrowserAndNamesTheRuns) {
   const std::string a = analysed_column("a"), b = analysed_column("b");
   const std::string out = test::fresh_folder("comparison");
   EXPECT_EQ(compare({a, b}, out, true), ExitCode::done);
-  EXPECT_NE(read_text(out + "/comparison.html").find("equal within 0.1 %"), std::string::npos);
+  EXPECT_NE(read_text(out + "/comparison.html").find("equal to within 0.1 %"), std::string::npos);
   EXPECT_NE(read_text(out + "/comparison.csv").find("kern_use"), std::string::npos);
   if (!on_path("chromium")) GTEST_SKIP() << "chromium is not installed";
   for (const int width : {1280, 400}) {
@@ -173,12 +175,13 @@ TEST(Comparison, OpensInABrowserAndNamesTheRuns) {
 TEST(ParaViewSlow, DrawsEveryKindOfFile) {
   const std::string pvbatch = CUPOLA_SOURCE_DIR "/postproc/report/pvbatch.sh";
   if (!on_path("pvbatch")) GTEST_SKIP() << "ParaView is not installed";
-  if (!on_path("xvfb-run") && !std::getenv("DISPLAY")) GTEST_SKIP() << "neither a display nor Xvfb";
+  if (!on_path("xvfb-run") && !std::getenv("DISPLAY"))
+    GTEST_SKIP() << "neither a display nor Xvfb is available";
   const std::string post = analysed_column("column", pvbatch);
   for (const char* name : {"blocks_meridional", "blocks_hoop", "blocks_friction", "joints", "sections",
                            "cracks", "motion_1", "motion_4"})
     EXPECT_TRUE(std::filesystem::exists(post + "/pictures/" + name + ".png")) << name;
-  // The results of the solver and the assembly themselves.
+  // ParaView also opens the assembly and the results of the solver.
   const std::string folder = std::filesystem::path(post).parent_path().string();
   write_text_atomically(folder + "/draw.py", R"python(
 import sys

@@ -1,4 +1,4 @@
-// The table of a sweep: finished members with their numbers, missing ones by name.
+// The table of a sweep: finished members with their numbers, missing members with a remark.
 #include "postproc/studies/sweep.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace cupola::sweep_test {
 namespace {
 
-TEST(SweepTable, SaysWhichMembersAreMissingAndHowFarTheyCame) {
+TEST(SweepTable, ReportsMissingMembersAndHowFarTheyGot) {
   const ScratchFolder scratch;
   const std::vector<SweptKey> sweep = {{"joints.friction", {"0.1", "0.2", "0.3", "x"}}};
   const auto members = members_of(sweep, "dome");
@@ -22,9 +22,9 @@ TEST(SweepTable, SaysWhichMembersAreMissingAndHowFarTheyCame) {
   EXPECT_EQ(table.columns[2].key, "status");
   EXPECT_EQ(table.rows[0][2], Table::Cell(std::string("stable")));
   EXPECT_EQ(table.rows[0][5], Table::Cell(0.5));
-  EXPECT_EQ(to_display(table.rows[1][3]), "no results: its own output says why");
-  EXPECT_EQ(to_display(table.rows[2][3]), "interrupted: the same command goes on");
-  EXPECT_EQ(to_display(table.rows[3][3]), "no assembly: its own output says why");
+  EXPECT_EQ(to_display(table.rows[1][3]), "no results: see the output of the run");
+  EXPECT_EQ(to_display(table.rows[2][3]), "interrupted: repeat the command to resume");
+  EXPECT_EQ(to_display(table.rows[3][3]), "no assembly: see the output of the run");
   EXPECT_EQ(members_text({members[0]}, "dome"), "dome_friction0.1 dome joints.friction=0.1\n");
 }
 

@@ -40,7 +40,7 @@ TEST(StudyFile, ReadsKnobNameReferenceAndSettings) {
   EXPECT_EQ(points[1].settings, (std::vector<std::string>{"c=2", "d=[1,2]"}));
 }
 
-TEST(StudyRow, CountsWallTimeWhereThreadsAreTheKnob) {
+TEST(StudyRow, UsesWallTimeIfThreadsAreTheKnob) {
   const std::vector<StudyPoint> points = read_study({written("t one one --threads=1\nm two two a=1\n")});
   Summary summary;
   summary.cpu_time_seconds = 2.0;
@@ -49,12 +49,13 @@ TEST(StudyRow, CountsWallTimeWhereThreadsAreTheKnob) {
   EXPECT_EQ((StudyRow{points[1], summary, {}, {}}).seconds(), 2.0);
 }
 
-TEST(StudyFile, NamesTheLineThatIsWrong) {
-  EXPECT_EQ(error_of("a b\n"), "study.txt:1: error: a line is KNOB NAME REFERENCE key.path=value ...");
-  EXPECT_EQ(error_of("a b b x\n"), "study.txt:1: error: x: must be key.path=value");
-  EXPECT_EQ(error_of("a b b\na b b\n"), "study.txt:2: error: b: the name comes twice");
+TEST(StudyFile, NamesTheInvalidLine) {
+  EXPECT_EQ(error_of("a b\n"), "study.txt:1: error: expected KNOB NAME REFERENCE key.path=value ...");
+  EXPECT_EQ(error_of("a b b x\n"), "study.txt:1: error: x: must have the form key.path=value");
+  EXPECT_EQ(error_of("a b b\na b b\n"),
+            "study.txt:2: error: b: another run has this name; names must be unique");
   EXPECT_EQ(error_of("a b c\n"),
-            "study.txt:1: error: b: its reference c is no run that is its own reference");
+            "study.txt:1: error: b: no line defines c as a reference, that is, with itself as reference");
   EXPECT_THROW(read_study({written("# nothing\n")}), InputError);
 }
 
@@ -69,7 +70,7 @@ RunForces two_joints() {
   return forces;
 }
 
-TEST(ForceErrors, AreZeroForTheSameRunWhateverPointItsMomentsAreAbout) {
+TEST(ForceErrors, AreZeroForTheSameRunWithMomentsAboutOtherPoints) {
   const RunForces reference = two_joints();
   RunForces same = reference;
   for (auto& [id, wrench] : same.beds) wrench = moved_to(wrench, {3, -2, 7});
@@ -82,7 +83,7 @@ TEST(ForceErrors, AreZeroForTheSameRunWhateverPointItsMomentsAreAbout) {
 
 // A force of 100 N that acts 0.6 m away is a moment of 60 N m: 60 / sqrt(4 m2) = 30 N. Root mean square of
 // the reference: sqrt(300^2 + 100^2) over the two joints.
-TEST(ForceErrors, CountAMomentWithTheJointsSideForAnArm) {
+TEST(ForceErrors, ConvertMomentsToForcesByTheSideOfTheJoint) {
   const RunForces reference = two_joints();
   RunForces run = reference;
   run.beds[{1, 2, "bed"}].point.x() += 0.6;
@@ -96,7 +97,7 @@ TEST(ForceErrors, CountAMomentWithTheJointsSideForAnArm) {
   EXPECT_NEAR(errors.base_thrust, 0.1, 1e-12);
 }
 
-TEST(ForceErrors, AJointThatOneRunLacksCountsWhole) {
+TEST(ForceErrors, AJointMissingInOneRunCountsAsUnloaded) {
   const RunForces reference = two_joints();
   RunForces run = reference;
   run.beds.erase({1, 2, "bed"});
@@ -124,7 +125,7 @@ std::vector<StudyRow> small_study() {
           missing};
 }
 
-TEST(Study, FrontHoldsWhatNoFasterRunBeats) {
+TEST(Study, FrontHoldsRunsThatNoFasterRunBeats) {
   const std::vector<StudyRow> front = pareto_front(rows_of(small_study(), "method"));
   ASSERT_EQ(front.size(), 3u);
   EXPECT_EQ(front[0].point.name, "a_1");
@@ -132,25 +133,26 @@ TEST(Study, FrontHoldsWhatNoFasterRunBeats) {
   EXPECT_EQ(front[2].point.name, "d_4");
 }
 
-TEST(Study, RanksALimitAnalysisByItsCriticalValue) {
+TEST(Study, RanksLimitAnalysesByTheirCriticalValue) {
   StudyRow fast = row("fast", 1, 0.9), fine = row("fine", 2, 0.9);
   fast.critical_error = 1e-2;
   fine.critical_error = 1e-4;
   EXPECT_EQ(pareto_front({fast, fine}).size(), 2u);
-  EXPECT_EQ(study_text({fast, fine}).back().find("Worst joint"), std::string::npos);
+  EXPECT_EQ(study_text({fast, fine}).back().find("single joint"), std::string::npos);
 }
 
-TEST(Study, TextNamesTheCheapestTheExchangeTheUnreachedAndTheMissing) {
+TEST(Study, TextNamesTheFastestTheExchangeTheUnreachedAndTheMissing) {
   std::string text;
   for (const std::string& paragraph : study_text(small_study())) text += paragraph + "\n";
   for (const char* phrase :
-       {"Not run: lost.", "b_2 (2 s, 1.0e-03) within 0.1 and 0.01 and 0.001",
-        "d_4 (4 s, 1.0e-07) within 1e-06", "From a_1 to d_4: 4 times the time buys 1/3e+06 of the error",
-        "Did not reach what they asked for: e_5"})
+       {"Not run: lost.",
+        "Fastest run within 0.1 and 0.01 and 0.001: b_2 (2 s, 1.0e-03); within 1e-06: d_4 (4 s, 1.0e-07).",
+        "From a_1 to d_4 the time grows by a factor of 4 and the error falls by a factor of 3e+06.",
+        "Requested accuracy not reached: e_5"})
     EXPECT_NE(text.find(phrase), std::string::npos) << phrase << "\n" << text;
 }
 
-TEST(Study, EveryRunIsARowOfTheTableAndEveryKnobAFigure) {
+TEST(Study, TheTableHasARowPerRunAndEveryKnobAFigure) {
   const Table table = study_table(small_study());
   EXPECT_EQ(table.rows.size(), 7u);
   for (const auto& cells : table.rows) EXPECT_EQ(cells.size(), table.columns.size());
