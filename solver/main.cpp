@@ -33,7 +33,7 @@ ExitCode solve(int argc, char** argv) {
   line.flag("--force", &request.force, "use an assembly that was made from another geometry or material");
   line.flag("--resume", &request.resume, "resume from the checkpoint in the output folder, if there is one");
   line.optional("--threads", &request.threads, 1,
-                "number of threads (default 1); the results do not depend on it");
+                "number of threads (default 1); the results are the same to the bit");
   line.optional("--dump-fclib", &request.dump_fclib, "FILE",
                 "write the contact problem of the static solve or of the last step (HDF5)");
   line.instead_of_case("--fclib", &fclib_path, "FILE", "solve a contact problem in the FCLIB format");

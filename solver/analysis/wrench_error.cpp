@@ -13,10 +13,10 @@
 namespace cupola {
 namespace {
 
-constexpr double kFirst = 0.1;        // first tolerance, relative to the wrench error
-constexpr double kReduction = 0.1;    // factor from one tolerance to the next
-constexpr double kSmallest = 1e-12;   // below this tolerance the momentum balance meets rounding
-constexpr double kComparison = 1e-2;  // tolerance of the finer solution, relative to that of the compared one
+constexpr double kFirstTolerance = 0.1;        // first tolerance, relative to the wrench error
+constexpr double kToleranceReduction = 0.1;    // factor from one tolerance to the next
+constexpr double kSmallestTolerance = 1e-12;   // below this tolerance the momentum balance meets rounding
+constexpr double kComparisonTolerance = 1e-2;  // of the finer solution, relative to the compared one
 
 using Mat36 = Eigen::Matrix<double, 3, 6>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -126,8 +126,8 @@ StaticSolution solve_static_to_wrench_error(const Model& model, const State& sta
   CUPOLA_ASSERT(wrench_error > 0.0);
   StaticSolution solution;
   int iterations = 0;
-  for (options.tolerance = kFirst * wrench_error; options.tolerance >= kSmallest;
-       options.tolerance *= kReduction) {
+  for (options.tolerance = kFirstTolerance * wrench_error; options.tolerance >= kSmallestTolerance;
+       options.tolerance *= kToleranceReduction) {
     solution = solve_static(model, start, contacts, memories, options);
     iterations += solution.iterations;
     *reached = std::numeric_limits<double>::infinity();
@@ -137,7 +137,7 @@ StaticSolution solve_static_to_wrench_error(const Model& model, const State& sta
       *reached = *bound;
     } else {
       StaticOptions finer = options;
-      finer.tolerance = std::max(kComparison * options.tolerance, kSmallest);
+      finer.tolerance = std::max(kComparisonTolerance * options.tolerance, kSmallestTolerance);
       const StaticSolution right = solve_static(model, start, contacts, memories, finer);
       iterations += right.iterations;
       if (right.outcome == StaticOutcome::equilibrium)
