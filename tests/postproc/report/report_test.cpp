@@ -173,7 +173,7 @@ TEST(Comparison, OpensInABrowserAndNamesTheRuns) {
 }
 
 TEST(ParaViewSlow, DrawsEveryKindOfFile) {
-  const std::string pvbatch = CUPOLA_SOURCE_DIR "/postproc/report/pvbatch.sh";
+  const std::string pvbatch = CUPOLA_SOURCE_DIR "/postproc/pictures/pvbatch.sh";
   if (!on_path("pvbatch")) GTEST_SKIP() << "ParaView is not installed";
   if (!on_path("xvfb-run") && !std::getenv("DISPLAY"))
     GTEST_SKIP() << "neither a display nor Xvfb is available";
