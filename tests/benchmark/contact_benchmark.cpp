@@ -1,11 +1,11 @@
-// Cost and accuracy of the contact solvers, as tables: methods on one static solve and on the first step,
-// random gaps, time stepping, scale. CPU seconds, one thread.
+// Time and accuracy of the contact solvers, as tables: methods on a first step and two static solves, random
+// gaps, time stepping, threads and scale. CPU seconds of one thread, except for threads.
 //
-//   contact_benchmark                                    all but the two largest sizes
+//   contact_benchmark                                    all tables, without the two largest sizes and million
 //   contact_benchmark methods | gaps | stepping | scale  one table
-//   contact_benchmark threads                            factor and assembly on two threads; CG on one
-//   contact_benchmark large                              scale to 81,920 and 327,680 blocks (10 GB)
-//   contact_benchmark million                            1,024,000 blocks, one of eight sectors
+//   contact_benchmark threads                            assembly and factor on two threads, against CG
+//   contact_benchmark large                              scale up to 81,920 and 327,680 blocks (10 GB)
+//   contact_benchmark million                            1,024,000 blocks by one of eight sectors
 
 #include <cmath>
 #include <string>
@@ -89,7 +89,7 @@ void compare_methods() {
 }
 
 void random_gaps() {
-  print_header("Random gaps, static h = 1 s, newton with fallback, tolerance 1e-8, error against 1e-11");
+  print_header("Random gaps, static, h = 1 s, newton with fallback, tolerance 1e-8, error against 1e-11");
   for (const double gap : {1e-4, 1e-2}) {
     for (const double c : {1e-8, 1e-10, 1e-12}) {
       DomeProblem dome;
@@ -104,9 +104,9 @@ void random_gaps() {
   }
 }
 
-/// Steps with memory springs on frozen geometry; the mean over steps 2 to 50.
+/// Time steps on frozen geometry with tangential springs that remember their slip; mean of steps 2 to 50.
 void time_stepping() {
-  fmt::print("\nTime stepping, h = 0.01 s, memory, lagged factor, mean of steps 2 to 50\n");
+  fmt::print("\nTime stepping, h = 0.01 s, springs with memory, lagged factor, mean of steps 2 to 50\n");
   fmt::print("{:<12} {:<10} {:>9} {:>12} {:>10} {:>8} {:>10}\n", "c m/N", "tolerance", "contacts",
              "CPU ms/step", "iterations", "fact", "worst");
   for (const auto& [slices, c, tolerance] :
@@ -145,7 +145,7 @@ void time_stepping() {
   }
 }
 
-/// One row of the scale table; returns CPU seconds.
+/// Prints one row of the scale table and returns its CPU seconds.
 double scale_row(const scenes::DomeShape& shape, int last_blocks, double last_cpu) {
   const ContactProblem problem = scenes::dome(shape, 1.0, {0.4, 1e-8, 1e-8});
   const Run r = run(problem, options_for(problem, ContactMethod::newton, 1e-8));
@@ -164,7 +164,7 @@ void print_scale_header(const char* what) {
       what, "blocks", "contacts", "iter", "CPU s", "GB", "momentum", "exponent");
 }
 
-/// Spherical domes of the tests, which need no generator at these sizes.
+/// Spherical domes of the tests: no generator is needed at these sizes.
 void scale(bool large) {
   print_scale_header("");
   double cpu = 0.0;
@@ -188,7 +188,7 @@ void million() {
   scale_row(shape, 0, 0.0);
 }
 
-/// Shortest of three runs, s.
+/// Shortest wall time of three runs, s.
 template <class Work>
 double shortest(const Work& work) {
   double best = std::numeric_limits<double>::infinity();
@@ -200,15 +200,15 @@ double shortest(const Work& work) {
   return best;
 }
 
-/// Number of CG iterations to a residual of 1e-8.
+/// Number of iterations of preconditioned conjugate gradients (CG) to a relative residual of 1e-8.
 template <class Precondition>
-int count_gradients(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
-                    const Precondition& precondition) {
-  constexpr int kMost = 20000;
+int count_cg_iterations(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
+                        const Precondition& precondition) {
+  constexpr int kMaxIterations = 20000;
   VecX x = VecX::Zero(rhs.size()), r = rhs, z = precondition(r), p = z;
   double rz = r.dot(z);
   int k = 0;
-  for (; k < kMost && r.norm() > 1e-8 * rhs.norm(); ++k) {
+  for (; k < kMaxIterations && r.norm() > 1e-8 * rhs.norm(); ++k) {
     const VecX Hp = multiply(pattern, H, p);
     const double alpha = rz / p.dot(Hp);
     x += alpha * p;
@@ -221,11 +221,11 @@ int count_gradients(const BlockPattern& pattern, const BlockMatrix& H, const Vec
   return k;
 }
 
-/// Block Jacobi: preconditioned by the diagonal 6x6 blocks.
-int block_jacobi_gradients(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs) {
+/// The same, preconditioned with the 6 x 6 diagonal blocks.
+int block_jacobi_iterations(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs) {
   std::vector<Mat6> inverse;
   for (const Mat6& block : H.diagonal) inverse.push_back(block.inverse());
-  return count_gradients(pattern, H, rhs, [&](const VecX& r) {
+  return count_cg_iterations(pattern, H, rhs, [&](const VecX& r) {
     VecX z(r.size());
     for (int k = 0; k < pattern.num_blocks(); ++k)
       z.segment<6>(6 * k).noalias() = inverse[k] * r.segment<6>(6 * k);
@@ -233,15 +233,13 @@ int block_jacobi_gradients(const BlockPattern& pattern, const BlockMatrix& H, co
   });
 }
 
-/// The Hessian with all contacts sticking: assembly, factor and solve on one and two threads, and the same
-/// system by CG on one thread.
+/// The Hessian in which every contact sticks: assembly, factorisation and solve on one and two threads, and
+/// the same system solved by CG on one thread.
 void threads() {
-  fmt::print(
-      "\nOne and two threads, wall s, shortest of three; conjugate gradients with block Jacobi, a "
-      "multigrid\n");
+  fmt::print("\nOne and two threads, wall s, shortest of three; CG with block Jacobi and with multigrid\n");
   fmt::print("{:>8} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8} {:>5} {:>8} {:>8} {:>8} {:>8} {:>10} {:>8}\n",
              "blocks", "assembly 1", "2", "speed-up", "factor 1", "2", "speed-up", "bits", "solve", "Jacobi",
-             "wall s", "built s", "multigrid", "wall s");
+             "wall s", "set-up s", "multigrid", "wall s");
   for (const int refine : {2, 4, 8}) {
     scenes::DomeShape shape;
     shape.rings = 40 * refine;
@@ -261,7 +259,7 @@ void threads() {
       set_num_threads(n);
       assembly[n - 1] = shortest([&] { H = assemble_hessian(p, graph, G); });
       BlockCholesky factor;
-      if (!factor.factorize(graph.pattern, H)) return;  // the first one includes the ordering
+      if (!factor.factorize(graph.pattern, H)) return;  // the first factorisation includes the ordering
       bool sound = true;
       factorisation[n - 1] = shortest([&] { sound = factor.factorize(graph.pattern, H) && sound; });
       if (!sound) return;
@@ -269,18 +267,18 @@ void threads() {
     }
     set_num_threads(1);
     const double start = wall_seconds();
-    const int by_jacobi = block_jacobi_gradients(graph.pattern, H, p.v_star);
+    const int by_jacobi = block_jacobi_iterations(graph.pattern, H, p.v_star);
     const double jacobi = wall_seconds() - start;
     Multigrid multigrid;
     if (!multigrid.build(graph.pattern, H, rigid_motions(dome, graph, white.L))) return;
     const double built = wall_seconds() - start - jacobi;
     const int by_multigrid =
-        count_gradients(graph.pattern, H, p.v_star, [&](const VecX& r) { return multigrid.cycle(r); });
+        count_cg_iterations(graph.pattern, H, p.v_star, [&](const VecX& r) { return multigrid.cycle(r); });
     fmt::print(
         "{:>8} {:>10.4f} {:>10.4f} {:>8.2f} {:>10.3f} {:>10.3f} {:>8.2f} {:>5} {:>8.4f} {:>8} {:>8.2f} "
         "{:>8.2f} {:>10} {:>8.2f}\n",
         p.num_blocks(), assembly[0], assembly[1], assembly[0] / assembly[1], factorisation[0],
-        factorisation[1], factorisation[0] / factorisation[1], x[0] == x[1] ? "same" : "OTHER", solve,
+        factorisation[1], factorisation[0] / factorisation[1], x[0] == x[1] ? "same" : "DIFFERENT", solve,
         by_jacobi, jacobi, built, by_multigrid, wall_seconds() - start - jacobi - built);
     std::fflush(stdout);
   }

@@ -14,10 +14,10 @@ namespace cupola {
 /// Contact problem of the circular dome at rest, as cupola-solve builds it; 40 x 32 blocks by default.
 struct DomeProblem {
   int rings = 40, blocks_per_ring = 32, slices_per_block = 4;
-  double h = 1e3;            ///< s; large: static
+  double h = 1e3;            ///< s; a large step makes the problem static
   double compliance = 1e-8;  ///< m/N per point; kappa = compliance / h^2
   double friction = 0.4;
-  double gap = 0.0;  ///< m, largest of the seeded random gaps
+  double gap = 0.0;  ///< m, upper limit of the seeded random gaps
 };
 
 inline ContactProblem make_problem(const DomeProblem& dome) {

@@ -1,6 +1,7 @@
-// What a feature costs: counts and time of the same scene with and without it, and their ratio.
+// Cost of features: counts and processor time of the same scene with and without each feature, and their
+// ratio.
 //
-//   feature_benchmark             prints a table; processor time, best of three
+//   feature_benchmark             prints a table; shortest time of three runs
 
 #include <algorithm>
 #include <functional>
@@ -57,7 +58,7 @@ void print_row(const char* feature, const Measured& with, const Measured& withou
              with.seconds, without.seconds, ratio(with.seconds, without.seconds));
 }
 
-/// A hundred stacks, of which all but the first have come to rest: a step with and without sleep.
+/// Time per step of a hundred stacks of ten cubes that have come to rest, with and without sleep.
 double seconds_per_step(bool sleep) {
   std::vector<testing::BoxSpec> boxes{{.center = {150, 0, -0.5}, .size = {400, 3, 1}, .fixed = true}};
   for (int k = 0; k < 100; ++k)
@@ -72,7 +73,7 @@ double seconds_per_step(bool sleep) {
   options.solve = contact_solver_options(input.analysis);
   options.solve.tolerance = 1e-6;
   Simulation run(make_model(input, assembly), options);
-  for (int k = 0; k < 60; ++k) run.advance();  // to rest
+  for (int k = 0; k < 60; ++k) run.advance();  // until all stacks are at rest
   return best_of_three([&] {
            for (int k = 0; k < 10; ++k) run.advance();
          }) /

@@ -1,4 +1,4 @@
-// Time of generation with all its checks, and that it grows in step with the number of blocks; of splitting
+// Time of generation with all its checks, which grows linearly with the number of blocks, and of splitting
 // non-convex blocks.
 
 #include <benchmark/benchmark.h>
@@ -24,7 +24,7 @@ void HerringboneDome(benchmark::State& state) {
   generate_and_check(state, scene);
 }
 
-/// The paper's final model with `state.range` courses for each of its 40: 1,296 x n^2 blocks.
+/// The final model of the paper with every course divided into n = `state.range` courses: 1,296 x n^2 blocks.
 void Brunelleschi(benchmark::State& state) {
   Case scene;
   scene.geometry.surface = OctagonalVault{};
@@ -34,7 +34,7 @@ void Brunelleschi(benchmark::State& state) {
   generate_and_check(state, scene);
 }
 
-/// `state.range` rings of as many blocks on a dome, two cells each.
+/// A dome with n = `state.range` rings of n blocks, two cells each.
 void RunningDome(benchmark::State& state) {
   Case scene;
   const int n = static_cast<int>(state.range(0));

@@ -1,4 +1,4 @@
-# Largest change of a macro-block's wrench against the finest bricks, by bricks along an edge.
+# Largest change of the wrench of a macro-block against the finest bricks, over the number of bricks along an edge.
 set terminal pngcairo size 760,480 font 'Helvetica,11' background 'white'
 set output folder.'/refinement.png'
 set datafile separator ','
@@ -6,8 +6,8 @@ set logscale x 2
 set logscale y
 set format y '10^{%T}'
 set xlabel 'bricks along an edge of a macro-block (bond.refine)'
-set ylabel 'largest change against the finest, relative'
-set title 'Wrench of a macro-block against the sum over its bricks, circular dome'
+set ylabel 'largest relative change against the finest bricks'
+set title 'Wrench of a macro-block and sum over its bricks, circular dome'
 set key outside right
 set grid
 file = folder.'/refinement.csv'

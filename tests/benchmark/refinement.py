@@ -2,9 +2,9 @@
 
     refinement.py FOLDER N N ...    FOLDER/N/post/joints.csv for bond.refine = N, the finest last
 
-Prints one row per refinement and level: thrust (horizontal over vertical force), how far its line of action
-passes outside the centre of pressure of the finest bricks, and how far force and moment lie from theirs. Beds are those of the courses
-of macro-blocks; all macro-blocks of a course are compared, the row tells the largest difference.
+Prints one row per refinement and course of macro-blocks: thrust (horizontal over vertical force), distance of its
+line of action outside the centre of pressure of the finest bricks, and changes of force and moment against the finest
+bricks. The changes are the largest over all macro-blocks of the course.
 """
 
 import csv
@@ -12,11 +12,11 @@ import math
 import sys
 
 RINGS, SLOTS, THICKNESS = 40, 32, 2.2  # cases/dome_circular.yaml: courses, blocks per course, m
-LEVELS = (0, 10, 20, 30)  # courses whose lower bed is looked at
+LEVELS = (0, 10, 20, 30)  # courses whose lower bed is evaluated
 
 
 def rotated(x, y, angle):
-    """The horizontal vector in the axes (outwards, along the ring) at that azimuth."""
+    """Components of a horizontal vector outwards and along the ring at the azimuth `angle`."""
     return (math.cos(angle) * x + math.sin(angle) * y, math.cos(angle) * y - math.sin(angle) * x)
 
 
@@ -43,13 +43,13 @@ def macro_joints(path, refine):
 
 
 def centre(joints):
-    """Of pressure: that is the point of a row of joints.csv."""
+    """Area-weighted mean of the centres of pressure, the points in joints.csv."""
     area = sum(joint[0] for joint in joints)
     return [sum(joint[0] * joint[1][k] for joint in joints) / area for k in range(3)]
 
 
 def wrench(joints, about):
-    """Force and moment about a point, in the axes outwards, along the ring, up."""
+    """Force and moment about a point; components outwards, along the ring and up."""
     force, moment = [0.0] * 3, [0.0] * 3
     for _, point, f, m in joints:
         lever = cross([p - a for p, a in zip(point, about)], f)

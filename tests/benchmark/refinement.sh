@@ -1,6 +1,6 @@
 #!/bin/bash
-# What a macro-block's bed joint carries against the sum over the bricks that it stands for, as bond.refine
-# grows: the circular dome, compliance per area. Writes refinement.csv and refinement.png.
+# Compares the bed-joint wrench of a macro-block with the sum over the bricks that replace it, for increasing
+# bond.refine: circular dome, compliance per area. Writes refinement.csv and refinement.png.
 #
 #   tests/benchmark/refinement.sh build/bin out/refinement [1 2 4 8]
 set -euo pipefail

@@ -1,11 +1,11 @@
-# Time and memory of the static Brunelleschi model over its blocks.
+# Time and memory of the static Brunelleschi model over the number of blocks.
 set terminal pngcairo size 720,480 font 'Helvetica,11' background 'white'
 set output folder.'/scale.png'
 set datafile separator ','
 set logscale xy
 set xlabel 'blocks'
 set ylabel 'CPU s, GB'
-set title 'Static solve of the Brunelleschi model, reading and writing included'
+set title 'Static solve of the Brunelleschi model, including reading and writing'
 set key outside bottom center maxrows 3
 set grid
 file = folder.'/scale.csv'

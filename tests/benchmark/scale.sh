@@ -1,7 +1,7 @@
 #!/bin/bash
-# The static Brunelleschi model from macro-blocks to bricks: blocks, time, memory and residual of
-# cupola-solve. Writes scale.csv and scale.png. A number is `bond.refine`, with a c behind it the solve is by
-# one of eight sectors. 16 takes 13 GB, 28c (a million blocks) 17 GB.
+# Time, memory and residual of cupola-solve for the static Brunelleschi model, from macro-blocks to bricks.
+# Writes scale.csv and scale.png. Each argument is a value of `bond.refine`; a trailing c solves one of eight
+# sectors only. 16 needs 13 GB, 28c (a million blocks) 17 GB.
 #
 #   tests/benchmark/scale.sh build/bin out/scale [1 3 8 16 8c 16c 28c]
 set -euo pipefail

@@ -1,13 +1,14 @@
-// Compares Cupola with Siconos (Debian's packages, its C API) on the same problems in one run: the circular
-// dome, 1,280 blocks, Coulomb's law, static-elastic and rigid. CPU seconds, one thread
-// (OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1).
+// Comparison with Siconos (Debian packages, C API) on the same problems in one run: the circular dome, 1,280
+// blocks, Coulomb's law, static-elastic and rigid. CPU seconds of one thread (OPENBLAS_NUM_THREADS=1
+// OMP_NUM_THREADS=1).
 //
-// Masses and speeds are scaled by their means, so that Siconos' error, which adds N s and m/s, has no unit.
-// `error` is Siconos' own measure of each solution, computed by its routine; `force` is the difference from
-// our solution at 1e-11 (where the forces are unique).
+// Masses and speeds are scaled by their means, so that the error measure of Siconos, which mixes N s and m/s,
+// is dimensionless. `error` is that measure, computed by the routine of Siconos for every solution. `force`
+// is the relative difference of the impulses from our solution at 1e-11 (meaningful where the forces are
+// unique).
 //
-// Each method of Siconos runs in its own process, which is stopped at a limit of CPU seconds or at 8 GB.
-// `error` is then that of the current impulses (NSGS; the other methods write theirs at the end).
+// Each method of Siconos runs in its own process, which is stopped at the limit of CPU seconds or at 8 GB.
+// `error` is then that of the impulses reached so far (NSGS; the other methods write theirs at the end).
 //
 //   siconos_benchmark [tolerance] [CPU seconds per method] [static|rigid]     1e-8, 120, both
 
@@ -44,7 +45,7 @@ namespace cupola {
 namespace {
 
 constexpr double kGravity = 9.81;
-constexpr int kUnlimited = 1'000'000;  // iterations: CPU time is the limit
+constexpr int kUnlimited = 1'000'000;  // iterations; methods are limited by CPU time instead
 
 NumericsMatrix* to_numerics(const Eigen::SparseMatrix<double>& A) {
   NumericsMatrix* matrix = NM_create(NM_SPARSE, static_cast<int>(A.rows()), static_cast<int>(A.cols()));
@@ -58,7 +59,7 @@ NumericsMatrix* to_numerics(const Eigen::SparseMatrix<double>& A) {
   return matrix;
 }
 
-/// The same problem with mean mass 1 and reference speed 1.
+/// The problem scaled to mean mass 1 and reference speed 1.
 ContactProblem scaled(const ContactProblem& problem, double mass, double speed) {
   ContactProblem p = problem;
   for (Mat6& M : p.M) M /= mass;
@@ -75,7 +76,7 @@ double* shared_zeros(std::size_t n) {
   return static_cast<double*>(memory);
 }
 
-/// Runs `work` in a child process with a limit of CPU seconds and of 8 GB. True if it ended by itself.
+/// Runs `work` in a child process limited to `seconds` of CPU time and 8 GB. Returns whether it finished.
 bool run_capped(double seconds, const std::function<void()>& work) {
   std::fflush(stdout);
   const pid_t child = fork();
@@ -126,8 +127,8 @@ class Comparison {
                siconos_error(gamma), force, cpu / cupola_cpu_);
     std::fflush(stdout);
   }
-  /// `solve` fills impulses_ and returns its iterations.
-  void run_peer(const std::string& name, const std::function<int()>& solve);
+  /// Runs `solve`, which fills impulses_ and returns its number of iterations, and prints the row.
+  void run_siconos(const std::string& name, const std::function<int()>& solve);
 
   ContactProblem problem_;
   DelassusProblem local_;
@@ -135,7 +136,7 @@ class Comparison {
   double cap_;  ///< CPU s
   NumericsMatrix* W_ = nullptr;
   FrictionContactProblem* fc_ = nullptr;
-  double* impulses_ = nullptr;  ///< of the peer (3 nc)
+  double* impulses_ = nullptr;  ///< of the Siconos method (3 nc)
   double* spent_ = nullptr;     ///< CPU s, iterations
   VecX reference_;
   double cupola_cpu_ = 1.0;
@@ -149,8 +150,8 @@ void Comparison::run_cupola() {
   ContactSolution x;
   solve_contact(problem_, options, &x);
   reference_ = x.gamma;
-  // Our residuals differ from Siconos' error: lower the tolerance until Siconos' routine accepts the
-  // solution.
+  // Our residuals differ from the error measure of Siconos: lower the tolerance until that measure meets it
+  // too.
   for (options.tolerance = tolerance_; options.tolerance > 1e-12; options.tolerance *= 0.1) {
     x = {};
     const double start = cpu_seconds();
@@ -162,15 +163,15 @@ void Comparison::run_cupola() {
   }
 }
 
-void Comparison::run_peer(const std::string& name, const std::function<int()>& solve) {
+void Comparison::run_siconos(const std::string& name, const std::function<int()>& solve) {
   Eigen::Map<VecX> gamma(impulses_, local_.q.size());
   gamma.setZero();
-  const bool ended = run_capped(cap_, [&] {
+  const bool finished = run_capped(cap_, [&] {
     const double start = cpu_seconds();
     spent_[1] = solve();
     spent_[0] = cpu_seconds() - start;
   });
-  if (ended) {
+  if (finished) {
     print(name, spent_[0], static_cast<int>(spent_[1]), gamma);
   } else if (gamma.isZero(0.0)) {
     fmt::print("{:<28} {:>10} {:>9} {:>10} {:>9} {:>9}\n", name, fmt::format("> {:.0f}", cap_), "stopped",
@@ -190,7 +191,7 @@ void Comparison::run_siconos_local(const std::string& name, int solver, bool blo
   SolverOptions* options = solver_options_create(solver);
   options->dparam[SICONOS_DPARAM_TOL] = tolerance_;
   options->iparam[SICONOS_IPARAM_MAX_ITER] = kUnlimited;
-  run_peer(name, [&] {
+  run_siconos(name, [&] {
     VecX u = VecX::Zero(local_.q.size());
     fc3d_driver(&problem, impulses_, u.data(), options);
     return options->iparam[SICONOS_IPARAM_ITER_DONE];
@@ -198,7 +199,7 @@ void Comparison::run_siconos_local(const std::string& name, int solver, bool blo
   solver_options_delete(options);
 }
 
-/// The global form has no compliance: rigid problems only.
+/// The global formulation has no compliance: rigid problems only.
 void Comparison::run_siconos_global() {
   std::vector<Eigen::Triplet<double>> mass, contacts;
   for (int k = 0; k < problem_.num_blocks(); ++k) {
@@ -233,7 +234,7 @@ void Comparison::run_siconos_global() {
   SolverOptions* options = solver_options_create(SICONOS_GLOBAL_FRICTION_3D_ADMM);
   options->dparam[SICONOS_DPARAM_TOL] = tolerance_;
   options->iparam[SICONOS_IPARAM_MAX_ITER] = kUnlimited;
-  run_peer("siconos global ADMM", [&] {
+  run_siconos("siconos global ADMM", [&] {
     VecX u = VecX::Zero(m), v = VecX::Zero(n);
     gfc3d_driver(global, impulses_, u.data(), v.data(), options);
     return options->iparam[SICONOS_IPARAM_ITER_DONE];

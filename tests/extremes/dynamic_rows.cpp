@@ -1,4 +1,4 @@
-// Rows of the table that move in time, and those that must be refused.
+// Rows with motion in time and rows that must be refused.
 
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,8 @@ namespace {
 
 using testing::BoxSpec;
 
-/// `steps` of h, from equilibrium or from the unloaded assembly, to a momentum residual of 1e-8.
+/// A dynamic case of `steps` steps of h, from equilibrium or from the unloaded assembly, to a momentum
+/// residual of 1e-8.
 Case motion(double mu, double compliance, double h, int steps, Analysis::Start start) {
   Case input = testing::make_case(mu, compliance, h);
   input.analysis.tolerance = 1e-8;
@@ -25,12 +26,12 @@ Case motion(double mu, double compliance, double h, int steps, Analysis::Start s
   return input;
 }
 
-/// No block is deeper in another than `depth` (m) at the end.
+/// Checks that no penetration exceeds `depth` (m) at the end.
 auto sinks_less_than(double depth) {
   return [depth](const Summary& s, const Frame&) {
-    return s.max_penetration_m <= depth ? std::string()
-                                        : fmt::format("blocks are {:.2e} m inside each other, {:.2e} allowed",
-                                                      s.max_penetration_m, depth);
+    return s.max_penetration_m <= depth
+               ? std::string()
+               : fmt::format("penetration of {:.2e} m, {:.2e} m allowed", s.max_penetration_m, depth);
   };
 }
 
@@ -56,8 +57,8 @@ void add_steps(std::vector<ExtremeScene>* rows) {
                      },
                      sinks_less_than(1e-6)});
   rows->push_back({"time step",
-                   "heavy on light, 1e6, h = 0.01 s, 200 steps",
-                   "sinks less than 1e-4 of the side",
+                   "heavy on light, ratio 1e6, h = 0.01 s, 200 steps",
+                   "penetration below 1e-4 of the side",
                    {Ending::stable, Ending::moving},
                    [] {
                      return Scene{motion(0.4, 1e-14, 0.01, 200, Analysis::Start::rest),
@@ -69,14 +70,14 @@ void add_steps(std::vector<ExtremeScene>* rows) {
 void add_falls(std::vector<ExtremeScene>* rows) {
   rows->push_back(
       {"fall",
-       "a block without support, 1 s",
-       "collapsed: it has fallen g t^2 / 2",
+       "an unsupported block, 1 s",
+       "collapsed, after a fall of g t^2 / 2",
        {Ending::collapsed},
        [] {
          return Scene{motion(0.4, 1e-9, 0.01, 100, Analysis::Start::rest), testing::make_boxes({BoxSpec{}})};
        },
        [](const Summary& s, const Frame&) {
-         // Implicit Euler: g h^2 n (n + 1) / 2.
+         // Fall of n steps of implicit Euler: g h^2 n (n + 1) / 2.
          const double fallen = 9.81 * 0.01 * 0.01 * 100 * 101 / 2;
          return std::abs(s.max_displacement_m - fallen) < 1e-9 * fallen
                     ? std::string()
@@ -84,7 +85,7 @@ void add_falls(std::vector<ExtremeScene>* rows) {
        }});
   rows->push_back({"fall",
                    "a cube dropped 5 m on a stack at h = 0.1 s",
-                   "meets it, sinks less than its side",
+                   "penetration below half its side",
                    {Ending::stable, Ending::moving, Ending::collapsed},
                    [] {
                      return Scene{
@@ -96,14 +97,14 @@ void add_falls(std::vector<ExtremeScene>* rows) {
                    sinks_less_than(0.5)});
 }
 
-/// A slender rod that slides on its lower end at friction beyond Painleve's 4/3: the rigid Coulomb problem
-/// has no solution for some speeds; the convex law always has one.
+/// Painleve's paradox: a slender rod that slides on its lower end at a friction above 4/3. The rigid problem
+/// with Coulomb's law has no solution at some speeds; the convex (associated) law always has one.
 void add_painleve(std::vector<ExtremeScene>* rows) {
   for (const double mu : {1.4, 3.0})
     rows->push_back(
         {"Painleve",
          fmt::format("sliding rod, mu {:g}", mu),
-         "finite speeds, any ending",
+         "any ending, speeds below 100 m/s",
          {Ending::stable, Ending::moving, Ending::collapsed},
          [mu] {
            const Eigen::Quaterniond lean(Eigen::AngleAxisd(0.4, Vec3::UnitY()));
@@ -112,7 +113,8 @@ void add_painleve(std::vector<ExtremeScene>* rows) {
            Scene scene{motion(mu, 0.0, 1e-3, 300, Analysis::Start::rest),
                        testing::make_boxes({{.center = {0, 0, -0.5}, .size = {40, 3, 1}, .fixed = true},
                                             {.center = {0, 0, foot}, .size = size, .rotation = lean}})};
-           // Pulled along the floor against the lean, so that it slides as a rod does under the chalk's hand.
+           // Gravity pulls along the floor against the lean, so that the rod slides like a piece of chalk
+           // that is pushed.
            scene.input.loads.gravity = Vec3(40.0, 0.0, -9.81);
            return scene;
          },
@@ -123,7 +125,7 @@ void add_painleve(std::vector<ExtremeScene>* rows) {
 
 void add_moving_gaps(std::vector<ExtremeScene>* rows) {
   rows->push_back({"overlap",
-                   "a cube 1 mm inside its floor, h = 0.01 s",
+                   "a cube 1 mm inside the floor, h = 0.01 s",
                    "pushed out at the recovery speed",
                    {Ending::stable},
                    [] {
@@ -143,7 +145,7 @@ Assembly wedge(double lean_deg) {
   const double slope = std::tan(lean_deg * std::numbers::pi / 180.0);
   Assembly assembly;
   assembly.title = "wedge";
-  // x at the foot and at the head of the two joints.
+  // x of the two joints at the bottom and at the top.
   const double foot = 0.5, head = 0.5 + slope;
   testing::add_voussoir({Eigen::Vector2d{-foot - 2, 0}, {-foot, 0}, {-head, 1}, {-head - 2, 1}}, 1.0, 2000.0,
                         true, 0, &assembly);
@@ -167,7 +169,7 @@ void add_refused_rows(std::vector<ExtremeScene>* rows) {
        {"joints.friction=-0.1", "joints.friction=.nan", "joints.compliance.normal=-1e-9",
         "material.density=-1", "material.density=.inf", "analysis.tolerance=0",
         "geometry.surface.thickness=0"})
-    rows->push_back({"contradiction", setting, "refused, with a sentence", {Ending::refused}, [setting] {
+    rows->push_back({"contradiction", setting, "refused with a message", {Ending::refused}, [setting] {
                        const Case input = read_case(CUPOLA_SOURCE_DIR "/cases/wall_large.yaml", {setting});
                        return Scene{input, generate(input)};
                      }});

@@ -11,11 +11,11 @@
 
 namespace cupola {
 
-/// How a scene at the edge may end. `missed`: the accuracy asked was not reached, and the run says so.
+/// How an extreme scene may end. `missed`: the run reports that it did not reach the requested accuracy.
 enum class Ending { stable, moving, collapsed, refused, missed };
 std::string to_string(Ending ending);
 
-/// A scene: what the three programs would hand to the solver.
+/// Input of the solver: the case and the assembly.
 struct Scene {
   Case input;
   Assembly assembly;
@@ -25,25 +25,25 @@ struct Scene {
 struct ExtremeScene {
   std::string group;            ///< e.g. "compliance"
   std::string name;             ///< e.g. "1e-14 m/N"
-  std::string expected;         ///< in words, for the table
-  std::vector<Ending> endings;  ///< those that count as right
-  std::function<Scene()> make;  ///< may throw InputError: refused
-  /// What else must hold of the result; "" where it does, else a sentence with the numbers.
+  std::string expected;         ///< expected result in words, for the table
+  std::vector<Ending> endings;  ///< endings that are accepted
+  std::function<Scene()> make;  ///< throws InputError if the scene is refused
+  /// Further condition on the result: "" if it holds, otherwise a message with the numbers.
   std::function<std::string(const Summary&, const Frame&)> check = {};
   bool slow = false;  ///< takes more than a few seconds
 };
 
-/// Every row, in the order of the table.
+/// All rows in the order of the table.
 const std::vector<ExtremeScene>& extreme_scenes();
 
-/// What a row gave.
+/// Result of one row.
 struct ExtremeResult {
   Ending ending = Ending::missed;
-  std::string message;  ///< of the solver, or the sentence of the refusal
-  double asked = 0.0, reached = 0.0;
-  double seconds = 0.0;  ///< processor time
-  /// "" where the row is right: ended as expected, every number finite, the accuracy asked reached where it
-  /// claims so, and its own check holds.
+  std::string message;                ///< of the solver or of the InputError
+  double asked = 0.0, reached = 0.0;  ///< accuracy
+  double seconds = 0.0;               ///< processor time
+  /// "" if the row passes: the ending is accepted, all numbers are finite, a run that ends `stable` reached
+  /// its requested accuracy, and `check` holds. Otherwise the reason.
   std::string fault;
 };
 ExtremeResult run_extreme(const ExtremeScene& scene);

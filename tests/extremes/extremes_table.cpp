@@ -1,6 +1,7 @@
-// Prints the table of extremes: what was expected, asked and reached, the time and the verdict of every row.
+// Prints the table of extreme scenes: expected result, ending, accuracy requested and reached, time and
+// verdict of every row.
 //
-//   extremes_table FOLDER      writes extremes.csv and extremes.md there; exit code 1 when a row fails
+//   extremes_table FOLDER      writes extremes.csv and extremes.md to the folder; exit code 1 if a row fails
 
 #include <fmt/format.h>
 
@@ -26,12 +27,13 @@ std::string number(double value, bool refused) {
 ExitCode print_table(const std::string& folder) {
   std::string csv = "group,scene,expected,ended,asked,reached,cpu_time_s,verdict,message\n";
   std::string markdown =
-      "| scene | | expected | ended | asked | reached | s | verdict |\n|---|---|---|---|---|---|---|---|\n";
+      "| group | scene | expected | ended | requested | reached | CPU s | verdict "
+      "|\n|---|---|---|---|---|---|---|---|\n";
   int failed = 0;
   for (const ExtremeScene& scene : extreme_scenes()) {
     const ExtremeResult r = run_extreme(scene);
     const bool refused = r.ending == Ending::refused;
-    const std::string verdict = r.fault.empty() ? "holds" : "FAILS: " + r.fault;
+    const std::string verdict = r.fault.empty() ? "passed" : "FAILED: " + r.fault;
     failed += !r.fault.empty();
     csv += fmt::format("{},{},{},{},{},{},{:.3f},{},{}\n", quoted(scene.group), quoted(scene.name),
                        quoted(scene.expected), to_string(r.ending), r.asked, r.reached, r.seconds,
@@ -46,7 +48,8 @@ ExitCode print_table(const std::string& folder) {
   make_folder(folder);
   write_text_atomically(folder + "/extremes.csv", csv);
   write_text_atomically(folder + "/extremes.md", markdown);
-  fmt::print("{} of {} rows fail; table: {}/extremes.md\n", failed, extreme_scenes().size(), folder);
+  fmt::print("{} of {} rows failed; the table is in {}/extremes.md\n", failed, extreme_scenes().size(),
+             folder);
   return failed == 0 ? ExitCode::done : ExitCode::failed;
 }
 

@@ -1,4 +1,4 @@
-// Every row of the table of extremes is a test; the slow ones run with slow-test.
+// Every row of the table of extreme scenes is a test. The slow ones carry the label `slow`.
 
 #include <cctype>
 
@@ -26,11 +26,11 @@ std::string test_name(const ExtremeScene& scene) {
 class ExtremeRow : public ::testing::TestWithParam<ExtremeScene> {};
 class ExtremeRowSlow : public ::testing::TestWithParam<ExtremeScene> {};
 
-TEST_P(ExtremeRow, IsMetOrShownAsNotMet) {
+TEST_P(ExtremeRow, IsSolvedOrReportedAsNotSolved) {
   const ExtremeResult result = run_extreme(GetParam());
   EXPECT_EQ(result.fault, "") << result.message;
 }
-TEST_P(ExtremeRowSlow, IsMetOrShownAsNotMet) {
+TEST_P(ExtremeRowSlow, IsSolvedOrReportedAsNotSolved) {
   const ExtremeResult result = run_extreme(GetParam());
   EXPECT_EQ(result.fault, "") << result.message;
 }
@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Extremes, ExtremeRowSlow, ::testing::ValuesIn(rows(true
 
 }  // namespace
 
-/// What GoogleTest prints of a row.
+/// Prints a row in the messages of GoogleTest.
 void PrintTo(const ExtremeScene& scene, std::ostream* out) {
   *out << scene.group << ", " << scene.name;
 }

@@ -47,14 +47,15 @@ std::string fault_of(const ExtremeScene& scene, const ExtremeResult& result) {
   if (std::find(scene.endings.begin(), scene.endings.end(), result.ending) == scene.endings.end())
     return fmt::format("ended {}: {}", to_string(result.ending), result.message);
   if (result.ending == Ending::stable && !(result.reached <= result.asked))
-    return fmt::format("called stable although {:.2e} > {:.2e} asked", result.reached, result.asked);
+    return fmt::format("reported as stable although the accuracy {:.2e} exceeds the requested {:.2e}",
+                       result.reached, result.asked);
   return "";
 }
 
 }  // namespace
 
 std::string to_string(Ending ending) {
-  static constexpr std::array names{"stable", "moving", "collapsed", "refused", "not met"};
+  static constexpr std::array names{"stable", "moving", "collapsed", "refused", "not reached"};
   return names[static_cast<size_t>(ending)];
 }
 

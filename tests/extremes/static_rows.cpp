@@ -1,4 +1,4 @@
-// Rows of the table that ask for an equilibrium.
+// Rows that compute a static equilibrium.
 
 #include <cmath>
 
@@ -14,7 +14,8 @@ namespace {
 
 using testing::BoxSpec;
 
-/// A static case: friction and compliance (m/N per point), equilibrium to 1e-9 of a block's weight.
+/// A static case with the given friction and compliance (m/N per point); `tolerance` is relative to the mean
+/// block weight.
 Case statics(double mu, double compliance, double tolerance = 1e-9) {
   Case input;
   input.joints.friction = mu;
@@ -23,12 +24,12 @@ Case statics(double mu, double compliance, double tolerance = 1e-9) {
   return input;
 }
 
-/// The supports carry the weight, to what was asked of each block.
+/// Checks that the supports carry the weight to within the requested accuracy.
 std::string carries_weight(const Summary& s, const Frame&) {
   const double missing = std::abs(s.support_reaction_N.z() - s.weight_N);
   const double allowed = s.accuracy_asked * s.weight_N;
   if (missing <= allowed) return "";
-  return fmt::format("reaction misses the weight by {:.2e} N, {:.2e} allowed", missing, allowed);
+  return fmt::format("reaction differs from the weight by {:.2e} N, {:.2e} N allowed", missing, allowed);
 }
 
 Assembly small_wall(double size = 1.0) {
@@ -63,8 +64,8 @@ void add_compliances(std::vector<ExtremeScene>* rows) {
 
 void add_softness(std::vector<ExtremeScene>* rows) {
   rows->push_back({"compliance",
-                   "wall, 1 m/N: it would sink by kilometres",
-                   "stable in the geometry as built, and said so",
+                   "wall, 1 m/N: would sink by kilometres",
+                   "stable in the undeformed geometry, with a warning",
                    {Ending::stable},
                    [] {
                      return Scene{statics(0.4, 1.0), small_wall()};
@@ -72,7 +73,7 @@ void add_softness(std::vector<ExtremeScene>* rows) {
                    [](const Summary& s, const Frame&) {
                      return s.message.find("not small compared with the smallest") != std::string::npos
                                 ? std::string()
-                                : fmt::format("sinks by {:.2g} m without a word", s.max_displacement_m);
+                                : fmt::format("sinks by {:.2g} m without a warning", s.max_displacement_m);
                    }});
 }
 
@@ -80,7 +81,7 @@ void add_frictions(std::vector<ExtremeScene>* rows) {
   for (const double mu : {0.0, 1e-6, 1.0, 10.0}) {
     rows->push_back({"friction",
                      fmt::format("wall, mu {:g}", mu),
-                     "stable: beds are level",
+                     "stable: the beds are level",
                      {Ending::stable},
                      [mu] {
                        return Scene{statics(mu, 1e-9), small_wall()};
@@ -89,7 +90,7 @@ void add_frictions(std::vector<ExtremeScene>* rows) {
     const bool stands = mu >= 0.4;
     rows->push_back({"friction",
                      fmt::format("arch, mu {:g}", mu),
-                     stands ? "stable" : "moving: slides out of the haunches",
+                     stands ? "stable" : "moving: slides at the haunches",
                      {stands ? Ending::stable : Ending::moving},
                      [mu] {
                        return Scene{statics(mu, 1e-9), semicircle(27, 0.15)};
@@ -97,7 +98,7 @@ void add_frictions(std::vector<ExtremeScene>* rows) {
   }
 }
 
-/// Displacement over size is the same at every size when compliance goes with size^-2.
+/// With a compliance proportional to size^-2 the displacement over the size is the same at every size.
 void add_sizes(std::vector<ExtremeScene>* rows) {
   for (const double size : {1e-3, 1.0, 1e3})
     rows->push_back({"size",
@@ -111,7 +112,7 @@ void add_sizes(std::vector<ExtremeScene>* rows) {
   rows->push_back(
       {"size",
        "cubes of 1 mm to 1 km in one stack",
-       "stable, or shown as not met: masses span 1e18",
+       "stable or not reached: masses span 1e18",
        {Ending::stable, Ending::missed},
        [] {
          std::vector<BoxSpec> boxes{{.center = {0, 0, -500}, .size = {3e3, 3e3, 1e3}, .fixed = true}};
@@ -139,7 +140,7 @@ void add_masses(std::vector<ExtremeScene>* rows) {
   for (const double ratio : {1e2, 1e4, 1e6})
     rows->push_back(
         {"mass ratio",
-         fmt::format("heavy on light, {:g}, twice", ratio),
+         fmt::format("heavy on light, ratio {:g}, twice", ratio),
          "stable, carries its weight",
          {Ending::stable},
          [ratio] {
@@ -171,7 +172,8 @@ void add_many_blocks(std::vector<ExtremeScene>* rows) {
        true});
 }
 
-// Minimum thickness of a semicircle of 100 polygonal voussoirs, from independent linear programs: t/R = 0.10746.
+/// Semicircular arches of 100 polygonal voussoirs near their minimum thickness, t/R = 0.10746 by independent
+/// linear programs.
 void add_thin_arches(std::vector<ExtremeScene>* rows) {
   constexpr double kLimit = 0.10746;
   for (const double share : {0.99, 0.999, 1.001, 1.01}) {
@@ -186,13 +188,13 @@ void add_thin_arches(std::vector<ExtremeScene>* rows) {
   }
 }
 
-/// Methods that run out of iterations must say so, not call the structure moving.
+/// Methods that run out of iterations must report it and not call the structure moving.
 void add_budgets(std::vector<ExtremeScene>* rows) {
   for (const auto method : {ContactMethod::newton, ContactMethod::spg, ContactMethod::apgd,
                             ContactMethod::nsgs, ContactMethod::admm})
     rows->push_back({"budget",
                      fmt::format("arch of 100 voussoirs, {}, 3 iterations", to_string(method)),
-                     "stable, or shown as not met",
+                     "stable or not reached",
                      {Ending::stable, Ending::missed},
                      [method] {
                        Scene scene{statics(0.8, 1e-9), semicircle(100, 0.15)};
@@ -204,7 +206,7 @@ void add_budgets(std::vector<ExtremeScene>* rows) {
 
 void add_slivers(std::vector<ExtremeScene>* rows) {
   rows->push_back({"sliver",
-                   "five plates 1 x 1 m, 0.1 mm thick, on a floor",
+                   "five plates of 1 x 1 m, 0.1 mm thick, on a floor",
                    "stable, carries its weight",
                    {Ending::stable},
                    [] {
@@ -215,7 +217,7 @@ void add_slivers(std::vector<ExtremeScene>* rows) {
                    },
                    carries_weight});
   rows->push_back({"sliver",
-                   "a needle 1 m long, 0.1 mm thick, lying",
+                   "a needle 1 m long, 0.1 mm thick, lying on a floor",
                    "stable, carries its weight",
                    {Ending::stable},
                    [] {
@@ -241,7 +243,7 @@ void add_places(std::vector<ExtremeScene>* rows) {
                      carries_weight});
 }
 
-/// Cubes k of a stack laid with the given gaps; negative: they overlap.
+/// A stack of cubes with the given gaps below each; a negative gap is an overlap.
 Assembly spaced_stack(const std::vector<double>& gaps) {
   std::vector<BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true}};
   double height = 0.0;
@@ -260,16 +262,16 @@ void add_gaps(std::vector<ExtremeScene>* rows) {
                        return Scene{statics(0.4, c), spaced_stack(gaps)};
                      }});
   };
-  stack("stack, joints open by 0.01 to 3 mm", "stable: they close", {Ending::stable},
+  stack("stack, joints open by 0.01 to 3 mm", "stable: the joints close", {Ending::stable},
         {1e-3, 1e-5, 3e-3, 5e-4, 2e-3}, 1e-9);
-  stack("the same, 1e-13 m/N", "stable, or shown as not met", {Ending::stable, Ending::missed},
+  stack("the same, 1e-13 m/N", "stable or not reached", {Ending::stable, Ending::missed},
         {1e-3, 1e-5, 3e-3, 5e-4, 2e-3}, 1e-13);
-  rows->push_back({"gaps", "wall, joints open by up to 1 mm at random", "stable", {Ending::stable}, [] {
+  rows->push_back({"gaps", "wall, joints randomly open by up to 1 mm", "stable", {Ending::stable}, [] {
                      const Case input = read_case(CUPOLA_SOURCE_DIR "/cases/wall_medium.yaml",
                                                   {"imperfections.gap=1e-3", "imperfections.seed=7"});
                      return Scene{input, generate(input)};
                    }});
-  stack("stack, blocks 0.1 mm into each other", "stable", {Ending::stable}, {-1e-4, -1e-4, -1e-4}, 1e-9);
+  stack("stack, blocks overlap by 0.1 mm", "stable", {Ending::stable}, {-1e-4, -1e-4, -1e-4}, 1e-9);
   stack("a block half inside another", "refused: overlap beyond the margin", {Ending::refused}, {0.0, -0.5},
         1e-9);
 }
@@ -278,10 +280,10 @@ void add_supports(std::vector<ExtremeScene>* rows) {
   rows->push_back({"support", "a block in the air", "moving", {Ending::moving}, [] {
                      return Scene{statics(0.4, 1e-9), spaced_stack({0.0, 5.0})};
                    }});
-  rows->push_back({"support", "one free block, nothing else", "moving", {Ending::moving}, [] {
+  rows->push_back({"support", "one free block alone", "moving", {Ending::moving}, [] {
                      return Scene{statics(0.4, 1e-9), testing::make_boxes({BoxSpec{}})};
                    }});
-  rows->push_back({"support", "one fixed block, none free", "stable: nothing can move", {Ending::stable}, [] {
+  rows->push_back({"support", "one fixed block alone", "stable: nothing can move", {Ending::stable}, [] {
                      return Scene{statics(0.4, 1e-9), testing::make_boxes({BoxSpec{.fixed = true}})};
                    }});
   rows->push_back(
@@ -298,22 +300,22 @@ void add_supports(std::vector<ExtremeScene>* rows) {
 void add_wedges(std::vector<ExtremeScene>* rows) {
   for (const double c : {0.0, 1e-9})
     rows->push_back({"wedge",
-                     fmt::format("between walls that lean outward by 30 degrees, {:g} m/N", c),
-                     "stable: wedged",
+                     fmt::format("between walls leaning outward by 30 degrees, {:g} m/N", c),
+                     "stable: wedged in",
                      {Ending::stable},
                      [c] {
                        return Scene{statics(0.4, c), wedge(30.0)};
                      }});
   rows->push_back({"wedge",
                    "between upright walls, associated law",
-                   "stable: the law's dilation jams it",
+                   "stable: jammed by the dilation of the law",
                    {Ending::stable},
                    [] {
                      return Scene{statics(0.8, 1e-9), wedge(0.0)};
                    }});
   rows->push_back({"wedge",
                    "between upright walls, Coulomb's law",
-                   "moving: nothing presses it to the walls",
+                   "moving: nothing presses it against the walls",
                    {Ending::moving},
                    [] {
                      Scene scene{statics(0.8, 1e-9), wedge(0.0)};
