@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ctime>
 #include <random>
 
 #include "assembly/base/process.hpp"
@@ -43,10 +42,6 @@ inline ContactProblem make_problem(const DomeProblem& dome) {
     problem.b[3 * i] += dome.gap / dome.h * (random() / 4294967296.0);
   }
   return problem;
-}
-
-inline double cpu_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 }  // namespace cupola
