@@ -1,16 +1,11 @@
 #include "postproc/claims/claims_report.hpp"
 
-#include <array>
-
 #include <fmt/format.h>
 
 #include "postproc/report/html.hpp"
 
 namespace cupola {
 namespace {
-
-constexpr std::array kVerdicts = {Verdict::reproduced, Verdict::not_reproduced, Verdict::open,
-                                  Verdict::not_solved, Verdict::not_run};
 
 /// Limits of the claim, e.g. ">= 1 and <= 2"; "-" for an open question.
 std::string range(const Claim& claim) {
@@ -33,10 +28,10 @@ std::string remark(const Claim& claim, const ClaimResult& result) {
 
 std::string counts(const std::vector<ClaimResult>& results) {
   std::string out = fmt::format("{} claims", results.size());
-  for (const Verdict verdict : kVerdicts) {
+  for (const std::string& verdict : names_of<Verdict>()) {
     int count = 0;
-    for (const ClaimResult& result : results) count += result.verdict == verdict;
-    if (count > 0) out += fmt::format(", {} {}", count, to_string(verdict));
+    for (const ClaimResult& result : results) count += to_string(result.verdict) == verdict;
+    if (count > 0) out += fmt::format(", {} {}", count, verdict);
   }
   return out;
 }

@@ -106,22 +106,6 @@ ClaimResult evaluate(const Claim& claim, RunCache& cache) {
 
 }  // namespace
 
-std::string to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::reproduced:
-      return "reproduced";
-    case Verdict::not_reproduced:
-      return "not reproduced";
-    case Verdict::open:
-      return "open";
-    case Verdict::not_solved:
-      return "not solved";
-    case Verdict::not_run:
-      return "not run";
-  }
-  return "";
-}
-
 std::vector<std::string> needed_runs(const ClaimsFile& file) {
   std::vector<std::string> runs;
   const auto add = [&runs](const std::string& name) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "assembly/base/named_enum.hpp"
 #include "postproc/claims/claim.hpp"
 
 namespace cupola {
@@ -17,7 +18,9 @@ enum class Verdict : std::uint8_t {
   not_solved,  ///< a run did not reach its requested accuracy, so its numbers are not used
   not_run,     ///< a run has no results yet
 };
-std::string to_string(Verdict verdict);
+constexpr auto enum_names(Verdict) {
+  return std::array{"reproduced", "not reproduced", "open", "not solved", "not run"};
+}
 
 struct ClaimResult {
   Verdict verdict = Verdict::not_run;

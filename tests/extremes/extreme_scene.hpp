@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/base/named_enum.hpp"
 #include "assembly/case/case.hpp"
 #include "assembly/model/assembly.hpp"
 #include "assembly/model/results.hpp"
@@ -13,7 +14,9 @@ namespace cupola {
 
 /// How an extreme scene may end. `missed`: the run reports that it did not reach the requested accuracy.
 enum class Ending { stable, moving, collapsed, refused, missed };
-std::string to_string(Ending ending);
+constexpr auto enum_names(Ending) {
+  return std::array{"stable", "moving", "collapsed", "refused", "not reached"};
+}
 
 /// Input of the solver: the case and the assembly.
 struct Scene {

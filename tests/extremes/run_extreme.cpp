@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -53,11 +52,6 @@ std::string fault_of(const ExtremeScene& scene, const ExtremeResult& result) {
 }
 
 }  // namespace
-
-std::string to_string(Ending ending) {
-  static constexpr std::array names{"stable", "moving", "collapsed", "refused", "not reached"};
-  return names[static_cast<size_t>(ending)];
-}
 
 ExtremeResult run_extreme(const ExtremeScene& extreme) {
   ExtremeResult result;
