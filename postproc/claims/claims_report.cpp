@@ -84,6 +84,7 @@ std::string figures_html(const std::vector<ClaimFigure>& figures, const std::str
 }  // namespace
 
 Table claims_table(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results) {
+  CUPOLA_ASSERT(results.size() == claims.size());
   Table t{"claims", "Claims and results", {}, {}};
   t.columns = {{"source", "", "section and figure of the publication"},
                {"claim", "", "the statement"},
@@ -104,6 +105,7 @@ Table claims_table(const std::vector<Claim>& claims, const std::vector<ClaimResu
 }
 
 std::string claims_text(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results) {
+  CUPOLA_ASSERT(results.size() == claims.size());
   std::string out;
   for (size_t i = 0; i < claims.size(); ++i) {
     const Claim& claim = claims[i];
@@ -120,6 +122,7 @@ std::string claims_text(const std::vector<Claim>& claims, const std::vector<Clai
 std::string claims_html(const ClaimsFile& file, const std::vector<ClaimResult>& results,
                         const std::string& runs) {
   const std::vector<Claim>& claims = file.claims;
+  CUPOLA_ASSERT(results.size() == claims.size());
   std::string rows;
   for (size_t i = 0; i < claims.size(); ++i) {
     const Claim& claim = claims[i];

@@ -57,6 +57,7 @@ std::vector<std::vector<double>> curve(const CsvFile& csv, const Overlay& overla
 /// The overlaid graph; a figure without commands if fewer than two runs have the table.
 Figure overlay_figure(const Overlay& overlay, const std::vector<std::string>& folders,
                       const std::vector<std::string>& labels) {
+  CUPOLA_ASSERT(labels.size() == folders.size());
   constexpr const char* kColours[] = {kBlue, kOrange, kGreen, kPurple, kSky, "#000000"};
   Figure f;
   f.name = overlay.table + "_" + overlay.column;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 
 namespace cupola {
@@ -83,6 +84,7 @@ std::string html_table(const Table& table) {
   }
   out += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
+    CUPOLA_ASSERT(row.size() == table.columns.size());
     out += "<tr>";
     for (const Table::Cell& cell : row)
       out +=

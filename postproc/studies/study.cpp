@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/summary_file.hpp"
 
@@ -29,6 +30,10 @@ class ForceCache {
   std::string runs_;
   std::map<std::string, RunForces> forces_;
 };
+
+bool is_faster(const StudyRow& a, const StudyRow& b) {
+  return a.seconds() < b.seconds();
+}
 
 Summary read_summary(const std::string& runs, const std::string& name) {
   const std::string path = (fs::path(runs) / name / "results" / "summary.json").string();
@@ -77,12 +82,12 @@ std::vector<StudyRow> rows_of(const std::vector<StudyRow>& rows, const std::stri
   std::vector<StudyRow> chosen;
   for (const StudyRow& row : rows)
     if (row.point.knob == knob && row.finished() && !row.point.is_reference()) chosen.push_back(row);
-  std::stable_sort(chosen.begin(), chosen.end(),
-                   [](const StudyRow& a, const StudyRow& b) { return a.seconds() < b.seconds(); });
+  std::stable_sort(chosen.begin(), chosen.end(), is_faster);
   return chosen;
 }
 
 std::vector<StudyRow> pareto_front(const std::vector<StudyRow>& rows) {
+  CUPOLA_ASSERT(std::is_sorted(rows.begin(), rows.end(), is_faster));
   std::vector<StudyRow> front;
   double best = std::numeric_limits<double>::infinity();
   for (const StudyRow& row : rows) {

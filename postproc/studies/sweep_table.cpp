@@ -66,6 +66,7 @@ Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMem
       row.emplace_back(progress(folder));
       row.resize(t.columns.size(), std::string());
     }
+    CUPOLA_ASSERT(row.size() == t.columns.size());
     t.rows.push_back(std::move(row));
   }
   return t;
@@ -74,6 +75,7 @@ Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMem
 int num_missing(const Table& table) {
   const auto status = std::find_if(table.columns.begin(), table.columns.end(),
                                    [](const Table::Column& column) { return column.key == "status"; });
+  CUPOLA_ASSERT(status != table.columns.end());
   const auto at = status - table.columns.begin();
   return static_cast<int>(std::count_if(table.rows.begin(), table.rows.end(), [at](const auto& row) {
     return row[at] == Table::Cell(std::string(kMissing));

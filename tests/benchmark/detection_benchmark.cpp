@@ -30,7 +30,7 @@ Assembly wall(int rings, int blocks_per_ring) {
 void from_scratch(benchmark::State& state, const Assembly& assembly) {
   const auto poses = initial_poses(assembly);
   std::size_t contacts = 0;
-  for (auto _ : state) contacts = ContactDetector(assembly, {}).update(poses).contacts.size();
+  for (auto _ : state) contacts = ContactDetector(assembly, {}).update(poses).points.size();
   state.counters["blocks"] = static_cast<double>(assembly.blocks.size());
   state.counters["contacts"] = static_cast<double>(contacts);
 }
@@ -48,7 +48,7 @@ void DomeUnmoved(benchmark::State& state) {
   const auto poses = initial_poses(assembly);
   ContactDetector detector(assembly, {});
   detector.update(poses);
-  for (auto _ : state) benchmark::DoNotOptimize(detector.update(poses).contacts.data());
+  for (auto _ : state) benchmark::DoNotOptimize(detector.update(poses).points.data());
 }
 
 /// All blocks move up and down in turn by `step` times the margin. Below a quarter of the margin the contacts
@@ -64,7 +64,7 @@ void dome_moving(benchmark::State& state, double step) {
     for (std::size_t b = 0; b < moved.size(); ++b)
       moved[b].p_WB.z() = rest[b].p_WB.z() + (up ? step * detector.margin() : 0.0);
     up = !up;
-    benchmark::DoNotOptimize(detector.update(moved).contacts.data());
+    benchmark::DoNotOptimize(detector.update(moved).points.data());
   }
   state.counters["detections"] = static_cast<double>(detector.num_detections());
 }
