@@ -41,7 +41,8 @@ int edit_distance(const std::string& a, const std::string& b) {
 }
 
 void assertion_failed(const char* condition, const char* file, int line) {
-  std::fprintf(stderr, "%s:%d: internal error: assumption broken: %s\n", file, line, condition);
+  std::fprintf(stderr, "%s:%d: internal error: assertion failed: %s; please report it\n", file, line,
+               condition);
   std::abort();
 }
 

@@ -14,20 +14,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kLongestChain = 16;  // files that extend one another
+constexpr size_t kLongestChain = 16;  // of files that extend one another
 
-/// The one name of a file, whether it exists or not; weakly_canonical alone leaves some names relative.
+/// Unique absolute name of a file, which need not exist; weakly_canonical alone leaves some names relative.
 fs::path identity_of(const fs::path& path) {
   return fs::weakly_canonical(fs::absolute(path));
 }
 
-/// Maps whose other keys belong to their `type`. `analysis` is not one: its keys serve every type.
+/// Maps in which the `type` decides which other keys exist. The keys of `analysis` are common to all types.
 bool type_owns_keys(const std::string& path) {
   return path == "geometry.surface" || path == "geometry.bond";
 }
 
-/// Lays `over` on `base`: maps merge key by key, everything else replaces, `null` takes a key out. Where
-/// the type owns the keys, another type replaces the map whole.
+/// Merges `over` into `base`: maps key by key, other nodes replace, an empty value (`null`) removes the key.
+/// In a map whose keys depend on its type, a different type replaces the whole map.
 void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "") {
   if (base->kind != CaseNode::Kind::map || over.kind != CaseNode::Kind::map) {
     *base = over;
@@ -63,8 +63,10 @@ CaseNode load_file(const std::string& path, const std::string& root_folder, std:
   const std::string base_path = path_inside(root_folder, path, name.text, name.where);
   chain->push_back(identity);
   if (std::find(chain->begin(), chain->end(), identity_of(base_path)) != chain->end())
-    throw InputError(name.where,
-                     fmt::format("extends = {}: the files extend one another in a circle", shown(name)));
+    throw InputError(
+        name.where,
+        fmt::format("extends = {}: the files extend one another in a circle; remove one of the extends keys",
+                    shown(name)));
   if (chain->size() >= kLongestChain)
     throw InputError(name.where, fmt::format("extends = {}: more than {} files extend one another",
                                              shown(name), kLongestChain));
@@ -77,7 +79,8 @@ CaseNode load_file(const std::string& path, const std::string& root_folder, std:
   return merged;
 }
 
-/// `joints.friction=0.3` as the tree {joints: {friction: 0.3}}, every node located at the option itself.
+/// Converts `joints.friction=0.3` to the tree {joints: {friction: 0.3}}. The position of every node is the
+/// option.
 CaseNode parse_set_option(const std::string& option) {
   const std::string file = "--set " + shown(option);
   const size_t equals = option.find('=');
@@ -98,7 +101,8 @@ CaseNode parse_set_option(const std::string& option) {
   for (size_t end = path.size();;) {
     const size_t dot = path.rfind('.', end - 1);
     const size_t start = dot == std::string::npos ? 0 : dot + 1;
-    if (start >= end) throw InputError(FileLocation{file}, "the key path has an empty part");
+    if (start >= end)
+      throw InputError(FileLocation{file}, "the key path has an empty part; write key.path=value");
     CaseNode parent;
     parent.kind = CaseNode::Kind::map;
     parent.where = {file};
@@ -106,7 +110,8 @@ CaseNode parse_set_option(const std::string& option) {
     tree = std::move(parent);
     if (start == 0) return tree;
     end = dot;
-    if (end == 0) throw InputError(FileLocation{file}, "the key path has an empty part");
+    if (end == 0)
+      throw InputError(FileLocation{file}, "the key path has an empty part; write key.path=value");
   }
 }
 
@@ -116,20 +121,20 @@ std::string path_inside(const std::string& root_folder, const std::string& from_
                         const FileLocation& where) {
   const fs::path path = fs::path(from_file).parent_path() / name;
   std::error_code error;
-  if (fs::status(path, error).type() == fs::file_type::none)  // too long, links in a circle, no right to look
-    throw InputError(where, fmt::format("{}: cannot be looked up: {}", shown(name), error.message()));
+  if (fs::status(path, error).type() == fs::file_type::none)  // too long, circular links, no permission
+    throw InputError(where, fmt::format("{}: cannot be accessed: {}", shown(name), error.message()));
   const fs::path root = identity_of(root_folder.empty() ? "." : root_folder);
   const fs::path relative = identity_of(path).lexically_relative(root);
   if (fs::path(name).is_absolute() || relative.empty() || *relative.begin() == "..")
-    throw InputError(where, fmt::format("{}: an input may only name files in or below the folder of the case",
-                                        shown(name)));
+    throw InputError(where,
+                     fmt::format("{}: the file must lie in or below the folder of the case", shown(name)));
   return path.string();
 }
 
 CaseNode load_case_tree(const std::string& path, const std::vector<std::string>& set_options) {
   std::vector<fs::path> chain;
   CaseNode tree = load_file(path, fs::path(path).parent_path().string(), &chain);
-  // All options first become one tree: their order does not matter when one of them changes a type.
+  // The options are merged into one tree first, so that their order does not matter if one changes a type.
   CaseNode options;
   options.kind = CaseNode::Kind::map;
   for (const std::string& option : set_options) overlay(&options, parse_set_option(option));

@@ -6,18 +6,20 @@ namespace {
 constexpr double kStandardGravity = 9.81;  // m/s2, as Material::density
 
 void declare_compliance(Section& s, Compliance& compliance) {
-  s.required_choice("per", compliance.per,
-                    "what the compliance belongs to: each contact point (m/N) or the joint's area (m3/N)");
-  s.number("normal", compliance.normal, {.unit = "m/N, m3/N", .min = 0}, "yield along the normal");
-  s.number("tangential", compliance.tangential, {.unit = "m/N, m3/N", .min = 0}, "yield along the joint");
+  s.required_choice("per", compliance.per, "compliance per contact point (m/N) or per area of joint (m3/N)");
+  s.number("normal", compliance.normal, {.unit = "m/N, m3/N", .min = 0},
+           "normal displacement per unit force");
+  s.number("tangential", compliance.tangential, {.unit = "m/N, m3/N", .min = 0},
+           "tangential displacement per unit force");
 }
 
 void declare_law_change(Section& s, JointLawChange& law) {
-  s.optional_number("friction", law.friction, {.min = 0}, "as elsewhere", "their own friction coefficient");
+  s.optional_number("friction", law.friction, {.min = 0}, "as elsewhere",
+                    "friction coefficient of these joints");
   s.optional_number("normal", law.normal, {.unit = "m/N, m3/N", .min = 0}, "as elsewhere",
-                    "their own normal compliance");
+                    "normal compliance of these joints");
   s.optional_number("tangential", law.tangential, {.unit = "m/N, m3/N", .min = 0}, "as elsewhere",
-                    "their own tangential compliance");
+                    "tangential compliance of these joints");
 }
 
 void declare_ring_joints(Section& s, RingJoints& joints) {
@@ -28,30 +30,35 @@ void declare_ring_joints(Section& s, RingJoints& joints) {
 }  // namespace
 
 void declare_joint_group(Section& s, RingJoints& joints) {
-  s.required_integer("from", joints.from, {.min = 0}, "lowest ring, by the upper part of the joint");
+  s.required_integer("from", joints.from, {.min = 0},
+                     "lowest ring; a joint belongs to the ring of its upper block");
   joints.to = joints.from;
-  s.integer("to", joints.to, {.min = 0}, "highest ring");
+  s.integer("to", joints.to, {.min = 0}, "highest ring; default: the same as from");
   s.choice("kind", joints.sort,
-           "which joints of these rings; laid_bed: every bed, also on supports and of herringbone blocks");
+           "which joints of these rings; laid_bed: every bed, including those on supports and of herringbone "
+           "blocks");
   s.rule(joints.from <= joints.to, "to", "must be >= from");
 }
 
 void declare_material(Section& s, Material& material) {
-  s.quantity(
-      material.unit_weight,
-      {{"unit_weight", 1.0, {.unit = "N/m3", .above = 0}, "weight per volume"},
-       {"density", kStandardGravity, {.unit = "kg/m3", .above = 0}, "mass per volume, times 9.81 m/s2"}});
+  s.quantity(material.unit_weight,
+             {{"unit_weight", 1.0, {.unit = "N/m3", .above = 0}, "weight per unit volume"},
+              {"density",
+               kStandardGravity,
+               {.unit = "kg/m3", .above = 0},
+               "mass per unit volume, converted with 9.81 m/s2"}});
 }
 
 void declare_joints(Section& s, Joints& joints) {
   s.number("friction", joints.friction, {.min = 0}, "Coulomb friction coefficient mu");
-  s.section("compliance", joints.compliance, "how far joints yield under force", declare_compliance);
+  s.section("compliance", joints.compliance, "elastic displacement of the joints under force",
+            declare_compliance);
   s.optional_section("bed", joints.bed, "joints between rings", declare_law_change);
   s.optional_section("head", joints.head, "joints within a ring", declare_law_change);
   s.optional_section("herringbone", joints.herringbone, "joints that touch a herringbone block",
                      declare_law_change);
   s.optional_section("base", joints.base, "joints with a fixed support", declare_law_change);
-  s.list("rings", joints.rings, "joints of some rings; the last entry that fits a joint counts",
+  s.list("rings", joints.rings, "joint laws of particular rings; the last entry that matches a joint applies",
          declare_ring_joints);
   declare_time(s, "friction_time", joints.friction_time, "factor on every friction coefficient");
 }

@@ -5,23 +5,25 @@ namespace {
 
 void declare_top_load(Section& s, TopLoad& load) {
   s.required_number("weight_fraction", load.weight_fraction, {.min = 0},
-                    "load over the weight of the free blocks");
+                    "load over the total weight of the free blocks");
 }
 
 void declare_block_force(Section& s, BlockForce& load) {
-  s.required_integer("block", load.block, {.min = 0}, "loaded block");
-  s.optional_vector3("point", load.point, {.unit = "m"}, "centroid", "where it acts, as built");
-  s.vector3("force", load.force, {.unit = "N"}, "force of constant direction");
+  s.required_integer("block", load.block, {.min = 0}, "number of the loaded block");
+  s.optional_vector3("point", load.point, {.unit = "m"}, "centroid",
+                     "point of application, in the as-built geometry");
+  s.vector3("force", load.force, {.unit = "N"}, "force, of constant direction");
   declare_time(s, "time", load.time, "factor on the force");
 }
 
 void declare_face_load(Section& s, FaceLoad& load) {
   s.choice("kind", load.faces, {FaceKind::extrados, FaceKind::intrados, FaceKind::top, FaceKind::free},
-           "loaded faces");
+           "kind of the loaded faces");
   s.integer("from_ring", load.from_ring, {.min = 0}, "lowest ring");
   s.integer("to_ring", load.to_ring, {.min = 0}, "highest ring");
-  s.vector3("traction", load.traction, {.unit = "N/m2"}, "force per area, of constant direction");
-  s.number("pressure", load.pressure, {.unit = "N/m2"}, "against the faces as built");
+  s.vector3("traction", load.traction, {.unit = "N/m2"}, "force per unit area, of constant direction");
+  s.number("pressure", load.pressure, {.unit = "N/m2"},
+           "pressure on the faces, in their as-built directions");
   declare_time(s, "time", load.time, "factor on the load");
 }
 
@@ -29,13 +31,13 @@ void declare_face_load(Section& s, FaceLoad& load) {
 
 void declare_loads(Section& s, Loads& loads) {
   s.vector3("gravity", loads.gravity, {.unit = "m/s2"}, "acceleration of gravity, world axes");
-  s.optional_section("lantern", loads.lantern, "vertical load on the top ring of a dome, spread by area",
+  s.optional_section("lantern", loads.lantern, "vertical load on the top ring of a dome, distributed by area",
                      declare_top_load);
-  s.optional_section("top_load", loads.top_load, "vertical load on the top of a wall, spread by area",
+  s.optional_section("top_load", loads.top_load, "vertical load on the top of a wall, distributed by area",
                      declare_top_load);
   declare_time(s, "dead_load_time", loads.dead_load_time, "factor on gravity, lantern and top load");
   s.list("forces", loads.forces, "forces on single blocks", declare_block_force);
-  s.list("faces", loads.faces, "loads on all faces of a kind", declare_face_load);
+  s.list("faces", loads.faces, "loads on all faces of one kind", declare_face_load);
 }
 
 }  // namespace cupola

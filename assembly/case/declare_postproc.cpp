@@ -6,37 +6,38 @@
 namespace cupola {
 namespace {
 
-/// Names become names of files.
+/// These names become parts of file names.
 void declare_name(Section& s, std::string& name) {
-  s.text("name", name, "its name in files and figures: letters, digits, _ and -");
+  s.text("name", name, "name in files and figures: letters, digits, _ and -");
   s.rule(std::all_of(name.begin(), name.end(),
                      [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; }),
-         "name", "may hold letters, digits, _ and - only");
+         "name", "may contain only letters, digits, _ and -");
 }
 
 void declare_meridian(Section& s, Meridian& meridian) {
   declare_name(s, meridian.name);
   s.number("azimuth_deg", meridian.azimuth_deg, {.unit = "deg", .min = -360, .max = 360},
-           "half-plane of a meridian, from x towards y");
+           "azimuth of the meridian's half-plane, from x towards y");
 }
 
 void declare_plane(Section& s, CutPlane& plane) {
   declare_name(s, plane.name);
   s.vector3("point", plane.point, {.unit = "m"}, "a point of the plane");
-  s.vector3("normal", plane.normal, {}, "towards what lies beyond, of any length");
-  s.rule(plane.normal.norm() > 0.0, "normal", "must have a length");
+  s.vector3("normal", plane.normal, {}, "normal of any length, towards the side that counts as beyond");
+  s.rule(plane.normal.norm() > 0.0, "normal", "must not be zero");
 }
 
 }  // namespace
 
 void declare_output(Section& s, Output& output) {
-  s.number("frames_every", output.frames_every, {.unit = "s", .above = 0}, "dynamic: time between frames");
+  s.number("frames_every", output.frames_every, {.unit = "s", .above = 0},
+           "dynamic: time between result frames");
 }
 
 void declare_postproc(Section& s, Postproc& postproc) {
-  s.list("meridians", postproc.meridians, "meridians to draw thrust lines in", declare_meridian);
+  s.list("meridians", postproc.meridians, "meridians in which thrust lines are drawn", declare_meridian);
   s.numbers("sections", postproc.sections, {.unit = "m"}, "heights of horizontal sections");
-  s.list("planes", postproc.planes, "planes of any direction: what their two sides pass to each other",
+  s.list("planes", postproc.planes, "planes of any direction: the force transmitted across each",
          declare_plane);
 }
 

@@ -5,67 +5,74 @@ namespace cupola {
 namespace {
 
 void declare_pair(Section& s, PairTie& tie) {
-  s.required_integer("block_a", tie.block_a, {.min = 0}, "one end");
-  s.required_integer("block_b", tie.block_b, {.min = 0}, "other end");
-  s.optional_vector3("point_a", tie.point_a, {.unit = "m"}, "centroid", "anchor on block_a, as built");
-  s.optional_vector3("point_b", tie.point_b, {.unit = "m"}, "centroid", "anchor on block_b, as built");
-  s.number("stiffness", tie.stiffness, {.unit = "N/m", .above = 0}, "force per stretch");
-  s.number("prestress", tie.prestress, {.unit = "N", .min = 0}, "force as built");
+  s.required_integer("block_a", tie.block_a, {.min = 0}, "number of the block at one end");
+  s.required_integer("block_b", tie.block_b, {.min = 0}, "number of the block at the other end");
+  s.optional_vector3("point_a", tie.point_a, {.unit = "m"}, "centroid",
+                     "anchor on block_a, in the as-built geometry");
+  s.optional_vector3("point_b", tie.point_b, {.unit = "m"}, "centroid",
+                     "anchor on block_b, in the as-built geometry");
+  s.number("stiffness", tie.stiffness, {.unit = "N/m", .above = 0}, "force per unit elongation");
+  s.number("prestress", tie.prestress, {.unit = "N", .min = 0}, "tension as built");
 }
 
 void declare_chain(Section& s, ChainTie& chain) {
-  s.required_integer("ring", chain.ring, {.min = 0}, "ring whose blocks it links");
-  s.number("stiffness", chain.stiffness, {.unit = "N/m", .above = 0}, "force per stretch of each link");
-  s.number("prestress", chain.prestress, {.unit = "N", .min = 0}, "force as built");
+  s.required_integer("ring", chain.ring, {.min = 0}, "ring whose blocks the chain links");
+  s.number("stiffness", chain.stiffness, {.unit = "N/m", .above = 0},
+           "force per unit elongation of each link");
+  s.number("prestress", chain.prestress, {.unit = "N", .min = 0}, "tension as built");
 }
 
 void declare_base_motion(Section& s, BaseMotion& motion) {
   s.file("file", motion.file, "two columns: time (s) and value (m or m/s2)");
-  s.choice("quantity", motion.quantity, "what the file holds");
-  s.vector3("direction", motion.direction, {}, "displacement per unit of the file");
-  s.rule(!motion.file.empty(), "file", "must be given");
+  s.choice("quantity", motion.quantity, "quantity in the second column");
+  s.vector3("direction", motion.direction, {},
+            "direction of the motion; its length scales the values of the file");
+  s.rule(!motion.file.empty(), "file", "must be given: a file with the columns time and value");
 }
 
 void declare_move(Section& s, SupportMove& move) {
-  s.integers("blocks", move.blocks, {.min = 0}, "fixed blocks that move; none named: all");
-  s.vector3("displacement", move.displacement, {.unit = "m"}, "how far");
+  s.integers("blocks", move.blocks, {.min = 0},
+             "numbers of the fixed blocks that move; empty: all fixed blocks");
+  s.vector3("displacement", move.displacement, {.unit = "m"}, "displacement");
   s.vector3("rotation_deg", move.rotation_deg, {.unit = "deg"}, "rotation vector");
-  s.vector3("pivot", move.pivot, {.unit = "m"}, "point that the rotation leaves in place");
-  declare_time(s, "time", move.time, "factor on displacement and rotation");
+  s.vector3("pivot", move.pivot, {.unit = "m"}, "centre of the rotation");
+  declare_time(s, "time", move.time, "factor on displacement and rotation_deg");
 }
 
 void declare_ramp(Section& s, RampInTime& ramp) {
-  s.number("from", ramp.from, {}, "factor before");
-  s.number("to", ramp.to, {}, "factor after");
-  s.number("start", ramp.start, {.unit = "s"}, "when it begins to change");
-  s.number("duration", ramp.duration, {.unit = "s", .above = 0}, "how long it changes");
+  s.number("from", ramp.from, {}, "factor before the ramp");
+  s.number("to", ramp.to, {}, "factor after the ramp");
+  s.number("start", ramp.start, {.unit = "s"}, "time at which the ramp starts");
+  s.number("duration", ramp.duration, {.unit = "s", .above = 0}, "duration of the ramp");
 }
 
 void declare_harmonic(Section& s, HarmonicInTime& wave) {
-  s.number("frequency", wave.frequency, {.unit = "Hz", .above = 0}, "of the sine");
-  s.number("phase_deg", wave.phase_deg, {.unit = "deg"}, "90 makes it a cosine");
+  s.number("frequency", wave.frequency, {.unit = "Hz", .above = 0}, "frequency of the sine");
+  s.number("phase_deg", wave.phase_deg, {.unit = "deg"}, "phase angle; 90 gives a cosine");
 }
 
 void declare_table(Section& s, TableInTime& table) {
   s.file("file", table.file, "two columns: time (s) and factor");
-  s.numbers("times", table.times, {.unit = "s"}, "instead of a file: increasing times");
-  s.numbers("values", table.values, {}, "and the factors at them");
+  s.numbers("times", table.times, {.unit = "s"}, "instead of a file: times, increasing");
+  s.numbers("values", table.values, {}, "instead of a file: factor at each time");
   if (!table.file.empty()) table = read_time_table(table.file);
   bool increasing = table.times.size() == table.values.size();
   for (size_t i = 1; increasing && i < table.times.size(); ++i)
     increasing = table.times[i] > table.times[i - 1];
-  s.rule(increasing && !table.times.empty(), "times", "must increase, with as many values");
+  s.rule(increasing && !table.times.empty(), "times",
+         "must increase, with one entry of values for each time");
 }
 
 void declare_constant(Section&, ConstantInTime&) {}
 
 void declare_time_function(Section& s, TimeFunction& time) {
-  s.variant<TimeFunction>("type", time,
-                          {alternative<TimeFunction>("constant", "always 1", declare_constant),
-                           alternative<TimeFunction>("ramp", "from one factor to another", declare_ramp),
-                           alternative<TimeFunction>("harmonic", "sine", declare_harmonic),
-                           alternative<TimeFunction>("table", "linear between points", declare_table)},
-                          "how it varies");
+  s.variant<TimeFunction>(
+      "type", time,
+      {alternative<TimeFunction>("constant", "factor 1 at all times", declare_constant),
+       alternative<TimeFunction>("ramp", "linear change from one factor to another", declare_ramp),
+       alternative<TimeFunction>("harmonic", "sine wave", declare_harmonic),
+       alternative<TimeFunction>("table", "linear interpolation between given points", declare_table)},
+      "variation in time");
 }
 
 }  // namespace
@@ -78,13 +85,13 @@ void declare_time(Section& s, const std::string& key, TimeFunction& time, const 
 
 void declare_ties(Section& s, Ties& ties) {
   s.list("pairs", ties.pairs, "ties between two blocks", declare_pair);
-  s.list("chains", ties.chains, "closed chains around a dome", declare_chain);
+  s.list("chains", ties.chains, "closed chains around a ring of a dome", declare_chain);
   s.number("rod_stiffness", ties.rod_stiffness, {.unit = "N/m", .above = 0},
-           "stands for the infinite one of imported rigid rods");
+           "stiffness that replaces the infinite one of imported rigid rods");
 }
 
 void declare_supports(Section& s, Supports& supports) {
-  s.optional_section("base_motion", supports.base_motion, "all fixed blocks move as the ground does",
+  s.optional_section("base_motion", supports.base_motion, "ground motion, followed by all fixed blocks",
                      declare_base_motion);
   s.list("moves", supports.moves, "displacements imposed on fixed blocks", declare_move);
 }

@@ -47,7 +47,8 @@ Section::Section(const CaseNode* node, std::string path, FileLocation where, std
     : node_(node), path_(std::move(path)), where_(std::move(where)), case_file_(std::move(case_file)) {
   effective_.kind = CaseNode::Kind::map;
   if (node_ && node_->kind != CaseNode::Kind::map)
-    throw InputError(node_->where, fmt::format("{} = {}: must be a map of keys", path_, shown(*node_)));
+    throw InputError(node_->where,
+                     fmt::format("{} = {}: must be a map, {{key: value}}", path_, shown(*node_)));
 }
 
 Section::Section(SchemaTable* schema, std::string path) : schema_(schema), path_(std::move(path)) {
@@ -66,14 +67,14 @@ const CaseNode* Section::look_up(const std::string& key) {
   if (!contains(known_, key)) known_.push_back(key);
   const CaseNode* node = node_ ? node_->find(key) : nullptr;
   if (node && node->kind == CaseNode::Kind::empty)
-    throw InputError(node->where,
-                     fmt::format("{} is empty: give a value or leave the key out", path_of(key)));
+    throw InputError(node->where, fmt::format("{} is empty: give a value or remove the key", path_of(key)));
   return node;
 }
 
 const CaseNode* Section::look_up_scalar(const std::string& key) {
   const CaseNode* node = look_up(key);
-  if (node && node->kind != CaseNode::Kind::scalar) fail(key, *node, "must be a single value");
+  if (node && node->kind != CaseNode::Kind::scalar)
+    fail(key, *node, "must be a single value, not a list or a map");
   return node;
 }
 
@@ -96,7 +97,7 @@ void Section::record(const std::string& key, CaseNode value) {
 
 void Section::require(const std::string& key, const std::string& hint) {
   if (!describing())
-    missing_.push_back(fmt::format("{} is missing: it has no default{}", path_of(key), hint));
+    missing_.push_back(fmt::format("{} is missing and has no default{}", path_of(key), hint));
 }
 
 void Section::check_given(const std::string& key) const {
@@ -105,8 +106,9 @@ void Section::check_given(const std::string& key) const {
   if (node_)
     for (const CaseNode::Entry& entry : node_->entries) given.push_back(entry.key);
   const std::string near = nearest_name(key, given);
-  throw InputError(where_,
-                   missing_.front() + (near.empty() ? "" : fmt::format("; {} is misspelt", shown(near))));
+  throw InputError(
+      where_,
+      missing_.front() + (near.empty() ? "" : fmt::format("; is {} a misspelling of it?", shown(near))));
 }
 
 void Section::text(const std::string& key, std::string& value, const std::string& meaning) {
@@ -130,7 +132,7 @@ void Section::file(const std::string& key, std::string& path, const std::string&
   const std::string folder = std::filesystem::path(case_file_).parent_path().string();
   path = path_inside(folder, case_file_, node->text, node->where);
   if (!std::filesystem::is_regular_file(path) && !(or_folder && std::filesystem::is_directory(path)))
-    fail(key, *node, "no such file beside the case");
+    fail(key, *node, "no such file in the folder of the case");
   record(key, node->text, true);
 }
 
@@ -298,11 +300,12 @@ int Section::choose(const std::string& key, const std::vector<std::string>& name
     if (found == names.end()) {
       const std::string near = nearest_name(node->text, names);
       fail(key, *node,
-           (near.empty() ? "" : fmt::format("did you mean {}? ", near)) + "must be one of " + joined(names));
+           (near.empty() ? "must" : fmt::format("did you mean {}? It must", near)) + " be one of " +
+               joined(names));
     }
     chosen = static_cast<int>(found - names.begin());
   } else if (required) {
-    require(key, "; one of " + joined(names));
+    require(key, "; give one of " + joined(names));
   }
   if (chosen >= 0) record(key, names[static_cast<size_t>(chosen)]);
   return chosen;
@@ -366,8 +369,8 @@ void Section::finish() const {
       if (contains(known_, key)) continue;
       const std::string near = nearest_name(key, known_);
       throw InputError(
-          where, fmt::format("{}: unknown key{}; valid here: {}", shown(path_of(key)),
-                             near.empty() ? "" : fmt::format(", did you mean {}?", near), joined(known_)));
+          where, fmt::format("{}: unknown key{} Valid keys here: {}", shown(path_of(key)),
+                             near.empty() ? "." : fmt::format("; did you mean {}?", near), joined(known_)));
     }
   }
   if (!missing_.empty()) throw InputError(where_, missing_.front());

@@ -10,16 +10,16 @@
 namespace cupola {
 namespace {
 
-constexpr size_t kLargestFile = 1 << 20;  // bytes; a hand-written case has a few thousand
-constexpr size_t kDeepestNesting = 32;    // a case needs about five
+constexpr size_t kLargestFile = 1 << 20;  // bytes; a case has a few thousand
+constexpr size_t kDeepestNesting = 32;    // a case has about five levels
 
 FileLocation location(const std::string& file, const YAML::Mark& mark) {
   if (mark.is_null()) return {file, 0, 0};
   return {file, mark.line + 1, mark.column + 1};
 }
 
-/// Builds the tree from the parser's events. Events, unlike yaml-cpp's own nodes, show duplicate keys and
-/// never expand an alias.
+/// Builds the tree from the events of the parser. Unlike the nodes of yaml-cpp, events reveal duplicate keys
+/// and do not expand aliases.
 class TreeBuilder : public YAML::EventHandler {
  public:
   explicit TreeBuilder(const std::string& file) : file_(file) {}
@@ -38,7 +38,8 @@ class TreeBuilder : public YAML::EventHandler {
     CaseNode scalar = node(CaseNode::Kind::scalar, mark);
     scalar.text = value;
     scalar.quoted = tag == "!";
-    if (value.find('\0') != std::string::npos) throw InputError(scalar.where, "a text may not hold a NUL");
+    if (value.find('\0') != std::string::npos)
+      throw InputError(scalar.where, "text must not contain a NUL character");
     add(std::move(scalar));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
@@ -55,7 +56,7 @@ class TreeBuilder : public YAML::EventHandler {
  private:
   struct Level {
     CaseNode node;
-    bool has_key = false;  // of a map: the key is read, its value comes next
+    bool has_key = false;  // for a map: the key is read, its value follows
     std::string key;
     FileLocation key_where;
   };
@@ -71,7 +72,7 @@ class TreeBuilder : public YAML::EventHandler {
     throw InputError(location(file_, mark), "anchors (&) and aliases (*) are not allowed; use `extends`");
   }
   [[noreturn]] void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
-    throw InputError(location(file_, mark), fmt::format("the tag {} is not allowed", shown(tag)));
+    throw InputError(location(file_, mark), fmt::format("the tag {} is not allowed; remove it", shown(tag)));
   }
 
   void open(CaseNode::Kind kind, const YAML::Mark& mark, const std::string& tag) {
@@ -92,7 +93,7 @@ class TreeBuilder : public YAML::EventHandler {
     return levels_.back().node.kind == CaseNode::Kind::map && !levels_.back().has_key;
   }
   [[noreturn]] static void refuse_key(const FileLocation& where) {
-    throw InputError(where, "a key must be a word");
+    throw InputError(where, "a key must be a name, not a list or a map");
   }
 
   void add(CaseNode value) {
@@ -106,7 +107,7 @@ class TreeBuilder : public YAML::EventHandler {
     } else if (!level.has_key) {
       if (value.kind != CaseNode::Kind::scalar) refuse_key(value.where);
       if (const CaseNode::Entry* first = level.node.find_entry(value.text))
-        throw InputError(value.where, fmt::format("the key {} is given twice, first in line {}",
+        throw InputError(value.where, fmt::format("the key {} is given twice, first on line {}",
                                                   shown(value.text), first->where.line));
       level.key = value.text;
       level.key_where = value.where;
@@ -122,7 +123,7 @@ class TreeBuilder : public YAML::EventHandler {
   std::vector<Level> levels_;
 };
 
-/// Length of the UTF-8 sequence that starts at `i`, or 0 when it is not one (RFC 3629).
+/// Length of the UTF-8 sequence that starts at `i`, or 0 if it is invalid (RFC 3629).
 size_t utf8_length(const std::string& text, size_t i) {
   const auto byte = [&](size_t k) {
     return k < text.size() ? static_cast<unsigned char>(text[k]) : static_cast<unsigned char>(0);
@@ -143,16 +144,17 @@ size_t utf8_length(const std::string& text, size_t i) {
 
 void check_characters(const std::string& text, const std::string& file) {
   if (text.size() > kLargestFile)
-    throw InputError(FileLocation{file}, fmt::format("larger than {} bytes: not a case file", kLargestFile));
+    throw InputError(FileLocation{file},
+                     fmt::format("larger than {} bytes, the limit for a case file", kLargestFile));
   FileLocation where{file, 1, 1};
   bool indenting = true;
   for (size_t i = 0; i < text.size();) {
     const char c = text[i];
     const size_t length = utf8_length(text, i);
-    if (length == 0) throw InputError(where, "not UTF-8 text");
-    if (indenting && c == '\t') throw InputError(where, "a tab indents the line; use spaces");
+    if (length == 0) throw InputError(where, "not UTF-8 text; save the file with UTF-8 encoding");
+    if (indenting && c == '\t') throw InputError(where, "the line is indented with a tab; use spaces");
     if ((static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t') || c == 0x7f)
-      throw InputError(where, fmt::format("control character {:#04x}", c));
+      throw InputError(where, fmt::format("control character {:#04x} is not allowed", c));
     indenting = c == '\n' || (indenting && c == ' ');
     if (c == '\n') {
       ++where.line;
@@ -174,7 +176,7 @@ CaseNode parse_yaml(const std::string& text, const std::string& file) {
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) throw InputError(FileLocation{file}, "the file is empty");
     if (parser.HandleNextDocument(second))
-      throw InputError(second.root.where, "a second document starts here; a case is one document");
+      throw InputError(second.root.where, "a second YAML document starts here; a case file holds only one");
   } catch (const YAML::Exception& error) {
     throw InputError(location(file, error.mark), "not valid YAML: " + error.msg);
   }

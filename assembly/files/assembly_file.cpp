@@ -20,7 +20,7 @@ std::uint8_t flags_of(const Block& block) {
   return static_cast<std::uint8_t>((block.rib ? kRibFlag : 0) | (block.truncated ? kTruncatedFlag : 0));
 }
 
-/// One array, a value (or a fixed-size vector) per item.
+/// One array with a value (or a fixed-size vector) per item.
 template <class T, class Items, class Get>
 MeshArray column(const char* name, const Items& items, Get get, int components = 1) {
   std::vector<T> values;
@@ -92,7 +92,7 @@ std::vector<MeshArray> field_arrays(const Assembly& assembly) {
           column<B>("face_kind", assembly.face_kinds, [](FaceKind kind) { return kind; })};
 }
 
-/// Only a model with ties has these.
+/// Arrays that only a model with ties has.
 void add_tie_arrays(const std::vector<ImportedTie>& ties, std::vector<MeshArray>* arrays) {
   if (ties.empty()) return;
   using I = std::int32_t;
@@ -107,7 +107,7 @@ void add_tie_arrays(const std::vector<ImportedTie>& ties, std::vector<MeshArray>
   arrays->push_back(column<std::uint8_t>("tie_pushes", ties, [](const ImportedTie& t) { return t.pushes; }));
 }
 
-/// The arrays of a mesh file by name, with a check that each has the rows it must have.
+/// The arrays of a mesh file by name, with a check of their number of rows.
 class Columns {
  public:
   Columns(const Mesh& mesh, const std::vector<MeshArray>& arrays) : mesh_(mesh), arrays_(arrays) {}
@@ -116,7 +116,7 @@ class Columns {
   const std::vector<T>& get(const std::string& name, size_t rows, int components = 1) const {
     const auto& values = mesh_.array<T>(arrays_, name, components);
     if (values.size() != rows * static_cast<size_t>(components))
-      throw InputError(FileLocation{mesh_.file}, fmt::format("array `{}` has {} values, must have {}", name,
+      throw InputError(FileLocation{mesh_.file}, fmt::format("array `{}` has {} values, expected {}", name,
                                                              values.size(), rows * components));
     return values;
   }
@@ -196,7 +196,7 @@ void read_ties(const Mesh& mesh, const Columns& fields, Assembly* assembly) {
                               Vec3(point_b.data() + 3 * k), stiffness[k], length[k], pushes[k] != 0});
 }
 
-/// Everything that a later stage relies on without asking again.
+/// Checks everything that later stages rely on.
 void check(const Assembly& assembly, const std::string& path) {
   const auto require = [&path](bool holds, const char* what, size_t index) {
     if (!holds) throw InputError(FileLocation{path}, fmt::format("{} {} is invalid", what, index));
@@ -208,7 +208,7 @@ void check(const Assembly& assembly, const std::string& path) {
   const std::vector<int>& start = assembly.face_vertex_start;
   const int num_corners = static_cast<int>(assembly.face_vertices.size());
   require(!start.empty() && start.front() == 0 && start.back() == num_corners, "face range", 0);
-  // A start is known to lie within the list before the next one is compared with it: no sum overflows.
+  // Each start is checked against the list before the next one is compared with it, so that no sum overflows.
   for (size_t f = 0; f < assembly.face_kinds.size(); ++f)
     require(start[f + 1] <= num_corners && start[f + 1] >= start[f] + 3 &&
                 assembly.face_kinds[f] <= FaceKind::free,
@@ -259,8 +259,10 @@ Assembly read_assembly(const std::string& path) {
   if (!mesh.has(mesh.field_data, "format_version"))
     throw InputError(FileLocation{path}, "is not an assembly file: field array `format_version` is missing");
   if (const int version = mesh.field<std::int32_t>("format_version"); version != kAssemblyFormatVersion)
-    throw InputError(FileLocation{path},
-                     fmt::format("has format version {}, this program reads {}", version, kAssemblyFormatVersion));
+    throw InputError(
+        FileLocation{path},
+        fmt::format("has format version {}, this program reads version {}; generate the assembly again",
+                    version, kAssemblyFormatVersion));
   Assembly assembly;
   for (int i = 0; i < mesh.num_points(); ++i) assembly.vertices.emplace_back(mesh.points.data() + 3 * i);
   const auto& face_kinds = fields.get_any_size<std::uint8_t>("face_kind");
@@ -276,7 +278,9 @@ Assembly read_assembly(const std::string& path) {
   read_ties(mesh, fields, &assembly);
   check(assembly, path);
   if (content_hash(assembly) != mesh.field<std::string>("content_hash"))
-    throw InputError(FileLocation{path}, "its content does not match its content_hash: edited or damaged");
+    throw InputError(
+        FileLocation{path},
+        "is damaged or was edited: its content does not match its content_hash; generate the assembly again");
   return assembly;
 }
 

@@ -19,20 +19,19 @@ namespace {
   throw SystemError(fmt::format("{}: {}: {}", path, what, std::strerror(errno)));
 }
 
-/// A rename is durable only after the data are: some file systems delay allocation, and report a full disk
-/// only here.
+/// Flushes the data before the rename. Some file systems delay allocation and report a full disk only here.
 void flush_to_disk(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) fail(path, "cannot be reopened");
   const int result = ::fsync(fd);
   ::close(fd);
-  if (result != 0) fail(path, "cannot be flushed to the disk");
+  if (result != 0) fail(path, "cannot be flushed to disk");
 }
 
 }  // namespace
 
 void write_atomically(const std::string& path, const std::function<bool(const std::string&)>& write) {
-  // VTK picks its format by the ending, so the mark goes before it.
+  // VTK chooses its format by the extension, which must therefore stay last.
   const std::filesystem::path target(path);
   const std::string side = (target.parent_path() / fmt::format(".{}.{}.part{}", target.stem().string(),
                                                                ::getpid(), target.extension().string()))
@@ -60,7 +59,7 @@ void write_text_atomically(const std::string& path, const std::string& text) {
 void make_folder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error) throw SystemError(fmt::format("{}: folder cannot be created: {}", path, error.message()));
+  if (error) throw SystemError(fmt::format("{}: cannot create the folder: {}", path, error.message()));
 }
 
 std::string read_text(const std::string& path) {

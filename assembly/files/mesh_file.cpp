@@ -38,9 +38,9 @@ const std::vector<T>& Mesh::array(const std::vector<MeshArray>& arrays, const st
     const auto* values = std::get_if<std::vector<T>>(&array.values);
     if (!values)
       throw InputError(FileLocation{file},
-                       fmt::format("array `{}` must be of type {}", name, type_name<T>()));
+                       fmt::format("array `{}` must have the type {}", name, type_name<T>()));
     if (array.components != components)
-      throw InputError(FileLocation{file}, fmt::format("array `{}` has {} components, must have {}", name,
+      throw InputError(FileLocation{file}, fmt::format("array `{}` has {} components, expected {}", name,
                                                        array.components, components));
     return *values;
   }
@@ -52,7 +52,7 @@ const T& Mesh::field(const std::string& name) const {
   const std::vector<T>& values = array<T>(field_data, name, 1);
   if (values.size() != 1)
     throw InputError(FileLocation{file},
-                     fmt::format("field `{}` has {} values, must have 1", name, values.size()));
+                     fmt::format("field `{}` has {} values, expected 1", name, values.size()));
   return values[0];
 }
 

@@ -29,10 +29,10 @@ std::string read_number(std::string_view text, double* value) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double number = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc::result_out_of_range) return "does not fit in double precision";
+  if (error == std::errc::result_out_of_range) return "exceeds the range of double precision";
   if (error != std::errc{} || end != text.data() + text.size()) return "must be a number";
   if (!std::isfinite(number)) return "must be a finite number";
-  *value = number + 0.0;  // -0 becomes 0: one value, one hash
+  *value = number + 0.0;  // turns -0 into 0, so that equal values have equal hashes
   return {};
 }
 
@@ -40,7 +40,7 @@ std::string read_integer(std::string_view text, int* value) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc::result_out_of_range) return "is too large for a whole number here";
+  if (error == std::errc::result_out_of_range) return "is too large; whole numbers go up to 2147483647";
   if (error != std::errc{} || end != text.data() + text.size()) return "must be a whole number";
   *value = number;
   return {};
@@ -53,7 +53,7 @@ std::string read_flag(std::string_view text, bool* value) {
 }
 
 std::string format_number(double value) {
-  // fmt writes 1e-08; a case file says 1e-8.
+  // fmt writes 1e-08; we write 1e-8, as case files do.
   std::string text = fmt::format("{}", value);
   const size_t e = text.find('e');
   if (e == std::string::npos) return text;

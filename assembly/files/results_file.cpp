@@ -42,7 +42,7 @@ std::vector<Vector> unflat(const std::vector<double>& values) {
   return vectors;
 }
 
-/// One vertex cell per point, so that ParaView draws the points as they come.
+/// Adds one vertex cell per point, so that ParaView shows the points.
 Mesh point_mesh(const std::vector<Vec3>& points, double time, const std::string& assembly_hash) {
   Mesh mesh;
   mesh.points = flat(points);
@@ -56,6 +56,11 @@ Mesh point_mesh(const std::vector<Vec3>& points, double time, const std::string&
 
 Mesh contacts_mesh(const Frame& frame, const std::string& assembly_hash) {
   const ContactTable& c = frame.contacts;
+  [[maybe_unused]] const std::size_t n = c.joint.size();
+  CUPOLA_ASSERT(c.block_a.size() == n && c.block_b.size() == n && c.kind.size() == n && c.ring.size() == n &&
+                c.point.size() == n && c.normal.size() == n && c.gap.size() == n && c.force.size() == n &&
+                c.normal_force.size() == n && c.friction_use.size() == n && c.area.size() == n &&
+                c.slip.size() == n);
   Mesh mesh = point_mesh(c.point, frame.time, assembly_hash);
   std::vector<std::uint8_t> kinds;
   for (const JointKind kind : c.kind) kinds.push_back(static_cast<std::uint8_t>(kind));
@@ -76,8 +81,11 @@ Mesh contacts_mesh(const Frame& frame, const std::string& assembly_hash) {
 
 Mesh blocks_mesh(const Frame& frame, const std::string& assembly_hash) {
   const BlockTable& b = frame.blocks;
+  const std::size_t n = b.position.size();
+  CUPOLA_ASSERT(b.quaternion_wxyz.size() == n && b.velocity.size() == n && b.angular_velocity.size() == n &&
+                b.displacement.size() == n);
   Mesh mesh = point_mesh(b.position, frame.time, assembly_hash);
-  std::vector<std::int32_t> ids(b.position.size());
+  std::vector<std::int32_t> ids(n);
   for (size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int32_t>(i);
   mesh.point_data = {{"block", 1, std::move(ids)},
                      {"quaternion_wxyz", 4, flat(b.quaternion_wxyz)},
@@ -87,15 +95,17 @@ Mesh blocks_mesh(const Frame& frame, const std::string& assembly_hash) {
   return mesh;
 }
 
-/// Reads a frame's file and checks that it belongs to this assembly.
+/// Reads a file of a frame and checks that it belongs to this assembly.
 Mesh read_frame_mesh(const std::string& path, const std::string& assembly_hash) {
   Mesh mesh = read_mesh(path);
   const int version = mesh.field<std::int32_t>("format_version");
   if (version != kFrameFormatVersion)
-    throw InputError(FileLocation{path},
-                     fmt::format("has format version {}, this program reads {}", version, kFrameFormatVersion));
+    throw InputError(
+        FileLocation{path},
+        fmt::format("has format version {}, this program reads version {}; run cupola-solve again", version,
+                    kFrameFormatVersion));
   if (mesh.field<std::string>("assembly_hash") != assembly_hash)
-    throw InputError(FileLocation{path}, "belongs to another assembly");
+    throw InputError(FileLocation{path}, "belongs to another assembly; run cupola-solve again");
   return mesh;
 }
 
@@ -139,7 +149,7 @@ BlockTable read_blocks(const Mesh& mesh) {
   return b;
 }
 
-/// Joint ids index arrays of later stages, block ids the assembly's blocks: neither may point outside.
+/// Joint and block numbers are used as indices by later stages: they must be in range.
 void check_frame(const Frame& frame, const std::string& path) {
   const int num_blocks = frame.blocks.size();
   for (int i = 0; i < frame.contacts.size(); ++i) {
@@ -164,7 +174,7 @@ ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std:
 
 void ResultsWriter::write_frame(const Frame& frame) {
   const int index = static_cast<int>(times_.size());
-  // The summary of an earlier run does not describe the frames that follow.
+  // A summary of an earlier run would not match the new frames.
   if (index == 0) std::filesystem::remove(in_folder(folder_, "summary.json"));
   times_.push_back(frame.time);
   write_mesh(in_folder(folder_, frame_file("contacts", index)), contacts_mesh(frame, assembly_hash_));
@@ -189,19 +199,20 @@ void ResultsWriter::write_summary(Summary summary) {
 ResultsReader::ResultsReader(std::string folder, const std::string& assembly_hash, bool force)
     : folder_(std::move(folder)), assembly_hash_(assembly_hash) {
   if (!std::filesystem::is_directory(folder_))
-    throw InputError(FileLocation{folder_}, "results folder does not exist");
+    throw InputError(FileLocation{folder_}, "the results folder does not exist; run cupola-solve first");
   const std::string summary_path = in_folder(folder_, "summary.json");
   if (!std::filesystem::exists(summary_path))
-    throw InputError(FileLocation{summary_path}, "does not exist: the run has not finished");
+    throw InputError(FileLocation{summary_path},
+                     "does not exist: the run has not finished; run or resume cupola-solve");
   summary_ = summary_from_json(read_text(summary_path), summary_path);
   if (force) assembly_hash_ = summary_.assembly_hash;
   if (summary_.assembly_hash != assembly_hash_)
     throw InputError(FileLocation{summary_path},
-                     fmt::format("belongs to another assembly (hash {}, the assembly given has {}); "
-                                 "--force takes it",
+                     fmt::format("belongs to another assembly (hash {}; the given assembly has {}); "
+                                 "run cupola-solve again, or accept it with --force",
                                  summary_.assembly_hash, assembly_hash_));
   for (const PvdEntry& entry : read_pvd(in_folder(folder_, "contacts.pvd"))) times_.push_back(entry.time);
-  if (times_.empty()) throw InputError(FileLocation{in_folder(folder_, "contacts.pvd")}, "lists no frame");
+  if (times_.empty()) throw InputError(FileLocation{in_folder(folder_, "contacts.pvd")}, "lists no frames");
 }
 
 Frame ResultsReader::read_frame(int index) const {
@@ -219,10 +230,11 @@ std::string ResultsReader::read_text_file(const std::string& name) const {
   const std::string path = in_folder(folder_, name);
   const auto written = summary_.text_files.find(name);
   if (written == summary_.text_files.end())
-    throw InputError(FileLocation{path}, "is not named in summary.json: it is not of this run");
+    throw InputError(FileLocation{path}, "is not listed in summary.json, so it does not belong to this run");
   std::string text = read_text(path);
   if (hash_text(text) != written->second)
-    throw InputError(FileLocation{path}, "is damaged or was edited: its hash in summary.json is another");
+    throw InputError(FileLocation{path},
+                     "is damaged or was edited: its bytes do not match the hash in summary.json");
   return text;
 }
 

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kSummaryFormatVersion = 1;
 constexpr const char* kNotCertified = "not certified";
 
-/// The one list of the keys of summary.json, for writing and for reading.
+/// The keys of summary.json, listed once for writing and reading.
 template <class SummaryType, class Visit>
 void for_each_field(SummaryType& s, Visit visit) {
   visit("status", s.status);
@@ -75,7 +75,7 @@ Json to_value(const std::optional<double>& value) {
   return value ? Json(*value) : Json(kNotCertified);
 }
 
-/// JSON has no infinities: what is not finite is written as null and read back as NaN.
+/// JSON has no infinities and NaN: they are written as null and read back as NaN.
 void from_value(const Json& json, double* value) {
   *value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
@@ -96,13 +96,13 @@ void from_value(const Json& json, E* value) {
 void from_value(const Json& json, std::string* value) {
   json.get_to(*value);
 }
-/// The library would cut fractions, and numbers beyond the type, to something else.
+/// The JSON library would silently truncate fractions and numbers out of range.
 template <std::integral T>
 void from_value(const Json& json, T* value) {
   const bool fits = json.is_number_unsigned()
                         ? std::in_range<T>(json.get<std::uint64_t>())
                         : json.is_number_integer() && std::in_range<T>(json.get<std::int64_t>());
-  if (!fits) throw InputError("no whole number of this size");
+  if (!fits) throw InputError("not a whole number in range");
   json.get_to(*value);
 }
 
@@ -123,17 +123,21 @@ std::string to_json(const Summary& summary) {
 
 Summary summary_from_json(const std::string& text, const std::string& file) {
   const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object()) throw InputError(FileLocation{file}, "is not a complete JSON object");
+  if (!json.is_object())
+    throw InputError(FileLocation{file}, "is not a complete JSON object: damaged, or not a summary");
   if (const Json version = json.value("format_version", Json()); version != kSummaryFormatVersion)
-    throw InputError(FileLocation{file}, fmt::format("has format_version {}, this program reads {}",
-                                                     version.dump(), kSummaryFormatVersion));
+    throw InputError(
+        FileLocation{file},
+        fmt::format("has format_version {}, this program reads version {}; run cupola-solve again",
+                    version.dump(), kSummaryFormatVersion));
   Summary summary;
   for_each_field(summary, [&](const char* key, auto& value) {
     if (!json.contains(key)) throw InputError(FileLocation{file}, fmt::format("key `{}` is missing", key));
     try {
       from_value(json[key], &value);
     } catch (const std::exception&) {
-      throw InputError(FileLocation{file}, fmt::format("{} = {}: has the wrong type", key, json[key].dump()));
+      throw InputError(FileLocation{file},
+                       fmt::format("{} = {}: has the wrong type or an unknown value", key, json[key].dump()));
     }
   });
   if (json.contains("critical_value")) {
@@ -148,7 +152,7 @@ Summary summary_from_json(const std::string& text, const std::string& file) {
   try {
     if (json.contains("text_files")) json["text_files"].get_to(summary.text_files);
   } catch (const std::exception&) {
-    throw InputError(FileLocation{file}, "text_files: must give a hash for each name");
+    throw InputError(FileLocation{file}, "text_files: must be a map from file names to hashes");
   }
   return summary;
 }

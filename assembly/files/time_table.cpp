@@ -12,7 +12,7 @@
 namespace cupola {
 namespace {
 
-/// The two numbers of a line; false when it holds none.
+/// Reads the two numbers of a line; false if the line is empty or a comment.
 bool read_row(std::string line, const FileLocation& where, double* time, double* value) {
   line.erase(std::find(line.begin(), line.end(), '#'), line.end());
   std::replace(line.begin(), line.end(), ',', ' ');
@@ -37,12 +37,13 @@ TableInTime read_time_table(const std::string& path) {
     double time = 0.0, value = 0.0;
     if (!read_row(line, where, &time, &value)) continue;
     if (!table.times.empty() && time <= table.times.back())
-      throw InputError(
-          where, fmt::format("time {} does not follow {}: times must increase", time, table.times.back()));
+      throw InputError(where,
+                       fmt::format("time {} follows {}: times must increase", time, table.times.back()));
     table.times.push_back(time);
     table.values.push_back(value);
   }
-  if (table.times.empty()) throw InputError({path, 0, 0}, "holds no rows of time and value");
+  if (table.times.empty())
+    throw InputError({path, 0, 0}, "has no rows; expected two columns, time (s) and value");
   return table;
 }
 

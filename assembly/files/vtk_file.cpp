@@ -1,4 +1,5 @@
-// The one file that knows VTK's types: mesh files as .vtu and .vtp, and reading of .pvd collections.
+// Reads and writes .vtu and .vtp files, and reads .pvd collections. The only file of assembly/ with VTK data
+// types.
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
@@ -43,23 +44,23 @@ namespace {
 
 using CellType = Mesh::CellType;
 
-// The last line of a file of ours: a comment to every XML reader, a checksum of all bytes before it to us.
+// The last line of a file: an XML comment that holds a checksum of all bytes before it.
 constexpr std::string_view kChecksumStart = "<!-- xxh3-128 ";
 constexpr std::string_view kChecksumEnd = " -->\n";
 
-/// Collects what VTK would print on stderr while it lives.
+/// Collects the messages that VTK would print on stderr during its lifetime.
 class CapturedVtkMessages {
  public:
   CapturedVtkMessages() : previous_(vtkOutputWindow::GetInstance()) {
     vtkOutputWindow::SetInstance(window_);
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // it prints beside the window
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // the logger does not use the window
   }
   ~CapturedVtkMessages() { vtkOutputWindow::SetInstance(previous_); }
   CapturedVtkMessages(const CapturedVtkMessages&) = delete;
   CapturedVtkMessages& operator=(const CapturedVtkMessages&) = delete;
 
   bool any() { return !window_->GetOutput().empty(); }
-  /// The first message without VTK's source location: the text after "): " up to the end of its line.
+  /// The first message without its source location: the text after "): " up to the end of the line.
   std::string first() {
     std::string text = window_->GetOutput();
     if (const size_t at = text.find("): "); at != std::string::npos) text = text.substr(at + 3);
@@ -113,7 +114,7 @@ vtkSmartPointer<vtkPoints> vtk_points(const Mesh& mesh) {
   return points;
 }
 
-/// Offsets and ids of one run of cells, as VTK keeps them.
+/// Offsets and point ids of a sequence of cells, as VTK stores them.
 struct CellArrays {
   vtkNew<vtkIdTypeArray> offsets;
   vtkNew<vtkIdTypeArray> ids;
@@ -153,7 +154,7 @@ vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(const Mesh& mesh) {
       corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
       for (const int id : corners) cells.ids->InsertNextValue(id);
     } else {
-      throw std::invalid_argument("a .vtu file of ours holds hexahedra and polyhedra only");
+      throw std::invalid_argument("only hexahedra and polyhedra can be written to a .vtu file");
     }
     cells.end_cell();
   }
@@ -166,12 +167,12 @@ vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(const Mesh& mesh) {
 
 vtkSmartPointer<vtkPolyData> to_poly_data(const Mesh& mesh) {
   CellArrays verts, lines, polygons;
-  // A .vtp file holds vertices, then lines, then polygons; the cell data follow that order.
+  // A .vtp file stores vertices, then lines, then polygons; the cell data follow that order.
   if (!std::is_sorted(mesh.cell_types.begin(), mesh.cell_types.end()))
     throw std::invalid_argument("cells of a .vtp file must come as vertices, polylines, polygons");
   for (int i = 0; i < mesh.num_cells(); ++i) {
     const CellType type = mesh.cell_types[i];
-    if (type > CellType::polygon) throw std::invalid_argument("a .vtp file holds no solid cells");
+    if (type > CellType::polygon) throw std::invalid_argument("solid cells cannot be written to a .vtp file");
     CellArrays& cells = type == CellType::vertex ? verts : type == CellType::polyline ? lines : polygons;
     for (int j = mesh.cell_start[i]; j < mesh.cell_start[i + 1]; ++j)
       cells.ids->InsertNextValue(mesh.cell_points[j]);
@@ -185,7 +186,7 @@ vtkSmartPointer<vtkPolyData> to_poly_data(const Mesh& mesh) {
   return poly_data;
 }
 
-/// Says so when there is no memory to compress in: VTK's writers would go on with a null pointer.
+/// Throws if there is no memory for compression; VTK's writers would continue with a null pointer.
 class Compressor : public vtkZLibDataCompressor {
  public:
   static Compressor* New() {
@@ -215,7 +216,7 @@ void write_data(const std::string& side_path, vtkDataSet* data, const Mesh& mesh
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOn();  // raw appended data is not well-formed XML
   writer->SetHeaderTypeToUInt64();
-  writer->SetCompressionLevel(1);  // floating-point data hardly gain from more
+  writer->SetCompressionLevel(1);  // higher levels hardly compress floating-point data further
   CapturedVtkMessages messages;
   if (writer->Write() != 1 || messages.any())
     throw SystemError(fmt::format("{}: cannot be written: {}", side_path, messages.first()));
@@ -235,8 +236,8 @@ void append_checksum(const std::string& side_path) {
   throw InputError(FileLocation{path}, why);
 }
 
-/// Refuses everything but the bytes that write_mesh wrote. VTK's readers trust a file's counts and offsets
-/// (a changed digit can divide by zero in there), so they only get to see files that are whole.
+/// Refuses files other than those written by write_mesh. VTK's readers trust the counts and offsets of a file
+/// (one changed digit can cause a division by zero), so they get intact files only.
 void check_bytes(const std::string& path) {
   const std::string content = read_text(path);
   const std::string_view text = content;
@@ -244,7 +245,7 @@ void check_bytes(const std::string& path) {
   if (text.find("</VTKFile>") == std::string_view::npos) reject(path, "is truncated: its end is missing");
   const size_t start = text.rfind(kChecksumStart);
   if (start == std::string_view::npos || !text.ends_with(kChecksumEnd))
-    reject(path, "was not written by Cupola: its last line is no checksum");
+    reject(path, "was not written by Cupola: its last line is not a checksum");
   const size_t digits = text.size() - kChecksumEnd.size() - start - kChecksumStart.size();
   if (hash_text(text.substr(0, start)) != text.substr(start + kChecksumStart.size(), digits))
     reject(path, "is damaged or was edited: its bytes do not match the checksum in its last line");
@@ -270,7 +271,7 @@ MeshArray from_vtk(const std::string& path, vtkAbstractArray* array) {
     for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i) values.push_back(strings->GetValue(i));
     out.values = std::move(values);
   } else {
-    reject(path, fmt::format("array `{}` is of an unknown type", out.name));
+    reject(path, fmt::format("array `{}` has an unknown type", out.name));
   }
   return out;
 }
@@ -280,7 +281,7 @@ std::vector<MeshArray> arrays_of(const std::string& path, vtkFieldData* data, vt
   for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
     vtkAbstractArray* array = data->GetAbstractArray(i);
     if (tuples >= 0 && array->GetNumberOfTuples() != tuples)
-      reject(path, fmt::format("array `{}` has {} rows, must have {}",
+      reject(path, fmt::format("array `{}` has {} rows, expected {}",
                                array->GetName() ? array->GetName() : "", array->GetNumberOfTuples(), tuples));
     arrays.push_back(from_vtk(path, array));
   }
@@ -294,7 +295,8 @@ void read_points(vtkPointSet* data, Mesh* mesh) {
 
 int checked_point(vtkIdType id, const Mesh& mesh) {
   if (id < 0 || id >= mesh.num_points())
-    reject(mesh.file, fmt::format("a cell names point {}, there are {}", id, mesh.num_points()));
+    reject(mesh.file,
+           fmt::format("a cell refers to point {}, but there are only {} points", id, mesh.num_points()));
   return static_cast<int>(id);
 }
 
@@ -310,7 +312,8 @@ void read_cells(vtkCellArray* cells, CellType type, Mesh* mesh) {
   }
 }
 
-/// Copies [num_faces, size, ids..., ...] that starts at `location` of VTK's face stream.
+/// Copies the sequence [num_faces, size, ids..., size, ids...] that starts at `location` in VTK's face
+/// stream.
 std::vector<int> face_stream(vtkIdTypeArray* faces, vtkIdType location, const Mesh& mesh) {
   const vtkIdType end = faces ? faces->GetNumberOfTuples() : 0;
   vtkIdType at = location;
@@ -383,7 +386,8 @@ Mesh read_data(const std::string& path) {
 }  // namespace
 
 void write_mesh(const std::string& path, const Mesh& mesh) {
-  // VTK's threads would save no time and may fail to start; the header of its own switch is no valid C++20.
+  // VTK's threads would save no time and may fail to start. VTK's own switch cannot be used: its header is
+  // not valid C++20.
   ::setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 0);
   write_atomically(path, [&](const std::string& side_path) {
     if (is_polygonal(path))
@@ -408,13 +412,13 @@ std::vector<PvdEntry> read_pvd(const std::string& path) {
       vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromString(text.c_str()));
   if (!root || messages.any()) reject(path, "is not a complete XML file");
   vtkXMLDataElement* collection = root->FindNestedElementWithName("Collection");
-  if (!collection) reject(path, "is not a ParaView collection");
+  if (!collection) reject(path, "is not a ParaView collection (.pvd)");
   std::vector<PvdEntry> entries;
   for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
     vtkXMLDataElement* element = collection->GetNestedElement(i);
     const char* file = element->GetAttribute("file");
     const char* time = element->GetAttribute("timestep");
-    if (!file || !time) reject(path, fmt::format("entry {} has no file or no timestep", i));
+    if (!file || !time) reject(path, fmt::format("entry {} lacks its file or timestep", i));
     const std::string_view digits(time);
     PvdEntry entry{0.0, file};
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), entry.time);

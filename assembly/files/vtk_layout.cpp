@@ -31,7 +31,7 @@ struct Tag {
   bool is_whole = false;  ///< .../>
 };
 
-/// The tag from its '<' on; none where it is not of that form.
+/// Parses the tag that starts at '<'; none if it does not have that form.
 std::optional<Tag> parse_tag(std::string_view text) {
   Tag tag;
   const auto skip = [&](size_t n) { text.remove_prefix(std::min(n, text.size())); };
@@ -61,14 +61,14 @@ std::optional<Tag> parse_tag(std::string_view text) {
   }
 }
 
-/// Infinity when it is no count.
+/// Infinity if the text is not a count.
 double count_of(std::string_view value) {
   std::uint64_t count = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), count);
   return error == std::errc() && end == value.data() + value.size() ? static_cast<double>(count) : kNonsense;
 }
 
-/// Bytes that the packed array at a position takes unpacked; infinity when its header says nonsense.
+/// Uncompressed size in bytes of the array at a position; infinity if its header is invalid.
 double unpacked_size(std::string_view text, double position) {
   constexpr size_t kHeader = 24, kCharacters = 32;  // number of blocks, size of each, size of the last
   if (!(position + kCharacters <= static_cast<double>(text.size()))) return kNonsense;
@@ -79,12 +79,12 @@ double unpacked_size(std::string_view text, double position) {
   std::array<std::uint64_t, 3> header{};
   std::memcpy(header.data(), bytes.data(), kHeader);
   const auto blocks = static_cast<double>(header[0]);
-  // Every block has a size of its own in the header.
+  // The header holds the size of every block.
   if (8.0 * blocks > static_cast<double>(text.size())) return kNonsense;
   return blocks * static_cast<double>(header[1]) + static_cast<double>(header[2]);
 }
 
-/// Which element may stand in which: those of one piece, once each.
+/// Which element may contain which; the elements of a piece occur once each.
 bool may_stand_in(std::string_view name, std::string_view parent, std::string_view type) {
   static const std::set<std::string_view> kSections{"PointData", "CellData", "Points", "Cells",
                                                     "Verts",     "Lines",    "Strips", "Polys"};
@@ -96,23 +96,23 @@ bool may_stand_in(std::string_view name, std::string_view parent, std::string_vi
   return false;
 }
 
-/// Walks the elements before the data.
+/// Visits the elements that precede the data.
 class Layout {
  public:
   explicit Layout(std::string_view text)
       : text_(text), data_(text.find(kAppended)), most_(kMostPacked * static_cast<double>(text.size())) {}
 
   std::string defect() {
-    if (data_ == std::string_view::npos) return "lacks the element of packed data that Cupola writes";
-    if (!text_.starts_with(kStart)) return "does not begin as Cupola writes";
+    if (data_ == std::string_view::npos) return "has no element of appended data: not a file written by Cupola";
+    if (!text_.starts_with(kStart)) return "does not begin like a file written by Cupola";
     for (size_t open = kStart.size(); open < data_; open = text_.find('<', open + 1)) {
       const std::optional<Tag> tag = parse_tag(text_.substr(open, data_ - open));
-      if (!tag) return fmt::format("has a broken element at byte {}", open);
+      if (!tag) return fmt::format("has a malformed element at byte {}", open);
       if (std::string why = visit(*tag); !why.empty()) return why;
     }
     if (parents_ != std::vector<std::string_view>{"VTKFile"} || !seen_.contains("Piece") ||
         !seen_.contains("Points"))
-      return "lacks elements that Cupola writes";
+      return "lacks elements of a file written by Cupola";
     return {};
   }
 
@@ -128,7 +128,8 @@ class Layout {
     if (tag.name == "VTKFile") type_ = value(tag, "type");
     if (!may_stand_in(tag.name, parent, type_) || tag.is_whole != is_array) return misplaced(tag);
     if (!is_array && !seen_.insert(tag.name).second) return misplaced(tag);
-    if (!has_its_attributes(tag)) return fmt::format("has an element <{}> as Cupola writes none", tag.name);
+    if (!has_its_attributes(tag))
+      return fmt::format("has an element <{}> with attributes that Cupola does not write", tag.name);
     if (declared(tag) > most_)
       return fmt::format("declares more data than its {} bytes can hold, in <{}>", text_.size(), tag.name);
     if (!tag.is_whole) parents_.push_back(tag.name);
@@ -136,7 +137,7 @@ class Layout {
   }
 
   static std::string misplaced(const Tag& tag) {
-    return fmt::format("has an element <{}{}> where Cupola writes none", tag.closes ? "/" : "", tag.name);
+    return fmt::format("has an element <{}{}> in an unexpected place", tag.closes ? "/" : "", tag.name);
   }
   static std::string_view value(const Tag& tag, std::string_view key) {
     const auto found = tag.attributes.find(key);
@@ -163,7 +164,7 @@ class Layout {
     return tag.attributes.empty();
   }
 
-  /// Values or bytes; infinity where a number makes no sense.
+  /// Number of values or bytes; infinity if a number is invalid.
   double declared(const Tag& tag) const {
     double most = 0.0, values = 1.0;
     for (const auto& [key, value] : tag.attributes) {

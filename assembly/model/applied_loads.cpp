@@ -1,5 +1,7 @@
 #include "assembly/model/applied_loads.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
@@ -14,7 +16,7 @@ struct LoadedFace {
   double area;
 };
 
-/// Faces of one kind on free blocks, of the parts in a range of rings.
+/// Faces of one kind on the free blocks, for parts in a range of rings.
 std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, FaceKind kind, int from_ring, int to_ring) {
   std::vector<LoadedFace> faces;
   for (const Part& part : assembly.parts) {
@@ -29,12 +31,14 @@ std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, FaceKind kind, i
   return faces;
 }
 
-/// Spreads a weight over the top faces by area, as forces along `down` (unit) at the face centroids.
+/// Distributes a weight over the top faces by area, as forces along the unit vector `down` at the face
+/// centroids.
 void add_top_load(const Assembly& assembly, double weight, const Vec3& down, const char* key,
                   std::vector<PointForce>* forces) {
+  CUPOLA_ASSERT(std::abs(down.norm() - 1.0) < 1e-9);
   const std::vector<LoadedFace> faces = faces_of_kind(assembly, FaceKind::top, 0, kLastRing);
   if (faces.empty())
-    throw InputError(fmt::format("loads.{}: the assembly has no top faces to carry it", key));
+    throw InputError(fmt::format("loads.{}: the assembly has no faces of kind top to carry it", key));
   double total_area = 0.0;
   for (const LoadedFace& face : faces) total_area += face.area;
   for (const LoadedFace& face : faces)
@@ -48,7 +52,8 @@ PointForce block_force(const BlockForce& load, const Assembly& assembly, int tim
         fmt::format("loads.forces: block {}: the assembly has blocks 0 to {}", load.block, num_blocks - 1));
   const Block& block = assembly.blocks[load.block];
   if (block.fixed)
-    throw InputError(fmt::format("loads.forces: block {} is fixed and carries no load", load.block));
+    throw InputError(
+        fmt::format("loads.forces: block {} is fixed; apply the force to a free block", load.block));
   return {load.block, load.point.value_or(block.centroid), load.force, time};
 }
 
@@ -56,8 +61,8 @@ void add_face_load(const FaceLoad& load, const Assembly& assembly, int time,
                    std::vector<PointForce>* forces) {
   const std::vector<LoadedFace> faces = faces_of_kind(assembly, load.faces, load.from_ring, load.to_ring);
   if (faces.empty())
-    throw InputError(fmt::format("loads.faces: no free block of rings {} to {} has {} faces", load.from_ring,
-                                 load.to_ring, to_string(load.faces)));
+    throw InputError(fmt::format("loads.faces: no free block in rings {} to {} has faces of kind {}",
+                                 load.from_ring, load.to_ring, to_string(load.faces)));
   for (const LoadedFace& face : faces)
     forces->push_back(
         {face.block, face.centroid, face.area * (load.traction - load.pressure * face.normal), time});

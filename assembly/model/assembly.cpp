@@ -8,7 +8,7 @@
 namespace cupola {
 namespace {
 
-/// Integrals over one solid relative to a fixed point: volume, first and second moments.
+/// Volume, first and second moments of one solid, relative to a fixed point.
 struct Moments {
   double volume = 0.0;
   Vec3 first = Vec3::Zero();
@@ -60,7 +60,8 @@ void Assembly::add_face(std::span<const int> vertex_ids, FaceKind kind) {
 }
 
 Plane polygon_plane(std::span<const Vec3> polygon) {
-  // Coordinates relative to the first vertex: the normal keeps its digits far from the origin.
+  // Coordinates relative to the first vertex keep the normal accurate far from the origin.
+  CUPOLA_ASSERT(polygon.size() >= 3);
   const Vec3& origin = polygon[0];
   Vec3 normal = Vec3::Zero();
   Vec3 mean = Vec3::Zero();
@@ -104,6 +105,7 @@ std::vector<Vec3> face_points(const Assembly& assembly, int face) {
 }
 
 SolidProperties solid_properties(const Assembly& assembly, const Part& part) {
+  CUPOLA_ASSERT(part.num_faces >= 4 && part.face_start + part.num_faces <= assembly.num_faces());
   Moments moments;
   const Vec3 origin = first_vertex(assembly, part);
   add_part(assembly, part, origin, &moments);
@@ -123,12 +125,14 @@ void compute_mass_properties(Assembly* assembly) {
     if (!first_part[b]) throw InputError(fmt::format("block {}: has no parts", b));
     const SolidProperties solid = moments[b].about_centroid(first_vertex(*assembly, *first_part[b]));
     if (!(solid.volume > 0.0))
-      throw InputError(
-          fmt::format("block {}: volume {} m3, must be > 0 (inside out or degenerate)", b, solid.volume));
+      throw InputError(fmt::format(
+          "block {}: volume {} m3, must be > 0; the block is degenerate or its faces point inwards", b,
+          solid.volume));
     block.volume = solid.volume;
     block.centroid = solid.centroid;
     block.mass = block.density * solid.volume;
     block.inertia = block.density * solid.inertia;
+    CUPOLA_ASSERT(block.centroid.allFinite() && block.inertia.allFinite());
   }
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
@@ -21,6 +23,7 @@ double at(const HarmonicInTime& wave, double time) {
 }
 
 double at(const TableInTime& table, double time) {
+  CUPOLA_ASSERT(table.times.size() == table.values.size());
   if (table.times.empty()) return 0.0;
   if (time <= table.times.front()) return table.values.front();
   if (time >= table.times.back()) return table.values.back();

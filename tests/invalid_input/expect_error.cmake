@@ -1,17 +1,18 @@
-# Runs PROGRAM on CASE, with ARGUMENTS if any, and demands exit code 2, one line on stderr that holds EXPECTED and PHRASE, and no OUTPUT.
+# Runs PROGRAM on CASE, with optional ARGUMENTS. Requires exit code 2, one line on stderr that contains EXPECTED and
+# PHRASE, and no OUTPUT.
 file(REMOVE ${OUTPUT})
 execute_process(COMMAND ${PROGRAM} ${CASE} --output ${OUTPUT} ${ARGUMENTS} RESULT_VARIABLE code ERROR_VARIABLE message)
 if(NOT code EQUAL 2)
-  message(FATAL_ERROR "exit code ${code}, not 2: ${message}")
+  message(FATAL_ERROR "exit code ${code}, expected 2: ${message}")
 endif()
 foreach(part IN ITEMS "${EXPECTED}" "${PHRASE}")
   string(FIND "${message}" "${part}" at)
   if(at EQUAL -1)
-    message(FATAL_ERROR "not in the message:\n  ${part}\nthe message:\n  ${message}")
+    message(FATAL_ERROR "the message does not contain\n  ${part}\nmessage:\n  ${message}")
   endif()
 endforeach()
 if(NOT message MATCHES "^[^\n]*\n$")
-  message(FATAL_ERROR "not one line:\n${message}")
+  message(FATAL_ERROR "the message is not one line:\n${message}")
 endif()
 if(EXISTS ${OUTPUT})
   message(FATAL_ERROR "${OUTPUT} was written")

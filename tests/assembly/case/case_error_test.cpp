@@ -7,7 +7,7 @@
 namespace cupola::case_error_test {
 namespace {
 
-/// A valid case, with text put in place of the marked lines.
+/// The message of the error that reading this case file raises, without the folder.
 std::string message_for(const std::string& text, const std::vector<std::string>& set_options = {}) {
   const ScratchFolder scratch;
   const std::string path = scratch.write("bad.yaml", text);
@@ -32,17 +32,17 @@ const std::string kGood =
 struct BadCase {
   std::string name;
   std::string text;
-  std::string expected;  ///< how the message begins: lists of valid names after it grow with the program
+  std::string expected;  ///< start of the message; lists of valid names may follow
 };
 
 class BadCaseFile : public ::testing::TestWithParam<BadCase> {};
 
-/// Names the case in test listings.
+/// Name of the case in test listings.
 void PrintTo(const BadCase& bad, std::ostream* out) {
   *out << bad.name;
 }
 
-TEST_P(BadCaseFile, GetsOneClearLine) {
+TEST_P(BadCaseFile, GivesOneLineWithPlaceKeyAndRule) {
   const std::string message = message_for(GetParam().text);
   EXPECT_EQ(message.substr(0, GetParam().expected.size()), GetParam().expected) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -56,7 +56,7 @@ const BadCase kBadCases[] = {
     {"Infinite", kGood + "  friction: inf\n",
      "bad.yaml:6:13: error: joints.friction = inf: must be a finite number"},
     {"Overflow", kGood + "  friction: 1e400\n",
-     "bad.yaml:6:13: error: joints.friction = 1e400: does not fit in double precision"},
+     "bad.yaml:6:13: error: joints.friction = 1e400: exceeds the range of double precision"},
     {"Hexadecimal", kGood + "  friction: 0x10\n",
      "bad.yaml:6:13: error: joints.friction = 0x10: must be a number"},
     {"YesIsNoNumber", kGood + "  friction: yes\n",
@@ -66,20 +66,21 @@ const BadCase kBadCases[] = {
     {"ListForNumber", kGood + "  friction: [0.4]\n",
      "bad.yaml:6:13: error: joints.friction = [...]: must be a single value"},
     {"EmptyValue", kGood + "  friction:\n",
-     "bad.yaml:6:3: error: joints.friction is empty: give a value or leave the key out"},
+     "bad.yaml:6:3: error: joints.friction is empty: give a value or remove the key"},
     {"UnknownKey", kGood + "  frictoin: 0.4\n",
-     "bad.yaml:6:3: error: joints.frictoin: unknown key, did you mean friction?; valid here: friction, "
+     "bad.yaml:6:3: error: joints.frictoin: unknown key; did you mean friction? Valid keys here: friction, "
      "compliance"},
     {"UnknownSection", kGood + "walls: 3\n",
-     "bad.yaml:6:1: error: walls: unknown key; valid here: title, geometry, "},
+     "bad.yaml:6:1: error: walls: unknown key. Valid keys here: title, geometry, "},
     {"UnknownPreset", kGood + "analysis: {accuracy: drat}\n",
-     "bad.yaml:6:22: error: analysis.accuracy = drat: did you mean draft? must be one of custom, draft, "},
+     "bad.yaml:6:22: error: analysis.accuracy = drat: did you mean draft? It must be one of custom, draft, "},
     {"WrenchErrorOfMotion", kGood + "analysis: {type: dynamic, accuracy: {wrench_error: 1e-3}}\n",
-     "bad.yaml:6:37: error: analysis.accuracy = {...}: wrench_error serves a static analysis"},
+     "bad.yaml:6:37: error: analysis.accuracy = {...}: wrench_error is for static analysis only"},
     {"MisspeltChoice", kGood + "analysis: {type: dinamic}\n",
-     "bad.yaml:6:18: error: analysis.type = dinamic: did you mean dynamic? must be one of static, dynamic, "},
+     "bad.yaml:6:18: error: analysis.type = dinamic: did you mean dynamic? It must be one of static, "
+     "dynamic, "},
     {"DuplicateKey", kGood + "joints: {}\n",
-     "bad.yaml:6:1: error: the key joints is given twice, first in line 4"},
+     "bad.yaml:6:1: error: the key joints is given twice, first on line 4"},
     {"BothWeights", kGood + "material: {unit_weight: 1, density: 1}\n",
      "bad.yaml:6:37: error: material.density = 1: give unit_weight or density, not both"},
     {"ZeroWeight", kGood + "material: {unit_weight: 0}\n",
@@ -87,23 +88,25 @@ const BadCase kBadCases[] = {
     {"TwoGravityNumbers", kGood + "loads: {gravity: [0, 1]}\n",
      "bad.yaml:6:18: error: loads.gravity = [...]: must be a list of three numbers, [x, y, z]"},
     {"MissingPer", "geometry: {surface: {type: dome}, bond: {type: running}}\n",
-     "bad.yaml:1:1: error: joints.compliance.per is missing: it has no default; one of point, area"},
+     "bad.yaml:1:1: error: joints.compliance.per is missing and has no default; give one of point, area"},
     {"MissingSurfaceType", "geometry: {surface: {span: 3}}\n",
-     "bad.yaml:1:21: error: geometry.surface.type is missing: it has no default; one of dome, "},
+     "bad.yaml:1:21: error: geometry.surface.type is missing and has no default; give one of dome, "},
     {"MisspeltType", "geometry: {surface: {typ: dome}}\n",
-     "bad.yaml:1:21: error: geometry.surface.type is missing: it has no default; one of dome, "
+     "bad.yaml:1:21: error: geometry.surface.type is missing and has no default; give one of dome, "
      "octagonal_vault, arch, "
-     "wall; typ is misspelt"},
+     "wall; is typ a misspelling of it?"},
     {"MissingRequiredNumber", kGood + "loads: {lantern: {}}\n",
-     "bad.yaml:6:18: error: loads.lantern.weight_fraction is missing: it has no default"},
+     "bad.yaml:6:18: error: loads.lantern.weight_fraction is missing and has no default"},
     {"KeyOfAnotherType", "geometry: {surface: {type: wall, span: 3}}\n",
-     "bad.yaml:1:34: error: geometry.surface.span: unknown key; valid here: type, length, height, thickness"},
+     "bad.yaml:1:34: error: geometry.surface.span: unknown key. Valid keys here: type, length, height, "
+     "thickness"},
     {"ZeroRings", "geometry: {surface: {type: dome}, bond: {type: running, rings: 0}}\n",
      "bad.yaml:1:64: error: geometry.bond.rings = 0: must be >= 1 and <= 100000"},
     {"FractionOfRing", "geometry: {surface: {type: dome}, bond: {type: running, rings: 3.5}}\n",
      "bad.yaml:1:64: error: geometry.bond.rings = 3.5: must be a whole number"},
     {"OddSlices", "geometry: {surface: {type: dome}, bond: {type: running, slices_per_block: 3}}\n",
-     "bad.yaml:1:75: error: geometry.bond.slices_per_block = 3: must be even: odd rings are shifted by half "
+     "bad.yaml:1:75: error: geometry.bond.slices_per_block = 3: must be even, because odd rings are shifted "
+     "by half "
      "a block"},
     {"TooManyCells",
      "geometry: {surface: {type: dome}, bond: {type: running, rings: 100000, blocks_per_ring: 9999}}\n",
@@ -112,57 +115,57 @@ const BadCase kBadCases[] = {
     {"TooFewAround", "geometry: {surface: {type: dome}, bond: {type: running, blocks_per_ring: 2}}\n",
      "bad.yaml:1:41: error: geometry.bond = {...}: bond.blocks_per_ring must be >= 3 on a closed ring"},
     {"MeridianNotAMap", kGood + "postproc: {meridians: [mid_sail]}\n",
-     "bad.yaml:6:24: error: postproc.meridians[0] = mid_sail: must be a map of keys"},
+     "bad.yaml:6:24: error: postproc.meridians[0] = mid_sail: must be a map, {key: value}"},
     {"MeridianOutside", kGood + "postproc: {meridians: [{name: ../../rib, azimuth_deg: 0}]}\n",
-     "bad.yaml:6:31: error: postproc.meridians[0].name = ../../rib: may hold letters, digits, _ and - only"},
+     "bad.yaml:6:31: error: postproc.meridians[0].name = ../../rib: may contain only letters, digits, _ and "
+     "-"},
     {"MeridianWithACommand",
      kGood + "postproc: {meridians: [{name: \"a\\nsystem('touch x')\", azimuth_deg: 0}]}\n",
-     "bad.yaml:6:31: error: postproc.meridians[0].name = \"a?system('touch x')\": may hold letters, digits, "
-     "_ "
-     "and - only"},
+     "bad.yaml:6:31: error: postproc.meridians[0].name = \"a?system('touch x')\": may contain only letters, "
+     "digits, _ and -"},
     {"NotAMap", "- a\n- b\n", "bad.yaml:1:1: error: a case file is a map of sections, `key: value`"},
     {"Empty", "", "bad.yaml: error: the file is empty"},
     {"OnlyComment", "# nothing\n", "bad.yaml: error: the file is empty"},
     {"TwoDocuments", kGood + "---\ntitle: x\n",
-     "bad.yaml:7:1: error: a second document starts here; a case is one document"},
+     "bad.yaml:7:1: error: a second YAML document starts here; a case file holds only one"},
     {"Anchor", "title: &a x\n",
      "bad.yaml:1:8: error: anchors (&) and aliases (*) are not allowed; use `extends`"},
     {"Alias", "title: *a\n", "bad.yaml:1:8: error: not valid YAML: the referenced anchor is not defined"},
     {"Tag", "title: !!binary aGk=\n", "bad.yaml:1:8: error: the tag tag:yaml.org,2002:binary is not allowed"},
-    {"Tab", "joints:\n\tfriction: 1\n", "bad.yaml:2:1: error: a tab indents the line; use spaces"},
+    {"Tab", "joints:\n\tfriction: 1\n", "bad.yaml:2:1: error: the line is indented with a tab; use spaces"},
     {"NotUtf8", "title: caf\xe9\n", "bad.yaml:1:11: error: not UTF-8 text"},
     {"ControlCharacter", "title: a\x01z\n", "bad.yaml:1:9: error: control character 0x01"},
     {"UnclosedList", "title: [1, 2\n", "bad.yaml:2:1: error: not valid YAML: end of sequence flow not found"},
-    {"MapAsKey", "{{a: b}: c}\n", "bad.yaml:1:2: error: a key must be a word"},
+    {"MapAsKey", "{{a: b}: c}\n", "bad.yaml:1:2: error: a key must be a name, not a list or a map"},
     {"DeepNesting", std::string(5000, '[') + std::string(5000, ']'),
      "bad.yaml:1:33: error: nested deeper than 32 levels"},
     {"Circle", "extends: bad.yaml\n",
      "bad.yaml:1:10: error: extends = bad.yaml: the files extend one another in a circle"},
     {"ExtendsNothing", "extends: none.yaml\n", "bad.yaml:1:10: error: extends = none.yaml: no such file"},
     {"Escape", "extends: ../../etc/passwd\n",
-     "bad.yaml:1:10: error: ../../etc/passwd: an input may only name files in or below the folder of the "
-     "case"},
+     "bad.yaml:1:10: error: ../../etc/passwd: the file must lie in or below the folder of the case"},
     {"EscapeAbsolute", "extends: /etc/passwd\n",
-     "bad.yaml:1:10: error: /etc/passwd: an input may only name files in or below the folder of the case"},
+     "bad.yaml:1:10: error: /etc/passwd: the file must lie in or below the folder of the case"},
 };
 
 INSTANTIATE_TEST_SUITE_P(CaseReader, BadCaseFile, ::testing::ValuesIn(kBadCases),
                          [](const auto& bad) { return bad.param.name; });
 
-TEST(SetOption, ErrorsNameTheOption) {
+TEST(SetOption, ErrorsStartWithTheOption) {
   EXPECT_EQ(message_for(kGood, {"joints.friction=-1"}),
             "--set joints.friction=-1: error: joints.friction = -1: must be >= 0");
   EXPECT_EQ(message_for(kGood, {"joints.friction"}),
             "--set joints.friction: error: must be key.path=value, for example joints.friction=0.3");
   EXPECT_EQ(message_for(kGood, {"joints..friction=1"}),
-            "--set joints..friction=1: error: the key path has an empty part");
-  EXPECT_EQ(message_for(kGood, {".joints=1"}), "--set .joints=1: error: the key path has an empty part");
+            "--set joints..friction=1: error: the key path has an empty part; write key.path=value");
+  EXPECT_EQ(message_for(kGood, {".joints=1"}),
+            "--set .joints=1: error: the key path has an empty part; write key.path=value");
   EXPECT_EQ(message_for(kGood, {"joint.friction=1"})
-                .find("--set joint.friction=1: error: joint: unknown key, did you mean joints?"),
+                .find("--set joint.friction=1: error: joint: unknown key; did you mean joints?"),
             0u);
 }
 
-TEST(ExtendsChain, AFolderLinkCannotLeadOutside) {
+TEST(ExtendsChain, SymbolicLinkOutOfTheFolderIsRefused) {
   const ScratchFolder scratch;
   scratch.write("outside/secret.yaml", kGood);
   std::filesystem::create_directories(scratch.file("case"));
@@ -171,7 +174,7 @@ TEST(ExtendsChain, AFolderLinkCannotLeadOutside) {
   EXPECT_THROW(read_case(path), InputError);
 }
 
-TEST(ExtendsChain, EndsAfterSixteenFiles) {
+TEST(ExtendsChain, IsLimitedToSixteenFiles) {
   const ScratchFolder scratch;
   for (int i = 0; i < 40; ++i)
     scratch.write(std::to_string(i) + ".yaml", "extends: " + std::to_string(i + 1) + ".yaml\n");
@@ -184,7 +187,7 @@ TEST(ExtendsChain, EndsAfterSixteenFiles) {
   }
 }
 
-TEST(MissingFile, IsNamed) {
+TEST(MissingFile, IsNamedInTheError) {
   try {
     read_case("no/such/case.yaml");
     FAIL();

@@ -13,7 +13,7 @@ const char* const kWall = R"(geometry:
   bond: {type: running, rings: 2, blocks_per_ring: 2}
 )";
 
-TEST(ReadMotion, TakesJointLawsPerKindAndRing) {
+TEST(ReadMotion, ReadsJointLawsPerKindAndRing) {
   const ScratchFolder scratch;
   const Case c = read_case(scratch.write("a.yaml", std::string(kWall) + R"(joints:
   compliance: {per: point}
@@ -35,7 +35,7 @@ TEST(ReadMotion, TakesJointLawsPerKindAndRing) {
   EXPECT_DOUBLE_EQ(factor_at(c.joints.friction_time, 1.0), 0.75);
 }
 
-TEST(ReadMotion, TakesLoadsTiesAndSupports) {
+TEST(ReadMotion, ReadsLoadsTiesAndSupports) {
   const ScratchFolder scratch;
   scratch.write("shake.csv", "0 0\n1 2\n");
   const Case c = read_case(scratch.write("a.yaml", std::string(kWall) + R"(joints: {compliance: {per: point}}
@@ -64,8 +64,8 @@ analysis: {type: dynamic, start: static, adaptive: {largest: 0.02}, stop: {settl
   EXPECT_EQ(c.analysis.stop.settled_time, 0.5);
 }
 
-/// What run.yaml keeps is the same case again.
-TEST(ReadMotion, EffectiveOptionsReadBack) {
+/// The options written to run.yaml describe the same case.
+TEST(ReadMotion, EffectiveOptionsReadBackAsTheSameCase) {
   const ScratchFolder scratch;
   const Case c = read_case(scratch.write(
       "a.yaml", std::string(kWall) + R"(joints: {compliance: {per: point}, base: {friction: 0.7}}
@@ -82,7 +82,7 @@ struct BadMotion {
   const char* phrase;
 };
 
-TEST(ReadMotion, SaysWhatIsWrong) {
+TEST(ReadMotion, ErrorsNameTheBrokenRule) {
   const ScratchFolder scratch;
   scratch.write("bad.csv", "0 0\n0 1\n");
   for (const BadMotion& bad : std::initializer_list<BadMotion>{

@@ -27,7 +27,7 @@ const char* const kWall = R"(geometry:
 joints: {compliance: {per: area}}
 )";
 
-TEST(ReadCase, TakesEveryValueOfTheFile) {
+TEST(ReadCase, ReadsEveryValueOfTheFile) {
   const ScratchFolder scratch;
   const Case c = read_case(scratch.write("dome.yaml", kDome));
   EXPECT_EQ(c.title, "A dome: 40 x 32");
@@ -57,7 +57,7 @@ TEST(ReadCase, KeepsTheDefaultsOfTheStructs) {
   EXPECT_FALSE(c.geometry.stage);
 }
 
-TEST(ReadCase, APresetSettlesTheTolerance) {
+TEST(ReadCase, APresetSetsTheTolerance) {
   const ScratchFolder scratch;
   const std::string own = std::string(kWall) + "analysis: {tolerance: 1e-7}\n";
   EXPECT_EQ(read_case(scratch.write("own.yaml", own)).analysis.tolerance, 1e-7);
@@ -71,7 +71,7 @@ TEST(ReadCase, APresetSettlesTheTolerance) {
   }
 }
 
-TEST(ReadCase, AccuracyMayAskForAnErrorInsteadOfAPreset) {
+TEST(ReadCase, AccuracyAcceptsAWrenchErrorInsteadOfAPreset) {
   const ScratchFolder scratch;
   const Case c = read_case(
       scratch.write("asked.yaml", std::string(kWall) + "analysis: {accuracy: {wrench_error: 1e-3}}\n"));
@@ -80,7 +80,7 @@ TEST(ReadCase, AccuracyMayAskForAnErrorInsteadOfAPreset) {
   EXPECT_EQ(read_case(scratch.write("again.yaml", c.effective_yaml)).analysis.accuracy.wrench_error, 1e-3);
 }
 
-TEST(ReadCase, EffectiveYamlReadsBackToTheSameCase) {
+TEST(ReadCase, EffectiveYamlReadsBackAsTheSameCase) {
   const ScratchFolder scratch;
   for (const char* text : {kDome, kWall}) {
     const Case first = read_case(scratch.write("first.yaml", text));
@@ -91,7 +91,7 @@ TEST(ReadCase, EffectiveYamlReadsBackToTheSameCase) {
   }
 }
 
-TEST(ReadCase, TextSurvivesTheEffectiveYaml) {
+TEST(ReadCase, TextRoundTripsThroughTheEffectiveYaml) {
   const ScratchFolder scratch;
   const Case first =
       read_case(scratch.write("a.yaml", std::string(kWall) + "title: \"<b>\\\"x\\\" \\\\ # é\\n: yes\"\n"));
@@ -107,7 +107,7 @@ TEST(ReadCase, DensityIsUnitWeightOverStandardGravity) {
   EXPECT_DOUBLE_EQ(c.material.unit_weight, 17658.0);
 }
 
-TEST(ReadCase, HashSeesValuesNotSpelling) {
+TEST(ReadCase, HashDependsOnValuesAndNotOnSpelling) {
   const ScratchFolder scratch;
   const std::string path = scratch.write("dome.yaml", kDome);
   const Case plain = read_case(path);
@@ -119,7 +119,7 @@ TEST(ReadCase, HashSeesValuesNotSpelling) {
   EXPECT_NE(plain.geometry_hash, read_case(path, {"material.density=1800"}).geometry_hash);
 }
 
-TEST(ReadCase, SetOptionsOverrideInOrderAndTakeYaml) {
+TEST(ReadCase, SetOptionsOverrideInOrderAndAcceptYaml) {
   const ScratchFolder scratch;
   const std::string path = scratch.write("dome.yaml", kDome);
   const Case c = read_case(path, {"joints.friction=0.1", "joints.friction=0.2", "loads.gravity=[1, 0, -9]",
@@ -131,7 +131,7 @@ TEST(ReadCase, SetOptionsOverrideInOrderAndTakeYaml) {
   EXPECT_FALSE(c.loads.lantern);
 }
 
-TEST(ReadCase, AnotherTypeReplacesTheKeysOfTheFirst) {
+TEST(ReadCase, ADifferentTypeReplacesTheKeysOfTheOldType) {
   const ScratchFolder scratch;
   const std::string path = scratch.write("dome.yaml", kDome);
   const Case c = read_case(path, {"geometry.surface.length=5", "geometry.surface.type=wall"});
@@ -141,7 +141,7 @@ TEST(ReadCase, AnotherTypeReplacesTheKeysOfTheFirst) {
   EXPECT_EQ(dynamic.analysis.tolerance, 1e-6);
 }
 
-TEST(Extends, ChangesWhatIsNamedAndKeepsTheRest) {
+TEST(Extends, OverridesTheKeysGivenAndKeepsTheOthers) {
   const ScratchFolder scratch;
   scratch.write("base/dome.yaml", kDome);
   scratch.write("middle.yaml", "extends: base/dome.yaml\njoints: {friction: 0.5}\n");
@@ -151,7 +151,7 @@ TEST(Extends, ChangesWhatIsNamedAndKeepsTheRest) {
   EXPECT_EQ(c.analysis.type, AnalysisType::dynamic);
 }
 
-TEST(Extends, ErrorNamesTheFileThatSaysIt) {
+TEST(Extends, ErrorNamesTheFileThatContainsIt) {
   const ScratchFolder scratch;
   scratch.write("dome.yaml", std::string(kDome) + "output: {frames_every: 0}\n");
   const std::string top = scratch.write("top.yaml", "extends: dome.yaml\n");

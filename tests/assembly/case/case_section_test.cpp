@@ -18,7 +18,7 @@ std::string message_of(const std::function<void()>& body) {
   return "no error";
 }
 
-TEST(SectionFile, OpensWhatLiesBelowTheCaseAndNothingElse) {
+TEST(SectionFile, OpensOnlyFilesInOrBelowTheFolderOfTheCase) {
   const ScratchFolder scratch;
   const std::string case_file = scratch.write("case.yaml", "");
   scratch.write("meshes/block.obj", "");
@@ -32,13 +32,12 @@ TEST(SectionFile, OpensWhatLiesBelowTheCaseAndNothingElse) {
   EXPECT_EQ(read("mesh: meshes/block.obj"), scratch.file("meshes/block.obj"));
   EXPECT_EQ(read("mesh: meshes/../meshes/block.obj"), scratch.file("meshes/../meshes/block.obj"));
   EXPECT_EQ(message_of([&] { read("mesh: meshes/none.obj"); }),
-            "case.yaml:1:7: error: geometry.mesh = meshes/none.obj: no such file beside the case");
+            "case.yaml:1:7: error: geometry.mesh = meshes/none.obj: no such file in the folder of the case");
   EXPECT_EQ(message_of([&] { read("mesh: ../../etc/passwd"); }),
-            "case.yaml:1:7: error: ../../etc/passwd: an input may only name files in or below the folder of "
-            "the case");
+            "case.yaml:1:7: error: ../../etc/passwd: the file must lie in or below the folder of the case");
 }
 
-TEST(SectionFlag, TakesTrueAndFalseOnly) {
+TEST(SectionFlag, AcceptsOnlyTrueAndFalse) {
   const auto read = [](const std::string& text) {
     const CaseNode tree = parse_yaml(text, "case.yaml");
     Section s(&tree, "", tree.where, "case.yaml");
@@ -51,7 +50,7 @@ TEST(SectionFlag, TakesTrueAndFalseOnly) {
   EXPECT_EQ(message_of([&] { read("on: yes"); }), "case.yaml:1:5: error: on = yes: must be true or false");
 }
 
-TEST(Scalar, NumbersKeepTheirBits) {
+TEST(Scalar, NumbersSurviveARoundTripBitForBit) {
   for (const double value : {0.1, 1.0 / 3.0, 1e-8, -2.5e300, 5e-324, 17658.000000000004}) {
     double again = 0.0;
     EXPECT_EQ(read_number(format_number(value), &again), "");
@@ -67,7 +66,7 @@ TEST(Scalar, MinusZeroIsZero) {
   EXPECT_FALSE(std::signbit(value));
 }
 
-TEST(Scalar, RefusesWhatIsNotOneDecimalNumber) {
+TEST(Scalar, RefusesTextThatIsNotOneDecimalNumber) {
   for (const char* text :
        {"", "+", "-", "+-1", "1 2", "1,5", "1_000", "0x1p3", "1e", "nan(1)", "infinity", "--1"}) {
     double value = 0.0;

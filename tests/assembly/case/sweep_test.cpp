@@ -1,4 +1,4 @@
-// A case's sweep: members, their names, and what it does not change.
+// The sweep of a case: its members, their names, and that it leaves the hash of the case unchanged.
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
@@ -8,7 +8,7 @@
 namespace cupola::sweep_test {
 namespace {
 
-TEST(Sweep, CombinesEveryValueOfAKeyWithEveryOneOfTheNext) {
+TEST(Sweep, RunsAllCombinationsOfTheValues) {
   const auto members =
       members_of({{"joints.friction", {"0.1", "0.2"}}, {"analysis.method", {"newton", "spg"}}}, "dome");
   ASSERT_EQ(members.size(), 4u);
@@ -16,18 +16,18 @@ TEST(Sweep, CombinesEveryValueOfAKeyWithEveryOneOfTheNext) {
   EXPECT_EQ(members[2].settings, (std::vector<std::string>{"joints.friction=0.2", "analysis.method=newton"}));
 }
 
-TEST(Sweep, KeysThatEndAlikeAppearWhole) {
+TEST(Sweep, KeysWithTheSameLastWordAppearInFull) {
   const auto members = members_of({{"joints.bed.friction", {"0.1"}}, {"joints.head.friction", {"0.3"}}}, "w");
   EXPECT_EQ(members.front().name, "w_joints.bed.friction0.1_joints.head.friction0.3");
 }
 
-TEST(Sweep, ValuesThatAreNoFileNamesAreRefused) {
+TEST(Sweep, ValuesThatCannotBePartOfAFileNameAreRefused) {
   for (const char* value : {"../a", "a b", "", "$(x)", "a=b"})
     EXPECT_THROW(members_of({{"title", {value}}}, "w"), InputError) << value;
   EXPECT_THROW(members_of({}, "w"), InputError);
 }
 
-TEST(Sweep, IsReadFromTheCaseAndChangesNoRun) {
+TEST(Sweep, DoesNotChangeTheHashOfTheCase) {
   const ScratchFolder scratch;
   const std::string wall =
       "geometry:\n  surface: {type: wall, length: 3}\n  bond: {type: running, rings: 2, blocks_per_ring: 2}\n"

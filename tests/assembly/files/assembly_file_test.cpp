@@ -67,8 +67,6 @@ TEST(AssemblyFile, RoundTripsExactly) {
   EXPECT_EQ(content_hash(a), content_hash(b));
 }
 
-// VTK's hexahedron: four points of one face, then the four across from them. Its edges 0-4, 1-5, 2-6, 3-7 and
-// a positive determinant at point 0 say that the order is right.
 TEST(AssemblyFile, TiesRoundTripExactly) {
   Assembly a = test::two_block_assembly();
   const std::string without = content_hash(a);
@@ -94,6 +92,8 @@ TEST(AssemblyFile, TiesRoundTripExactly) {
   EXPECT_NE(read_error(path).find("tie 0 is invalid"), std::string::npos) << read_error(path);
 }
 
+// A VTK hexahedron lists four points of one face, then the four points across from them. The edges 0-4, 1-5, 2-6,
+// 3-7 and a positive determinant at point 0 show that the order is right.
 TEST(AssemblyFile, BoxesBecomeHexahedraInVtkOrder) {
   const std::string path = test::fresh_folder("a") + "/assembly.vtu";
   write_assembly(path, test::two_block_assembly());
@@ -112,7 +112,7 @@ TEST(AssemblyFile, BoxesBecomeHexahedraInVtkOrder) {
   }
 }
 
-TEST(AssemblyFile, CellDataRepeatTheBlocks) {
+TEST(AssemblyFile, CellDataRepeatTheDataOfTheBlocks) {
   const std::string path = test::fresh_folder("a") + "/assembly.vtu";
   write_assembly(path, test::two_block_assembly());
   const Mesh mesh = read_mesh(path);
@@ -123,7 +123,7 @@ TEST(AssemblyFile, CellDataRepeatTheBlocks) {
   EXPECT_EQ(mesh.array<std::uint8_t>(mesh.cell_data, "fixed", 1), (std::vector<std::uint8_t>{1, 0, 0}));
 }
 
-/// Writes the file with one array changed (its checksum right) and returns what reading it says.
+/// Writes the file with one array changed and a valid checksum; returns the error of reading it.
 template <class T>
 std::string error_with(const std::string& name, bool in_cells,
                        const std::function<void(std::vector<T>*)>& change) {
@@ -136,7 +136,7 @@ std::string error_with(const std::string& name, bool in_cells,
   return read_error(path);
 }
 
-TEST(AssemblyFile, InconsistentContentIsNamed) {
+TEST(AssemblyFile, ErrorsNameInconsistentContent) {
   using Ints = std::vector<std::int32_t>;
   using Doubles = std::vector<double>;
   const auto has = [](const std::string& message, const std::string& part) {
@@ -155,7 +155,7 @@ TEST(AssemblyFile, InconsistentContentIsNamed) {
       has(error_with<int>("face_vertices", false, [](Ints* v) { (*v)[3] = 18; }), "face vertex id 18"));
   EXPECT_TRUE(has(error_with<int>("face_vertices", false, [](Ints* v) { (*v)[3] = -1; }), "face vertex id"));
   EXPECT_TRUE(has(error_with<int>("face_vertex_start", false, [](Ints* v) { (*v)[1] = 1 << 30; }), "face 0"));
-  // Faces whose numbers of corners are positive only because their differences overflow.
+  // Faces whose numbers of corners are positive only because the differences overflow.
   EXPECT_TRUE(has(error_with<int>("face_vertex_start", false,
                                   [](Ints* v) {
                                     (*v)[1] = 1'500'000'000;
@@ -169,12 +169,12 @@ TEST(AssemblyFile, InconsistentContentIsNamed) {
   EXPECT_TRUE(has(error_with<double>("block_density", false, [](Doubles* v) { (*v)[1] = -1; }),
                   "block 1 is invalid"));
   EXPECT_TRUE(has(error_with<double>("block_mass", false, [](Doubles* v) { v->pop_back(); }),
-                  "`block_mass` has 1 values, must have 2"));
+                  "`block_mass` has 1 values, expected 2"));
   EXPECT_TRUE(
       has(error_with<double>("block_density", false, [](Doubles* v) { (*v)[1] *= 2; }), "content_hash"));
 }
 
-TEST(AssemblyFile, AnotherMeshIsRefused) {
+TEST(AssemblyFile, AMeshThatIsNoAssemblyIsRefused) {
   const std::string path = test::fresh_folder("a") + "/mesh.vtu";
   Mesh mesh;
   for (int i = 0; i < 8; ++i) mesh.add_point((i + 1) / 2 % 2, i / 2 % 2, i / 4);

@@ -62,7 +62,7 @@ Mesh solid_mesh() {
   return mesh;
 }
 
-/// What reading the file throws, or "" when it does not.
+/// The message of the error that reading the file raises, or "" if there is none.
 std::string read_error(const std::string& path) {
   try {
     read_mesh(path);
@@ -72,7 +72,7 @@ std::string read_error(const std::string& path) {
   return "";
 }
 
-/// Without the flush to the disk that write_text_atomically waits for.
+/// Writes without the flush to disk of write_text_atomically, to save time.
 void write_plainly(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
@@ -89,7 +89,7 @@ TEST(MeshFile, SolidCellsRoundTripExactly) {
   expect_same_mesh(read_mesh(path), solid_mesh());
 }
 
-TEST(MeshFile, NotANumberAndInfinitySurvive) {
+TEST(MeshFile, NanAndInfinityRoundTrip) {
   const std::string path = test::fresh_folder("a") + "/mesh.vtp";
   Mesh mesh;
   mesh.add_point(0, 0, 0);
@@ -117,7 +117,7 @@ TEST(MeshFile, WritesTheSameBytesTwice) {
   EXPECT_EQ(read_text(folder + "/1.vtu"), read_text(folder + "/2.vtu"));
 }
 
-TEST(MeshFile, EveryTruncationIsAnInputErrorWithoutNoise) {
+TEST(MeshFile, EveryTruncationIsAnInputErrorAndPrintsNothing) {
   const std::string folder = test::fresh_folder("a");
   write_mesh(folder + "/mesh.vtu", solid_mesh());
   const std::string text = read_text(folder + "/mesh.vtu");
@@ -130,7 +130,7 @@ TEST(MeshFile, EveryTruncationIsAnInputErrorWithoutNoise) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(MeshFile, EveryChangedByteIsAnInputErrorWithoutNoise) {
+TEST(MeshFile, EveryChangedByteIsAnInputErrorAndPrintsNothing) {
   const std::string folder = test::fresh_folder("a");
   write_mesh(folder + "/mesh.vtp", polygonal_mesh());
   const std::string text = read_text(folder + "/mesh.vtp");
@@ -144,7 +144,7 @@ TEST(MeshFile, EveryChangedByteIsAnInputErrorWithoutNoise) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-// Counts that make no sense, in a file whose checksum is gone or no longer fits.
+// Invalid counts, in a file whose checksum is missing or does not match.
 TEST(MeshFile, EditedCountsAreRefused) {
   const std::string folder = test::fresh_folder("a");
   write_mesh(folder + "/mesh.vtu", solid_mesh());
@@ -160,8 +160,8 @@ TEST(MeshFile, EditedCountsAreRefused) {
   }
 }
 
-/// What reading says of the file when its start is followed by other text (to the next quote, or as long),
-/// with a right checksum below.
+/// The error of reading the file after the text that follows `start` is replaced (up to the next quote, or the same
+/// length), with a valid checksum.
 std::string error_of_forged(const std::string& text, const std::string& start, const std::string& other) {
   const std::string path = test::fresh_folder("forged") + "/forged.vtu";
   std::string body = text.substr(0, text.rfind("<!--"));
@@ -171,19 +171,19 @@ std::string error_of_forged(const std::string& text, const std::string& start, c
   return read_error(path);
 }
 
-// VTK takes the memory that a file declares before it reads on.
-TEST(MeshFile, DeclaredSizesAreCheckedEvenUnderARightChecksum) {
+// VTK allocates the memory that a file declares before it reads the data.
+TEST(MeshFile, DeclaredSizesAreCheckedDespiteAValidChecksum) {
   const std::string path = test::fresh_folder("a") + "/mesh.vtu";
   write_mesh(path, solid_mesh());
   const std::string text = read_text(path);
-  EXPECT_EQ(error_of_forged(text, "NumberOfPoints=\"", "12"), "");  // as it was
+  EXPECT_EQ(error_of_forged(text, "NumberOfPoints=\"", "12"), "");  // unchanged
   for (const std::string value : {"99999999999999", "-1", "1e308", "nan", "many"}) {
     for (const std::string attribute : {"NumberOfPoints", "NumberOfCells", "offset"}) {
       const std::string error = error_of_forged(text, attribute + "=\"", value);
       EXPECT_NE(error.find("declares more data than its"), std::string::npos) << attribute << ": " << error;
     }
   }
-  // Headers of packed data: 2^56 blocks; one block of 2^56 bytes; and one block, the last of 2^56 bytes.
+  // Headers of compressed data: 2^56 blocks; one block of 2^56 bytes; one block, the last of 2^56 bytes.
   const std::string data = "<AppendedData encoding=\"base64\">\n   _";
   ASSERT_NE(text.find(data), std::string::npos);
   for (const std::string header : {"AAAAAAAAAAEAgAAAAAAAAAgAAAAAAAAA", "AQAAAAAAAAAAAAAAAAAAAQgAAAAAAAAA",
@@ -191,8 +191,8 @@ TEST(MeshFile, DeclaredSizesAreCheckedEvenUnderARightChecksum) {
     EXPECT_NE(error_of_forged(text, data, header).find("declares more data"), std::string::npos) << header;
 }
 
-// VTK ends the process where some elements or attributes are missing.
-TEST(MeshFile, LayoutIsCheckedEvenUnderARightChecksum) {
+// VTK aborts the process if some elements or attributes are missing.
+TEST(MeshFile, LayoutIsCheckedDespiteAValidChecksum) {
   const std::string path = test::fresh_folder("a") + "/mesh.vtu";
   write_mesh(path, solid_mesh());
   const std::string text = read_text(path);
@@ -218,12 +218,12 @@ TEST(MeshFile, LayoutIsCheckedEvenUnderARightChecksum) {
     EXPECT_NE(with(from, to).find(" element"), std::string::npos) << from << ": " << with(from, to);
 }
 
-TEST(MeshFile, MissingOrForeignFileIsNamed) {
+TEST(MeshFile, ErrorsNameAMissingOrForeignFile) {
   const std::string folder = test::fresh_folder("a");
   EXPECT_NE(read_error(folder + "/none.vtu").find("none.vtu: error: does not exist"), std::string::npos);
   write_text_atomically(folder + "/foreign.vtp", "hello");
   EXPECT_NE(read_error(folder + "/foreign.vtp").find("is not a VTK XML file"), std::string::npos);
-  // A .vtp under the name of a .vtu.
+  // A .vtp file with the extension .vtu.
   write_mesh(folder + "/mesh.vtp", polygonal_mesh());
   write_text_atomically(folder + "/mesh.vtu", read_text(folder + "/mesh.vtp"));
   EXPECT_NE(read_error(folder + "/mesh.vtu"), "");
@@ -245,11 +245,11 @@ TEST(MeshFile, ArrayErrorsNameFileAndArray) {
   EXPECT_EQ(message([&] { mesh.array<double>(mesh.point_data, "nothing", 1); }),
             path + ": error: array `nothing` is missing");
   EXPECT_EQ(message([&] { mesh.array<double>(mesh.point_data, "ids", 1); }),
-            path + ": error: array `ids` must be of type Float64");
+            path + ": error: array `ids` must have the type Float64");
   EXPECT_EQ(message([&] { mesh.array<double>(mesh.cell_data, "vector", 1); }),
-            path + ": error: array `vector` has 3 components, must have 1");
+            path + ": error: array `vector` has 3 components, expected 1");
   EXPECT_EQ(message([&] { mesh.field<std::string>("texts"); }),
-            path + ": error: field `texts` has 3 values, must have 1");
+            path + ": error: field `texts` has 3 values, expected 1");
 }
 
 TEST(MeshFile, FailedWriteKeepsTheOldFile) {

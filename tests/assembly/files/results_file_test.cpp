@@ -108,7 +108,7 @@ TEST(ResultsFile, FramesRoundTripExactly) {
   expect_equal(reader.read_frame(1), two_block_frame(1.0 / 3.0));
 }
 
-TEST(ResultsFile, TextFilesAreTheBytesThatWereWritten) {
+TEST(ResultsFile, TextFilesThatChangedAreRefused) {
   const std::string folder = test::fresh_folder("texts"), hash = example_summary().assembly_hash;
   ResultsWriter writer(folder, hash);
   writer.write_frame(two_block_frame(0.0));
@@ -132,10 +132,10 @@ TEST(ResultsFile, TextFilesAreTheBytesThatWereWritten) {
   EXPECT_NE(error_of("history.csv").find("history.csv: error: is damaged or was edited"), std::string::npos);
   std::filesystem::remove(folder + "/run.yaml");
   EXPECT_NE(error_of("run.yaml").find("run.yaml: error: does not exist"), std::string::npos);
-  EXPECT_NE(error_of("stages.csv").find("is not named in summary.json"), std::string::npos);
+  EXPECT_NE(error_of("stages.csv").find("is not listed in summary.json"), std::string::npos);
 }
 
-TEST(ResultsFile, JointsOfAFrame) {
+TEST(ResultsFile, JointsOfAFrameAreIndexedByJointNumber) {
   const auto joints = joints_of(two_block_frame(0.0).contacts);
   ASSERT_EQ(joints.size(), 2u);
   EXPECT_EQ(joints[1].block_b, 2);
@@ -143,7 +143,7 @@ TEST(ResultsFile, JointsOfAFrame) {
   EXPECT_TRUE(joints_of(ContactTable()).empty());
 }
 
-TEST(ResultsFile, ForeignOrIncompleteFoldersAreNamed) {
+TEST(ResultsFile, ErrorsNameForeignOrIncompleteFolders) {
   const auto has = [](const std::string& message, const std::string& part) {
     return testing::AssertionResult(message.find(part) != std::string::npos) << "got: " << message;
   };
@@ -163,7 +163,7 @@ TEST(ResultsFile, ForeignOrIncompleteFoldersAreNamed) {
   std::filesystem::remove(folder + "/summary.json");
   EXPECT_TRUE(has(open_error(folder, hash), "the run has not finished"));
 
-  // A frame of another run slipped in.
+  // A frame of another run in the folder.
   folder = written_results("e");
   ResultsWriter other(test::fresh_folder("f"), "another hash");
   other.write_frame(two_block_frame(0.0));
@@ -172,7 +172,7 @@ TEST(ResultsFile, ForeignOrIncompleteFoldersAreNamed) {
   EXPECT_TRUE(has(open_error(folder, hash), "blocks_0000.vtp: error: belongs to another assembly"));
 }
 
-TEST(ResultsFile, InvalidContactsAreNamed) {
+TEST(ResultsFile, ErrorsNameInvalidContacts) {
   const auto error_of = [](const std::string& name, const std::function<void(ContactTable*)>& change) {
     const std::string folder = test::fresh_folder(name);
     ResultsWriter writer(folder, example_summary().assembly_hash);
@@ -212,7 +212,7 @@ TEST(SummaryJson, RoundTripsExactly) {
   EXPECT_EQ(back.peak_memory_bytes, s.peak_memory_bytes);
 }
 
-TEST(SummaryJson, NotCertifiedAndNotFiniteAreSaid) {
+TEST(SummaryJson, WritesNotCertifiedAndNull) {
   Summary s = example_summary();
   s.certified_force_error.reset();
   s.momentum_residual = std::numeric_limits<double>::infinity();
@@ -224,7 +224,7 @@ TEST(SummaryJson, NotCertifiedAndNotFiniteAreSaid) {
   EXPECT_TRUE(std::isnan(back.momentum_residual));
 }
 
-TEST(SummaryJson, BadTextIsNamed) {
+TEST(SummaryJson, ErrorsNameTheKey) {
   const std::string good = to_json(example_summary());
   const auto error_of = [](const std::string& text) -> std::string {
     try {
@@ -239,18 +239,20 @@ TEST(SummaryJson, BadTextIsNamed) {
     return text.replace(text.find(from), from.size(), to);
   };
   EXPECT_EQ(error_of(good.substr(0, good.size() / 2)),
-            "r/summary.json: error: is not a complete JSON object");
-  EXPECT_EQ(error_of("[1]"), "r/summary.json: error: is not a complete JSON object");
-  EXPECT_EQ(error_of(with("\"format_version\": 1", "\"format_version\": 9")),
-            "r/summary.json: error: has format_version 9, this program reads 1");
+            "r/summary.json: error: is not a complete JSON object: damaged, or not a summary");
+  EXPECT_EQ(error_of("[1]"),
+            "r/summary.json: error: is not a complete JSON object: damaged, or not a summary");
+  EXPECT_EQ(
+      error_of(with("\"format_version\": 1", "\"format_version\": 9")),
+      "r/summary.json: error: has format_version 9, this program reads version 1; run cupola-solve again");
   EXPECT_EQ(error_of(with("\"weight_N\"", "\"weight\"")), "r/summary.json: error: key `weight_N` is missing");
   EXPECT_EQ(error_of(with("\"moving\"", "\"dancing\"")),
-            "r/summary.json: error: status = \"dancing\": has the wrong type");
+            "r/summary.json: error: status = \"dancing\": has the wrong type or an unknown value");
   EXPECT_EQ(error_of(with("\"blocks\": 3", "\"blocks\": \"3\"")),
-            "r/summary.json: error: blocks = \"3\": has the wrong type");
+            "r/summary.json: error: blocks = \"3\": has the wrong type or an unknown value");
   for (const std::string count : {"3.5", "1e+85", "4294967299", "-4294967293", "18446744073709551615"})
     EXPECT_EQ(error_of(with("\"blocks\": 3", "\"blocks\": " + count)),
-              "r/summary.json: error: blocks = " + count + ": has the wrong type");
+              "r/summary.json: error: blocks = " + count + ": has the wrong type or an unknown value");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ std::string refusal_of(const Loads& loads, const Assembly& assembly) {
   return "";
 }
 
-TEST(AppliedLoads, ShareTheTopLoadByArea) {
+TEST(AppliedLoads, TopLoadIsDistributedByArea) {
   const Assembly assembly = test::two_block_assembly();
   Loads loads;
   loads.gravity = {0.0, 3.0, -4.0};
@@ -30,7 +30,7 @@ TEST(AppliedLoads, ShareTheTopLoadByArea) {
   EXPECT_LE((forces[0].force - expected).norm(), 1e-15 * expected.norm());
 }
 
-TEST(AppliedLoads, PressAgainstTheFaces) {
+TEST(AppliedLoads, PressureActsIntoTheBlock) {
   const Assembly assembly = test::two_block_assembly();
   Loads loads;
   FaceLoad& load = loads.faces.emplace_back();
@@ -44,23 +44,25 @@ TEST(AppliedLoads, PressAgainstTheFaces) {
   EXPECT_EQ(forces[0].time, 0);
 }
 
-TEST(AppliedLoads, WhatNothingCarriesIsRefused) {
+TEST(AppliedLoads, LoadsWithoutABlockOrFaceAreRefused) {
   Assembly assembly = test::two_block_assembly();
   Loads loads;
   loads.forces.emplace_back().block = 2;
   EXPECT_EQ(refusal_of(loads, assembly), "error: loads.forces: block 2: the assembly has blocks 0 to 1");
   loads.forces[0].block = 0;
-  EXPECT_EQ(refusal_of(loads, assembly), "error: loads.forces: block 0 is fixed and carries no load");
+  EXPECT_EQ(refusal_of(loads, assembly),
+            "error: loads.forces: block 0 is fixed; apply the force to a free block");
   loads.forces.clear();
   loads.faces.emplace_back().faces = FaceKind::extrados;
   loads.faces[0].to_ring = 2;
   EXPECT_EQ(refusal_of(loads, assembly),
-            "error: loads.faces: no free block of rings 0 to 2 has extrados faces");
+            "error: loads.faces: no free block in rings 0 to 2 has faces of kind extrados");
   loads.faces.clear();
   for (FaceKind& kind : assembly.face_kinds)
     if (kind == FaceKind::top) kind = FaceKind::free;
   loads.lantern = TopLoad{0.1};
-  EXPECT_EQ(refusal_of(loads, assembly), "error: loads.lantern: the assembly has no top faces to carry it");
+  EXPECT_EQ(refusal_of(loads, assembly),
+            "error: loads.lantern: the assembly has no faces of kind top to carry it");
 }
 
 }  // namespace
