@@ -253,7 +253,7 @@ TEST(Programs, ForceAcceptsFilesOfAnotherCase) {
   const ProgramRun heavier = other(" --set material.density=2500");
   EXPECT_EQ(heavier.code, 0) << heavier.err;
   EXPECT_NE(heavier.err.find("the results belong to another assembly"), std::string::npos) << heavier.err;
-  expect_one_line(other(" --set geometry.bond.rings=3"), "blocks, the assembly");
+  expect_one_line(other(" --set geometry.bond.rings=3"), "blocks and the assembly");
   // Keys that only affect figures need no new run.
   EXPECT_EQ(analyse(folder, "results", " --set postproc.sections=[1.5] --set title=other").code, 0);
 }
@@ -291,7 +291,7 @@ TEST(Programs, RefuseTooManyThreadsForTheAddressSpace) {
       folder.run("sh -c 'ulimit -v 700000; ulimit -t 10; OPENBLAS_NUM_THREADS=1 exec cupola-solve " + kWall +
                  " --assembly assembly.vtu --output many --quiet --threads 100'");
   EXPECT_EQ(run.code, 1) << run.err;
-  EXPECT_NE(run.err.find("out of memory: 100 threads need"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("out of memory: 100 threads require"), std::string::npos) << run.err;
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
