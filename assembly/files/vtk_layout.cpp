@@ -103,7 +103,8 @@ class Layout {
       : text_(text), data_(text.find(kAppended)), most_(kMostPacked * static_cast<double>(text.size())) {}
 
   std::string defect() {
-    if (data_ == std::string_view::npos) return "has no element of appended data: not a file written by Cupola";
+    if (data_ == std::string_view::npos)
+      return "has no element of appended data: not a file written by Cupola";
     if (!text_.starts_with(kStart)) return "does not begin like a file written by Cupola";
     for (size_t open = kStart.size(); open < data_; open = text_.find('<', open + 1)) {
       const std::optional<Tag> tag = parse_tag(text_.substr(open, data_ - open));
