@@ -20,7 +20,6 @@ namespace {
 constexpr double kMostPacked = 1032.0;
 constexpr double kNonsense = std::numeric_limits<double>::infinity();
 constexpr std::string_view kStart = "<?xml version=\"1.0\"?>\n";
-constexpr std::string_view kAppended = "<AppendedData encoding=\"base64\">\n   _";
 constexpr std::string_view kSpace = " \n";
 
 /// <name key="value" ...>, </name> or <name key="value" .../>.
@@ -100,7 +99,9 @@ bool may_stand_in(std::string_view name, std::string_view parent, std::string_vi
 class Layout {
  public:
   explicit Layout(std::string_view text)
-      : text_(text), data_(text.find(kAppended)), most_(kMostPacked * static_cast<double>(text.size())) {}
+      : text_(text),
+        data_(std::min(text.find(kAppended), text.find(kAppendedByVtk))),
+        most_(kMostPacked * static_cast<double>(text.size())) {}
 
   std::string defect() {
     if (data_ == std::string_view::npos)

@@ -9,6 +9,7 @@
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/hash.hpp"
+#include "assembly/files/vtk_layout.hpp"
 #include "tests/assembly/scene.hpp"
 
 namespace cupola::mesh_file_test {
@@ -184,11 +185,23 @@ TEST(MeshFile, DeclaredSizesAreCheckedDespiteAValidChecksum) {
     }
   }
   // Headers of compressed data: 2^56 blocks; one block of 2^56 bytes; one block, the last of 2^56 bytes.
-  const std::string data = "<AppendedData encoding=\"base64\">\n   _";
+  const std::string data(kAppended);
   ASSERT_NE(text.find(data), std::string::npos);
   for (const std::string header : {"AAAAAAAAAAEAgAAAAAAAAAgAAAAAAAAA", "AQAAAAAAAAAAAAAAAAAAAQgAAAAAAAAA",
                                    "AQAAAAAAAAAAgAAAAAAAAAAAAAAAAAAB"})
     EXPECT_NE(error_of_forged(text, data, header).find("declares more data"), std::string::npos) << header;
+}
+
+// ParaView 5.11 with a recent expat reads files only without the attribute. Files with it, which version 0.1.0 wrote,
+// are read too.
+TEST(MeshFile, AppendedDataStartWithAndWithoutEncoding) {
+  const std::string path = test::fresh_folder("a") + "/mesh.vtu";
+  write_mesh(path, solid_mesh());
+  std::string text = read_text(path);
+  const size_t at = text.find("<AppendedData>");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, kAppendedByVtk.size(), kAppendedByVtk);
+  EXPECT_EQ(error_of_forged(text, "<?xml version=\"", "1.0"), "");
 }
 
 // VTK aborts the process if some elements or attributes are missing.
