@@ -63,8 +63,8 @@ void print_summary(const Summary& summary) {
   fmt::print(
       "  equilibrium residual {:.2e}, contact law {:.2e}, friction cone {:.2e}, certified force error {}\n",
       summary.equilibrium_residual, summary.contact_law_residual, summary.friction_cone_violation,
-      summary.certified_force_error ? fmt::format("{:.2e}", *summary.certified_force_error)
-                                    : std::string("not certified"));
+      summary.certified_force_error.value ? fmt::format("{:.2e}", *summary.certified_force_error.value)
+                                          : std::string("not certified"));
   fmt::print("  law: {}, tangential spring: {}; {} of {} contacts slip\n", to_string(summary.friction_law),
              to_string(summary.tangential), summary.slipping_contacts, summary.contacts);
   fmt::print("  solve {:.3f} s, total {:.3f} s, peak memory {:.0f} MB\n", summary.solve_time_seconds,

@@ -53,7 +53,7 @@ struct StagedConstruction {
 };
 
 /// Accuracy requested by name, or as an error of the joint wrenches, instead of a tolerance.
-struct Accuracy {
+struct RequestedAccuracy {
   /// Points on the measured curve of error against time (docs/accuracy.md). `custom` uses the key
   /// `tolerance`.
   enum class Preset { custom, draft, standard, reference };
@@ -61,7 +61,7 @@ struct Accuracy {
   /// Static analysis: rms relative error of the bed-joint wrenches to certify, in (0, 0.5].
   std::optional<double> wrench_error;
 };
-constexpr auto enum_names(Accuracy::Preset) {
+constexpr auto enum_names(RequestedAccuracy::Preset) {
   return std::array{"custom", "draft", "standard", "reference"};
 }
 
@@ -80,7 +80,7 @@ struct Analysis {
   /// Static: largest equilibrium residual accepted, inertia share included; it determines h. Dynamic: largest
   /// relative momentum residual of a step.
   double tolerance = 1e-9;
-  Accuracy accuracy;
+  RequestedAccuracy accuracy;
   /// Motion in the x-z plane only, with three unknowns per block; the model must be plane (walls, arches).
   bool plane = false;
   /// Iterations of the contact method per solve; 0: the method's own limit. A solve that reaches the limit

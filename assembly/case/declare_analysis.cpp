@@ -65,23 +65,23 @@ void declare_sleep(Section& s, Sleep& sleep) {
            "an island of touching blocks sleeps after this long at rest");
 }
 
-void declare_wrench_error(Section& s, Accuracy& accuracy) {
+void declare_wrench_error(Section& s, RequestedAccuracy& accuracy) {
   s.optional_number(
       "wrench_error", accuracy.wrench_error, {.above = 0, .max = 0.5}, "none",
       "static: relative error of the bed-joint wrenches to certify; the solver chooses the tolerance");
 }
 
 /// Tolerance of each preset: points on the measured curve of error against time.
-double preset_tolerance(Accuracy::Preset preset, AnalysisType type) {
+double preset_tolerance(RequestedAccuracy::Preset preset, AnalysisType type) {
   const bool moves = type == AnalysisType::dynamic;
   switch (preset) {
-    case Accuracy::Preset::draft:
+    case RequestedAccuracy::Preset::draft:
       return moves ? 1e-3 : 1e-2;
-    case Accuracy::Preset::standard:
+    case RequestedAccuracy::Preset::standard:
       return 1e-5;
-    case Accuracy::Preset::reference:
+    case RequestedAccuracy::Preset::reference:
       return 1e-10;
-    case Accuracy::Preset::custom:
+    case RequestedAccuracy::Preset::custom:
       break;
   }
   return 0.0;
@@ -89,7 +89,7 @@ double preset_tolerance(Accuracy::Preset preset, AnalysisType type) {
 
 /// A preset overrides the key `tolerance`, so that `--set analysis.accuracy=draft` works on any case.
 void declare_accuracy(Section& s, Analysis& analysis) {
-  using enum Accuracy::Preset;
+  using enum RequestedAccuracy::Preset;
   const NumberRule rule{.above = 0, .max = 0.1};
   s.choice_or_section("accuracy", analysis.accuracy.preset, analysis.accuracy,
                       "accuracy of the answer; every preset but custom sets the tolerance",

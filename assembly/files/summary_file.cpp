@@ -14,8 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSummaryFormatVersion = 1;
-constexpr const char* kNotCertified = "not certified";
+constexpr int kSummaryFormatVersion = 2;
 
 /// The keys of summary.json, listed once for writing and reading.
 template <class SummaryType, class Visit>
@@ -39,11 +38,13 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("applied_load_N", s.applied_load_N);
   visit("support_reaction_N", s.support_reaction_N);
   visit("time_step_s", s.time_step_s);
+  visit("accuracy", s.accuracy);
   visit("momentum_residual", s.momentum_residual);
   visit("equilibrium_residual", s.equilibrium_residual);
   visit("inertia_share", s.inertia_share);
   visit("contact_law_residual", s.contact_law_residual);
   visit("certified_force_error", s.certified_force_error);
+  visit("forces_unique", s.forces_unique);
   visit("friction_cone_violation", s.friction_cone_violation);
   visit("max_penetration_m", s.max_penetration_m);
   visit("max_displacement_m", s.max_displacement_m);
@@ -56,8 +57,6 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("cpu_time_seconds", s.cpu_time_seconds);
   visit("peak_memory_bytes", s.peak_memory_bytes);
   visit("threads", s.threads);
-  visit("accuracy_asked", s.accuracy_asked);
-  visit("accuracy_reached", s.accuracy_reached);
 }
 
 template <class T>
@@ -71,8 +70,19 @@ Json to_value(const E& value) {
 Json to_value(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
-Json to_value(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(kNotCertified);
+Json to_value(const Accuracy& accuracy) {
+  return {{"quantity", accuracy.quantity},
+          {"norm", accuracy.norm},
+          {"asked", accuracy.asked},
+          {"reached", accuracy.reached},
+          {"worst_over_run", accuracy.worst_over_run}};
+}
+Json to_value(const ForceCertificate& certificate) {
+  if (!certificate.value) return {{"not_certified", certificate.bounds}};
+  return {{"value", *certificate.value}, {"bounds", certificate.bounds}};
+}
+Json to_value(const ForcesUnique& unique) {
+  return {{"value", unique.value}, {"reason", unique.reason}};
 }
 
 /// JSON has no infinities and NaN: they are written as null and read back as NaN.
@@ -82,11 +92,6 @@ void from_value(const Json& json, double* value) {
 void from_value(const Json& json, Vec3* v) {
   for (int i = 0; i < 3; ++i) from_value(json.at(static_cast<size_t>(i)), &(*v)[i]);
 }
-void from_value(const Json& json, std::optional<double>* value) {
-  value->reset();
-  if (json == kNotCertified) return;
-  from_value(json, &value->emplace());
-}
 template <NamedEnum E>
 void from_value(const Json& json, E* value) {
   const std::optional<E> known = enum_from_name<E>(json.get<std::string>());
@@ -95,6 +100,23 @@ void from_value(const Json& json, E* value) {
 }
 void from_value(const Json& json, std::string* value) {
   json.get_to(*value);
+}
+void from_value(const Json& json, Accuracy* accuracy) {
+  from_value(json.at("quantity"), &accuracy->quantity);
+  from_value(json.at("norm"), &accuracy->norm);
+  from_value(json.at("asked"), &accuracy->asked);
+  from_value(json.at("reached"), &accuracy->reached);
+  from_value(json.at("worst_over_run"), &accuracy->worst_over_run);
+}
+void from_value(const Json& json, ForceCertificate* certificate) {
+  const bool certified = json.contains("value");
+  certificate->value.reset();
+  if (certified) from_value(json["value"], &certificate->value.emplace());
+  from_value(json.at(certified ? "bounds" : "not_certified"), &certificate->bounds);
+}
+void from_value(const Json& json, ForcesUnique* unique) {
+  json.at("value").get_to(unique->value);
+  from_value(json.at("reason"), &unique->reason);
 }
 /// The JSON library would silently truncate fractions and numbers out of range.
 template <std::integral T>

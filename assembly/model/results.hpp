@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "assembly/model/accuracy.hpp"
 #include "assembly/model/assembly.hpp"
 #include "assembly/model/choices.hpp"
 
@@ -100,11 +101,13 @@ struct Summary {
   Vec3 applied_load_N = Vec3::Zero();      ///< all loads on the free blocks, weight included
   Vec3 support_reaction_N = Vec3::Zero();  ///< force of the fixed blocks on the free ones
   double time_step_s = 0.0;
+  Accuracy accuracy;  ///< decides whether the status is `unconverged`
   double momentum_residual = 0.0;
   double equilibrium_residual = 0.0;
   double inertia_share = 0.0;  ///< static: 1 - reaction / load along gravity
   double contact_law_residual = 0.0;
-  std::optional<double> certified_force_error;  ///< none: written as `not certified`
+  ForceCertificate certified_force_error;
+  ForcesUnique forces_unique;
   double friction_cone_violation = 0.0;
   double max_penetration_m = 0.0;
   double max_displacement_m = 0.0;
@@ -116,7 +119,6 @@ struct Summary {
   double cpu_time_seconds = 0.0;  ///< of the whole process; unaffected by the load of the machine
   std::int64_t peak_memory_bytes = 0;
   int threads = 1;
-  double accuracy_asked = 0.0, accuracy_reached = 0.0;
   std::optional<CriticalValue> critical;          ///< limit analysis only
   std::map<std::string, std::string> text_files;  ///< text files of the results folder: name to hash
 };

@@ -198,13 +198,13 @@ std::string quality_text(const Summary& s) {
       "The largest unbalanced force on a free block is {:.1e} of the mean block weight (accuracy requested "
       "{:.1e}, reached {:.1e}). The contact law holds to within {:.1e} of the forces, the friction cone to "
       "within {:.1e}. ",
-      s.equilibrium_residual, s.accuracy_asked, s.accuracy_reached, s.contact_law_residual,
+      s.equilibrium_residual, s.accuracy.asked, s.accuracy.reached, s.contact_law_residual,
       s.friction_cone_violation);
-  if (s.certified_force_error)
+  if (s.certified_force_error.value)
     out += fmt::format(
         "The relative error of the forces, measured against the exact solution of this model, is certified "
         "to be at most {:.1e}. ",
-        *s.certified_force_error);
+        *s.certified_force_error.value);
   else
     out += "No bound on the error of the forces could be certified. ";
   if (s.friction_law == FrictionLaw::associated)

@@ -86,8 +86,9 @@ std::vector<std::string> study_text(const std::vector<StudyRow>& rows) {
           row.point.name, row.seconds(), row.uses_wall_time() ? " wall time" : "",
           static_cast<double>(row.summary->peak_memory_bytes) / 1e6, row.summary->contacts,
           to_string(row.summary->status),
-          row.summary->certified_force_error ? fmt::format("{:.1e}", *row.summary->certified_force_error)
-                                             : std::string("none")));
+          row.summary->certified_force_error.value
+              ? fmt::format("{:.1e}", *row.summary->certified_force_error.value)
+              : std::string("none")));
   for (const std::string& knob : knobs_of(rows))
     if (std::string text = knob_text(rows, knob); !text.empty()) paragraphs.push_back(std::move(text));
   return paragraphs;

@@ -23,7 +23,7 @@ std::vector<MeshArray> about(const Evaluation& e, double scale) {
           {"assembly_hash", 1, std::vector<std::string>{e.summary.assembly_hash}},
           {"threads", 1, MeshInts{e.summary.threads}},
           {"equilibrium_residual", 1, MeshDoubles{e.summary.equilibrium_residual}},
-          {"accuracy_reached", 1, MeshDoubles{e.summary.accuracy_reached}},
+          {"accuracy_reached", 1, MeshDoubles{e.summary.accuracy.reached}},
           {"status", 1, std::vector<std::string>{to_string(e.summary.status)}},
           {"segment_scale_m_per_N", 1, MeshDoubles{scale}}};
 }

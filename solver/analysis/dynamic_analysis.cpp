@@ -173,8 +173,9 @@ std::string stop_note(Stop stop, const Analysis& analysis) {
 }
 
 void judge(const Analysis& analysis, const RunProgress& progress, Summary* summary) {
-  summary->accuracy_asked = analysis.tolerance;
-  summary->accuracy_reached = progress.worst_momentum;
+  summary->accuracy = {"momentum balance of the blocks",
+                       "largest unbalanced impulse of a block, relative to the mean block weight times h",
+                       analysis.tolerance, summary->momentum_residual, progress.worst_momentum};
   const double speed = summary->max_speed_m_per_s;
   const double displacement = summary->max_displacement_m;
   if (progress.unconverged_steps > 0) {
@@ -215,7 +216,7 @@ Summary DynamicRun::summarize(Stop stop, double seconds) const {
   summary.momentum_residual = report_.residuals.momentum;
   summary.contact_law_residual = report_.residuals.contact_law;
   summary.friction_cone_violation = report_.residuals.cone_violation;
-  summary.certified_force_error = report_.residuals.certified_force_error;
+  summary.certified_force_error = report_.residuals.certificate;
   judge(analysis_, progress_, &summary);
   summary.message += stop_note(stop, analysis_);
   return summary;

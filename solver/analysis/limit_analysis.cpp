@@ -144,12 +144,12 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
                                 mechanism.empty() ? "" : "; ", mechanism);
   summary.steps = run.num_trials;
   summary.iterations = run.iterations;
-  summary.accuracy_asked = scene.analysis.limit.relative_width;
   if (bracket.found) {
     summary.critical =
         CriticalValue{to_string(parameter), bracket.middle(), bracket.stable.value, bracket.moving.value};
-    summary.accuracy_reached =
-        std::abs(bracket.stable.value - bracket.moving.value) / std::abs(bracket.middle());
+    const double width = std::abs(bracket.stable.value - bracket.moving.value) / std::abs(bracket.middle());
+    summary.accuracy = {"critical value", "width of its bracket, relative to the middle",
+                        scene.analysis.limit.relative_width, width, width};
   }
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;

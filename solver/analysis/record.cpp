@@ -24,6 +24,15 @@ Status status_of(StaticOutcome outcome) {
   return Status::unconverged;
 }
 
+/// Of a static solve. Without an equilibrium, inertia balances the loads.
+Accuracy force_balance_accuracy(const StaticSolution& solution, double tolerance) {
+  const bool moving = solution.outcome == StaticOutcome::moving;
+  const double reached = moving ? solution.residuals.momentum : solution.balance.residual;
+  return {moving ? "force balance of the blocks, inertia included" : "force balance of the blocks",
+          "largest unbalanced force of a block, relative to the mean block weight", tolerance, reached,
+          reached};
+}
+
 }  // namespace
 
 JointNumbers number_joints(const ContactSet& contacts) {
@@ -131,9 +140,7 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
 void summarize_static(const StaticSolution& solution, double tolerance, Summary* summary) {
   summary->status = status_of(solution.outcome);
   summary->message = solution.message;
-  summary->accuracy_asked = tolerance;
-  summary->accuracy_reached =
-      solution.outcome == StaticOutcome::moving ? solution.residuals.momentum : solution.balance.residual;
+  summary->accuracy = force_balance_accuracy(solution, tolerance);
   summary->iterations = solution.iterations;
   summary->steps = 1;
   summary->time_step_s = solution.h;
@@ -144,7 +151,8 @@ void summarize_static(const StaticSolution& solution, double tolerance, Summary*
   summary->momentum_residual = solution.residuals.momentum;
   summary->contact_law_residual = solution.residuals.contact_law;
   summary->friction_cone_violation = solution.residuals.cone_violation;
-  summary->certified_force_error = solution.residuals.certified_force_error;
+  summary->certified_force_error = solution.certificate;
+  summary->forces_unique = solution.forces_unique;
 }
 
 }  // namespace cupola

@@ -61,8 +61,8 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   summarize_frame(frame, model, &summary);
   summarize_static(solution, options.tolerance, &summary);
   if (wrench_error) {
-    summary.accuracy_asked = *wrench_error;
-    if (solution.outcome != StaticOutcome::moving) summary.accuracy_reached = wrench_error_reached;
+    summary.accuracy = {"wrenches on bed and base joints", "root mean square, relative to the wrenches",
+                        *wrench_error, wrench_error_reached, wrench_error_reached};
   }
   summary.unknowns /= scene.analysis.cyclic_sectors;
   summary.message += linearity_note(assembly, summary.max_displacement_m);

@@ -124,6 +124,9 @@ void solve_at(const Model& model, const State& start, const ContactSet& contacts
                 (trial->step_solution.v.allFinite() && trial->step_solution.gamma.allFinite()));
   trial->residuals =
       compute_residuals(trial->step.problem, trial->step_solution, solve.reference_speed, solve.law);
+  trial->certificate = trial->residuals.certificate;
+  if (smallest_compliance(trial->step.problem) == 0.0)
+    trial->forces_unique = {false, "some compliance is zero"};
   trial->forces = joint_forces(contacts, trial->step_solution.gamma, trial->h);
   trial->balance =
       compute_equilibrium(model, start, contacts, trial->forces, start.time + 0.5 * options.time_advance);

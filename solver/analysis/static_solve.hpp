@@ -50,6 +50,8 @@ struct StaticSolution {
   ContactSolution step_solution;
   SolveSummary solve;
   Residuals residuals;
+  ForceCertificate certificate;
+  ForcesUnique forces_unique;
   JointForces forces;
   Equilibrium balance;
   double speed_ratio = 0.0;  ///< max |v| / (g h)

@@ -102,11 +102,11 @@ double largest_gain(const ContactSet& contacts, const BedJoints& beds) {
 }  // namespace
 
 std::optional<double> certified_wrench_error(const ContactSet& contacts, const StaticSolution& solution) {
-  if (!solution.residuals.certified_force_error) return std::nullopt;
+  if (!solution.residuals.certificate.value) return std::nullopt;
   const BedJoints beds = bed_joints(contacts);
   const double size = norm(wrenches(contacts, beds, solution.forces.contacts));
   if (!(size > 0.0)) return std::nullopt;
-  return largest_gain(contacts, beds) * *solution.residuals.certified_force_error *
+  return largest_gain(contacts, beds) * *solution.residuals.certificate.value *
          solution.step_solution.gamma.norm() / (solution.h * size);
 }
 

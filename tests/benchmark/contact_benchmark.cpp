@@ -59,12 +59,11 @@ void print_header(const char* title) {
 
 void print_row(const std::string& name, ContactMethod method, const Run& r, const VecX& reference) {
   const double error = (r.x.gamma - reference).norm() / reference.norm();
-  fmt::print(
-      "{:<28} {:<15} {:<15} {:>8.3f} {:>6} {:>6} {:>9.1e} {:>9.1e} {:>10} {:>10.1e}\n", name,
-      to_string(method), to_string(r.summary.ending), r.cpu, r.summary.iterations, r.summary.factorizations,
-      r.residuals.momentum, r.residuals.contact_law,
-      r.residuals.certified_force_error ? fmt::format("{:.1e}", *r.residuals.certified_force_error) : "none",
-      error);
+  fmt::print("{:<28} {:<15} {:<15} {:>8.3f} {:>6} {:>6} {:>9.1e} {:>9.1e} {:>10} {:>10.1e}\n", name,
+             to_string(method), to_string(r.summary.ending), r.cpu, r.summary.iterations,
+             r.summary.factorizations, r.residuals.momentum, r.residuals.contact_law,
+             r.residuals.certificate.value ? fmt::format("{:.1e}", *r.residuals.certificate.value) : "none",
+             error);
   std::fflush(stdout);
 }
 

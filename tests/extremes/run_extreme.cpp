@@ -38,7 +38,7 @@ bool finite(const Frame& frame) {
 
 bool finite(const Summary& s) {
   return std::isfinite(s.equilibrium_residual + s.momentum_residual + s.contact_law_residual +
-                       s.accuracy_reached + s.max_displacement_m + s.max_speed_m_per_s + s.weight_N) &&
+                       s.accuracy.reached + s.max_displacement_m + s.max_speed_m_per_s + s.weight_N) &&
          s.support_reaction_N.allFinite() && s.applied_load_N.allFinite();
 }
 
@@ -65,8 +65,8 @@ ExtremeResult run_extreme(const ExtremeScene& extreme) {
     const Summary summary = run_analysis(scene.input, scene.assembly, sinks).value();
     result.ending = ending_of(summary.status);
     result.message = summary.message;
-    result.asked = summary.accuracy_asked;
-    result.reached = summary.accuracy_reached;
+    result.asked = summary.accuracy.asked;
+    result.reached = summary.accuracy.reached;
     result.fault = fault_of(extreme, result);
     if (result.fault.empty() && !(finite(summary) && finite(last))) result.fault = "a number is not finite";
     if (result.fault.empty() && extreme.check && result.ending != Ending::missed)

@@ -27,7 +27,7 @@ Case statics(double mu, double compliance, double tolerance = 1e-9) {
 /// Checks that the supports carry the weight to within the requested accuracy.
 std::string carries_weight(const Summary& s, const Frame&) {
   const double missing = std::abs(s.support_reaction_N.z() - s.weight_N);
-  const double allowed = s.accuracy_asked * s.weight_N;
+  const double allowed = s.accuracy.asked * s.weight_N;
   if (missing <= allowed) return "";
   return fmt::format("reaction differs from the weight by {:.2e} N, {:.2e} N allowed", missing, allowed);
 }

@@ -66,8 +66,8 @@ TEST(Programs, SolveTheSmallestCase) {
   const Summary summary = summary_from_json(slurp(folder.file("results/summary.json")), "summary.json");
   EXPECT_EQ(summary.status, Status::stable);
   EXPECT_EQ(summary.free_blocks, 10);
-  EXPECT_EQ(summary.accuracy_asked, 1e-8);
-  EXPECT_LE(summary.accuracy_reached, 1e-8);
+  EXPECT_EQ(summary.accuracy.asked, 1e-8);
+  EXPECT_LE(summary.accuracy.reached, 1e-8);
   // Closed form of springs in series, c sum F_bed / n_bed: 42.511635 mm.
   EXPECT_NEAR(summary.max_displacement_m, 42.511635e-3, 1e-4 * 42.5e-3);
 }

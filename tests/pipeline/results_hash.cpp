@@ -63,7 +63,7 @@ std::string hash_of(const Summary& s) {
     hash.add(bytes_of<double>({v.data(), v.data() + 3}));
   for (const double number :
        {s.weight_N, s.time_step_s, s.momentum_residual, s.equilibrium_residual, s.inertia_share,
-        s.contact_law_residual, s.certified_force_error.value_or(-1.0), s.friction_cone_violation,
+        s.contact_law_residual, s.certified_force_error.value.value_or(-1.0), s.friction_cone_violation,
         s.max_penetration_m, s.max_displacement_m, s.max_speed_m_per_s})
     hash.add(number);
   hash.add(s.slipping_contacts).add(s.steps).add(s.iterations);

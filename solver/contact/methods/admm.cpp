@@ -67,7 +67,7 @@ double measure(const ContactProblem& p, const ContactSolution& x, const SolveOpt
   const Residuals r = compute_residuals(p, x, options.reference_speed);
   // Where E is tiny, rounding of the momentum balance alone keeps the certificate above 1e-9.
   const double residual = std::max(r.momentum, r.contact_law);
-  return std::min(r.certified_force_error.value_or(residual), residual);
+  return std::min(r.certificate.value.value_or(residual), residual);
 }
 
 }  // namespace

@@ -180,7 +180,14 @@ Residuals compute_residuals(const ContactProblem& problem, const ContactSolution
   const double min_E = smallest_compliance(problem);
   const double norm = solution.gamma.norm();
   if (law == FrictionLaw::associated && min_E > 0.0 && norm > 0.0 && residuals.cone_violation <= kRounding) {
-    residuals.certified_force_error = std::sqrt(2.0 * duality_gap(problem, solution) / min_E) / norm;
+    residuals.certificate.value = std::sqrt(2.0 * duality_gap(problem, solution) / min_E) / norm;
+    residuals.certificate.bounds =
+        "distance of the impulses from the exact ones of this contact problem, relative to their norm";
+  } else {
+    residuals.certificate.bounds = law == FrictionLaw::coulomb ? "Coulomb's law has no duality gap"
+                                   : min_E == 0.0              ? "some compliance is zero"
+                                   : norm == 0.0               ? "no contact is loaded"
+                                                 : "some impulses lie outside their friction cones";
   }
   return residuals;
 }

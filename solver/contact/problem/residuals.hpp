@@ -1,7 +1,6 @@
 #pragma once
 
-#include <optional>
-
+#include "assembly/model/accuracy.hpp"
 #include "assembly/model/choices.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/contact_problem.hpp"
@@ -30,7 +29,7 @@ struct Residuals {
   /// Upper bound of |gamma - exact| / |gamma| from the duality gap. None where the dual is not strongly
   /// convex (some E = 0), where gamma is outside the cone, and under Coulomb's law, which is not a
   /// minimisation.
-  std::optional<double> certified_force_error;
+  ForceCertificate certificate;
 };
 
 /// `reference_speed`: h |g|, m/s, > 0, the speed that a free block gains in a step.

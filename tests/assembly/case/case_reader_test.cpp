@@ -76,7 +76,7 @@ TEST(ReadCase, AccuracyAcceptsAWrenchErrorInsteadOfAPreset) {
   const Case c = read_case(
       scratch.write("asked.yaml", std::string(kWall) + "analysis: {accuracy: {wrench_error: 1e-3}}\n"));
   EXPECT_EQ(c.analysis.accuracy.wrench_error, 1e-3);
-  EXPECT_EQ(c.analysis.accuracy.preset, Accuracy::Preset::custom);
+  EXPECT_EQ(c.analysis.accuracy.preset, RequestedAccuracy::Preset::custom);
   EXPECT_EQ(read_case(scratch.write("again.yaml", c.effective_yaml)).analysis.accuracy.wrench_error, 1e-3);
 }
 

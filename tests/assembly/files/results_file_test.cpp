@@ -52,7 +52,9 @@ Summary example_summary() {
   s.blocks = 3;
   s.weight_N = 1.0 / 3.0;
   s.applied_load_N = {1e-17, -2.0, 1.0 / 7.0};
-  s.certified_force_error = 1.2e-9;
+  s.accuracy = {"force balance of the blocks", "largest, over the weight", 1e-8, 1.0 / 3e9, 1e-9};
+  s.certified_force_error = {1.2e-9, "distance from the exact forces"};
+  s.forces_unique = {false, "some compliance is zero"};
   s.contact_law_residual = 4.9e-324;
   s.peak_memory_bytes = 5'000'000'000;
   s.threads = 2;
@@ -207,20 +209,29 @@ TEST(SummaryJson, RoundTripsExactly) {
   EXPECT_EQ(back.message, s.message);
   EXPECT_EQ(back.weight_N, s.weight_N);
   EXPECT_EQ(back.applied_load_N, s.applied_load_N);
-  EXPECT_EQ(back.certified_force_error, s.certified_force_error);
+  EXPECT_EQ(back.accuracy.quantity, s.accuracy.quantity);
+  EXPECT_EQ(back.accuracy.norm, s.accuracy.norm);
+  EXPECT_EQ(back.accuracy.asked, s.accuracy.asked);
+  EXPECT_EQ(back.accuracy.reached, s.accuracy.reached);
+  EXPECT_EQ(back.accuracy.worst_over_run, s.accuracy.worst_over_run);
+  EXPECT_EQ(back.certified_force_error.value, s.certified_force_error.value);
+  EXPECT_EQ(back.certified_force_error.bounds, s.certified_force_error.bounds);
+  EXPECT_EQ(back.forces_unique.value, s.forces_unique.value);
+  EXPECT_EQ(back.forces_unique.reason, s.forces_unique.reason);
   EXPECT_EQ(back.contact_law_residual, s.contact_law_residual);
   EXPECT_EQ(back.peak_memory_bytes, s.peak_memory_bytes);
 }
 
 TEST(SummaryJson, WritesNotCertifiedAndNull) {
   Summary s = example_summary();
-  s.certified_force_error.reset();
+  s.certified_force_error = {{}, "Coulomb's law has no duality gap"};
   s.momentum_residual = std::numeric_limits<double>::infinity();
   const std::string text = to_json(s);
-  EXPECT_NE(text.find("\"certified_force_error\": \"not certified\""), std::string::npos);
+  EXPECT_NE(text.find("\"not_certified\": \"Coulomb's law has no duality gap\""), std::string::npos);
   EXPECT_NE(text.find("\"momentum_residual\": null"), std::string::npos);
   const Summary back = summary_from_json(text, "summary.json");
-  EXPECT_FALSE(back.certified_force_error);
+  EXPECT_FALSE(back.certified_force_error.value);
+  EXPECT_EQ(back.certified_force_error.bounds, s.certified_force_error.bounds);
   EXPECT_TRUE(std::isnan(back.momentum_residual));
 }
 
@@ -243,8 +254,13 @@ TEST(SummaryJson, ErrorsNameTheKey) {
   EXPECT_EQ(error_of("[1]"),
             "r/summary.json: error: is not a complete JSON object: damaged, or not a summary");
   EXPECT_EQ(
-      error_of(with("\"format_version\": 1", "\"format_version\": 9")),
-      "r/summary.json: error: has format_version 9, this program reads version 1; run cupola-solve again");
+      error_of(with("\"format_version\": 2", "\"format_version\": 9")),
+      "r/summary.json: error: has format_version 9, this program reads version 2; run cupola-solve again");
+  EXPECT_EQ(
+      error_of(with("\"format_version\": 2", "\"format_version\": 1")),
+      "r/summary.json: error: has format_version 1, this program reads version 2; run cupola-solve again");
+  EXPECT_NE(error_of(with("\"norm\"", "\"name\"")).find("r/summary.json: error: accuracy = {"),
+            std::string::npos);
   EXPECT_EQ(error_of(with("\"weight_N\"", "\"weight\"")), "r/summary.json: error: key `weight_N` is missing");
   EXPECT_EQ(error_of(with("\"moving\"", "\"dancing\"")),
             "r/summary.json: error: status = \"dancing\": has the wrong type or an unknown value");

@@ -88,7 +88,7 @@ TEST(SolveContact, RigidTableHasTheCorrectResultants) {
   const double x[] = {1, 1, -1, -1}, y[] = {1, -1, 1, -1};
   for (int i = 0; i < 4; ++i) resultant += s.x.gamma[3 * i] / problem.h * Vec3(1, x[i], y[i]);
   EXPECT_LE((resultant - Vec3(1000, 300, 200)).norm(), 1e-7);
-  EXPECT_FALSE(s.residuals.certified_force_error.has_value());
+  EXPECT_FALSE(s.residuals.certificate.value.has_value());
 }
 
 // Limits of tilt. Associated law, from rest: tan theta = mu / sqrt(cos^2 phi - mu^2 sin^2 phi), 47.96 deg.
