@@ -21,7 +21,6 @@ StaticOptions static_options(const Analysis& analysis) {
     case AnalysisType::staged:
     case AnalysisType::limit:
       options.tolerance = std::max(analysis.tolerance, kOutcomeTolerance);
-      options.may_move = true;
       break;
   }
   return options;

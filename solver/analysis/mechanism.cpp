@@ -79,14 +79,15 @@ void find_groups(const Model& model, Mechanism* mechanism) {
 
 Mechanism find_mechanism(const Model& model, const State& start, const ContactSet& contacts,
                          const StaticSolution& solution) {
-  CUPOLA_ASSERT(solution.step_solution.v.size() == 6 * static_cast<Eigen::Index>(model.num_free()));
+  CUPOLA_ASSERT(solution.increment.size() == 6 * static_cast<Eigen::Index>(model.num_free()));
   CUPOLA_ASSERT(solution.step.num_contacts == static_cast<int>(contacts.points.size()));
-  const double fastest = std::max(largest_speed(solution.step_solution.v), 1e-300);
+  const VecX v = solution.increment / solution.h;
+  const double fastest = std::max(largest_speed(v), 1e-300);
   const ContactProblem& problem = solution.step.problem;
-  const VecX u = relative_velocity(problem, solution.step_solution.v) + solution.step.support_velocity;
+  const VecX u = relative_velocity(problem, v);
 
   Mechanism mechanism;
-  mechanism.v = solution.step_solution.v / fastest;
+  mechanism.v = v / fastest;
   mechanism.joints = joint_motions(contacts, u, fastest);
   find_groups(model, &mechanism);
 

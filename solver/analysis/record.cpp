@@ -151,8 +151,8 @@ void summarize_static(const StaticSolution& solution, double tolerance, Summary*
   summary->momentum_residual = solution.residuals.momentum;
   summary->contact_law_residual = solution.residuals.contact_law;
   summary->friction_cone_violation = solution.residuals.cone_violation;
-  summary->certified_force_error = solution.certificate;
-  summary->forces_unique = solution.forces_unique;
+  summary->certified_force_error = solution.certificate.force_error;
+  summary->forces_unique = solution.certificate.forces_unique;
 }
 
 }  // namespace cupola

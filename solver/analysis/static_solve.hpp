@@ -5,6 +5,7 @@
 
 #include "assembly/base/named_enum.hpp"
 #include "solver/analysis/cyclic_symmetry.hpp"
+#include "solver/analysis/static_certificate.hpp"
 #include "solver/contact/methods/solve_contact.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/dynamics/equilibrium.hpp"
@@ -14,15 +15,11 @@
 namespace cupola {
 
 struct StaticOptions {
-  double tolerance = 1e-9;  ///< largest equilibrium residual accepted, inertia share included; no unit
+  double tolerance = 1e-9;  ///< largest equilibrium residual accepted; no unit
   /// Method, friction law and iteration limit of each contact solve. Tolerance and reference speed follow
-  /// from `tolerance` and h and need not be set.
+  /// from `tolerance` and h and need not be set. A given iteration limit holds for each solve and excludes
+  /// second attempts.
   ContactSolverOptions solve = {};
-  /// The structure may be a mechanism: start with a short h, at which a mechanism shows after few iterations,
-  /// and raise it stepwise. If false, start with the h that an equilibrium to `tolerance` needs.
-  bool may_move = false;
-  /// Keep raising h until the motion proves that no contact forces balance the loads (kinematic_bound.hpp).
-  bool certify = false;
   const CyclicSymmetry* symmetry = nullptr;  ///< if set, only one sector of the model is solved
   double time_advance = 0.0;                 ///< time by which loads and supports advance, s
   std::function<void(const std::string&)> log = [](const std::string&) {};
@@ -33,45 +30,59 @@ constexpr double kOutcomeTolerance = 1e-5;
 
 /// How a static solve ended.
 enum class StaticOutcome {
-  equilibrium,  ///< residual <= tolerance
-  moving,       ///< no equilibrium: the speed grows in proportion to h
-  unconverged   ///< the contact problem was not solved
+  equilibrium,  ///< equilibrium residual and contact-law residual <= tolerance
+  moving,       ///< associated law: proven not to stand; Coulomb's law: proven, or a steady motion was found
+  unconverged   ///< neither was shown
 };
 constexpr auto enum_names(StaticOutcome) {
   return std::array{"equilibrium", "moving", "unconverged"};
 }
 
-/// The solution at the last h, with its accuracy.
+/// The best iterate, with its accuracy.
 struct StaticSolution {
   StaticOutcome outcome = StaticOutcome::unconverged;
   std::string message;
-  double h = 0.0;  ///< s
-  StepProblem step;
-  ContactSolution step_solution;
-  SolveSummary solve;
+  double h = 0.0;                 ///< s, step of the proximal-point iteration
+  StepProblem step;               ///< contact problem of the last iteration
+  ContactSolution step_solution;  ///< v: displacement from the start over h; gamma: impulses, forces times h
+  VecX increment;                 ///< h times v minus that of the iteration before, m, rad (6 nb)
+  SolveSummary solve;             ///< of the last contact solve
   Residuals residuals;
-  ForceCertificate certificate;
-  ForcesUnique forces_unique;
   JointForces forces;
   Equilibrium balance;
-  double speed_ratio = 0.0;  ///< max |v| / (g h)
-  int iterations = 0;        ///< sum over all h
+  double speed_ratio = 0.0;  ///< max |increment| / (g h^2)
+  int iterations = 0;        ///< of the contact solver, sum over all solves
+  StaticCertificate certificate;
 };
 
-/// Finds the equilibrium as one contact problem with v = 0 at the start and a large step (paper 2.1). The
-/// displacement is h v. The inertia term carries a share of the load that falls with h^2; h is raised until
-/// the equilibrium residual, which includes this share, meets the tolerance. In a structure that stands,
-/// |v| / (g h) falls with h^2. Where it stops falling there is no equilibrium, and v is the collapse
-/// mechanism. If one large h does not converge within a few iterations, the solve is repeated from a short h
-/// raised stepwise, and a motion found then is certified.
+/// Finds displacements d and contact forces F of the static problem
+///
+///     D F + w = 0,     F in Y  _|_  D^T d + gap + c F in Y*
+///
+/// (c: compliance, w: loads) by the proximal-point method of Rockafellar (1976), "Monotone operators and the
+/// proximal point algorithm", in the metric of the masses:
+///
+///     M (d_k+1 - d_k) / h^2 = D F_k+1 + w
+///
+/// Each iteration is one step of the dynamic scheme with v_star = d_k / h + h M^-1 w and the same matrix, so
+/// that any contact method solves it. Where an equilibrium exists, the increments fall to zero for every h,
+/// and the limit does not depend on h; h only sets by how much each iteration reduces the residual. Paper 2.1
+/// takes a single iteration with a large h, which leaves a share of inertia in the forces.
+///
+/// Where no equilibrium exists under the associated law, the increments tend to a mechanism u with w . u > 0
+/// that opens every joint or slides along it (kinematic_bound.hpp). `moving` requires that proof.
+///
+/// Coulomb's law has no such theory: iterations may cycle, several equilibria may exist, and a steady motion
+/// does not exclude an equilibrium. The associated problem is solved first. What it proves to move also moves
+/// under Coulomb's law, because Coulomb's law admits the same forces; otherwise its solution is the start.
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options);
 
-/// The contact problem at the first h that solve_static() tries.
+/// The contact problem of the first iteration of solve_static().
 StepProblem first_static_problem(const Model& model, const State& start, const ContactSet& contacts,
                                  const ContactMemories& memories, const StaticOptions& options);
 
-/// The state after the step, at rest, with the load of each joint in its memory.
+/// The state after the displacement, at rest, with the load of each joint in its memory.
 LoadedState loaded_state(const Model& model, const State& start, const ContactSet& contacts,
                          const ContactMemories& memories, const StaticSolution& solution,
                          const StaticOptions& options);

@@ -49,7 +49,6 @@ StaticSolution solve(const Case& c, const Assembly& assembly, FrictionLaw law) {
   StaticOptions options;
   options.tolerance = kOutcomeTolerance;
   options.solve.law = law;
-  options.may_move = true;
   return solve_static(model, rest, contacts, match_memories({}, contacts.points), options);
 }
 

@@ -126,21 +126,25 @@ double smallest_compliance(const ContactProblem& p) {
 double contact_duality_gap(const ContactLaw& law, const Vec3& y, const Vec3& gamma) {
   const Vec3 gamma_v = contact_impulse(law, y);
   const double e_t = law.mu > 0.0 ? law.e_t : 0.0;
-  const Vec3 E(law.e_n, e_t, e_t);
-  Vec3 z = Vec3::Zero();  // y + E gamma(v), by regions to avoid cancellation
-  switch (contact_region(law, y)) {
+  const Vec3 difference = gamma - gamma_v;
+  const double distance = 0.5 * difference.dot(Vec3(law.e_n, e_t, e_t).cwiseProduct(difference));
+  switch (contact_region(law, y)) {  // gamma . z with z = y + E gamma(v), without cancellation
     case ContactRegion::separation:
-      z = y;
-      break;
+      return distance + std::max(0.0, gamma.dot(y));
     case ContactRegion::stick:
-      break;
+      return distance;  // z = 0
     case ContactRegion::slip:
-      z.tail<2>() = y.tail<2>() + e_t * gamma_v.tail<2>();
-      z[0] = law.mu * z.tail<2>().norm();
       break;
   }
-  const Vec3 difference = gamma - gamma_v;
-  return 0.5 * difference.dot(E.cwiseProduct(difference)) + std::max(0.0, gamma.dot(z));
+  // z = |z_t| (mu, t) and gamma . z = |z_t| [(mu gamma_n - |gamma_t|) + |gamma_t| |t + gamma_t/|gamma_t||^2 / 2]
+  constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();  // of |gamma_t| and mu gamma_n
+  const double z_t = std::max(0.0, y.tail<2>().norm() - e_t * gamma_v.tail<2>().norm());
+  const double gamma_t = gamma.tail<2>().norm();
+  double inside = law.mu * gamma[0] - gamma_t;
+  if (inside <= kRounding * law.mu * gamma[0]) inside = 0.0;
+  if (gamma_t > 0.0 && y.tail<2>().norm() > 0.0)
+    inside += 0.5 * gamma_t * (y.tail<2>().normalized() + gamma.tail<2>() / gamma_t).squaredNorm();
+  return distance + z_t * inside;
 }
 
 double largest_unbalanced_impulse(const ContactProblem& problem, const ContactSolution& solution) {

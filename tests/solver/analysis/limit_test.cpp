@@ -43,7 +43,6 @@ bool stands(const Assembly& assembly, double friction) {
   const ContactSet& contacts = detector.update(rest.poses);
   StaticOptions options;
   options.tolerance = kOutcomeTolerance;
-  options.may_move = true;
   const StaticSolution solution =
       solve_static(model, rest, contacts, match_memories({}, contacts.points), options);
   EXPECT_NE(solution.outcome, StaticOutcome::unconverged) << solution.message;
@@ -236,7 +235,7 @@ TEST(Mechanism, SemicircleFormsFiveMovingGroups) {
   ContactDetector detector(assembly, {});
   const ContactSet& contacts = detector.update(rest.poses);
   const StaticSolution solution = solve_static(model, rest, contacts, match_memories({}, contacts.points),
-                                               {.tolerance = 1e-5, .may_move = true});
+                                               {.tolerance = 1e-5});
   ASSERT_EQ(solution.outcome, StaticOutcome::moving) << solution.message;
   const Mechanism mechanism = find_mechanism(model, rest, contacts, solution);
   EXPECT_EQ(mechanism.num_groups, 5);

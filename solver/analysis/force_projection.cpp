@@ -1,0 +1,205 @@
+#include "solver/analysis/force_projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assembly/base/error.hpp"
+#include "solver/contact/problem/cone.hpp"
+#include "solver/contact/problem/residuals.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kOnBoundary = 1e-9;  // distance from the cone's boundary, relative, that counts as sliding
+
+bool is_sliding(const ContactLaw& law, const Vec3& gamma) {
+  return gamma[0] > 0.0 && gamma.tail<2>().norm() >= law.mu * gamma[0] * (1.0 - kOnBoundary);
+}
+
+double energy_norm(const ContactProblem& p, const VecX& gamma) {
+  double squared = 0.0;
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    squared += p.E[3 * i] * gamma[3 * i] * gamma[3 * i];
+    if (p.mu[i] > 0.0) squared += p.E[3 * i + 1] * gamma.segment<2>(3 * i + 1).squaredNorm();
+  }
+  return std::sqrt(squared);
+}
+
+/// The point of the cone that has the tangential part of gamma, or 0 for gamma_n <= 0.
+Vec3 raised_into_cone(double mu, const Vec3& gamma) {
+  if (gamma[0] <= 0.0) return Vec3::Zero();
+  if (mu == 0.0) return {gamma[0], 0.0, 0.0};
+  return {std::max(gamma[0], gamma.tail<2>().norm() / mu), gamma[1], gamma[2]};
+}
+
+/// Geometric stiffness of one side of a contact times h^2, for rotations about the centroid: the force f on
+/// the block acts on a point r that rotates with it. r follows from the columns of D, because the lower half
+/// of D is r x the upper half.
+Mat3 geometric_stiffness(const Mat63& D, const Vec3& gamma, double h) {
+  const Mat3 cross = D.bottomRows<3>() * D.topRows<3>().transpose();
+  const Vec3 r(-cross(1, 2), cross(0, 2), cross(1, 0));
+  const Vec3 f = h * (D.topRows<3>() * gamma);
+  return f.dot(r) * Mat3::Identity() - 0.5 * (f * r.transpose() + r * f.transpose());
+}
+
+/// Rounding of y = D^T v + b in the norm of E^-1 over the loaded contacts.
+double rounding_of_velocities(const ContactProblem& p, const ContactSolution& x) {
+  constexpr double kEps = 4.0 * std::numeric_limits<double>::epsilon();  // of a sum of several products
+  double squared = 0.0;
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    if (x.gamma.segment<3>(3 * i).isZero(0.0)) continue;
+    Vec3 size = p.b.segment<3>(3 * i).cwiseAbs();
+    const auto add = [&](int k, const Mat63& D) {
+      if (k != ContactProblem::kFixed) size += D.cwiseAbs().transpose() * x.v.segment<6>(6 * k).cwiseAbs();
+    };
+    add(p.block_a[i], p.D_a[i]);
+    add(p.block_b[i], p.D_b[i]);
+    squared += size[0] * size[0] / p.E[3 * i];
+    if (p.mu[i] > 0.0) squared += size.tail<2>().squaredNorm() / p.E[3 * i + 1];
+  }
+  return kEps * std::sqrt(squared);
+}
+
+}  // namespace
+
+ForceProjection::ForceProjection(const ContactProblem& problem, VecX impulse)
+    : p_(problem), impulse_(std::move(impulse)), white_(whiten(problem)), graph_(contact_graph(problem)) {}
+
+bool ForceProjection::slides(const ContactSolution& x) const {
+  for (int i = 0; i < p_.num_contacts(); ++i)
+    if (is_sliding(contact_law(p_, i), x.gamma.segment<3>(3 * i))) return true;
+  return false;
+}
+
+bool ForceProjection::is_stable(const ContactSolution& x, double gravity) {
+  constexpr double kSlowest = 1e-3;    // 1/m, times gravity: squared growth rate that is not reported
+  constexpr double kRounding = 1e-12;  // of the largest diagonal entry
+  const VecX y = relative_velocity(p_, x.v) + p_.b;
+  std::vector<Mat3> G(p_.num_contacts());
+  for (int i = 0; i < p_.num_contacts(); ++i)
+    G[i] = contact_stiffness(contact_law(p_, i), y.segment<3>(3 * i));
+  BlockMatrix H = assemble_hessian(white_.problem, graph_, G);
+  double largest = 0.0;
+  for (const Mat6& block : H.diagonal) largest = std::max(largest, block.diagonal().maxCoeff());
+  const double shift = std::max(kSlowest * gravity * p_.h * p_.h, kRounding * largest);
+  for (Mat6& block : H.diagonal) block.diagonal().array() += shift - 1.0;  // the Hessian contains I
+  for (int i = 0; i < p_.num_contacts(); ++i) {
+    const auto add = [&](int k, const Mat63& D) {
+      if (k == ContactProblem::kFixed) return;
+      Mat6 K = Mat6::Zero();
+      K.bottomRightCorner<3, 3>() = geometric_stiffness(D, x.gamma.segment<3>(3 * i), p_.h);
+      H.diagonal[k] += white_.L_inverse[k] * K * white_.L_inverse[k].transpose();
+    };
+    add(p_.block_a[i], p_.D_a[i]);
+    add(p_.block_b[i], p_.D_b[i]);
+  }
+  return preconditioner_.factorize(graph_.pattern, H);
+}
+
+/// Per contact the S = P (P^T E P)^-1 P^T of the directions P in which its impulse may change: all where it
+/// sticks, the tangent plane of the cone where it slides, none where it is open.
+std::vector<Mat3> ForceProjection::admissible_directions(const VecX& gamma) const {
+  std::vector<Mat3> S(p_.num_contacts(), Mat3::Zero());
+  for (int i = 0; i < p_.num_contacts(); ++i) {
+    const ContactLaw law = contact_law(p_, i);
+    const Vec3 g = gamma.segment<3>(3 * i);
+    if (g[0] <= 0.0) continue;
+    if (law.mu == 0.0) {
+      S[i](0, 0) = 1.0 / law.e_n;
+    } else if (is_sliding(law, g)) {
+      const Eigen::Vector2d t = g.tail<2>().normalized();
+      const Vec3 ray(1.0, law.mu * t[0], law.mu * t[1]), turn(0.0, -t[1], t[0]);
+      S[i] =
+          ray * ray.transpose() / (law.e_n + law.mu * law.mu * law.e_t) + turn * turn.transpose() / law.e_t;
+    } else {
+      S[i].diagonal() << 1.0 / law.e_n, 1.0 / law.e_t, 1.0 / law.e_t;
+    }
+  }
+  return S;
+}
+
+/// -(h w + D gamma), accumulated in extended precision.
+VecX ForceProjection::imbalance(const VecX& gamma) const {
+  using Extended6 = Eigen::Matrix<long double, 6, 1>;
+  std::vector<Extended6> sum(p_.num_blocks());
+  for (int k = 0; k < p_.num_blocks(); ++k) sum[k] = impulse_.segment<6>(6 * k).cast<long double>();
+  for (int i = 0; i < p_.num_contacts(); ++i) {
+    const Eigen::Matrix<long double, 3, 1> g = gamma.segment<3>(3 * i).cast<long double>();
+    const auto add = [&](int k, const Mat63& D) {
+      if (k != ContactProblem::kFixed) sum[k] += D.cast<long double>() * g;
+    };
+    add(p_.block_a[i], p_.D_a[i]);
+    add(p_.block_b[i], p_.D_b[i]);
+  }
+  VecX result(impulse_.size());
+  for (int k = 0; k < p_.num_blocks(); ++k) result.segment<6>(6 * k) = -sum[k].cast<double>();
+  return result;
+}
+
+/// The smallest change of the impulses (in the norm of E, along S) whose impulse is `imbalance`, by conjugate
+/// gradients on J S J^T. None if they do not converge: the loaded contacts cannot carry it.
+std::optional<VecX> ForceProjection::correction(const std::vector<Mat3>& S, const VecX& imbalance) {
+  constexpr int kMaxIterations = 200;
+  constexpr double kReduction = 1e-6;
+  const ContactProblem& white = white_.problem;
+  const auto change = [&](const VecX& x) {  // S J^T x
+    VecX gamma = relative_velocity(white, x);
+    for (int i = 0; i < white.num_contacts(); ++i)
+      gamma.segment<3>(3 * i) = (S[i] * gamma.segment<3>(3 * i)).eval();
+    return gamma;
+  };
+  VecX r(imbalance.size());
+  for (int k = 0; k < white.num_blocks(); ++k)
+    r.segment<6>(6 * k) = white_.L_inverse[k] * imbalance.segment<6>(6 * k);
+  VecX gamma = VecX::Zero(white.b.size());
+  const double first = r.norm();
+  if (first == 0.0) return gamma;
+  VecX z = preconditioner_.solve(r), direction = z;
+  double rz = r.dot(z);
+  for (int k = 0; k < kMaxIterations; ++k) {
+    const VecX dg = change(direction);
+    const VecX product = generalized_impulse(white, dg);
+    const double curvature = direction.dot(product);
+    if (!(curvature > 0.0)) return std::nullopt;
+    const double alpha = rz / curvature;
+    gamma += alpha * dg;
+    r -= alpha * product;
+    if (r.norm() <= kReduction * first) return gamma;
+    z = preconditioner_.solve(r);
+    const double next = r.dot(z);
+    direction = z + next / rz * direction;
+    rz = next;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> ForceProjection::force_error(const ContactSolution& x) {
+  constexpr int kRounds = 4;
+  constexpr double kNegligible = 1e-2;
+  VecX gamma = x.gamma;
+  for (int i = 0; i < p_.num_contacts(); ++i)
+    gamma.segment<3>(3 * i) = raised_into_cone(p_.mu[i], gamma.segment<3>(3 * i));
+  if (!preconditioner_.has_factor() &&
+      !preconditioner_.factorize(graph_.pattern,
+                                 assemble_hessian(white_.problem, graph_, admissible_directions(gamma))))
+    return std::nullopt;
+  double remaining = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::optional<VecX> change = correction(admissible_directions(gamma), imbalance(gamma));
+    if (!change) return std::nullopt;
+    remaining = energy_norm(p_, *change);
+    const bool settled = round > 0 && remaining <= kNegligible * energy_norm(p_, gamma - x.gamma);
+    if (settled || round + 1 == kRounds) break;  // the last change only measures what remains
+    gamma += *change;
+    for (int i = 0; i < p_.num_contacts(); ++i)
+      gamma.segment<3>(3 * i) = raised_into_cone(p_.mu[i], gamma.segment<3>(3 * i));
+  }
+  const VecX y = relative_velocity(p_, x.v) + p_.b;
+  double gap = 0.0;
+  for (int i = 0; i < p_.num_contacts(); ++i)
+    gap += contact_duality_gap(contact_law(p_, i), y.segment<3>(3 * i), gamma.segment<3>(3 * i));
+  return energy_norm(p_, gamma - x.gamma) + remaining + std::sqrt(2.0 * gap) + rounding_of_velocities(p_, x);
+}
+
+}  // namespace cupola

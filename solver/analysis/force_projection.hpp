@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "solver/contact/blocks/block_cholesky.hpp"
+#include "solver/contact/problem/whitening.hpp"
+
+namespace cupola {
+
+/// Linear algebra of certify_static() (static_certificate.hpp) on one contact problem.
+class ForceProjection {
+ public:
+  /// `impulse`: h times the loads, N s, N m s (6 nb).
+  ForceProjection(const ContactProblem& problem, VecX impulse);
+
+  /// True if some loaded contact is on the boundary of its friction cone.
+  bool slides(const ContactSolution& x) const;
+
+  /// True if stiffness of the joints plus geometric stiffness is positive definite up to a growth rate of
+  /// sqrt(1e-3 gravity / m).
+  bool is_stable(const ContactSolution& x, double gravity);
+
+  /// Upper bound of |gamma - exact|_E, sqrt(J): the distance in the energy norm from the impulses of the
+  /// exact static solution. None if no forces in the cones that balance the loads are found next to gamma.
+  /// Requires all E > 0 and the associated law.
+  std::optional<double> force_error(const ContactSolution& x);
+
+ private:
+  std::vector<Mat3> admissible_directions(const VecX& gamma) const;
+  VecX imbalance(const VecX& gamma) const;
+  std::optional<VecX> correction(const std::vector<Mat3>& S, const VecX& imbalance);
+
+  const ContactProblem& p_;
+  const VecX impulse_;
+  const WhitenedProblem white_;
+  const ContactGraph graph_;
+  BlockCholesky preconditioner_;
+};
+
+}  // namespace cupola

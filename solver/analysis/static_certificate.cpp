@@ -1,0 +1,110 @@
+#include "solver/analysis/static_certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/base/error.hpp"
+#include "solver/analysis/cyclic_reduction.hpp"
+#include "solver/analysis/force_projection.hpp"
+#include "solver/analysis/record.hpp"
+#include "solver/contact/problem/residuals.hpp"
+#include "solver/dynamics/time_step.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kCarries = 0.01;  // of the mean joint force; joints with less are not compared
+
+/// Loads on the blocks of one sector.
+VecX restrict_loads(const VecX& loads, const CyclicSymmetry& symmetry) {
+  VecX sector(6 * std::ssize(symmetry.block_of_orbit));
+  for (int i = 0; i < static_cast<int>(symmetry.block_of_orbit.size()); ++i)
+    sector.segment<6>(6 * i) = loads.segment<6>(6 * symmetry.block_of_orbit[i]);
+  return sector;
+}
+
+/// Largest relative error of a joint wrench, if |gamma - exact|_E <= `bound`.
+double largest_joint_error(const ContactSet& contacts, const ContactProblem& p, const VecX& gamma,
+                           double bound) {
+  const JointNumbers numbers = number_joints(contacts);
+  struct Joint {
+    Vec3 centroid = Vec3::Zero(), force = Vec3::Zero(), moment = Vec3::Zero();
+    double area = 0.0, points = 0.0, compliance_sum = 0.0;
+  };
+  std::vector<Joint> joints(numbers.count);
+  const auto nc = static_cast<int>(contacts.points.size());
+  const auto point = [&](int i) {
+    return Vec3(0.5 * (contacts.points[i].point_a + contacts.points[i].point_b));
+  };
+  for (int i = 0; i < nc; ++i) {
+    Joint& joint = joints[numbers.of_contact[i]];
+    joint.centroid += point(i);
+    joint.area += contacts.points[i].area;
+    joint.points += 1.0;
+  }
+  for (Joint& joint : joints) joint.centroid /= joint.points;
+  double mean = 0.0;
+  for (int i = 0; i < nc; ++i) {
+    Joint& joint = joints[numbers.of_contact[i]];
+    const Vec3 force = contact_frame(contacts.points[i].normal) * gamma.segment<3>(3 * i);
+    const double length = joint.area > 0.0 ? std::sqrt(joint.area) : 1.0;
+    const Vec3 arm = (point(i) - joint.centroid) / length;
+    joint.force += force;
+    joint.moment += arm.cross(force);
+    const double stiffest = p.mu[i] > 0.0 ? std::min(p.E[3 * i], p.E[3 * i + 1]) : p.E[3 * i];
+    joint.compliance_sum += (1.0 + arm.squaredNorm()) / stiffest;
+  }
+  for (const Joint& joint : joints) mean += joint.force.norm() / numbers.count;
+  double largest = 0.0;
+  for (const Joint& joint : joints) {
+    if (!(joint.force.norm() > kCarries * mean)) continue;
+    const double wrench = std::hypot(joint.force.norm(), joint.moment.norm());
+    largest = std::max(largest, bound * std::sqrt(joint.compliance_sum) / wrench);
+  }
+  return largest;
+}
+
+}  // namespace
+
+StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, const ContactProblem& problem,
+                                 const ContactSolution& solution, FrictionLaw law, double gravity,
+                                 const CyclicSymmetry* symmetry) {
+  CUPOLA_ASSERT(loads.size() == problem.v_star.size() && solution.gamma.size() == problem.b.size());
+  StaticCertificate certificate;
+  const bool rigid = smallest_compliance(problem) == 0.0;
+  const bool coulomb = law == FrictionLaw::coulomb;
+  certificate.forces_unique = {!rigid && !coulomb,
+                               rigid ? "some compliance is zero: forces that balance the loads are chosen "
+                                       "by the method, not by the model"
+                               : coulomb ? "Coulomb's law can have several equilibria"
+                                         : "associated law and positive compliance: strictly convex"};
+  const ContactProblem sector = symmetry ? reduce(problem, *symmetry) : ContactProblem{};
+  const ContactProblem& p = symmetry ? sector : problem;
+  const ContactSolution x = symmetry ? restrict(solution, *symmetry) : solution;
+  ForceProjection projection(p, p.h * (symmetry ? restrict_loads(loads, *symmetry) : loads));
+
+  const bool has_ties = problem.num_contacts() > static_cast<int>(contacts.points.size());
+  if (!symmetry && !has_ties && !rigid && !(coulomb && projection.slides(x)))
+    certificate.balance = projection.is_stable(x, gravity) ? Balance::stable : Balance::unstable;
+
+  if (rigid || coulomb) {
+    certificate.force_error.bounds =
+        rigid ? "some compliance is zero: forces are not unique" : "Coulomb's law is not a minimisation";
+    return certificate;
+  }
+  const std::optional<double> bound = projection.force_error(x);
+  if (!bound) {
+    certificate.force_error.bounds =
+        "the forces in the loaded joints could not be brought into exact equilibrium inside the friction "
+        "cones";
+    return certificate;
+  }
+  const double sectors = symmetry ? symmetry->sectors : 1.0;
+  certificate.force_error = {
+      largest_joint_error(contacts, problem, solution.gamma, std::sqrt(sectors) * *bound),
+      "relative error of the wrench on any joint that carries more than 1 % of the mean joint force, against "
+      "the exact static solution of this model"};
+  return certificate;
+}
+
+}  // namespace cupola

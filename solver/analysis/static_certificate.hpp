@@ -1,0 +1,53 @@
+#pragma once
+
+#include "assembly/model/accuracy.hpp"
+#include "assembly/model/choices.hpp"
+#include "solver/analysis/cyclic_symmetry.hpp"
+#include "solver/collision/contact_set.hpp"
+#include "solver/contact/problem/contact_problem.hpp"
+
+namespace cupola {
+
+/// Stability of an equilibrium against small disturbances.
+enum class Balance {
+  stable,    ///< stiffness of the joints plus geometric stiffness is positive (semi)definite
+  unstable,  ///< it has a negative direction
+  unknown    ///< not examined: under Coulomb's law with sliding joints the stiffness is not symmetric
+};
+
+struct StaticCertificate {
+  ForceCertificate force_error;
+  ForcesUnique forces_unique;
+  Balance balance = Balance::unknown;
+};
+
+/// What is certain about a static solution, computed from the solution alone.
+///
+/// **Force error.** The static problem of associated, compliant joints minimises the strictly convex energy
+/// 1/2 F . c F + gap . F over the forces F in the cones that balance the loads. Let F' be such a force state
+/// and d any displacement. The duality gap
+///
+///     G(d, F') = sum_i [ 1/2 |F'_i - F_i(d)|_c^2 + F'_i . z_i ],   z = D^T d + gap + c F(d)
+///
+/// bounds the distance to the exact forces F*: |F' - F*|_c <= sqrt(2 G). F' is obtained from the solution F by
+/// projecting out the imbalance that remains over the loaded contacts, in the metric of the compliance; it is
+/// then checked to lie in the cones, with its imbalance computed in extended precision. Hence
+///
+///     |F - F*|_c <= |F - F'|_c + sqrt(2 G) + rounding of D^T d
+///
+/// By Cauchy's inequality the resultant of a joint j is in error by at most sqrt(sum over j of 1/c_i) times
+/// that, and its moment about the centroid of the joint likewise, with 1/c_i weighted by the squared lever.
+/// The value is the largest bound of a joint wrench over that wrench (moments over the square root of the
+/// joint's area), over the joints that carry more than 1 % of the mean joint force.
+///
+/// **Stability.** The second variation of the energy: the stiffness of the joints in their present state plus
+/// the geometric stiffness of the contact forces, which act on points that rotate with their blocks. Growth
+/// slower than exp(t sqrt(1e-3 g / m)) is not reported.
+///
+/// `loads`: N, N m (6 nb). `gravity`: m/s2, sets that smallest growth rate. `problem` and `solution` are those
+/// of the whole model; with a symmetry the linear algebra is done on one sector.
+StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, const ContactProblem& problem,
+                                 const ContactSolution& solution, FrictionLaw law, double gravity,
+                                 const CyclicSymmetry* symmetry = nullptr);
+
+}  // namespace cupola
