@@ -97,21 +97,23 @@ bool ForceProjection::is_stable(const ContactSolution& x, double gravity) {
   return preconditioner_.factorize(graph_.pattern, H);
 }
 
-/// Per contact the S = P (P^T E P)^-1 P^T of the directions P in which its impulse may change: all where it
-/// sticks, the tangent plane of the cone where it slides, none where it is open.
-std::vector<Mat3> ForceProjection::admissible_directions(const VecX& gamma) const {
+/// Per contact the stiffness of the changes that its impulse may undergo: all where it sticks, in the tangent
+/// plane of the cone where it slides, none where it is open.
+std::vector<Mat3> ForceProjection::tangents(const ContactSolution& x) const {
   std::vector<Mat3> S(p_.num_contacts(), Mat3::Zero());
   for (int i = 0; i < p_.num_contacts(); ++i) {
     const ContactLaw law = contact_law(p_, i);
-    const Vec3 g = gamma.segment<3>(3 * i);
+    const Vec3 g = x.gamma.segment<3>(3 * i);
     if (g[0] <= 0.0) continue;
     if (law.mu == 0.0) {
       S[i](0, 0) = 1.0 / law.e_n;
     } else if (is_sliding(law, g)) {
       const Eigen::Vector2d t = g.tail<2>().normalized();
       const Vec3 ray(1.0, law.mu * t[0], law.mu * t[1]), turn(0.0, -t[1], t[0]);
-      S[i] =
-          ray * ray.transpose() / (law.e_n + law.mu * law.mu * law.e_t) + turn * turn.transpose() / law.e_t;
+      const double slip = (relative_velocity(p_, i, x.v) + p_.b.segment<3>(3 * i)).tail<2>().norm();
+      const double against_turning = law.mu * g[0] / std::max(slip, law.e_t * law.mu * g[0]);
+      S[i] = ray * ray.transpose() / (law.e_n + law.mu * law.mu * law.e_t) +
+             against_turning * turn * turn.transpose();
     } else {
       S[i].diagonal() << 1.0 / law.e_n, 1.0 / law.e_t, 1.0 / law.e_t;
     }
@@ -137,14 +139,15 @@ VecX ForceProjection::imbalance(const VecX& gamma) const {
   return result;
 }
 
-/// The smallest change of the impulses (in the norm of E, along S) whose impulse is `imbalance`, by conjugate
-/// gradients on J S J^T. None if they do not converge: the loaded contacts cannot carry it.
-std::optional<VecX> ForceProjection::correction(const std::vector<Mat3>& S, const VecX& imbalance) {
+/// The change S J^T w of the impulses that balances `imbalance`, and the velocities -L^-T w that cause it, by
+/// conjugate gradients on J S J^T. None if they do not converge: the loaded contacts cannot carry it.
+std::optional<ContactSolution> ForceProjection::correction(const std::vector<Mat3>& S,
+                                                           const VecX& imbalance) {
   constexpr int kMaxIterations = 200;
   constexpr double kReduction = 1e-6;
   const ContactProblem& white = white_.problem;
-  const auto change = [&](const VecX& x) {  // S J^T x
-    VecX gamma = relative_velocity(white, x);
+  const auto change = [&](const VecX& w) {
+    VecX gamma = relative_velocity(white, w);
     for (int i = 0; i < white.num_contacts(); ++i)
       gamma.segment<3>(3 * i) = (S[i] * gamma.segment<3>(3 * i)).eval();
     return gamma;
@@ -152,9 +155,9 @@ std::optional<VecX> ForceProjection::correction(const std::vector<Mat3>& S, cons
   VecX r(imbalance.size());
   for (int k = 0; k < white.num_blocks(); ++k)
     r.segment<6>(6 * k) = white_.L_inverse[k] * imbalance.segment<6>(6 * k);
-  VecX gamma = VecX::Zero(white.b.size());
+  VecX gamma = VecX::Zero(white.b.size()), w = VecX::Zero(r.size());
   const double first = r.norm();
-  if (first == 0.0) return gamma;
+  if (first == 0.0) return ContactSolution{w, gamma};
   VecX z = preconditioner_.solve(r), direction = z;
   double rz = r.dot(z);
   for (int k = 0; k < kMaxIterations; ++k) {
@@ -164,8 +167,9 @@ std::optional<VecX> ForceProjection::correction(const std::vector<Mat3>& S, cons
     if (!(curvature > 0.0)) return std::nullopt;
     const double alpha = rz / curvature;
     gamma += alpha * dg;
+    w += alpha * direction;
     r -= alpha * product;
-    if (r.norm() <= kReduction * first) return gamma;
+    if (r.norm() <= kReduction * first) return ContactSolution{-white_.to_v(w), gamma};
     z = preconditioner_.solve(r);
     const double next = r.dot(z);
     direction = z + next / rz * direction;
@@ -174,32 +178,36 @@ std::optional<VecX> ForceProjection::correction(const std::vector<Mat3>& S, cons
   return std::nullopt;
 }
 
-std::optional<double> ForceProjection::force_error(const ContactSolution& x) {
+std::optional<ForceErrorBound> ForceProjection::force_error(const ContactSolution& x) {
   constexpr int kRounds = 4;
   constexpr double kNegligible = 1e-2;
-  VecX gamma = x.gamma;
-  for (int i = 0; i < p_.num_contacts(); ++i)
-    gamma.segment<3>(3 * i) = raised_into_cone(p_.mu[i], gamma.segment<3>(3 * i));
+  ContactSolution balanced = x;
+  const auto raise_into_cones = [&] {
+    for (int i = 0; i < p_.num_contacts(); ++i)
+      balanced.gamma.segment<3>(3 * i) = raised_into_cone(p_.mu[i], balanced.gamma.segment<3>(3 * i));
+  };
+  raise_into_cones();
   if (!preconditioner_.has_factor() &&
       !preconditioner_.factorize(graph_.pattern,
-                                 assemble_hessian(white_.problem, graph_, admissible_directions(gamma))))
+                                 assemble_hessian(white_.problem, graph_, tangents(balanced))))
     return std::nullopt;
   double remaining = 0.0;
   for (int round = 0; round < kRounds; ++round) {
-    const std::optional<VecX> change = correction(admissible_directions(gamma), imbalance(gamma));
+    const std::optional<ContactSolution> change = correction(tangents(balanced), imbalance(balanced.gamma));
     if (!change) return std::nullopt;
-    remaining = energy_norm(p_, *change);
-    const bool settled = round > 0 && remaining <= kNegligible * energy_norm(p_, gamma - x.gamma);
+    remaining = energy_norm(p_, change->gamma);
+    const bool settled = round > 0 && remaining <= kNegligible * energy_norm(p_, balanced.gamma - x.gamma);
     if (settled || round + 1 == kRounds) break;  // the last change only measures what remains
-    gamma += *change;
-    for (int i = 0; i < p_.num_contacts(); ++i)
-      gamma.segment<3>(3 * i) = raised_into_cone(p_.mu[i], gamma.segment<3>(3 * i));
+    balanced.gamma += change->gamma;
+    balanced.v += change->v;
+    raise_into_cones();
   }
-  const VecX y = relative_velocity(p_, x.v) + p_.b;
+  const VecX y = relative_velocity(p_, balanced.v) + p_.b;
   double gap = 0.0;
   for (int i = 0; i < p_.num_contacts(); ++i)
-    gap += contact_duality_gap(contact_law(p_, i), y.segment<3>(3 * i), gamma.segment<3>(3 * i));
-  return energy_norm(p_, gamma - x.gamma) + remaining + std::sqrt(2.0 * gap) + rounding_of_velocities(p_, x);
+    gap += contact_duality_gap(contact_law(p_, i), y.segment<3>(3 * i), balanced.gamma.segment<3>(3 * i));
+  return ForceErrorBound{balanced.gamma - x.gamma,
+                         remaining + std::sqrt(2.0 * gap) + rounding_of_velocities(p_, balanced)};
 }
 
 }  // namespace cupola

@@ -7,6 +7,12 @@
 
 namespace cupola {
 
+/// The exact impulses are gamma + correction + rest with |rest|_E <= remainder.
+struct ForceErrorBound {
+  VecX correction;         ///< N s (3 nc)
+  double remainder = 0.0;  ///< sqrt(J)
+};
+
 /// Linear algebra of certify_static() (static_certificate.hpp) on one contact problem.
 class ForceProjection {
  public:
@@ -20,15 +26,14 @@ class ForceProjection {
   /// sqrt(1e-3 gravity / m).
   bool is_stable(const ContactSolution& x, double gravity);
 
-  /// Upper bound of |gamma - exact|_E, sqrt(J): the distance in the energy norm from the impulses of the
-  /// exact static solution. None if no forces in the cones that balance the loads are found next to gamma.
-  /// Requires all E > 0 and the associated law.
-  std::optional<double> force_error(const ContactSolution& x);
+  /// Bounds the distance of the impulses from those of the exact static solution. None if no forces in the
+  /// cones that balance the loads are found next to gamma. Requires all E > 0 and the associated law.
+  std::optional<ForceErrorBound> force_error(const ContactSolution& x);
 
  private:
-  std::vector<Mat3> admissible_directions(const VecX& gamma) const;
+  std::vector<Mat3> tangents(const ContactSolution& x) const;
   VecX imbalance(const VecX& gamma) const;
-  std::optional<VecX> correction(const std::vector<Mat3>& S, const VecX& imbalance);
+  std::optional<ContactSolution> correction(const std::vector<Mat3>& S, const VecX& imbalance);
 
   const ContactProblem& p_;
   const VecX impulse_;

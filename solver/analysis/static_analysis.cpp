@@ -90,8 +90,9 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   if (wrench_error) {
     const double reached =
         solution.certificate.force_error.value.value_or(std::numeric_limits<double>::infinity());
-    summary.accuracy = {"wrenches on the joints", "largest certified error of a joint, relative to its wrench",
-                        *wrench_error, reached, reached};
+    summary.accuracy = {"wrenches on the joints",
+                        "largest certified error of a joint, relative to its wrench", *wrench_error, reached,
+                        reached};
   }
   summary.unknowns /= scene.analysis.cyclic_sectors;
   summary.message += linearity_note(assembly, summary.max_displacement_m);

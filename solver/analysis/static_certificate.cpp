@@ -23,12 +23,13 @@ VecX restrict_loads(const VecX& loads, const CyclicSymmetry& symmetry) {
   return sector;
 }
 
-/// Largest relative error of a joint wrench, if |gamma - exact|_E <= `bound`.
+/// Largest error of a joint wrench, relative to the exact wrench; infinite if that may be zero.
 double largest_joint_error(const ContactSet& contacts, const ContactProblem& p, const VecX& gamma,
-                           double bound) {
+                           const ForceErrorBound& error) {
   const JointNumbers numbers = number_joints(contacts);
   struct Joint {
     Vec3 centroid = Vec3::Zero(), force = Vec3::Zero(), moment = Vec3::Zero();
+    Vec3 force_change = Vec3::Zero(), moment_change = Vec3::Zero();
     double area = 0.0, points = 0.0, compliance_sum = 0.0;
   };
   std::vector<Joint> joints(numbers.count);
@@ -46,11 +47,14 @@ double largest_joint_error(const ContactSet& contacts, const ContactProblem& p, 
   double mean = 0.0;
   for (int i = 0; i < nc; ++i) {
     Joint& joint = joints[numbers.of_contact[i]];
-    const Vec3 force = contact_frame(contacts.points[i].normal) * gamma.segment<3>(3 * i);
+    const Mat3 R_WC = contact_frame(contacts.points[i].normal);
+    const Vec3 force = R_WC * gamma.segment<3>(3 * i), change = R_WC * error.correction.segment<3>(3 * i);
     const double length = joint.area > 0.0 ? std::sqrt(joint.area) : 1.0;
     const Vec3 arm = (point(i) - joint.centroid) / length;
     joint.force += force;
     joint.moment += arm.cross(force);
+    joint.force_change += change;
+    joint.moment_change += arm.cross(change);
     const double stiffest = p.mu[i] > 0.0 ? std::min(p.E[3 * i], p.E[3 * i + 1]) : p.E[3 * i];
     joint.compliance_sum += (1.0 + arm.squaredNorm()) / stiffest;
   }
@@ -59,7 +63,9 @@ double largest_joint_error(const ContactSet& contacts, const ContactProblem& p, 
   for (const Joint& joint : joints) {
     if (!(joint.force.norm() > kCarries * mean)) continue;
     const double wrench = std::hypot(joint.force.norm(), joint.moment.norm());
-    largest = std::max(largest, bound * std::sqrt(joint.compliance_sum) / wrench);
+    const double change = std::hypot(joint.force_change.norm(), joint.moment_change.norm());
+    const double largest_change = change + error.remainder * std::sqrt(joint.compliance_sum);
+    largest = std::max(largest, largest_change / std::max(0.0, wrench - largest_change));
   }
   return largest;
 }
@@ -92,16 +98,19 @@ StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, 
         rigid ? "some compliance is zero: forces are not unique" : "Coulomb's law is not a minimisation";
     return certificate;
   }
-  const std::optional<double> bound = projection.force_error(x);
-  if (!bound) {
+  std::optional<ForceErrorBound> error = projection.force_error(x);
+  if (!error) {
     certificate.force_error.bounds =
         "the forces in the loaded joints could not be brought into exact equilibrium inside the friction "
         "cones";
     return certificate;
   }
-  const double sectors = symmetry ? symmetry->sectors : 1.0;
+  if (symmetry) {
+    error->correction = expand({x.v, error->correction}, problem, *symmetry).gamma;
+    error->remainder *= std::sqrt(symmetry->sectors);
+  }
   certificate.force_error = {
-      largest_joint_error(contacts, problem, solution.gamma, std::sqrt(sectors) * *bound),
+      largest_joint_error(contacts, problem, solution.gamma, *error),
       "relative error of the wrench on any joint that carries more than 1 % of the mean joint force, against "
       "the exact static solution of this model"};
   return certificate;

@@ -29,16 +29,16 @@ struct StaticCertificate {
 ///
 ///     G(d, F') = sum_i [ 1/2 |F'_i - F_i(d)|_c^2 + F'_i . z_i ],   z = D^T d + gap + c F(d)
 ///
-/// bounds the distance to the exact forces F*: |F' - F*|_c <= sqrt(2 G). F' is obtained from the solution F by
-/// projecting out the imbalance that remains over the loaded contacts, in the metric of the compliance; it is
-/// then checked to lie in the cones, with its imbalance computed in extended precision. Hence
+/// bounds the distance to the exact forces F*: |F' - F*|_c <= sqrt(2 G). F' and d are one Newton correction
+/// of the solution F: they carry the imbalance that remains over the loaded contacts. F' is kept inside the
+/// cones, and its imbalance is computed in extended precision. Hence
 ///
-///     |F - F*|_c <= |F - F'|_c + sqrt(2 G) + rounding of D^T d
+///     F* = F + (F' - F) + rest,   |rest|_c <= sqrt(2 G) + last correction + rounding of D^T d
 ///
-/// By Cauchy's inequality the resultant of a joint j is in error by at most sqrt(sum over j of 1/c_i) times
-/// that, and its moment about the centroid of the joint likewise, with 1/c_i weighted by the squared lever.
-/// The value is the largest bound of a joint wrench over that wrench (moments over the square root of the
-/// joint's area), over the joints that carry more than 1 % of the mean joint force.
+/// The resultant of a joint is in error by at most that of F' - F plus, by Cauchy's inequality, |rest|_c times
+/// sqrt(sum of 1/c_i over the joint); the moment about its centroid likewise, with 1/c_i weighted by the squared
+/// lever. The value is the largest such bound over the wrench of the joint (moments over the square root of
+/// the joint's area), over the joints that carry more than 1 % of the mean joint force.
 ///
 /// **Stability.** The second variation of the energy: the stiffness of the joints in their present state plus
 /// the geometric stiffness of the contact forces, which act on points that rotate with their blocks. Growth
