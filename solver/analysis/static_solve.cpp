@@ -18,8 +18,8 @@ namespace {
 constexpr int kMaxSolves = 40;
 constexpr double kSolveShare = 0.1;  // part of the tolerance for the contact solve; inertia takes the rest
 
-/// Lower bound of the sum of normal forces of any equilibrium over the sum found, from which a motion counts
-/// as proven: no contact forces of the size found, nor a thousand times larger, balance the loads.
+/// Lower bound of the sum of normal forces of any equilibrium, over the sum found or the sum of the loads if
+/// that is larger, from which a motion counts as proven.
 constexpr double kProven = 1e3;
 
 /// A speed ratio smaller than that of any mechanism whose load exceeds the critical one by a millionth.
@@ -71,7 +71,7 @@ class ProximalPoint {
   bool accepts(const StaticSolution& trial) const;
   bool is_accurate_enough(const StaticSolution& trial) const;
   bool shorten_step();
-  void lengthen_step(double contraction);
+  void speed_up(double contraction);
   double proof(const StaticSolution& trial) const;
   bool moves_steadily(double contraction);
   StaticSolution finish(StaticOutcome outcome, std::string message);
@@ -88,6 +88,7 @@ class ProximalPoint {
   ContactSolution x_;            // last accepted iterate, at trial_.h
   StaticSolution trial_, best_;  // without the contact problem, which is large
   double residual_ = 1.0;        // equilibrium residual of x_; at the start, of the unsupported structure
+  double tightening_ = 1.0;      // factor on the tolerance of the contact solves
   int num_shortened_ = 0, num_steady_ = 0;
 };
 
@@ -108,7 +109,7 @@ double ProximalPoint::solve_tolerance() const {
   const double scale = weight_over_load(model_, acceleration_);
   const double own = kSolveShare * options_.tolerance;
   const double fine = std::max(own * scale, std::min(own, kRounding));
-  return std::max(fine, std::min(kCoarse, kShare * residual_ * scale));
+  return tightening_ * std::max(fine, std::min(kCoarse, kShare * residual_ * scale));
 }
 
 void ProximalPoint::iterate() {
@@ -124,11 +125,12 @@ void ProximalPoint::iterate() {
   trial_.step_solution = x_;
   trial_.solve = solve_problem(problem, options_.symmetry, solve, &solver_, &trial_.step_solution);
   trial_.iterations += trial_.solve.iterations;
-  const bool usable = trial_.solve.usable();
-  if (usable)
-    trial_.residuals = compute_residuals(problem, trial_.step_solution, solve.reference_speed, solve.law);
+  if (!trial_.solve.usable()) {
+    trial_.step_solution.v = before;
+    trial_.step_solution.gamma = x_.gamma.size() > 0 ? x_.gamma : VecX::Zero(problem.b.size());
+  }
+  trial_.residuals = compute_residuals(problem, trial_.step_solution, solve.reference_speed, solve.law);
   problem.v_star = rest;
-  if (!usable) return;
   CUPOLA_ASSERT(trial_.step_solution.v.allFinite() && trial_.step_solution.gamma.allFinite());
   trial_.increment = trial_.h * (trial_.step_solution.v - before);
   trial_.speed_ratio = largest_speed(trial_.increment) / (trial_.h * solve.reference_speed);
@@ -162,20 +164,27 @@ bool ProximalPoint::shorten_step() {
   return true;
 }
 
-/// Lengthens the step if an iteration reduced the residual by less than a digit. An elastic mode of
-/// eigenvalue lambda contracts by 1 / (1 + h^2 lambda).
-void ProximalPoint::lengthen_step(double contraction) {
-  constexpr double kSlow = 0.1, kWanted = 1e-2, kSmallest = 2.0, kLargest = 10.0;
+/// After an iteration that reduced the residual by less than a digit: lengthens the step, because an elastic
+/// mode of eigenvalue lambda contracts by 1 / (1 + h^2 lambda). Rigid joints do not contract; what remains at
+/// rest is the error of the contact solve, summed over the courses.
+void ProximalPoint::speed_up(double contraction) {
+  constexpr double kSlow = 0.1, kWanted = 1e-2, kSmallest = 2.0, kLargest = 10.0, kTightening = 0.1;
   if (contraction <= kSlow) return;
+  if (trial_.speed_ratio <= kAtRest && std::isinf(largest_h_)) tightening_ *= kTightening;
+  if (std::isinf(largest_h_)) return;
   const double growth = contraction < 1.0 ? std::sqrt(contraction / (1.0 - contraction) / kWanted) : kLargest;
   const double h = std::min(largest_h_, std::clamp(growth, kSmallest, kLargest) * trial_.h);
   if (h > trial_.h) set_step(h);
 }
 
-/// Lower bound of the sum of the normal forces of any equilibrium, from the motion, over the sum found.
+/// Lower bound of the sum of the normal forces of any equilibrium, from the motion, over the larger of the sum
+/// found and the sum of the loads.
 double ProximalPoint::proof(const StaticSolution& trial) const {
+  double loads = 0.0;
+  const VecX f = applied_forces(model_, start_, start_.time + 0.5 * options_.time_advance);
+  for (Eigen::Index i = 0; i < f.size(); i += 6) loads += f.segment<3>(i).norm();
   return required_normal_force(step_.problem, trial.increment / trial.h) /
-         normal_force_sum(step_.problem, trial.step_solution.gamma);
+         std::max(loads, normal_force_sum(step_.problem, trial.step_solution.gamma));
 }
 
 /// True if three iterations in a row left the residual as it was and the blocks move.
@@ -222,17 +231,18 @@ StaticSolution ProximalPoint::run() {
     if (best_.h == 0.0 || residual_ < best_.balance.residual) best_ = trial_;
     if (contraction > 0.5 && trial_.speed_ratio > kAtRest) {
       if (const double needed = proof(trial_); associated && needed >= kProven)
-        return finish(StaticOutcome::moving,
-                      fmt::format("no equilibrium exists: the blocks accelerate at {:.3g} g, and an "
-                                  "equilibrium would need normal forces {:.2g} times those found",
-                                  trial_.speed_ratio, needed));
+        return finish(
+            StaticOutcome::moving,
+            fmt::format("no equilibrium exists: the blocks accelerate at {:.3g} g, and an "
+                        "equilibrium would need normal forces {:.2g} times those found and the loads",
+                        trial_.speed_ratio, needed));
       if (!associated && moves_steadily(contraction))
         return finish(StaticOutcome::moving,
                       fmt::format("a steady motion was found: the blocks accelerate at {:.3g} g; not proven: "
                                   "other contact forces might balance the loads",
                                   trial_.speed_ratio));
     }
-    lengthen_step(contraction);
+    speed_up(contraction);
   }
   if (accepts(trial_))
     return finish(StaticOutcome::equilibrium, fmt::format("equilibrium residual {:.2e} <= tolerance {:.2e}",

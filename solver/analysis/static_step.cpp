@@ -48,8 +48,10 @@ double first_static_step(const Model& model, const State& start, const ContactSe
   for (Eigen::Index i = 0; i < f.size(); i += 6) load += f.segment<3>(i).norm();
   const double courses =
       model.assembly->num_rings > 0 ? model.assembly->num_rings : std::cbrt(model.num_free());
+  double gap = 0.0;
+  for (const Contact& contact : contacts.points) gap = std::max(gap, contact.gap);
   const double displacement =
-      courses * largest_compliance(model, start, contacts) * load / std::max(1, at_supports) +
+      courses * gap + courses * largest_compliance(model, start, contacts) * load / std::max(1, at_supports) +
       imposed_displacement(model, start, options);
   if (displacement == 0.0) return 1.0;
   return kMargin * std::sqrt(displacement / (acceleration * kContraction));

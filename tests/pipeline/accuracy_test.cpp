@@ -52,8 +52,8 @@ std::vector<std::string> small_dome(const std::vector<std::string>& more) {
 TEST(WrenchError, CertifiedErrorHoldsAgainstAReference) {
   const StaticRun exact = solve("dome_circular", small_dome({"analysis.tolerance=1e-12"}));
   for (const double requested : {1e-1, 1e-3, 1e-5}) {
-    const StaticRun run = solve("dome_circular",
-                          small_dome({fmt::format("analysis.accuracy={{wrench_error: {}}}", requested)}));
+    const StaticRun run = solve(
+        "dome_circular", small_dome({fmt::format("analysis.accuracy={{wrench_error: {}}}", requested)}));
     ASSERT_EQ(run.summary.status, Status::stable) << run.summary.message;
     EXPECT_LE(run.summary.accuracy.reached, requested);
     EXPECT_LE(largest_force_difference(run.contacts, exact.contacts), run.summary.accuracy.reached);
