@@ -20,7 +20,7 @@ constexpr double kSolveShare = 0.1;  // part of the tolerance for the contact so
 
 /// Lower bound of the sum of normal forces of any equilibrium, over the sum found or the sum of the loads if
 /// that is larger, from which a motion counts as proven.
-constexpr double kProven = 1e3;
+constexpr double kProven = 100.0;
 
 /// A speed ratio smaller than that of any mechanism whose load exceeds the critical one by a millionth.
 constexpr double kAtRest = 1e-6;
