@@ -84,6 +84,10 @@ StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, 
                                        "by the method, not by the model"
                                : coulomb ? "Coulomb's law can have several equilibria"
                                          : "associated law and positive compliance: strictly convex"};
+  if (problem.num_blocks() == 0 || problem.num_contacts() == 0) {
+    certificate.force_error.bounds = "no joint carries force";
+    return certificate;
+  }
   const ContactProblem sector = symmetry ? reduce(problem, *symmetry) : ContactProblem{};
   const ContactProblem& p = symmetry ? sector : problem;
   const ContactSolution x = symmetry ? restrict(solution, *symmetry) : solution;
