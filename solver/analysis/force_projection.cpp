@@ -141,10 +141,9 @@ VecX ForceProjection::imbalance(const VecX& gamma) const {
 
 /// The change S J^T w of the impulses that balances `imbalance`, and the velocities -L^-T w that cause it, by
 /// conjugate gradients on J S J^T. None if they do not converge: the loaded contacts cannot carry it.
-std::optional<ContactSolution> ForceProjection::correction(const std::vector<Mat3>& S,
-                                                           const VecX& imbalance) {
+std::optional<ContactSolution> ForceProjection::correction(const std::vector<Mat3>& S, const VecX& imbalance,
+                                                           double reduction) {
   constexpr int kMaxIterations = 200;
-  constexpr double kReduction = 1e-6;
   const ContactProblem& white = white_.problem;
   const auto change = [&](const VecX& w) {
     VecX gamma = relative_velocity(white, w);
@@ -169,7 +168,7 @@ std::optional<ContactSolution> ForceProjection::correction(const std::vector<Mat
     gamma += alpha * dg;
     w += alpha * direction;
     r -= alpha * product;
-    if (r.norm() <= kReduction * first) return ContactSolution{-white_.to_v(w), gamma};
+    if (r.norm() <= reduction * first) return ContactSolution{-white_.to_v(w), gamma};
     z = preconditioner_.solve(r);
     const double next = r.dot(z);
     direction = z + next / rz * direction;
@@ -180,7 +179,8 @@ std::optional<ContactSolution> ForceProjection::correction(const std::vector<Mat
 
 std::optional<ForceErrorBound> ForceProjection::force_error(const ContactSolution& x) {
   constexpr int kRounds = 4;
-  constexpr double kNegligible = 1e-2;
+  constexpr double kNegligible = 1e-2;            // of the total correction
+  constexpr double kFirst = 1e-6, kLater = 1e-2;  // reductions of the imbalance in one round
   ContactSolution balanced = x;
   const auto raise_into_cones = [&] {
     for (int i = 0; i < p_.num_contacts(); ++i)
@@ -193,7 +193,8 @@ std::optional<ForceErrorBound> ForceProjection::force_error(const ContactSolutio
     return std::nullopt;
   double remaining = 0.0;
   for (int round = 0; round < kRounds; ++round) {
-    const std::optional<ContactSolution> change = correction(tangents(balanced), imbalance(balanced.gamma));
+    const std::optional<ContactSolution> change =
+        correction(tangents(balanced), imbalance(balanced.gamma), round == 0 ? kFirst : kLater);
     if (!change) return std::nullopt;
     remaining = energy_norm(p_, change->gamma);
     const bool settled = round > 0 && remaining <= kNegligible * energy_norm(p_, balanced.gamma - x.gamma);

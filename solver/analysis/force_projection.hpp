@@ -33,7 +33,8 @@ class ForceProjection {
  private:
   std::vector<Mat3> tangents(const ContactSolution& x) const;
   VecX imbalance(const VecX& gamma) const;
-  std::optional<ContactSolution> correction(const std::vector<Mat3>& S, const VecX& imbalance);
+  std::optional<ContactSolution> correction(const std::vector<Mat3>& S, const VecX& imbalance,
+                                            double reduction);
 
   const ContactProblem& p_;
   const VecX impulse_;
