@@ -50,6 +50,28 @@ RunForces read_forces(RunFiles& run) {
   return forces;
 }
 
+RunForces extrapolated(const RunForces& fine, const RunForces& coarse) {
+  RunForces out = fine;
+  for (auto& [id, wrench] : out.beds) {
+    wrench.force *= 2.0;
+    wrench.moment *= 2.0;
+  }
+  for (const auto& [id, wrench] : coarse.beds) {
+    const auto [entry, is_new] = out.beds.try_emplace(id, Wrench{wrench.point, Vec3::Zero(), Vec3::Zero()});
+    Wrench& sum = entry->second;
+    const Wrench moved = moved_to(wrench, sum.point);
+    sum.force -= moved.force;
+    sum.moment -= moved.moment;
+  }
+  for (auto& [meridian, line] : out.thrust)
+    if (const auto other = coarse.thrust.find(meridian); other != coarse.thrust.end())
+      for (auto& [bed, position] : line)
+        if (const auto same = other->second.find(bed); same != other->second.end())
+          position = 2.0 * position - same->second;
+  out.base_thrust = 2.0 * fine.base_thrust - coarse.base_thrust;
+  return out;
+}
+
 ForceErrors compare_forces(const RunForces& reference, const RunForces& run) {
   ForceErrors errors;
   double sum_error = 0.0, sum_size = 0.0, worst = 0.0;

@@ -1,6 +1,9 @@
 #include "postproc/studies/settings_file.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -22,6 +25,10 @@ StudyPoint read_point(const std::string& line, const FileLocation& where) {
   StudyPoint point;
   if (!(words >> point.knob >> point.name >> point.reference))
     throw InputError(where, "expected KNOB NAME REFERENCE key.path=value ...");
+  if (const size_t plus = point.reference.find('+'); plus != std::string::npos) {
+    point.coarse = point.reference.substr(plus + 1);
+    point.reference.resize(plus);
+  }
   for (std::string setting; words >> setting;) {
     if (setting.find('=') == std::string::npos || setting.front() == '=')
       throw InputError(where, fmt::format("{}: must have the form key.path=value", setting));
@@ -30,7 +37,41 @@ StudyPoint read_point(const std::string& line, const FileLocation& where) {
   return point;
 }
 
+/// The time step that a run sets, s; 0 if it sets none.
+double time_step(const StudyPoint& point) {
+  constexpr const char* kKey = "analysis.time_step=";
+  for (const std::string& setting : point.settings)
+    if (setting.starts_with(kKey)) return std::strtod(setting.c_str() + std::strlen(kKey), nullptr);
+  return 0.0;
+}
+
+void check_reference(const StudyPoint& point, const std::vector<StudyPoint>& points,
+                     const FileLocation& where) {
+  const StudyPoint* reference = find_point(points, point.reference);
+  if (point.coarse.empty()) {
+    if (!reference || !reference->is_reference())
+      throw InputError(where,
+                       fmt::format("{}: no line defines {} as a reference, that is, with itself as reference",
+                                   point.name, point.reference));
+    return;
+  }
+  const StudyPoint* coarse = find_point(points, point.coarse);
+  if (!reference || !coarse)
+    throw InputError(
+        where, fmt::format("{}: no line defines {}", point.name, reference ? point.coarse : point.reference));
+  constexpr double kRounding = 1e-9;  // of decimal numbers read from text
+  const double fine_step = time_step(*reference), coarse_step = time_step(*coarse);
+  if (fine_step <= 0.0 || std::abs(coarse_step / fine_step - 2.0) > kRounding)
+    throw InputError(
+        where, fmt::format("{}: extrapolation requires that analysis.time_step of {} is twice that of {}",
+                           point.name, point.coarse, point.reference));
+}
+
 }  // namespace
+
+std::string StudyPoint::reference_text() const {
+  return coarse.empty() ? reference : fmt::format("2 x {} - {}", reference, coarse);
+}
 
 std::vector<StudyPoint> read_study(const std::vector<std::string>& paths) {
   std::vector<StudyPoint> points;
@@ -51,13 +92,7 @@ std::vector<StudyPoint> read_study(const std::vector<std::string>& paths) {
     }
   }
   if (points.empty()) throw InputError("the study files list no runs");
-  for (size_t i = 0; i < points.size(); ++i) {
-    const StudyPoint* reference = find_point(points, points[i].reference);
-    if (!reference || !reference->is_reference())
-      throw InputError(places[i],
-                       fmt::format("{}: no line defines {} as a reference, that is, with itself as reference",
-                                   points[i].name, points[i].reference));
-  }
+  for (size_t i = 0; i < points.size(); ++i) check_reference(points[i], points, places[i]);
   return points;
 }
 

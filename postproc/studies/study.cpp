@@ -58,7 +58,12 @@ std::vector<StudyRow> measure_study(const std::vector<StudyPoint>& points, const
   std::vector<StudyRow> rows;
   for (const StudyPoint& point : points) {
     StudyRow row{point, {}, {}, {}};
-    if (cache.finished(point.name) && cache.finished(point.reference)) {
+    const bool finished = cache.finished(point.name) && cache.finished(point.reference);
+    if (finished && !point.coarse.empty() && cache.finished(point.coarse)) {
+      row.summary = read_summary(runs, point.name);
+      row.errors = compare_forces(extrapolated(forces.forces(point.reference), forces.forces(point.coarse)),
+                                  forces.forces(point.name));
+    } else if (finished && point.coarse.empty()) {
       row.summary = read_summary(runs, point.name);
       const Summary reference = read_summary(runs, point.reference);
       if (row.summary->critical && reference.critical)
@@ -102,7 +107,7 @@ Table study_table(const std::vector<StudyRow>& rows) {
   Table t{"tradeoff", "Cost and errors of every run of the study", {}, {}};
   t.columns = {{"knob", "", "the setting that is varied"},
                {"run", "", "folder of the run"},
-               {"reference", "", "run that it is compared with"},
+               {"reference", "", "run that it is compared with, or extrapolation from two runs"},
                {"settings", "", "keys changed from the case file"},
                {"status", "", "how the run ended; not run: files are missing"},
                {"cpu_time_s", "s", "processor time of cupola-solve"},
@@ -131,7 +136,7 @@ Table study_table(const std::vector<StudyRow>& rows) {
     };
     t.rows.push_back({row.point.knob,
                       row.point.name,
-                      row.point.reference,
+                      row.point.reference_text(),
                       settings,
                       row.finished() ? to_string(s.status) : std::string("not run"),
                       error(s.cpu_time_seconds),

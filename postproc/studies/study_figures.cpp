@@ -21,15 +21,15 @@ double drawn_error(const StudyRow& row) {
   return std::max(row.error(), kSmallestDrawnError);
 }
 
-/// The method with its name in other programs.
+/// The method, implemented here, and programs that use a method of the same kind.
 std::string method_title(ContactMethod method) {
   static const std::map<ContactMethod, std::string> kTitles{
-      {ContactMethod::newton, "Newton (as Drake's SAP)"},
+      {ContactMethod::newton, "Newton (kind: SAP in Drake)"},
       {ContactMethod::interior_point, "interior point, then Newton"},
-      {ContactMethod::spg, "SPG (Chrono's BB)"},
-      {ContactMethod::apgd, "APGD (Chrono)"},
-      {ContactMethod::nsgs, "NSGS (Siconos; NLGS in LMGC90)"},
-      {ContactMethod::admm, "ADMM (Siconos, Chrono)"}};
+      {ContactMethod::spg, "SPG (kind: BB in Chrono)"},
+      {ContactMethod::apgd, "APGD (kind: Chrono)"},
+      {ContactMethod::nsgs, "NSGS (kind: Siconos, LMGC90)"},
+      {ContactMethod::admm, "ADMM (kind: Siconos, Chrono)"}};
   return kTitles.at(method);
 }
 
@@ -101,6 +101,10 @@ Figure knob_figure(const std::vector<StudyRow>& rows, const std::string& knob) {
   figure.title = fmt::format("Error over time: {}", knob);
   figure.caption =
       "Each point is one run; hollow points did not reach the requested accuracy. Lower left is better.";
+  if (knob.starts_with("method"))
+    figure.caption +=
+        " All methods are implementations of this program; the programs named use methods of the same kind "
+        "and were not run.";
   std::string data, plot;
   size_t number = 0;
   for (const Series& series : series_of(rows, knob.starts_with("method")))
@@ -116,8 +120,9 @@ Figure overall_figure(const std::vector<StudyRow>& all) {
   figure.title = "Error over time: all knobs";
   figure.caption =
       "Each run is compared with the reference of its knob: methods and tolerances with the same model "
-      "solved to a tight tolerance, the other knobs with a finer model. The dashed line is the Pareto front "
-      "of the methods.";
+      "solved to a tight tolerance, time steps with an extrapolation to zero, the other knobs with a finer "
+      "model. The dashed line is the Pareto front of the methods. All methods are implementations of this "
+      "program; the programs named use methods of the same kind and were not run.";
   figure.width = 1100;
   figure.height = 700;
   std::string data, plot;

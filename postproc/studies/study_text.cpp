@@ -62,7 +62,11 @@ std::string knob_text(const std::vector<StudyRow>& all, const std::string& knob)
   for (const StudyRow& row : rows)
     if (!row.reached()) unreached.push_back(with_cost(row));
   const std::vector<StudyRow> front = pareto_front(rows);
-  std::string text = fmt::format("{}: ", knob) + fastest_runs(front) + exchange(front);
+  std::string text = fmt::format("{}: ", knob);
+  if (!rows.front().point.coarse.empty())
+    text += fmt::format("Reference {}, extrapolated to a time step of zero for a method of first order. ",
+                        rows.front().point.reference_text());
+  text += fastest_runs(front) + exchange(front);
   if (!worst.critical_error)
     text += fmt::format(
         "The largest error of a single joint is {:.1e}, in {}; the thrust lines of this run shift by up to "

@@ -59,6 +59,19 @@ TEST(StudyFile, NamesTheInvalidLine) {
   EXPECT_THROW(read_study({written("# nothing\n")}), InputError);
 }
 
+TEST(StudyFile, ExtrapolatesFromTwoRunsWhoseStepsDifferByTwo) {
+  const std::string two =
+      "t fine fine+coarse analysis.time_step=0.1\nt coarse fine+coarse analysis.time_step=";
+  const std::vector<StudyPoint> points = read_study({written(two + "0.2\n")});
+  EXPECT_FALSE(points[0].is_reference());
+  EXPECT_EQ(points[1].reference_text(), "2 x fine - coarse");
+  EXPECT_EQ(error_of(two + "0.3\n"),
+            "study.txt:1: error: fine: extrapolation requires that analysis.time_step of coarse is twice "
+            "that of fine");
+  EXPECT_EQ(error_of("t fine fine+lost analysis.time_step=0.1\n"),
+            "study.txt:1: error: fine: no line defines lost");
+}
+
 /// Two joints of area 4 m2 that carry 100 N and 300 N upwards at x = 0.
 RunForces two_joints() {
   RunForces forces;
@@ -97,6 +110,29 @@ TEST(ForceErrors, ConvertMomentsToForcesByTheSideOfTheJoint) {
   EXPECT_NEAR(errors.base_thrust, 0.1, 1e-12);
 }
 
+// Forces F + a h with steps h and 2 h: the extrapolation gives F, and the error of the run with step h is a h, where the
+// difference between the two runs is also a h: measured against the finer run, the coarser one would seem twice as good.
+TEST(ForceErrors, ExtrapolationRemovesAnErrorOfFirstOrder) {
+  const RunForces exact = two_joints();
+  const auto with_step = [&exact](double h) {
+    RunForces run = exact;
+    for (auto& [id, wrench] : run.beds) wrench.force.z() += 10.0 * h;
+    run.beds[{2, 3, "bed"}] = {Vec3(0, 0, 2), Vec3(0, 0, h), Vec3(h, 0, 0)};
+    run.thrust["thrust_arch"][1] += 0.01 * h;
+    run.base_thrust += h;
+    for (auto& [id, wrench] : run.beds) wrench = moved_to(wrench, {h, 0, 0});
+    return run;
+  };
+  const RunForces reference = extrapolated(with_step(1.0), with_step(2.0));
+  const ForceErrors none = compare_forces(exact, reference);
+  EXPECT_NEAR(none.wrench_rms, 0.0, 1e-14);
+  EXPECT_NEAR(none.thrust_line, 0.0, 1e-14);
+  EXPECT_NEAR(none.base_thrust, 0.0, 1e-14);
+  const double fine = compare_forces(reference, with_step(1.0)).wrench_rms;
+  EXPECT_NEAR(compare_forces(reference, with_step(2.0)).wrench_rms, 2.0 * fine, 1e-14);
+  EXPECT_GT(fine, 0.01);
+}
+
 TEST(ForceErrors, AJointMissingInOneRunCountsAsUnloaded) {
   const RunForces reference = two_joints();
   RunForces run = reference;
@@ -107,7 +143,7 @@ TEST(ForceErrors, AJointMissingInOneRunCountsAsUnloaded) {
 }
 
 StudyRow row(const std::string& name, double seconds, double error, Status status = Status::stable) {
-  StudyRow r{{"method", name, "exact", {}}, Summary{}, {}, {}};
+  StudyRow r{{"method", name, "exact", "", {}}, Summary{}, {}, {}};
   r.summary->cpu_time_seconds = seconds;
   r.summary->status = status;
   r.errors.wrench_rms = r.errors.wrench_worst = error;
@@ -115,7 +151,7 @@ StudyRow row(const std::string& name, double seconds, double error, Status statu
 }
 
 std::vector<StudyRow> small_study() {
-  StudyRow missing{{"method", "lost", "exact", {}}, std::nullopt, {}, {}};
+  StudyRow missing{{"method", "lost", "exact", "", {}}, std::nullopt, {}, {}};
   return {row("exact", 9, 0),
           row("b_2", 2, 1e-3),
           row("c_3", 3, 1e-2),
