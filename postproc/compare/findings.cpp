@@ -77,6 +77,27 @@ std::string sentence(const Measure& measure, const Values& values, const std::ve
   return fmt::format("{} {}: {}.", measure.subject, numbers, conclusion(measure, values, runs, labels));
 }
 
+/// Says where the runs differ in contact points while compliance is given per point; "" elsewhere.
+std::string points_warning(const std::vector<PostSummary>& runs, const std::vector<std::string>& labels) {
+  constexpr double kEqual = 0.01;  // relative difference of stiffness that cannot be seen in a comparison
+  double fewest = std::numeric_limits<double>::infinity(), most = 0.0;
+  std::string counts;
+  for (size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].compliance_per != "point" || !runs[i].points_per_base_joint) continue;
+    fewest = std::min(fewest, *runs[i].points_per_base_joint);
+    most = std::max(most, *runs[i].points_per_base_joint);
+    counts +=
+        fmt::format("{}{:.3g} in {}", counts.empty() ? "" : ", ", *runs[i].points_per_base_joint, labels[i]);
+  }
+  if (most <= (1.0 + kEqual) * fewest) return "";
+  return "The compliance is per contact point, so a joint with more points is stiffer. The mean number of "
+         "points of a "
+         "base joint is " +
+         counts +
+         ": displacements and shares of force differ for this reason alone. Compare runs with "
+         "joints.compliance.per: area.";
+}
+
 }  // namespace
 
 const std::vector<Measure>& measures() {
@@ -133,6 +154,8 @@ std::vector<std::string> findings(const std::vector<PostSummary>& runs) {
       sentences.push_back(
           fmt::format("{} ended with the status `{}`: its forces are not in equilibrium (residual {:.1e}).",
                       labels[i], runs[i].status, runs[i].equilibrium_residual));
+  if (std::string warning = points_warning(runs, labels); !warning.empty())
+    sentences.push_back(std::move(warning));
   for (const Measure& measure : measures()) {
     Values values;
     for (const PostSummary& run : runs) values.push_back(measure.value(run));

@@ -154,6 +154,15 @@ std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {
   return meridians;
 }
 
+/// Azimuth of a meridian of the case, degrees; none without a meridian of this name.
+std::optional<double> meridian_named(const std::string& name, const Case& scene) {
+  if (traits_of(scene.geometry.surface).meridians != SurfaceTraits::Meridians::by_azimuth)
+    return std::nullopt;
+  for (const Meridian& meridian : scene.postproc.meridians)
+    if (meridian.name == name) return meridian.azimuth_deg;
+  return std::nullopt;
+}
+
 std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e) {
   const ThrustInput input = thrust_input(e);
   std::vector<SectionEvaluation> sections;
@@ -205,19 +214,6 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   return out;
 }
 
-std::optional<double> mean_ratio(const ThrustLine& numerator, const ThrustLine& denominator) {
-  double sum = 0.0;
-  int count = 0;
-  for (const ThrustPoint& p : numerator.points)
-    for (const ThrustPoint& q : denominator.points)
-      if (p.bed == q.bed && q.r > 0.0) {
-        sum += p.r / q.r;
-        ++count;
-      }
-  if (count == 0) return std::nullopt;
-  return sum / count;
-}
-
 Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results) {
   Evaluation e;
   e.scene = scene;
@@ -249,12 +245,9 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   for (const CutPlane& plane : scene.postproc.planes)
     e.planes.push_back(plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads));
   count_lost_joints(results, &e);
-  const MeridianEvaluation *rib = nullptr, *mid_sail = nullptr;
-  for (const MeridianEvaluation& m : e.meridians) {
-    if (m.thrust.name == "rib") rib = &m;
-    if (m.thrust.name == "mid_sail") mid_sail = &m;
-  }
-  if (rib && mid_sail) e.rib_over_mid_sail = mean_ratio(rib->thrust, mid_sail->thrust);
+  const std::optional<double> rib = meridian_named("rib", scene),
+                              mid_sail = meridian_named("mid_sail", scene);
+  if (rib && mid_sail) e.rib_over_mid_sail = rib_ratio(thrust_input(e), scene.geometry, *rib, *mid_sail);
   return e;
 }
 

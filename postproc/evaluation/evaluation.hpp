@@ -6,6 +6,7 @@
 
 #include "assembly/case/case.hpp"
 #include "assembly/files/results_file.hpp"
+#include "postproc/evaluation/rib_ratio.hpp"
 #include "postproc/mechanics/block_fields.hpp"
 #include "postproc/mechanics/cuts.hpp"
 #include "postproc/mechanics/plane_cut.hpp"
@@ -63,10 +64,10 @@ struct Evaluation {
   std::vector<MeridianEvaluation> meridians;
   std::vector<SectionEvaluation> sections;
   std::vector<PlaneCut> planes;
-  std::optional<double> rib_over_mid_sail;  ///< mean ratio of r, if both meridians exist
-  std::optional<int> lost_joints;           ///< loaded in the first frame, gone in the last; none: unknown
-  std::vector<std::string> warnings;        ///< what the reader must know before using the numbers
-  std::vector<std::string> unreadable;      ///< parts of the results that are missing or damaged
+  std::optional<RibRatio> rib_over_mid_sail;  ///< if the case names the meridians `rib` and `mid_sail`
+  std::optional<int> lost_joints;             ///< loaded in the first frame, gone in the last; none: unknown
+  std::vector<std::string> warnings;          ///< what the reader must know before using the numbers
+  std::vector<std::string> unreadable;        ///< parts of the results that are missing or damaged
 };
 
 /// Records that a part of the results was left out and why, once per part.
@@ -82,9 +83,5 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
 /// Evaluates one frame with the assembly, loads and shell of an evaluation. The second frame of a limit
 /// analysis holds the mechanism: its blocks are displaced along their velocities, far enough to be seen.
 FrameEvaluation evaluate_frame(const Evaluation& evaluation, Frame frame);
-
-/// Mean, over the beds that two thrust lines share, of r of the first over r of the second; none without
-/// common beds.
-std::optional<double> mean_ratio(const ThrustLine& numerator, const ThrustLine& denominator);
 
 }  // namespace cupola

@@ -70,8 +70,10 @@ std::string findings_section(const Evaluation& e) {
           force_text(e.rings.front().radial_thrust), s.thrust_over_weight));
   }
   if (s.rib_over_mid_sail)
-    item(fmt::format("The resultant in the rib is on average {:.3f} times that at mid-sail.",
-                     *s.rib_over_mid_sail));
+    item(fmt::format(
+        "The resultant in the rib is on average {:.3f} times that at mid-sail, and between {:.2f} and "
+        "{:.2f} times on a single bed (compliance per {}).",
+        *s.rib_over_mid_sail, *s.rib_over_mid_sail_smallest, *s.rib_over_mid_sail_largest, s.compliance_per));
   item(fmt::format("The largest couple length of a block wrench is {:.3g} m.", s.largest_couple_length_m));
   item(fmt::format("The largest friction utilisation of a joint is {:.1f} %{}.",
                    100.0 * s.largest_friction_use,

@@ -37,6 +37,10 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("mean_cv_pressure", s.mean_cv_pressure);
   visit("largest_cv_pressure", s.largest_cv_pressure);
   visit("rib_over_mid_sail", s.rib_over_mid_sail);
+  visit("rib_over_mid_sail_smallest", s.rib_over_mid_sail_smallest);
+  visit("rib_over_mid_sail_largest", s.rib_over_mid_sail_largest);
+  visit("compliance_per", s.compliance_per);
+  visit("points_per_base_joint", s.points_per_base_joint);
   visit("largest_couple_length_m", s.largest_couple_length_m);
   visit("largest_friction_use", s.largest_friction_use);
   visit("mean_kern_use", s.mean_kern_use);
@@ -102,20 +106,31 @@ PostSummary post_summary(const Evaluation& e) {
   s.equilibrium_residual = e.summary.equilibrium_residual;
   if (e.summary.critical) s.critical_value = e.summary.critical->value;
   s.max_displacement_m = e.summary.max_displacement_m;
-  s.rib_over_mid_sail = e.rib_over_mid_sail;
+  if (e.rib_over_mid_sail) {
+    s.rib_over_mid_sail = e.rib_over_mid_sail->mean;
+    s.rib_over_mid_sail_smallest = e.rib_over_mid_sail->smallest;
+    s.rib_over_mid_sail_largest = e.rib_over_mid_sail->largest;
+  }
+  s.compliance_per = to_string(e.scene.joints.compliance.per);
   for (const RingSum& r : e.rings) {
     s.largest_ring_difference = std::max(s.largest_ring_difference, r.relative_difference);
     s.mean_cv_pressure += r.cv_pressure / static_cast<double>(e.rings.size());
     s.largest_cv_pressure = std::max(s.largest_cv_pressure, r.cv_pressure);
   }
-  double kern = 0.0, force = 0.0;
+  double kern = 0.0, force = 0.0, base_points = 0.0;
+  int base_joints = 0;
   for (const JointWrench& joint : e.last.joints.wrenches) {
+    if (joint.kind == JointKind::base) {
+      base_points += joint.num_contacts;
+      ++base_joints;
+    }
     s.largest_friction_use = std::max(s.largest_friction_use, joint.friction_use);
     if (joint.upper < 0) continue;
     kern += joint.normal_force * joint.kern;
     force += joint.normal_force;
   }
   if (force > 0.0) s.mean_kern_use = kern / force;
+  if (base_joints > 0) s.points_per_base_joint = base_points / base_joints;
   for (const BlockFields& f : e.last.fields)
     s.largest_couple_length_m = std::max(s.largest_couple_length_m, f.couple_length);
   if (!e.rings.empty() && e.summary.weight_N > 0.0)

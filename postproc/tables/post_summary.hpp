@@ -20,7 +20,10 @@ struct PostSummary {
   double largest_ring_difference = 0.0;  ///< relative, largest over the rings
   double mean_cv_pressure = 0.0;         ///< mean over the rings
   double largest_cv_pressure = 0.0;
-  std::optional<double> rib_over_mid_sail;
+  std::optional<double> rib_over_mid_sail;  ///< RibRatio: mean, smallest and largest
+  std::optional<double> rib_over_mid_sail_smallest, rib_over_mid_sail_largest;
+  std::string compliance_per;                   ///< "point" or "area": what joints.compliance refers to
+  std::optional<double> points_per_base_joint;  ///< mean number of contact points; none without base joints
   double largest_couple_length_m = 0.0;
   double largest_friction_use = 0.0;
   double mean_kern_use = 0.0;  ///< mean over the bed joints, weighted by normal force

@@ -52,12 +52,20 @@ RunFiles::RunFiles(std::string folder)
     : folder_(std::move(folder)), summaries_(std::make_unique<Summaries>()) {}
 RunFiles::~RunFiles() = default;
 
-std::string RunFiles::status() {
+std::string RunFiles::text_of_results(const std::string& key) {
   const std::string path = folder_ + "/results/summary.json";
   if (!summaries_->results) summaries_->results = read_json(path);
-  const UnorderedJson* status = descend(*summaries_->results, "status");
-  if (!status || !status->is_string()) throw InputError(FileLocation{path}, "has no `status`");
-  return status->get<std::string>();
+  const UnorderedJson* text = descend(*summaries_->results, key);
+  if (!text || !text->is_string()) throw InputError(FileLocation{path}, fmt::format("has no `{}`", key));
+  return text->get<std::string>();
+}
+
+std::string RunFiles::status() {
+  return text_of_results("status");
+}
+
+std::string RunFiles::message() {
+  return text_of_results("message");
 }
 
 double RunFiles::number(const std::string& key) {

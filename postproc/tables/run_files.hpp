@@ -15,7 +15,8 @@ class RunFiles {
   explicit RunFiles(std::string folder);
   ~RunFiles();
 
-  std::string status();  ///< of results/summary.json
+  std::string status();   ///< of results/summary.json
+  std::string message();  ///< of results/summary.json: why the run ended with this status
   /// Number `results.KEY` or `post.KEY` of the two summaries. Dots in KEY descend into maps and, by index,
   /// into lists. Booleans count as 0 and 1. InputError if there is no such number.
   double number(const std::string& key);
@@ -24,6 +25,8 @@ class RunFiles {
   std::vector<std::string> table_names(const std::string& start) const;
 
  private:
+  std::string text_of_results(const std::string& key);
+
   struct Summaries;
   std::string folder_;
   std::unique_ptr<Summaries> summaries_;

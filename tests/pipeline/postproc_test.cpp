@@ -50,6 +50,39 @@ constexpr MembraneRow kMembrane[] = {{0, 169498.1022, 1143.070}, {6, 146739.7467
                                      {36, 46440.2934, 553.212},  {42, 31623.7900, 481.333},
                                      {48, 19318.7181, 405.751},  {54, 9802.8733, 319.536}};
 
+// Seven rings in running bond: the ratio covers six beds, three periods. All sails are alike, so it is the mean ratio of
+// the thrust lines of one sail. A lantern on one side makes the sails differ; the sum over the sails does not change
+// when the named meridians are those of another sail.
+TEST(PostprocVault, RibOverMidSailCoversAllSailsAndWholePeriods) {
+  Case scene;
+  OctagonalVault vault;
+  vault.crown_angle_deg = 30.0;
+  scene.geometry.surface = vault;
+  RunningBond bond;
+  bond.rings = 7;
+  scene.geometry.bond = bond;
+  scene.postproc.meridians = {{"rib", 0.0}, {"mid_sail", 22.5}};
+  const Evaluation e = solved(scene);
+  ASSERT_TRUE(e.rib_over_mid_sail);
+  EXPECT_EQ(e.rib_over_mid_sail->sails, 8);
+  EXPECT_EQ(e.rib_over_mid_sail->beds, 6);
+  double mean = 0.0, largest = 0.0;
+  for (size_t bed = 0; bed < 6; ++bed) {
+    const double ratio = e.meridians[0].thrust.points[bed].r / e.meridians[1].thrust.points[bed].r;
+    mean += ratio / 6.0;
+    largest = std::max(largest, ratio);
+  }
+  EXPECT_NEAR(e.rib_over_mid_sail->mean, mean, 1e-6);  // the solver's tolerance
+  EXPECT_NEAR(e.rib_over_mid_sail->largest, largest, 1e-6);
+  scene.loads.forces = {{.block = 1, .point = {}, .force = {0.0, 0.0, -3e5}, .time = {}}};
+  const Evaluation uneven = solved(scene);
+  scene.postproc.meridians = {{"rib", 90.0}, {"mid_sail", 202.5}};
+  const Evaluation turned = solved(scene);
+  EXPECT_NEAR(turned.rib_over_mid_sail->mean, uneven.rib_over_mid_sail->mean, 1e-6);
+  EXPECT_GT(std::abs(turned.meridians[0].thrust.points[0].r / uneven.meridians[0].thrust.points[0].r - 1.0),
+            1e-3);
+}
+
 TEST(PostprocDome, ForcesAgreeWithMembraneTheory) {
   const Evaluation e = solved(paper_dome(0.02));
   ASSERT_EQ(e.summary.status, Status::stable);

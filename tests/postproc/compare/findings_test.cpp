@@ -50,6 +50,20 @@ TEST(Findings, EverySentenceGivesTheNumbersAndTheBestRun) {
   EXPECT_NE(sentences[0].find("by a factor of 4"), std::string::npos) << "0.124 / 0.031";
 }
 
+TEST(Findings, SaysThatStiffnessDiffersWithTheNumberOfPoints) {
+  auto runs = two_runs();
+  runs[0].compliance_per = runs[1].compliance_per = "point";
+  runs[0].points_per_base_joint = 6.5;
+  runs[1].points_per_base_joint = 16.0;
+  const std::string phrase = "base joint is 6.5 in A, 16 in B";
+  EXPECT_NE(findings(runs).front().find(phrase), std::string::npos) << findings(runs).front();
+  runs[1].points_per_base_joint = 6.5;
+  EXPECT_EQ(findings(runs).size(), measures().size()) << "equal numbers need no warning";
+  runs[1].points_per_base_joint = 16.0;
+  runs[0].compliance_per = runs[1].compliance_per = "area";
+  EXPECT_EQ(findings(runs).size(), measures().size()) << "per area the number does not matter";
+}
+
 TEST(Findings, EverySentenceChangesWhenTheRunsAreSwapped) {
   auto runs = two_runs();
   const auto before = findings(runs);

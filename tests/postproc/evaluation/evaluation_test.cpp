@@ -214,6 +214,20 @@ TEST(Evaluation, CracksEncloseTheOpenPoints) {
   EXPECT_NEAR(e.last.joints.wrenches[0].open_share, 0.5, 1e-12);
 }
 
+// 32 blocks of three uprights: 96 steps make a turn, so each of 8 spirals reaches its neighbour's place after 12 rings.
+TEST(RibRatio, BondRepeatsWhenEverySpiralStandsWhereItsNeighbourStood) {
+  HerringboneBond spirals;
+  EXPECT_EQ(bond_period(spirals), 12);
+  spirals.refine = 2;
+  EXPECT_EQ(bond_period(spirals), 24);
+  spirals.spirals = 5;  // 5 and 96 have no common divisor: a full turn
+  EXPECT_EQ(bond_period(spirals), 192);
+  spirals.path = HerringboneBond::Path::meridian;
+  EXPECT_EQ(bond_period(spirals), 1);
+  EXPECT_EQ(bond_period(RunningBond{}), 2);
+  EXPECT_EQ(bond_period(StackBond{}), 1);
+}
+
 TEST(Evaluation, SummaryReadsBackUnchanged) {
   const Evaluation e = column_evaluation(0.9, 0.4);
   const std::string folder = test::fresh_folder("post");
