@@ -53,22 +53,45 @@ struct Quantity {
   Take take = Take::only;
 };
 
-/// A statement of a publication and the number that tests it. The statement holds if
+/// Limits of a claim, from the publication or chosen here.
+struct ClaimLimits {
+  std::optional<double> at_least, at_most;
+  std::string reason;  ///< why these numbers; only for limits chosen here
+};
+
+/// A number that the note of a claim shows: value / over.
+struct NamedQuantity {
+  std::string name;  ///< in the note: {name}
+  Quantity value;
+  std::optional<Quantity> over;
+};
+
+/// A statement and the number that tests it. The statement holds if
 ///
 ///   at_least <= value / over - minus <= at_most
 ///
-/// where `over`, `minus` and either limit may be absent.
+/// where `over`, `minus` and either limit may be absent. Limits that the publication states are in `paper`, those
+/// chosen here in `ours`; both apply. With `each_run` the number is evaluated for every run of `value` by itself,
+/// e.g. for every seed, and the statement holds if it holds for every run.
 struct Claim {
   std::string source;  ///< section and figure
+  std::string quote;   ///< sentence of the publication, word for word; empty for a statement of our own
   std::string says;    ///< the statement
   std::string number;  ///< the number in words
   std::string unit;
-  std::string open;  ///< replaces the verdict: why there are no limits, or what the number means
-  std::string note;  ///< remark for the reader
+  /// Remark in which {value}, {over}, {minus}, {message} (of the solver, first run) and the names in `also` stand
+  /// for values. It contains no digits, so that every number comes from the runs.
+  std::string note;
+  bool open = false;  ///< no limits: the number is shown without a verdict
+  bool each_run = false;
   Quantity value;
   std::optional<Quantity> over, minus;
-  std::optional<double> at_least, at_most;
+  std::vector<NamedQuantity> also;
+  ClaimLimits paper, ours;
 };
+
+/// Names of the placeholders {name} in a text, in order.
+std::vector<std::string> placeholders(const std::string& text);
 
 /// A figure of the publication and the corresponding picture of a run.
 struct ClaimFigure {

@@ -1,37 +1,53 @@
 #include "postproc/claims/claims_report.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "postproc/report/html.hpp"
 
 namespace cupola {
 namespace {
 
-/// Limits of the claim, e.g. ">= 1 and <= 2"; "-" for an open question.
-std::string range(const Claim& claim) {
-  if (!claim.open.empty()) return "-";
+/// "at least 1 and at most 2 (paper)"; "" without limits.
+std::string limits_text(const ClaimLimits& limits, const std::string& origin) {
   std::string out;
-  if (claim.at_least) out += ">= " + to_display(*claim.at_least);
-  if (claim.at_most) out += (out.empty() ? "<= " : " and <= ") + to_display(*claim.at_most);
-  return out;
+  if (limits.at_least) out += "at least " + to_display(*limits.at_least);
+  if (limits.at_most) out += (out.empty() ? "at most " : " and at most ") + to_display(*limits.at_most);
+  return out.empty() ? out : fmt::format("{} ({})", out, origin);
 }
 
+/// The limits with their origin; "" for an open question.
+std::string range(const Claim& claim) {
+  const std::string paper = limits_text(claim.paper, "paper"), ours = limits_text(claim.ours, "ours");
+  return paper.empty() || ours.empty() ? paper + ours : paper + ", " + ours;
+}
+
+/// The value with unit; over several runs the mean, smallest and largest.
 std::string shown_number(const Claim& claim, const ClaimResult& result) {
   if (!result.number) return "-";
-  return to_display(*result.number) + (claim.unit.empty() ? "" : " " + claim.unit);
+  std::string text = to_display(*result.number) + (claim.unit.empty() ? "" : " " + claim.unit);
+  if (result.numbers.size() < 2) return text;
+  const auto [smallest, largest] = std::minmax_element(result.numbers.begin(), result.numbers.end());
+  return fmt::format("{} ({} to {} in {} runs)", text, to_display(*smallest), to_display(*largest),
+                     result.numbers.size());
 }
 
-std::string remark(const Claim& claim, const ClaimResult& result) {
-  if (result.reason.empty() || claim.note.empty()) return result.reason + claim.note;
-  return result.reason + ". " + claim.note;
+std::string remark(const ClaimResult& result) {
+  return result.reason.empty() || result.note.empty() ? result.reason + result.note
+                                                      : result.reason + " " + result.note;
 }
 
 std::string counts(const std::vector<ClaimResult>& results) {
   std::string out = fmt::format("{} claims", results.size());
+  const char* separator = ": ";
   for (const std::string& verdict : names_of<Verdict>()) {
     int count = 0;
     for (const ClaimResult& result : results) count += to_string(result.verdict) == verdict;
-    if (count > 0) out += fmt::format(", {} {}", count, verdict);
+    if (count == 0) continue;
+    out += fmt::format("{}{} {}", separator, count, verdict);
+    separator = ", ";
   }
   return out;
 }
@@ -52,19 +68,37 @@ std::string wrapped_text(const std::string& text, size_t width, const std::strin
   return line.empty() ? out : out + indent + line + "\n";
 }
 
-constexpr const char* kPage = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>Claims</title><style>
-body {{ font: 15px/1.45 sans-serif; max-width: 75em; margin: 2em auto; color: #222 }}
-table {{ border-collapse: collapse }} td, th {{ padding: .35em .7em; border-bottom: 1px solid #ddd;
-text-align: left; vertical-align: top }} small {{ color: #666 }}
-.reproduced {{ color: #007a5a }} .not_reproduced {{ color: #b84300 }} .open {{ color: #555 }}
-.not_solved, .not_run {{ color: #999 }} td.verdict {{ white-space: nowrap; font-weight: bold }}
-figure {{ margin: 2em 0 }} figure img {{ max-width: 100% }} figcaption {{ color: #444 }}
-</style></head><body><h1>Claims and results</h1><p>{}.</p>
-<table><tr><th>Source</th><th>Claim</th><th>Number</th><th>Value</th><th>Limits</th><th>Verdict</th></tr>
-{}</table>
-{}</body></html>
+constexpr const char* kClaimsStyle = R"(<style>
+table.claims { width: 100%; table-layout: fixed }
+.claims th, .claims td { text-align: left; padding: .45rem .6rem }
+.claims col:nth-child(1) { width: 8.5rem } .claims col:nth-child(2) { width: 6.5rem }
+.claims col:nth-child(4) { width: 38% }
+.claims p { margin: 0 0 .25rem } .claims blockquote { margin: 0 0 .25rem; color: #444; font-style: italic }
+.claims .value { font-weight: 600 } .claims .small { color: #444; font-size: .8rem }
+.claims td.good { color: #005f45; font-weight: 600 } .claims td.bad { color: #a34700; font-weight: 600 }
+</style>
 )";
+
+std::string paragraph(const char* css, const std::string& text) {
+  return text.empty() ? text : fmt::format("<p class=\"{}\">{}</p>", css, markup_text(text));
+}
+
+std::string claim_row(const Claim& claim, const ClaimResult& result) {
+  const bool good = result.verdict == Verdict::reproduced || result.verdict == Verdict::holds;
+  const bool undecided = result.verdict == Verdict::open || result.verdict == Verdict::not_run;
+  std::string statement = paragraph("", claim.says);
+  if (!claim.quote.empty())
+    statement += fmt::format("<blockquote>“{}”</blockquote>", markup_text(claim.quote));
+  statement += paragraph("small", remark(result));
+  std::string number = paragraph("value", shown_number(claim, result)) + paragraph("", claim.number);
+  number += paragraph("small", limits_text(claim.paper, "paper"));
+  number += paragraph("small", limits_text(claim.ours, "ours: " + claim.ours.reason));
+  return fmt::format("<tr><td class=\"{}\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                     good        ? "good"
+                     : undecided ? "open"
+                                 : "bad",
+                     to_string(result.verdict), markup_text(claim.source), statement, number);
+}
 
 /// The figures in order, below a heading; "" if there are none.
 std::string figures_html(const std::vector<ClaimFigure>& figures, const std::string& runs) {
@@ -78,7 +112,7 @@ std::string figures_html(const std::vector<ClaimFigure>& figures, const std::str
         "<figure>\n{}\n<figcaption><strong>{}</strong> {} <small>{}</small></figcaption>\n</figure>\n",
         picture, markup_text(figure.source), markup_text(figure.shows), markup_text(figure.run));
   }
-  return out.empty() ? out : "<h1>Figures of the publication, drawn from our runs</h1>\n" + out;
+  return out.empty() ? out : "<h2>Figures of the publication, drawn from our runs</h2>\n" + out;
 }
 
 }  // namespace
@@ -88,56 +122,62 @@ Table claims_table(const std::vector<Claim>& claims, const std::vector<ClaimResu
   Table t{"claims", "Claims and results", {}, {}};
   t.columns = {{"source", "", "section and figure of the publication"},
                {"claim", "", "the statement"},
+               {"quote", "", "sentence of the publication; empty for a statement of our own"},
                {"number", "", "the number that tests it"},
-               {"value", "", "empty if a run is missing or not solved"},
+               {"value", "", "mean if there are several runs; empty if a run is missing or not solved"},
+               {"smallest", "", "of the runs"},
+               {"largest", "", "of the runs"},
                {"unit", "", "of the value"},
-               {"claimed", "", "limits within which the claim holds"},
+               {"limits", "", "limits within which the claim holds, and their origin"},
+               {"reason", "", "why limits chosen here have these values"},
                {"verdict", "", "outcome"},
-               {"remark", "", "reason or note"}};
+               {"remark", "", "runs that are missing, not solved or outside the limits; note"}};
   for (size_t i = 0; i < claims.size(); ++i) {
     const Claim& claim = claims[i];
-    const Table::Cell value =
-        results[i].number ? Table::Cell(*results[i].number) : Table::Cell(std::string());
-    t.rows.push_back({claim.source, claim.says, claim.number, value, claim.unit, range(claim),
-                      to_string(results[i].verdict), remark(claim, results[i])});
+    const std::vector<double>& numbers = results[i].numbers;
+    Table::Cell value = std::string(), smallest = std::string(), largest = std::string();
+    if (results[i].number) {
+      value = *results[i].number;
+      smallest = *std::min_element(numbers.begin(), numbers.end());
+      largest = *std::max_element(numbers.begin(), numbers.end());
+    }
+    t.rows.push_back({claim.source, claim.says, claim.quote, claim.number, value, smallest, largest,
+                      claim.unit, range(claim), claim.ours.reason, to_string(results[i].verdict),
+                      remark(results[i])});
   }
   return t;
 }
 
 std::string claims_text(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results) {
   CUPOLA_ASSERT(results.size() == claims.size());
+  constexpr size_t kWidth = 116;
   std::string out;
   for (size_t i = 0; i < claims.size(); ++i) {
-    const Claim& claim = claims[i];
-    out += fmt::format("{:<15} {}\n", to_string(results[i].verdict) + ":", claim.source);
-    out += wrapped_text(claim.says, 96, "    ");
-    out += wrapped_text(fmt::format("{}: {}{}", claim.number, shown_number(claim, results[i]),
-                                    claim.open.empty() ? fmt::format("  (limits: {})", range(claim)) : ""),
-                        96, "      ");
-    out += wrapped_text(remark(claim, results[i]), 96, "      ");
+    out += fmt::format("{:<26} {}\n", to_string(results[i].verdict), claims[i].source);
+    out += wrapped_text(claims[i].says, kWidth, "    ");
+    const std::string limits = range(claims[i]);
+    out += wrapped_text(fmt::format("{}: {}{}", claims[i].number, shown_number(claims[i], results[i]),
+                                    limits.empty() ? limits : ", required " + limits),
+                        kWidth, "      ");
+    out += wrapped_text(remark(results[i]), kWidth, "      ");
   }
   return out + "\n" + counts(results) + "\n";
 }
 
 std::string claims_html(const ClaimsFile& file, const std::vector<ClaimResult>& results,
                         const std::string& runs) {
-  const std::vector<Claim>& claims = file.claims;
-  CUPOLA_ASSERT(results.size() == claims.size());
-  std::string rows;
-  for (size_t i = 0; i < claims.size(); ++i) {
-    const Claim& claim = claims[i];
-    const std::string verdict = to_string(results[i].verdict);
-    std::string css = verdict;
-    for (char& c : css)
-      if (c == ' ') c = '_';
-    rows += fmt::format(
-        "<tr><td>{}</td><td>{}<br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td><td class=\"verdict "
-        "{}\">{}</td></tr>\n",
-        markup_text(claim.source), markup_text(claim.says), markup_text(remark(claim, results[i])),
-        markup_text(claim.number), markup_text(shown_number(claim, results[i])), markup_text(range(claim)),
-        css, verdict);
-  }
-  return fmt::format(kPage, counts(results), rows, figures_html(file.figures, runs));
+  CUPOLA_ASSERT(results.size() == file.claims.size());
+  std::string body =
+      kClaimsStyle + fmt::format("<h1>{}</h1>\n<p>{}.</p>\n",
+                                 markup_text(file.title.empty() ? "Claims" : file.title), counts(results));
+  body +=
+      "<p>Limits marked <em>paper</em> follow from the sentence quoted; limits marked <em>ours</em> were "
+      "chosen here, "
+      "for the reason given. A run that did not reach its requested accuracy reproduces nothing.</p>\n"
+      "<table class=\"claims\"><colgroup><col><col><col><col></colgroup>\n"
+      "<tr><th>Verdict</th><th>Source</th><th>Statement</th><th>Number</th></tr>\n";
+  for (size_t i = 0; i < results.size(); ++i) body += claim_row(file.claims[i], results[i]);
+  return html_page("Claims and results", body + "</table>\n" + figures_html(file.figures, runs));
 }
 
 }  // namespace cupola

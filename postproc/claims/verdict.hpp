@@ -10,22 +10,27 @@
 
 namespace cupola {
 
-/// Outcome of a claim.
+/// Outcome of a claim. A statement of the publication is reproduced or not; one of our own holds or does not.
 enum class Verdict : std::uint8_t {
   reproduced,
   not_reproduced,
-  open,        ///< the claim has no limits: the number is shown without a verdict
+  holds,
+  does_not_hold,
   not_solved,  ///< a run did not reach its requested accuracy, so its numbers are not used
+  open,        ///< the claim has no limits: the number is shown without a verdict
   not_run,     ///< a run has no results yet
 };
 constexpr auto enum_names(Verdict) {
-  return std::array{"reproduced", "not reproduced", "open", "not solved", "not run"};
+  return std::array{"reproduced", "not reproduced", "holds", "does not hold", "not reproduced: not solved",
+                    "open",       "not run"};
 }
 
 struct ClaimResult {
   Verdict verdict = Verdict::not_run;
-  std::optional<double> number;
-  std::string reason;  ///< the runs that are missing or not solved; the text of an open claim
+  std::optional<double> number;  ///< with `each_run` the mean over the runs
+  std::vector<double> numbers;   ///< one per run with `each_run`, otherwise one; empty without a number
+  std::string reason;            ///< the runs that are missing or not solved, or outside the limits
+  std::string note;              ///< of the claim, with its values filled in
 };
 
 /// Evaluates the claims on the finished runs in the folders `out`/RUN, in the order of `claims`. Throws
