@@ -94,7 +94,7 @@ std::string points_warning(const std::vector<PostSummary>& runs, const std::vect
          "points of a "
          "base joint is " +
          counts +
-         ": displacements and shares of force differ for this reason alone. Compare runs with "
+         ": this alone makes displacements and shares of force differ. Compare runs with "
          "joints.compliance.per: area.";
 }
 
