@@ -134,15 +134,16 @@ TEST(Commands, EvaluateClaims) {
   run_dome(folder, "low", "");
   std::ofstream(folder.file("claims.yaml")) << R"(claims:
   - says: All blocks <i>are there.
+    quote: The model has 48 blocks.
     value: {runs: low, key: results.free_blocks}
-    at_least: 48
-    at_most: 48
+    paper: {at_least: 48, at_most: 48}
   - says: There are 49.
+    quote: The model has 49 blocks.
     value: {runs: low, key: results.free_blocks}
-    at_least: 49
+    paper: {at_least: 49}
   - says: Two runs sink.
-    value: {runs: low high, key: results.max_displacement_m}
-    at_least: 1
+    value: {runs: low high, key: results.max_displacement_m, take: mean}
+    ours: {at_least: 1, reason: visible}
 )";
   EXPECT_EQ(folder.run("cupola-post claims claims.yaml --needs").out, "low\nhigh\n");
   const ProgramRun run = folder.run("cupola-post claims claims.yaml --runs runs --output told");
