@@ -44,21 +44,6 @@ TEST(DomeOfRevolution, VolumeErrorOfTheFacetsIsOfSecondOrder) {
   EXPECT_NEAR(coarse / fine, 4.0, 0.02);  // the next term is O(1/n^4): (2 pi/32)^2 / 20 = 0.2 %
 }
 
-// The polyhedral dome with 20 rings and 32 lunes, and a hemisphere with an oculus, 10 rings and 12 lunes.
-// Both volumes were computed independently.
-TEST(DomeOfRevolution, PolyhedralDomesHaveTheExactVolume) {
-  ModelReport report;
-  check_and_report(dome_case(20, 16, 2), &report);
-  EXPECT_NEAR(report.volume, 9164.786579, 1e-6);
-
-  Case hemisphere = dome_case(10, 6, 2);
-  const double crown = std::numbers::pi / 2 - 0.1;
-  hemisphere.geometry.surface = DomeSurface{1.9, 0.5, 0.1, crown * 180.0 / std::numbers::pi};
-  hemisphere.geometry.support_width = 0.2;
-  check_and_report(hemisphere, &report);
-  EXPECT_NEAR(report.volume, 0.59427448, 1e-8);
-}
-
 TEST(DomeOfRevolution, BlocksAreNumberedRingByRingInSlotOrder) {
   const Assembly dome = cut_assembly(dome_case(6, 8, 4));
   ASSERT_EQ(dome.blocks.size(), 49u);

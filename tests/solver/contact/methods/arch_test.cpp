@@ -12,12 +12,15 @@
 #include "solver/contact/methods/solve_contact.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
+#include "tests/verification/references.hpp"
 
 namespace cupola::arch_test {
 namespace {
 
 using scenes::kGravity;
 using std::numbers::pi;
+using verification::reference;
+using verification::ReferenceRow;
 
 Residuals solve(const ContactProblem& problem, double tolerance, ContactSolution* x) {
   ContactSolverOptions options;
@@ -42,18 +45,13 @@ double speed_ratio(int n, double thickness, double mu, double tilt_deg = 0.0, do
   return fastest / (kGravity * h);
 }
 
-// Exact speeds after one step from an independent quadratic program (2D, NNLS), to 1e-3.
+// Limits and speeds are those of tests/verification/references.yaml, which names their sources.
 TEST(Arch, OneStepSpeedsOfMechanisms) {
-  for (const auto& [below, expected] :
-       {std::pair{0.99, .006331}, {0.98, .01264}, {0.95, .03142}, {0.90, .06221}, {.08 / .10672, .1587}}) {
-    EXPECT_NEAR(speed_ratio(27, below * .10672, 0.8), expected, 1e-3 * expected) << below << " of the limit";
-  }
-  for (const auto& [mu, expected] : {std::pair{.30, .01635}, {.28, .05213}, {.20, .2091}}) {
-    EXPECT_NEAR(speed_ratio(27, 0.25, mu), expected, 1e-3 * expected) << "mu " << mu;
-  }
-  for (const auto& [tilt, expected] : {std::pair{8.4, .002830}, {8.7, .009331}, {9.5, .02664}}) {
-    EXPECT_NEAR(speed_ratio(27, 0.15, 0.8, tilt), expected, 1e-3 * expected) << "tilt " << tilt;
-  }
+  for (const ReferenceRow& row : reference("one_step_arch").rows)
+    EXPECT_NEAR(speed_ratio(27, row.number("thickness_over_least") * .10672, row.number("mu"),
+                            row.number("tilt_deg")),
+                row.expected(), 1e-3 * row.expected())
+        << row.name();
 }
 
 TEST(Arch, StandsJustAboveTheLimits) {
@@ -65,22 +63,9 @@ TEST(Arch, StandsJustAboveTheLimits) {
 // Minimum t/R of a semicircle of n polygonal voussoirs at mu = 0.8, which fails by rotation. 1 % on either
 // side.
 TEST(Arch, MinimumThickness) {
-  for (const auto& [n, limit] : {std::pair{7, .09570},
-                                 {8, .09997},
-                                 {9, .10153},
-                                 {11, .10459},
-                                 {13, .10253},
-                                 {15, .10607},
-                                 {16, .10708},
-                                 {20, .10735},
-                                 {21, .10670},
-                                 {27, .10672},
-                                 {30, .10741},
-                                 {50, .10744},
-                                 {51, .10736},
-                                 {100, .10746}}) {
-    EXPECT_LT(speed_ratio(n, 1.01 * limit, 0.8), 1e-5) << n << " voussoirs";
-    EXPECT_GT(speed_ratio(n, 0.99 * limit, 0.8), 2e-3) << n << " voussoirs";
+  for (const ReferenceRow& row : reference("arch_thickness").rows) {
+    EXPECT_LT(speed_ratio(row.integer("voussoirs"), 1.01 * row.expected(), 0.8), 1e-5) << row.name();
+    EXPECT_GT(speed_ratio(row.integer("voussoirs"), 0.99 * row.expected(), 0.8), 2e-3) << row.name();
   }
 }
 
@@ -133,17 +118,9 @@ TEST(Arch, MinimumThicknessByEmbraceOfExactSectors) {
 // Minimum t/R of 27 voussoirs by friction, to 0.5 %; at mu <= 0.305 no thickness stands. The modes are those
 // of Gilbert, Casapulla and Ahmed (2006): rotation above mu of about 0.395, mixed between 0.31 and 0.395.
 TEST(Arch, MinimumThicknessByFriction) {
-  for (const auto& [mu, limit] : {std::pair{.39, .11163},
-                                  {.38, .12112},
-                                  {.37, .13087},
-                                  {.36, .14089},
-                                  {.35, .15118},
-                                  {.34, .16177},
-                                  {.33, .17265},
-                                  {.32, .18384},
-                                  {.31, .19600}}) {
-    EXPECT_LT(speed_ratio(27, 1.005 * limit, mu), 1e-5) << "mu " << mu;
-    EXPECT_GT(speed_ratio(27, 0.995 * limit, mu), 1e-4) << "mu " << mu;
+  for (const ReferenceRow& row : reference("arch_thickness_by_friction").rows) {
+    EXPECT_LT(speed_ratio(27, 1.005 * row.expected(), row.number("mu")), 1e-5) << row.name();
+    EXPECT_GT(speed_ratio(27, 0.995 * row.expected(), row.number("mu")), 1e-4) << row.name();
   }
   for (const double thickness : {0.2, 0.5, 0.9})
     EXPECT_GT(speed_ratio(27, thickness, 0.305), 1e-4) << thickness;
@@ -151,60 +128,30 @@ TEST(Arch, MinimumThicknessByFriction) {
 
 // Minimum friction by number of voussoirs and t/R, to +-0.003.
 TEST(Arch, MinimumFriction) {
-  for (const auto& [n, thickness, limit] : {std::tuple{27, .12, .38118},
-                                            {27, .15, .35114},
-                                            {27, .2, .30899},
-                                            {27, .3, .30899},
-                                            {10, .12, .38566},
-                                            {10, .15, .35433},
-                                            {10, .2, .30778},
-                                            {10, .25, .30300},
-                                            {20, .12, .38245},
-                                            {20, .15, .35127},
-                                            {20, .2, .30888},
-                                            {100, .12, .38170},
-                                            {100, .15, .35179},
-                                            {100, .2, .30922}}) {
-    EXPECT_LT(speed_ratio(n, thickness, limit + 0.003), 1e-5) << n << " voussoirs, t/R " << thickness;
-    EXPECT_GT(speed_ratio(n, thickness, limit - 0.003), 1e-4) << n << " voussoirs, t/R " << thickness;
+  for (const ReferenceRow& row : reference("arch_friction").rows) {
+    const int n = row.integer("voussoirs");
+    EXPECT_LT(speed_ratio(n, row.number("t_R"), row.expected() + 0.003), 1e-5) << row.name();
+    EXPECT_GT(speed_ratio(n, row.number("t_R"), row.expected() - 0.003), 1e-4) << row.name();
   }
 }
 
 // Minimum t/R of 27 polygonal voussoirs by half embrace in degrees, to 1 %.
 TEST(Arch, MinimumThicknessByEmbrace) {
-  for (const auto& [beta, limit] : {std::pair{30.0, .001520},
-                                    {40.0, .004703},
-                                    {45.0, .007438},
-                                    {50.0, .011177},
-                                    {60.0, .022646},
-                                    {70.0, .041073},
-                                    {75.0, .053491},
-                                    {80.0, .068390},
-                                    {85.0, .086040},
-                                    {90.0, .10672},
-                                    {100.0, .15928},
-                                    {110.0, .23118},
-                                    {120.0, .34885}}) {
-    EXPECT_LT(speed_ratio(27, 1.01 * limit, 0.8, 0.0, beta), 1e-5) << "beta " << beta;
-    EXPECT_GT(speed_ratio(27, 0.99 * limit, 0.8, 0.0, beta), 2e-5) << "beta " << beta;
+  for (const ReferenceRow& row : reference("arch_thickness_by_embrace").rows) {
+    const double beta = row.number("beta_deg");
+    EXPECT_LT(speed_ratio(27, 1.01 * row.expected(), 0.8, 0.0, beta), 1e-5) << row.name();
+    EXPECT_GT(speed_ratio(27, 0.99 * row.expected(), 0.8, 0.0, beta), 2e-5) << row.name();
   }
 }
 
 // Collapse tilt of gravity in degrees, to 3 %: arctan of the horizontal load factor (problems of Oppenheim
 // 1992 and Clemente 1998).
 TEST(Arch, CollapseTilt) {
-  for (const auto& [n, beta, thickness, mu, limit] : {std::tuple{27, 90.0, .15, .4, 2.997},
-                                                      {27, 90.0, .15, .8, 8.269},
-                                                      {20, 90.0, .15, .4, 3.003},
-                                                      {20, 90.0, .15, .8, 8.494},
-                                                      {27, 90.0, .20, .4, 5.659},
-                                                      {27, 90.0, .20, .8, 15.872},
-                                                      {15, 60.0, .10, .4, 30.282},
-                                                      {15, 60.0, .10, .8, 30.282},
-                                                      {15, 60.0, .15, .4, 35.345},
-                                                      {15, 60.0, .15, .8, 42.645}}) {
-    EXPECT_LT(speed_ratio(n, thickness, mu, 0.97 * limit, beta), 1e-5) << n << " " << thickness << " " << mu;
-    EXPECT_GT(speed_ratio(n, thickness, mu, 1.03 * limit, beta), 1e-4) << n << " " << thickness << " " << mu;
+  for (const ReferenceRow& row : reference("arch_acceleration").rows) {
+    const int n = row.integer("voussoirs");
+    const double limit = std::atan(row.expected()) * 180 / pi, beta = row.number("beta_deg");
+    EXPECT_LT(speed_ratio(n, row.number("t_R"), row.number("mu"), 0.97 * limit, beta), 1e-5) << row.name();
+    EXPECT_GT(speed_ratio(n, row.number("t_R"), row.number("mu"), 1.03 * limit, beta), 1e-4) << row.name();
   }
 }
 

@@ -1,0 +1,56 @@
+#include "tests/verification/document.hpp"
+
+#include <fmt/format.h>
+
+#include "postproc/report/html.hpp"
+
+namespace cupola::verification {
+namespace {
+
+/// Escaped text in which words between backticks are set as code.
+std::string html_text(const std::string& text) {
+  std::string out;
+  bool code = false;
+  for (const char c : markup_text(text)) {
+    if (c != '`') {
+      out += c;
+      continue;
+    }
+    out += code ? "</code>" : "<code>";
+    code = !code;
+  }
+  return out;
+}
+
+}  // namespace
+
+void Document::heading(int level, const std::string& text) {
+  html_ += fmt::format("<h{0}>{1}</h{0}>\n", level, markup_text(text));
+  markdown_ += fmt::format("{}{} {}\n\n", markdown_.empty() ? "" : "\n", std::string(level, '#'), text);
+}
+
+void Document::paragraph(const std::string& text) {
+  html_ += "<p>" + html_text(text) + "</p>\n";
+  markdown_ += text + "\n\n";
+}
+
+void Document::table(const Table& table) {
+  html_ += html_table(table);
+  std::string rule = "|";
+  for (const Table::Column& column : table.columns) {
+    markdown_ += "| " + column.meaning + " ";
+    rule += "---|";
+  }
+  markdown_ += "|\n" + rule + "\n";
+  for (const auto& row : table.rows) {
+    for (const Table::Cell& cell : row) markdown_ += "| " + to_display(cell) + " ";
+    markdown_ += "|\n";
+  }
+  markdown_ += "\n";
+}
+
+std::string Document::html(const std::string& title) const {
+  return html_page(title, html_);
+}
+
+}  // namespace cupola::verification

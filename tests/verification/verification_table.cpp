@@ -1,0 +1,192 @@
+// Computes the rows of the verification manual and writes it.
+//
+//   verification_table FOLDER [PAGE.md]     all rows: FOLDER/verification.html, and the same text as PAGE.md
+//   verification_table --quick FOLDER       without the slow rows
+//
+// Exit code 1 if a row fails.
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/base/process.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/program/program.hpp"
+#include "tests/verification/document.hpp"
+#include "tests/verification/verification_row.hpp"
+
+namespace cupola::verification {
+namespace {
+
+/// A row with its result; none for a slow row that was left out.
+struct ManualRow {
+  const Reference* problem;
+  const ReferenceRow* row;
+  std::optional<RowResult> result;
+  bool failed() const { return result && !result->passed; }
+};
+
+/// Enough digits to see the last one of the reference.
+std::string shown_number(const ManualRow& r) {
+  if (!r.result) return "-";
+  if (!r.result->failure.empty()) return "none";
+  int digits = 0;
+  const std::string& text = r.row->expected_text;
+  for (const char c : text.substr(0, text.find_first_of("e "))) digits += c >= '0' && c <= '9';
+  return r.row->expected_text == "0" ? fmt::format("{:.2e}", r.result->computed)
+                                     : fmt::format("{:.{}g}", r.result->computed, std::clamp(digits, 5, 12));
+}
+
+std::string verdict(const ManualRow& r) {
+  return !r.result ? "not run" : r.result->passed ? "passed" : "FAILS";
+}
+
+std::vector<ManualRow> compute_rows(bool quick) {
+  std::vector<ManualRow> rows;
+  for (const Reference& problem : references())
+    for (const ReferenceRow& row : problem.rows) {
+      ManualRow r{&problem, &row, {}};
+      if (!quick || !row.slow) r.result = run_row(problem, row);
+      fmt::print("{:<8} {:7.1f} s  {} ({}): {}, expected {}{}\n", verdict(r),
+                 r.result ? r.result->cpu_seconds : 0.0, problem.id, row.name(), shown_number(r),
+                 row.expected_text, r.result ? ". " + r.result->failure : "");
+      std::fflush(stdout);
+      rows.push_back(std::move(r));
+    }
+  return rows;
+}
+
+const std::vector<std::pair<std::string, std::string>>& chapters() {
+  static const std::vector<std::pair<std::string, std::string>> all{
+      {"code", "Code verification: are the equations solved?"},
+      {"solution", "Solution verification: how large are discretisation and solver errors?"},
+      {"validation", "Validation: do the equations describe what others published?"}};
+  return all;
+}
+
+Table counts(const std::vector<ManualRow>& rows) {
+  Table t{"counts",
+          "",
+          {{"part", "", "part"},
+           {"problems", "", "problems"},
+           {"rows", "", "rows"},
+           {"passed", "", "passed"},
+           {"failed", "", "failed"},
+           {"not_run", "", "not run"}},
+          {}};
+  for (const auto& [chapter, title] : chapters()) {
+    std::set<std::string> problems;
+    int all = 0, passed = 0, failed = 0;
+    for (const ManualRow& r : rows) {
+      if (r.problem->chapter != chapter) continue;
+      problems.insert(r.problem->id);
+      ++all;
+      passed += r.result && r.result->passed;
+      failed += r.failed();
+    }
+    t.rows.push_back({title.substr(0, title.find(':')), static_cast<int>(problems.size()), all, passed,
+                      failed, all - passed - failed});
+  }
+  return t;
+}
+
+void write_problem(const Reference& problem, const std::vector<ManualRow>& rows, Document* out) {
+  out->heading(4, problem.title);
+  out->paragraph(problem.statement);
+  out->paragraph("Quantity: " + problem.quantity + ". Reference: " + problem.source + ".");
+  out->paragraph(
+      fmt::format("Tolerance: {:g} ({}). Reason: {}.", problem.tolerance, problem.error, problem.reason));
+  Table t{"rows",
+          "",
+          {{"row", "", "row"},
+           {"expected", "", "expected"},
+           {"computed", "", "computed"},
+           {"error", "", "error"},
+           {"tolerance", "", "tolerance"},
+           {"verdict", "", "verdict"}},
+          {}};
+  for (const ManualRow& r : rows) {
+    if (r.problem != &problem) continue;
+    const bool number = r.result && r.result->failure.empty();
+    t.rows.push_back({r.row->name().empty() ? std::string("-") : r.row->name(), r.row->expected_text,
+                      shown_number(r), number ? fmt::format("{:.1e}", r.result->error) : std::string("-"),
+                      fmt::format("{:.1e}", problem.tolerance), verdict(r)});
+  }
+  out->table(t);
+}
+
+/// One paragraph per row that fails, with the explanation of references.yaml if it has one.
+void write_failures(const std::vector<ManualRow>& rows, Document* out) {
+  out->heading(2, "Rows that fail");
+  bool any = false;
+  for (const ManualRow& r : rows) {
+    if (!r.failed()) continue;
+    any = true;
+    const std::string found = r.result->failure.empty() ? "computed " + shown_number(r) : r.result->failure;
+    out->paragraph(fmt::format("{}{}: {}, expected {}. {}", r.problem->title,
+                               r.row->name().empty() ? "" : " (" + r.row->name() + ")", found,
+                               r.row->expected_text,
+                               r.row->why.empty() ? "Not explained yet." : "Reason: " + r.row->why));
+  }
+  if (!any) out->paragraph("None.");
+}
+
+Document write_manual(const std::vector<ManualRow>& rows) {
+  Document out;
+  out.heading(1, "Verification manual");
+  out.paragraph(
+      "Why should you believe a number that Cupola prints? Each row below compares a result with a value "
+      "that this program did "
+      "not produce. `make -f Makefile.cases verification` computes the rows and writes this page; reference "
+      "values, sources and "
+      "tolerances are in `tests/verification/references.yaml`. Every row is also a test (`ctest -R "
+      "verification/`).");
+  out.table(counts(rows));
+  write_failures(rows, &out);
+  for (const auto& [chapter, title] : chapters()) {
+    out.heading(2, title);
+    std::string group;
+    for (const Reference& problem : references()) {
+      if (problem.chapter != chapter) continue;
+      if (problem.group != group) out.heading(3, problem.group);
+      group = problem.group;
+      write_problem(problem, rows, &out);
+    }
+  }
+  out.heading(2, "What is not verified");
+  for (const auto& [topic, text] : not_verified()) out.paragraph(topic + ". " + text);
+  return out;
+}
+
+ExitCode make_manual(bool quick, const std::string& folder, const std::string& page) {
+  const double start = wall_seconds();
+  const std::vector<ManualRow> rows = compute_rows(quick);
+  Document manual = write_manual(rows);
+  if (!page.empty()) write_text_atomically(page, manual.markdown());
+  manual.paragraph(
+      fmt::format("Written by {}{}.", program_version(), quick ? ", without the slow rows" : ""));
+  make_folder(folder);
+  write_text_atomically(folder + "/verification.html", manual.html("Verification manual of Cupola"));
+  const auto failed = std::count_if(rows.begin(), rows.end(), [](const ManualRow& r) { return r.failed(); });
+  fmt::print("{} of {} rows failed; {:.0f} s; the manual is {}/verification.html\n", failed, rows.size(),
+             wall_seconds() - start, folder);
+  return failed == 0 ? ExitCode::done : ExitCode::failed;
+}
+
+}  // namespace
+}  // namespace cupola::verification
+
+int main(int argc, char** argv) {
+  return cupola::run_program("verification_table", [&] {
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    const bool quick = !arguments.empty() && arguments.front() == "--quick";
+    if (quick) arguments.erase(arguments.begin());
+    if (arguments.empty() || arguments.size() > (quick ? 1u : 2u))
+      throw cupola::InputError("usage: verification_table [--quick] FOLDER [PAGE.md]");
+    return cupola::verification::make_manual(quick, arguments[0], arguments.size() > 1 ? arguments[1] : "");
+  });
+}

@@ -1,0 +1,60 @@
+// Walls of equal blocks.
+
+#include <stdexcept>
+
+#include "generators/generate.hpp"
+#include "tests/solver/motion_scenes.hpp"
+#include "tests/verification/one_step.hpp"
+#include "tests/verification/solve.hpp"
+#include "tests/verification/verification_row.hpp"
+
+namespace cupola::verification {
+namespace {
+
+/// Settlement of the top course over the compliance, N. All its blocks must sink by the same.
+double settlement_over_compliance(const ReferenceRow& row) {
+  const double c = row.number("compliance");
+  Case scene;
+  RunningBond bond;
+  bond.rings = row.integer("courses");
+  bond.blocks_per_ring = row.integer("blocks_per_course");
+  bond.slices_per_block = 2;
+  scene.geometry.surface = WallSurface{12.0, 6.0, 1.0};
+  scene.geometry.bond = bond;
+  scene.material.unit_weight = 1800.0 * 9.81;
+  scene.joints.compliance = {c, c, Compliance::Per::point};
+  scene.loads.top_load = TopLoad{10.0};
+  const Assembly wall = generate(scene);
+  const Equilibrium solved = solve_equilibrium(scene, wall);
+  double least = 1e300, most = 0.0;
+  for (size_t i = 0; i < wall.blocks.size(); ++i) {
+    if (wall.blocks[i].ring != bond.rings - 1) continue;
+    const double sunk = -solved.frame.blocks.displacement[i].z() / c;
+    least = std::min(least, sunk);
+    most = std::max(most, sunk);
+  }
+  if (most - least > 1e-6 * most) throw std::runtime_error("the top course does not stay level");
+  return most;
+}
+
+double critical_load(int courses, bool whole_first) {
+  return critical_value(limit_case(LimitSearch::Parameter::acceleration, 0.3, 0.9, 0.65),
+                        testing::ferris_wall(courses, whole_first));
+}
+
+}  // namespace
+
+void add_wall_rows(Computations* all) {
+  Computations& rows = *all;
+  rows["paper_wall"] = settlement_over_compliance;
+  rows["one_step_wall"] = [](const ReferenceRow& row) {
+    return speed_after_one_step(testing::ferris_wall(6, false), 0.65,
+                                testing::tilted_gravity(row.number("lambda")));
+  };
+  rows["ferris_wall"] = [](const ReferenceRow& row) {
+    return critical_load(row.integer("courses"), row.text("first_course") == "whole blocks");
+  };
+  rows["ferris_published"] = [](const ReferenceRow&) { return critical_load(6, false); };
+}
+
+}  // namespace cupola::verification
