@@ -1,11 +1,11 @@
-// Time and accuracy of the contact solvers, as tables: methods on a first step and two static solves, random
-// gaps, time stepping, threads and scale. CPU seconds of one thread, except for threads.
+// Time and accuracy of the contact solvers, one table per call, as CSV. CPU seconds of one thread, except for
+// threads. `make -f Makefile.cases benchmark` writes the tables into README.md.
 //
-//   contact_benchmark                                    all tables, without the two largest sizes and million
-//   contact_benchmark methods | gaps | stepping | scale  one table
-//   contact_benchmark threads                            assembly and factor on two threads, against CG
-//   contact_benchmark large                              scale up to 81,920 and 327,680 blocks (10 GB)
-//   contact_benchmark million                            1,024,000 blocks by one of eight sectors
+//   contact_benchmark methods     a first step and two static solves by each method
+//   contact_benchmark gaps        random gaps
+//   contact_benchmark stepping    warm-started time steps
+//   contact_benchmark scale       1,280 to 20,480 blocks
+//   contact_benchmark threads     assembly and factor on two threads, against CG
 
 #include <cmath>
 #include <string>
@@ -52,23 +52,21 @@ Run run(const ContactProblem& problem, const ContactSolverOptions& options) {
   return result;
 }
 
-void print_header(const char* title) {
-  fmt::print("\n{}\n{:<28} {:<15} {:<15} {:>8} {:>6} {:>6} {:>9} {:>9} {:>10} {:>10}\n", title, "problem",
-             "method", "ending", "CPU s", "iter", "fact", "momentum", "law", "certified", "error");
+void print_header() {
+  fmt::print("problem,method,ending,CPU s,iterations,momentum,law,certified,error\n");
 }
 
 void print_row(const std::string& name, ContactMethod method, const Run& r, const VecX& reference) {
   const double error = (r.x.gamma - reference).norm() / reference.norm();
-  fmt::print("{:<28} {:<15} {:<15} {:>8.3f} {:>6} {:>6} {:>9.1e} {:>9.1e} {:>10} {:>10.1e}\n", name,
-             to_string(method), to_string(r.summary.ending), r.cpu, r.summary.iterations,
-             r.summary.factorizations, r.residuals.momentum, r.residuals.contact_law,
-             r.residuals.certificate.value ? fmt::format("{:.1e}", *r.residuals.certificate.value) : "none",
-             error);
+  fmt::print(
+      "\"{}\",{},{},{:.3f},{},{:.1e},{:.1e},{},{:.1e}\n", name, to_string(method),
+      to_string(r.summary.ending), r.cpu, r.summary.iterations, r.residuals.momentum, r.residuals.contact_law,
+      r.residuals.certificate.value ? fmt::format("{:.1e}", *r.residuals.certificate.value) : "none", error);
   std::fflush(stdout);
 }
 
 void compare_methods() {
-  print_header("Methods, tolerance 1e-8, error against Newton at 1e-12");
+  print_header();
   for (const auto& [name, h] : {std::pair{"first step, kappa 1e-4", 0.01},
                                 {"static, kappa 1e-8", 1.0},
                                 {"static, kappa 1e-14", 1e3}}) {
@@ -88,7 +86,7 @@ void compare_methods() {
 }
 
 void random_gaps() {
-  print_header("Random gaps, static, h = 1 s, newton with fallback, tolerance 1e-8, error against 1e-11");
+  print_header();
   for (const double gap : {1e-4, 1e-2}) {
     for (const double c : {1e-8, 1e-10, 1e-12}) {
       DomeProblem dome;
@@ -105,9 +103,7 @@ void random_gaps() {
 
 /// Time steps on frozen geometry with tangential springs that remember their slip; mean of steps 2 to 50.
 void time_stepping() {
-  fmt::print("\nTime stepping, h = 0.01 s, springs with memory, lagged factor, mean of steps 2 to 50\n");
-  fmt::print("{:<12} {:<10} {:>9} {:>12} {:>10} {:>8} {:>10}\n", "c m/N", "tolerance", "contacts",
-             "CPU ms/step", "iterations", "fact", "worst");
+  fmt::print("contacts,\"c, m/N\",tolerance,CPU ms per step,iterations,factorisations,worst residual\n");
   for (const auto& [slices, c, tolerance] :
        {std::tuple{2, 1e-8, 1e-4}, {2, 1e-8, 1e-8}, {2, 1e-10, 1e-6}, {4, 1e-8, 1e-4}, {4, 1e-8, 1e-8}}) {
     DomeProblem dome;
@@ -138,8 +134,8 @@ void time_stepping() {
       }
       problem.v_star = x.v + fall;
     }
-    fmt::print("{:<12.0e} {:<10.0e} {:>9} {:>12.1f} {:>10.2f} {:>8} {:>10.1e}\n", c, tolerance,
-               problem.num_contacts(), 1e3 * cpu / 49, iterations / 49.0, factorizations, worst);
+    fmt::print("{},{:.0e},{:.0e},{:.1f},{:.2f},{},{:.1e}\n", problem.num_contacts(), c, tolerance,
+               1e3 * cpu / 49, iterations / 49.0, factorizations, worst);
     std::fflush(stdout);
   }
 }
@@ -150,41 +146,25 @@ double scale_row(const scenes::DomeShape& shape, int last_blocks, double last_cp
   const Run r = run(problem, options_for(problem, ContactMethod::newton, 1e-8));
   const double exponent =
       last_blocks > 0 ? std::log(r.cpu / last_cpu) / std::log(1.0 * problem.num_blocks() / last_blocks) : 0.0;
-  fmt::print("{:>8} {:>9} {:>6} {:>9.2f} {:>9.2f} {:>9.1e} {:>9.2f}\n", shape.sectors * problem.num_blocks(),
-             shape.sectors * problem.num_contacts(), r.summary.iterations, r.cpu,
-             static_cast<double>(peak_memory_bytes()) / 1e9, r.residuals.momentum, exponent);
+  fmt::print("{},{},{},{:.2f},{:.2f},{:.1e},{}\n", problem.num_blocks(), problem.num_contacts(),
+             r.summary.iterations, r.cpu, static_cast<double>(peak_memory_bytes()) / 1e9,
+             r.residuals.momentum, last_blocks > 0 ? fmt::format("{:.2f}", exponent) : "");
   std::fflush(stdout);
   return r.cpu;
 }
 
-void print_scale_header(const char* what) {
-  fmt::print(
-      "\nScale, static kappa 1e-8, newton, tolerance 1e-8{}\n{:>8} {:>9} {:>6} {:>9} {:>9} {:>9} {:>9}\n",
-      what, "blocks", "contacts", "iter", "CPU s", "GB", "momentum", "exponent");
-}
-
-/// Spherical domes of the tests: no generator is needed at these sizes.
-void scale(bool large) {
-  print_scale_header("");
+/// Spherical domes of the tests.
+void scale() {
+  fmt::print("blocks,contacts,iterations,CPU s,GB,momentum,exponent of the time\n");
   double cpu = 0.0;
   int blocks = 0;
-  for (const int refine : {1, 2, 4, 8, 16}) {
-    if (refine > 4 && !large) break;
+  for (const int refine : {1, 2, 4}) {
     scenes::DomeShape shape;
     shape.rings = 40 * refine;
     shape.blocks_per_ring = 32 * refine;
     cpu = scale_row(shape, blocks, cpu);
     blocks = shape.rings * shape.blocks_per_ring;
   }
-}
-
-void million() {
-  print_scale_header(", one sector of eight");
-  scenes::DomeShape shape;
-  shape.rings = 1000;
-  shape.blocks_per_ring = 1024;
-  shape.sectors = 8;
-  scale_row(shape, 0, 0.0);
 }
 
 /// Shortest wall time of three runs, s.
@@ -235,11 +215,12 @@ int block_jacobi_iterations(const BlockPattern& pattern, const BlockMatrix& H, c
 /// The Hessian in which every contact sticks: assembly, factorisation and solve on one and two threads, and
 /// the same system solved by CG on one thread.
 void threads() {
-  fmt::print("\nOne and two threads, wall s, shortest of three; CG with block Jacobi and with multigrid\n");
-  fmt::print("{:>8} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8} {:>5} {:>8} {:>8} {:>8} {:>8} {:>10} {:>8}\n",
-             "blocks", "assembly 1", "2", "speed-up", "factor 1", "2", "speed-up", "bits", "solve", "Jacobi",
-             "wall s", "set-up s", "multigrid", "wall s");
-  for (const int refine : {2, 4, 8}) {
+  fmt::print(
+      "blocks,\"assembly, 1 thread\",\"assembly, 2 threads\",\"factor, 1 thread\",\"factor, 2 "
+      "threads\",bits,solve,"
+      "block Jacobi: CG iterations,block Jacobi: s,multigrid: set-up s,multigrid: CG iterations,multigrid: "
+      "s\n");
+  for (const int refine : {2, 4}) {
     scenes::DomeShape shape;
     shape.rings = 40 * refine;
     shape.blocks_per_ring = 32 * refine;
@@ -273,12 +254,10 @@ void threads() {
     const double built = wall_seconds() - start - jacobi;
     const int by_multigrid =
         count_cg_iterations(graph.pattern, H, p.v_star, [&](const VecX& r) { return multigrid.cycle(r); });
-    fmt::print(
-        "{:>8} {:>10.4f} {:>10.4f} {:>8.2f} {:>10.3f} {:>10.3f} {:>8.2f} {:>5} {:>8.4f} {:>8} {:>8.2f} "
-        "{:>8.2f} {:>10} {:>8.2f}\n",
-        p.num_blocks(), assembly[0], assembly[1], assembly[0] / assembly[1], factorisation[0],
-        factorisation[1], factorisation[0] / factorisation[1], x[0] == x[1] ? "same" : "DIFFERENT", solve,
-        by_jacobi, jacobi, built, by_multigrid, wall_seconds() - start - jacobi - built);
+    fmt::print("{},{:.4f},{:.4f},{:.3f},{:.3f},{},{:.4f},{},{:.2f},{:.2f},{},{:.2f}\n", p.num_blocks(),
+               assembly[0], assembly[1], factorisation[0], factorisation[1],
+               x[0] == x[1] ? "same" : "DIFFERENT", solve, by_jacobi, jacobi, built, by_multigrid,
+               wall_seconds() - start - jacobi - built);
     std::fflush(stdout);
   }
 }
@@ -287,13 +266,18 @@ void threads() {
 }  // namespace cupola
 
 int main(int argc, char** argv) {
-  const std::string only = argc > 1 ? argv[1] : "";
-  const auto asked = [&only](const char* part) { return only.empty() || only == part; };
-  if (asked("methods")) cupola::compare_methods();
-  if (asked("gaps")) cupola::random_gaps();
-  if (asked("stepping")) cupola::time_stepping();
-  if (asked("threads")) cupola::threads();
-  if (only == "million") cupola::million();
-  if (asked("scale") || only == "large") cupola::scale(only == "large");
-  return 0;
+  const std::string table = argc == 2 ? argv[1] : "";
+  if (table == "methods")
+    cupola::compare_methods();
+  else if (table == "gaps")
+    cupola::random_gaps();
+  else if (table == "stepping")
+    cupola::time_stepping();
+  else if (table == "scale")
+    cupola::scale();
+  else if (table == "threads")
+    cupola::threads();
+  else
+    fmt::print(stderr, "usage: contact_benchmark methods | gaps | stepping | scale | threads\n");
+  return table.empty();
 }

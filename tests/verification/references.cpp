@@ -125,10 +125,12 @@ const Reference& reference(const std::string& id) {
   throw InputError("tests/verification/references.yaml: no problem " + id);
 }
 
-std::vector<std::pair<std::string, std::string>> not_verified() {
+std::vector<std::pair<std::string, std::string>> manual_text(const std::string& list) {
+  const CaseNode tree = read_tree("manual_text.yaml");
+  const CaseNode* found = tree.find(list);
+  if (!found) throw InputError("tests/verification/manual_text.yaml: no list " + list);
   std::vector<std::pair<std::string, std::string>> items;
-  const CaseNode tree = read_tree("not_verified.yaml");
-  for (const CaseNode& item : tree.find("items")->items)
+  for (const CaseNode& item : found->items)
     items.emplace_back(required(item, "topic"), required(item, "text"));
   return items;
 }

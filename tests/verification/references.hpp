@@ -37,7 +37,7 @@ const std::vector<Reference>& references();
 /// Throws InputError if there is no such problem.
 const Reference& reference(const std::string& id);
 
-/// What the manual does not cover: topic and text, in the order of not_verified.yaml.
-std::vector<std::pair<std::string, std::string>> not_verified();
+/// A list of manual_text.yaml, `other_tests` or `not_verified`: topic and text of each item.
+std::vector<std::pair<std::string, std::string>> manual_text(const std::string& list);
 
 }  // namespace cupola::verification

@@ -157,8 +157,11 @@ Document write_manual(const std::vector<ManualRow>& rows) {
       write_problem(problem, rows, &out);
     }
   }
-  out.heading(2, "What is not verified");
-  for (const auto& [topic, text] : not_verified()) out.paragraph(topic + ". " + text);
+  for (const auto& [list, title] :
+       {std::pair("other_tests", "Other tests"), std::pair("not_verified", "What is not verified")}) {
+    out.heading(2, title);
+    for (const auto& [topic, text] : manual_text(list)) out.paragraph(topic + ". " + text);
+  }
   return out;
 }
 
