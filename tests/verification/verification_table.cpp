@@ -17,6 +17,7 @@
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/program/program.hpp"
 #include "tests/verification/document.hpp"
+#include "tests/verification/row_processes.hpp"
 #include "tests/verification/verification_row.hpp"
 
 namespace cupola::verification {
@@ -45,18 +46,29 @@ std::string verdict(const ManualRow& r) {
   return !r.result ? "not run" : r.result->passed ? "passed" : "FAILS";
 }
 
+void print_row(const ManualRow& r) {
+  fmt::print("{:<8} {:7.1f} s  {} ({}): {}, expected {}{}\n", verdict(r),
+             r.result ? r.result->cpu_seconds : 0.0, r.problem->id, r.row->name(), shown_number(r),
+             r.row->expected_text, r.result ? ". " + r.result->failure : "");
+  std::fflush(stdout);
+}
+
+/// Computes the rows, as many at a time as there are processors. A row that crashes its process fails.
 std::vector<ManualRow> compute_rows(bool quick) {
   std::vector<ManualRow> rows;
   for (const Reference& problem : references())
-    for (const ReferenceRow& row : problem.rows) {
-      ManualRow r{&problem, &row, {}};
-      if (!quick || !row.slow) r.result = run_row(problem, row);
-      fmt::print("{:<8} {:7.1f} s  {} ({}): {}, expected {}{}\n", verdict(r),
-                 r.result ? r.result->cpu_seconds : 0.0, problem.id, row.name(), shown_number(r),
-                 row.expected_text, r.result ? ". " + r.result->failure : "");
-      std::fflush(stdout);
-      rows.push_back(std::move(r));
-    }
+    for (const ReferenceRow& row : problem.rows) rows.push_back({&problem, &row, {}});
+  std::vector<int> chosen;
+  for (int i = 0; i < static_cast<int>(rows.size()); ++i)
+    if (!quick || !rows[i].row->slow) chosen.push_back(i);
+  const auto compute = [&](int task) {
+    ManualRow row = rows[chosen[task]];
+    row.result = run_row(*row.problem, *row.row);
+    print_row(row);
+    return *row.result;
+  };
+  const std::vector<RowResult> results = run_in_processes(static_cast<int>(chosen.size()), compute);
+  for (size_t task = 0; task < chosen.size(); ++task) rows[chosen[task]].result = results[task];
   return rows;
 }
 
