@@ -21,7 +21,8 @@ Equilibrium solve_equilibrium(const Case& scene, const Assembly& assembly);
 /// Whether the static analysis ends `stable`; throws std::runtime_error if it ends `unconverged`.
 bool stands(const Case& scene, const Assembly& assembly);
 
-/// Middle of the bracket of a limit analysis; throws std::runtime_error if none narrow enough is found.
+/// Middle of the bracket of a limit analysis; throws std::runtime_error if there is none of at most twice the
+/// requested width.
 double critical_value(const Case& scene, const Assembly& assembly);
 
 /// The factor, within a relative width of 1e-4, at which `stands_at` changes from true at `low` to false at
