@@ -76,8 +76,8 @@ TEST(Mechanism, SemicircleFormsFiveMovingGroups) {
   const State rest = state_at_rest(model);
   ContactDetector detector(assembly, {});
   const ContactSet& contacts = detector.update(rest.poses);
-  const StaticSolution solution = solve_static(model, rest, contacts, match_memories({}, contacts.points),
-                                               {.tolerance = 1e-5});
+  const StaticSolution solution =
+      solve_static(model, rest, contacts, match_memories({}, contacts.points), {.tolerance = 1e-5});
   ASSERT_EQ(solution.outcome, StaticOutcome::moving) << solution.message;
   const Mechanism mechanism = find_mechanism(model, rest, contacts, solution);
   EXPECT_EQ(mechanism.num_groups, 5);
