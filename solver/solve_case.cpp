@@ -19,6 +19,7 @@
 #include "solver/explain.hpp"
 #include "solver/fclib/fclib_file.hpp"
 #include "solver/runtime/checkpoint.hpp"
+#include "solver/runtime/interruption.hpp"
 #include "solver/runtime/run_control.hpp"
 #include "solver/runtime/threads.hpp"
 
@@ -91,10 +92,11 @@ std::optional<Checkpoint> find_checkpoint(const SolveRequest& request, const std
 /// Connects an analysis to the results folder and the terminal.
 AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpoint_path,
                          const StopRequest& stop, ResultsWriter* writer, Checkpoint* run,
-                         ProgressBar* progress) {
+                         ProgressBar* progress, std::string* last_line) {
   AnalysisSinks sinks;
   const bool bar = !request.quiet && stdout_is_terminal();
-  sinks.log = [&request, bar](const std::string& line) {
+  sinks.log = [&request, bar, last_line](const std::string& line) {
+    *last_line = line;
     if (!request.quiet && !bar) fmt::print("{}\n", line), std::fflush(stdout);
   };
   if (bar) sinks.progress = [progress](double share) { progress->show(share); };
@@ -121,16 +123,37 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
   return sinks;
 }
 
+/// None if the user interrupted the analysis, between its steps or inside one.
+std::optional<Summary> summary_unless_interrupted(const Case& scene, const Assembly& assembly,
+                                                  const AnalysisSinks& sinks) {
+  try {
+    return run_analysis(scene, assembly, sinks);
+  } catch (const Interrupted&) {
+    return std::nullopt;
+  }
+}
+
+ExitCode interrupted_before_solving() {
+  fmt::print(stderr, "interrupted before the analysis started\n");
+  return ExitCode::interrupted;
+}
+
 }  // namespace
 
 ExitCode solve_case(const SolveRequest& request) {
+  const StopRequest stop;
   const double started = wall_seconds();
   const Assembly assembly = read_matching_assembly(request);
   const std::string assembly_hash = content_hash(assembly);
   const std::string checkpoint_path = (std::filesystem::path(request.output_folder) / "checkpoint").string();
 
   set_num_threads(request.threads);
-  print_warnings(geometry_warnings(assembly, detection_options(request.scene)));
+  if (stop.made()) return interrupted_before_solving();
+  try {
+    print_warnings(geometry_warnings(assembly, detection_options(request.scene)));
+  } catch (const Interrupted&) {
+    return interrupted_before_solving();
+  }
 
   // 1. Start or resume
   Checkpoint run = find_checkpoint(request, checkpoint_path, assembly_hash).value_or(Checkpoint{});
@@ -147,19 +170,24 @@ ExitCode solve_case(const SolveRequest& request) {
   std::filesystem::remove(std::filesystem::path(request.output_folder) / "summary.json");
 
   // 2. The analysis
-  const StopRequest stop;
   ProgressBar progress;
-  AnalysisSinks sinks = make_sinks(request, checkpoint_path, stop, &writer, &run, &progress);
+  std::string last_line;
+  AnalysisSinks sinks = make_sinks(request, checkpoint_path, stop, &writer, &run, &progress, &last_line);
   const std::string patches_path = (std::filesystem::path(request.output_folder) / "patches.vtp").string();
   bool patches_written = false;
   sinks.as_built = [&](const ContactSet& contacts) {
     write_patches(patches_path, contacts, assembly_hash);
     patches_written = true;
   };
-  std::optional<Summary> summary = run_analysis(request.scene, assembly, sinks);
+  std::optional<Summary> summary = summary_unless_interrupted(request.scene, assembly, sinks);
   progress.finish();
   if (!summary) {
-    fmt::print(stderr, "interrupted; run the same command with --resume to continue\n");
+    const bool resumable = std::filesystem::exists(checkpoint_path);
+    writer.write_interruption({run.program_version, run.case_hash, run.assembly_hash, resumable,
+                               static_cast<int>(run.frame_times.size()), last_line,
+                               wall_seconds() - started});
+    fmt::print(stderr, "interrupted; run the same command {}\n",
+               resumable ? "with --resume to continue" : "again: nothing was saved that it could resume");
     return ExitCode::interrupted;
   }
 

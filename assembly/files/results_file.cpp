@@ -165,11 +165,14 @@ void check_frame(const Frame& frame, const std::string& path) {
   }
 }
 
+constexpr const char* kInterrupted = "interrupted.json";
+
 }  // namespace
 
 ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times)
     : folder_(std::move(folder)), assembly_hash_(std::move(assembly_hash)), times_(std::move(times)) {
   make_folder(folder_);
+  std::filesystem::remove(in_folder(folder_, kInterrupted));
 }
 
 void ResultsWriter::write_frame(const Frame& frame) {
@@ -189,6 +192,10 @@ void ResultsWriter::write_frame(const Frame& frame) {
 void ResultsWriter::write_text(const std::string& name, const std::string& text) {
   write_text_atomically(in_folder(folder_, name), text);
   text_files_[name] = hash_text(text);
+}
+
+void ResultsWriter::write_interruption(const Interruption& interruption) {
+  write_text_atomically(in_folder(folder_, kInterrupted), to_json(interruption));
 }
 
 void ResultsWriter::write_summary(Summary summary) {

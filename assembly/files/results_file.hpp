@@ -19,6 +19,8 @@ class ResultsWriter {
   void write_text(const std::string& name, const std::string& text);  ///< run.yaml, history.csv
   /// To be called last: a summary marks the folder as complete. It lists every text file with its hash.
   void write_summary(Summary summary);
+  /// Instead of a summary. The next run that starts in this folder removes it.
+  void write_interruption(const Interruption& interruption);
 
   const std::string& folder() const { return folder_; }
 

@@ -143,6 +143,17 @@ std::string to_json(const Summary& summary) {
   return json.dump(2) + "\n";
 }
 
+std::string to_json(const Interruption& interruption) {
+  const Json json = {{"program_version", interruption.program_version},
+                     {"case_hash", interruption.case_hash},
+                     {"assembly_hash", interruption.assembly_hash},
+                     {"resumable", interruption.resumable},
+                     {"frames", interruption.frames},
+                     {"last_line", interruption.last_line},
+                     {"wall_time_seconds", interruption.wall_time_seconds}};
+  return json.dump(2) + "\n";
+}
+
 Summary summary_from_json(const std::string& text, const std::string& file) {
   const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object())

@@ -11,4 +11,7 @@ namespace cupola {
 std::string to_json(const Summary& summary);
 Summary summary_from_json(const std::string& text, const std::string& file);
 
+/// Content of interrupted.json.
+std::string to_json(const Interruption& interruption);
+
 }  // namespace cupola

@@ -79,6 +79,15 @@ constexpr auto enum_names(Status) {
   return std::array{"stable", "moving", "collapsed", "unconverged"};
 }
 
+/// What an interrupted run had reached: interrupted.json.
+struct Interruption {
+  std::string program_version, case_hash, assembly_hash;
+  bool resumable = false;  ///< there is a checkpoint
+  int frames = 0;          ///< written so far
+  std::string last_line;   ///< of the log: the last step, trial or iteration
+  double wall_time_seconds = 0.0;
+};
+
 /// The parameter value at which a structure ceases to stand, and its final bracket.
 struct CriticalValue {
   std::string parameter;

@@ -84,7 +84,7 @@ Bracket bisect(double low, double high, const BracketWidth& required, const TryV
     if (value == bracket.stable.value || value == bracket.moving.value) break;  // adjacent doubles
     const double nearest =
         std::min(std::abs(value - bracket.stable.value), std::abs(value - bracket.moving.value));
-    if (undecided && nearest < 0.5 * enough) break;
+    if (undecided && nearest < 0.25 * enough) break;
     const std::optional<LimitTrial> trial = attempt(value);
     if (!trial) return bracket;
     update(*trial, &bracket, &undecided);

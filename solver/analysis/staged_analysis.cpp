@@ -30,7 +30,8 @@ struct StageResult {
 /// One stage with its contacts, which are detected once because they do not depend on friction.
 class StageRun {
  public:
-  StageRun(const Case& scene, const Assembly& complete, int ring)
+  StageRun(const Case& scene, const Assembly& complete, int ring,
+           const std::function<void(const std::string&)>& log)
       : scene_(scene),
         stage_(build_stage(complete, ring)),
         complete_(stage_.assembly.blocks.size() == complete.blocks.size()) {
@@ -38,6 +39,7 @@ class StageRun {
     contacts_ = detector.update(initial_poses(stage_.assembly));
     memories_ = match_memories({}, contacts_.points);
     options_ = static_options(scene.analysis);
+    options_.log = log;
   }
 
   StaticSolution solve(double fresh_friction) {
@@ -155,7 +157,7 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
   std::string table = "ring,blocks,weight_N,verdict,speed_ratio,critical_stands,critical_moves,note\n";
   const double started = wall_seconds();
   for (int ring = staged.first_ring; ring <= last; ++ring) {
-    StageRun run(scene, assembly, ring);
+    StageRun run(scene, assembly, ring, sinks.log);
     StageResult stage;
     const StaticSolution solution = run.solve(staged.fresh_friction);
     stage.ring = ring;

@@ -73,7 +73,7 @@ class ProximalPoint {
   bool shorten_step();
   void speed_up(double contraction);
   double proof(const StaticSolution& trial) const;
-  bool moves_steadily(double contraction);
+  bool moves_steadily(double contraction, int count);
   StaticSolution finish(StaticOutcome outcome, std::string message);
 
   const Model& model_;
@@ -187,12 +187,12 @@ double ProximalPoint::proof(const StaticSolution& trial) const {
          std::max(loads, normal_force_sum(step_.problem, trial.step_solution.gamma));
 }
 
-/// True if three iterations in a row left the residual as it was and the blocks move.
-bool ProximalPoint::moves_steadily(double contraction) {
+/// True if `count` iterations in a row left the residual as it was and the blocks move.
+bool ProximalPoint::moves_steadily(double contraction, int count) {
   constexpr double kSteady = 0.05;
   const bool steady = std::abs(contraction - 1.0) < kSteady && trial_.speed_ratio > kAtRest;
   num_steady_ = steady ? num_steady_ + 1 : 0;
-  return num_steady_ >= 3;
+  return num_steady_ >= count;
 }
 
 StaticSolution ProximalPoint::finish(StaticOutcome outcome, std::string message) {
@@ -209,6 +209,7 @@ StaticSolution ProximalPoint::finish(StaticOutcome outcome, std::string message)
 }
 
 StaticSolution ProximalPoint::run() {
+  constexpr int kMoving = 3, kUnproven = 15;  // steady iterations until the search ends
   const bool associated = options_.solve.law == FrictionLaw::associated;
   for (int k = 0; k < kMaxSolves; ++k) {
     iterate();
@@ -236,7 +237,15 @@ StaticSolution ProximalPoint::run() {
             fmt::format("no equilibrium exists: the blocks accelerate at {:.3g} g, and an "
                         "equilibrium would need normal forces {:.2g} times those found and the loads",
                         trial_.speed_ratio, needed));
-      if (!associated && moves_steadily(contraction))
+      const bool steady = moves_steadily(contraction, associated ? kUnproven : kMoving);
+      if (associated && steady)
+        return finish(
+            StaticOutcome::unconverged,
+            fmt::format("the blocks accelerate at {:.3g} g in {} iterations, but it is not proven that "
+                        "no equilibrium exists: it would need normal forces at least {:.2g} times "
+                        "those found or the loads, and the proof requires {:g}",
+                        trial_.speed_ratio, kUnproven, proof(trial_), kProven));
+      if (!associated && steady)
         return finish(StaticOutcome::moving,
                       fmt::format("a steady motion was found: the blocks accelerate at {:.3g} g; not proven: "
                                   "other contact forces might balance the loads",

@@ -12,6 +12,7 @@
 #include "solver/collision/edge_contact.hpp"
 #include "solver/collision/face_clipping.hpp"
 #include "solver/collision/plane_contacts.hpp"
+#include "solver/runtime/interruption.hpp"
 #include "solver/runtime/threads.hpp"
 
 namespace cupola {
@@ -199,6 +200,7 @@ AnchoredContacts ContactDetector::find_contacts() {
     const int count = std::min(kChunksAtOnce, num_chunks - first);
     std::vector<AnchoredContacts> chunks(count);
     share_loop(kOperationsPerBlock * kBlocksPerChunk * count, count, [&](int i) {
+      throw_if_interrupted();
       const int start = (first + i) * kBlocksPerChunk;
       chunks[i] = find_contacts(start, std::min(start + kBlocksPerChunk, num_blocks));
     });

@@ -9,6 +9,7 @@
 #include "assembly/base/error.hpp"
 #include "solver/collision/face_clipping.hpp"
 #include "solver/collision/separating_axis.hpp"
+#include "solver/runtime/interruption.hpp"
 #include "solver/runtime/threads.hpp"
 
 namespace cupola {
@@ -91,6 +92,7 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
   const BroadPhase near(boxes, collision_groups(model));
   std::vector<BadJoints> chunks((model.num_blocks() + kBlocksPerChunk - 1) / kBlocksPerChunk);
   share_loop(kOperationsPerBlock * model.num_blocks(), static_cast<int>(chunks.size()), [&](int chunk) {
+    throw_if_interrupted();
     const int start = chunk * kBlocksPerChunk;
     for (int block = start; block < std::min(start + kBlocksPerChunk, model.num_blocks()); ++block)
       examine_block(detector, poses, near, any_width, block, &chunks[chunk]);

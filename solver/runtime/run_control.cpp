@@ -1,7 +1,6 @@
 #include "solver/runtime/run_control.hpp"
 
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -11,31 +10,6 @@
 #include "assembly/base/process.hpp"
 
 namespace cupola {
-namespace {
-
-volatile std::sig_atomic_t stop_requested = 0;
-
-void request_stop(int signal) {
-  stop_requested = 1;
-  std::signal(signal, SIG_DFL);
-}
-
-}  // namespace
-
-StopRequest::StopRequest() {
-  stop_requested = 0;
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
-}
-
-StopRequest::~StopRequest() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-}
-
-bool StopRequest::made() const {
-  return stop_requested != 0;
-}
 
 void ProgressBar::show(double share) {
   CUPOLA_ASSERT(share >= 0.0 && share <= 1.0);

@@ -4,18 +4,6 @@
 
 namespace cupola {
 
-/// During its lifetime the first Ctrl-C or SIGTERM requests the run to stop; the second one kills the
-/// program.
-class StopRequest {
- public:
-  StopRequest();
-  ~StopRequest();
-  StopRequest(const StopRequest&) = delete;
-  StopRequest& operator=(const StopRequest&) = delete;
-
-  bool made() const;
-};
-
 /// A progress bar with the remaining time on one terminal line, updated at most five times per second.
 class ProgressBar {
  public:

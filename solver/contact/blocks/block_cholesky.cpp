@@ -8,6 +8,7 @@
 #include <cblas.h>
 
 #include "assembly/base/error.hpp"
+#include "solver/runtime/interruption.hpp"
 #include "solver/runtime/threads.hpp"
 
 extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -170,29 +171,38 @@ bool BlockCholesky::factorize(const BlockPattern& pattern, const BlockMatrix& ma
   const auto finite = [](const Mat6& block) { return block.allFinite(); };
   std::atomic<bool> positive_definite = std::all_of(matrix.diagonal.begin(), matrix.diagonal.end(), finite) &&
                                         std::all_of(matrix.lower.begin(), matrix.lower.end(), finite);
+  std::atomic<bool> abandoned = false;
   if (positive_definite) {
     run_team(m_ * m_ * m_ * structure_.work, [&](Team& team, int thread) {
       std::vector<double>* product = &products_[thread];
       team.share(static_cast<int>(structure_.subtrees.size()), [&](int i) {
         const FactorStructure::Subtree& tree = structure_.subtrees[i];
-        for (int panel = tree.first; panel < tree.last && positive_definite; ++panel)
+        for (int panel = tree.first; panel < tree.last && positive_definite && !abandoned; ++panel) {
+          if (must_abandon()) abandoned = true;
+
           if (!factorize_panel(matrix, panel, product)) positive_definite = false;
+        }
       });
       for (const int panel : structure_.top) {
         const std::vector<Tile> rows = tiles(structure_.num_rows(panel));
         const int count = static_cast<int>(rows.size());
         team.share(count, [&](int i) {
+          if (abandoned) return;
           fill(matrix, panel, rows[i]);
           update(panel, rows[i], product);
         });
         team.share(1, [&](int) {
-          if (!factorize_own_rows(panel)) positive_definite = false;
+          if (must_abandon()) abandoned = true;
+          if (!abandoned && !factorize_own_rows(panel)) positive_definite = false;
         });
-        team.share(count, [&](int i) { divide(panel, rows[i]); });
+        team.share(count, [&](int i) {
+          if (!abandoned) divide(panel, rows[i]);
+        });
       }
     });
   }
-  valid_ = positive_definite;
+  valid_ = positive_definite && !abandoned;
+  if (abandoned) throw Interrupted();
   return valid_;
 }
 

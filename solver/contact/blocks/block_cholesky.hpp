@@ -22,7 +22,7 @@ namespace cupola {
 class BlockCholesky {
  public:
   /// False if the matrix is not positive definite in double precision or contains NaN; there is then no
-  /// factor. Throws std::bad_alloc if memory runs out.
+  /// factor. Throws std::bad_alloc if memory runs out, and Interrupted.
   [[nodiscard]] bool factorize(const BlockPattern& pattern, const BlockMatrix& matrix);
 
   bool has_factor() const { return valid_; }

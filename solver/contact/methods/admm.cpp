@@ -10,6 +10,7 @@
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/contact/problem/whitening.hpp"
+#include "solver/runtime/interruption.hpp"
 
 namespace cupola {
 
@@ -94,6 +95,7 @@ SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& optio
   bool valid = admm.factorize();
   ++summary.factorizations;
   while (valid && best > options.tolerance && summary.iterations < max_iterations) {
+    throw_if_interrupted();
     admm.iterate();
     ++summary.iterations;
     if (summary.iterations % kIterationsPerCheck == 0 || summary.iterations == max_iterations) {

@@ -5,6 +5,7 @@
 
 #include "assembly/base/process.hpp"
 #include "solver/contact/methods/dual_problem.hpp"
+#include "solver/runtime/interruption.hpp"
 
 namespace cupola {
 
@@ -27,6 +28,7 @@ SolveSummary solve_apgd(const ContactProblem& problem, const SolveOptions& optio
   summary.residual_history.push_back(best_accuracy);
   bool stalled = false;
   while (best_accuracy > options.tolerance && summary.iterations < max_iterations && !stalled) {
+    throw_if_interrupted();
     ++summary.iterations;
 
     // 1. Projected step from x; L is raised until it majorises f along the step

@@ -12,6 +12,7 @@
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/contact/problem/whitening.hpp"
+#include "solver/runtime/interruption.hpp"
 
 namespace cupola {
 
@@ -84,6 +85,7 @@ bool solve_coulomb_subproblem(const CoulombSubproblem& sub, double tolerance, Ve
   constexpr double kShortest = 1e-4;
   VecX F = sub.residual(*w);
   for (int k = 0; k < kMaxIterations && F.norm() > tolerance; ++k) {
+    throw_if_interrupted();
     ++summary->iterations;
     ++summary->factorizations;
     Eigen::SparseLU<Sparse> lu(sub.jacobian(*w));

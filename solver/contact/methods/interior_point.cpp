@@ -10,6 +10,7 @@
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/contact/problem/second_order_cone.hpp"
 #include "solver/contact/problem/whitening.hpp"
+#include "solver/runtime/interruption.hpp"
 
 namespace cupola {
 
@@ -247,6 +248,7 @@ void InteriorPoint::run() {
   constexpr double kSmallestStep = 1e-6;
   const int nc = p_.num_contacts();
   while (true) {
+    throw_if_interrupted();
     update_residuals();
     if (!factorize()) {
       summary_.ending = SolveEnding::stalled;

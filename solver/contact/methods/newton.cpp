@@ -13,6 +13,7 @@
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/contact/problem/whitening.hpp"
+#include "solver/runtime/interruption.hpp"
 
 namespace cupola {
 
@@ -150,6 +151,7 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
       break;
     }
 
+    throw_if_interrupted();
     // 1. Newton direction, or steepest descent if rounding has spoiled it
     ++summary.iterations;
     VecX d;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assembly/base/error.hpp"
+#include "solver/runtime/interruption.hpp"
 
 namespace cupola {
 
@@ -22,6 +23,7 @@ double conjugate_gradients(const Multiply& multiply, const Precondition& precond
   d->setZero(rhs.size());
   if (first == 0.0) return 0.0;  // nothing to solve
   for (int k = 0; k < max_iterations && rz > forcing * forcing * first; ++k) {
+    throw_if_interrupted();
     ++summary->conjugate_gradients;
     const VecX Hp = multiply(p);
     const double alpha = rz / p.dot(Hp);

@@ -3,6 +3,7 @@
 #include "assembly/base/process.hpp"
 #include "solver/contact/methods/dual_problem.hpp"
 #include "solver/contact/methods/local_contact.hpp"
+#include "solver/runtime/interruption.hpp"
 
 namespace cupola {
 
@@ -54,6 +55,7 @@ SolveSummary solve_nsgs(const ContactProblem& problem, const SolveOptions& optio
   double accuracy = dual_accuracy(dual, gamma, dual.times(gamma) + dual.q);
   summary.residual_history.push_back(accuracy);
   while (accuracy > options.tolerance && summary.iterations < max_iterations) {
+    throw_if_interrupted();
     VecX w = p.v_star + generalized_impulse(p, gamma);  // recomputed to remove the rounding of the updates
     for (int k = 0; k < kSweepsPerCheck && summary.iterations < max_iterations; ++k, ++summary.iterations) {
       sweep(p, A, &gamma, &w);

@@ -5,6 +5,7 @@
 
 #include "assembly/base/process.hpp"
 #include "solver/contact/methods/dual_problem.hpp"
+#include "solver/runtime/interruption.hpp"
 
 namespace cupola {
 
@@ -48,6 +49,7 @@ SolveSummary solve_spg(const ContactProblem& problem, const SolveOptions& option
   summary.residual_history.push_back(best_accuracy);
   bool stalled = false;
   while (best_accuracy > options.tolerance && summary.iterations < max_iterations && !stalled) {
+    throw_if_interrupted();
     ++summary.iterations;
     const VecX d = dual.project(gamma - alpha * g.cwiseQuotient(dual.B)) - gamma;
     const VecX Ad = dual.times(d);

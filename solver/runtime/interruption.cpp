@@ -1,0 +1,54 @@
+#include "solver/runtime/interruption.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <ctime>
+
+namespace cupola {
+namespace {
+
+/// Monotonic time in milliseconds; async-signal-safe.
+long long monotonic_milliseconds() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return 1000LL * now.tv_sec + now.tv_nsec / 1000000;
+}
+
+constexpr long long kNever = -1;
+std::atomic<long long> time_of_request = kNever;
+static_assert(std::atomic<long long>::is_always_lock_free);  // as a signal handler requires
+
+void request_stop(int signal) {
+  time_of_request = monotonic_milliseconds();
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+StopRequest::StopRequest() {
+  time_of_request = kNever;
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+}
+
+StopRequest::~StopRequest() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+  time_of_request = kNever;
+}
+
+bool StopRequest::made() const {
+  return time_of_request != kNever;
+}
+
+bool must_abandon() noexcept {
+  constexpr long long kGrace = 1000;  // ms
+  const long long requested = time_of_request;
+  return requested != kNever && monotonic_milliseconds() - requested > kGrace;
+}
+
+void throw_if_interrupted() {
+  if (must_abandon()) throw Interrupted();
+}
+
+}  // namespace cupola
