@@ -1,8 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "assembly/base/named_enum.hpp"
@@ -12,11 +12,21 @@
 
 namespace cupola {
 
-/// How an extreme scene may end. `missed`: the run reports that it did not reach the requested accuracy.
-enum class Ending { stable, moving, collapsed, refused, missed };
+/// How a run may end. `timeout`: stopped after kTimeLimit; `failed`: an exception or a signal.
+enum class Ending { stable, moving, collapsed, unconverged, refused, timeout, failed };
 constexpr auto enum_names(Ending) {
-  return std::array{"stable", "moving", "collapsed", "refused", "not reached"};
+  return std::array{"stable", "moving", "collapsed", "unconverged", "refused", "timeout", "failed"};
 }
+
+/// `right`: the answer is correct to the accuracy that the run states. `not_met`: the run reports that it has
+/// no answer. `wrong`: a wrong answer is presented as a good one.
+enum class Verdict { right, not_met, wrong };
+constexpr auto enum_names(Verdict) {
+  return std::array{"right", "not met", "WRONG"};
+}
+
+/// Processor time that a row may take, s.
+constexpr double kTimeLimit = 60.0;
 
 /// Input of the solver: the case and the assembly.
 struct Scene {
@@ -24,16 +34,30 @@ struct Scene {
   Assembly assembly;
 };
 
+/// Errors of the forces of a frame against forces that are known independently. NaN: not known.
+struct TrueError {
+  /// Lower bound of |gamma - exact| / |gamma| over all contact points (2-norm), which is what the certified
+  /// force error bounds from above.
+  double norm = std::numeric_limits<double>::quiet_NaN();
+  /// Largest |F - exact| / |exact| of the resultants F that carry more than 1 % of their mean.
+  double worst_joint = std::numeric_limits<double>::quiet_NaN();
+  /// A statement of the summary that these forces refute, with the numbers; "" if there is none.
+  std::string refuted = {};
+};
+
 /// One row of the table of extremes.
 struct ExtremeScene {
-  std::string group;            ///< e.g. "compliance"
-  std::string name;             ///< e.g. "1e-14 m/N"
-  std::string expected;         ///< expected result in words, for the table
-  std::vector<Ending> endings;  ///< endings that are accepted
+  std::string group;            ///< e.g. "compliance contrast"
+  std::string name;             ///< what is hard about it
+  std::string reference;        ///< the exact answer and its source
+  std::vector<Ending> correct;  ///< correct endings; `unconverged` and `timeout` are honest in every row
   std::function<Scene()> make;  ///< throws InputError if the scene is refused
+  std::function<TrueError(const Scene&, const Summary&, const Frame&)> truth = {};
   /// Further condition on the result: "" if it holds, otherwise a message with the numbers.
   std::function<std::string(const Summary&, const Frame&)> check = {};
-  bool slow = false;  ///< takes more than a few seconds
+  bool slow = false;  ///< takes more than a second
+  /// Worst verdict with which the test passes. `wrong` marks a known fault: the test is then skipped.
+  Verdict tolerated = Verdict::right;
 };
 
 /// All rows in the order of the table.
@@ -41,14 +65,17 @@ const std::vector<ExtremeScene>& extreme_scenes();
 
 /// Result of one row.
 struct ExtremeResult {
-  Ending ending = Ending::missed;
-  std::string message;                ///< of the solver or of the InputError
-  double asked = 0.0, reached = 0.0;  ///< accuracy
-  double seconds = 0.0;               ///< processor time
-  /// "" if the row passes: the ending is accepted, all numbers are finite, a run that ends `stable` reached
-  /// its requested accuracy, and `check` holds. Otherwise the reason.
-  std::string fault;
+  Ending ending = Ending::failed;
+  Verdict verdict = Verdict::wrong;
+  std::string reason;   ///< why the answer is wrong, or what the run reports if it has none
+  std::string message;  ///< of the solver, or of the exception
+  std::string stated;   ///< accuracy that the run states, for the table
+  TrueError error;
+  double asked = 0.0;
+  int iterations = 0;
+  double seconds = 0.0;  ///< processor time of the analysis
 };
+/// Runs the row in a process of its own, which is stopped after kTimeLimit of processor time.
 ExtremeResult run_extreme(const ExtremeScene& scene);
 
 }  // namespace cupola
