@@ -56,8 +56,6 @@ struct ExtremeScene {
   /// Further condition on the result: "" if it holds, otherwise a message with the numbers.
   std::function<std::string(const Summary&, const Frame&)> check = {};
   bool slow = false;  ///< takes more than a second
-  /// Worst verdict with which the test passes. `wrong` marks a known fault: the test is then skipped.
-  Verdict tolerated = Verdict::right;
 };
 
 /// All rows in the order of the table.

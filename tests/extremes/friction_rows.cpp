@@ -117,7 +117,10 @@ void add_wedges(Rows* rows) {
                    [] {
                      return Scene{statics(0.4, 0.0), wedge_between_walls(30.0)};
                    },
-                   carries_weight_above});
+                   carries_weight_above,
+                   [](const Summary& summary, const Frame&) {
+                     return summary.forces_unique.value ? "the forces are called unique" : "";
+                   }});
   for (const auto law : kBothLaws) {
     const bool jams = law == FrictionLaw::associated;
     rows->push_back({"friction",

@@ -40,7 +40,7 @@ void add_gaps(Rows* rows) {
 Scene open_dome(double gap, double compliance) {
   const std::vector<std::string> settings{"geometry.bond.rings=6",
                                           "geometry.bond.blocks_per_ring=12",
-                                          "geometry.bond.slices_per_block=2",
+                                          "geometry.bond.slices_per_block=4",
                                           fmt::format("imperfections.gap={:g}", gap),
                                           "imperfections.seed=7",
                                           fmt::format("joints.compliance.normal={:g}", compliance),
