@@ -36,11 +36,11 @@ struct Scene {
 
 /// Errors of the forces of a frame against forces that are known independently. NaN: not known.
 struct TrueError {
-  /// Lower bound of |gamma - exact| / |gamma| over all contact points (2-norm), which is what the certified
-  /// force error bounds from above.
-  double norm = std::numeric_limits<double>::quiet_NaN();
-  /// Largest |F - exact| / |exact| of the resultants F that carry more than 1 % of their mean.
-  double worst_joint = std::numeric_limits<double>::quiet_NaN();
+  /// Largest |F - exact| / |exact| of the known resultants F that carry more than 1 % of their mean.
+  double largest = std::numeric_limits<double>::quiet_NaN();
+  /// Lower bound of the largest relative error of a joint wrench, the quantity that a static analysis
+  /// certifies.
+  double wrench = std::numeric_limits<double>::quiet_NaN();
   /// A statement of the summary that these forces refute, with the numbers; "" if there is none.
   std::string refuted = {};
 };

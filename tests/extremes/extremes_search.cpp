@@ -24,9 +24,9 @@ struct Found {
 
 void print(const Found& found) {
   const ExtremeResult& r = found.result;
-  fmt::print("{:28} {:11} {:8} {:6d} iterations {:7.2f} s  true {:.1e} worst {:.1e} stated {}  {}\n",
-             found.name, to_string(r.ending), to_string(r.verdict), r.iterations, r.seconds, r.error.norm,
-             r.error.worst_joint, r.stated, r.reason.substr(0, 120));
+  fmt::print("{:28} {:11} {:8} {:6d} iterations {:7.2f} s  true {:.1e} stated {}  {}\n", found.name,
+             to_string(r.ending), to_string(r.verdict), r.iterations, r.seconds, r.error.largest, r.stated,
+             r.reason.substr(0, 120));
 }
 
 ExitCode search(double seconds, std::uint64_t first) {

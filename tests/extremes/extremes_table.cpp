@@ -31,7 +31,7 @@ std::string cell(double value) {
 
 std::string csv_row(const ExtremeScene& scene, const ExtremeResult& r) {
   return fmt::format("{},{},{},{},{},{},{},{},{},{:.3f},{},{},{}\n", quoted(scene.group), quoted(scene.name),
-                     quoted(scene.reference), to_string(r.ending), r.error.norm, r.error.worst_joint, r.asked,
+                     quoted(scene.reference), to_string(r.ending), r.error.largest, r.error.wrench, r.asked,
                      quoted(r.stated), r.iterations, r.seconds, to_string(r.verdict), quoted(r.reason),
                      quoted(r.message));
 }
@@ -40,21 +40,21 @@ std::string markdown_row(const ExtremeScene& scene, const ExtremeResult& r) {
   std::string verdict = to_string(r.verdict);
   if (r.ending == Ending::timeout) verdict = r.message;
   if (r.verdict == Verdict::wrong) verdict += ": " + r.reason;
-  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {:.2f} | {} |\n", scene.group, scene.name,
-                     scene.reference, to_string(r.ending), cell(r.error.norm), cell(r.error.worst_joint),
-                     r.stated, r.iterations, r.seconds, verdict);
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {:.2f} | {} |\n", scene.group, scene.name,
+                     scene.reference, to_string(r.ending), cell(r.error.largest), r.stated, r.iterations,
+                     r.seconds, verdict);
 }
 
 ExitCode write_table(const std::string& folder, const std::string& text) {
   std::string csv =
-      "group,scene,exact_answer,ended,true_error,worst_joint,asked,stated,iterations,cpu_time_s,verdict,"
+      "group,scene,exact_answer,ended,true_error,wrench_error,asked,stated,iterations,cpu_time_s,verdict,"
       "reason,"
       "message\n";
   std::string markdown = fmt::format(
       "Written by `make -f Makefile.cases extremes`, Cupola {}. docs/extremes.md explains the columns.\n\n"
-      "| group | what is hard | exact answer | ended | true error | worst joint | stated | iterations | CPU "
+      "| group | what is hard | exact answer | ended | true error | stated | iterations | CPU "
       "s "
-      "| verdict |\n|---|---|---|---|---|---|---|---|---|---|\n",
+      "| verdict |\n|---|---|---|---|---|---|---|---|---|\n",
       program_version());
   std::array<int, 3> count{};
   int worse = 0;

@@ -25,7 +25,8 @@ TrueError plate_on_incline(const Scene& scene, const Summary& summary, const Fra
   }
   TrueError error = compare(scene, summary, frame, known);
   const TrueError total = carries_weight_above(scene, summary, frame);
-  error.worst_joint = std::max(error.worst_joint, total.worst_joint);
+  error.largest = std::max(error.largest, total.largest);
+  error.wrench = total.wrench;
   error.refuted = total.refuted;
   return error;
 }

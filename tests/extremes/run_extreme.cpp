@@ -52,10 +52,10 @@ std::string fault_of(const ExtremeScene& scene, const Summary& summary, const Fr
   const TrueError& error = result.error;
   if (!error.refuted.empty()) return error.refuted;
   const std::optional<double> bound = summary.certified_force_error.value;
-  if (bound && error.norm > *bound + kRounding)
-    return fmt::format("force error {:.1e} above the certified {:.1e}", error.norm, *bound);
-  if (error.worst_joint > kUsable)
-    return fmt::format("stable, but the force of a joint is wrong by {:.0f} %", 100 * error.worst_joint);
+  if (bound && error.wrench > *bound + kRounding)
+    return fmt::format("force error {:.1e} above the certified {:.1e}", error.wrench, *bound);
+  if (error.largest > kUsable)
+    return fmt::format("stable, but a force is wrong by {:.0f} %", 100 * error.largest);
   return scene.check ? scene.check(summary, frame) : "";
 }
 
@@ -113,8 +113,8 @@ constexpr char kSeparator = '\x1f';
 std::string to_text(const ExtremeResult& r) {
   const char s = kSeparator;
   return fmt::format("{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}", static_cast<int>(r.ending), s,
-                     static_cast<int>(r.verdict), s, r.reason, s, r.message, s, r.stated, s, r.error.norm, s,
-                     r.error.worst_joint, s, r.error.refuted, s, r.asked, s, r.iterations, s, r.seconds);
+                     static_cast<int>(r.verdict), s, r.reason, s, r.message, s, r.stated, s, r.error.largest,
+                     s, r.error.wrench, s, r.error.refuted, s, r.asked, s, r.iterations, s, r.seconds);
 }
 
 ExtremeResult from_text(const std::string& text) {

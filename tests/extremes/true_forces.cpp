@@ -18,21 +18,60 @@ Vec3 resultant(const Frame& frame, const KnownForce& known) {
   return known.along.isZero() ? sum : Vec3(known.along * known.along.dot(sum));
 }
 
-double norm_of(const std::vector<Vec3>& forces) {
-  double sum = 0.0;
-  for (const Vec3& f : forces) sum += f.squaredNorm();
-  return std::sqrt(sum);
+constexpr double kCarries = 0.01;  // of the mean; resultants with less are not compared
+
+/// Forces of one joint: its wrench has the force, and the moment about the mean of its points over the square
+/// root of its area.
+struct Wrench {
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  double norm() const { return std::hypot(force.norm(), moment.norm()); }
+};
+
+/// Wrenches of all joints of the frame for the given forces on block b, one per contact point.
+std::vector<Wrench> joint_wrenches(const ContactTable& contacts, const std::vector<Vec3>& forces) {
+  const size_t count =
+      contacts.size() == 0 ? 0 : 1 + *std::max_element(contacts.joint.begin(), contacts.joint.end());
+  std::vector<Vec3> centre(count, Vec3::Zero());
+  std::vector<double> points(count, 0.0), area(count, 0.0);
+  for (int row = 0; row < contacts.size(); ++row) {
+    centre[contacts.joint[row]] += contacts.point[row];
+    area[contacts.joint[row]] += contacts.area[row];
+    points[contacts.joint[row]] += 1.0;
+  }
+  std::vector<Wrench> wrenches(count);
+  for (int row = 0; row < contacts.size(); ++row) {
+    const int j = contacts.joint[row];
+    const double length = area[j] > 0.0 ? std::sqrt(area[j]) : 1.0;
+    wrenches[j].force += forces[row];
+    wrenches[j].moment += (contacts.point[row] - centre[j] / points[j]).cross(forces[row]) / length;
+  }
+  return wrenches;
 }
 
-/// Largest relative error of the resultants that carry more than 1 % of their mean.
-double worst_relative_error(const std::vector<Vec3>& found, const std::vector<Vec3>& exact) {
-  constexpr double kLoaded = 1e-2;
-  double mean = 0.0, worst = 0.0;
-  for (const Vec3& force : exact) mean += force.norm() / static_cast<double>(exact.size());
-  for (size_t k = 0; k < exact.size(); ++k)
-    if (exact[k].norm() > kLoaded * mean)
-      worst = std::max(worst, (found[k] - exact[k]).norm() / exact[k].norm());
-  return worst;
+double mean_force(const std::vector<Wrench>& wrenches) {
+  double mean = 0.0;
+  for (const Wrench& w : wrenches) mean += w.force.norm() / static_cast<double>(wrenches.size());
+  return mean;
+}
+
+/// Lower bound of the largest relative error of the wrenches of the joints that a resultant consists of:
+/// |dF| <= sum of the errors <= largest relative error times the sum of the wrenches. NaN if it does not
+/// consist of whole joints that all carry more than 1 % of the mean.
+double least_wrench_error(const Frame& frame, const std::vector<Wrench>& wrenches, const KnownForce& known,
+                          double error) {
+  std::map<int, int> rows_of;  // joint: rows outside the resultant
+  for (const int row : known.rows) rows_of[frame.contacts.joint[row]] = 0;
+  for (int row = 0; row < frame.contacts.size(); ++row)
+    if (const auto joint = rows_of.find(frame.contacts.joint[row]); joint != rows_of.end()) ++joint->second;
+  for (const int row : known.rows) --rows_of[frame.contacts.joint[row]];
+  const double least = kCarries * mean_force(wrenches);
+  double sum = 0.0;
+  for (const auto& [joint, outside] : rows_of) {
+    if (outside > 0 || !(wrenches[joint].force.norm() > least))
+      return std::numeric_limits<double>::quiet_NaN();
+    sum += wrenches[joint].norm() + error;  // at least the exact wrench
+  }
+  return error / sum;
 }
 
 /// The resultants of statics alone are wrong by at most the unbalanced forces, which the summary states.
@@ -55,17 +94,20 @@ TrueError compare(const Scene& scene, const Summary& summary, const Frame& frame
                   const std::vector<KnownForce>& known) {
   TrueError error;
   if (summary.status != Status::stable) return error;
-  std::vector<Vec3> found, exact;
-  double squares = 0.0;
+  const bool certifies_wrenches = scene.input.analysis.type == AnalysisType::static_;
+  const std::vector<Wrench> wrenches = joint_wrenches(frame.contacts, frame.contacts.force);
+  double mean = 0.0;
+  for (const KnownForce& one : known) mean += one.force.norm() / static_cast<double>(known.size());
+  error.largest = 0.0;
   for (const KnownForce& one : known) {
-    found.push_back(resultant(frame, one));
-    exact.push_back(one.force);
-    if (!one.rows.empty())
-      squares += (found.back() - one.force).squaredNorm() / static_cast<double>(one.rows.size());
-    if (error.refuted.empty()) error.refuted = refuted_balance(scene, summary, one, found.back());
+    const Vec3 found = resultant(frame, one);
+    const double difference = (found - one.force).norm();
+    if (one.force.norm() > kCarries * mean)
+      error.largest = std::max(error.largest, difference / one.force.norm());
+    if (certifies_wrenches && one.along.isZero())
+      error.wrench = std::fmax(error.wrench, least_wrench_error(frame, wrenches, one, difference));
+    if (error.refuted.empty()) error.refuted = refuted_balance(scene, summary, one, found);
   }
-  error.norm = std::sqrt(squares) / norm_of(frame.contacts.force);
-  error.worst_joint = worst_relative_error(found, exact);
   return error;
 }
 
@@ -121,22 +163,16 @@ TrueError equals_exact_statics(const Scene& scene, const Summary& summary, const
                                 exact.residual, exact.iterations);
     return error;
   }
-  double squares = 0.0;
-  std::map<std::pair<int, int>, std::pair<Vec3, Vec3>> joints;  // forces found and exact of pairs of blocks
-  for (int row = 0; row < frame.contacts.size(); ++row) {
-    squares += (frame.contacts.force[row] - exact.forces[row]).squaredNorm();
-    auto [joint, added] = joints.try_emplace({frame.contacts.block_a[row], frame.contacts.block_b[row]},
-                                             Vec3::Zero(), Vec3::Zero());
-    joint->second.first += frame.contacts.force[row];
-    joint->second.second += exact.forces[row];
-  }
-  std::vector<Vec3> found, right;
-  for (const auto& [blocks, forces] : joints) {
-    found.push_back(forces.first);
-    right.push_back(forces.second);
-  }
-  error.norm = std::sqrt(squares) / norm_of(frame.contacts.force);
-  error.worst_joint = worst_relative_error(found, right);
+  const std::vector<Wrench> right = joint_wrenches(frame.contacts, exact.forces);
+  std::vector<Vec3> differences = frame.contacts.force;
+  for (size_t row = 0; row < differences.size(); ++row) differences[row] -= exact.forces[row];
+  const std::vector<Wrench> wrong = joint_wrenches(frame.contacts, differences);
+  const double least = kCarries * mean_force(right);
+  error.largest = 0.0;
+  for (size_t j = 0; j < right.size(); ++j)
+    if (right[j].force.norm() > least)
+      error.largest = std::max(error.largest, wrong[j].norm() / right[j].norm());
+  error.wrench = error.largest;
   return error;
 }
 

@@ -19,9 +19,7 @@ struct KnownForce {
   Vec3 along = Vec3::Zero();
 };
 
-/// Errors of the resultants of disjoint sets of contact points. By Cauchy's inequality the forces of the n
-/// points of a resultant that is wrong by dF are wrong by at least |dF| / sqrt(n) in the 2-norm. Empty if the
-/// status is not `stable`.
+/// Errors of known resultants. Empty if the status is not `stable`.
 TrueError compare(const Scene& scene, const Summary& summary, const Frame& frame,
                   const std::vector<KnownForce>& known);
 
