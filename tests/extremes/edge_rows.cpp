@@ -61,6 +61,32 @@ void add_balances(Rows* rows) {
        notes_unstable_balance});
 }
 
+/// An equilibrium that a small push does not end.
+std::string notes_nothing(const Summary& summary, const Frame& frame) {
+  return notes_unstable_balance(summary, frame).empty() ? "called an unstable balance" : "";
+}
+
+/// Greenhill (1881): a column buckles under its own weight w per metre where h^3 > 7.8373 E I / w. Joints of
+/// four corners at +-0.5 m, each of 1 / c, turn under a moment as E I = 1 / c N m2 per metre of height does.
+void add_columns(Rows* rows) {
+  constexpr double kCompliance = 1e-9;
+  const double height = std::cbrt(7.8373 / kCompliance / (1000.0 * testing::kG));  // 92.8 m
+  // Twelve cubes are more than the finite number of joints and their shear change.
+  for (const int cubes : {static_cast<int>(height) - 12, static_cast<int>(height) + 12}) {
+    const bool buckles = cubes > height;
+    rows->push_back({"edges",
+                     fmt::format("column of {} cubes, {:g} m/N", cubes, kCompliance),
+                     fmt::format("{} the self-buckling height of {:.1f} m (Greenhill)",
+                                 buckles ? "above" : "below", height),
+                     {Ending::stable},
+                     [cubes] {
+                       return Scene{statics(0.4, kCompliance), pile(std::vector<Vec3>(cubes, Vec3::Ones()))};
+                     },
+                     carries_weight_above,
+                     buckles ? notes_unstable_balance : notes_nothing});
+  }
+}
+
 /// Reactions of the plank on knives at x = 0 and 3, with its centre of gravity at x = 1.
 TrueError lever_rule(const Scene& scene, const Summary& summary, const Frame& frame) {
   const double weight = scene.assembly.blocks[2].mass * testing::kG;
@@ -80,9 +106,7 @@ void add_supports(Rows* rows) {
              testing::make_boxes({knife(0, 0), knife(3, 0), {.center = {1, 0, 0.05}, .size = {6, 1, 0.1}}})};
        },
        lever_rule,
-       [](const Summary& summary, const Frame& frame) {
-         return notes_unstable_balance(summary, frame).empty() ? "reported as unstable" : "";
-       }});
+       notes_nothing});
   rows->push_back({"edges",
                    "block on three corners of fixed cubes",
                    "forces in extended precision",
@@ -103,6 +127,7 @@ void add_supports(Rows* rows) {
 
 void add_edge_rows(Rows* rows) {
   add_balances(rows);
+  add_columns(rows);
   add_supports(rows);
 }
 
