@@ -6,7 +6,10 @@
 namespace cupola {
 
 void add_random_rows(Rows* rows) {
-  for (const std::uint64_t seed : {1, 2, 3}) rows->push_back(random_row(seed, FrictionLaw::associated));
+  for (const std::uint64_t seed : {6, 28, 35, 36, 53, 61, 65, 69})
+    rows->push_back(random_row(seed, FrictionLaw::associated));
+  for (const std::uint64_t seed : {6, 17, 25, 28, 35, 65})
+    rows->push_back(random_row(seed, FrictionLaw::coulomb));
 }
 
 }  // namespace cupola
