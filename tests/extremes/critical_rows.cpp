@@ -101,6 +101,7 @@ void add_walls(Rows* rows) {
                          return scene;
                        },
                        stands ? equals_exact_statics : decltype(ExtremeScene::truth)()});
+      rows->back().slow = law == FrictionLaw::coulomb;
     }
 }
 
