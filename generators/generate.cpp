@@ -1,6 +1,7 @@
 #include "generators/generate.hpp"
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/block_names.hpp"
 #include "generators/bond/make_bond.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
 #include "generators/surface/make_surface.hpp"
@@ -40,8 +41,13 @@ Assembly generate(const Case& input, GenerateReport* report) {
     Assembly assembly = import_blocks(*geometry.imported, input.material.density(), &*report->import);
     assembly.title = input.title;
     assembly.geometry_hash = input.geometry_hash;
+    Case resolved = input;
+    resolve_block_names(assembly, &resolved.loads, &resolved.ties, &resolved.supports);
     report->model =
-        check_model(assembly, imported_tolerances(assembly, *geometry.imported), report->import->origins);
+        check_model(assembly,
+                    imported_tolerances(assembly, report->import->facet_angle,
+                                        joint_rule(smallest_block_size(assembly), input.contact.margin)),
+                    report->import->origins);
     assembly.check_report = to_text(*report);
     return assembly;
   }

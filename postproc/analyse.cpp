@@ -9,6 +9,7 @@
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/content_hash.hpp"
+#include "assembly/model/block_names.hpp"
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/figures.hpp"
 #include "postproc/pictures/paraview_views.hpp"
@@ -151,7 +152,9 @@ ExitCode analyse(const AnalyseRequest& request) {
   Assembly assembly = read_assembly(request.assembly_path);
   const ResultsReader results(request.results_folder, content_hash(assembly), request.force);
   check_provenance(request, assembly, results.summary());
-  Evaluation e = evaluate(request.scene, std::move(assembly), results);
+  Case scene = request.scene;
+  resolve_block_names(assembly, &scene.loads, &scene.ties, &scene.supports);
+  Evaluation e = evaluate(scene, std::move(assembly), results);
 
   const std::string& folder = request.output_folder;
   make_folder(folder);

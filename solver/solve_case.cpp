@@ -11,6 +11,7 @@
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/content_hash.hpp"
 #include "assembly/files/results_file.hpp"
+#include "assembly/model/block_names.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/collision/geometry_warnings.hpp"
@@ -26,9 +27,15 @@
 namespace cupola {
 namespace {
 
-Assembly read_matching_assembly(const SolveRequest& request) {
+/// Reads the assembly and replaces the names of blocks in the case by their numbers.
+Assembly read_matching_assembly(SolveRequest* asked) {
+  SolveRequest& request = *asked;
   const std::string& path = request.assembly_path;
   Assembly assembly = read_assembly(path);
+  resolve_block_names(assembly, &request.scene.loads, &request.scene.ties, &request.scene.supports);
+  const bool any_fixed = std::ranges::any_of(assembly.blocks, [](const Block& block) { return block.fixed; });
+  if (!any_fixed && request.scene.analysis.type != AnalysisType::dynamic)
+    throw InputError(FileLocation{path}, kNoBlockIsFixed);
   if (assembly.geometry_hash == request.scene.geometry_hash) return assembly;
   const std::string differs =
       fmt::format("was not made from {}: geometry or material differ", request.scene.file);
@@ -140,10 +147,10 @@ ExitCode interrupted_before_solving() {
 
 }  // namespace
 
-ExitCode solve_case(const SolveRequest& request) {
+ExitCode solve_case(SolveRequest request) {
   const StopRequest stop;
   const double started = wall_seconds();
-  const Assembly assembly = read_matching_assembly(request);
+  const Assembly assembly = read_matching_assembly(&request);
   const std::string assembly_hash = content_hash(assembly);
   const std::string checkpoint_path = (std::filesystem::path(request.output_folder) / "checkpoint").string();
 
@@ -186,8 +193,9 @@ ExitCode solve_case(const SolveRequest& request) {
     writer.write_interruption({run.program_version, run.case_hash, run.assembly_hash, resumable,
                                static_cast<int>(run.frame_times.size()), last_line,
                                wall_seconds() - started});
-    fmt::print(stderr, "interrupted; run the same command {}\n",
-               resumable ? "with --resume to continue" : "again: nothing was saved that it could resume");
+    fmt::print(stderr, "interrupted; {}\n",
+               resumable ? "to continue, repeat the make or cupola command, or this one with --resume"
+                         : "run the same command again: nothing was saved that it could resume");
     return ExitCode::interrupted;
   }
 
@@ -211,8 +219,8 @@ ExitCode solve_case(const SolveRequest& request) {
   return summary->status == Status::unconverged ? ExitCode::accuracy_not_reached : ExitCode::done;
 }
 
-std::string explain_case(const SolveRequest& request) {
-  return explain_model(request.scene, read_matching_assembly(request)).text;
+std::string explain_case(SolveRequest request) {
+  return explain_model(request.scene, read_matching_assembly(&request)).text;
 }
 
 }  // namespace cupola

@@ -24,9 +24,9 @@ struct SolveRequest {
 /// folder. Frames are written as they are computed and summary.json last, so that a folder with a summary is
 /// complete. Returns `accuracy_not_reached` if the analysis did not converge and `interrupted` if the user
 /// stopped it. Throws InputError and SystemError.
-ExitCode solve_case(const SolveRequest& request);
+ExitCode solve_case(SolveRequest request);
 
 /// Text of `--explain`: blocks, unknowns, contacts, active features and estimated cost.
-std::string explain_case(const SolveRequest& request);
+std::string explain_case(SolveRequest request);
 
 }  // namespace cupola

@@ -67,7 +67,8 @@ struct Case {
   Postproc postproc;
   std::vector<SweptKey> sweep;  ///< keys varied in a study of this case; without effect on its own run
 
-  std::string file;           ///< path as given on the command line
+  std::string file;                 ///< path as given on the command line
+  std::vector<std::string> inputs;  ///< files read: the case, those it extends, and those it names
   std::string hash;           ///< of all sections except title, postproc and sweep, which do not affect a run
   std::string geometry_hash;  ///< of the sections that the generator reads: geometry, material, imperfections
   std::string effective_yaml;  ///< every key with its value in force

@@ -7,7 +7,7 @@
 namespace cupola {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') {
@@ -25,7 +25,7 @@ std::string quoted(std::string_view text) {
 
 std::string flow(const CaseNode& node) {
   const bool is_list = node.kind == CaseNode::Kind::list;
-  if (!is_list && node.kind != CaseNode::Kind::map) return node.quoted ? quoted(node.text) : node.text;
+  if (!is_list && node.kind != CaseNode::Kind::map) return node.quoted ? in_quotes(node.text) : node.text;
   std::string out;
   for (const CaseNode& item : node.items) out += (out.empty() ? "" : ", ") + flow(item);
   for (const auto& [key, where, value] : node.entries)

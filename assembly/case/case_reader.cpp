@@ -1,5 +1,7 @@
 #include "assembly/case/case_reader.hpp"
 
+#include <fmt/format.h>
+
 #include "assembly/case/case_tree.hpp"
 #include "assembly/case/declare.hpp"
 #include "assembly/files/hash.hpp"
@@ -26,12 +28,12 @@ bool solver_reads(const std::string& name) {
   return name != "title" && name != "postproc" && name != "sweep";
 }
 
-}  // namespace
-
-Case read_case(const std::string& path, const std::vector<std::string>& set_options) {
-  const CaseNode tree = load_case_tree(path, set_options);
+/// Reads a case without checking the members of its sweep.
+Case read_one_case(const std::string& path, const std::vector<std::string>& set_options) {
   Case the_case;
+  const CaseNode tree = load_case_tree(path, set_options, &the_case.inputs);
   Section root(&tree, "", tree.where, path);
+  root.collect_files(&the_case.inputs);
   declare_case(root, the_case);
   root.finish();
 
@@ -42,12 +44,33 @@ Case read_case(const std::string& path, const std::vector<std::string>& set_opti
   return the_case;
 }
 
-std::string case_schema() {
+}  // namespace
+
+Case read_case(const std::string& path, const std::vector<std::string>& set_options) {
+  Case the_case = read_one_case(path, set_options);
+  for (const SweptKey& swept : the_case.sweep)
+    for (const std::string& value : swept.values) {
+      std::vector<std::string> options = set_options;
+      options.push_back(fmt::format("{}={}", swept.key, value));
+      try {
+        read_one_case(path, options);
+      } catch (const InputError& error) {
+        throw InputError(FileLocation{path}, fmt::format("sweep: {}", error.what()));
+      }
+    }
+  return the_case;
+}
+
+SchemaTable case_schema_table() {
   SchemaTable table;
   Section root(&table, "");
   Case defaults;
   declare_case(root, defaults);
-  return to_markdown(table);
+  return table;
+}
+
+std::string case_schema() {
+  return to_markdown(case_schema_table());
 }
 
 }  // namespace cupola

@@ -4,15 +4,18 @@
 #include <vector>
 
 #include "assembly/case/case.hpp"
+#include "assembly/case/schema_table.hpp"
 
 namespace cupola {
 
 /// Reads a case file: resolves `extends`, applies `--set key.path=value`, and checks that every key is known
 /// and every value has the right type and range. Throws InputError with file, line, column, key path, the
-/// rule broken and the nearest valid key.
+/// rule broken and the nearest valid key. The keys and values of a sweep are checked like `--set` options.
 Case read_case(const std::string& path, const std::vector<std::string>& set_options = {});
 
-/// Table of all keys: path, type, unit, range, default, meaning (`--schema`).
+/// All keys: path, type, unit, range, default, meaning.
+SchemaTable case_schema_table();
+/// The same as text (`--schema`).
 std::string case_schema();
 
 }  // namespace cupola

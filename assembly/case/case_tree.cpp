@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/case/bundled.hpp"
 #include "assembly/case/yaml_text.hpp"
 #include "assembly/files/atomic_file.hpp"
 
@@ -49,8 +50,14 @@ void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "")
   }
 }
 
-CaseNode load_file(const std::string& path, const std::string& root_folder, std::vector<fs::path>* chain) {
-  const fs::path identity = identity_of(path);
+/// Files read so far.
+struct Chain {
+  std::vector<fs::path> identities;
+  std::vector<std::string> paths;
+};
+
+CaseNode load_file(const std::string& path, const std::string& root_folder, Chain* chain) {
+  chain->paths.push_back(path);
   CaseNode tree = parse_yaml(read_text(path), path);
   if (tree.kind != CaseNode::Kind::map)
     throw InputError(tree.where, "a case file is a map of sections, `key: value`");
@@ -60,21 +67,23 @@ CaseNode load_file(const std::string& path, const std::string& root_folder, std:
   const CaseNode& name = extends->value;
   if (name.kind != CaseNode::Kind::scalar || name.text.empty())
     throw InputError(name.where, fmt::format("extends = {}: must be the name of a case file", shown(name)));
-  const std::string base_path = path_inside(root_folder, path, name.text, name.where);
-  chain->push_back(identity);
-  if (std::find(chain->begin(), chain->end(), identity_of(base_path)) != chain->end())
+  const bool bundled = name.text.starts_with(kBundledPrefix);
+  const std::string base_path =
+      bundled ? bundled_case(name.text, name.where) : path_inside(root_folder, path, name.text, name.where);
+  chain->identities.push_back(identity_of(path));
+  if (std::ranges::find(chain->identities, identity_of(base_path)) != chain->identities.end())
     throw InputError(
         name.where,
         fmt::format("extends = {}: the files extend one another in a circle; remove one of the extends keys",
                     shown(name)));
-  if (chain->size() >= kLongestChain)
+  if (chain->identities.size() >= kLongestChain)
     throw InputError(name.where, fmt::format("extends = {}: more than {} files extend one another",
                                              shown(name), kLongestChain));
   if (!fs::is_regular_file(base_path))
     throw InputError(name.where, fmt::format("extends = {}: no such file", shown(name)));
 
   tree.entries.erase(tree.entries.begin() + (extends - tree.entries.data()));
-  CaseNode merged = load_file(base_path, root_folder, chain);
+  CaseNode merged = load_file(base_path, bundled ? bundled_folder() : root_folder, chain);
   overlay(&merged, tree);
   return merged;
 }
@@ -115,6 +124,13 @@ CaseNode parse_set_option(const std::string& option) {
   }
 }
 
+/// What to do about a case file outside the folder of the case.
+std::string remedy_for(const std::string& name) {
+  if (fs::path(name).extension() != ".yaml") return {};
+  return fmt::format("; copy it there, or, for a case that comes with Cupola, write {}{}", kBundledPrefix,
+                     fs::path(name).stem().string());
+}
+
 }  // namespace
 
 std::string path_inside(const std::string& root_folder, const std::string& from_file, const std::string& name,
@@ -126,19 +142,21 @@ std::string path_inside(const std::string& root_folder, const std::string& from_
   const fs::path root = identity_of(root_folder.empty() ? "." : root_folder);
   const fs::path relative = identity_of(path).lexically_relative(root);
   if (fs::path(name).is_absolute() || relative.empty() || *relative.begin() == "..")
-    throw InputError(where,
-                     fmt::format("{}: the file must lie in or below the folder of the case", shown(name)));
+    throw InputError(where, fmt::format("{}: the file must lie in or below the folder of the case{}",
+                                        shown(name), remedy_for(name)));
   return path.string();
 }
 
-CaseNode load_case_tree(const std::string& path, const std::vector<std::string>& set_options) {
-  std::vector<fs::path> chain;
+CaseNode load_case_tree(const std::string& path, const std::vector<std::string>& set_options,
+                        std::vector<std::string>* files) {
+  Chain chain;
   CaseNode tree = load_file(path, fs::path(path).parent_path().string(), &chain);
   // The options are merged into one tree first, so that their order does not matter if one changes a type.
   CaseNode options;
   options.kind = CaseNode::Kind::map;
   for (const std::string& option : set_options) overlay(&options, parse_set_option(option));
   overlay(&tree, options);
+  if (files) *files = chain.paths;
   return tree;
 }
 

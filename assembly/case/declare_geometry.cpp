@@ -178,14 +178,13 @@ void declare_import(Section& s, ImportedBlocks& import) {
   s.file("rods", import.rods, "file of rigid rods (brick CSV)");
   s.number("weld", import.weld, {.above = 0, .max = 0.1},
            "merge vertices closer than this times the block size");
-  s.number("facet_angle", import.facet_angle, {.unit = "rad", .above = 0, .max = 0.1},
-           "merge neighbouring triangles whose normals differ by less than this into one plane facet");
-  s.number("snap", import.snap, {.unit = "m", .min = 0},
-           "move facing facets closer than this into a common plane; 0: leave them");
-  s.number("most_overlap", import.most_overlap, {.unit = "m", .min = 0},
-           "overlaps of two blocks deeper than this are an error");
-  s.number("joint_gap", import.joint_gap, {.unit = "m", .min = 0},
-           "report faces closer than this as a joint");
+  s.optional_number(
+      "facet_angle", import.facet_angle, {.unit = "rad", .above = 0, .max = 0.1}, "from the data",
+      "merge neighbouring triangles whose normals differ by less than this into one plane facet");
+  s.optional_number("snap", import.snap, {.unit = "m", .min = 0}, "from the data",
+                    "move facing facets closer than this into a common plane; 0: leave them");
+  s.retired("most_overlap", "contact.margin is the largest overlap, in all programs");
+  s.retired("joint_gap", "contact.margin is the largest gap of a joint, in all programs");
 }
 
 }  // namespace

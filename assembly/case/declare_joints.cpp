@@ -6,7 +6,10 @@ namespace {
 constexpr double kStandardGravity = 9.81;  // m/s2, as Material::density
 
 void declare_compliance(Section& s, Compliance& compliance) {
-  s.required_choice("per", compliance.per, "compliance per contact point (m/N) or per area of joint (m3/N)");
+  s.required_choice(
+      "per", compliance.per, "compliance per contact point (m/N) or per area of joint (m3/N)",
+      "choose point (normal and tangential in m/N for each contact point, as in the paper) or area (in m3/N, "
+      "independent of the number of contact points)");
   s.number("normal", compliance.normal, {.unit = "m/N, m3/N", .min = 0},
            "normal displacement per unit force");
   s.number("tangential", compliance.tangential, {.unit = "m/N, m3/N", .min = 0},

@@ -9,7 +9,7 @@ void declare_top_load(Section& s, TopLoad& load) {
 }
 
 void declare_block_force(Section& s, BlockForce& load) {
-  s.required_integer("block", load.block, {.min = 0}, "number of the loaded block");
+  s.required_block("block", load.block, "number or name of the loaded block");
   s.optional_vector3("point", load.point, {.unit = "m"}, "centroid",
                      "point of application, in the as-built geometry");
   s.vector3("force", load.force, {.unit = "N"}, "force, of constant direction");

@@ -5,8 +5,8 @@ namespace cupola {
 namespace {
 
 void declare_pair(Section& s, PairTie& tie) {
-  s.required_integer("block_a", tie.block_a, {.min = 0}, "number of the block at one end");
-  s.required_integer("block_b", tie.block_b, {.min = 0}, "number of the block at the other end");
+  s.required_block("block_a", tie.block_a, "number or name of the block at one end");
+  s.required_block("block_b", tie.block_b, "number or name of the block at the other end");
   s.optional_vector3("point_a", tie.point_a, {.unit = "m"}, "centroid",
                      "anchor on block_a, in the as-built geometry");
   s.optional_vector3("point_b", tie.point_b, {.unit = "m"}, "centroid",
@@ -31,8 +31,7 @@ void declare_base_motion(Section& s, BaseMotion& motion) {
 }
 
 void declare_move(Section& s, SupportMove& move) {
-  s.integers("blocks", move.blocks, {.min = 0},
-             "numbers of the fixed blocks that move; empty: all fixed blocks");
+  s.blocks("blocks", move.blocks, "numbers or names of the fixed blocks that move; empty: all fixed blocks");
   s.vector3("displacement", move.displacement, {.unit = "m"}, "displacement");
   s.vector3("rotation_deg", move.rotation_deg, {.unit = "deg"}, "rotation vector");
   s.vector3("pivot", move.pivot, {.unit = "m"}, "centre of the rotation");

@@ -204,10 +204,11 @@ struct ImportedBlocks {
   double weld = 1e-6;         ///< > 0: vertices closer than this times the block size are merged
   /// rad, > 0: neighbouring triangles form a facet if their normals agree within this and their vertices lie
   /// within this times the block size of one plane.
-  double facet_angle = 1e-6;
-  double snap = 0.0;           ///< m: facing facets closer than this are moved into a common plane; 0: none
-  double most_overlap = 1e-3;  ///< m: deeper overlaps of two blocks are an error, >= 0
-  double joint_gap = 1e-3;     ///< m, >= 0: faces closer than this are reported as a joint
+  /// None: chosen from the deviations of the faces from planes (generators/importer/flatness.hpp).
+  std::optional<double> facet_angle;
+  /// m: facing facets within this distance of a common plane are moved into it; 0: none; without a value: 4 times the
+  /// deviation of the faces from planes.
+  std::optional<double> snap;
 };
 constexpr auto enum_names(ImportedBlocks::Format) {
   return std::array{"automatic", "obj", "off", "stl", "ply", "compas", "bricks"};

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "assembly/case/bundled.hpp"
 #include "assembly/case/case_tree.hpp"
+#include "assembly/case/suggestion.hpp"
 
 namespace cupola {
 namespace {
@@ -121,7 +123,7 @@ void Section::read_one_number(const std::string& key, const CaseNode& node, cons
                               double* value) const {
   if (node.kind != CaseNode::Kind::scalar || node.quoted) fail(key, node, "must be a number");
   const std::string broken = read_number(node.text, value);
-  if (!broken.empty()) fail(key, node, broken);
+  if (!broken.empty()) fail(key, node, broken + number_hint(node.text));
   if (!admits(rule, *value)) fail(key, node, "must be " + describe_range(rule));
 }
 
@@ -129,10 +131,11 @@ void Section::file(const std::string& key, std::string& path, const std::string&
   document(key, or_folder ? "file or folder" : "file", {}, "none", meaning);
   const CaseNode* node = look_up_scalar(key);
   if (!node) return;
-  const std::string folder = std::filesystem::path(case_file_).parent_path().string();
-  path = path_inside(folder, case_file_, node->text, node->where);
+  const std::string& from = is_bundled(node->where.file) ? node->where.file : case_file_;
+  path = path_inside(std::filesystem::path(from).parent_path().string(), from, node->text, node->where);
   if (!std::filesystem::is_regular_file(path) && !(or_folder && std::filesystem::is_directory(path)))
     fail(key, *node, "no such file in the folder of the case");
+  if (files_) files_->push_back(path);
   record(key, node->text, true);
 }
 
@@ -245,6 +248,47 @@ void Section::integers(const std::string& key, std::vector<int>& values, const N
   record(key, list_of_numbers(shown_values.data(), shown_values.size()));
 }
 
+BlockRef Section::read_block(const std::string& key, const CaseNode& node) const {
+  if (node.kind != CaseNode::Kind::scalar || node.text.empty())
+    fail(key, node, "must be the number or the name of a block");
+  int number = 0;
+  const bool is_integer = read_integer(node.text, &number).empty();
+  double other_number = 0.0;
+  if (!node.quoted && !is_integer && read_number(node.text, &other_number).empty())
+    fail(key, node, "must be a whole number, or a name in quotes");
+  if (node.quoted || !is_integer) return BlockRef(node.text);
+  if (number < 0) fail(key, node, "must be >= 0");
+  return number;
+}
+
+void Section::required_block(const std::string& key, BlockRef& value, const std::string& meaning) {
+  document(key, "block", {}, "required", meaning);
+  const CaseNode* node = look_up_scalar(key);
+  if (!node) return require(key);
+  value = read_block(key, *node);
+  record(key, node->text, node->quoted);
+}
+
+void Section::blocks(const std::string& key, std::vector<BlockRef>& values, const std::string& meaning) {
+  document(key, "blocks", {}, "[]", meaning);
+  CaseNode list;
+  list.kind = CaseNode::Kind::list;
+  if (const CaseNode* node = look_up(key)) {
+    if (node->kind != CaseNode::Kind::list) fail(key, *node, "must be a list of blocks, [a, b]");
+    values.clear();
+    for (const CaseNode& item : node->items) {
+      values.push_back(read_block(key, item));
+      list.items.push_back(scalar(item.text, item.quoted));
+    }
+  }
+  record(key, std::move(list));
+}
+
+void Section::retired(const std::string& key, const std::string& instead) const {
+  const CaseNode* node = node_ ? node_->find(key) : nullptr;
+  if (node) fail(key, *node, "this key no longer exists; " + instead);
+}
+
 void Section::numbers(const std::string& key, std::vector<double>& values, const NumberRule& rule,
                       const std::string& meaning) {
   document(key, "numbers", rule, format_list(values.data(), values.size()), meaning);
@@ -290,7 +334,7 @@ void Section::quantity(double& value, const std::vector<UnitName>& names) {
 }
 
 int Section::choose(const std::string& key, const std::vector<std::string>& names, int default_index,
-                    const std::string& meaning) {
+                    const std::string& meaning, const std::string& advice) {
   const bool required = default_index < 0;
   document(key, joined(names), {}, required ? "required" : names[static_cast<size_t>(default_index)],
            meaning);
@@ -305,7 +349,7 @@ int Section::choose(const std::string& key, const std::vector<std::string>& name
     }
     chosen = static_cast<int>(found - names.begin());
   } else if (required) {
-    require(key, "; give one of " + joined(names));
+    require(key, advice.empty() ? "; give one of " + joined(names) : "; " + advice);
   }
   if (chosen >= 0) record(key, names[static_cast<size_t>(chosen)]);
   return chosen;
@@ -316,6 +360,7 @@ void Section::open(const std::string& key, const std::string& meaning, const Dec
   const CaseNode* node = look_up(key);
   Section child(node, path_of(key), node ? node->where : where_, case_file_);
   child.schema_ = schema_;
+  child.files_ = files_;
   declare(child);
   child.finish();
   record(key, child.effective());
@@ -340,6 +385,7 @@ void Section::open_list(const std::string& key, const std::string& meaning, cons
     if (node->kind != CaseNode::Kind::list) fail(key, *node, "must be a list of maps");
     for (size_t i = 0; i < node->items.size(); ++i) {
       Section item(&node->items[i], fmt::format("{}[{}]", path_of(key), i), node->items[i].where, case_file_);
+      item.files_ = files_;
       declare_item(item);
       item.finish();
       values.items.push_back(item.effective());
@@ -368,9 +414,13 @@ void Section::finish() const {
     for (const auto& [key, where, value] : node_->entries) {
       if (contains(known_, key)) continue;
       const std::string near = nearest_name(key, known_);
-      throw InputError(
-          where, fmt::format("{}: unknown key{} Valid keys here: {}", shown(path_of(key)),
-                             near.empty() ? "." : fmt::format("; did you mean {}?", near), joined(known_)));
+      const std::string elsewhere = suggestion_for(*node_, key, path_of(key));
+      const std::string meant = !elsewhere.empty() && (near.empty() || edit_distance(key, near) > 1)
+                                    ? elsewhere
+                                : near.empty() ? "."
+                                               : fmt::format("; did you mean {}?", near);
+      throw InputError(where, fmt::format("{}: unknown key{} Valid keys here: {}", shown(path_of(key)), meant,
+                                          joined(known_)));
     }
   }
   if (!missing_.empty()) throw InputError(where_, missing_.front());

@@ -14,6 +14,7 @@
 #include "assembly/case/case_node.hpp"
 #include "assembly/case/schema_table.hpp"
 #include "assembly/files/number_text.hpp"
+#include "assembly/model/block_ref.hpp"
 
 namespace cupola {
 
@@ -35,7 +36,7 @@ class Section {
   Section(SchemaTable* schema, std::string path);
 
   void text(const std::string& key, std::string& value, const std::string& meaning);
-  /// The name of a file in or below the folder of the case file (see path_inside). `path` gets the path to
+  /// The name of a file in or below the folder of the case file (see path_inside), or of the bundled case that names it. `path` gets the path to
   /// open; without the key it stays unchanged.
   void file(const std::string& key, std::string& path, const std::string& meaning, bool or_folder = false);
   void number(const std::string& key, double& value, const NumberRule& rule, const std::string& meaning);
@@ -51,6 +52,9 @@ class Section {
   void integer(const std::string& key, int& value, const NumberRule& rule, const std::string& meaning);
   void required_integer(const std::string& key, int& value, const NumberRule& rule,
                         const std::string& meaning);
+  /// Blocks by number, or by their names in an imported file. A quoted number is a name.
+  void required_block(const std::string& key, BlockRef& value, const std::string& meaning);
+  void blocks(const std::string& key, std::vector<BlockRef>& values, const std::string& meaning);
   void flag(const std::string& key, bool& value, const std::string& meaning);
   void vector3(const std::string& key, Eigen::Vector3d& value, const NumberRule& rule,
                const std::string& meaning);
@@ -61,6 +65,8 @@ class Section {
   void integers(const std::string& key, std::vector<int>& values, const NumberRule& rule,
                 const std::string& meaning);
 
+  /// A key of earlier versions: an error that says what replaces it.
+  void retired(const std::string& key, const std::string& instead) const;
   void texts(const std::string& key, std::vector<std::string>& values, const std::string& meaning);
 
   /// A quantity with several names, of which the case gives at most one: value = factor * number.
@@ -80,8 +86,10 @@ class Section {
   template <NamedEnum E>
   void choice(const std::string& key, E& value, const std::vector<E>& admitted, const std::string& meaning);
   /// A required key: `value` on entry is ignored.
+  /// `advice` says how to choose.
   template <NamedEnum E>
-  void required_choice(const std::string& key, E& value, const std::string& meaning);
+  void required_choice(const std::string& key, E& value, const std::string& meaning,
+                       const std::string& advice);
   /// Either a name or a map of keys.
   template <NamedEnum E, class Keys>
   void choice_or_section(const std::string& key, E& value, Keys& keys, const std::string& meaning,
@@ -115,6 +123,8 @@ class Section {
   /// Throws InputError for an unknown key and for a missing required key. To be called after the declaration,
   /// by the code that created the section.
   void finish() const;
+  /// From now on `files` receives the paths that file() reads.
+  void collect_files(std::vector<std::string>* files) { files_ = files; }
   /// The values in force, defaults included, as a map.
   const CaseNode& effective() const { return effective_; }
 
@@ -128,6 +138,7 @@ class Section {
   bool read_number_key(const std::string& key, double& value, const NumberRule& rule);
   void read_one_integer(const std::string& key, const CaseNode& node, const NumberRule& rule,
                         int* value) const;
+  BlockRef read_block(const std::string& key, const CaseNode& node) const;
   bool read_vector3_key(const std::string& key, Eigen::Vector3d& value, const NumberRule& rule);
   bool read_integer_key(const std::string& key, int& value, const NumberRule& rule);
   [[noreturn]] void fail(const std::string& key, const CaseNode& node, const std::string& rule) const;
@@ -142,7 +153,7 @@ class Section {
   /// Index of the chosen name, or the default without the key. If there is no default (-1), the key is
   /// required.
   int choose(const std::string& key, const std::vector<std::string>& names, int default_index,
-             const std::string& meaning);
+             const std::string& meaning, const std::string& advice = "");
   void open(const std::string& key, const std::string& meaning, const DeclareKeys& declare);
   bool open_optional(const std::string& key, const std::string& meaning, const DeclareKeys& declare);
   void open_list(const std::string& key, const std::string& meaning, const DeclareKeys& declare_item);
@@ -155,6 +166,7 @@ class Section {
   std::string path_;
   FileLocation where_;
   std::string case_file_;
+  std::vector<std::string>* files_ = nullptr;
   CaseNode effective_;
   std::vector<std::string> known_;
   std::vector<std::string> missing_;
@@ -177,8 +189,9 @@ void Section::choice(const std::string& key, E& value, const std::vector<E>& adm
 }
 
 template <NamedEnum E>
-void Section::required_choice(const std::string& key, E& value, const std::string& meaning) {
-  const int chosen = choose(key, names_of<E>(), -1, meaning);
+void Section::required_choice(const std::string& key, E& value, const std::string& meaning,
+                              const std::string& advice) {
+  const int chosen = choose(key, names_of<E>(), -1, meaning, advice);
   if (chosen >= 0) value = static_cast<E>(chosen);
 }
 

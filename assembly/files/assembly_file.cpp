@@ -120,6 +120,7 @@ class Columns {
                                                              values.size(), rows * components));
     return values;
   }
+  bool has(const std::string& name) const { return mesh_.has(arrays_, name); }
   template <class T>
   const std::vector<T>& get_any_size(const std::string& name) const {
     return mesh_.array<T>(arrays_, name, 1);
@@ -165,6 +166,9 @@ void read_blocks(const Columns& fields, Assembly* assembly) {
     block.centroid = Vec3(centroid.data() + 3 * b);
     block.inertia = Mat3(inertia.data() + 9 * b);
   }
+  if (!fields.has("block_name")) return;
+  const auto& names = fields.get<std::string>("block_name", n);
+  for (size_t b = 0; b < n; ++b) assembly->blocks[b].name = names[b];
 }
 
 void read_parts(const Mesh& mesh, Assembly* assembly) {
@@ -249,6 +253,11 @@ void write_assembly(const std::string& path, const Assembly& assembly, const std
   mesh.cell_data = part_arrays(assembly);
   mesh.field_data = field_arrays(assembly);
   add_tie_arrays(assembly.ties, &mesh.field_data);
+  if (std::ranges::any_of(assembly.blocks, [](const Block& b) { return !b.name.empty(); })) {
+    std::vector<std::string> names;
+    for (const Block& block : assembly.blocks) names.push_back(block.name);
+    mesh.field_data.push_back({"block_name", 1, std::move(names)});
+  }
   if (!options.empty()) mesh.field_data.push_back({"options", 1, std::vector<std::string>{options}});
   write_mesh(path, mesh);
 }

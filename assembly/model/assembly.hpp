@@ -28,6 +28,7 @@ constexpr auto enum_names(FaceKind) {
 
 /// One rigid block. Its mass properties are computed from its convex parts, not from their hull.
 struct Block {
+  std::string name;  ///< in the imported file; "" for generated blocks, which have numbers only
   BlockKind kind = BlockKind::standard;
   bool fixed = false;            ///< has no unknowns
   bool rib = false;              ///< spans a corner of an octagonal vault

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "assembly/model/assembly.hpp"
+#include "assembly/model/block_ref.hpp"
 #include "assembly/model/time_function.hpp"
 
 namespace cupola {
@@ -20,7 +21,7 @@ struct TopLoad {
 
 /// A force of constant direction at a point of a block.
 struct BlockForce {
-  int block = 0;
+  BlockRef block;
   std::optional<Vec3> point;  ///< m, world, as built; none: the centroid
   Vec3 force = Vec3::Zero();  ///< N
   TimeFunction time;
@@ -48,7 +49,7 @@ struct Loads {
 /// A tie between points of two blocks, as built. It carries tension when longer than its natural length, and
 /// nothing when shorter.
 struct PairTie {
-  int block_a = 0, block_b = 0;
+  BlockRef block_a, block_b;
   std::optional<Vec3> point_a, point_b;  ///< m, world; none: the centroid
   double stiffness = 1e8;                ///< N/m, > 0
   double prestress = 0.0;                ///< N, tension as built, >= 0
@@ -81,7 +82,7 @@ constexpr auto enum_names(BaseMotion::Quantity) {
 
 /// Displacement and rotation imposed on fixed blocks.
 struct SupportMove {
-  std::vector<int> blocks;           ///< empty: all fixed blocks
+  std::vector<BlockRef> blocks;      ///< empty: all fixed blocks
   Vec3 displacement = Vec3::Zero();  ///< m
   Vec3 rotation_deg = Vec3::Zero();  ///< deg, rotation vector about `pivot`
   Vec3 pivot = Vec3::Zero();         ///< m

@@ -1,5 +1,8 @@
 #include "assembly/program/command_line.hpp"
 
+#include <algorithm>
+#include <filesystem>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -8,6 +11,26 @@
 #include "assembly/case/case_reader.hpp"
 
 namespace cupola {
+namespace {
+
+/// The files that a case reads; the files of a folder instead of the folder.
+std::vector<std::string> input_files(const Case& scene) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files;
+  for (const std::string& input : scene.inputs) {
+    if (!fs::is_directory(input)) {
+      files.push_back(input);
+      continue;
+    }
+    for (const auto& entry : fs::directory_iterator(input))
+      if (entry.is_regular_file()) files.push_back(entry.path().string());
+  }
+  std::ranges::sort(files);
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
+}
+
+}  // namespace
 
 std::optional<ExitCode> parse_arguments(CLI::App& app, int argc, const char* const* argv) {
   try {
@@ -32,6 +55,7 @@ CommandLine::CommandLine(const std::string& name, const std::string& description
       ->type_name("KEY.PATH=VALUE")
       ->allow_extra_args(false);
   app_->add_flag("--check", check_only_, "validate the input and stop");
+  app_->add_flag("--inputs", list_inputs_, "print the files that the case reads, one per line, and stop");
   app_->add_flag("--schema", schema_, "print every key of the case file: type, unit, range, default");
   app_->add_flag("--quiet", quiet_, "print errors only");
 }
@@ -73,6 +97,10 @@ std::optional<ExitCode> CommandLine::parse(int argc, const char* const* argv) {
     if (!value->empty()) return std::nullopt;
   if (case_path_.empty())
     throw InputError(fmt::format("CASE.yaml is missing; see {} --help", app_->get_name()));
+  if (list_inputs_) {
+    for (const std::string& file : input_files(read_case())) fmt::print("{}\n", file);
+    return ExitCode::done;
+  }
   if (check_only_) return std::nullopt;
   for (const auto& [option, value] : required_)
     if (value->empty())

@@ -60,6 +60,7 @@ class CommandLine {
   std::vector<std::pair<std::string, std::string*>> required_;
   std::vector<std::string*> instead_of_case_;
   bool check_only_ = false;
+  bool list_inputs_ = false;
   bool quiet_ = false;
   bool schema_ = false;
 };

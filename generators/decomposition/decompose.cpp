@@ -15,7 +15,8 @@
 namespace cupola {
 namespace {
 
-constexpr int kMostParts = 2000;  // per block
+constexpr int kMostParts = 2000;    // per block
+constexpr double kRounding = 1e-9;  // of the block size: smaller distances are rounding
 
 bool is_convex(const TriangleMesh& mesh, const std::vector<Facet>& facets, double tolerance) {
   for (const Facet& facet : facets)
@@ -49,7 +50,7 @@ bool contains_surface(const TriangleMesh& mesh, const std::vector<Facet>& facets
     if (!same_plane) continue;
     for (int t : facet.triangles) {
       const std::vector<Vec3> triangle{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
-      if (polygons_overlap(polygon, triangle, facet.plane.normal, tolerance)) return true;
+      if (overlap_width(polygon, triangle, facet.plane.normal) > tolerance) return true;
     }
   }
   return false;
@@ -74,6 +75,26 @@ void drop_vertices_on_edges(ConvexPolyhedron* solid) {
     }
   }
   solid->vertices = std::move(kept);
+  for (size_t f = solid->faces.size(); f-- > 0;) {
+    if (solid->faces[f].size() >= 3) continue;  // else a sliver between two faces
+    solid->faces.erase(solid->faces.begin() + static_cast<std::ptrdiff_t>(f));
+    solid->planes.erase(solid->planes.begin() + static_cast<std::ptrdiff_t>(f));
+  }
+}
+
+/// The solid that the planes of the faces bound, within a box about the block. Unlike clipping with a tolerance this
+/// gives exactly plane faces, however warped those of the block are.
+ConvexPolyhedron between_planes(const TriangleMesh& mesh, const std::vector<Plane>& planes) {
+  Vec3 low = mesh.vertices.front(), high = low;
+  for (const Vec3& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  const double size = (high - low).maxCoeff();
+  ConvexPolyhedron solid = box_polyhedron(low - Vec3::Constant(size), high + Vec3::Constant(size));
+  for (const Plane& plane : planes)
+    if (!solid.empty()) solid = clip(solid, plane, kRounding * size);
+  return solid;
 }
 
 double volume_of(const std::vector<ConvexPolyhedron>& parts) {
@@ -98,7 +119,11 @@ Decomposition decompose(const TriangleMesh& mesh, const std::string& name,
   result.volume = mesh_volume(mesh);
   const double bound = std::max(1e-9 * result.volume, noise * area);
   const auto accept = [&](std::vector<ConvexPolyhedron> parts, Decomposition::Method method) {
-    for (ConvexPolyhedron& part : parts) drop_vertices_on_edges(&part);
+    for (ConvexPolyhedron& part : parts) {
+      if (noise > kRounding * size) part = between_planes(mesh, part.planes);
+      drop_vertices_on_edges(&part);
+    }
+    std::erase_if(parts, [](const ConvexPolyhedron& part) { return part.empty(); });
     result.volume_error = volume_of(parts) - result.volume;
     result.method = method;
     result.parts = std::move(parts);

@@ -9,6 +9,8 @@
 
 #include <Eigen/Geometry>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
@@ -27,38 +29,59 @@ Vec3 area_vector(const TriangleMesh& mesh, int t) {
   return 0.5 * (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0));
 }
 
-/// The facet that contains the triangle `seed`, found by a flood fill.
-Facet grow(const TriangleMesh& mesh, const std::map<Edge, int>& left, int seed, double angle, double distance,
-           int id, std::vector<int>* facet_of) {
-  const Vec3 normal = area_vector(mesh, seed).normalized();
-  const double offset = normal.dot(mesh.corner(seed, 0));
+/// Connected triangles that a facet contains all or none of.
+struct Patches {
+  std::vector<Facet> patches;
+  std::vector<int> of_triangle;
+};
+
+Patches flat_patches(const TriangleMesh& mesh, double distance) {
+  Patches found;
+  found.of_triangle.assign(mesh.triangles.size(), -1);
+  const auto append = [&](Facet patch) {
+    for (int t : patch.triangles) found.of_triangle[t] = static_cast<int>(found.patches.size());
+    found.patches.push_back(std::move(patch));
+  };
+  for (std::vector<int>& triangles : triangles_of_polygons(mesh)) {
+    Facet patch = mean_facet(mesh, triangles);
+    if (triangles.size() == 1 || unevenness(mesh, patch) <= distance)
+      append(std::move(patch));
+    else
+      for (int t : triangles) append(mean_facet(mesh, {t}));
+  }
+  return found;
+}
+
+/// The facet that contains the patch `seed`, found by a flood fill.
+Facet grow(const TriangleMesh& mesh, const std::map<Edge, int>& left, const Patches& patches, int seed,
+           double angle, double distance, int id, std::vector<int>* facet_of) {
+  const Vec3 normal = patches.patches[seed].plane.normal;
+  std::vector<int> open;
   Facet facet;
-  std::vector<int> open{seed};
-  (*facet_of)[seed] = id;
-  Vec3 sum = Vec3::Zero(), weighted_centroid = Vec3::Zero();
+  const auto take = [&](int patch) {
+    for (int t : patches.patches[patch].triangles) (*facet_of)[t] = id;
+    std::ranges::copy(patches.patches[patch].triangles, std::back_inserter(open));
+  };
+  facet = patches.patches[seed];
+  take(seed);
   while (!open.empty()) {
     const int t = open.back();
     open.pop_back();
-    facet.triangles.push_back(t);
-    const Vec3 area = area_vector(mesh, t);
-    sum += area;
-    weighted_centroid += area.norm() * (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
-    facet.area += area.norm();
     for (int i = 0; i < 3; ++i) {
       const auto across = left.find({mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][i]});
       if (across == left.end() || (*facet_of)[across->second] >= 0) continue;
-      const int other = across->second;
-      const Vec3 n = area_vector(mesh, other).normalized();
-      double off = 0.0;
-      for (int j = 0; j < 3; ++j) off = std::max(off, std::abs(normal.dot(mesh.corner(other, j)) - offset));
-      if (n.dot(normal) <= 0.0 || n.cross(normal).norm() > angle || off > distance) continue;
-      (*facet_of)[other] = id;
-      open.push_back(other);
+      const int other = patches.of_triangle[across->second];
+      const Vec3& n = patches.patches[other].plane.normal;
+      if (n.dot(normal) <= 0.0 || n.cross(normal).norm() > angle) continue;
+      std::vector<int> triangles = facet.triangles;
+      std::ranges::copy(patches.patches[other].triangles, std::back_inserter(triangles));
+      Facet larger = mean_facet(mesh, std::move(triangles));
+      if (unevenness(mesh, larger) > distance) continue;
+      facet = std::move(larger);
+      take(other);
     }
   }
   std::ranges::sort(facet.triangles);
-  facet.plane.normal = sum.normalized();
-  facet.plane.offset = facet.plane.normal.dot(weighted_centroid / facet.area);
   return facet;
 }
 
@@ -82,19 +105,57 @@ double mesh_size(const TriangleMesh& mesh) {
   return (high - low).maxCoeff();
 }
 
+std::vector<std::vector<int>> triangles_of_polygons(const TriangleMesh& mesh) {
+  CUPOLA_ASSERT(mesh.polygons.empty() || mesh.polygons.size() == mesh.triangles.size());
+  std::vector<std::vector<int>> groups;
+  std::map<int, size_t> group_of;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const int polygon = mesh.polygons.empty() ? -1 : mesh.polygons[t];
+    const size_t group =
+        polygon < 0 ? groups.size() : group_of.try_emplace(polygon, groups.size()).first->second;
+    if (group == groups.size()) groups.emplace_back();
+    groups[group].push_back(t);
+  }
+  return groups;
+}
+
+Facet mean_facet(const TriangleMesh& mesh, std::vector<int> triangles) {
+  Facet facet;
+  Vec3 sum = Vec3::Zero(), weighted_centroid = Vec3::Zero();
+  for (int t : triangles) {
+    const Vec3 area = area_vector(mesh, t);
+    sum += area;
+    weighted_centroid += area.norm() * (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
+    facet.area += area.norm();
+  }
+  facet.plane.normal = sum.normalized();
+  facet.plane.offset = facet.plane.normal.dot(weighted_centroid / facet.area);
+  facet.triangles = std::move(triangles);
+  return facet;
+}
+
+double unevenness(const TriangleMesh& mesh, const Facet& facet) {
+  double largest = 0.0;
+  for (int t : facet.triangles)
+    for (int i = 0; i < 3; ++i)
+      largest = std::max(largest, std::abs(facet.plane.normal.dot(mesh.corner(t, i)) - facet.plane.offset));
+  return largest;
+}
+
 std::vector<Facet> find_facets(const TriangleMesh& mesh, double angle, double distance,
                                std::vector<int>* facet_of) {
   const std::map<Edge, int> left = edge_map(mesh);
-  std::vector<int> by_area(mesh.triangles.size());
+  const Patches patches = flat_patches(mesh, distance);
+  std::vector<int> by_area(patches.patches.size());
   std::iota(by_area.begin(), by_area.end(), 0);
-  std::vector<double> area;
-  for (int t : by_area) area.push_back(area_vector(mesh, t).norm());
-  std::ranges::stable_sort(by_area, [&](int a, int b) { return area[a] > area[b]; });
+  std::ranges::stable_sort(by_area,
+                           [&](int a, int b) { return patches.patches[a].area > patches.patches[b].area; });
   facet_of->assign(mesh.triangles.size(), -1);
   std::vector<Facet> facets;
   for (int seed : by_area)
-    if ((*facet_of)[seed] < 0)
-      facets.push_back(grow(mesh, left, seed, angle, distance, static_cast<int>(facets.size()), facet_of));
+    if ((*facet_of)[patches.patches[seed].triangles.front()] < 0)
+      facets.push_back(
+          grow(mesh, left, patches, seed, angle, distance, static_cast<int>(facets.size()), facet_of));
   return facets;
 }
 
@@ -111,10 +172,7 @@ std::vector<std::array<int, 3>> triangle_neighbours(const TriangleMesh& mesh) {
 
 double unevenness(const TriangleMesh& mesh, const std::vector<Facet>& facets) {
   double largest = 0.0;
-  for (const Facet& facet : facets)
-    for (int t : facet.triangles)
-      for (int i = 0; i < 3; ++i)
-        largest = std::max(largest, std::abs(facet.plane.normal.dot(mesh.corner(t, i)) - facet.plane.offset));
+  for (const Facet& facet : facets) largest = std::max(largest, unevenness(mesh, facet));
   return largest;
 }
 

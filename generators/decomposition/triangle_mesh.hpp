@@ -11,6 +11,8 @@ namespace cupola {
 struct TriangleMesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<int, 3>> triangles;
+  /// Polygon of the file that each triangle belongs to, -1 for none; empty: none of them.
+  std::vector<int> polygons;
 
   const Vec3& corner(int triangle, int i) const { return vertices[triangles[triangle][i]]; }
 };
@@ -25,9 +27,18 @@ struct Facet {
   std::vector<int> triangles;
 };
 
-/// Clusters connected triangles into facets. Their normals differ by at most `angle` (rad) from that of the
-/// largest triangle of the facet, and their corners lie within `distance` (m) of its plane. `facet_of`
-/// receives the facet of each triangle.
+/// The triangles of each polygon of the file, and each other triangle by itself.
+std::vector<std::vector<int>> triangles_of_polygons(const TriangleMesh& mesh);
+
+/// Mean plane of triangles, weighted by area, and their total area.
+Facet mean_facet(const TriangleMesh& mesh, std::vector<int> triangles);
+
+/// Largest distance of a corner of the facet from its plane, m.
+double unevenness(const TriangleMesh& mesh, const Facet& facet);
+
+/// Clusters connected polygons into facets. Their normals differ by at most `angle` (rad) from that of the
+/// largest polygon of the facet, and their corners lie within `distance` (m) of their mean plane. A polygon that is not plane
+/// within `distance` counts as several triangles. `facet_of` receives the facet of each triangle.
 std::vector<Facet> find_facets(const TriangleMesh& mesh, double angle, double distance,
                                std::vector<int>* facet_of);
 

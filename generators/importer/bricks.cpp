@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <limits>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -12,6 +12,42 @@ namespace {
 // Columns before it: ID, fixed, visible, yielding, density, force (3) and reference point (3).
 constexpr size_t kFirstCoordinate = 11;
 constexpr double kPartSeparator = 9999.0;
+
+/// A number, or a message with the words before it.
+double expect_number(const TextLines& lines, size_t word) {
+  std::string before;
+  for (size_t w = word - std::min<size_t>(word, 3); w < word; ++w)
+    before += fmt::format(" {}", lines.words()[w]);
+  return lines.number(word, fmt::format(" (value {} of the row, after{})", word + 1, before));
+}
+
+/// The corners of the convex parts in a row, separated by 9999.
+std::vector<std::vector<Vec3>> read_parts(const TextLines& lines) {
+  std::vector<std::vector<Vec3>> parts;
+  std::vector<double> numbers;
+  const size_t num_words = lines.words().size();
+  const auto close = [&](size_t end) {
+    if (numbers.size() % 3 != 0)
+      lines.fail(fmt::format(
+          "part {} has {} numbers up to value {} of the row, '{}'; a corner has three, x y z: look for a "
+          "stray or a missing number",
+          parts.size() + 1, numbers.size(), end, lines.words()[end - 1]));
+    std::vector<Vec3>& part = parts.emplace_back();
+    for (size_t i = 0; i < numbers.size(); i += 3)
+      part.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    numbers.clear();
+  };
+  for (size_t w = kFirstCoordinate; w < num_words; ++w) {
+    const double number = expect_number(lines, w);
+    if (number == kPartSeparator)
+      close(w);
+    else
+      numbers.push_back(number);
+  }
+  close(num_words);
+  std::erase_if(parts, [](const auto& part) { return part.empty(); });
+  return parts;
+}
 
 RawTie tie_of_row(const TextLines& lines, size_t num_words) {
   if (lines.words().size() < num_words)
@@ -36,20 +72,10 @@ std::vector<RawBlock> read_bricks(const std::string& path) {
     lines.enter(fmt::format("block {}", lines.words()[0]));
     if (num_words < kFirstCoordinate)
       lines.fail(fmt::format("the row has {} values, at least {} are required", num_words, kFirstCoordinate));
-    RawBlock block{std::string(lines.words()[0]), lines.where(), {}, {{}}, lines.number(1) != 0.0, {}};
-    block.density = lines.number(4);
+    RawBlock block{std::string(lines.words()[0]), lines.where(), {}, {}, expect_number(lines, 1) != 0.0, {}};
+    block.density = expect_number(lines, 4);
     if (*block.density <= 0.0) lines.fail(fmt::format("density = {}: must be > 0", *block.density));
-    size_t w = kFirstCoordinate;
-    while (w < num_words) {
-      if (lines.number(w) == kPartSeparator) {
-        block.point_parts.emplace_back();
-        ++w;
-      } else {
-        block.point_parts.back().push_back(lines.point(w));
-        w += 3;
-      }
-    }
-    std::erase_if(block.point_parts, [](const auto& part) { return part.empty(); });
+    block.point_parts = read_parts(lines);
     if (block.point_parts.empty()) lines.fail("no corners");
     blocks.push_back(std::move(block));
   }

@@ -18,7 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 using Format = ImportedBlocks::Format;
 
-constexpr double kSliver = 1e-3;  // thickness over size of a part
+constexpr double kSliver = 1e-3;      // thickness over size of a part
+constexpr double kSnapPerWarp = 4.0;  // two faces, each warped to both sides of its plane
+constexpr double kShownWarp = 1e-9;   // m; smaller deviations from planes are rounding
 
 Format format_of(const fs::path& path) {
   static const std::map<std::string, Format> endings{
@@ -132,6 +134,19 @@ Surfaces repair_all(const std::vector<RawBlock>& blocks, double weld) {
   return surfaces;
 }
 
+/// The tolerances of the case, or those that follow from the surfaces.
+DecompositionOptions choose_tolerances(const ImportedBlocks& source, const std::vector<TriangleMesh>& meshes,
+                                       ImportReport* report) {
+  report->flatness = measure_flatness(meshes);
+  DecompositionOptions options;
+  options.facet_angle = source.facet_angle.value_or(report->flatness.facet_angle);
+  options.flat = source.facet_angle.value_or(report->flatness.flat);
+  report->facet_angle = options.facet_angle;
+  report->snap = source.snap.value_or(kSnapPerWarp * report->flatness.warp);
+  report->chosen = !source.facet_angle || !source.snap;
+  return options;
+}
+
 bool is_sliver(const ConvexPolyhedron& part) {
   double size = 0.0, largest_face = 0.0;
   for (const Vec3& v : part.vertices) size = std::max(size, (v - part.vertices.front()).norm());
@@ -165,6 +180,7 @@ void append_blocks(const std::vector<RawBlock>& raw, const Surfaces& surfaces,
     const int b = surfaces.block[m];
     if (m == 0 || surfaces.block[m - 1] != b) {
       Block block;
+      block.name = raw[b].name;
       block.kind = BlockKind::imported;
       block.density = raw[b].density.value_or(density);
       assembly->blocks.push_back(block);
@@ -244,12 +260,10 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
   std::vector<RawBlock> raw = read_all(source);
   place_in_world(source, &raw);
   Surfaces surfaces = repair_all(raw, source.weld);
-  if (source.snap > 0.0)
-    report->snapped_facets = snap_facets(&surfaces.meshes, source.facet_angle, source.snap);
+  const DecompositionOptions options = choose_tolerances(source, surfaces.meshes, report);
+  if (report->snap > 0.0) report->snapped_facets = snap_facets(&surfaces.meshes, options, report->snap);
 
   Assembly assembly;
-  DecompositionOptions options;
-  options.facet_angle = options.flat = source.facet_angle;
   append_blocks(raw, surfaces, options, density, &assembly, report);
   compute_mass_properties(&assembly);
   weigh_surfaces(raw, surfaces, &assembly);
@@ -264,11 +278,33 @@ std::string to_text(const ImportReport& r) {
       "{} blocks imported: {} pieces already convex, {} split by planes, {} by their cross-section, "
       "{} by Nef polyhedra; largest relative volume error {:.1e}\n",
       r.origins.size(), r.already_convex, r.by_planes, r.as_prisms, r.by_nef, r.largest_volume_error);
+  constexpr int kListed = 10;
+  int several = 0;
   for (size_t b = 0; b < r.origins.size(); ++b)
-    if (r.parts[b] > 1) text += fmt::format("  block {}: {} convex parts\n", r.origins[b].name, r.parts[b]);
+    if (r.parts[b] > 1 && ++several <= kListed)
+      text += fmt::format("  block {}: {} convex parts\n", r.origins[b].name, r.parts[b]);
+  if (several > kListed)
+    text +=
+        fmt::format("  {} more blocks with several convex parts; --report lists all\n", several - kListed);
   if (r.sliver_parts > 0)
     text += fmt::format("warning: {} parts are slivers, thinner than 1e-3 of their size\n", r.sliver_parts);
-  if (r.snapped_facets > 0) text += fmt::format("{} facets moved to common planes\n", r.snapped_facets);
+  if (r.flatness.warp > kShownWarp)
+    text += fmt::format(
+        "faces deviate from planes by up to {:.2g} m, {:.1g} of the size of their block; facet_angle = "
+        "{:.2g} rad and "
+        "snap = {:.2g} m{}: {} facets moved to common planes\n",
+        r.flatness.warp, r.flatness.relative_warp, r.facet_angle, r.snap,
+        r.chosen ? ", chosen from that" : "", r.snapped_facets);
+  else if (r.snapped_facets > 0)
+    text += fmt::format("{} facets moved to common planes\n", r.snapped_facets);
+  if (r.flatness.bent > 0)
+    text += fmt::format("{} faces are warped by more than 0.05 rad and count as several triangles\n",
+                        r.flatness.bent);
+  if (r.sliver_parts + r.by_nef > 0)
+    text += fmt::format(
+        "note: slivers and Nef polyhedra often mean that faces made of triangles are not quite plane; "
+        "geometry.import.facet_angle is {:.2g} rad, a larger value joins them\n",
+        r.facet_angle);
   if (r.ties > 0) text += fmt::format("{} ties\n", r.ties);
   return text;
 }

@@ -5,6 +5,7 @@
 
 #include "assembly/case/geometry.hpp"
 #include "assembly/model/assembly.hpp"
+#include "generators/importer/flatness.hpp"
 #include "generators/stereotomy/model_checks.hpp"
 
 namespace cupola {
@@ -14,6 +15,9 @@ struct ImportReport {
   std::vector<BlockOrigin> origins;                                  ///< per block of the assembly
   std::vector<int> parts;                                            ///< number of convex parts per block
   int already_convex = 0, by_planes = 0, as_prisms = 0, by_nef = 0;  ///< surfaces per method
+  Flatness flatness;
+  double facet_angle = 0.0, snap = 0.0;  ///< in force: rad, m
+  bool chosen = false;                   ///< one of them follows from the data
   int snapped_facets = 0;
   int sliver_parts = 0;               ///< thinner than 1e-3 of their size
   double largest_volume_error = 0.0;  ///< sum of the parts minus the block, over the block's volume

@@ -14,6 +14,9 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
+#include "generators/importer/polygon_triangles.hpp"
+
 namespace cupola {
 namespace {
 
@@ -22,6 +25,8 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using SurfaceMesh = CGAL::Surface_mesh<Point>;
 using Polygons = std::vector<std::vector<std::size_t>>;
+
+constexpr const char* kFaceOfFile = "f:face_of_file";
 
 [[noreturn]] void fail(const RawBlock& block, const std::string& message) {
   throw InputError(block.where, fmt::format("block {}: {}", block.name, message));
@@ -75,27 +80,31 @@ PolygonMesh weld_vertices(const PolygonMesh& mesh, double distance) {
   return welded;
 }
 
-/// Splits a face into a fan of triangles from its first vertex, the usual definition of a warped face. Keeps
-/// the polygon if a triangle of the fan would lie outside it.
-void append_fan(const std::vector<int>& face, const std::vector<Vec3>& vertices, Polygons* polygons) {
-  const auto area = [&](size_t i) {
-    const Vec3& origin = vertices[face[0]];
-    return Vec3((vertices[face[i]] - origin).cross(vertices[face[i + 1]] - origin));
-  };
-  Vec3 normal = Vec3::Zero();
-  for (size_t i = 1; i + 1 < face.size(); ++i) normal += area(i);
-  for (size_t i = 1; i + 1 < face.size(); ++i)
-    if (area(i).dot(normal) <= 0.0) {
-      polygons->emplace_back(face.begin(), face.end());
-      return;
-    }
-  for (size_t i = 1; i + 1 < face.size(); ++i)
-    polygons->push_back({static_cast<std::size_t>(face[0]), static_cast<std::size_t>(face[i]),
-                         static_cast<std::size_t>(face[i + 1])});
+/// The surface as a soup of triangles. A face that triangulate_polygon() cannot split remains a polygon.
+struct Soup {
+  Polygons polygons;
+  std::vector<int> face;  // of the file, per polygon
+};
+
+Soup triangle_soup(const PolygonMesh& mesh) {
+  Soup soup;
+  for (size_t f = 0; f < mesh.faces.size(); ++f) {
+    const std::vector<int>& face = mesh.faces[f];
+    std::vector<Vec3> corners;
+    for (int v : face) corners.push_back(mesh.vertices[v]);
+    const auto triangles = triangulate_polygon(corners);
+    for (const auto& t : triangles)
+      soup.polygons.push_back({static_cast<std::size_t>(face[t[0]]), static_cast<std::size_t>(face[t[1]]),
+                               static_cast<std::size_t>(face[t[2]])});
+    if (triangles.empty()) soup.polygons.emplace_back(face.begin(), face.end());
+    soup.face.resize(soup.polygons.size(), static_cast<int>(f));
+  }
+  return soup;
 }
 
 TriangleMesh to_triangles(const SurfaceMesh& surface) {
   TriangleMesh mesh;
+  const auto [face_of_file, known] = surface.property_map<SurfaceMesh::Face_index, int>(kFaceOfFile);
   std::vector<int> id(surface.num_vertices(), -1);
   for (const auto v : surface.vertices()) {
     id[v] = static_cast<int>(mesh.vertices.size());
@@ -107,6 +116,7 @@ TriangleMesh to_triangles(const SurfaceMesh& surface) {
     int i = 0;
     for (const auto v : CGAL::vertices_around_face(surface.halfedge(f), surface)) triangle.at(i++) = id[v];
     mesh.triangles.push_back(triangle);
+    if (known) mesh.polygons.push_back(face_of_file[f]);
   }
   return mesh;
 }
@@ -120,14 +130,15 @@ TriangleMesh repair_mesh(const RawBlock& block, double weld) {
   if (welded.faces.empty()) fail(block, "all faces have zero area");
   std::vector<Point> points;
   for (const Vec3& v : welded.vertices) points.emplace_back(v.x(), v.y(), v.z());
-  Polygons polygons;
-  for (const auto& face : welded.faces) append_fan(face, welded.vertices, &polygons);
-
-  const bool consistent = pmp::is_polygon_soup_a_polygon_mesh(polygons);
-  if (!consistent && !pmp::orient_polygon_soup(points, polygons))
+  Soup soup = triangle_soup(welded);
+  const bool consistent = pmp::is_polygon_soup_a_polygon_mesh(soup.polygons);
+  if (!consistent && !pmp::orient_polygon_soup(points, soup.polygons))
     fail(block, "its faces do not form a manifold surface");
   SurfaceMesh surface;
-  pmp::polygon_soup_to_polygon_mesh(points, polygons, surface);
+  pmp::polygon_soup_to_polygon_mesh(points, soup.polygons, surface);
+  CUPOLA_ASSERT(surface.number_of_faces() == soup.face.size());
+  auto face_of_file = surface.add_property_map<SurfaceMesh::Face_index, int>(kFaceOfFile, -1).first;
+  for (const auto f : surface.faces()) face_of_file[f] = soup.face[f];
   int open_edges = 0;
   for (const auto edge : surface.edges()) open_edges += surface.is_border(edge) ? 1 : 0;
   if (open_edges > 0) fail(block, fmt::format("not closed, {} boundary edges", open_edges));

@@ -9,7 +9,7 @@ namespace cupola {
 
 /// The closed, outward oriented triangle surface of a block. Vertices nearer than `weld` times the block size
 /// are merged, faces without area are dropped, faces with inconsistent orientation are reversed, and polygons
-/// are split into triangles by a fan from their first vertex, which defines the shape of a warped face.
+/// are split into triangles (triangulate_polygon), which defines the shape of a warped face.
 /// Throws InputError with block and file if the result is open, inside out or intersects itself (exact
 /// predicates).
 TriangleMesh repair_mesh(const RawBlock& block, double weld);

@@ -49,7 +49,7 @@ std::vector<RawBlock> read_obj(const std::string& path) {
       vertices.push_back(lines.point(1));
     } else if (words[0] == "o" || (words[0] == "g" && !has_objects)) {
       has_objects = has_objects || words[0] == "o";
-      const std::string name = words.size() > 1 ? std::string(words[1]) : std::to_string(blocks.size());
+      const std::string name = words.size() > 1 ? std::string(lines.rest(1)) : std::to_string(blocks.size());
       blocks.push_back({name, lines.where(), {}, {}, false, {}});
       lines.enter(fmt::format("block {}", name));
     } else if (words[0] == "f") {

@@ -1,9 +1,12 @@
 #include "generators/importer/snap_facets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
+#include <CGAL/box_intersection_d.h>
 #include <Eigen/Dense>
 
 #include "generators/stereotomy/separation.hpp"
@@ -11,29 +14,36 @@
 namespace cupola {
 namespace {
 
-constexpr double kOpposedAngle = 1e-2;  // rad, largest angle between facets that face each other
+constexpr double kOpposedAngle = 1e-2;  // rad, least bound on the angle between facets that face each other
 
 struct BlockFacet {
   int block = 0;
   Facet facet;
-  bool moved = false;
+  std::vector<int> vertices;  // of the block
 };
 
-std::vector<BlockFacet> all_facets(const std::vector<TriangleMesh>& blocks, double angle) {
+std::vector<BlockFacet> all_facets(const std::vector<TriangleMesh>& blocks,
+                                   const DecompositionOptions& options) {
   std::vector<BlockFacet> facets;
   for (size_t b = 0; b < blocks.size(); ++b) {
     std::vector<int> facet_of;
-    for (Facet& facet : find_facets(blocks[b], angle, 1e-6 * mesh_size(blocks[b]), &facet_of))
-      facets.push_back({static_cast<int>(b), std::move(facet), false});
+    const double distance = options.flat * mesh_size(blocks[b]);
+    for (Facet& facet : find_facets(blocks[b], options.facet_angle, distance, &facet_of)) {
+      std::vector<int> vertices;
+      for (int t : facet.triangles)
+        for (int v : blocks[b].triangles[t]) vertices.push_back(v);
+      std::ranges::sort(vertices);
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+      facets.push_back({static_cast<int>(b), std::move(facet), std::move(vertices)});
+    }
   }
   return facets;
 }
 
 /// True if two facets of different blocks have opposite normals and overlap within `distance` (m).
 bool face_each_other(const std::vector<TriangleMesh>& blocks, const BlockFacet& a, const BlockFacet& b,
-                     double distance) {
-  if (a.block == b.block || a.facet.plane.normal.dot(b.facet.plane.normal) > -std::cos(kOpposedAngle))
-    return false;
+                     double angle, double distance) {
+  if (a.block == b.block || a.facet.plane.normal.dot(b.facet.plane.normal) > -std::cos(angle)) return false;
   for (int s : a.facet.triangles)
     for (int t : b.facet.triangles) {
       std::vector<Vec3> p, q;
@@ -43,14 +53,102 @@ bool face_each_other(const std::vector<TriangleMesh>& blocks, const BlockFacet& 
         q.push_back(blocks[b.block].corner(t, i));
         furthest = std::max(furthest, std::abs(a.facet.plane.normal.dot(q.back()) - a.facet.plane.offset));
       }
-      if (furthest <= distance && polygons_overlap(p, q, a.facet.plane.normal, distance)) return true;
+      if (furthest <= distance && overlap_width(p, q, a.facet.plane.normal) > distance) return true;
     }
   return false;
 }
 
-/// The point nearest to p on the planes, in the least-squares sense. There may be fewer than three planes,
-/// and they may be dependent.
-Vec3 on_planes(const Vec3& p, const std::vector<Plane>& planes) {
+/// Pairs of facets that face each other, in increasing order.
+std::vector<std::pair<int, int>> facing_pairs(const std::vector<TriangleMesh>& blocks,
+                                              const std::vector<BlockFacet>& facets, double angle,
+                                              double distance) {
+  using FacetBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
+  std::vector<FacetBox> boxes;
+  for (size_t i = 0; i < facets.size(); ++i) {
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (int v : facets[i].vertices) {
+      low = low.cwiseMin(blocks[facets[i].block].vertices[v]);
+      high = high.cwiseMax(blocks[facets[i].block].vertices[v]);
+    }
+    low.array() -= 0.5 * distance;
+    high.array() += 0.5 * distance;
+    boxes.emplace_back(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()),
+                       static_cast<int>(i));
+  }
+  std::vector<std::pair<int, int>> pairs;
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FacetBox& a, const FacetBox& b) {
+    const int i = std::min(a.info(), b.info()), j = std::max(a.info(), b.info());
+    if (face_each_other(blocks, facets[i], facets[j], angle, distance)) pairs.emplace_back(i, j);
+  });
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
+/// Facets in one plane: sums over its facets of area times normal and offset, in the direction of the first.
+struct Group {
+  std::vector<int> facets;
+  std::vector<double> signs;
+  Vec3 normal = Vec3::Zero();
+  double offset = 0.0;
+
+  Plane plane() const { return {normal / normal.norm(), offset / normal.norm()}; }
+};
+
+Group joined(const Group& a, const Group& b) {
+  Group both = a;
+  const double sign = a.normal.dot(b.normal) > 0.0 ? 1.0 : -1.0;
+  both.facets.insert(both.facets.end(), b.facets.begin(), b.facets.end());
+  for (const double s : b.signs) both.signs.push_back(sign * s);
+  both.normal += sign * b.normal;
+  both.offset += sign * b.offset;
+  return both;
+}
+
+double furthest_corner(const std::vector<TriangleMesh>& blocks, const std::vector<BlockFacet>& facets,
+                       const Group& group) {
+  const Plane plane = group.plane();
+  double furthest = 0.0;
+  for (int i : group.facets)
+    for (int v : facets[i].vertices)
+      furthest =
+          std::max(furthest, std::abs(plane.normal.dot(blocks[facets[i].block].vertices[v]) - plane.offset));
+  return furthest;
+}
+
+/// Joins the groups of facing facets as long as one plane fits all their corners, and gives each group its plane. Returns
+/// the number of facets in groups.
+int set_common_planes(const std::vector<TriangleMesh>& blocks, const std::vector<std::pair<int, int>>& pairs,
+                      double distance, std::vector<BlockFacet>* facets) {
+  std::vector<Group> groups(facets->size());
+  std::vector<int> group_of(facets->size());
+  std::iota(group_of.begin(), group_of.end(), 0);
+  for (size_t i = 0; i < facets->size(); ++i) {
+    const Facet& f = (*facets)[i].facet;
+    groups[i] = {{static_cast<int>(i)}, {1.0}, f.area * f.plane.normal, f.area * f.plane.offset};
+  }
+  for (const auto& [i, j] : pairs) {
+    const int g = group_of[i], h = group_of[j];
+    if (g == h) continue;
+    Group both = joined(groups[g], groups[h]);
+    if (furthest_corner(blocks, *facets, both) > distance) continue;
+    for (int f : groups[h].facets) group_of[f] = g;
+    groups[g] = std::move(both);
+    groups[h] = {};
+  }
+  int moved = 0;
+  for (const Group& group : groups) {
+    if (group.facets.size() < 2) continue;
+    const Plane plane = group.plane();
+    for (size_t k = 0; k < group.facets.size(); ++k)
+      (*facets)[group.facets[k]].facet.plane = {group.signs[k] * plane.normal, group.signs[k] * plane.offset};
+    moved += static_cast<int>(group.facets.size());
+  }
+  return moved;
+}
+
+/// The point nearest to p on the planes, in the least-squares sense. There may be fewer than three planes, and they may be
+/// dependent: planes count as parallel if p would otherwise move by more than `furthest` (m).
+Vec3 on_planes(const Vec3& p, const std::vector<Plane>& planes, double furthest) {
   Eigen::MatrixXd A(planes.size(), 3);
   Eigen::VectorXd b(planes.size());
   for (size_t i = 0; i < planes.size(); ++i) {
@@ -59,87 +157,34 @@ Vec3 on_planes(const Vec3& p, const std::vector<Plane>& planes) {
     b[row] = planes[i].offset - planes[i].normal.dot(p);
   }
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(1e-3);  // planes within 1 mrad count as parallel
-  return p + svd.solve(b);
-}
-
-/// Group of each facet: the facets that face each other, directly or through others. A group is named by one
-/// of its facets.
-std::vector<int> group_facets(const std::vector<TriangleMesh>& blocks, const std::vector<BlockFacet>& facets,
-                              double distance) {
-  std::vector<int> parent(facets.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (size_t i = 0; i < facets.size(); ++i)
-    for (size_t j = i + 1; j < facets.size(); ++j)
-      if (face_each_other(blocks, facets[i], facets[j], distance))
-        parent[root(static_cast<int>(j))] = root(static_cast<int>(i));
-  std::vector<int> group(facets.size());
-  for (size_t i = 0; i < facets.size(); ++i) group[i] = root(static_cast<int>(i));
-  return group;
-}
-
-/// Gives the facets of each group one plane, the mean of theirs weighted by area. Returns the number of
-/// facets moved.
-int set_common_planes(const std::vector<int>& group, std::vector<BlockFacet>* facets) {
-  const size_t n = facets->size();
-  std::vector<Vec3> normal(n, Vec3::Zero());  // per group, in the direction of the facet that names it
-  std::vector<double> offset(n, 0.0);
-  std::vector<int> members(n, 0);
-  std::vector<double> sign(n);
-  for (size_t i = 0; i < n; ++i) {
-    const Facet& f = (*facets)[i].facet;
-    const int g = group[i];
-    sign[i] = f.plane.normal.dot((*facets)[g].facet.plane.normal) > 0.0 ? 1.0 : -1.0;
-    normal[g] += sign[i] * f.area * f.plane.normal;
-    offset[g] += sign[i] * f.area * f.plane.offset;
-    ++members[g];
+  for (const double parallel : {1e-3, 0.03, 0.3}) {  // sine of the angle
+    svd.setThreshold(parallel);
+    const Vec3 step = svd.solve(b);
+    if (step.norm() <= furthest) return p + step;
   }
-  int moved = 0;
-  for (size_t i = 0; i < n; ++i) {
-    const int g = group[i];
-    if (members[g] < 2) continue;
-    const double length = normal[g].norm();
-    (*facets)[i].facet.plane = {sign[i] * normal[g] / length, sign[i] * offset[g] / length};
-    (*facets)[i].moved = true;
-    ++moved;
-  }
-  return moved;
+  return p;
 }
 
-/// Moves every vertex of a moved facet to the nearest point on the planes of its facets.
-void move_vertices(const std::vector<BlockFacet>& facets, std::vector<TriangleMesh>* blocks) {
+/// Moves every vertex to the nearest point on the planes of its facets.
+void move_vertices(const std::vector<BlockFacet>& facets, double furthest,
+                   std::vector<TriangleMesh>* blocks) {
   std::vector<std::vector<std::vector<Plane>>> planes(blocks->size());  // per block and vertex
-  std::vector<std::vector<char>> touched(blocks->size());
-  for (size_t b = 0; b < blocks->size(); ++b) {
-    planes[b].resize((*blocks)[b].vertices.size());
-    touched[b].assign((*blocks)[b].vertices.size(), 0);
-  }
-  for (const BlockFacet& f : facets) {
-    std::vector<int> vertices;
-    for (int t : f.facet.triangles)
-      for (int v : (*blocks)[f.block].triangles[t]) vertices.push_back(v);
-    std::ranges::sort(vertices);
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    for (int v : vertices) {
-      planes[f.block][v].push_back(f.facet.plane);
-      if (f.moved) touched[f.block][v] = 1;
-    }
-  }
+  for (size_t b = 0; b < blocks->size(); ++b) planes[b].resize((*blocks)[b].vertices.size());
+  for (const BlockFacet& f : facets)
+    for (int v : f.vertices) planes[f.block][v].push_back(f.facet.plane);
   for (size_t b = 0; b < blocks->size(); ++b)
     for (size_t v = 0; v < planes[b].size(); ++v)
-      if (touched[b][v]) (*blocks)[b].vertices[v] = on_planes((*blocks)[b].vertices[v], planes[b][v]);
+      (*blocks)[b].vertices[v] = on_planes((*blocks)[b].vertices[v], planes[b][v], furthest);
 }
 
 }  // namespace
 
-int snap_facets(std::vector<TriangleMesh>* blocks, double facet_angle, double distance) {
-  std::vector<BlockFacet> facets = all_facets(*blocks, facet_angle);
-  const int moved = set_common_planes(group_facets(*blocks, facets, distance), &facets);
-  move_vertices(facets, blocks);
+int snap_facets(std::vector<TriangleMesh>* blocks, const DecompositionOptions& options, double distance) {
+  std::vector<BlockFacet> facets = all_facets(*blocks, options);
+  const double angle = std::max(kOpposedAngle, options.facet_angle);
+  const int moved =
+      set_common_planes(*blocks, facing_pairs(*blocks, facets, angle, distance), distance, &facets);
+  move_vertices(facets, 2.0 * distance, blocks);
   return moved;
 }
 

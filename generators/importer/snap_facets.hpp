@@ -2,13 +2,13 @@
 
 #include <vector>
 
-#include "generators/decomposition/triangle_mesh.hpp"
+#include "generators/decomposition/decompose.hpp"
 
 namespace cupola {
 
-/// Moves facets of different blocks that face each other within `distance` (m) and 1e-2 rad to one common
-/// plane, the mean of their planes weighted by area. Every vertex of such a facet moves to the nearest point
-/// on the planes of its facets (least squares). Returns the number of facets moved.
-int snap_facets(std::vector<TriangleMesh>* blocks, double facet_angle, double distance);
+/// Gives facets of different blocks that face each other a common plane, the mean of theirs weighted by area, if all
+/// their corners lie within `distance` (m) of it. Then moves every corner to the nearest point on the planes of its
+/// facets. Returns the number of facets in common planes. Facets are found with the tolerances of `options`.
+int snap_facets(std::vector<TriangleMesh>* blocks, const DecompositionOptions& options, double distance);
 
 }  // namespace cupola

@@ -30,10 +30,10 @@ bool TextLines::next() {
     std::string_view line(text_.data() + position_, end - position_);
     position_ = std::min(end + 1, text_.size());
     ++line_;
-    line = line.substr(0, line.find('#'));
     words_.clear();
     const std::string between = std::string(kWhite) + std::string(separators_);
-    for (size_t start = line.find_first_not_of(between); start != std::string_view::npos;) {
+    for (size_t start = line.find_first_not_of(between);
+         start != std::string_view::npos && line[start] != '#';) {
       const size_t stop = std::min(line.find_first_of(between, start), line.size());
       words_.push_back(line.substr(start, stop - start));
       start = line.find_first_not_of(between, stop);
@@ -43,15 +43,23 @@ bool TextLines::next() {
   return false;
 }
 
+std::string_view TextLines::rest(size_t word) const {
+  if (word >= words_.size()) return {};
+  return {words_[word].data(),
+          static_cast<size_t>(words_.back().data() + words_.back().size() - words_[word].data())};
+}
+
 void TextLines::fail(const std::string& message) const {
   throw InputError(where(), subject_.empty() ? message : fmt::format("{}: {}", subject_, message));
 }
 
-double TextLines::number(size_t word) const {
+double TextLines::number(size_t word, const std::string& context) const {
   double value = 0.0;
-  if (word >= words_.size()) fail(fmt::format("a number is missing, the line has {} words", words_.size()));
+  if (word >= words_.size())
+    fail(fmt::format("a number is missing after '{}', the line has {} words{}", words_.back(), words_.size(),
+                     context));
   if (!parse(words_[word], &value) || !std::isfinite(value))
-    fail(fmt::format("'{}' is not a finite number", words_[word]));
+    fail(fmt::format("'{}' is not a finite number{}", words_[word], context));
   return value;
 }
 

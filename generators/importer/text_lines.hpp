@@ -15,9 +15,11 @@ class TextLines {
   /// `separators`: characters besides white space that separate words.
   TextLines(std::string path, std::string_view separators = "");
 
-  /// Moves to the next line with words before any `#`. Returns false at the end of the file.
+  /// Moves to the next line with words. A `#` at the start of a word begins a comment. Returns false at the end of the file.
   bool next();
   const std::vector<std::string_view>& words() const { return words_; }
+  /// The line from a word to the end of the last word, as written; empty without that word.
+  std::string_view rest(size_t word) const;
   FileLocation where() const { return {path_, line_, 0}; }
   size_t bytes_left() const { return text_.size() - position_; }
   const std::string& path() const { return path_; }
@@ -25,7 +27,8 @@ class TextLines {
   /// Sets the prefix of messages for the following lines, e.g. "block 7".
   void enter(std::string subject) { subject_ = std::move(subject); }
   [[noreturn]] void fail(const std::string& message) const;  ///< throws InputError for this line
-  double number(size_t word) const;                          ///< fails if it is not finite
+  /// Fails if it is not finite; `context` ends the message.
+  double number(size_t word, const std::string& context = "") const;
   long integer(size_t word) const;
   Vec3 point(size_t first_word) const;
   /// A count of items; fails if the rest of the file is too short for them at `bytes_each`.

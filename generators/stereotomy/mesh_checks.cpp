@@ -19,8 +19,8 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// Boundary of one block as triangles. CGAL refuses a face that uses an edge twice in one direction, which
-/// then leaves the boundary open.
+/// Boundary of one block as triangles, or of one part as polygons with its internal faces. CGAL refuses a face that
+/// uses an edge twice in one direction, which then leaves the boundary open.
 SurfaceMesh boundary_of(const Assembly& assembly, const Part* begin, const Part* end, bool with_internal) {
   SurfaceMesh mesh;
   std::map<int, SurfaceMesh::Vertex_index> vertex;
@@ -34,18 +34,25 @@ SurfaceMesh boundary_of(const Assembly& assembly, const Part* begin, const Part*
     for (int f = part->face_start; f < part->face_start + part->num_faces; ++f) {
       if (!with_internal && assembly.face_kinds[f] == FaceKind::internal) continue;
       const auto ids = assembly.face(f);
+      if (with_internal) {
+        std::vector<SurfaceMesh::Vertex_index> loop;
+        for (int id : ids) loop.push_back(mesh_vertex(id));
+        mesh.add_face(loop);
+        continue;
+      }
       for (size_t i = 2; i < ids.size(); ++i)
         mesh.add_face(mesh_vertex(ids[0]), mesh_vertex(ids[i - 1]), mesh_vertex(ids[i]));
     }
   return mesh;
 }
 
-BoundaryDefect check_boundary(int block, const SurfaceMesh& mesh) {
+BoundaryDefect check_boundary(int block, const SurfaceMesh& mesh, bool triangles) {
   namespace pmp = CGAL::Polygon_mesh_processing;
   using enum BoundaryDefect::Kind;
   int boundary_edges = 0;
   for (const auto edge : mesh.edges()) boundary_edges += mesh.is_border(edge) ? 1 : 0;
   if (boundary_edges > 0 || mesh.number_of_faces() == 0) return {block, open, boundary_edges};
+  if (!triangles) return {block, none, 0};
   if (pmp::does_self_intersect(mesh)) return {block, self_intersecting, 0};
   if (!pmp::is_outward_oriented(mesh)) return {block, inside_out, 0};
   return {block, none, 0};
@@ -107,7 +114,7 @@ std::vector<BoundaryDefect> find_boundary_defects(const Assembly& assembly, bool
     const Part* end = begin + 1;
     while (!part_by_part && end != parts_end && end->block == begin->block) ++end;
     const BoundaryDefect found =
-        check_boundary(begin->block, boundary_of(assembly, begin, end, part_by_part));
+        check_boundary(begin->block, boundary_of(assembly, begin, end, part_by_part), !part_by_part);
     if (found.kind != BoundaryDefect::Kind::none) defects.push_back(found);
     begin = end;
   }

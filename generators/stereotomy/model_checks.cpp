@@ -8,11 +8,14 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/block_names.hpp"
 #include "generators/stereotomy/mesh_checks.hpp"
 #include "generators/stereotomy/separation.hpp"
 
 namespace cupola {
 namespace {
+
+constexpr double kNoWidth = 1e-6;  // of the least width of a joint: narrower overlaps are rounding
 
 double model_size(const Assembly& assembly) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -31,6 +34,11 @@ struct Names {
   [[noreturn]] void fail(int block, const std::string& message) const {
     if (origins.empty()) throw InputError(message);
     throw InputError(origins[block].where, message);
+  }
+  /// What to change if a face is not plane.
+  std::string hint() const {
+    return origins.empty() ? ""
+                           : "; if its faces are made of triangles, increase geometry.import.facet_angle";
   }
   /// The name with file and line, for a block other than the one that the message begins with.
   std::string with_source(int block) const {
@@ -67,21 +75,29 @@ void measure_shape(const Assembly& assembly, const ConvexShape& shape, double bo
     report->max_convexity_error = std::max(report->max_convexity_error, above);
     report->max_planarity_error = std::max(report->max_planarity_error, off);
     if (off > bound)
-      names.fail(block,
-                 fmt::format("block {}: a vertex lies {:.3g} m off the plane of its face, more than {:.3g} m",
-                             names.name(block), off, bound));
+      names.fail(
+          block,
+          fmt::format("block {}: a vertex lies {:.3g} m off the plane of its face, more than {:.3g} m{}",
+                      names.name(block), off, bound, names.hint()));
     if (above > bound)
       names.fail(block,
                  fmt::format("block {}: a vertex lies {:.3g} m outside a face of its convex part, more than "
-                             "{:.3g} m",
-                             names.name(block), above, bound));
+                             "{:.3g} m{}",
+                             names.name(block), above, bound, names.hint()));
   }
 }
 
-/// Distance between the planes of two faces that form a joint, or none.
-std::optional<double> joint_gap(const Assembly& assembly, const ConvexShape& a, const ConvexShape& b,
-                                const ModelTolerances& tolerances) {
+/// Two faces opposite each other.
+struct Meeting {
+  double gap = 0.0;    // m, between their planes
+  double width = 0.0;  // m, of their overlap
+};
+
+/// The widest overlap of two opposed faces within the gap of a joint, or none.
+std::optional<Meeting> meeting_of(const Assembly& assembly, const ConvexShape& a, const ConvexShape& b,
+                                  const ModelTolerances& tolerances) {
   const double opposed = -std::cos(tolerances.joint_angle);
+  std::optional<Meeting> widest;
   for (size_t i = 0; i < a.planes.size(); ++i)
     for (size_t j = 0; j < b.planes.size(); ++j) {
       const Plane& p = a.planes[i];
@@ -90,10 +106,12 @@ std::optional<double> joint_gap(const Assembly& assembly, const ConvexShape& a, 
       const std::vector<Vec3> face_a = face_points(assembly, a.faces[i]),
                               face_b = face_points(assembly, b.faces[j]);
       const double gap = std::abs(p.normal.dot(polygon_centroid(face_b)) - p.offset);
-      if (gap <= tolerances.joint_gap && polygons_overlap(face_a, face_b, p.normal, tolerances.joint_gap))
-        return gap;
+      if (gap > tolerances.joint_gap) continue;
+      const double width = overlap_width(face_a, face_b, p.normal);
+      if (!widest || width > widest->width) widest = {gap, width};
+      if (widest->width > tolerances.joint_width) return widest;
     }
-  return std::nullopt;
+  return widest;
 }
 
 /// Connected components of the blocks (union-find).
@@ -109,7 +127,8 @@ struct Islands {
 
 void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shapes,
                  const ModelTolerances& tolerances, const Names& names, ModelReport* report) {
-  std::vector<std::pair<int, int>> joints;  // pairs of blocks, once per pair of parts
+  std::vector<std::pair<int, int>> joints, touching;  // pairs of blocks; touching: at an edge or a corner
+  std::vector<NarrowJoint> narrow;
   Islands islands(assembly.blocks.size());
   const double good_enough = std::min(tolerances.overlap, generated_tolerances(assembly).overlap);
   report->max_overlap = -std::numeric_limits<double>::infinity();
@@ -121,19 +140,35 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
     report->max_overlap = std::max(report->max_overlap, depth);
     if (depth > tolerances.overlap)
       names.fail(
-          a, fmt::format("blocks {} and {} overlap by {:.3g} m", names.name(a), names.with_source(b), depth));
+          a, fmt::format("blocks {} and {} overlap by {:.3g} m{}", names.name(a), names.with_source(b), depth,
+                         tolerances.part_by_part
+                             ? fmt::format(", more than contact.margin = {:.3g} m: correct the geometry or "
+                                           "increase contact.margin",
+                                           tolerances.overlap)
+                             : ""));
     if (depth < -tolerances.joint_gap) return;
-    const std::optional<double> gap = joint_gap(assembly, shapes[p], shapes[q], tolerances);
-    if (!gap) return;
-    report->max_joint_gap = std::max(report->max_joint_gap, *gap);
-    joints.emplace_back(a, b);
-    islands.join(a, b);
+    const std::optional<Meeting> meeting = meeting_of(assembly, shapes[p], shapes[q], tolerances);
+    if (meeting && meeting->width > tolerances.joint_width) {
+      report->max_joint_gap = std::max(report->max_joint_gap, meeting->gap);
+      joints.emplace_back(a, b);
+    } else if (meeting && meeting->width > kNoWidth * tolerances.joint_width) {
+      narrow.push_back({a, b, meeting->width});
+    } else if (!meeting && tolerances.part_by_part) {
+      touching.emplace_back(a, b);
+    }
   });
   std::ranges::sort(joints);
   joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
   report->num_joints = static_cast<int>(joints.size());
+  for (const NarrowJoint& joint : narrow)
+    if (!std::ranges::binary_search(joints, std::pair(joint.block_a, joint.block_b)))
+      report->narrow_joints.push_back(joint);
   std::vector<char> has_joint(assembly.blocks.size(), 0);
-  for (const auto& [a, b] : joints) has_joint[a] = has_joint[b] = 1;
+  for (const auto& pairs : {joints, touching})
+    for (const auto& [a, b] : pairs) {
+      has_joint[a] = has_joint[b] = 1;
+      islands.join(a, b);
+    }
   for (const ImportedTie& tie : assembly.ties) {
     has_joint[tie.block_a] = has_joint[tie.block_b] = 1;
     islands.join(tie.block_a, tie.block_b);
@@ -148,12 +183,12 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
 
 ModelTolerances generated_tolerances(const Assembly& assembly) {
   const double size = model_size(assembly);
-  return {1e-13 * size, 2e-11 * size, 2e-11 * size, 1e-6, false};
+  return {1e-13 * size, 2e-11 * size, 2e-11 * size, 2e-11 * size, 1e-6, false};
 }
 
-ModelTolerances imported_tolerances(const Assembly& assembly, const ImportedBlocks& source) {
-  const double plane = std::max(1e-5, source.facet_angle) * model_size(assembly);
-  return {plane, source.most_overlap, source.joint_gap, 1e-2, true};
+ModelTolerances imported_tolerances(const Assembly& assembly, double facet_angle, const JointRule& rule) {
+  const double plane = std::max(1e-5, facet_angle) * model_size(assembly);
+  return {plane, rule.margin, rule.margin, rule.min_width, rule.max_angle, true};
 }
 
 ModelReport check_model(const Assembly& assembly, const ModelTolerances& tolerances,
@@ -203,6 +238,18 @@ std::string to_text(const ModelReport& r, std::span<const BlockOrigin> origins) 
   if (!r.blocks_without_joint.empty())
     text += fmt::format("warning: {} blocks have no joint, the first is {}\n", r.blocks_without_joint.size(),
                         Names{origins}.name(r.blocks_without_joint.front()));
+  constexpr size_t kListed = 10;
+  for (size_t i = 0; i < std::min(kListed, r.narrow_joints.size()); ++i) {
+    const NarrowJoint& joint = r.narrow_joints[i];
+    text += fmt::format(
+        "warning: blocks {} and {}: their joint is only {:.3g} m wide, less than 1e-3 of the smallest block, "
+        "and is "
+        "ignored\n",
+        Names{origins}.name(joint.block_a), Names{origins}.name(joint.block_b), joint.width);
+  }
+  if (r.narrow_joints.size() > kListed)
+    text += fmt::format("warning: {} more joints are too narrow\n", r.narrow_joints.size() - kListed);
+  if (r.num_supports == 0) text += fmt::format("warning: {}\n", kNoBlockIsFixed);
   return text;
 }
 

@@ -6,10 +6,16 @@
 #include <vector>
 
 #include "assembly/base/error.hpp"
-#include "assembly/case/geometry.hpp"
 #include "assembly/model/assembly.hpp"
+#include "assembly/model/joint_rule.hpp"
 
 namespace cupola {
+
+/// A joint below the least width (see JointRule), between blocks without any other joint.
+struct NarrowJoint {
+  int block_a = 0, block_b = 0;
+  double width = 0.0;  ///< m
+};
 
 /// Measurements of a model. Lengths in m, volumes in m3.
 struct ModelReport {
@@ -26,8 +32,9 @@ struct ModelReport {
   double max_overlap = 0.0;            ///< largest overlap of parts of two blocks; <= 0 if none overlap
   double max_joint_gap = 0.0;          ///< largest distance between the planes of two faces in a joint
   double shortest_edge = 0.0;
-  int islands = 0;                        ///< connected components of the graph of joints and ties
-  std::vector<int> blocks_without_joint;  ///< and without tie
+  int islands = 0;                         ///< connected components of the graph of joints and ties
+  std::vector<int> blocks_without_joint;   ///< and without tie
+  std::vector<NarrowJoint> narrow_joints;  ///< ignored by contact detection
 };
 
 /// Name and source of an imported block, for messages. Generated blocks are named by their number.
@@ -41,6 +48,7 @@ struct ModelTolerances {
   double plane = 0.0;         ///< m, for convexity and planarity
   double overlap = 0.0;       ///< m, for the overlap of two blocks
   double joint_gap = 0.0;     ///< m, largest distance of two faces that form a joint
+  double joint_width = 0.0;   ///< m, least width of the overlap of two faces that form a joint
   double joint_angle = 0.0;   ///< rad, largest angle between two faces that form a joint
   bool part_by_part = false;  ///< parts share no vertices, so each must be closed by itself
 };
@@ -49,9 +57,9 @@ struct ModelTolerances {
 /// for overlaps and gaps (1e-9 m for the 50 m dome).
 ModelTolerances generated_tolerances(const Assembly& assembly);
 
-/// For imported blocks: the case gives overlap and gap; planes within 1e-5 of the model's size, or within
-/// facet_angle of it if that is larger.
-ModelTolerances imported_tolerances(const Assembly& assembly, const ImportedBlocks& source);
+/// For imported blocks: the rule of contact detection for overlaps and joints; planes within 1e-5 of the model's size, or
+/// within `facet_angle` (rad) of it if that is larger.
+ModelTolerances imported_tolerances(const Assembly& assembly, double facet_angle, const JointRule& rule);
 
 /// Measures a model and checks that blocks are closed, oriented outwards and free of self-intersections
 /// (CGAL, exact predicates), that parts are convex with plane faces, and that no two blocks overlap. Throws

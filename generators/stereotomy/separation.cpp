@@ -73,7 +73,8 @@ double overlap_depth(const ConvexShape& a, const ConvexShape& b, double good_eno
   return depth;
 }
 
-bool polygons_overlap(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& normal, double width) {
+double overlap_width(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& normal) {
+  double width = std::numeric_limits<double>::infinity();
   for (const auto& [polygon, other] : {std::pair(a, b), std::pair(b, a)})
     for (size_t i = 0; i < polygon.size(); ++i) {
       const Vec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
@@ -81,9 +82,10 @@ bool polygons_overlap(std::span<const Vec3> a, std::span<const Vec3> b, const Ve
       if (outward.dot(polygon[(i + 2) % polygon.size()] - polygon[i]) > 0.0) outward = -outward;
       double reach = -std::numeric_limits<double>::infinity();
       for (const Vec3& p : other) reach = std::max(reach, -outward.dot(p - polygon[i]));
-      if (reach <= width) return false;
+      width = std::min(width, reach);
+      if (width <= 0.0) return width;
     }
-  return true;
+  return width;
 }
 
 }  // namespace cupola

@@ -5,6 +5,23 @@
 #include "postproc/tables/result_columns.hpp"
 
 namespace cupola {
+namespace {
+
+/// Inserts the names of imported blocks after the columns with their numbers.
+Table with_block_names(const Assembly& assembly, Table table) {
+  if (assembly.blocks.empty() || assembly.blocks.front().name.empty()) return table;
+  for (size_t c = 0; c < table.columns.size(); ++c) {
+    const std::string key = table.columns[c].key;
+    if (key != "block" && key != "block_a" && key != "block_b") continue;
+    const auto after = static_cast<std::ptrdiff_t>(c) + 1;
+    table.columns.insert(table.columns.begin() + after, {key + "_name", "", "its name in the imported file"});
+    for (auto& row : table.rows)
+      row.insert(row.begin() + after, assembly.blocks[static_cast<size_t>(std::get<int>(row[c]))].name);
+  }
+  return table;
+}
+
+}  // namespace
 
 Table ring_table(const Evaluation& e) {
   std::vector<RingRow> rows;
@@ -14,13 +31,16 @@ Table ring_table(const Evaluation& e) {
 }
 
 Table joint_table(const Evaluation& e) {
-  return make_table("joints", "Joints: wrench on the second block about the centre of pressure",
-                    joint_columns(), e.last.joints.wrenches);
+  return with_block_names(
+      e.assembly, make_table("joints", "Joints: wrench on the second block about the centre of pressure",
+                             joint_columns(), e.last.joints.wrenches));
 }
 
 Table block_table(const Evaluation& e) {
-  return make_table("blocks", "Blocks: wrench from the ring below, shell forces, joints, displacement",
-                    block_columns(), block_rows(e, e.last));
+  return with_block_names(
+      e.assembly,
+      make_table("blocks", "Blocks: wrench from the ring below, shell forces, joints, displacement",
+                 block_columns(), block_rows(e, e.last)));
 }
 
 Table thrust_table(const ThrustLine& line) {
@@ -41,8 +61,8 @@ Table section_table(const SectionEvaluation& section) {
 }
 
 Table plane_table(const Evaluation& e, const PlaneCut& cut) {
-  return make_table("cut_" + cut.name, "Joints across the plane " + cut.name, plane_columns(),
-                    plane_joints(e, cut));
+  return with_block_names(e.assembly, make_table("cut_" + cut.name, "Joints across the plane " + cut.name,
+                                                 plane_columns(), plane_joints(e, cut)));
 }
 
 std::vector<Table> result_tables(const Evaluation& e) {

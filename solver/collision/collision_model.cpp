@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/joint_rule.hpp"
 
 namespace cupola {
 namespace {
@@ -139,10 +140,7 @@ CollisionModel make_collision_model(const Assembly& assembly) {
   model.corners.shrink_to_fit();
   model.vertices.shrink_to_fit();
   model.edges.shrink_to_fit();
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const Block& block : assembly.blocks)
-    if (!block.fixed) smallest = std::min(smallest, block.volume);
-  model.smallest_block = std::isfinite(smallest) ? std::cbrt(smallest) : 1.0;
+  model.smallest_block = smallest_block_size(assembly);
   double largest_coordinate = 0.0;
   for (const Vec3& x : assembly.vertices)
     largest_coordinate = std::max(largest_coordinate, x.cwiseAbs().maxCoeff());

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/joint_rule.hpp"
 #include "solver/collision/contact_file.hpp"
 #include "solver/collision/edge_contact.hpp"
 #include "solver/collision/face_clipping.hpp"
@@ -18,12 +19,8 @@
 namespace cupola {
 namespace {
 
-// Lengths relative to the smallest block
-constexpr double kDefaultMargin = 0.01;
-// A block that sinks into its bed joint by compliance overlaps the sides of its neighbours by as much. Such
-// slivers are not joints.
-constexpr double kSliverWidth = 1e-3;
-constexpr double kCornerTolerance = 1e-10;  // a hundred times the rounding error of its corners
+constexpr double kCornerTolerance =
+    1e-10;  // of the smallest block; a hundred times the rounding error of its corners
 
 constexpr int kChunksAtOnce = 256;
 
@@ -91,10 +88,11 @@ ContactDetector::ContactDetector(const Assembly& assembly, const DetectionOption
   options_.validate();
   if (!options_.contact_file.empty()) contacts_from_file_ = read_contacts(options_.contact_file, assembly);
   if (options_.perturbed_gjk) perturbed_gjk_.emplace(model_, *options_.perturbed_gjk);
-  if (options_.margin == 0.0)
-    options_.margin = perturbed_gjk_ ? perturbed_gjk_->margin() : kDefaultMargin * model_.smallest_block;
+  const JointRule rule = joint_rule(model_.smallest_block, options_.margin);
+  if (options_.margin == 0.0) options_.margin = perturbed_gjk_ ? perturbed_gjk_->margin() : rule.margin;
   narrow_.margin = options_.margin;
-  narrow_.min_width = kSliverWidth * model_.smallest_block;
+  narrow_.min_width = rule.min_width;
+  narrow_.max_angle = rule.max_angle;
   narrow_.tolerance = std::max(kCornerTolerance * model_.smallest_block, 16.0 * model_.rounding);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/block_names.hpp"
 #include "solver/collision/face_clipping.hpp"
 #include "solver/collision/separating_axis.hpp"
 #include "solver/runtime/interruption.hpp"
@@ -32,8 +33,9 @@ struct BadJoints {
 };
 
 /// Checks parts i and k.
-void examine_parts(const ContactDetector& detector, const Eigen::Isometry3d& pose_ab,
-                   const NarrowPhaseOptions& any_width, int i, int k, BadJoints* bad) {
+void examine_parts(const Assembly& assembly, const ContactDetector& detector,
+                   const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& any_width, int i, int k,
+                   BadJoints* bad) {
   const CollisionModel& model = detector.model();
   if (separated_by_face(model, i, k, pose_ab, any_width.margin)) return;
   const int a = model.parts[i].block, b = model.parts[k].block;
@@ -42,7 +44,7 @@ void examine_parts(const ContactDetector& detector, const Eigen::Isometry3d& pos
     throw InputError(
         fmt::format("blocks {} and {} overlap by {:.3g} m, more than contact.margin = {:.3g} m: correct the "
                     "geometry or increase contact.margin",
-                    a, b, depth, detector.margin()));
+                    block_label(assembly, a), block_label(assembly, b), depth, detector.margin()));
   if (depth > kOverlap * model.smallest_block) keep_largest(&bad->overlaps, {a, b}, depth);
   for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width)) {
     const double width = polygon_width(patch.outline());
@@ -51,8 +53,8 @@ void examine_parts(const ContactDetector& detector, const Eigen::Isometry3d& pos
 }
 
 /// Checks block a against the blocks of larger index.
-void examine_block(const ContactDetector& detector, const std::vector<Pose>& poses, const BroadPhase& near,
-                   const NarrowPhaseOptions& any_width, int a, BadJoints* bad) {
+void examine_block(const Assembly& assembly, const ContactDetector& detector, const std::vector<Pose>& poses,
+                   const BroadPhase& near, const NarrowPhaseOptions& any_width, int a, BadJoints* bad) {
   const CollisionModel& model = detector.model();
   const auto box = [&](int block) { return model.box_at(block, poses[block], 0.5 * any_width.margin); };
   const OrientedBox box_a = box(a);
@@ -62,7 +64,7 @@ void examine_block(const ContactDetector& detector, const std::vector<Pose>& pos
     pose_ab.translation() = poses[b].p_WB - poses[a].p_WB;
     for (int i = model.part_start[a]; i < model.part_start[a + 1]; ++i)
       for (int k = model.part_start[b]; k < model.part_start[b + 1]; ++k)
-        examine_parts(detector, pose_ab, any_width, i, k, bad);
+        examine_parts(assembly, detector, pose_ab, any_width, i, k, bad);
   }
 }
 
@@ -95,7 +97,7 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
     throw_if_interrupted();
     const int start = chunk * kBlocksPerChunk;
     for (int block = start; block < std::min(start + kBlocksPerChunk, model.num_blocks()); ++block)
-      examine_block(detector, poses, near, any_width, block, &chunks[chunk]);
+      examine_block(assembly, detector, poses, near, any_width, block, &chunks[chunk]);
   });
   PairValues overlaps, slivers;
   for (const BadJoints& chunk : chunks) {
@@ -104,12 +106,15 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
   }
 
   std::vector<std::string> warnings;
+  const auto label = [&](int block) { return block_label(assembly, block); };
   for (const auto& [pair, depth] : overlaps)
     warnings.push_back(fmt::format("blocks {} and {} overlap by {:.3g} m: their contacts start compressed",
-                                   pair.first, pair.second, depth));
+                                   label(pair.first), label(pair.second), depth));
   for (const auto& [pair, width] : slivers)
-    warnings.push_back(fmt::format("blocks {} and {}: a joint only {:.3g} m wide is ignored", pair.first,
-                                   pair.second, width));
+    warnings.push_back(
+        fmt::format("blocks {} and {}: their joint is only {:.3g} m wide, less than 1e-3 of the smallest "
+                    "block, and is ignored",
+                    label(pair.first), label(pair.second), width));
   std::map<int, double> thin;
   for (const CollisionPart& part : model.parts) {
     const double part_thickness = thickness(model, part);
@@ -121,7 +126,7 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
     warnings.push_back(fmt::format(
         "block {}: a part is only {:.3g} m thick, thinner than contact.margin = {:.3g} m; reduce the "
         "margin",
-        block, thinnest, detector.margin()));
+        label(block), thinnest, detector.margin()));
   return warnings;
 }
 

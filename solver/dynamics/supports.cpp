@@ -28,7 +28,7 @@ std::vector<int> blocks_of_move(const SupportMove& move, const Assembly& assembl
       throw InputError(
           fmt::format("supports.moves: block {} is not fixed; only supports can be moved", block));
   }
-  return move.blocks;
+  return {move.blocks.begin(), move.blocks.end()};
 }
 
 Eigen::Quaterniond rotation_of(const Vec3& turn) {

@@ -214,18 +214,19 @@ TEST_F(CompasAssembly, SnakeStandsOnlyWithEnoughFriction) {
 }
 
 // Blocks with curved faces. Each block is meshed separately, so that the faces of neighbours do not match;
-// the file contains the 40 strips in which they touch. Facets within 0.03 rad are treated as plane, and the
-// volumes are those of the file.
+// the file contains the 40 strips in which they touch. Facets within 0.03 rad are treated as plane; the volumes
+// are those of the surfaces as read.
 TEST_F(CompasAssembly, CurvedBlocksStandOnTheInterfacesOfTheirFile) {
   ImportedBlocks source;
   source.path = shared_data() + "/compas_cra/curve-3-blocks.json";
   source.supports = {"0"};
   source.facet_angle = 0.03;
+  source.snap = 0.0;
   ImportReport report;
   const Assembly assembly = import_blocks(source, 1000.0, &report);
   double volume = 0.0;
   for (const Block& block : assembly.blocks) volume += block.volume;
-  EXPECT_NEAR(volume, 4.269792, 1e-6);
+  EXPECT_NEAR(volume, 4.269792, 1e-3);    // of fans from the first corners; faces are warped by 1.1e-3 m
   EXPECT_LE(assembly.parts.size(), 20u);  // one wedge per strip of a concave face would suffice
 
   const std::string file =

@@ -70,6 +70,31 @@ const BadCase kBadCases[] = {
     {"UnknownKey", kGood + "  frictoin: 0.4\n",
      "bad.yaml:6:3: error: joints.frictoin: unknown key; did you mean friction? Valid keys here: friction, "
      "compliance"},
+    {"DecimalComma", kGood + "  friction: 0,2\n",
+     "bad.yaml:6:13: error: joints.friction = 0,2: must be a number; a decimal comma? Write 0.2"},
+    {"DecimalCommaInAMap",
+     "joints: {friction: 0,25, compliance: {per: point}}\ngeometry: {surface: {type: dome}, bond: {type: "
+     "running}}\n",
+     "bad.yaml:1:22: error: joints.25: unknown key; a decimal comma? Write friction: 0.25. Valid keys"},
+    {"OtherName", kGood + "  mu: 0.4\n",
+     "bad.yaml:6:3: error: joints.mu: unknown key; did you mean joints.friction or joints.bed.friction"},
+    {"RetiredKey", "geometry: {import: {most_overlap: 1e-3}}\n",
+     "bad.yaml:1:35: error: geometry.import.most_overlap = 1e-3: this key no longer exists; contact.margin "
+     "is"},
+    {"BlockIsAList", kGood + "loads: {forces: [{block: [1]}]}\n",
+     "bad.yaml:6:26: error: loads.forces[0].block = [...]: must be a single value"},
+    {"NegativeBlock", kGood + "loads: {forces: [{block: -1}]}\n",
+     "bad.yaml:6:26: error: loads.forces[0].block = -1: must be >= 0"},
+    {"MisspeltSweptKey", kGood + "sweep: [{key: joints.frction, values: [0.1]}]\n",
+     "bad.yaml: error: sweep: --set joints.frction=0.1: error: joints.frction: unknown key; did you mean "
+     "friction?"},
+    {"SweptValueOutOfRange", kGood + "sweep: [{key: joints.friction, values: [0.1, -2]}]\n",
+     "bad.yaml: error: sweep: --set joints.friction=-2: error: joints.friction = -2: must be >= 0"},
+    {"BundledCaseMisspelt", "extends: cupola:dome_circlar\n",
+     "bad.yaml:1:10: error: cupola:dome_circlar: no bundled case has this name; did you mean "
+     "cupola:dome_circular?"},
+    {"BundledCaseOutside", "extends: cupola:../cases/dome_circular\n",
+     "bad.yaml:1:10: error: cupola:../cases/dome_circular: no bundled case has this name"},
     {"UnknownSection", kGood + "walls: 3\n",
      "bad.yaml:6:1: error: walls: unknown key. Valid keys here: title, geometry, "},
     {"UnknownPreset", kGood + "analysis: {accuracy: drat}\n",
@@ -88,7 +113,8 @@ const BadCase kBadCases[] = {
     {"TwoGravityNumbers", kGood + "loads: {gravity: [0, 1]}\n",
      "bad.yaml:6:18: error: loads.gravity = [...]: must be a list of three numbers, [x, y, z]"},
     {"MissingPer", "geometry: {surface: {type: dome}, bond: {type: running}}\n",
-     "bad.yaml:1:1: error: joints.compliance.per is missing and has no default; give one of point, area"},
+     "bad.yaml:1:1: error: joints.compliance.per is missing and has no default; choose point (normal "
+     "and tangential in m/N for each contact point, as in the paper) or area"},
     {"MissingSurfaceType", "geometry: {surface: {span: 3}}\n",
      "bad.yaml:1:21: error: geometry.surface.type is missing and has no default; give one of dome, "},
     {"MisspeltType", "geometry: {surface: {typ: dome}}\n",
@@ -160,6 +186,9 @@ TEST(SetOption, ErrorsStartWithTheOption) {
             "--set joints..friction=1: error: the key path has an empty part; write key.path=value");
   EXPECT_EQ(message_for(kGood, {".joints=1"}),
             "--set .joints=1: error: the key path has an empty part; write key.path=value");
+  EXPECT_EQ(message_for(kGood, {"friction=1"})
+                .find("--set friction=1: error: friction: unknown key; did you mean joints.friction or "),
+            0u);
   EXPECT_EQ(message_for(kGood, {"joint.friction=1"})
                 .find("--set joint.friction=1: error: joint: unknown key; did you mean joints?"),
             0u);

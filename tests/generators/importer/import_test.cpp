@@ -76,6 +76,18 @@ TEST_F(Import, ReadsObjObjectsAsBlocks) {
   EXPECT_NEAR((model.blocks[1].centroid - Vec3(0.75, 0.5, 1.5)).norm(), 0.0, 1e-15);
 }
 
+// Blender writes names with blanks, and a `#` inside a word is part of it.
+TEST_F(Import, KeepsBlanksInTheNamesOfObjObjects) {
+  ImportedBlocks source;
+  source.path = write("two.obj", obj_box("Mesh 0  # a comment", 0, 0, 1) + obj_box("Mesh 1#b", 0.25, 1, 9));
+  source.supports = {"Mesh 0"};
+  const Assembly model = import_blocks(source, 2000.0);
+  ASSERT_EQ(model.blocks.size(), 2u);
+  EXPECT_EQ(model.blocks[0].name, "Mesh 0");
+  EXPECT_EQ(model.blocks[1].name, "Mesh 1#b");
+  EXPECT_TRUE(model.blocks[0].fixed);
+}
+
 TEST_F(Import, ReadsOffStlAndPly) {
   ImportedBlocks source;
   source.path = write("box.off", kOffBox);
@@ -196,8 +208,10 @@ TEST_F(Import, NamesTheDefectOfInvalidInput) {
             std::string::npos)
       << complaint(write("crossing.obj", crossing));
 
-  const std::string overlapping = box + obj_box("b", 0, 0.99, 9);
-  EXPECT_NE(complaint(write("overlap.obj", overlapping)).find("overlap by 0.01 m"), std::string::npos)
+  const std::string overlapping = box + obj_box("b", 0, 0.98, 9);
+  EXPECT_NE(complaint(write("overlap.obj", overlapping))
+                .find("overlap by 0.02 m, more than contact.margin = 0.01 m"),
+            std::string::npos)
       << complaint(write("overlap.obj", overlapping));
 
   const std::string twice = box + obj_box("a", 5, 0, 9);
@@ -304,7 +318,7 @@ TEST(SharedData, WallAndBricksPassTheChecks) {
     c.geometry.imported->path = shared_data() + "/" + file;
     const bool bricks = std::string(file).ends_with(".txt");
     if (bricks) c.geometry.imported->up = ImportedBlocks::UpAxis::y;
-    c.geometry.imported->joint_gap = 0.03;  // the blocks of the OBJ file are 25 mm apart
+    c.contact.margin = 0.03;  // the blocks of the OBJ file are 25 mm apart
     GenerateReport report;
     const Assembly model = generate(c, &report);
     EXPECT_EQ(static_cast<int>(model.blocks.size()), blocks) << file;
@@ -342,13 +356,14 @@ TEST(SharedData, RodsConnectTheWallOfBricks) {
   EXPECT_TRUE(report.model.blocks_without_joint.empty());
 }
 
-// The faces are warped quads. Their volume is defined by fans from their first vertices.
-TEST(SharedData, SplitsWarpedFacesIntoFansFromTheirFirstVertex) {
+// The faces are warped quads. The published volume is that of fans from their first vertices; other triangles of a warped
+// quad change it by a third of the warp times the area.
+TEST(SharedData, SplitsWarpedFacesIntoTriangles) {
   if (shared_data().empty()) GTEST_SKIP() << "no shared data";
   double volume = 0.0;
   for (const RawBlock& block : read_compas(shared_data() + "/compas_cra/curve-3-blocks.json"))
     volume += mesh_volume(repair_mesh(block, 1e-6));
-  EXPECT_NEAR(volume, 4.269792, 1e-6);
+  EXPECT_NEAR(volume, 4.269792, 1e-3);  // warps of up to 1.1e-3 m, to both sides, over about 3 m2
 }
 
 TEST_F(Import, AppliesDensitiesOfTheCase) {

@@ -66,7 +66,9 @@ TEST(GeometryWarnings, AreEmptyForCrossingBarsSeparatedOnlyByAnEdgePair) {
 
 TEST(GeometryWarnings, ReportIgnoredSlivers) {
   const Assembly scene = make_boxes({{.fixed = true}, {.center = {1 - 5e-4, 0, 1}}});
-  EXPECT_EQ(only_warning(scene), "blocks 0 and 1: a joint only 0.0005 m wide is ignored");
+  EXPECT_EQ(only_warning(scene),
+            "blocks 0 and 1: their joint is only 0.0005 m wide, less than 1e-3 of the smallest block, and is "
+            "ignored");
   EXPECT_TRUE(ContactDetector(scene, {}).update(initial_poses(scene)).points.empty());
 }
 

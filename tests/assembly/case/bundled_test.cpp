@@ -1,0 +1,63 @@
+// Cases that come with Cupola, in any folder; the files that a case reads.
+#include "assembly/case/bundled.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/case/case_reader.hpp"
+#include "tests/assembly/case/case_scratch.hpp"
+
+namespace cupola::bundled_test {
+namespace {
+
+// The tests lie in the build tree, beside which the repository's cases are found.
+TEST(BundledCase, IsExtendedInAnyFolder) {
+  const ScratchFolder scratch;
+  const Case mine =
+      read_case(scratch.write("my_dome.yaml", "extends: cupola:dome_circular\njoints: {friction: 0.2}\n"));
+  const Case original = read_case(bundled_folder() + "/dome_circular.yaml");
+  EXPECT_EQ(mine.geometry_hash, original.geometry_hash);
+  EXPECT_NE(mine.hash, original.hash);
+  EXPECT_EQ(mine.joints.friction, 0.2);
+  EXPECT_EQ(mine.inputs, (std::vector<std::string>{scratch.file("my_dome.yaml"),
+                                                   bundled_folder() + "/dome_circular.yaml"}));
+}
+
+// Files that a bundled case names lie beside it, those of the user's case beside that.
+TEST(BundledCase, FindsItsOwnFiles) {
+  const ScratchFolder scratch;
+  const Case mine = read_case(scratch.write("my_portal.yaml", "extends: cupola:portal\n"));
+  EXPECT_EQ(mine.geometry.imported->path, bundled_folder() + "/portal.obj");
+  EXPECT_TRUE(std::ranges::count(mine.inputs, bundled_folder() + "/portal.obj") == 1);
+  scratch.write("portal.obj", "o a\n");
+  const Case own = read_case(
+      scratch.write("own.yaml", "extends: cupola:portal\ngeometry: {import: {file: portal.obj}}\n"));
+  EXPECT_EQ(own.geometry.imported->path, scratch.file("portal.obj"));
+}
+
+TEST(BundledCase, NamesLeadToNoOtherFile) {
+  const ScratchFolder scratch;
+  scratch.write("secret.yaml", "title: x\n");
+  for (const char* name :
+       {"cupola:", "cupola:.", "cupola:..", "cupola:../tests/faults/small", "cupola:/etc/passwd",
+        "cupola:dome_circular.yaml", "cupola:a b", "Cupola:dome_circular"})
+    EXPECT_THROW(read_case(scratch.write("bad.yaml", std::string("extends: \"") + name + "\"\n")), InputError)
+        << name;
+}
+
+TEST(Case, ExtendingAFileElsewhereIsRefusedWithARemedy) {
+  const ScratchFolder scratch;
+  try {
+    read_case(scratch.write("mine/bad.yaml", "extends: ../cases/dome_circular.yaml\n"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("for a case that comes with Cupola, write cupola:dome_circular"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace cupola::bundled_test

@@ -1,0 +1,57 @@
+#include "assembly/model/block_names.hpp"
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/files/assembly_file.hpp"
+#include "assembly/files/content_hash.hpp"
+#include "tests/assembly/scene.hpp"
+
+namespace cupola::block_names_test {
+namespace {
+
+Assembly named_blocks() {
+  Assembly assembly = test::two_block_assembly();
+  assembly.blocks[0].name = "the ground";
+  assembly.blocks[1].name = "b5_2";
+  return assembly;
+}
+
+std::string complaint(const Assembly& assembly, const char* name) {
+  Loads loads;
+  Ties ties;
+  Supports supports;
+  loads.forces.push_back({BlockRef(std::string(name)), {}, Vec3::Zero(), {}});
+  try {
+    resolve_block_names(assembly, &loads, &ties, &supports);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return std::to_string(loads.forces[0].block);
+}
+
+TEST(BlockNames, AreResolvedToNumbers) {
+  EXPECT_EQ(complaint(named_blocks(), "b5_2"), "1");
+  EXPECT_EQ(complaint(named_blocks(), "the ground"), "0");
+  EXPECT_EQ(complaint(named_blocks(), "b5_3"),
+            "error: loads.forces: no block is named 'b5_3'; did you mean 'b5_2'?");
+  EXPECT_EQ(complaint(named_blocks(), "something else"),
+            "error: loads.forces: no block is named 'something else'; the first block is 'the ground'");
+  EXPECT_EQ(complaint(test::two_block_assembly(), "b5_2"),
+            "error: loads.forces: no block is named 'b5_2'; generated blocks have numbers only");
+}
+
+TEST(BlockNames, AreKeptInTheAssemblyFile) {
+  const Assembly assembly = named_blocks();
+  const std::string path = test::fresh_folder("names") + "/assembly.vtu";
+  write_assembly(path, assembly);
+  const Assembly read = read_assembly(path);
+  EXPECT_EQ(read.blocks[0].name, "the ground");
+  EXPECT_EQ(block_label(read, 1), "b5_2");
+  EXPECT_EQ(block_label(test::two_block_assembly(), 1), "1");
+  EXPECT_NE(content_hash(assembly), content_hash(test::two_block_assembly()))
+      << "a load may depend on a name";
+}
+
+}  // namespace
+}  // namespace cupola::block_names_test
