@@ -79,9 +79,9 @@ void add_falls(std::vector<ExtremeScene>* rows) {
        [](const Summary& s, const Frame&) {
          // Fall of n steps of implicit Euler: g h^2 n (n + 1) / 2.
          const double fallen = 9.81 * 0.01 * 0.01 * 100 * 101 / 2;
-         return std::abs(s.max_displacement_m - fallen) < 1e-9 * fallen
+         return std::abs(s.max_displacement_m.value() - fallen) < 1e-9 * fallen
                     ? std::string()
-                    : fmt::format("fell {} m, expected {} m", s.max_displacement_m, fallen);
+                    : fmt::format("fell {} m, expected {} m", *s.max_displacement_m, fallen);
        }});
   rows->push_back({"fall",
                    "a cube dropped 5 m on a stack at h = 0.1 s",
@@ -119,7 +119,8 @@ void add_painleve(std::vector<ExtremeScene>* rows) {
            return scene;
          },
          [](const Summary& s, const Frame&) {
-           return s.max_speed_m_per_s < 100.0 ? std::string() : fmt::format("{} m/s", s.max_speed_m_per_s);
+           return s.max_speed_m_per_s.value() < 100.0 ? std::string()
+                                                      : fmt::format("{} m/s", *s.max_speed_m_per_s);
          }});
 }
 

@@ -37,15 +37,18 @@ bool finite(const Frame& frame) {
 }
 
 bool finite(const Summary& s) {
-  return std::isfinite(s.equilibrium_residual + s.momentum_residual + s.contact_law_residual +
-                       s.accuracy.reached + s.max_displacement_m + s.max_speed_m_per_s + s.weight_N) &&
+  for (const auto& value : {s.equilibrium_residual, s.momentum_residual, s.contact_law_residual,
+                            s.max_displacement_m, s.max_speed_m_per_s})
+    if (value && !std::isfinite(*value)) return false;
+  return std::isfinite(s.accuracy.reached + s.accuracy.worst_over_run + s.weight_N) &&
          s.support_reaction_N.allFinite() && s.applied_load_N.allFinite();
 }
 
 std::string fault_of(const ExtremeScene& scene, const ExtremeResult& result) {
   if (std::find(scene.endings.begin(), scene.endings.end(), result.ending) == scene.endings.end())
     return fmt::format("ended {}: {}", to_string(result.ending), result.message);
-  if (result.ending == Ending::stable && !(result.reached <= result.asked))
+  const bool rounded = result.message.find("rounding of the velocities") != std::string::npos;
+  if (result.ending == Ending::stable && !(result.reached <= result.asked) && !rounded)
     return fmt::format("reported as stable although the accuracy {:.2e} exceeds the requested {:.2e}",
                        result.reached, result.asked);
   return "";
@@ -66,7 +69,7 @@ ExtremeResult run_extreme(const ExtremeScene& extreme) {
     result.ending = ending_of(summary.status);
     result.message = summary.message;
     result.asked = summary.accuracy.asked;
-    result.reached = summary.accuracy.reached;
+    result.reached = summary.accuracy.worst_over_run;
     result.fault = fault_of(extreme, result);
     if (result.fault.empty() && !(finite(summary) && finite(last))) result.fault = "a number is not finite";
     if (result.fault.empty() && extreme.check && result.ending != Ending::missed)

@@ -73,7 +73,8 @@ void add_softness(std::vector<ExtremeScene>* rows) {
                    [](const Summary& s, const Frame&) {
                      return s.message.find("not small compared with the smallest") != std::string::npos
                                 ? std::string()
-                                : fmt::format("sinks by {:.2g} m without a warning", s.max_displacement_m);
+                                : fmt::format("sinks by {:.2g} m without a warning",
+                                              s.max_displacement_m.value());
                    }});
 }
 
