@@ -13,7 +13,7 @@ namespace {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kMachineEps = std::numeric_limits<double>::epsilon();
 
 /// Bounds of the rounding errors in the terms of the gap.
 class RoundingBounds {
@@ -38,7 +38,7 @@ class RoundingBounds {
 /// Rounding of an impulse, and its distance from the cone.
 Vec3 RoundingBounds::uncertainty(const ContactLaw& law, const Vec3& gamma) {
   const double outside = std::max({0.0, gamma.tail<2>().norm() - law.mu * gamma[0], -gamma[0]});
-  return 4.0 * kEps * gamma.cwiseAbs() + Vec3::Constant(outside);
+  return 4.0 * kMachineEps * gamma.cwiseAbs() + Vec3::Constant(outside);
 }
 
 /// |L^-1| times a bound of each component of the error of r = M (v - v_star) - D gamma.
@@ -53,14 +53,14 @@ void RoundingBounds::add_momentum() {
     const Vec3 change = uncertainty(contact_law(p_, i), gamma);
     const auto add = [&](int k, const Mat63& D) {
       if (k == ContactProblem::kFixed) return;
-      error[k] += D.cwiseAbs() * (0.5 * kEps * terms[k] * gamma.cwiseAbs() + change);
+      error[k] += D.cwiseAbs() * (0.5 * kMachineEps * terms[k] * gamma.cwiseAbs() + change);
     };
     add(p_.block_a[i], p_.D_a[i]);
     add(p_.block_b[i], p_.D_b[i]);
   }
   for (int k = 0; k < p_.num_blocks(); ++k) {
     const Vec6 change = (x_.v - p_.v_star).segment<6>(6 * k);
-    error[k] += 0.5 * kEps * terms[k] * (p_.M[k].cwiseAbs() * change.cwiseAbs());
+    error[k] += 0.5 * kMachineEps * terms[k] * (p_.M[k].cwiseAbs() * change.cwiseAbs());
     const Mat6 L_inverse = p_.M[k].llt().matrixL().solve(Mat6::Identity());
     squared_ += (L_inverse.cwiseAbs() * error[k]).squaredNorm();
   }
@@ -79,7 +79,7 @@ void RoundingBounds::add_contacts() {
     const ContactLaw law = contact_law(p_, i);
     const Vec3 gamma = x_.gamma.segment<3>(3 * i);
     // An open contact whose gap exceeds the error stays open: its term of the gap is exactly zero.
-    const Vec3 error = 0.5 * kEps * kTerms * speed;
+    const Vec3 error = 0.5 * kMachineEps * kTerms * speed;
     const Vec3 y = relative_velocity(p_, i, x_.v) + p_.b.segment<3>(3 * i);
     const double opening = y[0] - law.mu * y.tail<2>().norm();
     if (gamma.isZero(0.0) && opening > error[0] + law.mu * error.tail<2>().norm()) continue;
