@@ -213,10 +213,9 @@ void summarize_static(const StaticSolution& solution, const Frame& frame, const 
   summary->friction_cone_violation = solution.residuals.cone_violation;
   summary->certified_force_error = solution.certificate.force_error;
   summary->forces_unique = solution.certificate.forces_unique;
-  if (solution.outcome != StaticOutcome::equilibrium) {
-    summary->certified_force_error = {{}, "no equilibrium was found"};
-    summary->forces_unique = {false, "no equilibrium was found"};
-  }
+  if (summary->certified_force_error.bounds.empty())
+    summary->certified_force_error.bounds = "no equilibrium was found";
+  if (summary->forces_unique.reason.empty()) summary->forces_unique = {false, "no equilibrium was found"};
   summary->largest_law_violation = largest_violation(frame);
   // A motion has no amplitude, and of an unconverged solve nothing is known.
   summary->max_displacement_m.reset();
