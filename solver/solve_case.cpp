@@ -62,17 +62,36 @@ std::string provenance(const Summary& summary) {
       summary.threads);
 }
 
+/// The residuals that the run has, with the state that they describe.
+std::string residuals_line(const Summary& summary) {
+  std::vector<std::string> parts;
+  const auto add = [&parts](const char* name, const std::optional<double>& value) {
+    if (value) parts.push_back(fmt::format("{} {:.2e}", name, *value));
+  };
+  add("momentum", summary.momentum_residual);
+  add("contact law", summary.contact_law_residual);
+  add("friction cone", summary.friction_cone_violation);
+  if (const auto& violation = summary.largest_law_violation)
+    parts.push_back(fmt::format("worst contact {:.2e} (blocks {} and {})", violation->value,
+                                violation->block_a, violation->block_b));
+  const bool run_of_steps = summary.steps > 1 && summary.analysis != AnalysisType::limit;
+  add(run_of_steps ? "equilibrium at the end" : "equilibrium", summary.equilibrium_residual);
+  if (parts.empty()) return "no residuals: no state was found that they could describe";
+  const char* state = summary.analysis == AnalysisType::limit ? " at the stable end of the bracket"
+                      : run_of_steps                          ? ", worst over the run"
+                                                              : "";
+  return fmt::format("residuals{}: {}", state, fmt::join(parts, ", "));
+}
+
 void print_summary(const Summary& summary) {
   fmt::print("{}: {}\n", to_string(summary.status), summary.message);
+  if (!summary.forces_unique.value) fmt::print("  {}\n", to_sentence(summary.forces_unique));
   fmt::print("  {} free blocks, {} joints, {} contacts, {} unknowns\n", summary.free_blocks, summary.joints,
              summary.contacts, summary.unknowns);
   fmt::print("  weight {:.6e} N, support reaction {:.6e} N along z\n", summary.weight_N,
              summary.support_reaction_N.z());
-  fmt::print(
-      "  equilibrium residual {:.2e}, contact law {:.2e}, friction cone {:.2e}, certified force error {}\n",
-      summary.equilibrium_residual, summary.contact_law_residual, summary.friction_cone_violation,
-      summary.certified_force_error.value ? fmt::format("{:.2e}", *summary.certified_force_error.value)
-                                          : std::string("not certified"));
+  fmt::print("  {}\n  {}\n  {}\n", to_sentence(summary.accuracy), residuals_line(summary),
+             to_sentence(summary.certified_force_error));
   fmt::print("  law: {}, tangential spring: {}; {} of {} contacts slip\n", to_string(summary.friction_law),
              to_string(summary.tangential), summary.slipping_contacts, summary.contacts);
   fmt::print("  solve {:.3f} s, total {:.3f} s, peak memory {:.0f} MB\n", summary.solve_time_seconds,

@@ -15,7 +15,7 @@
 namespace cupola {
 namespace {
 
-constexpr std::int32_t kFrameFormatVersion = 1;
+constexpr std::int32_t kFrameFormatVersion = 2;
 
 std::string in_folder(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
@@ -60,7 +60,7 @@ Mesh contacts_mesh(const Frame& frame, const std::string& assembly_hash) {
   CUPOLA_ASSERT(c.block_a.size() == n && c.block_b.size() == n && c.kind.size() == n && c.ring.size() == n &&
                 c.point.size() == n && c.normal.size() == n && c.gap.size() == n && c.force.size() == n &&
                 c.normal_force.size() == n && c.friction_use.size() == n && c.area.size() == n &&
-                c.slip.size() == n);
+                c.slip.size() == n && c.law_violation.size() == n);
   Mesh mesh = point_mesh(c.point, frame.time, assembly_hash);
   std::vector<std::uint8_t> kinds;
   for (const JointKind kind : c.kind) kinds.push_back(static_cast<std::uint8_t>(kind));
@@ -75,7 +75,8 @@ Mesh contacts_mesh(const Frame& frame, const std::string& assembly_hash) {
                      {"normal_force_N", 1, c.normal_force},
                      {"friction_use", 1, c.friction_use},
                      {"area_m2", 1, c.area},
-                     {"slip_m", 1, c.slip}};
+                     {"slip_m", 1, c.slip},
+                     {"law_violation", 1, c.law_violation}};
   return mesh;
 }
 
@@ -133,6 +134,7 @@ ContactTable read_contacts(const Mesh& mesh) {
   c.friction_use = doubles("friction_use");
   c.area = doubles("area_m2");
   c.slip = doubles("slip_m");
+  c.law_violation = doubles("law_violation");
   return c;
 }
 

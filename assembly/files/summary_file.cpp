@@ -21,6 +21,7 @@ template <class SummaryType, class Visit>
 void for_each_field(SummaryType& s, Visit visit) {
   visit("status", s.status);
   visit("message", s.message);
+  visit("forces_unique", s.forces_unique);
   visit("analysis", s.analysis);
   visit("method", s.method);
   visit("friction_law", s.friction_law);
@@ -43,8 +44,8 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("equilibrium_residual", s.equilibrium_residual);
   visit("inertia_share", s.inertia_share);
   visit("contact_law_residual", s.contact_law_residual);
+  visit("largest_law_violation", s.largest_law_violation);
   visit("certified_force_error", s.certified_force_error);
-  visit("forces_unique", s.forces_unique);
   visit("friction_cone_violation", s.friction_cone_violation);
   visit("max_penetration_m", s.max_penetration_m);
   visit("max_displacement_m", s.max_displacement_m);
@@ -80,6 +81,13 @@ Json to_value(const Accuracy& accuracy) {
 Json to_value(const ForceCertificate& certificate) {
   if (!certificate.value) return {{"not_certified", certificate.bounds}};
   return {{"value", *certificate.value}, {"bounds", certificate.bounds}};
+}
+Json to_value(const LawViolation& violation) {
+  return {{"value", violation.value},
+          {"joint", violation.joint},
+          {"block_a", violation.block_a},
+          {"block_b", violation.block_b},
+          {"time_s", violation.time}};
 }
 Json to_value(const ForcesUnique& unique) {
   return {{"value", unique.value}, {"reason", unique.reason}};
@@ -127,13 +135,26 @@ void from_value(const Json& json, T* value) {
   if (!fits) throw InputError("not a whole number in range");
   json.get_to(*value);
 }
+void from_value(const Json& json, LawViolation* violation) {
+  from_value(json.at("value"), &violation->value);
+  from_value(json.at("joint"), &violation->joint);
+  from_value(json.at("block_a"), &violation->block_a);
+  from_value(json.at("block_b"), &violation->block_b);
+  from_value(json.at("time_s"), &violation->time);
+}
 
 }  // namespace
 
 std::string to_json(const Summary& summary) {
   Json json;
   json["format_version"] = kSummaryFormatVersion;
-  for_each_field(summary, [&json](const char* key, const auto& value) { json[key] = to_value(value); });
+  for_each_field(summary, [&json](const char* key, const auto& value) {
+    if constexpr (requires { value.has_value(); }) {
+      if (value) json[key] = to_value(*value);  // absent without a value
+    } else {
+      json[key] = to_value(value);
+    }
+  });
   if (const auto& critical = summary.critical) {
     json["critical_parameter"] = critical->parameter;
     json["critical_value"] = critical->value;
@@ -165,9 +186,18 @@ Summary summary_from_json(const std::string& text, const std::string& file) {
                     version.dump(), kSummaryFormatVersion));
   Summary summary;
   for_each_field(summary, [&](const char* key, auto& value) {
-    if (!json.contains(key)) throw InputError(FileLocation{file}, fmt::format("key `{}` is missing", key));
+    constexpr bool is_optional = requires {
+      value.has_value();
+    };
+    if (!json.contains(key)) {
+      if (is_optional) return;
+      throw InputError(FileLocation{file}, fmt::format("key `{}` is missing", key));
+    }
     try {
-      from_value(json[key], &value);
+      if constexpr (is_optional)
+        from_value(json[key], &value.emplace());
+      else
+        from_value(json[key], &value);
     } catch (const std::exception&) {
       throw InputError(FileLocation{file},
                        fmt::format("{} = {}: has the wrong type or an unknown value", key, json[key].dump()));

@@ -1,30 +1,46 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
 namespace cupola {
 
-/// The accuracy that decides whether a run has converged: the error measure of one quantity in one norm.
+/// The accuracy that decides whether a run has converged: the error of one quantity in one norm. Errors that
+/// were not measured are NaN.
 struct Accuracy {
-  std::string quantity;  ///< what is in error, e.g. `force balance of the blocks`
-  std::string norm;      ///< how its error is measured, e.g. `largest over the blocks, relative to ...`
-  double asked = 0.0;    ///< largest error accepted
-  double reached = 0.0;  ///< error of the state that the results show
-  double worst_over_run = 0.0;                          ///< largest error of all steps or stages of the run
-  bool met() const { return worst_over_run <= asked; }  ///< false for NaN
+  std::string quantity;  ///< what is in error, as a noun phrase: "force balance of the blocks"
+  std::string norm;      ///< how: "largest unbalanced force of a block, relative to ..."
+  double asked = 0.0;    ///< error requested
+  double reached = std::numeric_limits<double>::quiet_NaN();         ///< of the state that the results show
+  double worst_over_run = std::numeric_limits<double>::quiet_NaN();  ///< largest of all steps or stages
 };
 
 /// Upper bound of the error of the forces that requires no reference solution.
 struct ForceCertificate {
   std::optional<double> value;
-  std::string bounds;  ///< what `value` bounds and in which norm; without a value, why nothing is certified
+  /// What `value` bounds and in which norm, as a noun phrase: "the distance of ... from ..., in the norm of
+  /// ...". Without a value: why nothing is certified, as a clause.
+  std::string bounds;
 };
 
 /// Whether the model determines its forces uniquely.
 struct ForcesUnique {
   bool value = true;
-  std::string reason;
+  std::string reason;  ///< a clause
 };
+
+/// Where the contact law is violated most.
+struct LawViolation {
+  double value = 0.0;  ///< error of a contact's force, relative to the force of its joint
+  int joint = -1;      ///< in the frame at this time; -1 without contacts
+  int block_a = -1, block_b = -1;
+  double time = 0.0;  ///< s
+};
+
+/// Sentences for the user, generated from the values.
+std::string to_sentence(const Accuracy& accuracy);
+std::string to_sentence(const ForceCertificate& certificate);
+std::string to_sentence(const ForcesUnique& unique);
 
 }  // namespace cupola

@@ -43,12 +43,15 @@ struct ContactTable {
   std::vector<double> friction_use;  ///< |tangential force| / (mu normal force); 0 without force
   std::vector<double> area;          ///< m2, tributary area of the point
   std::vector<double> slip;          ///< m, accumulated sliding
+  /// Error of the force in the contact law, over the force of the joint; NaN where both blocks sleep.
+  std::vector<double> law_violation;
 
   int size() const { return static_cast<int>(joint.size()); }
   void reserve(std::size_t contacts) {
     for (std::vector<int>* v : {&joint, &block_a, &block_b, &ring}) v->reserve(contacts);
     for (std::vector<Vec3>* v : {&point, &normal, &force}) v->reserve(contacts);
-    for (std::vector<double>* v : {&gap, &normal_force, &friction_use, &area, &slip}) v->reserve(contacts);
+    for (std::vector<double>* v : {&gap, &normal_force, &friction_use, &area, &slip, &law_violation})
+      v->reserve(contacts);
     kind.reserve(contacts);
   }
 };
@@ -111,16 +114,17 @@ struct Summary {
   Vec3 support_reaction_N = Vec3::Zero();  ///< force of the fixed blocks on the free ones
   double time_step_s = 0.0;
   Accuracy accuracy;  ///< decides whether the status is `unconverged`
-  double momentum_residual = 0.0;
-  double equilibrium_residual = 0.0;
-  double inertia_share = 0.0;  ///< static: 1 - reaction / load along gravity
-  double contact_law_residual = 0.0;
+  /// Of a dynamic or staged run: the worst over its steps. Absent if no state was found that they describe.
+  std::optional<double> momentum_residual, contact_law_residual, friction_cone_violation;
+  std::optional<LawViolation> largest_law_violation;
+  std::optional<double>
+      equilibrium_residual;             ///< of the last frame, or of the stable end of a limit analysis
+  std::optional<double> inertia_share;  ///< 1 - reaction / load along gravity
   ForceCertificate certified_force_error;
   ForcesUnique forces_unique;
-  double friction_cone_violation = 0.0;
   double max_penetration_m = 0.0;
-  double max_displacement_m = 0.0;
-  double max_speed_m_per_s = 0.0;
+  std::optional<double> max_displacement_m;  ///< absent without an equilibrium and in limit analyses
+  std::optional<double> max_speed_m_per_s;   ///< dynamic runs only
   int slipping_contacts = 0;
   int steps = 0, iterations = 0;
   double solve_time_seconds = 0.0;  ///< contact solves only, without input and output

@@ -134,7 +134,7 @@ const std::vector<Measure>& measures() {
        "smallest", Best::lowest, [](const S& s) { return O(s.largest_couple_length_m); }, of_arm},
       {"displacement_mm", "mm", 1000.0, "The largest displacement of a block is",
        "How far the block that moves most has moved under the load.", "smallest", Best::lowest,
-       [](const S& s) { return O(s.max_displacement_m); }},
+       [](const S& s) { return s.max_displacement_m; }},
   };
   return kMeasures;
 }
@@ -152,8 +152,8 @@ std::vector<std::string> findings(const std::vector<PostSummary>& runs) {
   for (size_t i = 0; i < runs.size(); ++i)
     if (runs[i].status != "stable")
       sentences.push_back(
-          fmt::format("{} ended with the status `{}`: its forces are not in equilibrium (residual {:.1e}).",
-                      labels[i], runs[i].status, runs[i].equilibrium_residual));
+          fmt::format("{} ended with the status `{}`, with an equilibrium residual of {:.1e}.", labels[i],
+                      runs[i].status, runs[i].equilibrium_residual));
   if (std::string warning = points_warning(runs, labels); !warning.empty())
     sentences.push_back(std::move(warning));
   for (const Measure& measure : measures()) {

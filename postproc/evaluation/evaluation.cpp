@@ -71,7 +71,9 @@ Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
 }
 
 void add_status_warnings(const Summary& summary, std::vector<std::string>* warnings) {
-  if (summary.status == Status::unconverged)
+  if (summary.status == Status::unconverged && summary.analysis == AnalysisType::limit)
+    warnings->push_back("the critical value was not bracketed to the requested width. " + summary.message);
+  else if (summary.status == Status::unconverged)
     warnings->push_back("the solver did not reach the requested accuracy: do not use the forces below. " +
                         summary.message);
   if (summary.status == Status::moving)

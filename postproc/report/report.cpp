@@ -26,8 +26,10 @@ std::string verdict_section(const Evaluation& e) {
   for (const std::string& warning : notices(e))
     out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
   const bool good = e.summary.status == Status::stable;
-  return out + fmt::format("<p class=\"verdict{}\"><strong>{}</strong> {}</p>\n", good ? "" : " bad",
-                           markup_text(verdict_text(e.summary)), markup_text(e.summary.message + "."));
+  out += fmt::format("<p class=\"verdict{}\"><strong>{}</strong> {}</p>\n", good ? "" : " bad",
+                     markup_text(verdict_text(e.summary)), markup_text(e.summary.message + "."));
+  if (!e.summary.forces_unique.value) out += paragraph(to_sentence(e.summary.forces_unique));
+  return out;
 }
 
 std::string thrust_text(const ThrustLine& line) {
@@ -82,7 +84,8 @@ std::string findings_section(const Evaluation& e) {
       fmt::format("The mean eccentricity of the bed forces is {:.2f} of the distance to the edge of the "
                   "kern. Where it exceeds 1, part of the joint is unloaded.",
                   s.mean_kern_use));
-  item(fmt::format("The largest displacement of a block is {:.4g} mm.", 1e3 * s.max_displacement_m));
+  if (s.max_displacement_m)
+    item(fmt::format("The largest displacement of a block is {:.4g} mm.", 1e3 * *s.max_displacement_m));
   return out + "</ul>\n";
 }
 
@@ -196,19 +199,23 @@ std::string verdict_text(const Summary& s) {
 }
 
 std::string quality_text(const Summary& s) {
-  std::string out = fmt::format(
-      "The largest unbalanced force on a free block is {:.1e} of the mean block weight (accuracy requested "
-      "{:.1e}, reached {:.1e}). The contact law holds to within {:.1e} of the forces, the friction cone to "
-      "within {:.1e}. ",
-      s.equilibrium_residual, s.accuracy.asked, s.accuracy.reached, s.contact_law_residual,
-      s.friction_cone_violation);
-  if (s.certified_force_error.value)
+  std::string out = to_sentence(s.accuracy) + " ";
+  if (s.analysis == AnalysisType::limit && s.critical)
+    out += fmt::format("The residuals below are those of the equilibrium at {:.5g}. ", s.critical->stable);
+  if (s.equilibrium_residual)
+    out += fmt::format("The largest unbalanced force on a free block is {:.1e} of the mean block weight. ",
+                       *s.equilibrium_residual);
+  if (s.contact_law_residual)
+    out += fmt::format("The contact law holds to within {:.1e} of the forces{}. ", *s.contact_law_residual,
+                       s.steps > 1 && s.analysis != AnalysisType::limit ? " in every step" : "");
+  if (const auto& worst = s.largest_law_violation)
     out += fmt::format(
-        "The relative error of the forces, measured against the exact solution of this model, is certified "
-        "to be at most {:.1e}. ",
-        *s.certified_force_error.value);
-  else
-    out += "No bound on the error of the forces could be certified. ";
+        "At the worst contact, between the blocks {} and {}, the law holds to within {:.1e} of the force of "
+        "its joint. ",
+        worst->block_a, worst->block_b, worst->value);
+  if (s.friction_cone_violation)
+    out += fmt::format("The friction cone holds to within {:.1e}. ", *s.friction_cone_violation);
+  out += to_sentence(s.certified_force_error) + " ";
   if (s.friction_law == FrictionLaw::associated)
     out += fmt::format(
         "The associated friction law was used: sliding joints also open, by the friction coefficient times "

@@ -103,7 +103,7 @@ PostSummary post_summary(const Evaluation& e) {
   for (const Block& block : e.assembly.blocks) volume += block.fixed ? 0.0 : block.volume;
   if (s.blocks > 0) s.block_size_m = std::cbrt(volume / s.blocks);
   s.friction = e.scene.joints.friction;
-  s.equilibrium_residual = e.summary.equilibrium_residual;
+  s.equilibrium_residual = e.summary.equilibrium_residual.value_or(std::numeric_limits<double>::infinity());
   if (e.summary.critical) s.critical_value = e.summary.critical->value;
   s.max_displacement_m = e.summary.max_displacement_m;
   if (e.rib_over_mid_sail) {

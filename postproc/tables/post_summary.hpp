@@ -28,8 +28,8 @@ struct PostSummary {
   double largest_friction_use = 0.0;
   double mean_kern_use = 0.0;  ///< mean over the bed joints, weighted by normal force
   double thrust_over_weight = 0.0;
-  double max_displacement_m = 0.0;
-  double equilibrium_residual = 0.0;
+  std::optional<double> max_displacement_m;
+  double equilibrium_residual = 0.0;     ///< infinite if the run has none
   std::optional<double> critical_value;  ///< of a limit analysis
   struct Line {
     std::string name;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -19,15 +20,52 @@ namespace cupola {
 struct RunProgress {
   int steps = 0;
   int iterations = 0;
-  int unconverged_steps = 0;
-  double worst_momentum = 0.0;
+  int missed_steps = 0;      // steps whose solve missed the tolerance
+  int rounded_steps = 0;     // steps accepted above the tolerance because of rounding
+  double worst_error = 0.0;  // of the solves in their measure; of the missed steps if there are any
+  ErrorMeasure measure = ErrorMeasure::momentum;  // of the worst error
+  WorstOfRun worst;
   double friction_work = 0.0;  // J
   double calm_since = 0.0;     // s, time since which no block has been faster than the settled speed
 };
 
 template <class Archive>
+void visit(Archive& archive, ForceCertificate& x) {
+  double value = x.value.value_or(std::numeric_limits<double>::quiet_NaN());
+  archive(value, x.bounds);
+  if (std::isnan(value))
+    x.value.reset();
+  else
+    x.value = value;
+}
+
+template <class Archive>
+void visit(Archive& archive, LawViolation& x) {
+  archive(x.value, x.joint, x.block_a, x.block_b, x.time);
+}
+
+template <class Archive, class T>
+void visit(Archive& archive, std::optional<T>& x) {
+  bool set = x.has_value();
+  T value = x.value_or(T{});
+  archive(set, value);
+  if (set)
+    x = value;
+  else
+    x.reset();
+}
+
+template <class Archive>
+void visit(Archive& archive, WorstOfRun& x) {
+  Residuals& r = x.residuals;
+  archive(r.momentum, r.contact_law, r.rigid_contact_speed, r.contact_law_rounding, r.cone_violation);
+  archive(x.certificate, x.unique.value, x.unique.reason, x.violation);
+}
+
+template <class Archive>
 void visit(Archive& archive, RunProgress& x) {
-  archive(x.steps, x.iterations, x.unconverged_steps, x.worst_momentum, x.friction_work, x.calm_since);
+  archive(x.steps, x.iterations, x.missed_steps, x.rounded_steps, x.worst_error, x.measure, x.worst,
+          x.friction_work, x.calm_since);
 }
 
 namespace {
@@ -51,6 +89,7 @@ class DynamicRun {
 
  private:
   void step();
+  void include_accuracy(double time);
   Stop stop_reason() const;
   bool frame_is_due(Stop stop) const;
   void write_frame();
@@ -79,8 +118,7 @@ bool DynamicRun::start_static(Summary* summary) {
   const Frame frame =
       static_frame(model, start.rest, start.contacts, start.memories, start.solution, start.options);
   sinks_.frame(frame);
-  summarize_frame(frame, model, summary);
-  summarize_static(start.solution, start.options.tolerance, summary);
+  summarize_static(start.solution, frame, model, start.options.tolerance, summary);
   summary->message = "static start failed (analysis.start: static): " + summary->message;
   return false;
 }
@@ -107,13 +145,42 @@ void DynamicRun::step() {
   ++progress_.steps;
   progress_.iterations += report_.solve.iterations;
   progress_.friction_work += report_.friction_work;
-  progress_.worst_momentum = std::max(progress_.worst_momentum, report_.residuals.momentum);
-  if (report_.solve.ending != SolveEnding::converged) ++progress_.unconverged_steps;
   const double time = simulation_.state().time;
+  include_accuracy(time);
   if (now_.speed > analysis_.stop.settled_speed) progress_.calm_since = time;
   sinks_.history(history_row(time, report_, now_, progress_.friction_work));
   sinks_.log(log_line(progress_.steps, time, report_, now_));
   sinks_.progress(std::min(1.0, time / analysis_.duration));
+}
+
+/// Adds the accuracy of the last step to that of the run.
+void DynamicRun::include_accuracy(double time) {
+  const SolveSummary& solve = report_.solve;
+  const bool missed = solve.ending != SolveEnding::converged,
+             first_missed = missed && progress_.missed_steps == 0;
+  if (first_missed || (missed == (progress_.missed_steps > 0) && !(solve.reached <= progress_.worst_error))) {
+    progress_.worst_error = solve.reached;
+    progress_.measure = solve.measure;
+  }
+  progress_.missed_steps += missed ? 1 : 0;
+  progress_.rounded_steps += !missed && solve.reached > analysis_.tolerance ? 1 : 0;
+
+  const ContactSet& contacts = simulation_.contacts();
+  std::optional<LawViolation> violation = progress_.worst.violation;
+  std::optional<std::size_t> worst;
+  for (std::size_t i = 0; i < report_.violations.size(); ++i) {
+    const double value = report_.violations[i];
+    if (std::isnan(value) || (violation && value <= violation->value)) continue;
+    violation = LawViolation{value, -1, contacts.points[i].block_a, contacts.points[i].block_b, time};
+    worst = i;
+  }
+  if (worst) violation->joint = number_joints(contacts).of_contact[*worst];
+
+  const ContactProblem& problem = report_.problem.problem;
+  std::optional<ForceCertificate> certificate;
+  if (!report_.step_solution.gamma.isZero(0.0)) certificate = report_.residuals.certificate;
+  progress_.worst.include(report_.residuals, certificate, forces_unique(problem, analysis_.friction_law),
+                          violation);
 }
 
 Stop DynamicRun::stop_reason() const {
@@ -141,7 +208,8 @@ bool DynamicRun::frame_is_due(Stop stop) const {
 
 void DynamicRun::write_frame() {
   sinks_.frame(make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(),
-                          report_.forces.contacts, simulation_.memories(), simulation_.displacements()));
+                          report_.forces.contacts, report_.violations, simulation_.memories(),
+                          simulation_.displacements()));
 }
 
 std::optional<Summary> DynamicRun::run() {
@@ -172,18 +240,33 @@ std::string stop_note(Stop stop, const Analysis& analysis) {
   return "";
 }
 
-void judge(const Analysis& analysis, const RunProgress& progress, Summary* summary) {
-  summary->accuracy = {"momentum balance of the blocks",
-                       "largest unbalanced impulse of a block, relative to the mean block weight times h",
-                       analysis.tolerance, summary->momentum_residual, progress.worst_momentum};
-  const double speed = summary->max_speed_m_per_s;
-  const double displacement = summary->max_displacement_m;
-  if (progress.unconverged_steps > 0) {
+/// Why the run is unconverged: the measure that was missed, and where the contact law is violated most.
+std::string missed_text(const Analysis& analysis, const RunProgress& progress, const SolveSummary& last) {
+  if (!last.usable()) return fmt::format("step {} failed: {}", progress.steps, last.message);
+  std::string text = fmt::format(
+      "{} of {} steps missed the tolerance {:.1e} of the {}; the worst reached {:.2e}", progress.missed_steps,
+      progress.steps, analysis.tolerance, to_string(progress.measure), progress.worst_error);
+  if (const auto& violation = progress.worst.violation; violation && violation->value > analysis.tolerance)
+    text += fmt::format(
+        "; at {:.4g} s a force between blocks {} and {} violates the contact law by {:.2g} times the force "
+        "of "
+        "its joint (or 1 % of the mean joint force, if larger)",
+        violation->time, violation->block_a, violation->block_b, violation->value);
+  text += ". Try a shorter `analysis.time_step` or a larger `analysis.tolerance`";
+  return analysis.max_iterations > 0 ? text + ", or raise `analysis.max_iterations`" : text;
+}
+
+void judge(const Analysis& analysis, const RunProgress& progress, const SolveSummary& last,
+           Summary* summary) {
+  summary->accuracy = accuracy_in(progress.measure);
+  summary->accuracy.asked = analysis.tolerance;
+  summary->accuracy.reached = last.reached;
+  summary->accuracy.worst_over_run = progress.worst_error;
+  const double speed = *summary->max_speed_m_per_s;
+  const double displacement = *summary->max_displacement_m;
+  if (progress.missed_steps > 0) {
     summary->status = Status::unconverged;
-    summary->message = fmt::format(
-        "{} of {} steps did not reach the momentum residual {:.1e}; the worst reached {:.2e}. "
-        "Try a shorter `analysis.time_step` or a larger `analysis.tolerance`",
-        progress.unconverged_steps, progress.steps, analysis.tolerance, progress.worst_momentum);
+    summary->message = missed_text(analysis, progress, last);
   } else if (displacement > analysis.thresholds.displacement) {
     summary->status = Status::collapsed;
     summary->message = fmt::format("largest displacement {:.3g} m > threshold {:.3g} m", displacement,
@@ -198,12 +281,17 @@ void judge(const Analysis& analysis, const RunProgress& progress, Summary* summa
         "largest speed {:.3g} m/s <= threshold {:.3g} m/s, displacement {:.3g} m <= threshold {:.3g} m",
         speed, analysis.thresholds.speed, displacement, analysis.thresholds.displacement);
   }
+  if (progress.rounded_steps > 0)
+    summary->message += fmt::format(
+        "; in {} steps rounding of the velocities kept the contact-law residual above the tolerance {:.1e}",
+        progress.rounded_steps, analysis.tolerance);
 }
 
 Summary DynamicRun::summarize(Stop stop, double seconds) const {
   Summary summary;
-  const Frame last = make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(),
-                                report_.forces.contacts, simulation_.memories(), simulation_.displacements());
+  const Frame last =
+      make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(), report_.forces.contacts,
+                 report_.violations, simulation_.memories(), simulation_.displacements());
   summarize_frame(last, simulation_.model(), &summary);
   summary.steps = progress_.steps;
   summary.iterations = progress_.iterations;
@@ -213,11 +301,10 @@ Summary DynamicRun::summarize(Stop stop, double seconds) const {
   summary.support_reaction_N = report_.balance.support_reaction;
   summary.equilibrium_residual = report_.balance.residual;
   summary.inertia_share = report_.balance.inertia_share;
-  summary.momentum_residual = report_.residuals.momentum;
-  summary.contact_law_residual = report_.residuals.contact_law;
-  summary.friction_cone_violation = report_.residuals.cone_violation;
-  summary.certified_force_error = report_.residuals.certificate;
-  judge(analysis_, progress_, &summary);
+  summary.max_displacement_m = largest_displacement(last);
+  summary.max_speed_m_per_s = largest_speed(last);
+  progress_.worst.summarize(&summary);
+  judge(analysis_, progress_, report_.solve, &summary);
   summary.message += stop_note(stop, analysis_);
   return summary;
 }

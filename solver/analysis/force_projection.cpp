@@ -6,6 +6,7 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/contact/problem/cone.hpp"
+#include "solver/contact/problem/duality_gap.hpp"
 #include "solver/contact/problem/residuals.hpp"
 
 namespace cupola {

@@ -36,6 +36,7 @@ struct LimitRun {
   const AnalysisSinks& sinks;
   StaticOptions options;
   std::optional<Probe> stable, moving;
+  std::string undecided = {};  ///< why the last trial that did not converge failed
   int iterations = 0;
   int num_trials = 0;
   bool interrupted = false;
@@ -74,6 +75,8 @@ bool LimitRun::keep(double value, Probe probe) {
     stable = std::move(probe);
   else if (solution.outcome == StaticOutcome::moving)
     moving = std::move(probe);
+  else
+    undecided = fmt::format("at {:.6g}: {}", value, solution.message);
   interrupted = sinks.interrupted();
   return !interrupted;
 }
@@ -107,11 +110,15 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
     const Probe& probe = *run.stable;
     const Frame frame =
         static_frame(probe.model, probe.start, probe.contacts, probe.memories, probe.solution, run.options);
-    summarize_frame(frame, probe.model, summary);
-    summarize_static(probe.solution, run.options.tolerance, summary);
+    summarize_static(probe.solution, frame, probe.model, run.options.tolerance, summary);
+    summary->max_displacement_m.reset();  // it depends on how close the bracket is to the critical value
     Frame first = frame;
     first.time = 0.0;
     run.sinks.frame(first);
+  }
+  if (!run.stable) {
+    summary->certified_force_error.bounds = "no equilibrium was found";
+    summary->forces_unique = {false, "no equilibrium was found"};
   }
   if (!run.moving) return "";
   const Probe& probe = *run.moving;
@@ -120,6 +127,7 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
   moving.v = mechanism.v;
   moving.time = 1.0;
   run.sinks.frame(make_frame(probe.model, moving, probe.contacts, probe.solution.forces.contacts,
+                             static_violations(probe.contacts, probe.solution, run.options.solve.law),
                              probe.memories, std::vector<Vec3>(moving.poses.size(), Vec3::Zero())));
   run.sinks.table("mechanism_blocks.csv", mechanism_blocks_csv(probe.model, mechanism));
   run.sinks.table("mechanism_joints.csv", mechanism_joints_csv(mechanism));
@@ -143,14 +151,19 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   summary.status = bracket.narrow ? Status::stable : Status::unconverged;
   summary.message = fmt::format("{}: {}{}{}", to_string(parameter), bracket.message,
                                 mechanism.empty() ? "" : "; ", mechanism);
+  if (!bracket.narrow && !run.undecided.empty()) summary.message += "; " + run.undecided;
   summary.steps = run.num_trials;
   summary.iterations = run.iterations;
+  summary.accuracy = {"critical value", "width of its bracket, relative to the middle",
+                      scene.analysis.limit.relative_width};
   if (bracket.found) {
     summary.critical =
         CriticalValue{to_string(parameter), bracket.middle(), bracket.stable.value, bracket.moving.value};
     const double width = std::abs(bracket.stable.value - bracket.moving.value) / std::abs(bracket.middle());
-    summary.accuracy = {"critical value", "width of its bracket, relative to the middle",
-                        scene.analysis.limit.relative_width, width, width};
+    summary.accuracy.reached = summary.accuracy.worst_over_run = width;
+    if (!bracket.narrow)
+      summary.message += fmt::format("; bracket width {:.1e} of the middle > {:.1e} requested", width,
+                                     scene.analysis.limit.relative_width);
   }
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;

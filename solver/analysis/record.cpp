@@ -1,10 +1,12 @@
 #include "solver/analysis/record.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
 #include "assembly/base/error.hpp"
+#include "solver/dynamics/law_violation.hpp"
 
 namespace cupola {
 namespace {
@@ -49,10 +51,52 @@ JointNumbers number_joints(const ContactSet& contacts) {
   return numbers;
 }
 
+std::optional<LawViolation> largest_violation(const Frame& frame) {
+  const ContactTable& contacts = frame.contacts;
+  std::optional<LawViolation> worst;
+  for (int i = 0; i < contacts.size(); ++i) {
+    const double value = contacts.law_violation[i];
+    if (std::isnan(value) || (worst && value <= worst->value)) continue;
+    worst = LawViolation{value, contacts.joint[i], contacts.block_a[i], contacts.block_b[i], frame.time};
+  }
+  return worst;
+}
+
+void WorstOfRun::include(const Residuals& of_step, const std::optional<ForceCertificate>& certificate_of_step,
+                         const ForcesUnique& unique_in_step,
+                         const std::optional<LawViolation>& violation_of_step) {
+  const auto raise = [](double value, double* largest) {
+    if (!(value <= *largest)) *largest = value;  // NaN included
+  };
+  raise(of_step.momentum, &residuals.momentum);
+  raise(of_step.contact_law, &residuals.contact_law);
+  raise(of_step.rigid_contact_speed, &residuals.rigid_contact_speed);
+  raise(of_step.contact_law_rounding, &residuals.contact_law_rounding);
+  raise(of_step.cone_violation, &residuals.cone_violation);
+  const auto is_worse = [](const ForceCertificate& a, const ForceCertificate& b) {
+    return b.value && (!a.value || *a.value > *b.value);
+  };
+  if (certificate_of_step && (!certificate || is_worse(*certificate_of_step, *certificate)))
+    certificate = certificate_of_step;
+  if (!unique_in_step.value || unique.reason.empty()) unique = unique_in_step;
+  if (violation_of_step && (!violation || violation_of_step->value > violation->value))
+    violation = violation_of_step;
+}
+
+void WorstOfRun::summarize(Summary* summary) const {
+  summary->momentum_residual = residuals.momentum;
+  summary->contact_law_residual = residuals.contact_law;
+  summary->friction_cone_violation = residuals.cone_violation;
+  summary->certified_force_error = certificate.value_or(ForceCertificate{{}, "no contact is loaded"});
+  summary->forces_unique = unique;
+  summary->largest_law_violation = violation;
+}
+
 Frame make_frame(const Model& model, const State& state, const ContactSet& contacts,
-                 const std::vector<Vec3>& contact_forces, const ContactMemories& memories,
-                 const std::vector<Vec3>& displacement) {
+                 const std::vector<Vec3>& contact_forces, const std::vector<double>& violations,
+                 const ContactMemories& memories, const std::vector<Vec3>& displacement) {
   CUPOLA_ASSERT(contact_forces.size() == contacts.points.size());
+  CUPOLA_ASSERT(violations.size() == contacts.points.size());
   CUPOLA_ASSERT(memories.values.size() == contacts.points.size());
   CUPOLA_ASSERT(displacement.size() == state.poses.size());
   Frame frame;
@@ -60,6 +104,7 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
   ContactTable& table = frame.contacts;
   table.joint = number_joints(contacts).of_contact;
   table.reserve(contacts.points.size());
+  table.law_violation = violations;
   for (size_t i = 0; i < contacts.points.size(); ++i) {
     const Contact& contact = contacts.points[i];
     const Patch& patch = contacts.patches[contact.patch];
@@ -112,13 +157,25 @@ void summarize_frame(const Frame& frame, const Model& model, Summary* summary) {
     if (contacts.friction_use[i] >= kSlipping && contacts.normal_force[i] > kLoaded * largest_force)
       ++summary->slipping_contacts;
   }
-  summary->max_displacement_m = 0.0;
-  summary->max_speed_m_per_s = 0.0;
-  for (const Vec3& d : frame.blocks.displacement)
-    summary->max_displacement_m = std::max(summary->max_displacement_m, d.norm());
-  for (const Vec3& v : frame.blocks.velocity)
-    summary->max_speed_m_per_s = std::max(summary->max_speed_m_per_s, v.norm());
   summary->weight_N = model.free_weight;
+}
+
+double largest_displacement(const Frame& frame) {
+  double largest = 0.0;
+  for (const Vec3& d : frame.blocks.displacement) largest = std::max(largest, d.norm());
+  return largest;
+}
+
+double largest_speed(const Frame& frame) {
+  double largest = 0.0;
+  for (const Vec3& v : frame.blocks.velocity) largest = std::max(largest, v.norm());
+  return largest;
+}
+
+std::vector<double> static_violations(const ContactSet& contacts, const StaticSolution& solution,
+                                      FrictionLaw law) {
+  return law_violations(contacts, solution.step_solution.gamma,
+                        contact_law_errors(solution.step.problem, solution.step_solution, law));
 }
 
 Frame static_frame(const Model& model, const State& start, const ContactSet& contacts,
@@ -129,7 +186,8 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   for (size_t block = 0; block < displacement.size(); ++block)
     displacement[block] = loaded.state.poses[block].p_WB - model.assembly->blocks[block].centroid;
   Frame frame =
-      make_frame(model, loaded.state, contacts, solution.forces.contacts, loaded.memories, displacement);
+      make_frame(model, loaded.state, contacts, solution.forces.contacts,
+                 static_violations(contacts, solution, options.solve.law), loaded.memories, displacement);
   const VecX u =
       relative_velocity(solution.step.problem, solution.step_solution.v) + solution.step.support_velocity;
   for (size_t i = 0; i < frame.contacts.gap.size(); ++i)
@@ -137,7 +195,9 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   return frame;
 }
 
-void summarize_static(const StaticSolution& solution, double tolerance, Summary* summary) {
+void summarize_static(const StaticSolution& solution, const Frame& frame, const Model& model,
+                      double tolerance, Summary* summary) {
+  summarize_frame(frame, model, summary);
   summary->status = status_of(solution.outcome);
   summary->message = solution.message;
   summary->accuracy = force_balance_accuracy(solution, tolerance);
@@ -153,6 +213,14 @@ void summarize_static(const StaticSolution& solution, double tolerance, Summary*
   summary->friction_cone_violation = solution.residuals.cone_violation;
   summary->certified_force_error = solution.certificate.force_error;
   summary->forces_unique = solution.certificate.forces_unique;
+  if (summary->certified_force_error.bounds.empty())
+    summary->certified_force_error.bounds = "no equilibrium was found";
+  if (summary->forces_unique.reason.empty()) summary->forces_unique = {false, "no equilibrium was found"};
+  summary->largest_law_violation = largest_violation(frame);
+  // A motion has no amplitude, and of an unconverged solve nothing is known.
+  summary->max_displacement_m.reset();
+  if (solution.outcome == StaticOutcome::equilibrium)
+    summary->max_displacement_m = largest_displacement(frame);
 }
 
 }  // namespace cupola

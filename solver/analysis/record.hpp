@@ -16,21 +16,49 @@ struct JointNumbers {
 };
 JointNumbers number_joints(const ContactSet& contacts);
 
-/// A frame for the results folder from the state at the end of a step and the contact forces of that step
-/// (N, nc). `displacement`: that of each block's centroid, m (num_blocks).
-Frame make_frame(const Model& model, const State& state, const ContactSet& contacts,
-                 const std::vector<Vec3>& contact_forces, const ContactMemories& memories,
-                 const std::vector<Vec3>& displacement);
+/// The contact of a frame with the largest violation of its law. None without contacts.
+std::optional<LawViolation> largest_violation(const Frame& frame);
 
-/// Sets the fields of the summary that follow from the contacts and blocks of a frame.
+/// The worst accuracy of the steps or stages of a run.
+struct WorstOfRun {
+  Residuals residuals;  ///< each the largest
+  std::optional<ForceCertificate> certificate;
+  ForcesUnique unique;
+  std::optional<LawViolation> violation;
+
+  /// `certificate`: none if no contact is loaded.
+  void include(const Residuals& of_step, const std::optional<ForceCertificate>& certificate_of_step,
+               const ForcesUnique& unique_in_step, const std::optional<LawViolation>& violation_of_step);
+  /// Sets the fields of the summary.
+  void summarize(Summary* summary) const;
+};
+
+/// A frame for the results folder from the state at the end of a step, the contact forces of that step (N,
+/// nc) and their violation of the contact law (nc). `displacement`: that of each block's centroid, m
+/// (num_blocks).
+Frame make_frame(const Model& model, const State& state, const ContactSet& contacts,
+                 const std::vector<Vec3>& contact_forces, const std::vector<double>& violations,
+                 const ContactMemories& memories, const std::vector<Vec3>& displacement);
+
+/// Sets the fields of the summary that follow from the contacts and blocks of a frame, except displacement and
+/// speed, whose meaning depends on the analysis.
 void summarize_frame(const Frame& frame, const Model& model, Summary* summary);
+
+/// Largest displacement (m) and speed (m/s) of a block.
+double largest_displacement(const Frame& frame);
+double largest_speed(const Frame& frame);
+
+/// law_violations() of a static solve.
+std::vector<double> static_violations(const ContactSet& contacts, const StaticSolution& solution,
+                                      FrictionLaw law);
 
 /// The frame at the end of a static step: displacements h v, gaps after the displacement, velocities zero.
 Frame static_frame(const Model& model, const State& start, const ContactSet& contacts,
                    const ContactMemories& memories, const StaticSolution& solution,
                    const StaticOptions& options);
 
-/// Sets the fields of the summary that follow from a static solve.
-void summarize_static(const StaticSolution& solution, double tolerance, Summary* summary);
+/// Sets the fields of the summary that follow from a static solve and its frame.
+void summarize_static(const StaticSolution& solution, const Frame& frame, const Model& model,
+                      double tolerance, Summary* summary);
 
 }  // namespace cupola

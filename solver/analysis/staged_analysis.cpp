@@ -23,6 +23,7 @@ struct StageResult {
   double weight = 0.0;  // N
   StaticOutcome outcome = StaticOutcome::unconverged;
   double speed_ratio = 0.0;
+  std::string message;              // of the static solve
   std::optional<Bracket> critical;  // of the fresh friction
   bool needs_none = false;          // stands without friction in the fresh bed
 };
@@ -118,12 +119,13 @@ std::string row(const StageResult& stage) {
 }
 
 void judge(const std::vector<StageResult>& stages, double fresh_friction, Summary* summary) {
-  const StageResult* worst = nullptr;
+  const StageResult *worst = nullptr, *failed = nullptr;
   int moving = 0, unconverged = 0, need_none = 0;
   for (const StageResult& stage : stages) {
     moving += stage.outcome == StaticOutcome::moving;
     unconverged += stage.outcome == StaticOutcome::unconverged;
     need_none += stage.needs_none;
+    if (stage.outcome == StaticOutcome::unconverged) failed = &stage;
     if (stage.critical && stage.critical->found &&
         (worst == nullptr || stage.critical->stable.value > worst->critical->stable.value))
       worst = &stage;
@@ -131,7 +133,9 @@ void judge(const std::vector<StageResult>& stages, double fresh_friction, Summar
   summary->status = unconverged > 0 ? Status::unconverged : moving > 0 ? Status::moving : Status::stable;
   summary->message = fmt::format("{} of {} stages do not stand with a fresh friction of {:g}", moving,
                                  stages.size(), fresh_friction);
-  if (unconverged > 0) summary->message += fmt::format(", {} did not converge", unconverged);
+  if (failed)
+    summary->message +=
+        fmt::format(", {} did not converge; ring {}: {}", unconverged, failed->ring, failed->message);
   if (need_none > 0) summary->message += fmt::format("; {} stand without friction", need_none);
   if (worst == nullptr) return;
   const Bracket& bracket = *worst->critical;
@@ -154,6 +158,8 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
 
   Summary summary;
   std::vector<StageResult> results;
+  WorstOfRun worst;
+  double worst_balance = 0.0;
   std::string table = "ring,blocks,weight_N,verdict,speed_ratio,critical_stands,critical_moves,note\n";
   const double started = wall_seconds();
   for (int ring = staged.first_ring; ring <= last; ++ring) {
@@ -165,10 +171,13 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
     stage.weight = run.model().free_weight;
     stage.outcome = solution.outcome;
     stage.speed_ratio = solution.speed_ratio;
+    stage.message = solution.message;
     const Frame frame = run.frame(solution, assembly);
     sinks.frame(frame);
-    summarize_frame(frame, run.model(), &summary);
-    summarize_static(solution, run.options().tolerance, &summary);
+    summarize_static(solution, frame, run.model(), run.options().tolerance, &summary);
+    worst.include(solution.residuals, summary.certified_force_error, summary.forces_unique,
+                  largest_violation(frame));
+    if (!(summary.accuracy.reached <= worst_balance)) worst_balance = summary.accuracy.reached;
     if (staged.critical_friction) search_critical_friction(scene, &run, &stage);
     table += row(stage);
     results.push_back(stage);
@@ -180,6 +189,8 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
   }
   summary.steps = static_cast<int>(results.size());
   summary.solve_time_seconds = wall_seconds() - started;
+  worst.summarize(&summary);
+  summary.accuracy.worst_over_run = worst_balance;
   judge(results, staged.fresh_friction, &summary);
   return summary;
 }

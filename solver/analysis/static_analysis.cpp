@@ -85,8 +85,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   Summary summary;
   summary.solve_time_seconds = wall_seconds() - started;
   const Frame frame = static_frame(model, rest, contacts, memories, solution, options);
-  summarize_frame(frame, model, &summary);
-  summarize_static(solution, options.tolerance, &summary);
+  summarize_static(solution, frame, model, options.tolerance, &summary);
   if (wrench_error) {
     const double reached =
         solution.certificate.force_error.value.value_or(std::numeric_limits<double>::infinity());
@@ -95,7 +94,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
                         reached};
   }
   summary.unknowns /= scene.analysis.cyclic_sectors;
-  summary.message += linearity_note(assembly, summary.max_displacement_m);
+  if (summary.max_displacement_m) summary.message += linearity_note(assembly, *summary.max_displacement_m);
   sinks.problem(solution.step.problem, solution.step_solution.gamma);
   solution.step = {};  // for a large model as large as the frame, whose writing takes as much memory again
   sinks.frame(frame);

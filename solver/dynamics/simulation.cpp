@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "assembly/base/error.hpp"
+#include "solver/dynamics/law_violation.hpp"
 
 namespace cupola {
 namespace {
@@ -69,11 +70,14 @@ StepReport Simulation::advance_awake(const ContactSet& contacts, const StepOptio
   report.num_asleep = sleep_state_.num_asleep();
 
   // Transfer the results to the whole scene.
+  std::vector<double> violations(contacts.points.size(), std::numeric_limits<double>::quiet_NaN());
   for (size_t k = 0; k < part.contact_rows.size(); ++k) {
+    violations[part.contact_rows[k]] = report.violations[k];
     reduced_->forces.contacts[part.contact_rows[k]] = report.forces.contacts[k];
     memories_.values[part.contact_rows[k]] = part.memories.values[k];
   }
   report.forces = reduced_->forces;
+  report.violations = std::move(violations);
   report.balance = combine(report.balance, reduced_->balance);
   state_.time = part.state.time;
   for (int k = 0; k < part.model.num_free(); ++k) {
@@ -110,6 +114,8 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
   }
   report.h = step.h;
   report.forces = joint_forces(contacts, solution.gamma, step.h);
+  report.violations = law_violations(contacts, solution.gamma,
+                                     contact_law_errors(problem.problem, solution, options_.solve.law));
   report.balance =
       compute_equilibrium(model, *state, contacts, report.forces, state->time + 0.5 * step.advance());
   report.friction_work = friction_dissipation(problem, solution);

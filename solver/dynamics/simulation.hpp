@@ -22,10 +22,12 @@ struct StepReport {
   ContactSolution step_solution;  ///< of that problem
   Residuals residuals;            ///< computed independently of the solver
   JointForces forces;             ///< of all blocks
-  Equilibrium balance;            ///< of all blocks under those forces, at the start of the step
-  double friction_work = 0.0;     ///< J, dissipated in this step, >= 0
-  int num_rejected = 0;           ///< larger steps that the step control rejected
-  int num_asleep = 0;             ///< free blocks that slept
+  /// law_violations() of all contacts; NaN where both blocks sleep
+  std::vector<double> violations;
+  Equilibrium balance;         ///< of all blocks under those forces, at the start of the step
+  double friction_work = 0.0;  ///< J, dissipated in this step, >= 0
+  int num_rejected = 0;        ///< larger steps that the step control rejected
+  int num_asleep = 0;          ///< free blocks that slept
 };
 
 /// Options of a simulation; simulation_options() builds them from a case.

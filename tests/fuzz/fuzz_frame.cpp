@@ -26,6 +26,7 @@ Frame small_frame() {
     c.friction_use.push_back(0.0);
     c.area.push_back(0.25);
     c.slip.push_back(0.0);
+    c.law_violation.push_back(0.0);
   }
   for (int i = 0; i < 2; ++i) {
     frame.blocks.position.emplace_back(0.5, 0.5, i + 0.5);

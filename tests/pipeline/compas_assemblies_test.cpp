@@ -179,7 +179,7 @@ double displacement_in_motion(const Scene& scene, FrictionLaw law) {
   c.analysis.damping = 1e-3;
   const Summary summary = run_dynamic(c, import_scene(scene), {}).value();
   EXPECT_NE(summary.status, Status::unconverged) << summary.message;
-  return summary.max_displacement_m;
+  return summary.max_displacement_m.value();
 }
 
 // Where the two laws give different results, no linear programme decides for Coulomb's law; the reference is

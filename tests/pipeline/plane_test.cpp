@@ -71,7 +71,7 @@ TEST_P(PlaneWall, HasTheSameResultantsAsInSpace) {
   EXPECT_LT(plane.summary.contacts, space.summary.contacts);
   // Both are in equilibrium to 1e-8 of a block weight; stiff joints in parallel amplify the difference.
   EXPECT_LT(difference(space, plane), 1e-6);
-  EXPECT_NEAR(plane.summary.max_displacement_m / space.summary.max_displacement_m, 1.0, 1e-6);
+  EXPECT_NEAR(*plane.summary.max_displacement_m / *space.summary.max_displacement_m, 1.0, 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -69,7 +69,38 @@ TEST(Programs, SolveTheSmallestCase) {
   EXPECT_EQ(summary.accuracy.asked, 1e-8);
   EXPECT_LE(summary.accuracy.reached, 1e-8);
   // Closed form of springs in series, c sum F_bed / n_bed: 42.511635 mm.
-  EXPECT_NEAR(summary.max_displacement_m, 42.511635e-3, 1e-4 * 42.5e-3);
+  EXPECT_NEAR(summary.max_displacement_m.value(), 42.511635e-3, 1e-4 * 42.5e-3);
+}
+
+// Exit code 3 with the measure that was missed, which is not the momentum residual of a dual method.
+TEST(Programs, NameTheAccuracyThatWasMissed) {
+  const ProgramFolder folder;
+  const std::string set =
+      " --set analysis.type=dynamic --set analysis.method=spg --set analysis.max_iterations=5"
+      " --set analysis.duration=0.02";
+  ASSERT_EQ(folder.run("cupola-generate " + kWall + " --output assembly.vtu --quiet" + set).code, 0);
+  const ProgramRun run =
+      folder.run("cupola-solve " + kWall + " --assembly assembly.vtu --output results" + set);
+  EXPECT_EQ(run.code, 3) << run.err;
+  EXPECT_NE(run.out.find("unconverged: 2 of 2 steps missed the tolerance 1.0e-08 of the force error bound"),
+            std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find("Error of the contact forces of a step: "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("worst contact "), std::string::npos) << run.out;
+}
+
+TEST(Programs, StateThatRigidForcesMayNotBeUnique) {
+  const ProgramFolder folder;
+  const std::string set = " --set joints.compliance.normal=0 --set joints.compliance.tangential=0";
+  solve_wall(folder, set);
+  const ProgramRun run =
+      folder.run("cupola-solve " + kWall + " --assembly assembly.vtu --output results" + set);
+  EXPECT_NE(run.out.find("\n  The forces may not be unique: some compliance is zero"), std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find("No error bound is certified: some compliance is zero"), std::string::npos)
+      << run.out;
+  ASSERT_EQ(analyse(folder, "results", set).code, 0);
+  EXPECT_NE(slurp(folder.file("post/report.html")).find("The forces may not be unique"), std::string::npos);
 }
 
 TEST(Programs, WriteTheSameBytesEveryTime) {

@@ -46,8 +46,8 @@ std::string hash_of(const Frame& frame) {
     hash.add(bytes_of(*values));
   hash.add(bytes_of(contacts.kind));
   for (const auto* values : {&contacts.point, &contacts.normal, &contacts.force}) hash.add(bytes_of(*values));
-  for (const auto* values :
-       {&contacts.gap, &contacts.normal_force, &contacts.friction_use, &contacts.area, &contacts.slip})
+  for (const auto* values : {&contacts.gap, &contacts.normal_force, &contacts.friction_use, &contacts.area,
+                             &contacts.slip, &contacts.law_violation})
     hash.add(bytes_of(*values));
   for (const auto* values :
        {&blocks.position, &blocks.velocity, &blocks.angular_velocity, &blocks.displacement})
@@ -61,11 +61,11 @@ std::string hash_of(const Summary& s) {
   hash.add(s.status).add(s.blocks).add(s.free_blocks).add(s.joints).add(s.contacts).add(s.unknowns);
   for (const Vec3& v : {s.applied_load_N, s.support_reaction_N})
     hash.add(bytes_of<double>({v.data(), v.data() + 3}));
-  for (const double number :
-       {s.weight_N, s.time_step_s, s.momentum_residual, s.equilibrium_residual, s.inertia_share,
-        s.contact_law_residual, s.certified_force_error.value.value_or(-1.0), s.friction_cone_violation,
-        s.max_penetration_m, s.max_displacement_m, s.max_speed_m_per_s})
-    hash.add(number);
+  for (const double number : {s.weight_N, s.time_step_s, s.max_penetration_m}) hash.add(number);
+  for (const std::optional<double>& number :
+       {s.momentum_residual, s.equilibrium_residual, s.inertia_share, s.contact_law_residual,
+        s.certified_force_error.value, s.friction_cone_violation, s.max_displacement_m, s.max_speed_m_per_s})
+    hash.add(number.value_or(-1.0));
   hash.add(s.slipping_contacts).add(s.steps).add(s.iterations);
   return hash.hex();
 }

@@ -85,6 +85,7 @@ inline Frame column_at_rest(const Assembly& a, double g, double load, double x, 
       c.friction_use.push_back(0.0);
       c.area.push_back(0.24);
       c.slip.push_back(0.0);
+      c.law_violation.push_back(0.0);
     }
   }
   for (const Block& block : a.blocks) {

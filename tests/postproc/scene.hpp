@@ -23,6 +23,8 @@ inline Summary column_summary(const Assembly& a) {
   Summary s;
   s.status = Status::stable;
   s.message = "equilibrium residual 1.0e-12 <= 1.0e-09 asked";
+  s.equilibrium_residual = 1e-12;
+  s.max_displacement_m = 0.0;
   s.assembly_hash = content_hash(a);
   s.geometry_hash = "geometry of the column";
   s.case_hash = "case of the column";

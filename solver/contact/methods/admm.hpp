@@ -18,9 +18,9 @@ namespace cupola {
 /// "Distributed optimization and statistical learning via the alternating direction method of multipliers",
 /// section 3.4.
 ///
-/// Converged when the certified force error of (w, gamma), or the larger of its momentum and contact-law
-/// residuals (Newton's measure), is <= tolerance. Measured every fifth iteration. Default of max_iterations:
-/// 2000.
+/// Converged when the larger of the momentum and contact-law residuals of (w, gamma) is <= tolerance; the
+/// force error bound would not fall below 1e-9 where E is tiny. Measured every fifth iteration. Default of
+/// max_iterations: 2000.
 SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& options,
                         ContactSolution* solution);
 

@@ -66,7 +66,7 @@ SolveSummary solve_apgd(const ContactProblem& problem, const SolveOptions& optio
     }
   }
   *solution = {dual.velocities(best), best};
-  finish_dual(best_accuracy, options, stalled, &summary);
+  finish_dual(dual, best_accuracy, options, stalled, &summary);
   summary.time_seconds = wall_seconds() - start;
   return summary;
 }

@@ -141,7 +141,7 @@ SolveSummary solve_coulomb_newton(const ContactProblem& problem, const SolveOpti
     CUPOLA_ASSERT(x.v.allFinite() && x.gamma.allFinite());
     const Residuals residuals = compute_residuals(problem, x, options.reference_speed, FrictionLaw::coulomb);
     const double error = excess(residuals, options.tolerance);
-    summary.residual_history.push_back(std::max(residuals.momentum, residuals.contact_law));
+    summary.residual_history.push_back(largest_residual(residuals));
     if (error < best) {
       best = error;
       best_residuals = residuals;
@@ -155,9 +155,10 @@ SolveSummary solve_coulomb_newton(const ContactProblem& problem, const SolveOpti
     return summary;
   }
   summary.ending = best <= 1.0 ? SolveEnding::converged : SolveEnding::stalled;
-  summary.message = fmt::format(
-      "momentum residual {:.2e}, contact-law residual {:.2e}, tolerance {:.2e} after {} proximal points",
-      best_residuals.momentum, best_residuals.contact_law, options.tolerance, summary.outer_iterations);
+  summary.measure = ErrorMeasure::all_residuals;
+  summary.reached = largest_residual(best_residuals);
+  summary.message = fmt::format("{}, after {} proximal points",
+                                residuals_text(best_residuals, options.tolerance), summary.outer_iterations);
   return summary;
 }
 

@@ -1,11 +1,13 @@
 #include "solver/contact/methods/dual_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
 #include "solver/contact/problem/cone.hpp"
+#include "solver/contact/problem/duality_gap.hpp"
 #include "solver/contact/problem/residuals.hpp"
 
 namespace cupola {
@@ -29,7 +31,8 @@ VecX DualProblem::velocities(const VecX& gamma) const {
 }
 
 DualProblem make_dual_problem(const ContactProblem& problem) {
-  DualProblem dual{whiten(problem), {}, {}};
+  DualProblem dual{whiten(problem), {}, {}, ErrorMeasure::force_error};
+  if (smallest_compliance(problem) == 0.0) dual.measure = ErrorMeasure::contact_law;
   const ContactProblem& p = dual.white.problem;
   dual.q = relative_velocity(p, p.v_star) + p.b;
   dual.B = p.E;
@@ -46,21 +49,24 @@ DualProblem make_dual_problem(const ContactProblem& problem) {
 double dual_accuracy(const DualProblem& dual, const VecX& gamma, const VecX& g) {
   const ContactProblem& p = dual.white.problem;
   CUPOLA_ASSERT(gamma.size() == p.b.size() && g.size() == p.b.size());
-  const double norm = gamma.norm();
-  const double min_E = smallest_compliance(p);
-  double sum = 0.0;
+  const bool certifiable = dual.measure == ErrorMeasure::force_error;
+  double sum = 0.0, squared_expected = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {
     const Vec3 gamma_i = gamma.segment<3>(3 * i), g_i = g.segment<3>(3 * i);
     ContactLaw law = contact_law(p, i);
-    if (min_E > 0.0) {
-      const Vec3 y = g_i - Vec3(law.e_n, law.e_t, law.e_t).cwiseProduct(gamma_i);
-      sum += 2.0 * contact_duality_gap(law, y, gamma_i) / min_E;
+    if (is_rigid(law)) law.e_n = law.e_t = delassus_trace(p, i);
+    const Vec3 y = g_i - Vec3(law.e_n, law.e_t, law.e_t).cwiseProduct(gamma_i);
+    if (certifiable) {
+      sum += 2.0 * contact_duality_gap(law, y, gamma_i);
     } else {
-      law.e_n = law.e_t = delassus_trace(p, i);
-      sum += (gamma_i - contact_impulse(law, Vec3(g_i - law.e_n * gamma_i))).squaredNorm();
+      const Vec3 expected = contact_impulse(law, y);
+      sum += (gamma_i - expected).squaredNorm();
+      squared_expected += expected.squaredNorm();
     }
   }
   if (sum == 0.0) return 0.0;
+  const double norm =
+      certifiable ? compliance_norm(p, gamma) : std::max(gamma.norm(), std::sqrt(squared_expected));
   return norm > 0.0 ? std::sqrt(sum) / norm : 1.0;
 }
 
@@ -69,14 +75,17 @@ VecX first_impulses(const DualProblem& dual, const ContactSolution& guess) {
   return dual.project(guess.gamma);
 }
 
-void finish_dual(double accuracy, const SolveOptions& options, bool stalled, SolveSummary* summary) {
+void finish_dual(const DualProblem& dual, double accuracy, const SolveOptions& options, bool stalled,
+                 SolveSummary* summary) {
   const bool converged = accuracy <= options.tolerance;
   summary->ending = converged ? SolveEnding::converged
                     : stalled ? SolveEnding::stalled
                               : SolveEnding::max_iterations;
   if (!std::isfinite(accuracy)) summary->ending = SolveEnding::failed;
-  summary->message = fmt::format("force error {:.2e} {} tolerance {:.2e} after {} iterations", accuracy,
-                                 converged ? "<=" : ">", options.tolerance, summary->iterations);
+  summary->measure = dual.measure;
+  summary->reached = accuracy;
+  summary->message = fmt::format("{} {:.2e} {} tolerance {:.2e} after {} iterations", to_string(dual.measure),
+                                 accuracy, converged ? "<=" : ">", options.tolerance, summary->iterations);
 }
 
 }  // namespace cupola

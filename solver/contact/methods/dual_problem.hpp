@@ -16,8 +16,9 @@ namespace cupola {
 /// that the projection on the cone is exact (cone.hpp). This is the paper's diagonal preconditioner.
 struct DualProblem {
   WhitenedProblem white;
-  VecX q;  ///< (3 nc)
-  VecX B;  ///< diagonal of N + E, tangents averaged (3 nc)
+  VecX q;                                            ///< (3 nc)
+  VecX B;                                            ///< diagonal of N + E, tangents averaged (3 nc)
+  ErrorMeasure measure = ErrorMeasure::force_error;  ///< of dual_accuracy()
 
   VecX times(const VecX& gamma) const;  ///< (N + E) gamma
   /// argmin over Y of |g - x|_B.
@@ -28,14 +29,16 @@ struct DualProblem {
 
 DualProblem make_dual_problem(const ContactProblem& problem);
 
-/// Error of gamma in Y, given g = (N + E) gamma + q: the certified force error if all E > 0 (residuals.hpp),
-/// the contact-law residual if some contact is rigid. The momentum balance holds exactly.
+/// Error of gamma in Y, given g = (N + E) gamma + q, in dual.measure: the force error bound if all E > 0
+/// (duality_gap.hpp, without its rounding terms), the contact-law residual if some contact is rigid. The
+/// momentum balance holds exactly.
 double dual_accuracy(const DualProblem& dual, const VecX& gamma, const VecX& g);
 
 /// Initial impulses of a dual method: the given ones projected on Y, or zero.
 VecX first_impulses(const DualProblem& dual, const ContactSolution& guess);
 
 /// Sets ending and message of the summary of a dual method from its accuracy and iterations.
-void finish_dual(double accuracy, const SolveOptions& options, bool stalled, SolveSummary* summary);
+void finish_dual(const DualProblem& dual, double accuracy, const SolveOptions& options, bool stalled,
+                 SolveSummary* summary);
 
 }  // namespace cupola

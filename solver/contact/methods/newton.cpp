@@ -240,6 +240,7 @@ SolveSummary NewtonSolver::solve(const ContactProblem& problem, const SolveOptio
   PrimalPoint point = loop.run(primal_point(white.problem, w));
   if (by_multigrid && loop.motions.empty() && summary.ending == SolveEnding::stalled && set_start())
     point = loop.run(primal_point(white.problem, std::move(w)));  // again, with factors
+  summary.reached = loop.residual(point);
   solution->v = white.to_v(point.w);
   solution->gamma = point.gamma;
   CUPOLA_ASSERT(!summary.usable() || (solution->v.allFinite() && solution->gamma.allFinite()));

@@ -64,7 +64,7 @@ SolveSummary solve_nsgs(const ContactProblem& problem, const SolveOptions& optio
     summary.residual_history.push_back(accuracy);
   }
   *solution = {dual.velocities(gamma), gamma};
-  finish_dual(accuracy, options, false, &summary);
+  finish_dual(dual, accuracy, options, false, &summary);
   summary.time_seconds = wall_seconds() - start;
   return summary;
 }

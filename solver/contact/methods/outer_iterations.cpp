@@ -117,7 +117,7 @@ void OuterIteration::run(const ConvexSolve& solve, ContactSolution* best_solutio
 
     // 2. Residuals on the given problem
     const Residuals residuals = compute_residuals(problem_, x_, options_.reference_speed, options_.law);
-    summary->residual_history.push_back(std::max(residuals.momentum, residuals.contact_law));
+    summary->residual_history.push_back(largest_residual(residuals));
     const double error = excess(residuals, options_.tolerance);
     if (error < best) {
       best = error;
@@ -138,9 +138,10 @@ void OuterIteration::run(const ConvexSolve& solve, ContactSolution* best_solutio
   summary->ending = best <= 1.0                                  ? SolveEnding::converged
                     : iteration >= options_.max_outer_iterations ? SolveEnding::max_iterations
                                                                  : SolveEnding::stalled;
-  summary->message = fmt::format(
-      "momentum residual {:.2e}, contact-law residual {:.2e}, tolerance {:.2e} after {} outer iterations",
-      best_residuals.momentum, best_residuals.contact_law, options_.tolerance, iteration);
+  summary->measure = ErrorMeasure::all_residuals;
+  summary->reached = largest_residual(best_residuals);
+  summary->message = fmt::format("{}, after {} outer iterations",
+                                 residuals_text(best_residuals, options_.tolerance), iteration);
 }
 
 }  // namespace

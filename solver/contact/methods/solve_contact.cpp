@@ -4,6 +4,7 @@
 #include "solver/contact/methods/coulomb_newton.hpp"
 #include "solver/contact/methods/method_table.hpp"
 #include "solver/contact/methods/outer_iterations.hpp"
+#include "solver/contact/problem/cone.hpp"
 
 namespace cupola {
 
@@ -17,7 +18,7 @@ constexpr int kRescueOuterIterations = 40;
 
 bool has_rigid_contact(const ContactProblem& p) {
   for (int i = 0; i < p.num_contacts(); ++i) {
-    if (p.E[3 * i] == 0.0 || (p.mu[i] > 0.0 && p.E[3 * i + 1] == 0.0)) return true;
+    if (is_rigid(contact_law(p, i))) return true;
   }
   return false;
 }
@@ -67,7 +68,6 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
       summary = last.after(summary);
     }
   }
-  if (rigid && summary.usable()) summary.message += "; some compliance is zero: forces are not unique";
   return summary;
 }
 

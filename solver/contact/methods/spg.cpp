@@ -73,7 +73,7 @@ SolveSummary solve_spg(const ContactProblem& problem, const SolveOptions& option
     }
   }
   *solution = {dual.velocities(best), best};
-  finish_dual(best_accuracy, options, stalled, &summary);
+  finish_dual(dual, best_accuracy, options, stalled, &summary);
   summary.time_seconds = wall_seconds() - start;
   return summary;
 }

@@ -17,6 +17,11 @@ inline ContactLaw contact_law(const ContactProblem& problem, int i) {
   return {problem.E[3 * i], problem.E[3 * i + 1], problem.mu[i]};
 }
 
+/// True if some compliance that the law uses is zero. A frictionless contact uses no tangential one.
+inline bool is_rigid(const ContactLaw& law) {
+  return law.e_n == 0.0 || (law.mu > 0.0 && law.e_t == 0.0);
+}
+
 /// Impulse of a compliant contact at the relative velocity y = D^T v + b (m/s, normal first): the gamma in
 /// the cone Y (|gamma_t| <= mu gamma_n) for which y + E gamma lies in Y* and is perpendicular to gamma. It is
 /// the projection of -E^-1 y on Y in the norm of E, with three regions:

@@ -5,8 +5,11 @@
 #include <limits>
 
 #include <Eigen/Cholesky>
+#include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "solver/contact/problem/cone.hpp"
+#include "solver/contact/problem/duality_gap.hpp"
 
 namespace cupola {
 
@@ -22,57 +25,41 @@ double delassus_trace(const ContactProblem& p, int i) {
 
 namespace {
 
-/// M^-1 norms of r = M (v - v_star) - D gamma per block: half the sum of their squares, and the largest.
-struct MomentumError {
-  double half_squared_norm = 0.0;
-  double largest = 0.0;
-};
-
-MomentumError momentum_error(const ContactProblem& p, const ContactSolution& x) {
-  const VecX impulse = generalized_impulse(p, x.gamma);
-  MomentumError error;
-  for (int k = 0; k < p.num_blocks(); ++k) {
-    const Eigen::Matrix<double, 6, 1> r =
-        p.M[k] * (x.v - p.v_star).segment<6>(6 * k) - impulse.segment<6>(6 * k);
-    const double squared = p.M[k].llt().matrixL().solve(r).squaredNorm();
-    error.half_squared_norm += 0.5 * squared;
-    error.largest = std::max(error.largest, std::sqrt(squared));
-    if (std::isnan(squared)) error.largest = squared;
-  }
-  return error;
-}
-
-/// The tangential compliance of a frictionless contact is unused.
-bool is_rigid(const ContactLaw& law) {
-  return law.e_n == 0.0 || (law.mu > 0.0 && law.e_t == 0.0);
-}
-
-/// Sets contact_law and rigid_contact_speed.
-void measure_contact_law(const ContactProblem& p, const ContactSolution& x, const VecX& y0, FrictionLaw kind,
-                         double reference_speed, Residuals* residuals) {
-  double squared_error = 0.0;
-  VecX expected(x.gamma.size());
+/// Visits every contact with its impulse, the impulse that its law gives, and the metric of the projection:
+/// visit(i, gamma, expected, rigid metric or 0).
+template <class Visit>
+void for_each_expected_impulse(const ContactProblem& p, const ContactSolution& x, FrictionLaw kind,
+                               Visit visit) {
+  const VecX y0 = relative_velocity(p, x.v) + p.b;
   for (int i = 0; i < p.num_contacts(); ++i) {
     const Vec3 gamma = x.gamma.segment<3>(3 * i);
     Vec3 y = y0.segment<3>(3 * i);
     ContactLaw law = contact_law(p, i);
     const Vec3 elastic(law.e_n * gamma[0], law.e_t * gamma[1], law.e_t * gamma[2]);
     if (kind == FrictionLaw::coulomb) y[0] += law.mu * (y + elastic).tail<2>().norm();
-    const bool rigid = is_rigid(law);
-    if (rigid) {  // gamma - rho (y + E gamma) as the impulse of a contact of compliance 1/rho
-      law.e_n = law.e_t = delassus_trace(p, i);
+    double rigid_metric = 0.0;
+    if (is_rigid(law)) {  // gamma - rho (y + E gamma) as the impulse of a contact of compliance 1/rho
+      rigid_metric = law.e_n = law.e_t = delassus_trace(p, i);
       y += elastic - law.e_n * gamma;
     }
-    expected.segment<3>(3 * i) = contact_impulse(law, y);
-    const double error = (gamma - expected.segment<3>(3 * i)).norm();
-    squared_error += error * error;
-    if (rigid) {
-      residuals->rigid_contact_speed =
-          std::max(residuals->rigid_contact_speed, law.e_n * error / reference_speed);
-    }
+    visit(i, gamma, contact_impulse(law, y), rigid_metric);
   }
+}
+
+/// Sets contact_law and rigid_contact_speed.
+void measure_contact_law(const ContactProblem& p, const ContactSolution& x, FrictionLaw kind,
+                         double reference_speed, Residuals* residuals) {
+  double squared_error = 0.0, squared_expected = 0.0;
+  const auto add = [&](int, const Vec3& gamma, const Vec3& expected, double rigid_metric) {
+    const double error = (gamma - expected).norm();
+    squared_error += error * error;
+    squared_expected += expected.squaredNorm();
+    residuals->rigid_contact_speed =
+        std::max(residuals->rigid_contact_speed, rigid_metric * error / reference_speed);
+  };
+  for_each_expected_impulse(p, x, kind, add);
   if (squared_error == 0.0) return;
-  residuals->contact_law = std::sqrt(squared_error) / std::max(x.gamma.norm(), expected.norm());
+  residuals->contact_law = std::sqrt(squared_error) / std::max(x.gamma.norm(), std::sqrt(squared_expected));
 }
 
 double contact_law_rounding(const ContactProblem& p, const ContactSolution& x) {
@@ -105,13 +92,60 @@ double cone_violation(const ContactProblem& p, const VecX& gamma) {
   return violation > 0.0 ? violation / std::max(largest, std::numeric_limits<double>::min()) : 0.0;
 }
 
+/// Bound of the relative error of the impulses, or why there is none.
+ForceCertificate certificate(const ContactProblem& problem, const ContactSolution& solution, FrictionLaw law,
+                             double cone_violation) {
+  constexpr double kRounding = 1e-14;  // |gamma_t| = mu gamma_n holds to a few eps
+  if (law == FrictionLaw::coulomb) return {{}, "Coulomb's law is not a minimisation and has no duality gap"};
+  if (smallest_compliance(problem) == 0.0) return {{}, "some compliance is zero"};
+  if (!(cone_violation <= kRounding)) return {{}, "some impulses lie outside their friction cones"};
+  const double norm = compliance_norm(problem, solution.gamma);
+  if (!(norm > 0.0)) return {{}, "no contact is loaded"};
+  return {force_error_bound(problem, solution) / norm,
+          "the distance of the impulses of a step from the exact solution of its contact problem, in the "
+          "norm of the compliance, relative to the impulses"};
+}
+
+/// Tolerance of contact_law: raised to what rounding permits.
+double law_tolerance(const Residuals& residuals, double tolerance) {
+  constexpr double kMargin = 16.0;  // for the sum of several rounding errors
+  // A block that slides down an incline on a compliance of 1e-12 of its Delassus block moves as the closed form to
+  // 1e-12 with residuals of 1e-4 from rounding alone. Above 1e-3, the forces that are printed could be wrong.
+  constexpr double kLargest = 1e-3;
+  return std::max(tolerance, std::min(kMargin * residuals.contact_law_rounding, kLargest));
+}
+
 }  // namespace
 
+VecX contact_law_errors(const ContactProblem& problem, const ContactSolution& solution, FrictionLaw law) {
+  VecX errors(problem.num_contacts());
+  for_each_expected_impulse(problem, solution, law,
+                            [&errors](int i, const Vec3& gamma, const Vec3& expected, double) {
+                              errors[i] = (gamma - expected).norm();
+                            });
+  return errors;
+}
+
+double largest_residual(const Residuals& residuals) {
+  return std::max({residuals.momentum, residuals.contact_law, residuals.rigid_contact_speed});
+}
+
 double excess(const Residuals& residuals, double tolerance) {
-  constexpr double kRoundingMargin = 16.0;  // for the sum of several rounding errors
-  const double law =
-      residuals.contact_law / std::max(tolerance, kRoundingMargin * residuals.contact_law_rounding);
-  return std::max({residuals.momentum / tolerance, law, residuals.rigid_contact_speed / tolerance});
+  return std::max({residuals.momentum / tolerance,
+                   residuals.contact_law / law_tolerance(residuals, tolerance),
+                   residuals.rigid_contact_speed / tolerance});
+}
+
+std::string residuals_text(const Residuals& residuals, double tolerance) {
+  std::string text = fmt::format("momentum residual {:.2e}, contact-law residual {:.2e}", residuals.momentum,
+                                 residuals.contact_law);
+  if (residuals.rigid_contact_speed > 0.0)
+    text += fmt::format(", speed of rigid contacts {:.2e}", residuals.rigid_contact_speed);
+  text += fmt::format(", tolerance {:.2e}", tolerance);
+  if (residuals.contact_law > tolerance && residuals.contact_law <= law_tolerance(residuals, tolerance))
+    text += fmt::format(" (contact law: {:.2e}, because rounding of the velocities causes up to that much)",
+                        law_tolerance(residuals, tolerance));
+  return text;
 }
 
 double smallest_compliance(const ContactProblem& p) {
@@ -123,32 +157,25 @@ double smallest_compliance(const ContactProblem& p) {
   return smallest;
 }
 
-double contact_duality_gap(const ContactLaw& law, const Vec3& y, const Vec3& gamma) {
-  const Vec3 gamma_v = contact_impulse(law, y);
-  const double e_t = law.mu > 0.0 ? law.e_t : 0.0;
-  const Vec3 difference = gamma - gamma_v;
-  const double distance = 0.5 * difference.dot(Vec3(law.e_n, e_t, e_t).cwiseProduct(difference));
-  switch (contact_region(law, y)) {  // gamma . z with z = y + E gamma(v), without cancellation
-    case ContactRegion::separation:
-      return distance + std::max(0.0, gamma.dot(y));
-    case ContactRegion::stick:
-      return distance;  // z = 0
-    case ContactRegion::slip:
-      break;
-  }
-  // z = |z_t| (mu, t) and gamma . z = |z_t| [(mu gamma_n - |gamma_t|) + |gamma_t| |t + gamma_t/|gamma_t||^2 / 2]
-  constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();  // of |gamma_t| and mu gamma_n
-  const double z_t = std::max(0.0, y.tail<2>().norm() - e_t * gamma_v.tail<2>().norm());
-  const double gamma_t = gamma.tail<2>().norm();
-  double inside = law.mu * gamma[0] - gamma_t;
-  if (inside <= kRounding * law.mu * gamma[0]) inside = 0.0;
-  if (gamma_t > 0.0 && y.tail<2>().norm() > 0.0)
-    inside += 0.5 * gamma_t * (y.tail<2>().normalized() + gamma.tail<2>() / gamma_t).squaredNorm();
-  return distance + z_t * inside;
+ForcesUnique forces_unique(const ContactProblem& problem, FrictionLaw law) {
+  if (smallest_compliance(problem) == 0.0)
+    return {false, "some joint compliance is zero, so that many forces balance the same loads"};
+  if (law == FrictionLaw::coulomb && problem.mu.size() > 0 && problem.mu.maxCoeff() > 0.0)
+    return {false, "under Coulomb's law a contact problem can have several solutions"};
+  return {true, "associated law with a compliance above zero at every contact"};
 }
 
-double largest_unbalanced_impulse(const ContactProblem& problem, const ContactSolution& solution) {
-  return momentum_error(problem, solution).largest;
+double largest_unbalanced_impulse(const ContactProblem& p, const ContactSolution& x) {
+  const VecX impulse = generalized_impulse(p, x.gamma);
+  double largest = 0.0;
+  for (int k = 0; k < p.num_blocks(); ++k) {
+    const Eigen::Matrix<double, 6, 1> r =
+        p.M[k] * (x.v - p.v_star).segment<6>(6 * k) - impulse.segment<6>(6 * k);
+    const double norm = p.M[k].llt().matrixL().solve(r).norm();
+    if (std::isnan(norm)) return norm;
+    largest = std::max(largest, norm);
+  }
+  return largest;
 }
 
 double root_mean_mass(const ContactProblem& problem) {
@@ -158,41 +185,17 @@ double root_mean_mass(const ContactProblem& problem) {
   return std::sqrt(mass / problem.num_blocks());
 }
 
-double duality_gap(const ContactProblem& problem, const ContactSolution& solution) {
-  const VecX y = relative_velocity(problem, solution.v) + problem.b;
-  double gap = momentum_error(problem, solution).half_squared_norm;
-  for (int i = 0; i < problem.num_contacts(); ++i) {
-    gap +=
-        contact_duality_gap(contact_law(problem, i), y.segment<3>(3 * i), solution.gamma.segment<3>(3 * i));
-  }
-  return gap;
-}
-
 Residuals compute_residuals(const ContactProblem& problem, const ContactSolution& solution,
                             double reference_speed, FrictionLaw law) {
   CUPOLA_ASSERT(reference_speed > 0.0);
   CUPOLA_ASSERT(solution.gamma.size() == problem.b.size());
-  const VecX y0 = relative_velocity(problem, solution.v) + problem.b;
   Residuals residuals;
   residuals.momentum =
       largest_unbalanced_impulse(problem, solution) / (root_mean_mass(problem) * reference_speed);
-  measure_contact_law(problem, solution, y0, law, reference_speed, &residuals);
+  measure_contact_law(problem, solution, law, reference_speed, &residuals);
   residuals.contact_law_rounding = contact_law_rounding(problem, solution);
   residuals.cone_violation = cone_violation(problem, solution.gamma);
-
-  constexpr double kRounding = 1e-14;  // |gamma_t| = mu gamma_n holds to a few eps
-  const double min_E = smallest_compliance(problem);
-  const double norm = solution.gamma.norm();
-  if (law == FrictionLaw::associated && min_E > 0.0 && norm > 0.0 && residuals.cone_violation <= kRounding) {
-    residuals.certificate.value = std::sqrt(2.0 * duality_gap(problem, solution) / min_E) / norm;
-    residuals.certificate.bounds =
-        "distance of the impulses from the exact ones of this contact problem, relative to their norm";
-  } else {
-    residuals.certificate.bounds = law == FrictionLaw::coulomb ? "Coulomb's law has no duality gap"
-                                   : min_E == 0.0              ? "some compliance is zero"
-                                   : norm == 0.0               ? "no contact is loaded"
-                                                 : "some impulses lie outside their friction cones";
-  }
+  residuals.certificate = certificate(problem, solution, law, residuals.cone_violation);
   return residuals;
 }
 

@@ -2,7 +2,6 @@
 
 #include "assembly/model/accuracy.hpp"
 #include "assembly/model/choices.hpp"
-#include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/contact_problem.hpp"
 
 namespace cupola {
@@ -15,7 +14,8 @@ struct Residuals {
   double momentum = 0.0;
   /// |gamma - P(gamma - rho (y + s n))| / |gamma| with y = D^T v + b + E gamma, P the projection on the cone,
   /// and s = 0 (associated) or mu |y_t| (coulomb). rho_i = 1/E_i and P is in the norm of E_i; where E_i = 0,
-  /// rho_i = 1/trace(N_ii) and P is Euclidean. For gamma = 0: 0 if that is correct, otherwise 1.
+  /// rho_i = 1/trace(N_ii) and P is Euclidean. For gamma = 0: 0 if that is correct, otherwise 1. One number
+  /// for all contacts: contact_law_errors() shows where the law is violated.
   double contact_law = 0.0;
   /// Zero compliance only: max over rigid contacts of |gamma - P(gamma - rho (y + s n))| / (rho
   /// reference_speed), the speed by which a contact violates its law. contact_law is weighted by impulses and
@@ -26,9 +26,8 @@ struct Residuals {
   double contact_law_rounding = 0.0;
   /// max over contacts of (|gamma_t| - mu gamma_n)+ and (-gamma_n)+, over the largest |gamma_n|.
   double cone_violation = 0.0;
-  /// Upper bound of |gamma - exact| / |gamma| from the duality gap. None where the dual is not strongly
-  /// convex (some E = 0), where gamma is outside the cone, and under Coulomb's law, which is not a
-  /// minimisation.
+  /// Bound of |gamma - exact|_E / |gamma|_E, see duality_gap.hpp. None where some E = 0, where gamma is
+  /// outside the cone or zero, and under Coulomb's law, which is not a minimisation.
   ForceCertificate certificate;
 };
 
@@ -36,13 +35,27 @@ struct Residuals {
 Residuals compute_residuals(const ContactProblem& problem, const ContactSolution& solution,
                             double reference_speed, FrictionLaw law = FrictionLaw::associated);
 
+/// |gamma - P(gamma - rho (y + s n))| of each contact, N s (nc): the terms of Residuals::contact_law.
+VecX contact_law_errors(const ContactProblem& problem, const ContactSolution& solution, FrictionLaw law);
+
+/// Largest of the momentum residual, the contact-law residual and the speed of rigid contacts.
+double largest_residual(const Residuals& residuals);
+
 /// Largest ratio of a residual to its tolerance; <= 1 means converged. The tolerance of contact_law is raised
-/// to what rounding permits.
+/// to what rounding permits, but not above 1e-3: a larger violation is reported as not converged, whatever
+/// its cause.
 double excess(const Residuals& residuals, double tolerance);
+
+/// The residuals with the tolerance, for messages. States if a contact-law residual above the tolerance is
+/// accepted because of rounding.
+std::string residuals_text(const Residuals& residuals, double tolerance);
 
 /// Smallest compliance, 1/kg, unused tangential ones excluded. 0 if some contact is rigid, infinite without
 /// contacts.
 double smallest_compliance(const ContactProblem& problem);
+
+/// Whether the impulses of the problem are unique. They are under the associated law if all E > 0.
+ForcesUnique forces_unique(const ContactProblem& problem, FrictionLaw law);
 
 /// trace(N_ii), N = D^T M^-1 D, 1/kg: response of the contact to a unit impulse on itself.
 double delassus_trace(const ContactProblem& problem, int i);
@@ -52,15 +65,5 @@ double largest_unbalanced_impulse(const ContactProblem& problem, const ContactSo
 
 /// Square root of the mean block mass (a third of the trace of the linear part), sqrt(kg); 1 without blocks.
 double root_mean_mass(const ContactProblem& problem);
-
-/// Duality gap of (v, gamma in Y), J, computed without subtracting two large objectives:
-///
-///     1/2 r^T M^-1 r + sum_i [ 1/2 |gamma - gamma(v)|_E^2 + gamma . z ],  z = D^T v + b + E gamma(v) in Y*
-///
-/// The dual objective is strongly convex with modulus min E, so |gamma - exact|^2 <= 2 gap / min E.
-double duality_gap(const ContactProblem& problem, const ContactSolution& solution);
-
-/// Term of one contact in the sum, >= 0, at y = D^T v + b. Requires a compliant contact.
-double contact_duality_gap(const ContactLaw& law, const Vec3& y, const Vec3& gamma);
 
 }  // namespace cupola

@@ -9,8 +9,8 @@ namespace cupola {
 /// Options that every method takes.
 struct SolveOptions {
   /// The method has converged when its measure <= tolerance. In (0, 1), no unit. The measure is the momentum
-  /// residual for newton and interior_point, and the certified force error or the contact-law residual for
-  /// the other methods (see the header of each).
+  /// residual for newton, the force error bound or (zero compliance) the contact-law residual for spg, apgd
+  /// and nsgs, and the largest residual for admm and outer iterations. SolveSummary names it.
   double tolerance = 1e-10;
   /// m/s, > 0: h |g|, the speed that a free block gains in the step. Makes residuals relative.
   double reference_speed = 0.0;

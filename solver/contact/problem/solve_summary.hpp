@@ -1,9 +1,11 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "assembly/base/named_enum.hpp"
+#include "assembly/model/accuracy.hpp"
 
 namespace cupola {
 
@@ -18,9 +20,24 @@ constexpr auto enum_names(SolveEnding) {
   return std::array{"converged", "max_iterations", "stalled", "failed"};
 }
 
+/// What a stopping rule compares with the tolerance (residuals.hpp).
+enum class ErrorMeasure {
+  momentum,       ///< momentum residual
+  contact_law,    ///< contact-law residual
+  all_residuals,  ///< largest_residual()
+  force_error     ///< force_error_bound() relative to the impulses, both in the norm of the compliance
+};
+constexpr auto enum_names(ErrorMeasure) {
+  return std::array{"momentum residual", "contact-law residual", "largest residual", "force error bound"};
+}
+/// Quantity and norm of a measure, without values.
+Accuracy accuracy_in(ErrorMeasure measure);
+
 struct SolveSummary {
   SolveEnding ending = SolveEnding::failed;
-  std::string message;  ///< the criterion that ended the solve, with its numbers
+  std::string message;                            ///< the criterion that ended the solve, with its numbers
+  ErrorMeasure measure = ErrorMeasure::momentum;  ///< of the stopping rule
+  double reached = std::numeric_limits<double>::quiet_NaN();  ///< that measure of the solution returned
   int iterations = 0;
   int outer_iterations = 0;  ///< of outer_iterations.hpp; 0 when one convex solve was enough
   int factorizations = 0;

@@ -32,6 +32,7 @@ Frame two_block_frame(double time) {
     c.friction_use.push_back(0.1 * i);
     c.area.push_back(1.0 / 7.0);
     c.slip.push_back(1e-12 * i);
+    c.law_violation.push_back(1e-9 / 3.0 * i);
   }
   for (int b = 0; b < 3; ++b) {
     frame.blocks.position.emplace_back(b, 1.0 / 3.0, time);
@@ -56,6 +57,7 @@ Summary example_summary() {
   s.certified_force_error = {1.2e-9, "distance from the exact forces"};
   s.forces_unique = {false, "some compliance is zero"};
   s.contact_law_residual = 4.9e-324;
+  s.largest_law_violation = {0.88, 3, 12, 17, 0.25};
   s.peak_memory_bytes = 5'000'000'000;
   s.threads = 2;
   return s;
@@ -76,6 +78,7 @@ void expect_equal(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.contacts.friction_use, b.contacts.friction_use);
   EXPECT_EQ(a.contacts.area, b.contacts.area);
   EXPECT_EQ(a.contacts.slip, b.contacts.slip);
+  EXPECT_EQ(a.contacts.law_violation, b.contacts.law_violation);
   EXPECT_EQ(a.blocks.position, b.blocks.position);
   EXPECT_EQ(a.blocks.quaternion_wxyz, b.blocks.quaternion_wxyz);
   EXPECT_EQ(a.blocks.velocity, b.blocks.velocity);
@@ -219,6 +222,13 @@ TEST(SummaryJson, RoundTripsExactly) {
   EXPECT_EQ(back.forces_unique.value, s.forces_unique.value);
   EXPECT_EQ(back.forces_unique.reason, s.forces_unique.reason);
   EXPECT_EQ(back.contact_law_residual, s.contact_law_residual);
+  ASSERT_TRUE(back.largest_law_violation);
+  EXPECT_EQ(back.largest_law_violation->value, 0.88);
+  EXPECT_EQ(back.largest_law_violation->joint, 3);
+  EXPECT_EQ(back.largest_law_violation->block_b, 17);
+  EXPECT_EQ(back.largest_law_violation->time, 0.25);
+  EXPECT_FALSE(back.max_speed_m_per_s);
+  EXPECT_EQ(text.find("max_speed_m_per_s"), std::string::npos);
   EXPECT_EQ(back.peak_memory_bytes, s.peak_memory_bytes);
 }
 
@@ -232,7 +242,7 @@ TEST(SummaryJson, WritesNotCertifiedAndNull) {
   const Summary back = summary_from_json(text, "summary.json");
   EXPECT_FALSE(back.certified_force_error.value);
   EXPECT_EQ(back.certified_force_error.bounds, s.certified_force_error.bounds);
-  EXPECT_TRUE(std::isnan(back.momentum_residual));
+  EXPECT_TRUE(std::isnan(back.momentum_residual.value()));
 }
 
 TEST(SummaryJson, ErrorsNameTheKey) {

@@ -114,7 +114,7 @@ TEST(Findings, RunsThatAreNotStableAreReportedFirst) {
   runs[1].status = "unconverged";
   runs[1].equilibrium_residual = 0.02;
   EXPECT_EQ(findings(runs)[0],
-            "B ended with the status `unconverged`: its forces are not in equilibrium (residual 2.0e-02).");
+            "B ended with the status `unconverged`, with an equilibrium residual of 2.0e-02.");
 }
 
 TEST(Findings, MeasuresThatOnlyOneRunHasAreLeftOut) {

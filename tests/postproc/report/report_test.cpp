@@ -1,6 +1,8 @@
 // The report in a headless browser and the files for ParaView in pvbatch, opened as a user opens them. A test
 // is skipped if the program that it needs is not installed.
 
+#include "postproc/report/report.hpp"
+
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -25,7 +27,7 @@ bool on_path(const std::string& program) {
 
 /// Writes the assembly and results of a column, analyses them and returns the folder post/.
 std::string analysed_column(const std::string& name, const std::string& pvbatch = "",
-                            Status status = Status::stable) {
+                            Status status = Status::stable, const ForcesUnique& unique = {}) {
   const std::string folder = test::fresh_folder(name);
   const Assembly a = test::column(3);
   write_assembly(folder + "/assembly.vtu", a);
@@ -40,6 +42,7 @@ std::string analysed_column(const std::string& name, const std::string& pvbatch 
   }
   Summary summary = test::column_summary(a);
   summary.status = status;
+  summary.forces_unique = unique;
   if (status == Status::unconverged) summary.message = "equilibrium residual 0.1 > 1e-9 asked";
   writer.write_text("run.yaml", "title: column\n");
   writer.write_summary(summary);
@@ -104,6 +107,37 @@ TEST(Report, EscapesTheTitleAndStatesTheVerdict) {
   EXPECT_NE(html.find("Column &lt;b&gt;&amp;amp; &quot;beds&quot;"), std::string::npos);
   EXPECT_NE(html.find("The structure is at rest."), std::string::npos);
   EXPECT_EQ(html.find("http"), std::string::npos) << "the page loads no external resources";
+}
+
+// The quality section is generated from the typed values: quantity, norm, what is bounded, and why not.
+TEST(Report, StatesWhatIsBoundedAndWhetherForcesAreUnique) {
+  Summary s;
+  s.status = Status::stable;
+  s.accuracy = {"force balance of the blocks", "largest, over the weight", 1e-8, 2e-9, 2e-9};
+  s.certified_force_error = {1.4e-14, "the distance of the forces from the exact ones"};
+  s.largest_law_violation = {0.88, 5, 12, 31, 0.0};
+  const std::string good = quality_text(s);
+  for (const char* said : {"Error of the force balance of the blocks: 2.00e-09 reached, 1.00e-08 requested",
+                           "Certified to be at most 1.4e-14: the distance of the forces from the exact ones.",
+                           "between the blocks 12 and 31, the law holds to within 8.8e-01"})
+    EXPECT_NE(good.find(said), std::string::npos) << good;
+  EXPECT_EQ(good.find("unbalanced force on a free block"), std::string::npos)
+      << "the run has no such residual";
+  s.certified_force_error = {{}, "some compliance is zero"};
+  EXPECT_NE(quality_text(s).find("No error bound is certified: some compliance is zero."), std::string::npos);
+  s.analysis = AnalysisType::limit;
+  s.critical = CriticalValue{"friction", 0.25, 0.26, 0.24};
+  EXPECT_NE(quality_text(s).find("those of the equilibrium at 0.26"), std::string::npos);
+}
+
+TEST(Report, StatesBesideTheVerdictThatForcesMayNotBeUnique) {
+  EXPECT_EQ(read_text(analysed_column("column") + "/report.html").find("may not be unique"),
+            std::string::npos);
+  const std::string html = read_text(
+      analysed_column("rigid", "", Status::stable, {false, "some compliance is zero"}) + "/report.html");
+  const size_t said = html.find("The forces may not be unique: some compliance is zero.");
+  ASSERT_NE(said, std::string::npos);
+  EXPECT_LT(said, html.find("<h2>"));
 }
 
 // Markup in every text that comes from a file, in the report and in a comparison of two runs.

@@ -140,7 +140,7 @@ TEST(StaticStart, KeepsTheBlockAtRestWithItsStaticForces) {
   scene.loads.gravity = testing::tilted_gravity(0.3);
   const RunResult moved = run(scene, assembly);
   EXPECT_EQ(moved.summary.status, Status::stable) << moved.summary.message;
-  EXPECT_LT(moved.summary.max_speed_m_per_s, 1e-9);
+  EXPECT_LT(moved.summary.max_speed_m_per_s.value(), 1e-9);
   scene.analysis.type = AnalysisType::static_;
   Frame still;
   AnalysisSinks sinks;
@@ -165,7 +165,7 @@ TEST(StaticStart, KeepsJointsThatHaveSlidAtRest) {
   const RunResult moved = run(scene, assembly);
   EXPECT_EQ(moved.summary.status, Status::stable) << moved.summary.message;
   // One step of free fall gives 0.1 m/s.
-  EXPECT_LT(moved.summary.max_speed_m_per_s, 1e-6);
+  EXPECT_LT(moved.summary.max_speed_m_per_s.value(), 1e-6);
 }
 
 TEST(StaticStart, ReportsThatThereIsNoEquilibrium) {
@@ -176,6 +176,61 @@ TEST(StaticStart, ReportsThatThereIsNoEquilibrium) {
   EXPECT_EQ(moved.summary.status, Status::moving);
   EXPECT_NE(moved.summary.message.find("analysis.start: static"), std::string::npos);
   EXPECT_EQ(moved.summary.steps, 1);
+}
+
+/// A wall at rest under its weight, solved by a first-order method with a limit of iterations.
+RunResult run_limited(int max_iterations, double duration) {
+  Case scene = make_case(0.4, 1e-8, 0.01);
+  scene.analysis.method = ContactMethod::spg;
+  scene.analysis.tolerance = 1e-8;
+  scene.analysis.max_iterations = max_iterations;
+  scene.analysis.duration = duration;
+  return run(scene, testing::running_bond_wall({1.0, 0.5, 0.5}, 3, 3));
+}
+
+// A dual method satisfies the momentum balance to rounding: the message names what was missed instead.
+TEST(Accuracy, NamesTheMeasureThatWasMissed) {
+  const Summary s = run_limited(5, 0.05).summary;
+  EXPECT_EQ(s.status, Status::unconverged);
+  EXPECT_EQ(s.message.find("5 of 5 steps missed the tolerance 1.0e-08 of the force error bound"), 0u)
+      << s.message;
+  EXPECT_EQ(s.message.find("momentum"), std::string::npos);
+  EXPECT_NE(s.message.find("violates the contact law by"), std::string::npos) << s.message;
+  EXPECT_EQ(s.accuracy.quantity, "contact forces of a step");
+  EXPECT_GT(s.accuracy.worst_over_run, s.accuracy.asked);
+  EXPECT_LE(s.momentum_residual.value(), 1e-12);
+  EXPECT_GT(s.contact_law_residual.value(), 1e-3);
+  ASSERT_TRUE(s.largest_law_violation);
+  EXPECT_GT(s.largest_law_violation->value, 1e-3);
+  EXPECT_GT(s.largest_law_violation->block_b, s.largest_law_violation->block_a);
+}
+
+// The first steps are missed and the last ones are not: residuals and bound are those of the worst step.
+TEST(Accuracy, IsTheWorstOfTheRun) {
+  const RunResult run = run_limited(60, 3.0);
+  const Summary& s = run.summary;
+  EXPECT_EQ(s.status, Status::unconverged) << s.message;
+  EXPECT_LE(s.accuracy.reached, s.accuracy.asked) << "the last step converged";
+  EXPECT_GT(s.accuracy.worst_over_run, s.accuracy.asked);
+  double in_last = 0.0;
+  for (const double violation : run.last.contacts.law_violation) in_last = std::max(in_last, violation);
+  EXPECT_GT(s.largest_law_violation.value().value, 10.0 * in_last);
+  EXPECT_GT(s.certified_force_error.value.value(), s.accuracy.asked);
+  EXPECT_LT(s.largest_law_violation->time, 1.0) << "the worst step is an early one";
+}
+
+// A block in free flight has no contact forces: its steps do not spoil what is certified of the others.
+TEST(Accuracy, IgnoresStepsWithoutLoadedContacts) {
+  Case scene = make_case(0.4, 1e-8, 0.01);
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.duration = 0.5;
+  const Summary s =
+      run(scene, testing::make_boxes(
+                     {{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true}, {.center = {0, 0, 0.6}}}))
+          .summary;
+  EXPECT_LE(s.accuracy.worst_over_run, 1e-9) << s.message;
+  EXPECT_LE(s.certified_force_error.value.value(), 1e-6);
+  EXPECT_TRUE(s.forces_unique.value);
 }
 
 // A dead load applied suddenly compresses a spring to twice its static penetration; applied slowly, to the

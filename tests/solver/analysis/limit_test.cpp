@@ -140,5 +140,49 @@ TEST(Limit, ReportsABracketWithoutACriticalValue) {
   EXPECT_NE(summary.message.find("stands at both ends of the bracket"), std::string::npos);
 }
 
+// The accuracy is that of the critical value. Displacement and speed of a limit run would be those of a
+// mechanism, whose amplitude means nothing.
+TEST(LimitSummary, GivesTheBracketAsItsAccuracyAndNoDisplacement) {
+  Case scene = limit_case(LimitSearch::Parameter::tilt, 0.0, 40.0, 0.4);
+  const Summary s = run(scene, testing::box_on_floor({1.0, 0.5, 0.2}));
+  EXPECT_EQ(s.status, Status::stable) << s.message;
+  EXPECT_EQ(s.accuracy.quantity, "critical value");
+  EXPECT_EQ(s.accuracy.asked, scene.analysis.limit.relative_width);
+  const double width = std::abs(s.critical->stable - s.critical->moving) / s.critical->value;
+  EXPECT_DOUBLE_EQ(s.accuracy.reached, width);
+  EXPECT_FALSE(s.max_displacement_m);
+  EXPECT_FALSE(s.max_speed_m_per_s);
+  EXPECT_LE(s.equilibrium_residual.value(), kOutcomeTolerance) << "of the stable end";
+}
+
+TEST(LimitSummary, HasNoResidualsWithoutAnEquilibrium) {
+  const Summary s =
+      run(limit_case(LimitSearch::Parameter::tilt, 30.0, 40.0, 0.4), testing::box_on_floor({1.0, 0.5, 0.2}));
+  EXPECT_EQ(s.status, Status::unconverged);
+  EXPECT_FALSE(s.equilibrium_residual);
+  EXPECT_FALSE(s.contact_law_residual);
+  EXPECT_FALSE(s.forces_unique.value);
+  EXPECT_TRUE(std::isnan(s.accuracy.reached));
+  EXPECT_EQ(s.certified_force_error.bounds, "no equilibrium was found");
+}
+
+TEST(StaticSummary, OfAMechanismHasNeitherDisplacementNorSpeed) {
+  Case scene = make_case(0.2, 1e-8, 0.01);
+  scene.loads.gravity = testing::tilted_gravity(0.3);
+  const Assembly assembly = testing::box_on_floor({1.0, 0.5, 0.2});
+  const Summary moving = run_static(scene, assembly, {});
+  EXPECT_EQ(moving.status, Status::moving) << moving.message;
+  EXPECT_FALSE(moving.max_displacement_m);
+  EXPECT_FALSE(moving.max_speed_m_per_s);
+  scene.joints.friction = 0.6;
+  const Summary stable = run_static(scene, assembly, {});
+  EXPECT_EQ(stable.status, Status::stable) << stable.message;
+  EXPECT_GT(stable.max_displacement_m.value(), 0.0);
+  EXPECT_FALSE(stable.max_speed_m_per_s);
+  EXPECT_TRUE(stable.forces_unique.value);
+  ASSERT_TRUE(stable.largest_law_violation);
+  EXPECT_LE(stable.largest_law_violation->value, 1e-6);
+}
+
 }  // namespace
 }  // namespace cupola::limit_test

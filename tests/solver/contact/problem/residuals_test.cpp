@@ -2,12 +2,15 @@
 
 #include "solver/contact/problem/residuals.hpp"
 
+#include <limits>
 #include <random>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "solver/contact/methods/solve_contact.hpp"
+#include "solver/contact/problem/duality_gap.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 #include "tests/solver/contact/slow_contact.hpp"
 
@@ -162,10 +165,118 @@ TEST(ResidualsOfAPair, CertifiedErrorIsTheDualityGap) {
     dual -= 0.5 * gamma.dot(E.cwiseProduct(gamma));
   }
   dual -= x.gamma.dot(relative_velocity(p, p.v_star) + p.b);
-  const double expected = std::sqrt(2.0 * (primal - dual) / p.E.minCoeff()) / x.gamma.norm();
+  const double expected = std::sqrt(2.0 * (primal - dual));
+  EXPECT_NEAR(force_error_bound(p, x), expected, 1e-9 * expected);
   const Residuals r = compute_residuals(p, x, kReference);
   ASSERT_TRUE(r.certificate.value.has_value());
-  EXPECT_NEAR(*r.certificate.value, expected, 1e-9 * expected);
+  const double norm = std::sqrt(x.gamma.dot(p.E.cwiseProduct(x.gamma)));
+  EXPECT_NEAR(*r.certificate.value, expected / norm, 1e-9 * expected / norm);
+}
+
+/// A dome in which the compliance of every third contact is 1e-7 times that of the others.
+ContactProblem mixed_dome(double contrast) {
+  scenes::DomeShape shape;
+  shape.rings = 4;
+  shape.blocks_per_ring = 6;
+  ContactProblem p = scenes::dome(shape, kStep, {0.4, 1e-6, 1e-6});
+  for (int i = 0; i < p.num_contacts(); i += 3) p.E.segment<3>(3 * i) *= contrast;
+  return p;
+}
+
+ContactSolution solved(const ContactProblem& p, double tolerance) {
+  ContactSolverOptions options;
+  options.tolerance = tolerance;
+  options.reference_speed = kReference;
+  ContactSolution x;
+  EXPECT_EQ(solve_contact(p, options, &x).ending, SolveEnding::converged);
+  return x;
+}
+
+// The bound is in the norm of the compliance of each contact, so that stiff contacts do not spoil it. With the
+// smallest compliance of the model in its place it was 3e3 times larger at a contrast of 1e7.
+TEST(ForceErrorBound, HoldsAndStaysSharpForMixedCompliances) {
+  for (const double contrast : {1.0, 1e-4, 1e-7}) {
+    const ContactProblem p = mixed_dome(contrast);
+    const ContactSolution exact = solved(p, 1e-13);
+    for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+      const ContactSolution rough = solved(p, tolerance);
+      const double error = compliance_norm(p, rough.gamma - exact.gamma);
+      const double bound = force_error_bound(p, rough), exact_bound = force_error_bound(p, exact);
+      EXPECT_GE(bound + exact_bound, error) << contrast << ", tolerance " << tolerance;
+      // Newton may end far below the tolerance, where rounding is all that is left.
+      EXPECT_LE(bound, 100.0 * error + exact_bound) << contrast << ", tolerance " << tolerance;
+    }
+  }
+}
+
+// Sliding contacts: gamma . z cancels to zero, and rounding must not turn 1e-16 into an error of 1e-8.
+TEST(ForceErrorBound, IsOfTheOrderOfRoundingForASlidingContact) {
+  const ContactProblem p = one_contact(0.4, 2.0, 0.5);
+  for (const double angle : {0.1, 0.7, 2.0, 3.9}) {
+    ContactSolution x{VecX::Zero(6), VecX()};
+    x.v.head<3>() = Vec3(-1.0, 5.0 * std::cos(angle), 5.0 * std::sin(angle));
+    x.gamma = contact_impulse(contact_law(p, 0), Vec3(x.v.head<3>()));
+    ContactProblem balanced = p;
+    balanced.v_star = x.v;
+    balanced.v_star.head<3>() -= x.gamma / 2.0;  // M = 2 kg
+    const double bound = force_error_bound(balanced, x);
+    EXPECT_LE(bound, 200.0 * std::numeric_limits<double>::epsilon() * x.v.norm()) << angle;
+    EXPECT_GT(bound, 0.0) << "rounding is counted";
+  }
+}
+
+TEST(ForceErrorBound, IsAbsentWithItsReason) {
+  const ContactSolution stick{VecX::Zero(6), Vec3(1.0, -0.2, 0.0)};
+  const auto reason = [](const ContactProblem& p, const ContactSolution& x, FrictionLaw law) {
+    const ForceCertificate c = compute_residuals(p, x, kReference, law).certificate;
+    EXPECT_FALSE(c.value.has_value());
+    return c.bounds;
+  };
+  const FrictionLaw associated = FrictionLaw::associated;
+  EXPECT_NE(reason(one_contact(0.4, 0.0, 0.0), stick, associated).find("compliance is zero"),
+            std::string::npos);
+  EXPECT_NE(reason(one_contact(0.4, 2.0, 0.5), stick, FrictionLaw::coulomb).find("Coulomb"),
+            std::string::npos);
+  EXPECT_NE(reason(one_contact(0.1, 2.0, 0.5), stick, associated).find("outside their friction cones"),
+            std::string::npos);
+  EXPECT_EQ(reason(one_contact(0.4, 2.0, 0.5), {VecX::Zero(6), VecX::Zero(3)}, associated),
+            "no contact is loaded");
+}
+
+TEST(ForcesUnique, RequireAComplianceAndTheAssociatedLaw) {
+  EXPECT_TRUE(forces_unique(one_contact(0.4, 2.0, 0.5), FrictionLaw::associated).value);
+  EXPECT_FALSE(forces_unique(one_contact(0.4, 2.0, 0.0), FrictionLaw::associated).value);
+  EXPECT_TRUE(forces_unique(one_contact(0.0, 2.0, 0.0), FrictionLaw::coulomb).value) << "no friction";
+  EXPECT_FALSE(forces_unique(one_contact(0.4, 2.0, 0.5), FrictionLaw::coulomb).value);
+}
+
+// One contact of a dome with a wrong force of a millionth of the total: invisible in the global norm.
+TEST(ContactLawErrors, ShowTheContactThatTheGlobalNormHides) {
+  const ContactProblem p = mixed_dome(1.0);
+  ContactSolution x = solved(p, 1e-13);
+  constexpr int kWrong = 40;
+  x.gamma[3 * kWrong] += 1e-7 * x.gamma.norm();
+  EXPECT_LE(compute_residuals(p, x, kReference).contact_law, 1.1e-7);
+  const VecX errors = contact_law_errors(p, x, FrictionLaw::associated);
+  Eigen::Index worst = 0;
+  EXPECT_NEAR(errors.maxCoeff(&worst), 1e-7 * x.gamma.norm(), 1e-10 * x.gamma.norm());
+  EXPECT_EQ(worst, kWrong);
+  EXPECT_NEAR(errors.norm() / x.gamma.norm(), compute_residuals(p, x, kReference).contact_law, 1e-15);
+}
+
+// The allowance for rounding ends at 1e-3, and messages state that it was used.
+TEST(Excess, AllowsForRoundingUpToALimit) {
+  Residuals r;
+  r.contact_law = 5e-9;
+  r.contact_law_rounding = 1e-9;
+  EXPECT_LE(excess(r, 1e-10), 1.0);
+  EXPECT_NE(residuals_text(r, 1e-10).find("because rounding of the velocities causes up to that much"),
+            std::string::npos);
+  EXPECT_EQ(residuals_text(r, 5e-9).find("rounding"), std::string::npos) << "not needed";
+  r.contact_law = 5e-2;
+  r.contact_law_rounding = 1e-2;
+  EXPECT_DOUBLE_EQ(excess(r, 1e-10), 50.0);
+  EXPECT_DOUBLE_EQ(excess(r, 0.1), 0.5);
 }
 
 TEST(ResidualsOfAPair, AreNotSmallForNaN) {

@@ -1,0 +1,147 @@
+#include "solver/contact/problem/duality_gap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+
+#include "assembly/base/error.hpp"
+
+namespace cupola {
+namespace {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kMachineEps = std::numeric_limits<double>::epsilon();
+
+/// Bounds of the rounding errors in the terms of the gap.
+class RoundingBounds {
+ public:
+  RoundingBounds(const ContactProblem& problem, const ContactSolution& solution) : p_(problem), x_(solution) {
+    add_momentum();
+    add_contacts();
+  }
+  /// Bound of the resulting error of sqrt(2 gap) and of the distance of gamma from Y, sqrt(J).
+  double total() const { return std::sqrt(squared_); }
+
+ private:
+  static Vec3 uncertainty(const ContactLaw& law, const Vec3& gamma);
+  void add_momentum();
+  void add_contacts();
+
+  const ContactProblem& p_;
+  const ContactSolution& x_;
+  double squared_ = 0.0;
+};
+
+/// Rounding of an impulse, and its distance from the cone.
+Vec3 RoundingBounds::uncertainty(const ContactLaw& law, const Vec3& gamma) {
+  const double outside = std::max({0.0, gamma.tail<2>().norm() - law.mu * gamma[0], -gamma[0]});
+  return 4.0 * kMachineEps * gamma.cwiseAbs() + Vec3::Constant(outside);
+}
+
+/// |L^-1| times a bound of each component of the error of r = M (v - v_star) - D gamma.
+void RoundingBounds::add_momentum() {
+  std::vector<Vec6> error(static_cast<std::size_t>(p_.num_blocks()), Vec6::Zero());
+  std::vector<int> terms(error.size(), 8);  // of the sum in one row: M (v - v_star), then three per contact
+  for (int i = 0; i < p_.num_contacts(); ++i)
+    for (const int k : {p_.block_a[i], p_.block_b[i]})
+      if (k != ContactProblem::kFixed) terms[k] += 3;
+  for (int i = 0; i < p_.num_contacts(); ++i) {
+    const Vec3 gamma = x_.gamma.segment<3>(3 * i);
+    const Vec3 change = uncertainty(contact_law(p_, i), gamma);
+    const auto add = [&](int k, const Mat63& D) {
+      if (k == ContactProblem::kFixed) return;
+      error[k] += D.cwiseAbs() * (0.5 * kMachineEps * terms[k] * gamma.cwiseAbs() + change);
+    };
+    add(p_.block_a[i], p_.D_a[i]);
+    add(p_.block_b[i], p_.D_b[i]);
+  }
+  for (int k = 0; k < p_.num_blocks(); ++k) {
+    const Vec6 change = (x_.v - p_.v_star).segment<6>(6 * k);
+    error[k] += 0.5 * kMachineEps * terms[k] * (p_.M[k].cwiseAbs() * change.cwiseAbs());
+    const Mat6 L_inverse = p_.M[k].llt().matrixL().solve(Mat6::Identity());
+    squared_ += (L_inverse.cwiseAbs() * error[k]).squaredNorm();
+  }
+}
+
+/// The norm of E^-1 of the error of y = D^T v + b, and the norm of E of the error of gamma.
+void RoundingBounds::add_contacts() {
+  constexpr int kTerms = 16;  // of y: six per block, b, and the evaluation of the contact law
+  for (int i = 0; i < p_.num_contacts(); ++i) {
+    Vec3 speed = p_.b.segment<3>(3 * i).cwiseAbs();
+    const auto add = [&](int k, const Mat63& D) {
+      if (k != ContactProblem::kFixed) speed += D.cwiseAbs().transpose() * x_.v.segment<6>(6 * k).cwiseAbs();
+    };
+    add(p_.block_a[i], p_.D_a[i]);
+    add(p_.block_b[i], p_.D_b[i]);
+    const ContactLaw law = contact_law(p_, i);
+    const Vec3 gamma = x_.gamma.segment<3>(3 * i);
+    // An open contact whose gap exceeds the error stays open: its term of the gap is exactly zero.
+    const Vec3 error = 0.5 * kMachineEps * kTerms * speed;
+    const Vec3 y = relative_velocity(p_, i, x_.v) + p_.b.segment<3>(3 * i);
+    const double opening = y[0] - law.mu * y.tail<2>().norm();
+    if (gamma.isZero(0.0) && opening > error[0] + law.mu * error.tail<2>().norm()) continue;
+    const double e_t = law.mu > 0.0 ? law.e_t : law.e_n;
+    const Vec3 E(law.e_n, e_t, e_t);
+    squared_ += error.cwiseAbs2().cwiseQuotient(E).sum();
+    squared_ += uncertainty(law, gamma).cwiseAbs2().cwiseProduct(E).sum();
+  }
+}
+
+}  // namespace
+
+double contact_duality_gap(const ContactLaw& law, const Vec3& y, const Vec3& gamma) {
+  const Vec3 gamma_v = contact_impulse(law, y);
+  const double e_t = law.mu > 0.0 ? law.e_t : 0.0;
+  const Vec3 difference = gamma - gamma_v;
+  const double distance = 0.5 * difference.dot(Vec3(law.e_n, e_t, e_t).cwiseProduct(difference));
+  switch (contact_region(law, y)) {  // gamma . z with z = y + E gamma(v), without cancellation
+    case ContactRegion::separation:
+      return distance + std::max(0.0, gamma.dot(y));
+    case ContactRegion::stick:
+      return distance;  // z = 0
+    case ContactRegion::slip:
+      break;
+  }
+  // z = |z_t| (mu, t) and gamma . z = |z_t| [(mu gamma_n - |gamma_t|) + |gamma_t| |t + gamma_t/|gamma_t||^2 / 2]
+  constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();  // of |gamma_t| and mu gamma_n
+  const double z_t = std::max(0.0, y.tail<2>().norm() - e_t * gamma_v.tail<2>().norm());
+  const double gamma_t = gamma.tail<2>().norm();
+  double inside = law.mu * gamma[0] - gamma_t;
+  if (inside <= kRounding * law.mu * gamma[0]) inside = 0.0;
+  if (gamma_t > 0.0 && y.tail<2>().norm() > 0.0)
+    inside += 0.5 * gamma_t * (y.tail<2>().normalized() + gamma.tail<2>() / gamma_t).squaredNorm();
+  return distance + z_t * inside;
+}
+
+double duality_gap(const ContactProblem& p, const ContactSolution& x) {
+  const VecX y = relative_velocity(p, x.v) + p.b;
+  const VecX impulse = generalized_impulse(p, x.gamma);
+  double gap = 0.0;
+  for (int k = 0; k < p.num_blocks(); ++k) {
+    const Vec6 r = p.M[k] * (x.v - p.v_star).segment<6>(6 * k) - impulse.segment<6>(6 * k);
+    gap += 0.5 * p.M[k].llt().matrixL().solve(r).squaredNorm();
+  }
+  for (int i = 0; i < p.num_contacts(); ++i)
+    gap += contact_duality_gap(contact_law(p, i), y.segment<3>(3 * i), x.gamma.segment<3>(3 * i));
+  return gap;
+}
+
+double compliance_norm(const ContactProblem& problem, const VecX& gamma) {
+  CUPOLA_ASSERT(gamma.size() == problem.E.size());
+  double squared = 0.0;
+  for (int i = 0; i < problem.num_contacts(); ++i) {
+    const Vec3 g = gamma.segment<3>(3 * i);
+    squared += problem.E[3 * i] * g[0] * g[0];
+    if (problem.mu[i] > 0.0) squared += problem.E[3 * i + 1] * g.tail<2>().squaredNorm();
+  }
+  return std::sqrt(squared);
+}
+
+double force_error_bound(const ContactProblem& problem, const ContactSolution& solution) {
+  return std::sqrt(2.0 * duality_gap(problem, solution)) + RoundingBounds(problem, solution).total();
+}
+
+}  // namespace cupola
