@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
@@ -81,11 +82,11 @@ std::string refuted_balance(const Scene& scene, const Summary& summary, const Kn
   const double mean = summary.weight_N / summary.free_blocks;
   constexpr double kRounding = 1e-13;  // of the force: the sum over its contact points
   const double allowed =
-      known.num_blocks * summary.equilibrium_residual * mean + kRounding * known.force.norm();
+      known.num_blocks * summary.equilibrium_residual.value() * mean + kRounding * known.force.norm();
   const double error = (found - known.force).norm();
   if (error <= allowed || scene.input.analysis.type != AnalysisType::static_) return "";
   return fmt::format("{:.2e} N are missing under {} blocks; the residual {:.1e} allows {:.2e} N", error,
-                     known.num_blocks, summary.equilibrium_residual, allowed);
+                     known.num_blocks, summary.equilibrium_residual.value(), allowed);
 }
 
 }  // namespace
