@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "generators/decomposition/convex_hull.hpp"
 #include "generators/decomposition/plane_voting.hpp"
 #include "generators/decomposition/prism_partition.hpp"
 #include "generators/stereotomy/separation.hpp"
@@ -97,6 +100,38 @@ ConvexPolyhedron between_planes(const TriangleMesh& mesh, const std::vector<Plan
   return solid;
 }
 
+/// True if each edge joins two faces.
+bool is_closed(const ConvexPolyhedron& solid) {
+  std::set<std::pair<int, int>> edges;
+  for (const auto& face : solid.faces)
+    for (size_t i = 0; i < face.size(); ++i)
+      if (!edges.emplace(face[i], face[(i + 1) % face.size()]).second) return false;
+  return std::ranges::all_of(edges, [&](const auto& edge) {
+    return edges.contains({edge.second, edge.first});
+  });
+}
+
+/// The convex hull of a part, with facets as in the block; its faces are plane within the unevenness of the block.
+ConvexPolyhedron hull_of(const ConvexPolyhedron& part, const DecompositionOptions& options) {
+  const TriangleMesh hull = convex_hull(part.vertices);
+  if (hull.triangles.empty()) return {};
+  std::vector<int> facet_of;
+  std::optional<ConvexPolyhedron> solid =
+      as_polyhedron(hull, find_facets(hull, options.facet_angle, options.flat * mesh_size(hull), &facet_of));
+  if (solid) return *solid;
+  return as_polyhedron(hull, find_facets(hull, kRounding, kRounding, &facet_of)).value_or(ConvexPolyhedron{});
+}
+
+/// A part of a block whose faces are not plane, with plane faces: the solid between the planes of its facets; its hull
+/// where the planes leave a face out.
+ConvexPolyhedron flattened(const TriangleMesh& mesh, const ConvexPolyhedron& part,
+                           const DecompositionOptions& options) {
+  ConvexPolyhedron solid = between_planes(mesh, part.planes);
+  drop_vertices_on_edges(&solid);
+  if (!solid.empty() && is_closed(solid)) return solid;
+  return hull_of(part, options);
+}
+
 double volume_of(const std::vector<ConvexPolyhedron>& parts) {
   double volume = 0.0;
   for (const ConvexPolyhedron& part : parts) volume += polyhedron_volume(part);
@@ -120,7 +155,8 @@ Decomposition decompose(const TriangleMesh& mesh, const std::string& name,
   const double bound = std::max(1e-9 * result.volume, noise * area);
   const auto accept = [&](std::vector<ConvexPolyhedron> parts, Decomposition::Method method) {
     for (ConvexPolyhedron& part : parts) {
-      if (noise > kRounding * size) part = between_planes(mesh, part.planes);
+      if (noise > kRounding * size && method != Decomposition::Method::nef)
+        part = flattened(mesh, part, options);
       drop_vertices_on_edges(&part);
     }
     std::erase_if(parts, [](const ConvexPolyhedron& part) { return part.empty(); });

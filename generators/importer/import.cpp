@@ -20,7 +20,8 @@ using Format = ImportedBlocks::Format;
 
 constexpr double kSliver = 1e-3;      // thickness over size of a part
 constexpr double kSnapPerWarp = 4.0;  // two faces, each warped to both sides of its plane
-constexpr double kShownWarp = 1e-9;   // m; smaller deviations from planes are rounding
+constexpr double kRoundedWarp =
+    1e-9;  // of the block size; smaller deviations from planes are rounding of doubles
 
 Format format_of(const fs::path& path) {
   static const std::map<std::string, Format> endings{
@@ -142,7 +143,8 @@ DecompositionOptions choose_tolerances(const ImportedBlocks& source, const std::
   options.facet_angle = source.facet_angle.value_or(report->flatness.facet_angle);
   options.flat = source.facet_angle.value_or(report->flatness.flat);
   report->facet_angle = options.facet_angle;
-  report->snap = source.snap.value_or(kSnapPerWarp * report->flatness.warp);
+  const bool exact = report->flatness.relative_warp < kRoundedWarp;
+  report->snap = source.snap.value_or(exact ? 0.0 : kSnapPerWarp * report->flatness.warp);
   report->chosen = !source.facet_angle || !source.snap;
   return options;
 }
@@ -288,7 +290,7 @@ std::string to_text(const ImportReport& r) {
         fmt::format("  {} more blocks with several convex parts; --report lists all\n", several - kListed);
   if (r.sliver_parts > 0)
     text += fmt::format("warning: {} parts are slivers, thinner than 1e-3 of their size\n", r.sliver_parts);
-  if (r.flatness.warp > kShownWarp)
+  if (r.flatness.relative_warp >= kRoundedWarp)
     text += fmt::format(
         "faces deviate from planes by up to {:.2g} m, {:.1g} of the size of their block; facet_angle = "
         "{:.2g} rad and "

@@ -10,11 +10,11 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/convex_hull_3.h>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "generators/decomposition/convex_hull.hpp"
 #include "generators/importer/polygon_triangles.hpp"
 
 namespace cupola {
@@ -153,13 +153,9 @@ TriangleMesh repair_mesh(const RawBlock& block, double weld) {
 }
 
 TriangleMesh hull_mesh(const RawBlock& block, std::span<const Vec3> points) {
-  std::vector<Point> input;
-  for (const Vec3& p : points) input.emplace_back(p.x(), p.y(), p.z());
-  SurfaceMesh hull;
-  CGAL::convex_hull_3(input.begin(), input.end(), hull);
-  if (hull.num_faces() < 4) fail(block, "the corners of a part lie in one plane");
-  if (!CGAL::is_triangle_mesh(hull)) pmp::triangulate_faces(hull);
-  return to_triangles(hull);
+  TriangleMesh hull = convex_hull(points);
+  if (hull.triangles.empty()) fail(block, "the corners of a part lie in one plane");
+  return hull;
 }
 
 }  // namespace cupola

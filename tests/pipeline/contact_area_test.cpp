@@ -65,9 +65,9 @@ std::map<BlockPair, double> brute_force(const Assembly& assembly, double distanc
   return areas;
 }
 
-/// Checks the contact area of every pair of blocks against brute force, to 1e-9 of the largest area. Overlaps
-/// below `smallest` (m2) are slivers and form no joint.
-void expect_same_areas(const Assembly& assembly, double smallest, double distance) {
+/// Checks the contact area of every pair of blocks against brute force, to `accuracy` of the largest area.
+/// Overlaps below `smallest` (m2) are slivers and form no joint.
+void expect_same_areas(const Assembly& assembly, double smallest, double distance, double accuracy = 1e-9) {
   std::map<BlockPair, double> found;
   const ContactSet set = ContactDetector(assembly, {}).update(initial_poses(assembly));
   for (const Patch& patch : set.patches) found[{patch.block_a, patch.block_b}] += patch.area;
@@ -78,7 +78,7 @@ void expect_same_areas(const Assembly& assembly, double smallest, double distanc
   for (const auto& [pair, area] : expected) {
     if (area < smallest) continue;
     ++joints;
-    EXPECT_NEAR(found[pair], area, 1e-9 * largest) << "blocks " << pair.first << " and " << pair.second;
+    EXPECT_NEAR(found[pair], area, accuracy * largest) << "blocks " << pair.first << " and " << pair.second;
   }
   EXPECT_GT(joints, 0);
   for (const auto& [pair, area] : found) {
@@ -106,13 +106,16 @@ TEST(ContactArea, AgreesWithBruteForceOnSmallDomes) {
 
 // Models from other programs, whose faces coincide to a micrometre or better.
 TEST(ContactArea, AgreesWithBruteForceOnImportedModels) {
+  // Facing faces lie in planes that differ by the rounding of the files, 1e-8 of the block size and less. The detector measures in
+  // the plane between them, brute force in one of them.
+  constexpr double kRounding = 1e-7;
   if (shared_data().empty()) GTEST_SKIP() << "no shared data";
   for (const char* file :
        {"A", "H", "bridge", "cubes", "shelf-stable", "snake", "type-a", "type-b", "type-c", "type-d"}) {
     SCOPED_TRACE(file);
     ImportedBlocks source;
     source.path = shared_data() + "/compas_cra/" + file + ".json";
-    expect_same_areas(import_blocks(source, 1000.0), 1e-6, 1e-6);
+    expect_same_areas(import_blocks(source, 1000.0), 1e-6, 1e-6, kRounding);
   }
 }
 
