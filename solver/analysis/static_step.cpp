@@ -58,7 +58,7 @@ double first_static_step(const Model& model, const State& start, const ContactSe
 }
 
 double largest_static_step(const Model& model, const State& start, const ContactSet& contacts) {
-  constexpr double kNegligible = 1e-10;
+  constexpr double kNegligible = 1e-12;
   const double compliance = largest_compliance(model, start, contacts);
   if (compliance == 0.0) return std::numeric_limits<double>::infinity();
   double mass = 0.0;

@@ -14,8 +14,8 @@ StepOptions static_step_options(const StaticOptions& options, double h);
 double first_static_step(const Model& model, const State& start, const ContactSet& contacts,
                          double acceleration, const StaticOptions& options);
 
-/// Largest useful h, s: c m / h^2 = 1e-10 for the most compliant contact. Elastic displacements are then
-/// negligible, and the impulses of a mechanism still have a third of their digits. Infinite where all joints are
+/// Largest useful h, s: c m / h^2 = 1e-12 for the most compliant contact. Elastic displacements are then
+/// negligible, and the impulses of a mechanism still have a quarter of their digits. Infinite where all joints are
 /// rigid.
 double largest_static_step(const Model& model, const State& start, const ContactSet& contacts);
 
