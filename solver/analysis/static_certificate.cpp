@@ -79,11 +79,7 @@ StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, 
   StaticCertificate certificate;
   const bool rigid = smallest_compliance(problem) == 0.0;
   const bool coulomb = law == FrictionLaw::coulomb;
-  certificate.forces_unique = {!rigid && !coulomb,
-                               rigid ? "some compliance is zero: forces that balance the loads are chosen "
-                                       "by the method, not by the model"
-                               : coulomb ? "Coulomb's law can have several equilibria"
-                                         : "associated law and positive compliance: strictly convex"};
+  certificate.forces_unique = forces_unique(problem, law);
   if (problem.num_blocks() == 0 || problem.num_contacts() == 0) {
     certificate.force_error.bounds = "no joint carries force";
     return certificate;

@@ -12,7 +12,7 @@ namespace cupola {
 enum class Balance {
   stable,    ///< stiffness of the joints plus geometric stiffness is positive (semi)definite
   unstable,  ///< it has a negative direction
-  unknown    ///< not examined: under Coulomb's law with sliding joints the stiffness is not symmetric
+  unknown    ///< not examined: rigid joints, ties, one sector only, or joints that slide under Coulomb's law
 };
 
 struct StaticCertificate {

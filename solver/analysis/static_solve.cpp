@@ -231,31 +231,39 @@ StaticSolution ProximalPoint::run() {
     x_ = trial_.step_solution;
     if (best_.h == 0.0 || residual_ < best_.balance.residual) best_ = trial_;
     if (contraction > 0.5 && trial_.speed_ratio > kAtRest) {
-      if (const double needed = proof(trial_); associated && needed >= kProven)
+      const double needed = proof(trial_);
+      if (associated && needed >= kProven)
         return finish(
             StaticOutcome::moving,
-            fmt::format("no equilibrium exists: the blocks accelerate at {:.3g} g, and an "
-                        "equilibrium would need normal forces {:.2g} times those found and the loads",
-                        trial_.speed_ratio, needed));
+            fmt::format(
+                "no equilibrium exists: blocks accelerate at up to {:.3g} m/s2, and an equilibrium would "
+                "need normal forces {:.2g} times the larger of those found and the loads",
+                trial_.speed_ratio * acceleration_, needed));
       const bool steady = moves_steadily(contraction, associated ? kUnproven : kMoving);
       if (associated && steady)
         return finish(
             StaticOutcome::unconverged,
-            fmt::format("the blocks accelerate at {:.3g} g in {} iterations, but it is not proven that "
-                        "no equilibrium exists: it would need normal forces at least {:.2g} times "
-                        "those found or the loads, and the proof requires {:g}",
-                        trial_.speed_ratio, kUnproven, proof(trial_), kProven));
+            fmt::format(
+                "blocks accelerate at up to {:.3g} m/s2 in {} iterations, but it is not proven that no "
+                "equilibrium exists: it would need normal forces {:.2g} times the larger of those found "
+                "and the loads, and the proof requires {:g} times",
+                trial_.speed_ratio * acceleration_, kUnproven, needed, kProven));
       if (!associated && steady)
-        return finish(StaticOutcome::moving,
-                      fmt::format("a steady motion was found: the blocks accelerate at {:.3g} g; not proven: "
-                                  "other contact forces might balance the loads",
-                                  trial_.speed_ratio));
+        return finish(
+            StaticOutcome::moving,
+            fmt::format("a steady motion was found: blocks accelerate at up to {:.3g} m/s2; not proven: "
+                        "other contact forces might balance the loads",
+                        trial_.speed_ratio * acceleration_));
     }
     speed_up(contraction);
   }
-  if (accepts(trial_))
-    return finish(StaticOutcome::equilibrium, fmt::format("equilibrium residual {:.2e} <= tolerance {:.2e}",
-                                                          trial_.balance.residual, options_.tolerance));
+  if (accepts(trial_)) {
+    std::string message = fmt::format("equilibrium residual {:.2e} <= tolerance {:.2e}",
+                                      trial_.balance.residual, options_.tolerance);
+    if (trial_.residuals.contact_law > options_.tolerance)  // accepted as rounding: say so
+      message += "; " + residuals_text(trial_.residuals, options_.tolerance);
+    return finish(StaticOutcome::equilibrium, message);
+  }
   return finish(StaticOutcome::unconverged,
                 fmt::format("equilibrium residual {:.2e} > tolerance {:.2e} after {} solves",
                             best_.balance.residual, options_.tolerance, kMaxSolves));
