@@ -222,26 +222,6 @@ void write_data(const std::string& side_path, vtkDataSet* data, const Mesh& mesh
     throw SystemError(fmt::format("{}: cannot be written: {}", side_path, messages.first()));
 }
 
-/// Replaces the start of the appended data by one that every ParaView reads.
-void shorten_appended_tag(const std::string& side_path) {
-  constexpr size_t kChunk = 1 << 16;
-  std::fstream file(side_path, std::ios::binary | std::ios::in | std::ios::out);
-  std::string head;
-  size_t at = std::string::npos;
-  while (file && at == std::string::npos) {
-    const size_t old_size = head.size();
-    head.resize(old_size + kChunk);
-    file.read(head.data() + old_size, kChunk);
-    head.resize(old_size + static_cast<size_t>(file.gcount()));
-    at = head.find(kAppendedByVtk);
-  }
-  file.clear();
-  if (at != std::string::npos)
-    file.seekp(static_cast<std::streamoff>(at)).write(kAppended.data(), kAppended.size());
-  file.close();
-  if (at == std::string::npos || !file) throw SystemError(side_path + ": cannot be written");
-}
-
 void append_checksum(const std::string& side_path) {
   const std::string line = fmt::format("{}{}{}", kChecksumStart, hash_file(side_path), kChecksumEnd);
   std::ofstream out(side_path, std::ios::binary | std::ios::app);

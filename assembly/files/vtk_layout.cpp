@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <optional>
@@ -13,6 +14,8 @@
 
 #include <fmt/format.h>
 #include <vtkBase64Utilities.h>
+
+#include "assembly/base/error.hpp"
 
 namespace cupola {
 namespace {
@@ -192,6 +195,25 @@ class Layout {
 
 std::string layout_defect(std::string_view text) {
   return Layout(text).defect();
+}
+
+void shorten_appended_tag(const std::string& path) {
+  constexpr size_t kChunk = 1 << 16;
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  std::string head;
+  size_t at = std::string::npos;
+  while (file && at == std::string::npos) {
+    const size_t old_size = head.size();
+    head.resize(old_size + kChunk);
+    file.read(head.data() + old_size, kChunk);
+    head.resize(old_size + static_cast<size_t>(file.gcount()));
+    at = head.find(kAppendedByVtk);
+  }
+  file.clear();
+  if (at != std::string::npos)
+    file.seekp(static_cast<std::streamoff>(at)).write(kAppended.data(), kAppended.size());
+  file.close();
+  if (at == std::string::npos || !file) throw SystemError(path + ": cannot be written");
 }
 
 }  // namespace cupola

@@ -14,6 +14,9 @@ constexpr std::string_view kAppendedByVtk = "<AppendedData encoding=\"base64\">\
 constexpr std::string_view kAppended = "<AppendedData>                  \n   _";
 static_assert(kAppended.size() == kAppendedByVtk.size());
 
+/// Replaces the first of these tags in the file by the second. Throws SystemError that names the file.
+void shorten_appended_tag(const std::string& path);
+
 /// Checks the layout of a VTK XML file written by Cupola (zlib, appended base64 data, 64-bit headers).
 /// Returns the defect found, or an empty text if VTK may safely read the file. VTK trusts its input: an array
 /// without a type aborts the process, and memory is allocated as declared before the data are read, so that a
