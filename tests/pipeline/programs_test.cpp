@@ -95,7 +95,8 @@ TEST(Programs, StateThatRigidForcesMayNotBeUnique) {
   solve_wall(folder, set);
   const ProgramRun run =
       folder.run("cupola-solve " + kWall + " --assembly assembly.vtu --output results" + set);
-  EXPECT_NE(run.out.find("\n  The forces may not be unique: some joint compliance is zero"), std::string::npos)
+  EXPECT_NE(run.out.find("\n  The forces may not be unique: some joint compliance is zero"),
+            std::string::npos)
       << run.out;
   EXPECT_NE(run.out.find("No error bound is certified: some compliance is zero"), std::string::npos)
       << run.out;
