@@ -8,8 +8,8 @@
 namespace cupola {
 
 /// Reads a case file, merged over the files that it extends, and applies every `--set key.path=value`. The
-/// name in `extends: other.yaml` is relative to the file that contains it; `extends: cupola:NAME` is a bundled case.
-/// `files`, if given, receives the paths of the files read.
+/// name in `extends: other.yaml` is relative to the file that contains it; `extends: cupola:NAME` is a
+/// bundled case. `files`, if given, receives the paths of the files read.
 CaseNode load_case_tree(const std::string& path, const std::vector<std::string>& set_options,
                         std::vector<std::string>* files = nullptr);
 

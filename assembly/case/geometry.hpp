@@ -206,8 +206,8 @@ struct ImportedBlocks {
   /// within this times the block size of one plane.
   /// None: chosen from the deviations of the faces from planes (generators/importer/flatness.hpp).
   std::optional<double> facet_angle;
-  /// m: facing facets within this distance of a common plane are moved into it; 0: none; without a value: 4 times the
-  /// deviation of the faces from planes.
+  /// m: facing facets within this distance of a common plane are moved into it; 0: none; without a value: 4
+  /// times the deviation of the faces from planes.
   std::optional<double> snap;
 };
 constexpr auto enum_names(ImportedBlocks::Format) {

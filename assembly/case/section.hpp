@@ -36,8 +36,8 @@ class Section {
   Section(SchemaTable* schema, std::string path);
 
   void text(const std::string& key, std::string& value, const std::string& meaning);
-  /// The name of a file in or below the folder of the case file (see path_inside), or of the bundled case that names it. `path` gets the path to
-  /// open; without the key it stays unchanged.
+  /// The name of a file in or below the folder of the case file (see path_inside), or of the bundled case
+  /// that names it. `path` gets the path to open; without the key it stays unchanged.
   void file(const std::string& key, std::string& path, const std::string& meaning, bool or_folder = false);
   void number(const std::string& key, double& value, const NumberRule& rule, const std::string& meaning);
   /// A number that another key overrides with `value`. The number in the file is checked and ignored;

@@ -5,12 +5,12 @@
 
 namespace cupola {
 
-/// Start of the appended data as VTK writes it. With expat 2.6, and Debian 12's updates of expat 2.5, ParaView 5.11
-/// cannot read files with this tag: it passes the end of the element to expat in pieces, and expat postpones a token
-/// that has not doubled in length since it was last tried (libexpat issue 840).
+/// Start of the appended data as VTK writes it. With expat 2.6, and Debian 12's updates of expat 2.5,
+/// ParaView 5.11 cannot read files with this tag: it passes the end of the element to expat in pieces, and
+/// expat postpones a token that has not doubled in length since it was last tried (libexpat issue 840).
 constexpr std::string_view kAppendedByVtk = "<AppendedData encoding=\"base64\">\n   _";
-/// The same without the attribute, whose default is base64: short enough to be parsed at once. Of equal length, so
-/// that it is replaced in place.
+/// The same without the attribute, whose default is base64: short enough to be parsed at once. Of equal
+/// length, so that it is replaced in place.
 constexpr std::string_view kAppended = "<AppendedData>                  \n   _";
 static_assert(kAppended.size() == kAppendedByVtk.size());
 

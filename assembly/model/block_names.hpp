@@ -10,8 +10,8 @@ namespace cupola {
 /// Name of a block for messages and tables: its name in the imported file, else its number.
 std::string block_label(const Assembly& assembly, int block);
 
-/// Replaces the names of blocks in a case by their numbers. Throws InputError for a name that no block has, with the
-/// nearest name.
+/// Replaces the names of blocks in a case by their numbers. Throws InputError for a name that no block has,
+/// with the nearest name.
 void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Supports* supports);
 
 /// What to do about an imported model without supports.

@@ -14,8 +14,8 @@ struct JointRule {
 /// Cube root of the smallest volume of a free block, m; 1 without free blocks.
 double smallest_block_size(const Assembly& assembly);
 
-/// `margin` of the case (m); 0: 1 % of the smallest block. The minimum width is 1e-3 of the smallest block: a block that
-/// sinks into its bed joint by compliance overlaps the sides of its neighbours by less than that.
+/// `margin` of the case (m); 0: 1 % of the smallest block. The minimum width is 1e-3 of the smallest block: a
+/// block that sinks into its bed joint by compliance overlaps the sides of its neighbours by less than that.
 JointRule joint_rule(double smallest_block, double margin);
 
 }  // namespace cupola

@@ -85,8 +85,8 @@ void drop_vertices_on_edges(ConvexPolyhedron* solid) {
   }
 }
 
-/// The solid that the planes of the faces bound, within a box about the block. Unlike clipping with a tolerance this
-/// gives exactly plane faces, however warped those of the block are.
+/// The solid that the planes of the faces bound, within a box about the block. Unlike clipping with a
+/// tolerance this gives exactly plane faces, however warped those of the block are.
 ConvexPolyhedron between_planes(const TriangleMesh& mesh, const std::vector<Plane>& planes) {
   Vec3 low = mesh.vertices.front(), high = low;
   for (const Vec3& v : mesh.vertices) {
@@ -111,7 +111,8 @@ bool is_closed(const ConvexPolyhedron& solid) {
   });
 }
 
-/// The convex hull of a part, with facets as in the block; its faces are plane within the unevenness of the block.
+/// The convex hull of a part, with facets as in the block; its faces are plane within the unevenness of the
+/// block.
 ConvexPolyhedron hull_of(const ConvexPolyhedron& part, const DecompositionOptions& options) {
   const TriangleMesh hull = convex_hull(part.vertices);
   if (hull.triangles.empty()) return {};
@@ -122,8 +123,8 @@ ConvexPolyhedron hull_of(const ConvexPolyhedron& part, const DecompositionOption
   return as_polyhedron(hull, find_facets(hull, kRounding, kRounding, &facet_of)).value_or(ConvexPolyhedron{});
 }
 
-/// A part of a block whose faces are not plane, with plane faces: the solid between the planes of its facets; its hull
-/// where the planes leave a face out.
+/// A part of a block whose faces are not plane, with plane faces: the solid between the planes of its facets;
+/// its hull where the planes leave a face out.
 ConvexPolyhedron flattened(const TriangleMesh& mesh, const ConvexPolyhedron& part,
                            const DecompositionOptions& options) {
   ConvexPolyhedron solid = between_planes(mesh, part.planes);

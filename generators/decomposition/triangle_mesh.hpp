@@ -37,8 +37,9 @@ Facet mean_facet(const TriangleMesh& mesh, std::vector<int> triangles);
 double unevenness(const TriangleMesh& mesh, const Facet& facet);
 
 /// Clusters connected polygons into facets. Their normals differ by at most `angle` (rad) from that of the
-/// largest polygon of the facet, and their corners lie within `distance` (m) of their mean plane. A polygon that is not plane
-/// within `distance` counts as several triangles. `facet_of` receives the facet of each triangle.
+/// largest polygon of the facet, and their corners lie within `distance` (m) of their mean plane. A polygon
+/// that is not plane within `distance` counts as several triangles. `facet_of` receives the facet of each
+/// triangle.
 std::vector<Facet> find_facets(const TriangleMesh& mesh, double angle, double distance,
                                std::vector<int>* facet_of);
 

@@ -38,7 +38,8 @@ void append_angles(const TriangleMesh& mesh, const std::vector<Facet>& polygons,
     }
 }
 
-/// The least value >= `start` that no angle exceeds by less than a factor of two, if it is below kLargestTilt; else `start`.
+/// The least value >= `start` that no angle exceeds by less than a factor of two, if it is below
+/// kLargestTilt; else `start`.
 double below_a_gap(double start, std::vector<double> angles) {
   std::ranges::sort(angles);
   double value = start;

@@ -16,10 +16,13 @@ struct Flatness {
 };
 
 /// Measures the polygons and chooses the tolerances:
-/// - a polygon tilts by (distance of a corner from its mean plane) / (area / longest extent); up to 0.05 rad it counts as
+/// - a polygon tilts by (distance of a corner from its mean plane) / (area / longest extent); up to 0.05 rad
+/// it counts as
 ///   plane, beyond that as intended;
-/// - `facet_angle` is three times the largest tilt, at least 1e-6. It is increased to leave a gap of a factor of two among
-///   the angles between neighbouring faces, if there is such a gap below 0.05 rad: rounding and warping make small angles,
+/// - `facet_angle` is three times the largest tilt, at least 1e-6. It is increased to leave a gap of a factor
+/// of two among
+///   the angles between neighbouring faces, if there is such a gap below 0.05 rad: rounding and warping make
+///   small angles,
 ///   edges of blocks large ones;
 /// - `flat` is one and a half times `relative_warp`, or `facet_angle` if that was increased.
 Flatness measure_flatness(const std::vector<TriangleMesh>& meshes);

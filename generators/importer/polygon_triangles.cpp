@@ -19,8 +19,8 @@ using PlaneCells =
 using PlaneTriangulation = CGAL::Constrained_Delaunay_triangulation_2<ProjectionTraits, PlaneCells,
                                                                       CGAL::No_constraint_intersection_tag>;
 
-/// The corners as a cycle that a polygon and its reverse share: from the least corner (by x, y, z) towards the lesser of
-/// its neighbours.
+/// The corners as a cycle that a polygon and its reverse share: from the least corner (by x, y, z) towards
+/// the lesser of its neighbours.
 struct CommonCycle {
   std::vector<int> order;
   bool reversed = false;

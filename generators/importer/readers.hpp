@@ -10,8 +10,8 @@ namespace cupola {
 // Readers of block files. Each returns the blocks in the order of the file with coordinates as written, and
 // throws InputError with file and line for invalid content.
 
-/// Wavefront OBJ: one block per `o`, or per `g` in a file without `o`. A name is the rest of its line, blanks included.
-/// Only `v` and `f` are read besides.
+/// Wavefront OBJ: one block per `o`, or per `g` in a file without `o`. A name is the rest of its line, blanks
+/// included. Only `v` and `f` are read besides.
 std::vector<RawBlock> read_obj(const std::string& path);
 
 /// OFF, PLY (ascii, binary little- and big-endian) and STL (ascii, binary). The blocks are the connected

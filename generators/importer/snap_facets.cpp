@@ -115,8 +115,8 @@ double furthest_corner(const std::vector<TriangleMesh>& blocks, const std::vecto
   return furthest;
 }
 
-/// Joins the groups of facing facets as long as one plane fits all their corners, and gives each group its plane. Returns
-/// the number of facets in groups.
+/// Joins the groups of facing facets as long as one plane fits all their corners, and gives each group its
+/// plane. Returns the number of facets in groups.
 int set_common_planes(const std::vector<TriangleMesh>& blocks, const std::vector<std::pair<int, int>>& pairs,
                       double distance, std::vector<BlockFacet>* facets) {
   std::vector<Group> groups(facets->size());
@@ -146,8 +146,8 @@ int set_common_planes(const std::vector<TriangleMesh>& blocks, const std::vector
   return moved;
 }
 
-/// The point nearest to p on the planes, in the least-squares sense. There may be fewer than three planes, and they may be
-/// dependent: planes count as parallel if p would otherwise move by more than `furthest` (m).
+/// The point nearest to p on the planes, in the least-squares sense. There may be fewer than three planes,
+/// and they may be dependent: planes count as parallel if p would otherwise move by more than `furthest` (m).
 Vec3 on_planes(const Vec3& p, const std::vector<Plane>& planes, double furthest) {
   Eigen::MatrixXd A(planes.size(), 3);
   Eigen::VectorXd b(planes.size());

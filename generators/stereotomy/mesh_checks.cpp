@@ -19,8 +19,8 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// Boundary of one block as triangles, or of one part as polygons with its internal faces. CGAL refuses a face that
-/// uses an edge twice in one direction, which then leaves the boundary open.
+/// Boundary of one block as triangles, or of one part as polygons with its internal faces. CGAL refuses a
+/// face that uses an edge twice in one direction, which then leaves the boundary open.
 SurfaceMesh boundary_of(const Assembly& assembly, const Part* begin, const Part* end, bool with_internal) {
   SurfaceMesh mesh;
   std::map<int, SurfaceMesh::Vertex_index> vertex;

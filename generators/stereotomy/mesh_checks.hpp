@@ -16,9 +16,10 @@ struct BoundaryDefect {
 };
 
 /// Blocks whose boundary (all faces except internal ones) is open, inside out or intersects itself. Faces are
-/// split into triangles by a fan from their first vertex. With `part_by_part` each convex part must be closed by itself
-/// instead; imported blocks need that, because their parts share no vertices. Their surfaces were checked as read, and
-/// a part that is convex with plane faces, which check_model() measures, neither intersects itself nor is inside out.
+/// split into triangles by a fan from their first vertex. With `part_by_part` each convex part must be closed
+/// by itself instead; imported blocks need that, because their parts share no vertices. Their surfaces were
+/// checked as read, and a part that is convex with plane faces, which check_model() measures, neither
+/// intersects itself nor is inside out.
 std::vector<BoundaryDefect> find_boundary_defects(const Assembly& assembly, bool part_by_part = false);
 
 /// Calls `visit` for pairs of parts that may touch, i.e. whose ranges of x, y, z and azimuth about the z axis

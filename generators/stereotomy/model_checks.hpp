@@ -57,8 +57,8 @@ struct ModelTolerances {
 /// for overlaps and gaps (1e-9 m for the 50 m dome).
 ModelTolerances generated_tolerances(const Assembly& assembly);
 
-/// For imported blocks: the rule of contact detection for overlaps and joints; planes within 1e-5 of the model's size, or
-/// within `facet_angle` (rad) of it if that is larger.
+/// For imported blocks: the rule of contact detection for overlaps and joints; planes within 1e-5 of the
+/// model's size, or within `facet_angle` (rad) of it if that is larger.
 ModelTolerances imported_tolerances(const Assembly& assembly, double facet_angle, const JointRule& rule);
 
 /// Measures a model and checks that blocks are closed, oriented outwards and free of self-intersections

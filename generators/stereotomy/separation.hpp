@@ -21,8 +21,8 @@ ConvexShape convex_shape(const Assembly& assembly, const Part& part);
 /// first axis with an overlap of at most `good_enough`.
 double overlap_depth(const ConvexShape& a, const ConvexShape& b, double good_enough);
 
-/// Smallest overlap (m) of two convex polygons in one plane, over the directions normal to their edges; <= 0 if they are
-/// apart.
+/// Smallest overlap (m) of two convex polygons in one plane, over the directions normal to their edges; <= 0
+/// if they are apart.
 double overlap_width(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& normal);
 
 }  // namespace cupola

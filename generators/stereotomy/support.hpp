@@ -8,7 +8,8 @@
 namespace cupola {
 
 /// Appends the fixed block under the first bed. Its depth is `width` (m).
-/// - Ring: one cell per slice, between the radial half-planes of the shell's slices. Its top face is z = 0. It
+/// - Ring: one cell per slice, between the radial half-planes of the shell's slices. Its top face is z = 0.
+/// It
 ///   extends `width` beyond both skins, on the inside at most half-way to the axis.
 /// - Otherwise: one box under the whole first bed, with the top face in its plane. It extends `width` beyond
 ///   the bed on all sides, towards the inside of an arch at most a quarter of the clear span.

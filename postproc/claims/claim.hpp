@@ -70,17 +70,17 @@ struct NamedQuantity {
 ///
 ///   at_least <= value / over - minus <= at_most
 ///
-/// where `over`, `minus` and either limit may be absent. Limits that the publication states are in `paper`, those
-/// chosen here in `ours`; both apply. With `each_run` the number is evaluated for every run of `value` by itself,
-/// e.g. for every seed, and the statement holds if it holds for every run.
+/// where `over`, `minus` and either limit may be absent. Limits that the publication states are in `paper`,
+/// those chosen here in `ours`; both apply. With `each_run` the number is evaluated for every run of `value`
+/// by itself, e.g. for every seed, and the statement holds if it holds for every run.
 struct Claim {
   std::string source;  ///< section and figure
   std::string quote;   ///< sentence of the publication, word for word; empty for a statement of our own
   std::string says;    ///< the statement
   std::string number;  ///< the number in words
   std::string unit;
-  /// Remark in which {value}, {over}, {minus}, {message} (of the solver, first run) and the names in `also` stand
-  /// for values. It contains no digits, so that every number comes from the runs.
+  /// Remark in which {value}, {over}, {minus}, {message} (of the solver, first run) and the names in `also`
+  /// stand for values. It contains no digits, so that every number comes from the runs.
   std::string note;
   bool open = false;  ///< no limits: the number is shown without a verdict
   bool each_run = false;

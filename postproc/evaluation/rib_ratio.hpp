@@ -9,9 +9,9 @@ namespace cupola {
 
 /// How much more the ribs of a vault carry than the middle of its sails.
 ///
-/// On every bed the resultants r of strips one block wide are summed over all ribs and over all mid-sails; their
-/// ratio is averaged over the beds. The beds are the lowest ones that make up whole periods of the bond, so that a
-/// spiral stands at every distance from the rib equally often.
+/// On every bed the resultants r of strips one block wide are summed over all ribs and over all mid-sails;
+/// their ratio is averaged over the beds. The beds are the lowest ones that make up whole periods of the
+/// bond, so that a spiral stands at every distance from the rib equally often.
 struct RibRatio {
   double mean = 0.0;
   double smallest = 0.0, largest = 0.0;  ///< of a single bed
@@ -19,11 +19,12 @@ struct RibRatio {
   int beds = 0;
 };
 
-/// Rings after which the bond repeats within a sail: for spirals, until each stands where its neighbour stood.
+/// Rings after which the bond repeats within a sail: for spirals, until each stands where its neighbour
+/// stood.
 int bond_period(const Bond& bond);
 
-/// The ratio for strips at the azimuths of one rib and one mid-sail, repeated in every sail. None without common
-/// beds.
+/// The ratio for strips at the azimuths of one rib and one mid-sail, repeated in every sail. None without
+/// common beds.
 std::optional<RibRatio> rib_ratio(const ThrustInput& input, const Geometry& geometry, double rib_deg,
                                   double mid_sail_deg);
 

@@ -39,8 +39,8 @@ std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell);
 
 inline constexpr double kDegrees = 180.0 / std::numbers::pi;  ///< degrees per radian
 
-/// Size of the model, m: diagonal of the box around the centroids of the free blocks, but at least the cube root
-/// of the volume of the first block.
+/// Size of the model, m: diagonal of the box around the centroids of the free blocks, but at least the cube
+/// root of the volume of the first block.
 double model_size(const Assembly& assembly);
 
 /// Azimuth of a point about the z axis, rad, in (-pi, pi].

@@ -20,9 +20,9 @@ struct RunForces {
 };
 RunForces read_forces(RunFiles& run);
 
-/// 2 `fine` - `coarse`: the forces at a time step of zero, if their error is proportional to the time step and `coarse`
-/// has twice that of `fine` (Richardson's extrapolation). Second-order errors remain. A joint that one run lacks
-/// counts as unloaded in it.
+/// 2 `fine` - `coarse`: the forces at a time step of zero, if their error is proportional to the time step
+/// and `coarse` has twice that of `fine` (Richardson's extrapolation). Second-order errors remain. A joint
+/// that one run lacks counts as unloaded in it.
 RunForces extrapolated(const RunForces& fine, const RunForces& coarse);
 
 /// Errors of a run against its reference, all relative and without unit.

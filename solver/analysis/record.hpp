@@ -40,8 +40,8 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
                  const std::vector<Vec3>& contact_forces, const std::vector<double>& violations,
                  const ContactMemories& memories, const std::vector<Vec3>& displacement);
 
-/// Sets the fields of the summary that follow from the contacts and blocks of a frame, except displacement and
-/// speed, whose meaning depends on the analysis.
+/// Sets the fields of the summary that follow from the contacts and blocks of a frame, except displacement
+/// and speed, whose meaning depends on the analysis.
 void summarize_frame(const Frame& frame, const Model& model, Summary* summary);
 
 /// Largest displacement (m) and speed (m/s) of a block.

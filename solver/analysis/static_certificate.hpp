@@ -35,17 +35,17 @@ struct StaticCertificate {
 ///
 ///     F* = F + (F' - F) + rest,   |rest|_c <= sqrt(2 G) + last correction + rounding of D^T d
 ///
-/// The resultant of a joint is in error by at most that of F' - F plus, by Cauchy's inequality, |rest|_c times
-/// sqrt(sum of 1/c_i over the joint); the moment about its centroid likewise, with 1/c_i weighted by the squared
-/// lever. The value is the largest such bound over the wrench of the joint (moments over the square root of
-/// the joint's area), over the joints that carry more than 1 % of the mean joint force.
+/// The resultant of a joint is in error by at most that of F' - F plus, by Cauchy's inequality, |rest|_c
+/// times sqrt(sum of 1/c_i over the joint); the moment about its centroid likewise, with 1/c_i weighted by
+/// the squared lever. The value is the largest such bound over the wrench of the joint (moments over the
+/// square root of the joint's area), over the joints that carry more than 1 % of the mean joint force.
 ///
 /// **Stability.** The second variation of the energy: the stiffness of the joints in their present state plus
 /// the geometric stiffness of the contact forces, which act on points that rotate with their blocks. Growth
 /// slower than exp(t sqrt(1e-3 g / m)) is not reported.
 ///
-/// `loads`: N, N m (6 nb). `gravity`: m/s2, sets that smallest growth rate. `problem` and `solution` are those
-/// of the whole model; with a symmetry the linear algebra is done on one sector.
+/// `loads`: N, N m (6 nb). `gravity`: m/s2, sets that smallest growth rate. `problem` and `solution` are
+/// those of the whole model; with a symmetry the linear algebra is done on one sector.
 StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, const ContactProblem& problem,
                                  const ContactSolution& solution, FrictionLaw law, double gravity,
                                  const CyclicSymmetry* symmetry = nullptr);

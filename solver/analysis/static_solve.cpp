@@ -177,8 +177,8 @@ void ProximalPoint::speed_up(double contraction) {
   if (h > trial_.h) set_step(h);
 }
 
-/// Lower bound of the sum of the normal forces of any equilibrium, from the motion, over the larger of the sum
-/// found and the sum of the loads.
+/// Lower bound of the sum of the normal forces of any equilibrium, from the motion, over the larger of the
+/// sum found and the sum of the loads.
 double ProximalPoint::proof(const StaticSolution& trial) const {
   double loads = 0.0;
   const VecX f = applied_forces(model_, start_, start_.time + 0.5 * options_.time_advance);

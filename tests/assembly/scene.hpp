@@ -8,8 +8,8 @@
 
 namespace cupola::test {
 
-/// A fixed cube, and on it a block made of a box and a triangular prism. All numbers have long binary fractions,
-/// so that a lost digit is noticed.
+/// A fixed cube, and on it a block made of a box and a triangular prism. All numbers have long binary
+/// fractions, so that a lost digit is noticed.
 inline Assembly two_block_assembly() {
   Assembly a;
   a.title = "Two blocks, <awkward> & \"quoted\" – not ASCII";

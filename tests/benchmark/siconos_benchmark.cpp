@@ -1,6 +1,6 @@
-// Comparison with Siconos (Debian packages, C API) on the same problems in one run, as CSV: the circular dome, 1,280
-// blocks, Coulomb's law, static-elastic and rigid. CPU seconds of one thread (OPENBLAS_NUM_THREADS=1
-// OMP_NUM_THREADS=1), of the solver call only for all solvers.
+// Comparison with Siconos (Debian packages, C API) on the same problems in one run, as CSV: the circular
+// dome, 1,280 blocks, Coulomb's law, static-elastic and rigid. CPU seconds of one thread
+// (OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1), of the solver call only for all solvers.
 //
 // Masses and speeds are scaled by their means, so that the error measure of Siconos, which mixes N s and m/s,
 // is dimensionless. `error` is that measure, computed by the routine of Siconos for every solution. `force`
@@ -8,9 +8,9 @@
 // unique).
 //
 // Each method of Siconos runs with several settings that its headers offer; the row shows the fastest that
-// met the tolerance, or else the one with the smallest error. Each run has its own process, which is stopped at
-// the limit of CPU seconds or at 8 GB. A method writes its result when it returns, so that a run that was stopped
-// has no error: its buffer was never filled.
+// met the tolerance, or else the one with the smallest error. Each run has its own process, which is stopped
+// at the limit of CPU seconds or at 8 GB. A method writes its result when it returns, so that a run that was
+// stopped has no error: its buffer was never filled.
 //
 //   siconos_benchmark [tolerance] [CPU seconds per run] [static|rigid]     1e-8, 120, both
 

@@ -16,9 +16,9 @@ constexpr const char* kExact = "forces in extended precision (exact_statics.hpp)
 constexpr int kCourses = 5;
 constexpr double kCubeWeight = 1000.0 * testing::kG;
 
-/// Three columns of five cubes under one beam of the weight of 90 cubes. (Under one of less than ten, the soft
-/// columns shorten so much by their own weight that the beam lifts off.) The outer joints have label 0 and the
-/// middle ones label 1, between cubes and at both ends.
+/// Three columns of five cubes under one beam of the weight of 90 cubes. (Under one of less than ten, the
+/// soft columns shorten so much by their own weight that the beam lifts off.) The outer joints have label 0
+/// and the middle ones label 1, between cubes and at both ends.
 Assembly three_columns() {
   std::vector<BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {12, 3, 1}, .fixed = true}};
   for (const double x : {-4.0, 0.0, 4.0})

@@ -24,9 +24,9 @@ struct ExactStatics {
 ///
 /// C = diag(c_n, c_t, c_t), g the initial gaps. Displacements and forces have a mantissa of 113 bits: a stiff
 /// joint beside soft ones turns the rounding of a large displacement into a force, which at a contrast of 1e7
-/// is 1e-8 of a weight in double precision. Newton directions are in long double. There is no mass and no time step: contact points, their frames
-/// and the joint laws are those of the solver, the method and the matrices are not. Every contact needs a
-/// compliance > 0.
+/// is 1e-8 of a weight in double precision. Newton directions are in long double. There is no mass and no
+/// time step: contact points, their frames and the joint laws are those of the solver, the method and the
+/// matrices are not. Every contact needs a compliance > 0.
 ExactStatics solve_exact_statics(const Case& scene, const Assembly& assembly);
 
 }  // namespace cupola

@@ -1,8 +1,9 @@
 // Writes the table of extreme scenes: the exact answer, how the run ended, its true error beside the accuracy
 // that it states, iterations, time and verdict of every row.
 //
-//   extremes_table FOLDER [TEXT]      writes extremes.csv and extremes.md to the folder; with TEXT only the rows
-//                                     whose group or name contains it. Exit code 1 if a row is worse than known.
+//   extremes_table FOLDER [TEXT]      writes extremes.csv and extremes.md to the folder; with TEXT only the
+//                                     rows whose group or name contains it. Exit code 1 if a row is worse
+//                                     than known.
 
 #include <cmath>
 

@@ -68,8 +68,8 @@ void add_stacks(Rows* rows) {
 constexpr double kLean = 0.4;   // rad, of the rod from the vertical
 constexpr double kPull = 40.0;  // m/s2, along the floor
 
-/// Painleve's rod: slender, sliding on its lower end like a piece of chalk that is pushed, at a friction above
-/// 4/3. The rigid problem with Coulomb's law has no solution, or several, at some states.
+/// Painleve's rod: slender, sliding on its lower end like a piece of chalk that is pushed, at a friction
+/// above 4/3. The rigid problem with Coulomb's law has no solution, or several, at some states.
 Scene painleve_rod(double mu, FrictionLaw law) {
   const Eigen::Quaterniond lean(Eigen::AngleAxisd(kLean, Vec3::UnitY()));
   const Vec3 size(0.02, 0.02, 1.0);

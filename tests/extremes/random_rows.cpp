@@ -1,5 +1,5 @@
-// The worst scenes that `make -f Makefile.cases extremes-search` has found. Seeds 61 and 69 are left out: the reference
-// finds no equilibrium there, so that nothing can be compared.
+// The worst scenes that `make -f Makefile.cases extremes-search` has found. Seeds 61 and 69 are left out: the
+// reference finds no equilibrium there, so that nothing can be compared.
 
 #include "tests/extremes/random_scene.hpp"
 #include "tests/extremes/rows.hpp"

@@ -1,5 +1,5 @@
-// assembly.vtu with a valid checksum and corrupted content. Promise: in an accepted assembly every index is in range
-// and every coordinate is finite.
+// assembly.vtu with a valid checksum and corrupted content. Promise: in an accepted assembly every index is
+// in range and every coordinate is finite.
 
 #include "assembly/files/assembly_file.hpp"
 #include "tests/fuzz/mesh_edits.hpp"

@@ -1,5 +1,5 @@
-// Files of imported blocks, as bytes; the build defines the reader (read_obj, read_off ...). Promise: every corner of
-// an accepted block is finite and every face refers to corners of its own block.
+// Files of imported blocks, as bytes; the build defines the reader (read_obj, read_off ...). Promise: every
+// corner of an accepted block is finite and every face refers to corners of its own block.
 
 #include "generators/importer/readers.hpp"
 #include "tests/fuzz/reader_under_test.hpp"

@@ -1,5 +1,5 @@
-// Case files as text, in a folder with the project's cases, which they may extend. Promise: the effective YAML of an
-// accepted case is accepted and reads back unchanged.
+// Case files as text, in a folder with the project's cases, which they may extend. Promise: the effective
+// YAML of an accepted case is accepted and reads back unchanged.
 
 #include "assembly/case/case_reader.hpp"
 #include "tests/fuzz/reader_under_test.hpp"

@@ -1,5 +1,5 @@
-// Checkpoints: raw bytes, and bytes after a valid first line and checksum, so that the checks of the archive itself
-// are tested. Promise: an accepted checkpoint is written back as the same bytes.
+// Checkpoints: raw bytes, and bytes after a valid first line and checksum, so that the checks of the archive
+// itself are tested. Promise: an accepted checkpoint is written back as the same bytes.
 
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/hash.hpp"

@@ -1,5 +1,5 @@
-// `--set` options, one per line, on a valid case. Promise: reading the case again with the same options gives the
-// same hash.
+// `--set` options, one per line, on a valid case. Promise: reading the case again with the same options gives
+// the same hash.
 
 #include <sstream>
 #include <vector>

@@ -15,8 +15,8 @@ T next_value(T value) {
   return static_cast<T>(value + 1);
 }
 
-/// Corrupts a mesh as directed by the bytes but keeps it writable: values, cell ids, names, missing and resized field
-/// arrays. The writer adds a valid checksum, so that the other checks of the reader are tested.
+/// Corrupts a mesh as directed by the bytes but keeps it writable: values, cell ids, names, missing and
+/// resized field arrays. The writer adds a valid checksum, so that the other checks of the reader are tested.
 inline void edit_mesh(ByteSource bytes, Mesh* mesh) {
   const auto corrupt = [&bytes](auto& value) {
     using T = std::decay_t<decltype(value)>;

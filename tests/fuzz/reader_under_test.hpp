@@ -13,9 +13,9 @@
 
 namespace cupola {
 
-/// Defined by each fuzz target: reads the bytes as its kind of input and returns whether they were accepted. A reader
-/// may throw only InputError. Any other exception, a crash, a hang, or a broken promise about accepted input is a
-/// defect.
+/// Defined by each fuzz target: reads the bytes as its kind of input and returns whether they were accepted.
+/// A reader may throw only InputError. Any other exception, a crash, a hang, or a broken promise about
+/// accepted input is a defect.
 bool reader_accepts(std::string_view bytes);
 
 /// True if `read` returns without InputError.

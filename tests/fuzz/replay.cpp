@@ -1,5 +1,5 @@
-// Runs a fuzz target without libFuzzer: on files, then on seeded random edits of them. Prints counts, the slowest
-// input and the peak memory; fails above the limits that the project promises.
+// Runs a fuzz target without libFuzzer: on files, then on seeded random edits of them. Prints counts, the
+// slowest input and the peak memory; fails above the limits that the project promises.
 //
 //   fuzz_case --edits 10000 cases/*.yaml
 //   fuzz_case --edits 10000 --write edited_ cases/*.yaml     only writes the edits: edited_0.yaml ...

@@ -29,8 +29,8 @@ StaticRun solve(const std::string& name, const std::vector<std::string>& setting
   return run;
 }
 
-/// Largest relative error of the wrench on a joint: moments about the mean of its points, over the square root
-/// of its area. Joints that carry less than 1 % of the mean force are left out.
+/// Largest relative error of the wrench on a joint: moments about the mean of its points, over the square
+/// root of its area. Joints that carry less than 1 % of the mean force are left out.
 double largest_wrench_error(const ContactTable& a, const ContactTable& exact) {
   using Wrench = Eigen::Matrix<double, 6, 1>;
   const auto num_joints = 1 + static_cast<size_t>(*std::max_element(exact.joint.begin(), exact.joint.end()));

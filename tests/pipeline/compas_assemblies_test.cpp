@@ -214,8 +214,8 @@ TEST_F(CompasAssembly, SnakeStandsOnlyWithEnoughFriction) {
 }
 
 // Blocks with curved faces. Each block is meshed separately, so that the faces of neighbours do not match;
-// the file contains the 40 strips in which they touch. Facets within 0.03 rad are treated as plane; the volumes
-// are those of the surfaces as read.
+// the file contains the 40 strips in which they touch. Facets within 0.03 rad are treated as plane; the
+// volumes are those of the surfaces as read.
 TEST_F(CompasAssembly, CurvedBlocksStandOnTheInterfacesOfTheirFile) {
   ImportedBlocks source;
   source.path = shared_data() + "/compas_cra/curve-3-blocks.json";

@@ -106,8 +106,8 @@ TEST(ContactArea, AgreesWithBruteForceOnSmallDomes) {
 
 // Models from other programs, whose faces coincide to a micrometre or better.
 TEST(ContactArea, AgreesWithBruteForceOnImportedModels) {
-  // Facing faces lie in planes that differ by the rounding of the files, 1e-8 of the block size and less. The detector measures in
-  // the plane between them, brute force in one of them.
+  // Facing faces lie in planes that differ by the rounding of the files, 1e-8 of the block size and less. The
+  // detector measures in the plane between them, brute force in one of them.
   constexpr double kRounding = 1e-7;
   if (shared_data().empty()) GTEST_SKIP() << "no shared data";
   for (const char* file :

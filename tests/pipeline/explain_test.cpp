@@ -1,5 +1,5 @@
-// `--explain` against the run: counts are equal, and the estimated time is within a factor of two of the time of the
-// run (slow, because it is measured).
+// `--explain` against the run: counts are equal, and the estimated time is within a factor of two of the time
+// of the run (slow, because it is measured).
 
 #include "solver/explain.hpp"
 

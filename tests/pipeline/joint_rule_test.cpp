@@ -1,5 +1,5 @@
-// The generator's checks and contact detection apply one rule (assembly/model/joint_rule.hpp): what the generator accepts
-// as a joint makes contacts, and what it refuses the solver refuses too.
+// The generator's checks and contact detection apply one rule (assembly/model/joint_rule.hpp): what the
+// generator accepts as a joint makes contacts, and what it refuses the solver refuses too.
 
 #include <filesystem>
 #include <fstream>

@@ -39,9 +39,9 @@ Case paper_dome(double lantern) {
   return scene;
 }
 
-// Seven rings in running bond: the ratio covers six beds, three periods. All sails are alike, so it is the mean ratio of
-// the thrust lines of one sail. A lantern on one side makes the sails differ; the sum over the sails does not change
-// when the named meridians are those of another sail.
+// Seven rings in running bond: the ratio covers six beds, three periods. All sails are alike, so it is the
+// mean ratio of the thrust lines of one sail. A lantern on one side makes the sails differ; the sum over the
+// sails does not change when the named meridians are those of another sail.
 TEST(PostprocVault, RibOverMidSailCoversAllSailsAndWholePeriods) {
   Case scene;
   OctagonalVault vault;
@@ -96,8 +96,8 @@ TEST(PostprocDome, HoopForcesAreTensileBelowAndCompressiveAbove) {
   }
 }
 
-// 27 polygonal voussoirs, t/R = 0.15, mu = 0.6: the thrust lies between its bounds, and each springing carries
-// half the weight.
+// 27 polygonal voussoirs, t/R = 0.15, mu = 0.6: the thrust lies between its bounds, and each springing
+// carries half the weight.
 TEST(PostprocArch, ThrustLiesBetweenMinimumAndMaximum) {
   const verification::ReferenceRow& bounds = verification::reference("arch_thrust").rows.front();
   ASSERT_EQ(bounds.name(), "voussoirs 27, t/R 0.15");

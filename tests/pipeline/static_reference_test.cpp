@@ -22,7 +22,8 @@ Answer solve(const Case& scene) {
   return answer;
 }
 
-// Wall of 12 x 6 x 1 m, 1800 kg/m3, top load of ten weights. The settlement is a row of the verification manual.
+// Wall of 12 x 6 x 1 m, 1800 kg/m3, top load of ten weights. The settlement is a row of the verification
+// manual.
 TEST(Wall, CarriesItsLoadsInBedsOnly) {
   Case scene;
   scene.geometry.surface = WallSurface{12.0, 6.0, 1.0};

@@ -1,5 +1,5 @@
-// Every relative link in the Markdown files of the repository leads to an existing file and, if it names one, to an
-// existing heading. Every header that a text names exists.
+// Every relative link in the Markdown files of the repository leads to an existing file and, if it names one,
+// to an existing heading. Every header that a text names exists.
 
 #include <cctype>
 #include <map>

@@ -1,4 +1,5 @@
-// `--explain` builds the same objects as the run: the first steps are equal, and what the run refuses is refused.
+// `--explain` builds the same objects as the run: the first steps are equal, and what the run refuses is
+// refused.
 
 #include "solver/explain.hpp"
 

@@ -120,7 +120,8 @@ double rocking_error(const ReferenceRow& row) {
   return rock_until_impact(0.2, 1.0, 0.5, row.number("h_s")).time / exact - 1.0;
 }
 
-/// Root mean square difference of the joint forces from those at tolerance 1e-10, over their root mean square.
+/// Root mean square difference of the joint forces from those at tolerance 1e-10, over their root mean
+/// square.
 double error_of_tolerance(const ReferenceRow& row) {
   const auto forces_at = [](const std::string& tolerance) {
     const Case scene = repository_case("dome_circular", {"analysis.tolerance=" + tolerance});

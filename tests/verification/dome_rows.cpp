@@ -114,7 +114,8 @@ Evaluation evaluate_dome() {
   return evaluated;
 }
 
-/// Mean meridional force of the blocks below and above a bed, kN/m. The value of a block applies at its middle.
+/// Mean meridional force of the blocks below and above a bed, kN/m. The value of a block applies at its
+/// middle.
 double meridional_force(const ReferenceRow& row) {
   const Evaluation e = evaluate_dome();
   const int bed = static_cast<int>(std::lround(row.number("theta_deg") / 1.5));

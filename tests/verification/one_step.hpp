@@ -7,8 +7,9 @@
 
 namespace cupola::verification {
 
-/// Largest component of a centroid's velocity over g h after one step from rest with rigid contacts. It depends
-/// only on geometry and friction, and is zero if and only if forces in the friction cones balance the loads.
+/// Largest component of a centroid's velocity over g h after one step from rest with rigid contacts. It
+/// depends only on geometry and friction, and is zero if and only if forces in the friction cones balance the
+/// loads.
 inline double speed_after_one_step(const Assembly& assembly, double friction, const Vec3& gravity) {
   Case scene = testing::make_case(friction, 0.0, 0.01);
   scene.analysis.tolerance = 1e-9;

@@ -5,8 +5,8 @@
 
 namespace cupola::verification {
 
-/// Sum over the base of the radial components of the reactions, outwards on the support, N. The radius is that
-/// of the contact point.
+/// Sum over the base of the radial components of the reactions, outwards on the support, N. The radius is
+/// that of the contact point.
 inline double outward_thrust(const Assembly& assembly, const ContactTable& contacts) {
   double sum = 0.0;
   for (int i = 0; i < contacts.size(); ++i) {

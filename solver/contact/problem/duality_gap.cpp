@@ -105,7 +105,8 @@ double contact_duality_gap(const ContactLaw& law, const Vec3& y, const Vec3& gam
     case ContactRegion::slip:
       break;
   }
-  // z = |z_t| (mu, t) and gamma . z = |z_t| [(mu gamma_n - |gamma_t|) + |gamma_t| |t + gamma_t/|gamma_t||^2 / 2]
+  // z = |z_t| (mu, t) and gamma . z = |z_t| [(mu gamma_n - |gamma_t|) + |gamma_t| |t + gamma_t/|gamma_t||^2 /
+  // 2]
   constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();  // of |gamma_t| and mu gamma_n
   const double z_t = std::max(0.0, y.tail<2>().norm() - e_t * gamma_v.tail<2>().norm());
   const double gamma_t = gamma.tail<2>().norm();

@@ -109,8 +109,9 @@ ForceCertificate certificate(const ContactProblem& problem, const ContactSolutio
 /// Tolerance of contact_law: raised to what rounding permits.
 double law_tolerance(const Residuals& residuals, double tolerance) {
   constexpr double kMargin = 16.0;  // for the sum of several rounding errors
-  // A block that slides down an incline on a compliance of 1e-12 of its Delassus block moves as the closed form to
-  // 1e-12 with residuals of 1e-4 from rounding alone. Above 1e-3, the forces that are printed could be wrong.
+  // A block that slides down an incline on a compliance of 1e-12 of its Delassus block moves as the closed
+  // form to 1e-12 with residuals of 1e-4 from rounding alone. Above 1e-3, the forces that are printed could
+  // be wrong.
   constexpr double kLargest = 1e-3;
   return std::max(tolerance, std::min(kMargin * residuals.contact_law_rounding, kLargest));
 }

@@ -92,8 +92,8 @@ TEST(AssemblyFile, TiesRoundTripExactly) {
   EXPECT_NE(read_error(path).find("tie 0 is invalid"), std::string::npos) << read_error(path);
 }
 
-// A VTK hexahedron lists four points of one face, then the four points across from them. The edges 0-4, 1-5, 2-6,
-// 3-7 and a positive determinant at point 0 show that the order is right.
+// A VTK hexahedron lists four points of one face, then the four points across from them. The edges 0-4, 1-5,
+// 2-6, 3-7 and a positive determinant at point 0 show that the order is right.
 TEST(AssemblyFile, BoxesBecomeHexahedraInVtkOrder) {
   const std::string path = test::fresh_folder("a") + "/assembly.vtu";
   write_assembly(path, test::two_block_assembly());

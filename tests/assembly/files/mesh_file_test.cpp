@@ -161,8 +161,8 @@ TEST(MeshFile, EditedCountsAreRefused) {
   }
 }
 
-/// The error of reading the file after the text that follows `start` is replaced (up to the next quote, or the same
-/// length), with a valid checksum.
+/// The error of reading the file after the text that follows `start` is replaced (up to the next quote, or
+/// the same length), with a valid checksum.
 std::string error_of_forged(const std::string& text, const std::string& start, const std::string& other) {
   const std::string path = test::fresh_folder("forged") + "/forged.vtu";
   std::string body = text.substr(0, text.rfind("<!--"));
@@ -192,8 +192,8 @@ TEST(MeshFile, DeclaredSizesAreCheckedDespiteAValidChecksum) {
     EXPECT_NE(error_of_forged(text, data, header).find("declares more data"), std::string::npos) << header;
 }
 
-// ParaView 5.11 with a recent expat reads files only without the attribute. Files with it, which version 0.1.0 wrote,
-// are read too.
+// ParaView 5.11 with a recent expat reads files only without the attribute. Files with it, which version
+// 0.1.0 wrote, are read too.
 TEST(MeshFile, AppendedDataStartWithAndWithoutEncoding) {
   const std::string path = test::fresh_folder("a") + "/mesh.vtu";
   write_mesh(path, solid_mesh());

@@ -356,8 +356,8 @@ TEST(SharedData, RodsConnectTheWallOfBricks) {
   EXPECT_TRUE(report.model.blocks_without_joint.empty());
 }
 
-// The faces are warped quads. The published volume is that of fans from their first vertices; other triangles of a warped
-// quad change it by a third of the warp times the area.
+// The faces are warped quads. The published volume is that of fans from their first vertices; other triangles
+// of a warped quad change it by a third of the warp times the area.
 TEST(SharedData, SplitsWarpedFacesIntoTriangles) {
   if (shared_data().empty()) GTEST_SKIP() << "no shared data";
   double volume = 0.0;

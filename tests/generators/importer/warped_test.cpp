@@ -44,7 +44,8 @@ Vec3 random_vector(std::mt19937* random, double length) {
 /// How the corners of the stones are moved.
 enum class Noise { shared, of_each_stone };
 
-/// The free blocks of a model as an OBJ file. Each corner is moved by up to `noise` (m); polygons start at a random corner.
+/// The free blocks of a model as an OBJ file. Each corner is moved by up to `noise` (m); polygons start at a
+/// random corner.
 std::string warped_obj(const Assembly& model, double noise, Noise kind, int decimals) {
   std::mt19937 random(5);
   std::vector<Vec3> moved = model.vertices;
@@ -144,9 +145,9 @@ TEST(WarpedVault, ImportsWithoutEditing) {
   expect_same_vault(planar_vault(), Noise::shared, 6);
 }
 
-// Stones of the dome and the circular octagon have faces of several polygons. They import and connect, but with
-// gaps of up to 8 times the noise, and the octagon loses up to 16 of its 1,120 joints, small ones: both are larger
-// than they should be.
+// Stones of the dome and the circular octagon have faces of several polygons. They import and connect, but
+// with gaps of up to 8 times the noise, and the octagon loses up to 16 of its 1,120 joints, small ones: both
+// are larger than they should be.
 TEST(WarpedVaultSlow, OfEveryShapeAndNoiseImportsWithoutEditing) {
   for (const Surface& surface : {Surface(DomeSurface{}), Surface(OctagonalVault{}), Surface(planar_vault())})
     for (const Noise kind : {Noise::shared, Noise::of_each_stone}) {

@@ -214,7 +214,8 @@ TEST(Evaluation, CracksEncloseTheOpenPoints) {
   EXPECT_NEAR(e.last.joints.wrenches[0].open_share, 0.5, 1e-12);
 }
 
-// 32 blocks of three uprights: 96 steps make a turn, so each of 8 spirals reaches its neighbour's place after 12 rings.
+// 32 blocks of three uprights: 96 steps make a turn, so each of 8 spirals reaches its neighbour's place after
+// 12 rings.
 TEST(RibRatio, BondRepeatsWhenEverySpiralStandsWhereItsNeighbourStood) {
   HerringboneBond spirals;
   EXPECT_EQ(bond_period(spirals), 12);

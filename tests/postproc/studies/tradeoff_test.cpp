@@ -110,8 +110,9 @@ TEST(ForceErrors, ConvertMomentsToForcesByTheSideOfTheJoint) {
   EXPECT_NEAR(errors.base_thrust, 0.1, 1e-12);
 }
 
-// Forces F + a h with steps h and 2 h: the extrapolation gives F, and the error of the run with step h is a h, where the
-// difference between the two runs is also a h: measured against the finer run, the coarser one would seem twice as good.
+// Forces F + a h with steps h and 2 h: the extrapolation gives F, and the error of the run with step h is a
+// h, where the difference between the two runs is also a h: measured against the finer run, the coarser one
+// would seem twice as good.
 TEST(ForceErrors, ExtrapolationRemovesAnErrorOfFirstOrder) {
   const RunForces exact = two_joints();
   const auto with_step = [&exact](double h) {

@@ -9,7 +9,8 @@
 #include "solver/contact/problem/contact_problem.hpp"
 
 // An independent solver of the static problem in extended precision, for small assemblies: dense matrices,
-// its own contact law, its own iteration. It shares only the matrices D, E, mu and b with the code under test.
+// its own contact law, its own iteration. It shares only the matrices D, E, mu and b with the code under
+// test.
 
 namespace cupola::testing {
 

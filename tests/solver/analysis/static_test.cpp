@@ -45,8 +45,8 @@ struct Scene {
   }
 };
 
-/// Largest relative error of the wrench on a joint: moments about the mean of its points, over the square root
-/// of its area. Joints that carry less than 1 % of the mean force are left out.
+/// Largest relative error of the wrench on a joint: moments about the mean of its points, over the square
+/// root of its area. Joints that carry less than 1 % of the mean force are left out.
 double largest_wrench_error(const ContactSet& contacts, const VecX& gamma, const VecX& exact) {
   using Wrench = Eigen::Matrix<double, 6, 1>;
   const JointNumbers numbers = number_joints(contacts);

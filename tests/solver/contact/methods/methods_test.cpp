@@ -51,7 +51,8 @@ TEST(ContactMethods, AgreeOnTheForcesOfAStep) {
       EXPECT_LE((s.x.gamma - reference.x.gamma).norm(), 1e-8 * reference.x.gamma.norm())
           << to_string(method) << " mu " << mu;
       EXPECT_LE(s.residuals.cone_violation, 1e-14) << to_string(method);
-      // The certificate bounds the true error in the norm of the compliance, up to the error of the reference.
+      // The certificate bounds the true error in the norm of the compliance, up to the error of the
+      // reference.
       const double norm = compliance_norm(problem, reference.x.gamma);
       EXPECT_GE(s.residuals.certificate.value.value() * norm + 1e-11 * norm,
                 compliance_norm(problem, s.x.gamma - reference.x.gamma))

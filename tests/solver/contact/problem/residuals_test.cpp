@@ -192,8 +192,8 @@ ContactSolution solved(const ContactProblem& p, double tolerance) {
   return x;
 }
 
-// The bound is in the norm of the compliance of each contact, so that stiff contacts do not spoil it. With the
-// smallest compliance of the model in its place it was 3e3 times larger at a contrast of 1e7.
+// The bound is in the norm of the compliance of each contact, so that stiff contacts do not spoil it. With
+// the smallest compliance of the model in its place it was 3e3 times larger at a contrast of 1e7.
 TEST(ForceErrorBound, HoldsAndStaysSharpForMixedCompliances) {
   for (const double contrast : {1.0, 1e-4, 1e-7}) {
     const ContactProblem p = mixed_dome(contrast);
