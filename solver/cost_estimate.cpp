@@ -25,7 +25,8 @@ constexpr double kFactorizationsPerSolve = 6.0;
 constexpr double kMultigridSolvesPerSolve = 26.0;
 /// Passes over convex problems that Coulomb's law and zero compliance take; each costs one static solve.
 constexpr double kPasses = 4.0;
-constexpr int kTimedSteps = 3;  // of a motion; the last one represents all that follow
+constexpr int kTimedSteps = 3;         // of a motion; the last one represents all that follow
+constexpr double kTimingBudget = 5.0;  // s of processor time, after which no further step is timed
 
 /// The Hessian in which every contact sticks.
 BlockMatrix sticking_hessian(const ContactProblem& problem, const WhitenedProblem& white,
@@ -108,17 +109,19 @@ CostEstimate estimate_motion(const Case& scene, const Assembly& assembly, const 
     cost.basis += "; ";
   }
   const double duration = scene.analysis.duration;
-  while (static_cast<int>(cost.steps.size()) < kTimedSteps &&
+  double timed = 0.0;
+  while (static_cast<int>(cost.steps.size()) < kTimedSteps && timed < kTimingBudget &&
          simulation.state().time < duration * (1.0 - 1e-12)) {
     const double started = cpu_seconds();
     const StepReport report = simulation.advance(step_limit(scene, simulation.state().time));
     cost.steps.push_back({report.h, report.solve.iterations, cpu_seconds() - started});
-    cost.seconds += cost.steps.back().seconds;
+    timed += cost.steps.back().seconds;
   }
+  cost.seconds += timed;
   const TimedStep& last = cost.steps.back();
   cost.seconds += std::max(0.0, duration - simulation.state().time) / last.h * last.seconds;
-  cost.basis +=
-      fmt::format("{} steps, the last of {:.3g} s in {:.3g} s", cost.steps.size(), last.h, last.seconds);
+  cost.basis += fmt::format("{} step{}, the last of {:.3g} s in {:.3g} s", cost.steps.size(),
+                            cost.steps.size() == 1 ? "" : "s", last.h, last.seconds);
   if (method_traits(scene.analysis.method).uses_factor) {
     BlockCholesky factor;
     time_factorization(problem, &factor);

@@ -1,5 +1,6 @@
 #include "solver/explain.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -58,7 +59,10 @@ ModelCounts count_model(const FirstProblem& first, int sectors) {
   const Assembly& assembly = *first.model.assembly;
   counts.free_blocks = first.model.num_free();
   counts.fixed_blocks = static_cast<int>(assembly.blocks.size()) - counts.free_blocks;
-  counts.parts = static_cast<int>(assembly.parts.size());
+  counts.parts =
+      static_cast<int>(std::count_if(assembly.parts.begin(), assembly.parts.end(), [&](const Part& p) {
+        return assembly.blocks[static_cast<size_t>(p.block)].kind != BlockKind::support;
+      }));
   counts.unknowns = first.model.num_unknowns() / sectors;
   counts.contacts = first.step.num_contacts;
   counts.joints = number_joints(first.contacts).count;

@@ -54,7 +54,7 @@ struct Postproc {
 
 /// The content of a case file in SI units, with defaults filled in.
 struct Case {
-  std::string title;
+  std::string title;  ///< with the changes by `--set`
   Geometry geometry;
   Material material;
   Joints joints;

@@ -28,6 +28,16 @@ bool solver_reads(const std::string& name) {
   return name != "title" && name != "postproc" && name != "sweep";
 }
 
+/// The title, followed by the options that change the model: `Dome (with joints.friction=0.3)`.
+std::string title_with(const std::string& title, const std::vector<std::string>& set_options) {
+  std::vector<std::string> changes;
+  for (const std::string& option : set_options) {
+    const std::string section = option.substr(0, option.find_first_of(".="));
+    if (solver_reads(section) && section != "output") changes.push_back(option);
+  }
+  return changes.empty() ? title : fmt::format("{} (with {})", title, fmt::join(changes, ", "));
+}
+
 /// Reads a case without checking the members of its sweep.
 Case read_one_case(const std::string& path, const std::vector<std::string>& set_options) {
   Case the_case;
@@ -37,6 +47,7 @@ Case read_one_case(const std::string& path, const std::vector<std::string>& set_
   declare_case(root, the_case);
   root.finish();
 
+  the_case.title = title_with(the_case.title, set_options);
   the_case.file = path;
   the_case.effective_yaml = to_yaml(root.effective());
   the_case.hash = hash_sections(root.effective(), solver_reads);

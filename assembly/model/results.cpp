@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace cupola {
 std::vector<Joint> joints_of(const ContactTable& contacts) {
   const int num_joints =
@@ -13,6 +15,19 @@ std::vector<Joint> joints_of(const ContactTable& contacts) {
                                  contacts.ring[i]};
   }
   return joints;
+}
+
+std::string limit_unit(const std::string& parameter) {
+  if (parameter == "tilt") return "degrees";
+  if (parameter == "acceleration") return "g";
+  return parameter.ends_with("friction") ? "" : "factor";  // load, thickness, spread
+}
+
+std::string phrase(const std::string& parameter, double value) {
+  const std::string unit = limit_unit(parameter);
+  if (unit == "factor") return fmt::format("a {} factor of {:.5g}", parameter, value);
+  return fmt::format("a{} {} of {:.5g}{}{}", parameter.starts_with('a') ? "n" : "", parameter, value,
+                     unit.empty() ? "" : " ", unit);
 }
 
 }  // namespace cupola

@@ -29,6 +29,10 @@ struct Joint {
   int ring = 0;  ///< course of the upper block; 0 for a base joint
 };
 
+/// Forces up to this share of the largest joint force of a frame are negligible. Solved forces are at least a
+/// hundred times more accurate (analysis.tolerance is 1e-8 of a block's weight), so what is larger is no error.
+inline constexpr double kNegligibleShare = 1e-6;
+
 /// Contacts at one instant, one row per contact point, in a fixed order (contacts_*.vtp).
 struct ContactTable {
   std::vector<int> joint;             ///< index into the joints
@@ -98,6 +102,12 @@ struct CriticalValue {
   double stable = 0.0;  ///< end of the bracket at which the structure stands
   double moving = 0.0;  ///< end at which it moves
 };
+
+/// Unit of the parameter of a limit analysis: "degrees", "g", "factor", or "" for friction.
+std::string limit_unit(const std::string& parameter);
+
+/// A value of the parameter with its name and unit: "a tilt of 6.9873 degrees".
+std::string phrase(const std::string& parameter, double value);
 
 /// results/summary.json: what was solved, how it ended and how accurate it is. Defined in assembly/FORMAT.md.
 struct Summary {

@@ -149,8 +149,9 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   Summary summary;
   const std::string mechanism = write_frames(run, &summary);
   summary.status = bracket.narrow ? Status::stable : Status::unconverged;
-  summary.message = fmt::format("{}: {}{}{}", to_string(parameter), bracket.message,
-                                mechanism.empty() ? "" : "; ", mechanism);
+  const std::string unit = limit_unit(to_string(parameter));
+  summary.message = fmt::format("{}{}: {}{}{}", to_string(parameter), unit.empty() ? "" : " (" + unit + ")",
+                                bracket.message, mechanism.empty() ? "" : "; ", mechanism);
   if (!bracket.narrow && !run.undecided.empty()) summary.message += "; " + run.undecided;
   summary.steps = run.num_trials;
   summary.iterations = run.iterations;

@@ -129,11 +129,12 @@ std::string describe(const Mechanism& mechanism) {
     return std::count_if(mechanism.joints.begin(), mechanism.joints.end(),
                          [motion](const MovingJoint& joint) { return joint.motion == motion; });
   };
+  const bool one = mechanism.num_groups == 1;
   return fmt::format(
-      "{} groups of blocks move; {} joints slide, {} open, {} hinge; relative power of the loads {:.3g}, "
-      "largest violation of the friction cones {:.1e}",
-      mechanism.num_groups, count(JointMotion::sliding), count(JointMotion::opening),
-      count(JointMotion::hinging), mechanism.load_power, mechanism.violation);
+      "{} group{} of blocks move{}; joints that slide: {}, open: {}, hinge: {}; relative power of the loads "
+      "{:.3g}, largest violation of the friction cones {:.1e}",
+      mechanism.num_groups, one ? "" : "s", one ? "s" : "", count(JointMotion::sliding),
+      count(JointMotion::opening), count(JointMotion::hinging), mechanism.load_power, mechanism.violation);
 }
 
 }  // namespace cupola

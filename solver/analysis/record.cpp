@@ -12,7 +12,6 @@ namespace cupola {
 namespace {
 
 constexpr double kSlipping = 1.0 - 1e-6;  // friction use from which a contact counts as slipping
-constexpr double kLoaded = 1e-9;          // of the largest normal force; smaller forces are rounding errors
 
 Status status_of(StaticOutcome outcome) {
   switch (outcome) {
@@ -154,7 +153,7 @@ void summarize_frame(const Frame& frame, const Model& model, Summary* summary) {
   for (int i = 0; i < contacts.size(); ++i) {
     summary->joints = std::max(summary->joints, contacts.joint[i] + 1);
     summary->max_penetration_m = std::max(summary->max_penetration_m, -contacts.gap[i]);
-    if (contacts.friction_use[i] >= kSlipping && contacts.normal_force[i] > kLoaded * largest_force)
+    if (contacts.friction_use[i] >= kSlipping && contacts.normal_force[i] > kNegligibleShare * largest_force)
       ++summary->slipping_contacts;
   }
   summary->weight_N = model.free_weight;
@@ -181,13 +180,21 @@ std::vector<double> static_violations(const ContactSet& contacts, const StaticSo
 Frame static_frame(const Model& model, const State& start, const ContactSet& contacts,
                    const ContactMemories& memories, const StaticSolution& solution,
                    const StaticOptions& options) {
-  LoadedState loaded = loaded_state(model, start, contacts, memories, solution, options);
+  // A motion has directions but no amplitude, and of an unconverged solve nothing is known: the blocks stay
+  // where they started.
+  const bool equilibrium = solution.outcome == StaticOutcome::equilibrium;
+  LoadedState loaded = equilibrium ? loaded_state(model, start, contacts, memories, solution, options)
+                                   : LoadedState{start, memories, solution.h};
+  const double speed = largest_speed(solution.step_solution.v);
+  if (solution.outcome == StaticOutcome::moving && speed > 0.0)
+    loaded.state.v = solution.step_solution.v / speed;
   std::vector<Vec3> displacement(loaded.state.poses.size());
   for (size_t block = 0; block < displacement.size(); ++block)
     displacement[block] = loaded.state.poses[block].p_WB - model.assembly->blocks[block].centroid;
   Frame frame =
       make_frame(model, loaded.state, contacts, solution.forces.contacts,
                  static_violations(contacts, solution, options.solve.law), loaded.memories, displacement);
+  if (!equilibrium) return frame;
   const VecX u =
       relative_velocity(solution.step.problem, solution.step_solution.v) + solution.step.support_velocity;
   for (size_t i = 0; i < frame.contacts.gap.size(); ++i)

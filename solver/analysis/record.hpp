@@ -52,7 +52,8 @@ double largest_speed(const Frame& frame);
 std::vector<double> static_violations(const ContactSet& contacts, const StaticSolution& solution,
                                       FrictionLaw law);
 
-/// The frame at the end of a static step: displacements h v, gaps after the displacement, velocities zero.
+/// The frame of a static solve. Equilibrium: displacements h v, gaps after the displacement, velocities zero. Motion:
+/// no displacements, velocities scaled so that the fastest block moves at 1 m/s. Unconverged: neither.
 Frame static_frame(const Model& model, const State& start, const ContactSet& contacts,
                    const ContactMemories& memories, const StaticSolution& solution,
                    const StaticOptions& options);

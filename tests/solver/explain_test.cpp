@@ -3,6 +3,7 @@
 
 #include "solver/explain.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -67,6 +68,17 @@ TEST(ExplainMotion, TimesTheFirstStepsOfTheRun) {
     EXPECT_EQ(timed, run_steps(*scene, wall)) << name;
     EXPECT_NE(timed, steps) << name;
   }
+}
+
+// The generator prints the convex parts of the blocks, without those of supports.
+TEST(ExplainModel, CountsThePartsOfTheBlocks) {
+  const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 2, 2);
+  const auto of_supports = std::count_if(wall.parts.begin(), wall.parts.end(), [&](const Part& part) {
+    return wall.blocks[static_cast<size_t>(part.block)].kind == BlockKind::support;
+  });
+  ASSERT_GT(of_supports, 0);
+  Case scene = moving_wall();
+  EXPECT_EQ(explain_model(scene, wall).counts.parts, static_cast<int>(wall.parts.size()) - of_supports);
 }
 
 TEST(ExplainMotion, NamesItsOptions) {

@@ -47,6 +47,15 @@ TEST(ReadCase, ReadsEveryValueOfTheFile) {
   EXPECT_EQ(c.postproc.sections, (std::vector<double>{14.5, 22.5}));
 }
 
+// A case whose title names a friction does not keep it silently when --set changes the friction.
+TEST(ReadCase, TitleNamesWhatSetChanges) {
+  const ScratchFolder scratch;
+  const std::string path = scratch.write("dome.yaml", kDome);
+  EXPECT_EQ(read_case(path, {"joints.friction=0.085", "postproc.sections=[1]"}).title,
+            "A dome: 40 x 32 (with joints.friction=0.085)");
+  EXPECT_EQ(read_case(path, {"title=B", "output.frames_every=0.1"}).title, "B");
+}
+
 TEST(ReadCase, KeepsTheDefaultsOfTheStructs) {
   const ScratchFolder scratch;
   const Case c = read_case(scratch.write("wall.yaml", kWall));

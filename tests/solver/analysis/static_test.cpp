@@ -283,5 +283,17 @@ TEST(StaticSolve, ProvesThatABlockSlidesOnASteepSlope) {
   }
 }
 
+// The frame of a motion has directions but no amplitude, which depends on the step h of the last iteration.
+TEST(StaticSolve, MotionHasDirectionsButNoDisplacement) {
+  Case input = make_case(0.4, 1e-8, 0.01);
+  input.loads.gravity = testing::tilted_gravity(0.5);
+  const Scene scene(input, testing::box_on_floor({1, 1, 0.2}));
+  const Frame frame =
+      static_frame(scene.model, scene.rest, scene.contacts, scene.memories, scene.solve(1e-6), {});
+  EXPECT_EQ(largest_displacement(frame), 0.0);
+  EXPECT_NEAR(largest_speed(frame), 1.0, 1e-12);
+  for (const double gap : frame.contacts.gap) EXPECT_NEAR(gap, 0.0, 1e-9) << "as detected";
+}
+
 }  // namespace
 }  // namespace cupola::static_test
