@@ -15,6 +15,7 @@
 #include "postproc/pictures/paraview_views.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/report/stages.hpp"
+#include "postproc/tables/csv_file.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/mesh_parts.hpp"
 #include "postproc/tables/post_summary.hpp"
@@ -27,27 +28,37 @@ std::string in_folder(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
 }
 
-HistoryRow history_row(const Evaluation& e, const Frame& frame) {
-  HistoryRow row{.time = frame.time};
-  for (const Vec3& d : frame.blocks.displacement)
-    row.max_displacement = std::max(row.max_displacement, d.norm());
-  for (const Vec3& v : frame.blocks.velocity) row.max_speed = std::max(row.max_speed, v.norm());
-  const ContactTable& c = frame.contacts;
-  for (int i = 0; i < c.size(); ++i) {
-    const bool a = e.assembly.blocks[c.block_a[i]].fixed, b = e.assembly.blocks[c.block_b[i]].fixed;
-    if (a != b) row.reaction += (a ? 1.0 : -1.0) * c.force[i].dot(e.up);
+/// Removes what an earlier run wrote for parts that this one may not have.
+void remove_earlier_output(const std::string& folder) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    for (const char* start : {"rings.csv", "stages.csv", "shell", "thrust_", "hoop_", "section_", "cut_"})
+      if (name.starts_with(start) && name.ends_with(".csv")) std::filesystem::remove(entry.path(), ignored);
   }
-  return row;
+  for (const auto& entry : std::filesystem::directory_iterator(in_folder(folder, "figures"), ignored))
+    for (const char* ending : {".gp", ".png", ".svg"})
+      if (entry.path().extension() == ending) std::filesystem::remove(entry.path(), ignored);
 }
 
-/// Writes the displaced blocks of every readable frame and returns one history row per frame. Unreadable
-/// frames are left out.
-std::vector<HistoryRow> write_frames(const ResultsReader& results, const std::string& folder,
-                                     Evaluation* evaluation) {
+/// True for a frame of the figure of the motion: four instants of a motion in time, evenly spaced, or the mechanism.
+bool is_shot(const Evaluation& e, size_t index, const Frame& frame) {
+  if (is_mechanism(e.summary, frame)) return true;
+  if (e.summary.analysis != AnalysisType::dynamic || at_rest(e.summary)) return false;
+  constexpr size_t kShots = 4;
+  for (size_t i = 1; i <= kShots; ++i)
+    if (index > 0 && index == (e.times.size() - 1) * i / kShots) return true;
+  return false;
+}
+
+/// Writes the displaced blocks of every readable frame and returns those that the figure of the motion shows.
+/// Unreadable frames are left out.
+std::vector<Shot> write_frames(const ResultsReader& results, const std::string& folder,
+                               Evaluation* evaluation) {
   const Evaluation& e = *evaluation;
   const DisplacedBlocks blocks(e);
   std::vector<PvdEntry> entries;
-  std::vector<HistoryRow> history;
+  std::vector<Shot> shots;
   for (size_t i = 0; i < e.times.size(); ++i) {
     FrameEvaluation frame;
     if (e.times[i] == e.last.frame.time) {
@@ -65,10 +76,11 @@ std::vector<HistoryRow> write_frames(const ResultsReader& results, const std::st
     for (MeshArray& array : about(e, 0.0)) mesh.field_data.push_back(std::move(array));
     write_mesh(in_folder(folder, name), mesh);
     entries.push_back({e.times[i], name});
-    history.push_back(history_row(e, frame.frame));
+    if (is_shot(e, i, frame.frame))
+      shots.push_back({frame.frame.time, frame.frame.blocks, is_mechanism(e.summary, frame.frame)});
   }
   write_pvd(in_folder(folder, "blocks.pvd"), entries);
-  return history;
+  return shots;
 }
 
 void write_meshes(const Evaluation& e, const std::string& folder) {
@@ -101,26 +113,28 @@ struct Drawn {
 
 /// Writes meshes for ParaView, figures and pictures. Figures that cannot be drawn become warnings.
 Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const std::optional<Table>& stages,
-           Evaluation* e) {
+           const std::vector<HistoryRow>& history, Evaluation* e) {
   const std::string& folder = request.output_folder;
-  const std::vector<HistoryRow> history = write_frames(results, folder, e);
+  const std::vector<Shot> shots = write_frames(results, folder, e);
   write_meshes(*e, folder);
-  Drawn drawn{result_figures(*e, history), {}};
+  Drawn drawn{result_figures(*e, history, shots), {}};
   if (const auto figure = stages ? stage_figure(*stages) : std::nullopt)
     drawn.figures.insert(drawn.figures.begin(), *figure);
   for (std::string& problem : draw_figures(in_folder(folder, "figures"), drawn.figures))
     e->warnings.push_back(std::move(problem));
   write_views(folder);
-  if (!request.pvbatch.empty()) drawn.pictures = draw_pictures(folder, request.pvbatch, &e->warnings);
+  if (!request.pvbatch.empty())
+    drawn.pictures = draw_pictures(folder, request.pvbatch, at_rest(e->summary), &e->warnings);
   return drawn;
 }
 
 void write_report(const AnalyseRequest& request, const std::vector<Table>& tables, const Drawn& drawn,
-                  const std::string& run_yaml, const Evaluation& e) {
+                  const std::vector<HistoryRow>& history, const std::string& run_yaml, const Evaluation& e) {
   const std::string& folder = request.output_folder;
   write_text_atomically(in_folder(folder, "report.html"),
                         report_html({.evaluation = &e,
                                      .tables = tables,
+                                     .history = history,
                                      .figures = drawn.figures,
                                      .pictures = drawn.pictures,
                                      .figure_folder = in_folder(folder, "figures"),
@@ -135,6 +149,24 @@ std::string readable_text(const ResultsReader& results, const std::string& name,
     leave_out(name, error.what(), e);
     return "";
   }
+}
+
+/// The motion after every step of a dynamic run, from history.csv; empty for other runs.
+std::vector<HistoryRow> read_history(const ResultsReader& results, Evaluation* e) {
+  std::vector<HistoryRow> history;
+  const std::string name = "history.csv";
+  if (e->summary.analysis != AnalysisType::dynamic || !e->summary.text_files.contains(name)) return history;
+  const std::string text = readable_text(results, name, e);
+  if (text.empty()) return history;
+  const CsvFile csv = parse_csv(text, name);
+  const size_t time = csv.column("time_s"), displacement = csv.column("max_displacement_m");
+  const size_t speed = csv.column("max_speed_m_per_s"), reaction = csv.column("support_reaction_x_N");
+  for (size_t i = 0; i < csv.rows.size(); ++i) {
+    const Vec3 force(csv.number(i, reaction), csv.number(i, reaction + 1), csv.number(i, reaction + 2));
+    history.push_back(
+        {csv.number(i, time), csv.number(i, displacement), csv.number(i, speed), force.dot(e->up)});
+  }
+  return history;
 }
 
 /// Throws InputError if parts were left out, so that make does not take the output for complete.
@@ -160,6 +192,7 @@ ExitCode analyse(const AnalyseRequest& request) {
   make_folder(folder);
   // The summary marks the folder as complete: remove the old one before the first file is replaced.
   std::filesystem::remove(in_folder(folder, "summary.json"));
+  remove_earlier_output(folder);
   std::vector<Table> tables = result_tables(e);
   std::optional<Table> stages;
   if (e.summary.analysis == AnalysisType::staged)
@@ -168,10 +201,11 @@ ExitCode analyse(const AnalyseRequest& request) {
   for (const Table& table : tables)
     write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
   const std::string run_yaml = readable_text(results, "run.yaml", &e);
+  const std::vector<HistoryRow> history = read_history(results, &e);
   Drawn drawn;
-  if (!request.tables_only) drawn = draw(request, results, stages, &e);
+  if (!request.tables_only) drawn = draw(request, results, stages, history, &e);
   write_text_atomically(in_folder(folder, "summary.json"), post_summary_json(e));
-  if (!request.tables_only) write_report(request, tables, drawn, run_yaml, e);
+  if (!request.tables_only) write_report(request, tables, drawn, history, run_yaml, e);
 
   for (const std::string& warning : e.warnings) fmt::print(stderr, "cupola-post: warning: {}\n", warning);
   if (!request.quiet)

@@ -1,6 +1,7 @@
 #include "postproc/claims/verdict.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -20,8 +21,8 @@ bool passes(const CsvFile& table, size_t row, const std::vector<RowFilter>& filt
       continue;
     }
     const double value = table.number(row, column);
-    if (filter.from && value < *filter.from) return false;
-    if (filter.to && value > *filter.to) return false;
+    if (filter.from && !(value >= *filter.from)) return false;  // an empty cell is in no range
+    if (filter.to && !(value <= *filter.to)) return false;
   }
   return true;
 }
@@ -41,7 +42,9 @@ void append_rows(const Quantity& quantity, const std::string& name, RunCache& ca
   const size_t column = table.column(quantity.column);
   for (size_t row = 0; row < table.rows.size(); ++row) {
     if (!passes(table, row, quantity.where)) continue;
-    out->values.push_back(table.number(row, column));
+    const double value = table.number(row, column);
+    if (std::isnan(value)) continue;  // an empty cell: the row lacks the quantity
+    out->values.push_back(value);
     if (reference) out->values.back() -= reference->number(row, reference->column(quantity.column));
     if (!quantity.against.empty()) out->against.push_back(table.number(row, table.column(quantity.against)));
   }

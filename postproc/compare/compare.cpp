@@ -14,6 +14,7 @@
 #include "postproc/compare/findings.hpp"
 #include "postproc/figures/gnuplot.hpp"
 #include "postproc/figures/plot_style.hpp"
+#include "postproc/figures/shell_maps.hpp"
 #include "postproc/report/html.hpp"
 #include "postproc/tables/csv_file.hpp"
 
@@ -109,25 +110,77 @@ std::vector<Figure> overlay_figures(const std::vector<std::string>& folders,
   return figures;
 }
 
+/// The maps of the runs, on common colour scales and with the label of the run after their names.
+std::vector<Figure> common_maps(const std::vector<std::string>& folders,
+                                const std::vector<std::string>& labels) {
+  std::vector<std::optional<ShellMap>> maps;
+  MapScales scales;
+  for (const std::string& folder : folders) {
+    maps.push_back(read_shell_map(folder));
+    if (maps.back()) scales.include(*maps.back());
+  }
+  std::vector<Figure> figures;
+  for (Figure (*draw)(const ShellMap&, const MapScales&) : {force_map, utilisation_map})
+    for (size_t i = 0; i < maps.size(); ++i) {
+      if (!maps[i]) continue;
+      figures.push_back(draw(*maps[i], scales));
+      figures.back().name += " " + labels[i];
+    }
+  return figures;
+}
+
+/// The maps side by side under their titles.
+std::string maps_html(const std::vector<Figure>& maps, const std::string& figure_folder) {
+  std::string out, title;
+  for (const Figure& map : maps) {
+    const std::string label = map.name.substr(map.name.find(' ') + 1);
+    if (map.title != title)
+      out += fmt::format(
+          "{}<h3>{}</h3>\n<p>{} The scales are the same for all runs.</p>\n<div class=\"side\">\n",
+          out.empty() ? "" : "</div>\n", markup_text(map.title), markup_text(map.caption));
+    title = map.title;
+    out += fmt::format(
+        "<figure>{}<figcaption>{}</figcaption></figure>\n",
+        html_picture((fs::path(figure_folder) / (map.name + ".png")).string(), title + ", " + label),
+        markup_text(label));
+  }
+  return out.empty() ? "" : out + "</div>\n";
+}
+
+/// The title of a figure: the first line of its script, "# TITLE".
+std::string title_of(const std::string& name, const std::vector<std::string>& figure_folders) {
+  for (const std::string& folder : figure_folders) {
+    const fs::path script = fs::path(folder) / (name + ".gp");
+    if (!fs::exists(script)) continue;
+    const std::string text = read_text(script.string());
+    if (text.starts_with("# ")) return text.substr(2, text.find('\n') - 2);
+  }
+  return name;
+}
+
 /// The figures of the same name from all runs, side by side.
 std::string side_by_side(const std::string& name, const std::vector<std::string>& folders,
                          const std::vector<std::string>& labels) {
+  std::vector<std::string> figure_folders;
+  for (const std::string& folder : folders) figure_folders.push_back((fs::path(folder) / "figures").string());
+  const std::string title = title_of(name, figure_folders);
   std::string pictures;
   for (size_t i = 0; i < folders.size(); ++i) {
-    const fs::path base = fs::path(folders[i]) / "figures";
+    const fs::path base = figure_folders[i];
     const fs::path svg = base / (name + ".svg"), png = base / (name + ".png");
-    const std::string picture = html_picture((fs::exists(svg) ? svg : png).string(), name + ", " + labels[i]);
+    const std::string picture =
+        html_picture((fs::exists(svg) ? svg : png).string(), title + ", " + labels[i]);
     if (!picture.empty())
       pictures +=
           fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", picture, markup_text(labels[i]));
   }
   if (pictures.empty()) return "";
-  return fmt::format("<h3>{}</h3>\n<div class=\"side\">\n{}</div>\n", markup_text(name), pictures);
+  return fmt::format("<h3>{}</h3>\n<div class=\"side\">\n{}</div>\n", markup_text(title), pictures);
 }
 
 std::string comparison_html(const std::vector<PostSummary>& runs, const std::vector<std::string>& folders,
-                            const std::vector<Figure>& figures, const std::string& figure_folder,
-                            const std::vector<std::string>& problems) {
+                            const std::vector<Figure>& figures, const std::vector<Figure>& maps,
+                            const std::string& figure_folder, const std::vector<std::string>& problems) {
   const std::vector<std::string> labels = run_labels(runs.size());
   std::string body = "<h1>Comparison</h1>\n<dl>\n";
   for (size_t i = 0; i < runs.size(); ++i)
@@ -148,7 +201,8 @@ std::string comparison_html(const std::vector<PostSummary>& runs, const std::vec
   body += "</div>\n<h2>Side by side</h2>\n";
   std::vector<std::string> figure_folders;
   for (const std::string& folder : folders) figure_folders.push_back((fs::path(folder) / "figures").string());
-  for (const char* start : {"thrust_", "section_", "map_", "hoop_"})
+  body += maps_html(maps, figure_folder);
+  for (const char* start : {"motion", "thrust_", "section_", "hoop_"})
     for (const std::string& name : common_files(figure_folders, start, ".png"))
       body += side_by_side(name, folders, labels);
   return html_page("Comparison", body);
@@ -162,11 +216,14 @@ ExitCode compare(const std::vector<std::string>& post_folders, const std::string
   const std::vector<Figure> figures = overlay_figures(post_folders, run_labels(runs.size()));
   make_folder(output_folder);
   const std::string figure_folder = (fs::path(output_folder) / "figures").string();
-  const std::vector<std::string> problems = draw_figures(figure_folder, figures);
+  const std::vector<Figure> maps = common_maps(post_folders, run_labels(runs.size()));
+  std::vector<Figure> drawn = figures;
+  drawn.insert(drawn.end(), maps.begin(), maps.end());
+  const std::vector<std::string> problems = draw_figures(figure_folder, drawn);
   write_text_atomically((fs::path(output_folder) / "comparison.csv").string(),
                         to_csv(comparison_table(runs)));
   write_text_atomically((fs::path(output_folder) / "comparison.html").string(),
-                        comparison_html(runs, post_folders, figures, figure_folder, problems));
+                        comparison_html(runs, post_folders, figures, maps, figure_folder, problems));
   for (const std::string& problem : problems) fmt::print(stderr, "cupola-post: warning: {}\n", problem);
   if (!quiet) {
     const std::vector<std::string> labels = run_labels(runs.size());

@@ -33,13 +33,8 @@ double rank_value(const Measure& measure, double value) {
   return value;
 }
 
-bool is_negligible(const Measure& measure, const PostSummary& run, double value) {
-  return measure.noise_floor && std::abs(value) <= measure.noise_floor(run);
-}
-
 /// "most even in A, by a factor of 3.7", or a statement that the best two runs do not differ.
-std::string conclusion(const Measure& measure, const Values& values, const std::vector<PostSummary>& runs,
-                       const std::vector<std::string>& labels) {
+std::string conclusion(const Measure& measure, const Values& values, const std::vector<std::string>& labels) {
   constexpr double kEqual = 1e-3;  // relative difference up to which numbers are called equal
   std::vector<size_t> order;
   for (size_t i = 0; i < values.size(); ++i)
@@ -49,32 +44,32 @@ std::string conclusion(const Measure& measure, const Values& values, const std::
     return rank_value(measure, *values[i]) < rank_value(measure, *values[j]);
   });
   const double best = *values[order[0]], next = *values[order[1]];
-  const bool best_is_noise = is_negligible(measure, runs[order[0]], best);
   const std::string pair = order.size() == 2 ? "both are" : "the best two are";
-  if (best_is_noise && is_negligible(measure, runs[order[1]], next)) return pair + " negligible";
+  if (best == 0.0 && next == 0.0) return pair + " negligible";
   if (best == next || std::abs(best - next) <= kEqual * std::max(std::abs(best), std::abs(next)))
     return pair + " equal to within 0.1 %";
   std::string text = measure.superlative + " in " + labels[order[0]];
   const double low = std::min(best, next), high = std::max(best, next);
-  if (measure.best != Measure::Best::nearest_one && !best_is_noise && low > 0.0 && std::isfinite(high))
-    text += fmt::format(", by a factor of {:.3g}", high / low);
-  return text;
+  if (measure.best == Measure::Best::nearest_one || low <= 0.0 || !std::isfinite(high)) return text;
+  constexpr double kFactor = 1.1;  // below, a percentage says more than "by a factor of 1"
+  return text + (high >= kFactor * low ? fmt::format(", by a factor of {:.3g}", high / low)
+                                       : fmt::format(", by {:.2g} %", 100.0 * (high / low - 1.0)));
 }
 
-std::string sentence(const Measure& measure, const Values& values, const std::vector<PostSummary>& runs,
-                     const std::vector<std::string>& labels) {
+std::string sentence(const Measure& measure, const Values& values, const std::vector<std::string>& labels) {
+  if (std::all_of(values.begin(), values.end(), [](const auto& v) { return v == 0.0; }))
+    return measure.subject + " negligible in all runs.";
   const std::string unit = measure.unit.empty() ? "" : " " + measure.unit;
   std::string numbers;
   for (size_t i = 0; i < values.size(); ++i) {
     if (!values[i]) continue;
     if (!numbers.empty()) numbers += ", ";
-    if (is_negligible(measure, runs[i], *values[i]))
-      numbers += fmt::format("negligible (below {:.0e}{}, the accuracy of the forces) in {}",
-                             measure.scale * measure.noise_floor(runs[i]), unit, labels[i]);
+    if (*values[i] == 0.0)
+      numbers += "negligible in " + labels[i];
     else
       numbers += fmt::format("{:.4g}{} in {}", measure.scale * *values[i], unit, labels[i]);
   }
-  return fmt::format("{} {}: {}.", measure.subject, numbers, conclusion(measure, values, runs, labels));
+  return fmt::format("{} {}: {}.", measure.subject, numbers, conclusion(measure, values, labels));
 }
 
 /// Says where the runs differ in contact points while compliance is given per point; "" elsewhere.
@@ -103,35 +98,33 @@ std::string points_warning(const std::vector<PostSummary>& runs, const std::vect
 const std::vector<Measure>& measures() {
   using Best = Measure::Best;
   using S = PostSummary;
-  using O = std::optional<double>;
-  const auto of_ratio = [](const S& s) { return s.equilibrium_residual; };
-  const auto of_arm = [](const S& s) { return s.equilibrium_residual * s.block_size_m; };
   static const std::vector<Measure> kMeasures{
       {"cv_pressure_percent", "%", 100.0, "The mean variation of the bed pressure within a ring is",
        "How evenly the blocks of a ring share the load; 0 if the pressure is the same on every block.",
-       "most even", Best::lowest, [](const S& s) { return O(s.mean_cv_pressure); }, of_ratio},
+       "most even", Best::lowest, [](const S& s) { return s.mean_cv_pressure; }},
       {"rib_over_mid_sail", "", 1.0, "The ratio of the resultant in the rib to that at mid-sail is",
        "Whether a corner of the vault carries more than the middle of a sail; 1 if both carry the same.",
        "closest to 1", Best::nearest_one, [](const S& s) { return s.rib_over_mid_sail; }},
       {"friction_use_percent", "%", 100.0, "The largest friction utilisation of a joint is",
        "How close the joint with the highest demand is to sliding; at 100 % it slides.", "lowest",
-       Best::lowest, [](const S& s) { return O(s.largest_friction_use); }, of_ratio},
+       Best::lowest, [](const S& s) { return s.largest_friction_use; }},
       {"critical_friction", "", 1.0, "The critical value of the limit analysis is",
        "The limit between standing and falling. For friction and thickness, lower is safer; for load, tilt, "
        "acceleration and spread, higher is safer.",
        "lowest", Best::lowest, [](const S& s) { return s.critical_value; }},
       {"kern_use", "", 1.0, "The mean eccentricity of the bed forces relative to the edge of the kern is",
        "How far off-centre the beds are loaded, on average; a bed above 1 is partly unloaded.",
-       "most central", Best::lowest, [](const S& s) { return O(s.mean_kern_use); }, of_ratio},
+       "most central", Best::lowest, [](const S& s) { return s.mean_kern_use; }},
       {"geometric_safety", "", 1.0, "The smallest geometric safety of the thrust lines is",
        "How many times thicker the shell is than the thrust line requires; at 1 the line touches a face.",
        "largest", Best::highest, least_safety},
       {"thrust_over_weight", "", 1.0, "The ratio of the outward base thrust to the weight is",
        "How hard the vault pushes outwards on its supports, compared with its weight.", "lowest",
-       Best::lowest, [](const S& s) { return O(s.thrust_over_weight); }, of_ratio},
-      {"couple_length_m", "m", 1.0, "The largest couple length of a block wrench is",
+       Best::lowest, [](const S& s) { return s.thrust_over_weight; }},
+      {"couple_length_m", "m", 1.0,
+       "The largest couple length of the wrench on a block from the course below is",
        "How strongly the force on a block also twists it: couple over force, for the worst block.",
-       "smallest", Best::lowest, [](const S& s) { return O(s.largest_couple_length_m); }, of_arm},
+       "smallest", Best::lowest, [](const S& s) { return s.largest_couple_length_m; }},
       {"displacement_mm", "mm", 1000.0, "The largest displacement of a block is",
        "How far the block that moves most has moved under the load.", "smallest", Best::lowest,
        [](const S& s) { return s.max_displacement_m; }},
@@ -151,16 +144,15 @@ std::vector<std::string> findings(const std::vector<PostSummary>& runs) {
   std::vector<std::string> sentences;
   for (size_t i = 0; i < runs.size(); ++i)
     if (runs[i].status != "stable")
-      sentences.push_back(
-          fmt::format("{} ended with the status `{}`, with an equilibrium residual of {:.1e}.", labels[i],
-                      runs[i].status, runs[i].equilibrium_residual));
+      sentences.push_back(fmt::format("{} ended with the status `{}`: it has no equilibrium to compare.",
+                                      labels[i], runs[i].status));
   if (std::string warning = points_warning(runs, labels); !warning.empty())
     sentences.push_back(std::move(warning));
   for (const Measure& measure : measures()) {
     Values values;
     for (const PostSummary& run : runs) values.push_back(measure.value(run));
     if (std::count_if(values.begin(), values.end(), [](const auto& v) { return v.has_value(); }) >= 2)
-      sentences.push_back(sentence(measure, values, runs, labels));
+      sentences.push_back(sentence(measure, values, labels));
   }
   return sentences;
 }
@@ -197,7 +189,7 @@ Table plain_table(const std::vector<PostSummary>& runs) {
       any = any || value.has_value();
       if (!value)
         row.emplace_back("-");
-      else if (is_negligible(m, run, *value))
+      else if (*value == 0.0)
         row.emplace_back("negligible");
       else
         row.emplace_back(to_display(m.scale * *value) + (m.unit.empty() ? "" : " " + m.unit));

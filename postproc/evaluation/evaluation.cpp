@@ -30,10 +30,6 @@ void check_blocks(const Frame& frame, const Assembly& assembly) {
                                  frame.blocks.size(), assembly.blocks.size()));
 }
 
-bool is_mechanism(const Summary& summary, const Frame& frame) {
-  return summary.analysis == AnalysisType::limit && frame.time > 0.0;
-}
-
 /// Displaces the blocks of a mechanism along their velocities until the fastest has moved by kShown times the
 /// size of the model.
 void displace_mechanism(const Assembly& assembly, Frame* frame) {
@@ -72,16 +68,11 @@ Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
 
 void add_status_warnings(const Summary& summary, std::vector<std::string>* warnings) {
   if (summary.status == Status::unconverged && summary.analysis == AnalysisType::limit)
-    warnings->push_back("the critical value was not bracketed to the requested width. " + summary.message);
+    warnings->push_back("the critical value was not bracketed to the requested width");
   else if (summary.status == Status::unconverged)
-    warnings->push_back("the solver did not reach the requested accuracy: do not use the forces below. " +
-                        summary.message);
-  if (summary.status == Status::moving)
-    warnings->push_back(
-        "the structure is moving: its forces are those of one instant, not of an equilibrium. " +
-        summary.message);
-  if (summary.status == Status::collapsed)
-    warnings->push_back("the structure has collapsed. " + summary.message);
+    warnings->push_back("the solver did not reach the requested accuracy: do not use its forces");
+  else if (!at_rest(summary))
+    warnings->push_back("the structure moves: its forces are those of one instant, not of an equilibrium");
 }
 
 int joints_lost_between(const ContactTable& first, const ContactTable& last) {
@@ -105,8 +96,14 @@ void count_lost_joints(const ResultsReader& results, Evaluation* e) {
   }
   if (e->lost_joints.value_or(0) > 0)
     e->warnings.push_back(
-        fmt::format("{} joints that carried force in the first frame have separated completely in the last",
-                    *e->lost_joints));
+        fmt::format("{} joint{} that carried force in the first frame {} separated completely in the last",
+                    *e->lost_joints, *e->lost_joints == 1 ? "" : "s", *e->lost_joints == 1 ? "has" : "have"));
+}
+
+/// N, force that an equilibrium leaves unbalanced on a block.
+double unbalanced_force(const Summary& s) {
+  if (!at_rest(s) || s.free_blocks == 0) return 0.0;
+  return s.equilibrium_residual.value_or(0.0) * s.weight_N / s.free_blocks;
 }
 
 /// The applied forces at a time, s.
@@ -137,8 +134,8 @@ std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput&
     const CentralAxis axis = central_axis(wrench);
     const double height = e.rings[on_bed ? bed : block.ring].height;
     if (axis.exists)
-      resultants.push_back(
-          {b, block.kind, wrench, axis_in_plane(axis, wrench.force, {e.up, height}), axis.couple_length});
+      resultants.push_back({b, block.kind, wrench, axis_in_plane(axis, wrench.force, {e.up, height}),
+                            couple_length(wrench, e.last.joints.floor)});
   }
   return resultants;
 }
@@ -184,6 +181,22 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e) {
 
 }  // namespace
 
+bool at_rest(const Summary& summary) {
+  if (summary.analysis == AnalysisType::limit) return summary.equilibrium_residual.has_value();
+  return summary.status == Status::stable;
+}
+
+bool is_mechanism(const Summary& summary, const Frame& frame) {
+  if (summary.analysis == AnalysisType::limit) return frame.time > 0.0;
+  const bool in_time = summary.max_speed_m_per_s.has_value();  // of a dynamic run
+  return summary.status == Status::moving && !in_time;
+}
+
+bool is_vault(const Evaluation& e) {
+  return e.shell.num_rings() > 0 &&
+         traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::by_azimuth;
+}
+
 void leave_out(const std::string& part, const std::string& reason, Evaluation* e) {
   std::string text = fmt::format("{} was left out: {}", part, reason);
   if (std::find(e->unreadable.begin(), e->unreadable.end(), text) == e->unreadable.end())
@@ -205,10 +218,10 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   const Loads& loads = e.scene.loads;
   out.gravity = factor_at(loads.dead_load_time, out.frame.time) * loads.gravity;
   out.loads = loads_at(e, out.frame.time);
-  out.joints = joint_wrenches(e.assembly, out.frame.contacts, e.shell);
+  out.joints = joint_wrenches(e.assembly, out.frame.contacts, e.shell, unbalanced_force(e.summary));
   out.from_below = wrenches_from_below(e.assembly, out.joints);
   out.fields = block_fields(e.assembly, out.frame, out.joints, out.from_below, out.loads, e.axes);
-  if (e.summary.status == Status::stable && !mechanism)
+  if (at_rest(e.summary) && !mechanism)
     out.groups.assign(e.assembly.blocks.size(), 0);
   else
     out.groups =
@@ -242,11 +255,12 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
 
   e.last = evaluate_frame(e, evaluated_frame(results, &e));
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads);
+  count_lost_joints(results, &e);
+  if (!at_rest(e.summary)) return e;
   e.meridians = evaluate_meridians(e);
   e.sections = evaluate_sections(e);
   for (const CutPlane& plane : scene.postproc.planes)
     e.planes.push_back(plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads));
-  count_lost_joints(results, &e);
   const std::optional<double> rib = meridian_named("rib", scene),
                               mid_sail = meridian_named("mid_sail", scene);
   if (rib && mid_sail) e.rib_over_mid_sail = rib_ratio(thrust_input(e), scene.geometry, *rib, *mid_sail);

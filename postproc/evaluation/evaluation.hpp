@@ -38,7 +38,7 @@ struct BedResultant {
   BlockKind kind = BlockKind::standard;
   Wrench wrench;               ///< about the block's centroid
   Vec3 point = Vec3::Zero();   ///< m, on its central axis, at the mean height of the bed
-  double couple_length = 0.0;  ///< m
+  double couple_length = 0.0;  ///< m; NaN if the wrench is negligible
 };
 
 /// A horizontal section: the blocks that the plane cuts, and the forces across the nearest bed.
@@ -49,7 +49,8 @@ struct SectionEvaluation {
   std::vector<BedResultant> resultants;  ///< across that bed, by block; empty if it carries no force
 };
 
-/// Everything the postprocessor derives from a run, for its last readable frame.
+/// Everything the postprocessor derives from a run, for its last readable frame. Meridians, sections, planes and
+/// the ratio of ribs to mid-sails interpret an equilibrium: they are empty if the run did not find one.
 struct Evaluation {
   Case scene;
   Assembly assembly;
@@ -70,6 +71,17 @@ struct Evaluation {
   std::vector<std::string> unreadable;        ///< parts of the results that are missing or damaged
 };
 
+/// True if the forces evaluated are those of an equilibrium: of a stable run, or of the stable end of a limit
+/// analysis.
+bool at_rest(const Summary& summary);
+
+/// True for a frame that holds directions of motion without an amplitude: the mechanism of a limit analysis, or the
+/// motion that a static solve found.
+bool is_mechanism(const Summary& summary, const Frame& frame);
+
+/// True for a vault about the z axis, where azimuths are meaningful.
+bool is_vault(const Evaluation& evaluation);
+
 /// Records that a part of the results was left out and why, once per part.
 void leave_out(const std::string& part, const std::string& reason, Evaluation* evaluation);
 
@@ -80,8 +92,8 @@ std::vector<std::string> notices(const Evaluation& evaluation);
 /// can be read.
 Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results);
 
-/// Evaluates one frame with the assembly, loads and shell of an evaluation. The second frame of a limit
-/// analysis holds the mechanism: its blocks are displaced along their velocities, far enough to be seen.
+/// Evaluates one frame with the assembly, loads and shell of an evaluation. The blocks of a mechanism are displaced
+/// along their velocities, far enough to be seen.
 FrameEvaluation evaluate_frame(const Evaluation& evaluation, Frame frame);
 
 }  // namespace cupola

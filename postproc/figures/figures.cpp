@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "postproc/figures/plot_style.hpp"
+#include "postproc/figures/shell_maps.hpp"
 
 namespace cupola {
 namespace {
@@ -82,32 +83,39 @@ Figure hoop_figure(const MeridianEvaluation& m) {
 }
 
 Figure history_figure(const Evaluation& e, const std::vector<HistoryRow>& history) {
+  double largest = 0.0;
+  for (const HistoryRow& row : history) largest = std::max(largest, row.max_displacement);
+  const bool metres = largest >= 1.0;
   Rows rows;
   for (const HistoryRow& row : history)
-    rows.push_back({row.time, 1e3 * row.max_displacement, row.max_speed,
+    rows.push_back({row.time, (metres ? 1.0 : 1e3) * row.max_displacement, row.max_speed,
                     e.summary.weight_N > 0.0 ? row.reaction / e.summary.weight_N : 0.0});
   Figure f;
   f.name = "history";
   f.title = "Motion over time";
   f.caption =
-      "Largest displacement and speed of a block in each frame, and the reaction of the supports over the "
+      "Largest displacement and speed of a block after each step, and the reaction of the supports over the "
       "weight of the free blocks.";
   f.width = 1000;
   f.height = 700;
   f.commands = plot_style() + data_block("history", rows) +
                fmt::format(
                    "set multiplot layout 3,1 margins 0.09,0.97,0.08,0.97 spacing 0.06\nunset key\n"
-                   "set ylabel 'displacement (mm)'\nplot $history using 1:2 w lp lc rgb '{0}' pt 7 ps 0.4\n"
-                   "set ylabel 'speed (m/s)'\nplot $history using 1:3 w lp lc rgb '{1}' pt 7 ps 0.4\n"
-                   "set ylabel 'reaction / weight'\nset xlabel 'time (s)'\nplot $history using 1:4 w lp lc "
-                   "rgb '{2}' pt 7 ps 0.4\n"
+                   "set ylabel 'displacement ({3})'\nplot $history using 1:2 w l lc rgb '{0}' lw 2\n"
+                   "set ylabel 'speed (m/s)'\nplot $history using 1:3 w l lc rgb '{1}' lw 2\n"
+                   "set ylabel 'reaction / weight'\nset xlabel 'time (s)'\nplot $history using 1:4 w l lc "
+                   "rgb '{2}' lw 2\n"
                    "unset multiplot\n",
-                   kBlue, kOrange, kGreen);
+                   kBlue, kOrange, kGreen, metres ? "m" : "mm");
   return f;
 }
 
-std::vector<Figure> result_figures(const Evaluation& e, const std::vector<HistoryRow>& history) {
+std::vector<Figure> result_figures(const Evaluation& e, const std::vector<HistoryRow>& history,
+                                   const std::vector<Shot>& shots) {
   std::vector<Figure> figures;
+  if (!shots.empty()) figures.push_back(motion_figure(e, shots));
+  if (history.size() > 1) figures.push_back(history_figure(e, history));
+  if (!at_rest(e.summary)) return figures;
   for (const MeridianEvaluation& m : e.meridians)
     if (m.thrust.points.size() > 1) figures.push_back(thrust_figure(e, m));
   if (!e.rings.empty()) figures.push_back(ring_figure(e));
@@ -120,11 +128,12 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
   for (const MeridianEvaluation& m : e.meridians)
     if (!m.hoop.empty()) figures.push_back(hoop_figure(m));
   if (e.shell.num_rings() > 0) {
-    figures.push_back(force_map(e));
-    figures.push_back(utilisation_map(e));
+    const ShellMap map = shell_map(e);
+    MapScales scales;
+    scales.include(map);
+    figures.push_back(force_map(map, scales));
+    figures.push_back(utilisation_map(map, scales));
   }
-  if (history.size() > 1 && e.summary.analysis == AnalysisType::dynamic)
-    figures.push_back(history_figure(e, history));
   return figures;
 }
 

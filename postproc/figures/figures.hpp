@@ -7,12 +7,19 @@
 
 namespace cupola {
 
-/// The motion in one frame.
+/// The motion at the end of one step.
 struct HistoryRow {
   double time = 0.0;              ///< s
   double max_displacement = 0.0;  ///< m
   double max_speed = 0.0;         ///< m/s
   double reaction = 0.0;          ///< N, upward component of the support forces on the free blocks
+};
+
+/// The blocks at one instant of a motion, or displaced along a mechanism.
+struct Shot {
+  double time = 0.0;  ///< s
+  BlockTable blocks;
+  bool mechanism = false;  ///< without amplitude
 };
 
 /// Profile with thrust line, envelope and lines of action; r, v, couple length and distance to the nearer
@@ -36,16 +43,14 @@ Figure plane_figure(const Evaluation& evaluation, const PlaneCut& cut);
 /// Hoop force across a meridian over the height, through head and bed joints.
 Figure hoop_figure(const MeridianEvaluation& meridian);
 
-/// The unrolled shell, ring over azimuth (or length), coloured by meridional and hoop force.
-Figure force_map(const Evaluation& evaluation);
-
-/// The same, coloured by friction and kern utilisation.
-Figure utilisation_map(const Evaluation& evaluation);
+/// The displaced blocks, one panel per shot; at least one shot.
+Figure motion_figure(const Evaluation& evaluation, const std::vector<Shot>& shots);
 
 /// Displacement, speed and support reaction over time.
 Figure history_figure(const Evaluation& evaluation, const std::vector<HistoryRow>& history);
 
-/// All figures for which the evaluation has data.
-std::vector<Figure> result_figures(const Evaluation& evaluation, const std::vector<HistoryRow>& history);
+/// All figures for which the evaluation has data. `shots`: of the motion, or of the mechanism; may be empty.
+std::vector<Figure> result_figures(const Evaluation& evaluation, const std::vector<HistoryRow>& history,
+                                   const std::vector<Shot>& shots);
 
 }  // namespace cupola

@@ -5,25 +5,13 @@
 
 #include "postproc/figures/figures.hpp"
 #include "postproc/figures/plot_style.hpp"
+#include "postproc/figures/projection.hpp"
 #include "postproc/tables/mesh_output.hpp"
 
 namespace cupola {
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
-
-/// A parallel projection: the unit vectors that point right and up on the page.
-struct Projection {
-  Vec3 right, up;
-  std::vector<double> row(const Vec3& x) const { return {right.dot(x), up.dot(x)}; }
-};
-
-Projection projection_of(const Evaluation& e) {
-  if (!is_vault(e)) return {Vec3::UnitX(), Vec3::UnitZ()};
-  const double a = -60.0 / kDegrees, slant = 30.0 / kDegrees;  // seen from azimuth a and from above
-  return {Vec3(-std::sin(a), std::cos(a), 0.0),
-          Vec3(-std::sin(slant) * std::cos(a), -std::sin(slant) * std::sin(a), std::cos(slant))};
-}
 
 void add_outline(const Projection& page, const std::vector<Vec3>& corners, Rows* rows) {
   for (const Vec3& x : corners) rows->push_back(page.row(x));

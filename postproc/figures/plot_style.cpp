@@ -1,5 +1,9 @@
 #include "postproc/figures/plot_style.hpp"
 
+#include <cmath>
+
+#include <fmt/format.h>
+
 namespace cupola {
 
 std::string plot_style() {
@@ -13,9 +17,32 @@ ForceUnit force_unit(double largest) {
   return {1.0, "N"};
 }
 
-bool is_vault(const Evaluation& e) {
-  return e.shell.num_rings() > 0 &&
-         traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::by_azimuth;
+std::string force_text(double newtons) {
+  if (newtons == 0.0) return "negligible";
+  const ForceUnit unit = force_unit(std::abs(newtons));
+  return fmt::format("{:.5g} {}", unit.per_newton * newtons, unit.name);
+}
+
+std::string length_text(double metres) {
+  return metres == 0.0 ? "negligible" : fmt::format("{:.3g} m", metres);
+}
+
+std::string describe(const ThrustLine& line) {
+  if (line.undefined == static_cast<int>(line.points.size()))
+    return "There is no thrust line: no bed of the meridian is in compression.";
+  const std::string safety =
+      std::isinf(line.least_geometric_safety)
+          ? "it runs through the middle of every bed"
+          : fmt::format("its smallest geometric safety is {:.3g}", line.least_geometric_safety);
+  std::string text = fmt::format(
+      "The thrust line {} inside the thickness. Its smallest distance from a face is {:.3g} "
+      "m, {}.",
+      line.inside ? "stays" : "does not stay", line.least_face_distance, safety);
+  if (line.undefined > 0)
+    text += fmt::format(
+        " It is undefined at {} of {} beds, whose resultants are negligible or run along the bed.",
+        line.undefined, line.points.size());
+  return text;
 }
 
 }  // namespace cupola

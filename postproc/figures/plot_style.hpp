@@ -13,6 +13,7 @@ inline constexpr const char* kOrange = "#D55E00";
 inline constexpr const char* kGreen = "#009E73";
 inline constexpr const char* kPurple = "#CC79A7";
 inline constexpr const char* kSky = "#56B4E9";
+inline constexpr const char* kGrey = "#BDBDBD";  ///< what is negligible
 
 /// Gnuplot commands that every figure starts with: borders, grid, key.
 std::string plot_style();
@@ -23,8 +24,13 @@ struct ForceUnit {
   const char* name = "N";
 };
 ForceUnit force_unit(double largest);
+/// "1.2346 MN"; "negligible" for 0.
+std::string force_text(double newtons);
 
-/// True for a vault about the z axis, where azimuths are meaningful.
-bool is_vault(const Evaluation& evaluation);
+/// "0.0123 m"; "negligible" for 0.
+std::string length_text(double metres);
+
+/// Where a thrust line runs, with its least distance to a face and its least geometric safety.
+std::string describe(const ThrustLine& line);
 
 }  // namespace cupola

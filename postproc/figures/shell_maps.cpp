@@ -1,10 +1,10 @@
+#include "postproc/figures/shell_maps.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 
-#include "postproc/figures/figures.hpp"
 #include "postproc/figures/plot_style.hpp"
 
 namespace cupola {
@@ -12,104 +12,114 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// One row per block and ring of the unrolled shell, as gnuplot's boxxyerror takes it: x, y, x range, y
-/// range, two values.
-Rows unrolled(const Evaluation& e, double (*first)(const BlockFields&),
-              double (*second)(const BlockFields&)) {
-  const bool vault = is_vault(e);
-  struct Box {
-    double from, to;
-  };
-  std::map<std::pair<int, int>, Box> boxes;  // (block, ring)
-  for (int ring = 0; ring < e.shell.num_rings(); ++ring) {
-    for (const BedFacet& f : e.shell.beds[ring]) {
-      const auto column = [&](const Vec3& p) { return vault ? azimuth(p) : p.x(); };
-      const double a = column(f.intrados_a);
-      const auto [entry, is_new] = boxes.try_emplace({f.block, ring}, Box{a, a});
-      Box& box = entry->second;
-      for (const Vec3& p : {f.intrados_a, f.intrados_b}) {
-        const double c = vault ? box.from + wrapped(column(p) - box.from) : column(p);
-        box = {std::min(box.from, c), std::max(box.to, c)};
-      }
-    }
-  }
-  Rows rows;
-  for (const auto& [key, box] : boxes) {
-    const auto [block, ring] = key;
-    const BlockFields& fields = e.last.fields[block];
-    const double unit = vault ? kDegrees : 1.0;
-    const double r = ring;
-    // A block that crosses +-180 degrees is drawn at both ends.
-    for (const double turn : {0.0, vault && box.to > std::numbers::pi ? -360.0 : 0.0,
-                              vault && box.from < -std::numbers::pi ? 360.0 : 0.0}) {
-      if (turn == 0.0 && !rows.empty() && rows.back()[6] == first(fields) && rows.back()[1] == r + 0.5 &&
-          rows.back()[2] == unit * box.from)
-        continue;
-      rows.push_back({unit * 0.5 * (box.from + box.to) + turn, r + 0.5, unit * box.from + turn,
-                      unit * box.to + turn, r, r + 1.0, first(fields), second(fields)});
-    }
-  }
-  return rows;
-}
-
-std::string map_axes(const Evaluation& e) {
-  return (is_vault(e) ? "set xrange [-180:180]\nset xtics 45\nset xlabel 'azimuth (deg)'\n"
-                      : "set xlabel 'x (m)'\n") +
-         fmt::format("set yrange [0:{}]\nset ylabel 'ring'\nunset grid\nset style fill solid 1 noborder\n",
-                     e.shell.num_rings());
-}
-
-constexpr const char* kBoxes = "using 1:2:3:4:5:6:{} with boxxyerror fc palette notitle\n";
-
 constexpr size_t kMostVectorBoxes = 3000;  // with more, browsers are slow to open the SVG
+constexpr const char* kSequential =
+    "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n";
+
+std::string map_axes(const ShellMap& map) {
+  return (map.vault ? "set xrange [-180:180]\nset xtics 45\nset xlabel 'azimuth (deg)'\n"
+                    : "set xlabel 'x (m)'\n") +
+         fmt::format(
+             "set yrange [0:{}]\nset ylabel 'ring'\nunset grid\nset style fill solid 1 noborder\n"
+             "set key at graph 1,1 right bottom horizontal\n",
+             map.num_rings);
+}
+
+/// One panel: the boxes whose value is a number in colour, all others in grey.
+std::string panel(const ShellMap& map, double (*value)(const ShellBox&), const std::string& name,
+                  const std::string& grey, const std::string& settings) {
+  Rows known, others;
+  for (const ShellBox& box : map.boxes) {
+    const double v = value(box);
+    // A block that crosses +-180 degrees is drawn at both ends.
+    for (const double turn : {0.0, -360.0, 360.0}) {
+      if (turn != 0.0 && (!map.vault || box.to + turn <= -180.0 || box.from + turn >= 180.0)) continue;
+      const double r = box.ring;
+      std::vector<double> row{
+          0.5 * (box.from + box.to) + turn, r + 0.5, box.from + turn, box.to + turn, r, r + 1.0};
+      if (std::isfinite(v)) row.push_back(v);
+      (std::isfinite(v) ? known : others).push_back(std::move(row));
+    }
+  }
+  std::string plots;
+  if (!known.empty())
+    plots += fmt::format("${} using 1:2:3:4:5:6:7 with boxxyerror fc palette notitle", name);
+  if (!others.empty())
+    plots += fmt::format("{}${}_grey using 1:2:3:4:5:6 with boxxyerror fc rgb '{}' title '{}'",
+                         plots.empty() ? "" : ", ", name, kGrey, grey);
+  return data_block(name, known) + data_block(name + "_grey", others) + settings + "plot " + plots + "\n";
+}
+
+/// kN/m; NaN for negligible forces, which block_fields() sets to zero.
+double shown(double newtons_per_metre) {
+  return newtons_per_metre == 0.0 ? BlockFields::kNone : 1e-3 * newtons_per_metre;
+}
+
+Figure unrolled_map(const ShellMap& map) {
+  Figure f;
+  f.width = 1100;
+  f.height = 820;
+  f.vector = map.boxes.size() <= kMostVectorBoxes;
+  f.commands = plot_style() + map_axes(map) +
+               "set multiplot layout 2,1 margins 0.07,0.88,0.08,0.96 spacing 0.13\n" + kSequential;
+  return f;
+}
+
+/// The end of a colour scale, which must be positive.
+double end_of(double most) {
+  return most > 0.0 ? most : 1.0;
+}
 
 }  // namespace
 
-Figure force_map(const Evaluation& e) {
-  const Rows rows = unrolled(
-      e, [](const BlockFields& v) { return 1e-3 * v.meridional_force; },
-      [](const BlockFields& v) { return 1e-3 * v.hoop_force; });
-  double most = 1e-12;
-  for (const auto& row : rows) most = std::max(most, std::abs(row[7]));
-  Figure f;
+void MapScales::include(const ShellMap& map) {
+  for (const ShellBox& box : map.boxes) {
+    compression = std::max(compression, 1e-3 * box.meridional_force);
+    tension = std::max(tension, -1e-3 * box.meridional_force);
+    hoop = std::max(hoop, 1e-3 * std::abs(box.hoop_force));
+    kern = std::fmax(kern, box.kern);  // skips NaN
+  }
+}
+
+Figure force_map(const ShellMap& map, const MapScales& scales) {
+  Figure f = unrolled_map(map);
   f.name = "map_forces";
   f.title = "Meridional and hoop forces over the shell";
   f.caption =
       "The unrolled shell. Forces per metre from the mean stress of each block, compression positive; hoop "
-      "tension is orange.";
-  f.width = 1100;
-  f.height = 820;
-  f.vector = rows.size() <= kMostVectorBoxes;
-  f.commands = plot_style() + data_block("boxes", rows) + map_axes(e) +
-               "set multiplot layout 2,1 margins 0.07,0.88,0.08,0.97 spacing 0.10\n"
-               "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n"
-               "set cblabel 'meridional force (kN/m)'\nplot $boxes " +
-               fmt::format(kBoxes, 7) +
-               fmt::format("set palette defined (-1 '{}', 0 '#f7f7f7', 1 '{}')\nset cbrange [{}:{}]\n",
-                           kOrange, kBlue, -most, most) +
-               "set cblabel 'hoop force (kN/m), compression positive'\nplot $boxes " +
-               fmt::format(kBoxes, 8) + "unset multiplot\n";
+      "tension is orange. Grey: the force is negligible.";
+  f.commands +=
+      panel(
+          map, [](const ShellBox& b) { return shown(b.meridional_force); }, "meridional", "negligible",
+          fmt::format("set cbrange [{}:{}]\nset cblabel 'meridional force (kN/m)'\n", -scales.tension,
+                      end_of(scales.compression))) +
+      panel(
+          map, [](const ShellBox& b) { return shown(b.hoop_force); }, "hoop", "negligible",
+          fmt::format(
+              "set palette defined (-1 '{0}', 0 '#f7f7f7', 1 '{1}')\nset cbrange [{2}:{3}]\nset cblabel "
+              "'hoop force (kN/m), compression positive'\n",
+              kOrange, kBlue, -end_of(scales.hoop), end_of(scales.hoop))) +
+      "unset multiplot\n";
   return f;
 }
 
-Figure utilisation_map(const Evaluation& e) {
-  const Rows rows = unrolled(
-      e, [](const BlockFields& v) { return v.friction_use; }, [](const BlockFields& v) { return v.kern; });
-  Figure f;
+Figure utilisation_map(const ShellMap& map, const MapScales& scales) {
+  Figure f = unrolled_map(map);
   f.name = "map_utilisation";
   f.title = "Utilisation of the joints over the shell";
   f.caption =
       "Largest friction utilisation of the joints of each block (1: every point slides), and largest kern "
-      "utilisation of its bed joints (above 1: part of the joint is unloaded).";
-  f.width = 1100;
-  f.height = 820;
-  f.vector = rows.size() <= kMostVectorBoxes;
-  f.commands = plot_style() + data_block("boxes", rows) + map_axes(e) +
-               "set multiplot layout 2,1 margins 0.07,0.88,0.08,0.97 spacing 0.10\n"
-               "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n"
-               "set cbrange [0:1]\nset cblabel 'friction utilisation'\nplot $boxes " +
-               fmt::format(kBoxes, 7) + "set cbrange [0:*]\nset cblabel 'kern utilisation'\nplot $boxes " +
-               fmt::format(kBoxes, 8) + "unset multiplot\n";
+      "utilisation of its bed joints (above 1: part of the joint is unloaded). Grey: no such joint carries "
+      "more "
+      "than a negligible force.";
+  f.commands +=
+      panel(
+          map, [](const ShellBox& b) { return b.friction_use; }, "friction", "no loaded joint",
+          "set cbrange [0:1]\nset cblabel 'friction utilisation'\n") +
+      panel(
+          map, [](const ShellBox& b) { return b.kern; }, "kern", "no loaded bed joint",
+          fmt::format("set cbrange [0:{}]\nset cblabel 'kern utilisation'\n", end_of(scales.kern))) +
+      "unset multiplot\n";
   return f;
 }
 

@@ -149,9 +149,9 @@ std::string arch_panels(const ForceUnit& unit) {
 Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
   const bool arch = traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::one;
   const ThrustLine& line = m.thrust;
-  double couple = 0.0, largest = 0.0;
+  const double couple = line.largest_couple_length();
+  double largest = 0.0;
   for (const ThrustPoint& p : line.points) {
-    couple = std::max(couple, p.couple_length);
     largest = std::max(largest, p.r);
   }
   const ForceUnit unit = force_unit(largest);
@@ -159,15 +159,11 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
   f.name = "thrust_" + line.name;
   f.title = arch ? "Thrust line of the arch"
                  : fmt::format("Thrust line, meridian {} ({:g} deg)", line.name, line.azimuth_deg);
-  f.caption = fmt::format(
-      "The line {} between intrados and extrados; its least distance to a face is {:.3g} m, its geometric "
-      "safety {:.3g}{}. r is the norm of the resultant across a bed within one block's width, v its vertical "
-      "component. The largest couple length is {:.3g} m.",
-      line.inside ? "stays" : "does not stay", line.least_face_distance, line.least_geometric_safety,
-      line.undefined == 0
-          ? ""
-          : fmt::format("; {} beds are left out because their resultants run along them", line.undefined),
-      couple);
+  f.caption =
+      describe(line) +
+      " r is the norm of the resultant of a strip one block wide across a bed, v its vertical component. The "
+      "largest couple length of such a resultant is " +
+      length_text(couple) + ".";
   f.width = 1400;
   f.height = arch ? 900 : 640;
   f.commands = plot_style() + fmt::format("couple = {}\n", couple) + thrust_data(line, arch, unit) +

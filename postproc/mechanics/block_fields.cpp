@@ -1,6 +1,7 @@
 #include "postproc/mechanics/block_fields.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <Eigen/Geometry>
@@ -48,17 +49,22 @@ std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& fra
   CUPOLA_ASSERT(from_below.size() == assembly.blocks.size() && axes.size() == assembly.blocks.size());
   std::vector<BlockFields> fields(assembly.blocks.size());
   const std::vector<Mat3> stress = mean_stresses(assembly, frame, loads);
+  const Floor& floor = joints.floor;
+  const double size = block_size(assembly), per_metre = size > 0.0 ? floor.force / size : 0.0;
   for (size_t b = 0; b < fields.size(); ++b) {
-    fields[b].resultant = from_below[b].force.norm();
-    fields[b].couple_length = central_axis(from_below[b]).couple_length;
+    fields[b].resultant = above(from_below[b].force.norm(), floor.force);
+    fields[b].couple_length = couple_length(from_below[b], floor);
     if (!axes[b].exists || assembly.blocks[b].fixed) continue;
-    fields[b].meridional_force = -axes[b].m.dot(stress[b] * axes[b].m) * axes[b].thickness;
-    fields[b].hoop_force = -axes[b].t.dot(stress[b] * axes[b].t) * axes[b].thickness;
+    const auto along = [&](const Vec3& axis) {
+      return above(-axis.dot(stress[b] * axis) * axes[b].thickness, per_metre);
+    };
+    fields[b].meridional_force = along(axes[b].m);
+    fields[b].hoop_force = along(axes[b].t);
   }
   for (const JointWrench& joint : joints.wrenches) {
     for (const int b : {joint.block_a, joint.block_b}) {
-      fields[b].friction_use = std::max(fields[b].friction_use, joint.friction_use);
-      if (joint.upper >= 0) fields[b].kern = std::max(fields[b].kern, joint.kern);
+      fields[b].friction_use = std::fmax(fields[b].friction_use, joint.friction_use);  // skips NaN
+      if (joint.upper >= 0) fields[b].kern = std::fmax(fields[b].kern, joint.kern);
       fields[b].opening = std::max(fields[b].opening, joint.opening);
       fields[b].slip = std::max(fields[b].slip, joint.slip);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "assembly/model/applied_loads.hpp"
@@ -10,12 +11,13 @@ namespace cupola {
 
 /// Derived quantities of one block in one frame.
 struct BlockFields {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   double resultant = 0.0;         ///< N, norm of the force from the ring below
-  double couple_length = 0.0;     ///< m, of that wrench
+  double couple_length = 0.0;     ///< m, of that wrench; NaN if it is negligible
   double meridional_force = 0.0;  ///< N per metre of ring, compression positive
   double hoop_force = 0.0;        ///< N per metre of meridian, compression positive
-  double friction_use = 0.0;      ///< largest friction utilisation of its loaded joints
-  double kern = 0.0;              ///< largest kern utilisation of its loaded bed joints
+  double friction_use = kNone;    ///< largest friction utilisation of its loaded joints; NaN without any
+  double kern = kNone;            ///< largest kern utilisation of its loaded bed joints; NaN without any
   double opening = 0.0;           ///< m, largest gap at its joints
   double slip = 0.0;              ///< m, largest accumulated slip at its joints
 };
@@ -27,8 +29,8 @@ struct BlockFields {
 ///     sigma = 1/V  sum (x - c) f^T        (Love, Weber; holds for a block in equilibrium)
 ///
 /// as -m.sigma.m and -t.sigma.t times the thickness of the shell. They thus average over the block the
-/// friction on its beds and the pressure on its heads. They are zero for fixed blocks and blocks without
-/// shell axes.
+/// friction on its beds and the pressure on its heads. They are zero for fixed blocks, for blocks without shell
+/// axes, and up to the floor of forces over the size of a block.
 std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& frame,
                                       const JointWrenches& joints, const std::vector<Wrench>& from_below,
                                       const std::vector<PointForce>& loads,

@@ -56,6 +56,7 @@ std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& 
   std::vector<HoopRow> out;
   for (auto& [ring, row] : rows) {
     row.height /= counts[ring];
+    for (double* force : {&row.head_force, &row.bed_force}) *force = above(*force, joints.floor.force);
     out.push_back(row);
   }
   return out;

@@ -1,6 +1,7 @@
 #include "postproc/mechanics/joint_wrenches.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include <Eigen/Geometry>
@@ -18,7 +19,7 @@ int reference_ring(const Assembly& assembly, const Joint& joint) {
   return a.fixed ? b.ring : a.ring;
 }
 
-/// Sums the joint over its contact points, `rows` of the contacts.
+/// Sums the forces of the joint over its contact points, `rows` of the contacts.
 void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrench* joint) {
   const auto begin = rows.begin() + joint->contact_start;
   const auto end = begin + joint->num_contacts;
@@ -50,21 +51,36 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
     joint->friction_use = friction / joint->normal_force;
   }
   if (area > 0.0) joint->open_share = open_area / area;
-
-  const Eigen::Vector2d in_patch = joint->patch.coordinates(joint->centre_of_pressure);
-  joint->eccentricity = in_patch.norm();
-  joint->edge_distance = distance_to_outline(joint->patch, in_patch);
-  joint->kern = kern_use(joint->patch, in_patch);
   joint->wrench.point = joint->centre_of_pressure;
   for (auto row = begin; row != end; ++row)
     joint->wrench.add_force(contacts.point[*row], contacts.force[*row]);
-  joint->axis = central_axis(joint->wrench);
   CUPOLA_ASSERT(joint->wrench.force.allFinite() && joint->wrench.moment.allFinite());
+}
+
+/// Fills in what follows from the direction and place of the joint's force, if it is not negligible.
+void measure(const Floor& floor, JointWrench* joint) {
+  joint->negligible = floor.hides(joint->wrench.force);
+  if (joint->negligible) {
+    joint->wrench = moved_to(joint->wrench, joint->patch.centroid);
+    joint->centre_of_pressure = joint->axis.point = joint->patch.centroid;
+    for (double* undefined : {&joint->eccentricity, &joint->edge_distance, &joint->kern, &joint->friction_use,
+                              &joint->couple_length})
+      *undefined = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  const Eigen::Vector2d in_patch = joint->patch.coordinates(joint->centre_of_pressure);
+  joint->eccentricity = above(in_patch.norm(), floor.length);
+  joint->edge_distance = distance_to_outline(joint->patch, in_patch);
+  joint->kern = above(kern_use(joint->patch, in_patch), floor.share);
+  joint->friction_use = above(joint->friction_use, floor.share);
+  joint->axis = central_axis(joint->wrench);
+  joint->couple_length = couple_length(joint->wrench, floor);
 }
 
 }  // namespace
 
-JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell) {
+JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell,
+                             double unbalanced) {
   JointWrenches out;
   for (const Joint& joint : joints_of(contacts)) static_cast<Joint&>(out.wrenches.emplace_back()) = joint;
   out.contacts.resize(static_cast<size_t>(contacts.size()));
@@ -76,8 +92,14 @@ JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& conta
     if (joint.num_contacts++ == 0) joint.contact_start = i;
   }
   std::erase_if(out.wrenches, [](const JointWrench& joint) { return joint.num_contacts == 0; });
+  double largest = 0.0;
   for (JointWrench& joint : out.wrenches) {
     fill(contacts, out.contacts, &joint);
+    largest = std::max(largest, joint.wrench.force.norm());
+  }
+  out.floor = floor_of(largest, unbalanced, block_size(assembly));
+  for (JointWrench& joint : out.wrenches) {
+    measure(out.floor, &joint);
     if (joint.kind != JointKind::bed && joint.kind != JointKind::base) continue;
     joint.upper = joint.block_b;
     joint.lower = joint.block_a;

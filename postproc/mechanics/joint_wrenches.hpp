@@ -3,19 +3,23 @@
 #include <vector>
 
 #include "assembly/model/results.hpp"
+#include "postproc/mechanics/floor.hpp"
 #include "postproc/mechanics/planar_hull.hpp"
 #include "postproc/mechanics/shell.hpp"
 #include "postproc/mechanics/wrench.hpp"
 
 namespace cupola {
 
-/// A joint of one frame, summed over its contact points.
+/// A joint of one frame, summed over its contact points. A negligible joint counts as unloaded: its centre of
+/// pressure is the centroid of the patch, and what follows from the direction or place of its force is NaN.
 struct JointWrench : Joint {
   int upper = -1, lower = -1;  ///< blocks of a bed or base joint; -1 for other kinds
   PlanarHull patch;            ///< hull of the contact points in their mean plane
   Wrench wrench;               ///< on block_b, about the centre of pressure
   CentralAxis axis;
+  bool negligible = false;                  ///< its force is not above the floor of the frame
   Vec3 centre_of_pressure = Vec3::Zero();   ///< m, of the normal forces; the patch centroid if unloaded
+  double couple_length = 0.0;               ///< m, on the central axis
   double normal_force = 0.0;                ///< N, sum over the points
   double eccentricity = 0.0;                ///< m, distance of the centre of pressure from the patch centroid
   double edge_distance = 0.0;               ///< m, distance of the centre of pressure from the outline
@@ -30,12 +34,14 @@ struct JointWrench : Joint {
 struct JointWrenches {
   std::vector<JointWrench> wrenches;  ///< in the order of the contacts' joint ids
   std::vector<int> contacts;          ///< contact rows sorted by joint
+  Floor floor;
 };
 
 /// Sums the contacts of every joint. The upper block of a bed or base joint is the one further along the
 /// shell in the direction from ring to ring; the right support of an arch therefore lies above its last
-/// joint.
-JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell);
+/// joint. `unbalanced`: N, see floor_of().
+JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell,
+                             double unbalanced = 0.0);
 
 /// The wrench of the joint on `block`, which must be one of its two.
 Wrench wrench_on(const JointWrench& joint, int block);

@@ -65,8 +65,8 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
     RingSum& ring = (*rings)[k];
     ring.height += joint.patch.area * joint.patch.centroid.z();
     ring_area[k] += joint.patch.area;
-    ring.largest_friction_use = std::max(ring.largest_friction_use, joint.friction_use);
-    ring.largest_kern = std::max(ring.largest_kern, joint.kern);
+    ring.largest_friction_use = std::fmax(ring.largest_friction_use, joint.friction_use);  // skips NaN
+    ring.largest_kern = std::fmax(ring.largest_kern, joint.kern);
     const Eigen::Vector2d outward = joint.patch.centroid.head<2>().stableNormalized();
     ring.radial_thrust -= outward.dot(wrench_on(joint, joint.upper).force.head<2>());
   }
@@ -79,14 +79,15 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
     RingSum& ring = (*rings)[k];
     ring.mean_resultant += resultants[k].back();
     ring.largest_couple_length =
-        std::max(ring.largest_couple_length, central_axis(from_below[b]).couple_length);
+        std::fmax(ring.largest_couple_length, couple_length(from_below[b], joints.floor));
   }
   for (size_t k = 0; k < rings->size(); ++k) {
     RingSum& ring = (*rings)[k];
     if (ring_area[k] > 0.0) ring.height /= ring_area[k];
     if (!resultants[k].empty()) ring.mean_resultant /= static_cast<double>(resultants[k].size());
-    ring.cv_resultant = coefficient_of_variation(resultants[k]);
-    ring.cv_pressure = coefficient_of_variation(pressures[k]);
+    ring.cv_resultant = above(coefficient_of_variation(resultants[k]), joints.floor.share);
+    ring.cv_pressure = above(coefficient_of_variation(pressures[k]), joints.floor.share);
+    ring.radial_thrust = above(ring.radial_thrust, joints.floor.force);
   }
 }
 

@@ -95,6 +95,16 @@ double model_size(const Assembly& assembly) {
   return std::max(box.diagonal().norm(), std::cbrt(assembly.blocks.front().volume));
 }
 
+double block_size(const Assembly& assembly) {
+  double volume = 0.0;
+  int free = 0;
+  for (const Block& block : assembly.blocks) {
+    volume += block.fixed ? 0.0 : block.volume;
+    free += block.fixed ? 0 : 1;
+  }
+  return free > 0 ? std::cbrt(volume / free) : 0.0;
+}
+
 double azimuth(const Vec3& point) {
   return std::atan2(point.y(), point.x());
 }

@@ -43,6 +43,9 @@ inline constexpr double kDegrees = 180.0 / std::numbers::pi;  ///< degrees per r
 /// root of the volume of the first block.
 double model_size(const Assembly& assembly);
 
+/// Size of a block, m: cube root of the mean volume of the free blocks; 0 without any.
+double block_size(const Assembly& assembly);
+
 /// Azimuth of a point about the z axis, rad, in (-pi, pi].
 double azimuth(const Vec3& point);
 

@@ -17,8 +17,6 @@ namespace {
 /// meets the plane of the bed too far away to have a position. Dry joints exceed it for any friction
 /// coefficient up to 10.
 constexpr double kLeastNormalShare = 0.1;
-/// A resultant below this share of the largest one of the line is the solver's residual.
-constexpr double kLeastResultant = 1e-6;
 
 /// The facets of one block on one bed, their range of azimuths and their mean plane.
 struct BlockBed {
@@ -180,18 +178,17 @@ bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, T
   point->force = sum.force;
   point->r = sum.force.norm();
   point->v = sum.force.z();
-  point->couple_length = central_axis(sum).couple_length;
+  point->couple_length = couple_length(sum, in.joints->floor);
   return true;
 }
 
 /// Fills in point, distance and safety from the position; all become NaN if the position is undefined.
-void measure(ThrustPoint* point, double largest_resultant) {
-  if (point->r <= kLeastResultant * largest_resultant)
-    point->position = std::numeric_limits<double>::quiet_NaN();
+void measure(const Floor& floor, ThrustPoint* point) {
+  if (floor.hides(point->force)) point->position = std::numeric_limits<double>::quiet_NaN();
   const Vec3 through = point->extrados - point->intrados;
   point->point = point->intrados + point->position * through;
   point->face_distance = through.norm() * (0.5 - std::abs(point->position - 0.5));
-  point->geometric_safety = 0.5 / std::abs(point->position - 0.5);
+  point->geometric_safety = 0.5 / std::abs(above(point->position - 0.5, floor.share));
 }
 
 /// Intersection of two lines of action in the plane spanned by `outwards` and z. None if they are nearly
@@ -208,6 +205,12 @@ std::optional<Vec3> meeting(const ThrustPoint& p, const ThrustPoint& q, const Ve
 }
 
 }  // namespace
+
+double ThrustLine::largest_couple_length() const {
+  double largest = 0.0;
+  for (const ThrustPoint& p : points) largest = std::fmax(largest, p.couple_length);  // skips NaN
+  return largest;
+}
 
 Wrench wrench_at_bed(const ThrustInput& in, int block, int bed) {
   CUPOLA_ASSERT(bed >= 0 && bed <= in.shell->num_rings());
@@ -230,9 +233,7 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
     if (!find_skins(input.shell->beds[bed], meridian, &point)) continue;
     if (sum_strip(input, bed, meridian, &point)) line.points.push_back(point);
   }
-  double largest = 0.0;
-  for (const ThrustPoint& point : line.points) largest = std::max(largest, point.r);
-  for (ThrustPoint& point : line.points) measure(&point, largest);
+  for (ThrustPoint& point : line.points) measure(input.joints->floor, &point);
   line.undefined = static_cast<int>(std::count_if(line.points.begin(), line.points.end(),
                                                   [](const ThrustPoint& p) { return !p.is_placed(); }));
   line.inside = line.undefined < static_cast<int>(line.points.size());

@@ -13,8 +13,8 @@ namespace cupola {
 
 /// The resultant of a meridian strip across one bed.
 ///
-/// Its position is undefined if the resultant runs along the bed or is a rounding error: `position`, `point`,
-/// `face_distance` and `geometric_safety` are then NaN.
+/// Its position is undefined if the resultant runs along the bed or is negligible: `position`, `point`,
+/// `face_distance` and `geometric_safety` are then NaN, and so is the couple length of a negligible one.
 struct ThrustPoint {
   int bed = 0;
   int blocks = 0;           ///< number of blocks in the strip
@@ -53,6 +53,7 @@ struct ThrustLine {
   bool inside = false;               ///< every point of defined position lies between the skins
   double least_face_distance = 0.0;  ///< m
   double least_geometric_safety = 0.0;
+  double largest_couple_length() const;  ///< m, of its points
 };
 
 /// The data of one frame that all thrust lines use.

@@ -15,16 +15,19 @@ namespace {
 struct View {
   const char* name;
   const char* caption;
+  bool of_forces = false;
 };
 
 // In the order of the report. views.py skips views for which a run has no data.
 constexpr View kViews[] = {
-    {"joints", "Resultant of every joint, drawn from its centre of pressure; joints.vtp holds the scale."},
-    {"thrust_lines", "Thrust lines (orange) between intrados and extrados (black)."},
-    {"sections", "Sections and the resultants across the beds nearest to them."},
-    {"blocks_meridional", "Meridional force per metre of ring, compression positive."},
-    {"blocks_hoop", "Hoop force per metre of meridian, compression positive."},
-    {"blocks_friction", "Largest friction utilisation of the joints of each block."},
+    {"joints", "Resultant of every joint, drawn from its centre of pressure; joints.vtp holds the scale.",
+     true},
+    {"thrust_lines", "Thrust lines (orange) between intrados and extrados (black).", true},
+    {"sections", "Sections and the resultants across the beds nearest to them.", true},
+    {"blocks_meridional", "Meridional force per metre of ring, compression positive.", true},
+    {"blocks_hoop", "Hoop force per metre of meridian, compression positive.", true},
+    {"blocks_friction", "Largest friction utilisation of the joints of each block. Grey: no loaded joint.",
+     true},
     {"cracks", "Open joints."},
     {"motion_1", "Motion after a quarter of the frames; each colour is one body of the mechanism."},
     {"motion_2", "Motion after half of the frames."},
@@ -45,7 +48,7 @@ void write_views(const std::string& folder) {
   write_text_atomically((std::filesystem::path(folder) / "views.py").string(), kViewsScript);
 }
 
-std::vector<Picture> draw_pictures(const std::string& folder, const std::string& pvbatch,
+std::vector<Picture> draw_pictures(const std::string& folder, const std::string& pvbatch, bool at_rest,
                                    std::vector<std::string>* problems) {
   const std::filesystem::path base(folder), log = base / "views.log";
   for (const View& view : kViews)  // pictures of an earlier run must not appear in this report
@@ -62,6 +65,7 @@ std::vector<Picture> draw_pictures(const std::string& folder, const std::string&
     std::filesystem::remove(log);
   std::vector<Picture> pictures;
   for (const View& view : kViews) {
+    if (view.of_forces && !at_rest) continue;
     const std::string path = (base / "pictures" / (std::string(view.name) + ".png")).string();
     if (std::filesystem::exists(path)) pictures.push_back({path, view.caption});
   }

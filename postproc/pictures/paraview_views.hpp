@@ -16,8 +16,9 @@ struct Picture {
 void write_views(const std::string& folder);
 
 /// Draws the standard views into folder/pictures with the given command: pvbatch, or a command line that runs
-/// it. Returns the pictures and appends failures to `problems`.
-std::vector<Picture> draw_pictures(const std::string& folder, const std::string& pvbatch,
+/// it. Returns the pictures, of a run that is not `at_rest` those without forces, and appends failures to
+/// `problems`.
+std::vector<Picture> draw_pictures(const std::string& folder, const std::string& pvbatch, bool at_rest,
                                    std::vector<std::string>* problems);
 
 }  // namespace cupola

@@ -40,6 +40,7 @@ def colour(display, view, association, array, title, diverging=False):
         low, high = table.RGBPoints[0], table.RGBPoints[-4]
         most = max(abs(low), abs(high), 1e-12)
         table.RescaleTransferFunction(-most, most)
+    table.NanColor = [0.74, 0.74, 0.74]
     bar = GetScalarBar(table, view)
     bar.Title, bar.ComponentTitle = title, ""
     bar.TitleColor = bar.LabelColor = [0, 0, 0]

@@ -86,9 +86,9 @@ std::string html_table(const Table& table) {
   for (const auto& row : table.rows) {
     CUPOLA_ASSERT(row.size() == table.columns.size());
     out += "<tr>";
-    for (const Table::Cell& cell : row)
-      out +=
-          fmt::format("<td{}>{}</td>", is_text(cell) ? " class=\"text\"" : "", markup_text(to_display(cell)));
+    for (size_t i = 0; i < row.size(); ++i)
+      out += fmt::format("<td{}>{}</td>", is_text(row[i]) ? " class=\"text\"" : "",
+                         markup_text(to_display(row[i], table.columns[i].floor)));
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";

@@ -1,5 +1,6 @@
 #include "postproc/report/report.hpp"
 
+#include <cctype>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -7,18 +8,28 @@
 #include "assembly/base/process.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/html.hpp"
-#include "postproc/tables/post_summary.hpp"
 
 namespace cupola {
 namespace {
 
-std::string force_text(double newtons) {
-  const ForceUnit unit = force_unit(std::abs(newtons));
-  return fmt::format("{:.5g} {}", unit.per_newton * newtons, unit.name);
+/// What counts as zero in this run.
+std::string floor_text(const Evaluation& e) {
+  const Floor& floor = e.last.joints.floor;
+  if (floor.force == 0.0) return "";
+  return fmt::format(
+      "Forces up to {}, {:.0e} of the largest joint force, are negligible: they count as zero, and no "
+      "utilisation, "
+      "direction or length is computed from them.",
+      force_text(floor.force), floor.share);
 }
 
 std::string paragraph(const std::string& text) {
   return "<p>" + markup_text(text) + "</p>\n";
+}
+
+std::string capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 std::string verdict_section(const Evaluation& e) {
@@ -27,65 +38,15 @@ std::string verdict_section(const Evaluation& e) {
     out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
   const bool good = e.summary.status == Status::stable;
   out += fmt::format("<p class=\"verdict{}\"><strong>{}</strong> {}</p>\n", good ? "" : " bad",
-                     markup_text(verdict_text(e.summary)), markup_text(e.summary.message + "."));
-  if (!e.summary.forces_unique.value) out += paragraph(to_sentence(e.summary.forces_unique));
+                     markup_text(verdict_text(e.summary)), markup_text(capitalised(e.summary.message) + "."));
+  if (at_rest(e.summary) && !e.summary.forces_unique.value)
+    out += paragraph(to_sentence(e.summary.forces_unique));
   return out;
 }
 
-std::string thrust_text(const ThrustLine& line) {
-  const int placed = static_cast<int>(line.points.size()) - line.undefined;
-  if (placed == 0)
-    return fmt::format("The meridian {} has no thrust line: none of its beds is in compression.", line.name);
-  return fmt::format(
-      "The thrust line of the meridian {} {} inside the thickness. Its smallest distance from a face is "
-      "{:.3g} m, its smallest geometric safety {:.3g}.{}",
-      line.name, line.inside ? "stays" : "does not stay", line.least_face_distance,
-      line.least_geometric_safety,
-      line.undefined == 0
-          ? ""
-          : fmt::format(" It is undefined at {} of {} beds, whose resultants are parallel to the bed.",
-                        line.undefined, line.points.size()));
-}
-
-/// Findings about the structure, each sentence with its number.
-std::string findings_section(const Evaluation& e) {
-  const PostSummary s = post_summary(e);
-  std::string out = "<h2>Findings</h2>\n<ul>\n";
-  const auto item = [&out](const std::string& text) { out += "<li>" + markup_text(text) + "</li>\n"; };
-  for (const MeridianEvaluation& m : e.meridians) item(thrust_text(m.thrust));
-  for (const PlaneCut& cut : e.planes)
-    item(
-        fmt::format("The joints across the plane {} transmit a normal force of {} (compression positive) to "
-                    "the part beyond.",
-                    cut.name, force_text(cut.across.force.dot(cut.normal))));
-  if (!e.rings.empty()) {
-    item(fmt::format(
-        "In every ring the joint forces balance the load above; the largest relative difference is {:.1e}.",
-        s.largest_ring_difference));
-    item(
-        fmt::format("The coefficient of variation of the bed pressure within a ring is {:.1f} % on average "
-                    "over the rings and {:.1f} % at most.",
-                    100.0 * s.mean_cv_pressure, 100.0 * s.largest_cv_pressure));
-    if (is_vault(e))
-      item(fmt::format(
-          "The outward thrust at the base, summed over the blocks, is {}, {:.4f} times the weight.",
-          force_text(e.rings.front().radial_thrust), s.thrust_over_weight));
-  }
-  if (s.rib_over_mid_sail)
-    item(fmt::format(
-        "The resultant in the rib is on average {:.3f} times that at mid-sail, and between {:.2f} and "
-        "{:.2f} times on a single bed (compliance per {}).",
-        *s.rib_over_mid_sail, *s.rib_over_mid_sail_smallest, *s.rib_over_mid_sail_largest, s.compliance_per));
-  item(fmt::format("The largest couple length of a block wrench is {:.3g} m.", s.largest_couple_length_m));
-  item(fmt::format("The largest friction utilisation of a joint is {:.1f} %{}.",
-                   100.0 * s.largest_friction_use,
-                   s.largest_friction_use > 0.999 ? ": this joint slides" : ""));
-  item(
-      fmt::format("The mean eccentricity of the bed forces is {:.2f} of the distance to the edge of the "
-                  "kern. Where it exceeds 1, part of the joint is unloaded.",
-                  s.mean_kern_use));
-  if (s.max_displacement_m)
-    item(fmt::format("The largest displacement of a block is {:.4g} mm.", 1e3 * *s.max_displacement_m));
+std::string list_section(const std::string& heading, const std::vector<std::string>& sentences) {
+  std::string out = "<h2>" + heading + "</h2>\n<ul>\n";
+  for (const std::string& sentence : sentences) out += "<li>" + markup_text(sentence) + "</li>\n";
   return out + "</ul>\n";
 }
 
@@ -147,7 +108,7 @@ std::string tables_section(const std::vector<Table>& tables) {
   return out;
 }
 
-std::string files_section() {
+std::string files_section(bool equilibrium) {
   std::string out = "<h2>Files</h2>\n<dl>\n";
   const auto row = [&out](const char* file, const char* what) {
     out += fmt::format("<dt><a href=\"{0}\">{0}</a></dt><dd>{1}</dd>\n", file, what);
@@ -155,8 +116,8 @@ std::string files_section() {
   row("blocks.pvd", "displaced blocks and their fields in every frame, for ParaView");
   row("joints.vtp", "the wrench on every joint, as points and as segments to scale");
   row("wrenches.vtp", "the wrench on every block from the course below, on its central axis");
-  row("thrust_lines.vtp", "thrust lines, envelopes and lines of action");
-  row("sections.vtp", "sections and planes with the resultants across them");
+  if (equilibrium) row("thrust_lines.vtp", "thrust lines, envelopes and lines of action");
+  if (equilibrium) row("sections.vtp", "sections and planes with the resultants across them");
   row("cracks.vtp", "open joints as lines");
   row("views.py", "the standard views, for pvbatch or as a ParaView macro");
   row("summary.json", "the numbers used to compare runs");
@@ -179,65 +140,19 @@ std::string run_section(const ReportInput& input) {
 
 }  // namespace
 
-std::string verdict_text(const Summary& s) {
-  if (s.analysis == AnalysisType::limit && s.critical)
-    return fmt::format(
-        "The structure stands at a {0} of {1:.5g} and moves at {2:.5g}. The forces below are those at "
-        "{1:.5g}.",
-        s.critical->parameter, s.critical->stable, s.critical->moving);
-  switch (s.status) {
-    case Status::stable:
-      return "The structure is at rest.";
-    case Status::moving:
-      return "The structure is moving: no equilibrium was found.";
-    case Status::collapsed:
-      return "The structure has collapsed.";
-    case Status::unconverged:
-      return "No verdict: the requested accuracy was not reached.";
-  }
-  return "";
-}
-
-std::string quality_text(const Summary& s) {
-  std::string out = to_sentence(s.accuracy) + " ";
-  if (s.analysis == AnalysisType::limit && s.critical)
-    out += fmt::format("The residuals below are those of the equilibrium at {:.5g}. ", s.critical->stable);
-  if (s.equilibrium_residual)
-    out += fmt::format("The largest unbalanced force on a free block is {:.1e} of the mean block weight. ",
-                       *s.equilibrium_residual);
-  if (s.contact_law_residual)
-    out += fmt::format("The contact law holds to within {:.1e} of the forces{}. ", *s.contact_law_residual,
-                       s.steps > 1 && s.analysis != AnalysisType::limit ? " in every step" : "");
-  if (const auto& worst = s.largest_law_violation)
-    out += fmt::format(
-        "At the worst contact, between the blocks {} and {}, the law holds to within {:.1e} of the force of "
-        "its joint. ",
-        worst->block_a, worst->block_b, worst->value);
-  if (s.friction_cone_violation)
-    out += fmt::format("The friction cone holds to within {:.1e}. ", *s.friction_cone_violation);
-  out += to_sentence(s.certified_force_error) + " ";
-  if (s.friction_law == FrictionLaw::associated)
-    out += fmt::format(
-        "The associated friction law was used: sliding joints also open, by the friction coefficient times "
-        "the slip. A structure that stands under this law may collapse under Coulomb's law. {} of {} "
-        "contacts slip. ",
-        s.slipping_contacts, s.contacts);
-  out += fmt::format("The largest penetration at a contact is {:.3g} mm.", 1e3 * s.max_penetration_m);
-  return out;
-}
-
 std::string report_html(const ReportInput& input) {
   const Evaluation& e = *input.evaluation;
   std::string body = "<h1>" + markup_text(e.scene.title) + "</h1>\n";
   body += verdict_section(e);
-  body += "<h2>Solution quality</h2>\n" + paragraph(quality_text(e.summary));
-  body += findings_section(e);
+  body += "<h2>Solution quality</h2>\n" + paragraph(quality_text(e.summary) + " " + floor_text(e));
+  body += at_rest(e.summary) ? list_section("Findings", finding_sentences(e))
+                             : list_section("Motion", motion_sentences(e, input.history));
   body += model_section(e);
   if (!e.assembly.check_report.empty())
     body += "<h2>Geometry check</h2>\n<pre>" + markup_text(e.assembly.check_report) + "</pre>\n";
   body += figures_section(input);
   body += tables_section(input.tables);
-  body += files_section();
+  body += files_section(at_rest(e.summary));
   body += run_section(input);
   return html_page(e.scene.title, body);
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "postproc/evaluation/evaluation.hpp"
-#include "postproc/figures/gnuplot.hpp"
+#include "postproc/figures/figures.hpp"
 #include "postproc/pictures/paraview_views.hpp"
 #include "postproc/tables/table.hpp"
 
@@ -14,6 +14,7 @@ namespace cupola {
 struct ReportInput {
   const Evaluation* evaluation = nullptr;
   std::vector<Table> tables;
+  std::vector<HistoryRow> history;  ///< of a dynamic run
   std::vector<Figure> figures;
   std::vector<Picture> pictures;  ///< drawn by ParaView
   std::string figure_folder;      ///< folder of the figure files
@@ -21,8 +22,16 @@ struct ReportInput {
 };
 
 /// report.html as one self-contained file: warnings, verdict, solution quality, findings, model, geometry
-/// check, pictures, figures, tables, files and run information, in this order.
+/// check, pictures, figures, tables, files and run information, in this order. A run that found no equilibrium has the
+/// motion in place of the findings, and no certificate.
 std::string report_html(const ReportInput& input);
+
+/// What moves and how, one sentence per item. Of an unconverged run: that nothing is known.
+std::vector<std::string> motion_sentences(const Evaluation& evaluation,
+                                          const std::vector<HistoryRow>& history);
+
+/// What the forces of an equilibrium show, one sentence with its number per item.
+std::vector<std::string> finding_sentences(const Evaluation& evaluation);
 
 /// The verdict and the solution quality in words, each with its numbers.
 std::string verdict_text(const Summary& summary);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -13,9 +12,6 @@ namespace cupola {
 Table stage_table(const Evaluation& e, const CsvFile& csv) {
   const size_t ring = csv.column("ring"), blocks = csv.column("blocks"), verdict = csv.column("verdict");
   const size_t stands = csv.column("critical_stands"), moves = csv.column("critical_moves");
-  const auto number = [&csv](size_t row, size_t column) {  // NaN if no bracket was found
-    return csv.rows[row][column].empty() ? std::numeric_limits<double>::quiet_NaN() : csv.number(row, column);
-  };
   Table t{"stages", "Construction, ring by ring", {}, {}};
   t.columns = {
       {"ring", "", "the ring just laid"},
@@ -27,7 +23,7 @@ Table stage_table(const Evaluation& e, const CsvFile& csv) {
       {"critical_moves", "", "end of the bracket at which the stage moves"}};
   for (size_t row = 0; row < csv.rows.size(); ++row) {
     const int k = static_cast<int>(csv.number(row, ring));
-    const double low = number(row, moves), high = number(row, stands);
+    const double low = csv.number(row, moves), high = csv.number(row, stands);  // NaN without a bracket
     const double critical = high == 0.0 ? 0.0 : 0.5 * (low + high);
     t.rows.push_back({k, e.rings.at(static_cast<size_t>(k)).height, static_cast<int>(csv.number(row, blocks)),
                       csv.rows[row][verdict], critical, high, low});

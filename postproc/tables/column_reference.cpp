@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "postproc/tables/result_columns.hpp"
+#include "postproc/tables/shell_map.hpp"
 
 namespace cupola {
 namespace {
@@ -49,6 +50,7 @@ std::string column_reference() {
          reference_of(
              "blocks.csv, blocks_NNNN.vtu, wrenches.vtp: blocks", block_columns(),
              {{"blocks_NNNN.vtu", {kBlockMeshKeys}}, {"wrenches.vtp", {kWrenchCellKeys, kWrenchPointKeys}}}) +
+         reference_of("shell.csv, shell_x.csv: blocks of the unrolled shell", shell_columns(), {}) +
          reference_of("thrust_lines.vtp: cells", line_cell_columns(),
                       {{"thrust_lines.vtp", {kLineCellKeys}}}) +
          reference_of("sections.vtp: cells", section_cell_columns(), {{"sections.vtp", {kSectionCellKeys}}});

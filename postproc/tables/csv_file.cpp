@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -44,9 +45,10 @@ size_t CsvFile::column(const std::string& name) const {
 
 double CsvFile::number(size_t row, size_t column) const {
   const std::string& cell = rows[row][column];
+  if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
   char* end = nullptr;
-  const double value = std::strtod(cell.c_str(), &end);  // accepts inf and nan, which tables contain
-  if (cell.empty() || *end != '\0')
+  const double value = std::strtod(cell.c_str(), &end);  // accepts inf, which tables contain
+  if (*end != '\0')
     throw InputError(FileLocation{path, static_cast<int>(row) + 2, 0},
                      fmt::format("{} = `{}`: is not a number", columns[column], cell));
   return value;

@@ -13,7 +13,8 @@ struct CsvFile {
 
   /// Index of a column; InputError with the nearest name if there is none.
   size_t column(const std::string& name) const;
-  double number(size_t row, size_t column) const;  ///< InputError if the cell is not a number
+  /// NaN if the cell is empty; InputError if it is not a number.
+  double number(size_t row, size_t column) const;
 };
 
 /// Reads a CSV file with a header line. Quoted cells may contain commas and doubled quotes. InputError if a

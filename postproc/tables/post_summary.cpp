@@ -33,6 +33,7 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("block_size_m", s.block_size_m);
   visit("friction", s.friction);
   visit("equilibrium_residual", s.equilibrium_residual);
+  visit("negligible_force_N", s.negligible_force_N);
   visit("largest_ring_difference", s.largest_ring_difference);
   visit("mean_cv_pressure", s.mean_cv_pressure);
   visit("largest_cv_pressure", s.largest_cv_pressure);
@@ -89,6 +90,41 @@ Json rings_json(const Evaluation& e) {
   return rings;
 }
 
+std::optional<double> points_per_base_joint(const JointWrenches& joints) {
+  int points = 0, count = 0;
+  for (const JointWrench& joint : joints.wrenches) {
+    if (joint.kind != JointKind::base) continue;
+    points += joint.num_contacts;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return static_cast<double>(points) / count;
+}
+
+/// Numbers that interpret the forces of an equilibrium. Negligible joints have NaN, which fmax skips.
+void add_equilibrium(const Evaluation& e, PostSummary* s) {
+  const auto raise = [](std::optional<double>* largest, double value) {
+    *largest = std::fmax(largest->value_or(0.0), value);
+  };
+  for (const RingSum& r : e.rings) {
+    raise(&s->largest_ring_difference, r.relative_difference);
+    s->mean_cv_pressure =
+        s->mean_cv_pressure.value_or(0.0) + r.cv_pressure / static_cast<double>(e.rings.size());
+    raise(&s->largest_cv_pressure, r.cv_pressure);
+  }
+  double kern = 0.0, force = 0.0;
+  for (const JointWrench& joint : e.last.joints.wrenches) {
+    raise(&s->largest_friction_use, joint.friction_use);
+    if (joint.upper < 0 || joint.negligible) continue;
+    kern += joint.normal_force * joint.kern;
+    force += joint.normal_force;
+  }
+  if (force > 0.0) s->mean_kern_use = above(kern / force, e.last.joints.floor.share);
+  for (const BlockFields& f : e.last.fields) raise(&s->largest_couple_length_m, f.couple_length);
+  if (!e.rings.empty() && e.summary.weight_N > 0.0)
+    s->thrust_over_weight = e.rings.front().radial_thrust / e.summary.weight_N;
+}
+
 }  // namespace
 
 PostSummary post_summary(const Evaluation& e) {
@@ -99,9 +135,8 @@ PostSummary post_summary(const Evaluation& e) {
   s.program_version = program_version();
   s.blocks = e.summary.free_blocks;
   s.weight_N = e.summary.weight_N;
-  double volume = 0.0;
-  for (const Block& block : e.assembly.blocks) volume += block.fixed ? 0.0 : block.volume;
-  if (s.blocks > 0) s.block_size_m = std::cbrt(volume / s.blocks);
+  s.block_size_m = block_size(e.assembly);
+  s.negligible_force_N = e.last.joints.floor.force;
   s.friction = e.scene.joints.friction;
   s.equilibrium_residual = e.summary.equilibrium_residual.value_or(std::numeric_limits<double>::infinity());
   if (e.summary.critical) s.critical_value = e.summary.critical->value;
@@ -112,29 +147,8 @@ PostSummary post_summary(const Evaluation& e) {
     s.rib_over_mid_sail_largest = e.rib_over_mid_sail->largest;
   }
   s.compliance_per = to_string(e.scene.joints.compliance.per);
-  for (const RingSum& r : e.rings) {
-    s.largest_ring_difference = std::max(s.largest_ring_difference, r.relative_difference);
-    s.mean_cv_pressure += r.cv_pressure / static_cast<double>(e.rings.size());
-    s.largest_cv_pressure = std::max(s.largest_cv_pressure, r.cv_pressure);
-  }
-  double kern = 0.0, force = 0.0, base_points = 0.0;
-  int base_joints = 0;
-  for (const JointWrench& joint : e.last.joints.wrenches) {
-    if (joint.kind == JointKind::base) {
-      base_points += joint.num_contacts;
-      ++base_joints;
-    }
-    s.largest_friction_use = std::max(s.largest_friction_use, joint.friction_use);
-    if (joint.upper < 0) continue;
-    kern += joint.normal_force * joint.kern;
-    force += joint.normal_force;
-  }
-  if (force > 0.0) s.mean_kern_use = kern / force;
-  if (base_joints > 0) s.points_per_base_joint = base_points / base_joints;
-  for (const BlockFields& f : e.last.fields)
-    s.largest_couple_length_m = std::max(s.largest_couple_length_m, f.couple_length);
-  if (!e.rings.empty() && e.summary.weight_N > 0.0)
-    s.thrust_over_weight = e.rings.front().radial_thrust / e.summary.weight_N;
+  s.points_per_base_joint = points_per_base_joint(e.last.joints);
+  if (at_rest(e.summary)) add_equilibrium(e, &s);
   for (const MeridianEvaluation& m : e.meridians)
     s.thrust_lines.push_back({m.thrust.name, m.thrust.undefined, m.thrust.inside,
                               m.thrust.least_face_distance, m.thrust.least_geometric_safety});

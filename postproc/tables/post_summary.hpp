@@ -17,17 +17,19 @@ struct PostSummary {
   double weight_N = 0.0;
   double block_size_m = 0.0;  ///< cube root of the free blocks' mean volume
   double friction = 0.0;
-  double largest_ring_difference = 0.0;  ///< relative, largest over the rings
-  double mean_cv_pressure = 0.0;         ///< mean over the rings
-  double largest_cv_pressure = 0.0;
+  double negligible_force_N = 0.0;  ///< floor of the frame: what is smaller counts as 0
+  // The numbers down to `thrust_over_weight` interpret an equilibrium. A run that found none has none of them.
+  std::optional<double> largest_ring_difference;  ///< relative, largest over the rings
+  std::optional<double> mean_cv_pressure;         ///< mean over the rings
+  std::optional<double> largest_cv_pressure;
   std::optional<double> rib_over_mid_sail;  ///< RibRatio: mean, smallest and largest
   std::optional<double> rib_over_mid_sail_smallest, rib_over_mid_sail_largest;
-  std::string compliance_per;                   ///< "point" or "area": what joints.compliance refers to
-  std::optional<double> points_per_base_joint;  ///< mean number of contact points; none without base joints
-  double largest_couple_length_m = 0.0;
-  double largest_friction_use = 0.0;
-  double mean_kern_use = 0.0;  ///< mean over the bed joints, weighted by normal force
-  double thrust_over_weight = 0.0;
+  std::string compliance_per;                     ///< "point" or "area": what joints.compliance refers to
+  std::optional<double> points_per_base_joint;    ///< mean number of contact points; none without base joints
+  std::optional<double> largest_couple_length_m;  ///< of a block's wrench from the ring below
+  std::optional<double> largest_friction_use;     ///< of a joint
+  std::optional<double> mean_kern_use;            ///< mean over the bed joints, weighted by normal force
+  std::optional<double> thrust_over_weight;
   std::optional<double> max_displacement_m;
   double equilibrium_residual = 0.0;     ///< infinite if the run has none
   std::optional<double> critical_value;  ///< of a limit analysis

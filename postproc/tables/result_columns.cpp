@@ -107,8 +107,7 @@ const Columns<JointWrench>& joint_columns() {
       {"moment_{}_Nm", "N m", "moment on the second block about the centre of pressure",
        [](const J& j) { return j.wrench.moment; }},
       {"axis_{}_m", "m", "point on the central axis", [](const J& j) { return j.axis.point; }},
-      {"couple_length_m", "m", "couple over force on the central axis",
-       [](const J& j) { return j.axis.couple_length; }},
+      {"couple_length_m", "m", "couple over force on the central axis", &J::couple_length},
       {"normal_force_N", "N", "sum of the normal forces of the contact points", &J::normal_force},
       {"area_m2", "m2", "area of the joint", [](const J& j) { return j.patch.area; }},
       {"eccentricity_m", "m", "distance of the centre of pressure from the joint's centroid",
@@ -173,8 +172,9 @@ const Columns<ThrustPoint>& thrust_columns() {
       {"blocks", "", "number of blocks in the strip", &P::blocks},
       {"{}_m", "m", "point of the thrust line", &P::point},
       {"position", "",
-       "position through the thickness: 0 intrados, 1 extrados; nan: undefined, the resultant runs along the "
-       "bed",
+       "position through the thickness: 0 intrados, 1 extrados; empty: the resultant is negligible or runs "
+       "along "
+       "the bed",
        &P::position},
       {"r_N", "N", "norm of the resultant", &P::r},
       {"v_N", "N", "vertical component of the resultant", &P::v},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "postproc/tables/result_columns.hpp"
+#include "postproc/tables/shell_map.hpp"
 
 namespace cupola {
 namespace {
@@ -19,6 +20,15 @@ Table with_block_names(const Assembly& assembly, Table table) {
       row.insert(row.begin() + after, assembly.blocks[static_cast<size_t>(std::get<int>(row[c]))].name);
   }
   return table;
+}
+
+/// Gives the columns of forces the floor of the frame.
+void set_floors(const Evaluation& e, Table* table) {
+  const double force = e.last.joints.floor.force, size = block_size(e.assembly);
+  for (Table::Column& column : table->columns) {
+    if (column.unit == "N") column.floor = force;
+    if (column.unit == "N m") column.floor = force * size;
+  }
 }
 
 }  // namespace
@@ -67,15 +77,17 @@ Table plane_table(const Evaluation& e, const PlaneCut& cut) {
 
 std::vector<Table> result_tables(const Evaluation& e) {
   std::vector<Table> tables;
-  if (!e.rings.empty()) tables.push_back(ring_table(e));
+  if (!e.rings.empty() && at_rest(e.summary)) tables.push_back(ring_table(e));
   for (const MeridianEvaluation& m : e.meridians) {
     tables.push_back(thrust_table(m.thrust));
     if (!m.hoop.empty()) tables.push_back(hoop_table(m));
   }
   for (const SectionEvaluation& section : e.sections) tables.push_back(section_table(section));
   for (const PlaneCut& cut : e.planes) tables.push_back(plane_table(e, cut));
+  if (e.shell.num_rings() > 0 && at_rest(e.summary)) tables.push_back(shell_table(shell_map(e)));
   tables.push_back(joint_table(e));
   tables.push_back(block_table(e));
+  for (Table& table : tables) set_floors(e, &table);
   return tables;
 }
 

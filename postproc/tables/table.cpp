@@ -15,7 +15,8 @@ std::string csv_text(const std::string& text) {
 }
 
 std::string csv_cell(const Table::Cell& cell) {
-  if (const auto* number = std::get_if<double>(&cell)) return fmt::format("{}", *number);
+  if (const auto* number = std::get_if<double>(&cell))
+    return std::isnan(*number) ? "" : fmt::format("{}", *number);
   if (const auto* count = std::get_if<int>(&cell)) return fmt::format("{}", *count);
   return csv_text(std::get<std::string>(cell));
 }
@@ -33,13 +34,13 @@ std::string to_csv(const Table& table) {
   return fmt::to_string(out);
 }
 
-std::string to_display(const Table::Cell& cell) {
+std::string to_display(const Table::Cell& cell, double floor) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* count = std::get_if<int>(&cell)) return fmt::format("{}", *count);
   const double value = std::get<double>(cell);
   const double size = std::abs(value);
-  if (value == 0.0) return "0";
-  if (!std::isfinite(value)) return std::isnan(value) ? "not a number" : value > 0 ? "∞" : "-∞";
+  if (size <= floor) return "0";
+  if (!std::isfinite(value)) return std::isnan(value) ? "" : value > 0 ? "∞" : "-∞";
   if (size >= 1000.0 && size < 1e7) return fmt::format("{:.0f}", value);
   if (size >= 1e-3 && size < 1e7) return fmt::format("{:.4g}", value);
   return fmt::format("{:.2e}", value);

@@ -12,6 +12,7 @@ struct Table {
     std::string key;      ///< header of the CSV file: snake_case, unit last
     std::string unit;     ///< "" for pure numbers and names
     std::string meaning;  ///< one phrase
+    double floor = 0.0;   ///< of the numbers: up to it they are negligible
   };
   using Cell = std::variant<double, int, std::string>;
 
@@ -21,11 +22,12 @@ struct Table {
   std::vector<std::vector<Cell>> rows;
 };
 
-/// Header line of keys, then the rows. Numbers have all digits; texts are quoted where needed.
+/// Header line of keys, then the rows. Numbers have all digits; undefined ones (NaN) are empty cells. Texts are
+/// quoted where needed.
 std::string to_csv(const Table& table);
 
-/// A cell as the report shows it: four significant digits, without exponent from 1e-3 to 1e7; texts
-/// unchanged.
-std::string to_display(const Table::Cell& cell);
+/// A cell as the report shows it: four significant digits, without exponent from 1e-3 to 1e7; 0 up to the floor;
+/// nothing if undefined (NaN); texts unchanged.
+std::string to_display(const Table::Cell& cell, double floor = 0.0);
 
 }  // namespace cupola

@@ -181,7 +181,9 @@ TEST(Commands, CompareRuns) {
   const std::string compare = "cupola-post compare runs/thick/post ";
   const ProgramRun run = folder.run(compare + "runs/thin/post --output both");
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_TRUE(contains(run.out, "B: Six rings <b>& a crown (runs/thin/post)")) << run.out;
+  EXPECT_TRUE(
+      contains(run.out, "B: Six rings <b>& a crown (with geometry.surface.thickness=2) (runs/thin/post)"))
+      << run.out;
   EXPECT_TRUE(contains(run.out, "The smallest geometric safety of the thrust lines is")) << run.out;
   const std::string page = slurp(folder.file("both/comparison.html"));
   EXPECT_TRUE(contains(page, "Six rings &lt;b&gt;&amp; a crown"));

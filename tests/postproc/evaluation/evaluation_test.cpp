@@ -236,7 +236,7 @@ TEST(Evaluation, SummaryReadsBackUnchanged) {
   const PostSummary written = post_summary(e), read = read_post_summary(folder);
   EXPECT_EQ(read.title, written.title);
   EXPECT_EQ(read.mean_kern_use, written.mean_kern_use);
-  EXPECT_NEAR(read.mean_kern_use, 1.5, 1e-12);
+  EXPECT_NEAR(read.mean_kern_use.value(), 1.5, 1e-12);
   EXPECT_EQ(read.largest_ring_difference, written.largest_ring_difference);
   EXPECT_EQ(read.rib_over_mid_sail, std::nullopt);
   EXPECT_THROW(read_post_summary("/nowhere/at/all"), InputError);

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "assembly/files/atomic_file.hpp"
+#include "postproc/figures/shell_maps.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "tests/postproc/scene.hpp"
 
@@ -80,6 +82,67 @@ TEST(LevelsFigure, DrawsSegmentsAndScaleBarToOneScale) {
   EXPECT_NE(figure.commands.find("'0.2 MN'"), std::string::npos);
   // Faces of the three free blocks: five rows each, since outlines are closed.
   EXPECT_EQ(data_of(figure, "outlines").size(), 15u);
+}
+
+// Two blocks, one of which carries nothing: grey, with a legend, and outside the colour scale.
+TEST(ShellMaps, NegligibleBlocksAreGrey) {
+  ShellMap map{
+      true,
+      1,
+      {{0, 0, -10, 10, 4e3, 0.0, std::nan(""), std::nan("")}, {1, 0, 170, 190, 2e3, -5e3, 0.5, 1.5}}};
+  MapScales scales;
+  scales.include(map);
+  const Figure forces = force_map(map, scales), use = utilisation_map(map, scales);
+  EXPECT_EQ(data_of(forces, "meridional").size(), 3u) << "the block across 180 degrees is drawn at both ends";
+  EXPECT_TRUE(data_of(forces, "meridional_grey").empty());
+  EXPECT_EQ(data_of(forces, "hoop").size(), 2u);
+  EXPECT_EQ(data_of(forces, "hoop_grey").size(), 1u);
+  EXPECT_NE(forces.commands.find("set cbrange [-5:5]"), std::string::npos);
+  EXPECT_NE(forces.commands.find("title 'negligible'"), std::string::npos);
+  EXPECT_EQ(data_of(use, "friction_grey").size(), 1u);
+  EXPECT_EQ(data_of(use, "kern")[0][6], 1.5);
+}
+
+// Maps that are compared have the scale of the run with the largest values.
+TEST(ShellMaps, IncludedMapsShareTheirScale) {
+  const ShellMap small{true, 1, {{0, 0, -10, 10, 4e3, 1e3, 0.1, 0.2}}};
+  const ShellMap large{true, 1, {{0, 0, -10, 10, -7e3, 9e3, 0.1, 2.5}}};
+  MapScales scales;
+  scales.include(small);
+  scales.include(large);
+  EXPECT_NE(force_map(small, scales).commands.find("set cbrange [-7:4]"), std::string::npos);
+  EXPECT_NE(force_map(small, scales).commands.find("set cbrange [-9:9]"), std::string::npos);
+  EXPECT_NE(utilisation_map(small, scales).commands.find("set cbrange [0:2.5]"), std::string::npos);
+}
+
+TEST(ShellMaps, ReadBackUnchangedFromTheTable) {
+  const ShellMap map = shell_map(test::column_evaluation(0.9, 0.3));
+  ASSERT_EQ(map.boxes.size(), 3u);
+  const std::string folder = test::fresh_folder("post");
+  write_text_atomically(folder + "/shell_x.csv", to_csv(shell_table(map)));
+  const auto read = read_shell_map(folder);
+  ASSERT_TRUE(read);
+  EXPECT_FALSE(read->vault);
+  EXPECT_EQ(read->num_rings, 3);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(read->boxes[i].meridional_force, map.boxes[i].meridional_force);
+  EXPECT_FALSE(read_shell_map("/nowhere/at/all"));
+}
+
+// The nearest face is painted last; a mechanism has no unit of length.
+TEST(MotionFigure, PaintsTheFacesOfTheDisplacedBlocksFromBackToFront) {
+  const Evaluation e = test::column_evaluation(0.6, 0.4);
+  Shot shot{2.0, e.last.frame.blocks, false};
+  shot.blocks.displacement[3] = Vec3(0.3, -0.1, 0.0);
+  shot.blocks.position[3] += Vec3(0.3, -0.1, 0.0);
+  const Figure figure = motion_figure(e, {shot});
+  const auto rows = data_of(figure, "faces0");
+  ASSERT_EQ(rows.size(), 3u * 2u * 4u) << "seen along y, each of three blocks shows one face, painted twice";
+  double right = -1.0;
+  for (size_t i = 16; i < 24; ++i) right = std::max(right, rows[i][0]);
+  EXPECT_NEAR(right, 1.5, 1e-8) << "block 3, 1.2 m wide, has moved by 0.3 m and is nearest";
+  EXPECT_NE(figure.commands.find("displacement (m)"), std::string::npos);
+  shot.mechanism = true;
+  EXPECT_EQ(motion_figure(e, {shot}).commands.find("displacement (m)"), std::string::npos);
 }
 
 TEST(SectionFigure, StatesScaleAndGlobalCheck) {

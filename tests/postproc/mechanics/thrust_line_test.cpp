@@ -90,6 +90,7 @@ TEST(ThrustLine, ResultantAlongTheBedHasNoPosition) {
 
 TEST(ThrustLine, RoundingErrorsHaveNoPosition) {
   MeridianScene scene(4, 12, 0.0, 0.5, -100.0, 1000.0);
+  scene.joints.floor = floor_of(1000.0, 0.0, 1.0);  // 1e-3 N
   for (size_t b = 0; b < scene.from_below.size(); ++b)
     if (scene.assembly.blocks[b].ring == 3) scene.from_below[b] = 1e-7 * scene.from_below[b];
   EXPECT_EQ(thrust_line(scene.input(), "m", 0.0).undefined, 1);

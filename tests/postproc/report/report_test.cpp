@@ -3,9 +3,11 @@
 
 #include "postproc/report/report.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -183,6 +185,144 @@ TEST(Report, AnUnconvergedRunIsReportedFirst) {
   EXPECT_NE(html.find("No verdict"), std::string::npos);
 }
 
+/// Analyses a column whose upper two blocks slide away, and returns the folder post/.
+std::string sliding_column(Status status, AnalysisType analysis) {
+  const std::string folder = test::fresh_folder("sliding");
+  const Assembly a = test::column(3);
+  write_assembly(folder + "/assembly.vtu", a);
+  ResultsWriter writer(folder + "/results", content_hash(a));
+  const bool in_time = analysis == AnalysisType::dynamic;
+  std::string history =
+      "time_s,support_reaction_x_N,support_reaction_y_N,support_reaction_z_N,max_speed_m_per_s,max_"
+      "displacement_m\n";
+  for (int i = 0; i <= 100; ++i) history += fmt::format("{},0,0,100,{},{}\n", 0.02 * i, 0.01 * i, 0.008 * i);
+  for (const double time : {0.0, 1.0, 2.0}) {
+    if (!in_time && time > 0.0) break;
+    Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
+    frame.time = time;
+    for (const size_t b : {2u, 3u}) {
+      frame.blocks.velocity[b] = Vec3(1.0, 0, 0);
+      if (in_time) frame.blocks.displacement[b] = Vec3(0.4 * time, 0, 0);
+      if (in_time) frame.blocks.position[b].x() += 0.4 * time;
+    }
+    writer.write_frame(frame);
+  }
+  writer.write_text("run.yaml", "title: column\n");
+  if (in_time) writer.write_text("history.csv", history);
+  Summary summary = test::column_summary(a);
+  summary.status = status;
+  summary.analysis = analysis;
+  summary.message = "largest displacement 0.8 m > threshold 0.5 m";
+  summary.steps = 100;
+  summary.certified_force_error = {0.011, "the distance of the impulses of a step from the exact ones"};
+  summary.max_displacement_m.reset();
+  if (in_time) {
+    summary.max_displacement_m = 0.8;
+    summary.max_speed_m_per_s = 1.0;
+  }
+  writer.write_summary(summary);
+  const AnalyseRequest request{.scene = test::column_case(),
+                               .assembly_path = folder + "/assembly.vtu",
+                               .results_folder = folder + "/results",
+                               .output_folder = folder + "/post",
+                               .pvbatch = "",
+                               .quiet = true};
+  EXPECT_EQ(analyse(request), ExitCode::done);
+  return folder + "/post";
+}
+
+// Nothing that interprets an equilibrium: neither safety, balance, certificate nor a displacement without amplitude.
+TEST(Report, ShowsTheMotionOfARunThatFoundNoEquilibrium) {
+  for (const auto& [status, analysis, says] :
+       {std::tuple{Status::collapsed, AnalysisType::dynamic,
+                   "At the end, 2 s, the largest displacement is 0.8 m, of "
+                   "block 2 in ring 1; 2 of 3 free blocks"},
+        {Status::moving, AnalysisType::dynamic, "A block first moved farther than 0.5 m at 1.26 s."},
+        {Status::moving, AnalysisType::static_,
+         "The blocks begin to move as 1 body. 2 of 3 free blocks move"},
+        {Status::unconverged, AnalysisType::static_, "Neither forces nor motion are known"}}) {
+    const std::string post = sliding_column(status, analysis);
+    const std::string html = read_text(post + "/report.html");
+    EXPECT_NE(html.find("<h2>Motion</h2>"), std::string::npos);
+    EXPECT_NE(html.find(says), std::string::npos) << says;
+    for (const char* wrong :
+         {"safety", "Certified", "certified", "thrust line", "balance the load", "unbalanced force",
+          "Findings", "largest displacement of a block", "Map", "may not be unique"})
+      EXPECT_EQ(html.find(wrong), std::string::npos) << to_string(status) << ": " << wrong;
+    const bool drawn = status != Status::unconverged;
+    EXPECT_EQ(std::filesystem::exists(post + "/figures/motion.gp"), drawn);
+    EXPECT_EQ(std::filesystem::exists(post + "/figures/history.gp"), analysis == AnalysisType::dynamic);
+    EXPECT_FALSE(std::filesystem::exists(post + "/rings.csv"));
+  }
+}
+
+TEST(Report, HistoryHasEveryStepAndNotOnlyTheFrames) {
+  const std::string script =
+      read_text(sliding_column(Status::collapsed, AnalysisType::dynamic) + "/figures/history.gp");
+  const size_t start = script.find("$history << EOD\n") + 16;
+  const std::string rows = script.substr(start, script.find("EOD\n", start) - start);
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 101) << "the run has 3 frames";
+}
+
+// A folder that held the output of an equilibrium keeps nothing of it.
+TEST(Report, RemovesTablesAndFiguresOfAnEarlierRun) {
+  const std::string post = analysed_column("column");
+  EXPECT_TRUE(std::filesystem::exists(post + "/rings.csv"));
+  const std::string folder = std::filesystem::path(post).parent_path().string();
+  Summary summary = test::column_summary(test::column(3));
+  summary.status = Status::unconverged;
+  summary.text_files["run.yaml"] = hash_text("title: column\n");
+  write_text_atomically(folder + "/results/summary.json", to_json(summary));
+  EXPECT_EQ(analyse({.scene = test::column_case(),
+                     .assembly_path = folder + "/assembly.vtu",
+                     .results_folder = folder + "/results",
+                     .output_folder = post,
+                     .pvbatch = "",
+                     .quiet = true}),
+            ExitCode::done);
+  EXPECT_FALSE(std::filesystem::exists(post + "/rings.csv"));
+  EXPECT_FALSE(std::filesystem::exists(post + "/figures/rings.png"));
+  EXPECT_TRUE(std::filesystem::exists(post + "/joints.csv"));
+}
+
+TEST(Report, LimitsHaveAUnit) {
+  Summary s;
+  s.analysis = AnalysisType::limit;
+  s.critical = CriticalValue{"tilt", 6.99, 6.9873, 6.9934};
+  EXPECT_EQ(
+      verdict_text(s),
+      "The structure stands at a tilt of 6.9873 degrees and moves at 6.9934. The forces below are those at "
+      "6.9873.");
+  EXPECT_EQ(phrase("load", 1.5), "a load factor of 1.5");
+  EXPECT_EQ(phrase("acceleration", 0.1), "an acceleration of 0.1 g");
+}
+
+// Block wrenches and strips are different resultants; a report that gives one largest couple contradicts its captions.
+TEST(Report, NamesTheResultantOfEveryCoupleLength) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.last.fields[1].couple_length = 0.173;
+  MeridianEvaluation rib;
+  rib.thrust.points.resize(1);
+  rib.thrust.points[0].couple_length = 0.294;
+  e.meridians.push_back(rib);
+  const std::vector<std::string> said = finding_sentences(e);
+  EXPECT_TRUE(
+      std::find(
+          said.begin(), said.end(),
+          "The largest couple length of the wrench on a block from the course below is 0.173 m, that of "
+          "the resultant of a strip of a thrust line 0.294 m.") != said.end());
+}
+
+TEST(Report, CallsWhatIsBelowTheFloorNegligible) {
+  const std::vector<std::string> said = finding_sentences(test::column_evaluation(0.6, 0.4));
+  const std::string all = fmt::format("{}", fmt::join(said, "\n"));
+  for (const char* text : {"Friction is not used", "course below is negligible",
+                           "mean eccentricity is negligible", "coefficient of variation is negligible"})
+    EXPECT_NE(all.find(text), std::string::npos) << all;
+  EXPECT_EQ(all.find("slides"), std::string::npos);
+  EXPECT_EQ(all.find("e-1"), std::string::npos) << "no rounding errors: " << all;
+}
+
 TEST(Report, AFailingPvbatchOnlyLosesThePictures) {
   const std::string post = analysed_column("column", "/nowhere/pvbatch");
   EXPECT_NE(read_text(post + "/report.html").find("the 3-D pictures are incomplete"), std::string::npos);
@@ -194,6 +334,9 @@ TEST(Comparison, OpensInABrowserAndNamesTheRuns) {
   EXPECT_EQ(compare({a, b}, out, true), ExitCode::done);
   EXPECT_NE(read_text(out + "/comparison.html").find("equal to within 0.1 %"), std::string::npos);
   EXPECT_NE(read_text(out + "/comparison.csv").find("kern_use"), std::string::npos);
+  for (const char* heading :
+       {"<h3>Section at z = 0.8 m</h3>", "<h3>Meridional and hoop forces over the shell</h3>"})
+    EXPECT_NE(read_text(out + "/comparison.html").find(heading), std::string::npos) << heading;
   if (!on_path("chromium")) GTEST_SKIP() << "chromium is not installed";
   for (const int width : {1280, 400}) {
     std::istringstream measured(measured_in_browser(out + "/comparison.html", width));

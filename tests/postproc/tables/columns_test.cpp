@@ -5,6 +5,7 @@
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/result_columns.hpp"
 #include "postproc/tables/result_tables.hpp"
+#include "postproc/tables/shell_map.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::columns_test {
@@ -34,6 +35,7 @@ TEST(Columns, NamesAreUniqueAndEveryFileNamesColumnsThatExist) {
   expect_sound(section_columns(), {});
   expect_sound(plane_columns(), {});
   expect_sound(line_cell_columns(), {kLineCellKeys});
+  expect_sound(shell_columns(), {});
   expect_sound(section_cell_columns(), {kSectionCellKeys});
 }
 

@@ -35,6 +35,14 @@ TEST(Table, CsvKeepsAllDigits) {
   EXPECT_EQ(csv.number(2, 1), 5e-324);
 }
 
+TEST(Table, UndefinedNumbersAreEmptyCells) {
+  const Table table{"t", "", {{"a", "", ""}, {"b", "", ""}}, {{std::nan(""), 2.0}}};
+  EXPECT_EQ(to_csv(table), "a,b\n,2\n");
+  const CsvFile csv = parse_csv(to_csv(table), "t.csv");
+  EXPECT_TRUE(std::isnan(csv.number(0, 0)));
+  EXPECT_EQ(csv.number(0, 1), 2.0);
+}
+
 TEST(Table, ReportShowsFourSignificantDigits) {
   EXPECT_EQ(to_display(0.0), "0");
   EXPECT_EQ(to_display(1234567.8), "1234568");
@@ -42,7 +50,9 @@ TEST(Table, ReportShowsFourSignificantDigits) {
   EXPECT_EQ(to_display(1.5e-9), "1.50e-09");
   EXPECT_EQ(to_display(-2.5e12), "-2.50e+12");
   EXPECT_EQ(to_display(std::numeric_limits<double>::infinity()), "∞");
-  EXPECT_EQ(to_display(std::nan("")), "not a number");
+  EXPECT_EQ(to_display(std::nan("")), "");
+  EXPECT_EQ(to_display(-2e-9, 1e-9), "-2.00e-09");
+  EXPECT_EQ(to_display(-1e-9, 1e-9), "0") << "up to the floor";
   EXPECT_EQ(to_display(42), "42");
 }
 

@@ -1,0 +1,233 @@
+// The sentences of the report: verdict, solution quality, findings of an equilibrium, motion.
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "postproc/figures/plot_style.hpp"
+#include "postproc/report/report.hpp"
+#include "postproc/tables/post_summary.hpp"
+
+namespace cupola {
+namespace {
+
+/// A percentage, or the word for a quantity that the floor sets to zero.
+std::string percent(double share) {
+  return share == 0.0 ? "negligible" : fmt::format("{:.1f} %", 100.0 * share);
+}
+
+void add_thrust(const Evaluation& e, std::vector<std::string>* out) {
+  for (const MeridianEvaluation& m : e.meridians)
+    out->push_back(fmt::format("Meridian {}. {}", m.thrust.name, describe(m.thrust)));
+}
+
+void add_rings(const Evaluation& e, const PostSummary& s, std::vector<std::string>* out) {
+  if (e.rings.empty()) return;
+  out->push_back(fmt::format(
+      "In every ring the joint forces balance the load above; the largest relative difference is {:.1e}.",
+      *s.largest_ring_difference));
+  out->push_back(*s.largest_cv_pressure == 0.0
+                     ? "The bed pressure is the same on all blocks of a ring: its coefficient of variation "
+                       "is negligible."
+                     : fmt::format("The coefficient of variation of the bed pressure within a ring is {} on "
+                                   "average over the rings "
+                                   "and {} at most.",
+                                   percent(*s.mean_cv_pressure), percent(*s.largest_cv_pressure)));
+  if (is_vault(e) && s.thrust_over_weight)
+    out->push_back(
+        fmt::format("The outward thrust at the base, summed over the blocks, is {}, {:.4f} times the weight.",
+                    force_text(e.rings.front().radial_thrust), *s.thrust_over_weight));
+}
+
+/// Couple lengths of two kinds of resultants, which differ: a strip adds parts of several blocks.
+std::string couple_text(const Evaluation& e, const PostSummary& s) {
+  std::string text = "The largest couple length of the wrench on a block from the course below is " +
+                     length_text(s.largest_couple_length_m.value_or(0.0));
+  if (e.meridians.empty()) return text + ".";
+  double strips = 0.0;
+  for (const MeridianEvaluation& m : e.meridians) strips = std::max(strips, m.thrust.largest_couple_length());
+  return text + ", that of the resultant of a strip of a thrust line " + length_text(strips) + ".";
+}
+
+std::string friction_text(const PostSummary& s) {
+  const double use = s.largest_friction_use.value_or(0.0);
+  if (use == 0.0) return "Friction is not used: the tangential forces of all joints are negligible.";
+  constexpr double kSliding = 0.999;  // as printed: 100.0 %
+  return fmt::format("The largest friction utilisation of a joint is {}{}.", percent(use),
+                     use > kSliding ? ": this joint slides" : "");
+}
+
+/// Blocks that move farther than `least`, m.
+int count_moving(const Evaluation& e, double least) {
+  int count = 0;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    count += !e.assembly.blocks[b].fixed && e.last.frame.blocks.displacement[b].norm() > least;
+  return count;
+}
+
+/// Bodies that move: all groups but that of the supports.
+size_t count_bodies(const Evaluation& e) {
+  std::set<int> bodies(e.last.groups.begin(), e.last.groups.end());
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    if (e.assembly.blocks[b].fixed) bodies.erase(e.last.groups[b]);
+  return bodies.size();
+}
+
+struct Farthest {
+  size_t block = 0;
+  double displacement = 0.0;  // m
+};
+
+Farthest farthest_block(const Evaluation& e) {
+  Farthest farthest;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    if (const double d = e.last.frame.blocks.displacement[b].norm(); d > farthest.displacement)
+      farthest = {b, d};
+  return farthest;
+}
+
+std::string block_text(const Evaluation& e, size_t index) {
+  const Block& block = e.assembly.blocks[index];
+  if (!block.name.empty()) return fmt::format("block {} ({})", index, block.name);
+  return e.rings.empty() ? fmt::format("block {}", index)
+                         : fmt::format("block {} in ring {}", index, block.ring);
+}
+
+void add_mechanism(const Evaluation& e, std::vector<std::string>* out) {
+  const Farthest farthest = farthest_block(e);
+  if (farthest.displacement == 0.0) return;
+  constexpr double kMuch = 0.1;
+  const size_t bodies = count_bodies(e);
+  out->push_back(
+      fmt::format("The blocks begin to move as {} bod{}. {} of {} free blocks move at more than a tenth of "
+                  "the largest speed, which "
+                  "is that of {}. A motion found by a static analysis has directions but no amplitude; the "
+                  "figure shows the "
+                  "directions.",
+                  bodies, bodies == 1 ? "y" : "ies", count_moving(e, kMuch * farthest.displacement),
+                  e.summary.free_blocks, block_text(e, farthest.block)));
+}
+
+void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& history,
+                        std::vector<std::string>* out) {
+  const double threshold = e.scene.analysis.thresholds.displacement;
+  const Farthest farthest = farthest_block(e);
+  const size_t bodies = count_bodies(e);
+  out->push_back(fmt::format(
+      "At the end, {:.4g} s, the largest displacement is {:.3g} m, of {}; {} of {} free blocks have moved "
+      "farther than "
+      "{:g} m. The blocks move as {} bod{}.",
+      e.last.frame.time, farthest.displacement, block_text(e, farthest.block), count_moving(e, threshold),
+      e.summary.free_blocks, threshold, bodies, bodies == 1 ? "y" : "ies"));
+  if (history.empty()) return;
+  const auto first = std::find_if(history.begin(), history.end(), [threshold](const HistoryRow& row) {
+    return row.max_displacement > threshold;
+  });
+  if (first != history.end())
+    out->push_back(
+        fmt::format("A block first moved farther than {:g} m at {:.4g} s.", threshold, first->time));
+  const HistoryRow& last = history.back();
+  out->push_back(fmt::format("The fastest block moves at {:.3g} m/s at the end.", last.max_speed));
+  if (e.summary.weight_N > 0.0)
+    out->push_back(fmt::format("The supports carry {:.3g} of the weight at the end.",
+                               last.reaction / e.summary.weight_N));
+}
+
+}  // namespace
+
+std::vector<std::string> finding_sentences(const Evaluation& e) {
+  const PostSummary s = post_summary(e);
+  std::vector<std::string> out;
+  add_thrust(e, &out);
+  for (const PlaneCut& cut : e.planes)
+    out.push_back(
+        fmt::format("The joints across the plane {} transmit a normal force of {} (compression positive) to "
+                    "the part beyond.",
+                    cut.name, force_text(above(cut.across.force.dot(cut.normal), s.negligible_force_N))));
+  add_rings(e, s, &out);
+  if (s.rib_over_mid_sail)
+    out.push_back(fmt::format(
+        "The resultant in the rib is on average {:.3f} times that at mid-sail, and between {:.2f} "
+        "and {:.2f} times on a single bed (compliance per {}).",
+        *s.rib_over_mid_sail, *s.rib_over_mid_sail_smallest, *s.rib_over_mid_sail_largest, s.compliance_per));
+  out.push_back(couple_text(e, s));
+  out.push_back(friction_text(s));
+  if (s.mean_kern_use)
+    out.push_back(
+        *s.mean_kern_use == 0.0
+            ? std::string("The bed forces act at the centres of the beds: their mean eccentricity is "
+                          "negligible.")
+            : fmt::format("The mean eccentricity of the bed forces is {:.2f} of the distance to the edge of "
+                          "the kern. Where it exceeds 1, part of the joint is unloaded.",
+                          *s.mean_kern_use));
+  if (s.max_displacement_m)
+    out.push_back(
+        fmt::format("The largest displacement of a block is {:.4g} mm.", 1e3 * *s.max_displacement_m));
+  return out;
+}
+
+std::vector<std::string> motion_sentences(const Evaluation& e, const std::vector<HistoryRow>& history) {
+  std::vector<std::string> out;
+  if (e.summary.status == Status::unconverged)
+    out.push_back("Neither forces nor motion are known: the requested accuracy was not reached.");
+  else if (is_mechanism(e.summary, e.last.frame))
+    add_mechanism(e, &out);
+  else
+    add_motion_in_time(e, history, &out);
+  return out;
+}
+
+std::string verdict_text(const Summary& s) {
+  if (s.analysis == AnalysisType::limit && s.critical)
+    return fmt::format(
+        "The structure stands at {} and moves at {:.5g}. The forces below are those at {:.5g}.",
+        phrase(s.critical->parameter, s.critical->stable), s.critical->moving, s.critical->stable);
+  switch (s.status) {
+    case Status::stable:
+      return "The structure is at rest.";
+    case Status::moving:
+      return "The structure is moving: no equilibrium was found.";
+    case Status::collapsed:
+      return "The structure has collapsed.";
+    case Status::unconverged:
+      return "No verdict: the requested accuracy was not reached.";
+  }
+  return "";
+}
+
+std::string quality_text(const Summary& s) {
+  const bool equilibrium = at_rest(s), in_time = s.max_speed_m_per_s.has_value();
+  std::vector<std::string> out{to_sentence(s.accuracy)};
+  const auto add = [&out](std::string text) { out.push_back(std::move(text)); };
+  if (s.analysis == AnalysisType::limit && s.critical)
+    add(fmt::format("The residuals below are those of the equilibrium at {:.5g}.", s.critical->stable));
+  if (equilibrium && s.equilibrium_residual)  // in motion it is mostly inertia
+    add(fmt::format("The largest unbalanced force on a free block is {:.1e} of the mean block weight.",
+                    *s.equilibrium_residual));
+  if (equilibrium || in_time) {  // a static solve without an equilibrium has no forces
+    if (s.contact_law_residual)
+      add(fmt::format("The contact law holds to within {:.1e} of the forces{}.", *s.contact_law_residual,
+                      s.steps > 1 && s.analysis != AnalysisType::limit ? " in every step" : ""));
+    if (const auto& worst = s.largest_law_violation)
+      add(fmt::format(
+          "At the worst contact, between the blocks {} and {}, the law holds to within {:.1e} of the force "
+          "of its joint.",
+          worst->block_a, worst->block_b, worst->value));
+    if (s.friction_cone_violation)
+      add(fmt::format("The friction cone holds to within {:.1e}.", *s.friction_cone_violation));
+  }
+  if (equilibrium) add(to_sentence(s.certified_force_error));
+  if (s.friction_law == FrictionLaw::associated) {
+    add("The associated friction law was used: sliding joints also open, by the friction coefficient times "
+        "the slip.");
+    if (equilibrium) add("A structure that stands under this law may collapse under Coulomb's law.");
+    add(fmt::format("{} of {} contacts slip.", s.slipping_contacts, s.contacts));
+  }
+  if (equilibrium || in_time)
+    add(fmt::format("The largest penetration at a contact is {:.3g} mm.", 1e3 * s.max_penetration_m));
+  return fmt::format("{}", fmt::join(out, " "));
+}
+
+}  // namespace cupola

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "postproc/evaluation/evaluation.hpp"
+#include "postproc/tables/column.hpp"
+#include "postproc/tables/csv_file.hpp"
+
+namespace cupola {
+
+/// A block in one ring of the unrolled shell, with its forces and utilisations.
+struct ShellBox {
+  int block = 0, ring = 0;
+  double from = 0.0, to = 0.0;                      ///< deg of azimuth in a vault, m along x elsewhere
+  double meridional_force = 0.0, hoop_force = 0.0;  ///< N/m, 0 if negligible
+  double friction_use = 0.0, kern = 0.0;            ///< NaN without a loaded joint
+};
+
+/// The unrolled shell: ring over azimuth, or over x.
+struct ShellMap {
+  bool vault = false;  ///< azimuths
+  int num_rings = 0;
+  std::vector<ShellBox> boxes;
+};
+
+const Columns<ShellBox>& shell_columns();
+
+/// The blocks on the beds of the shell. A block that crosses +-180 degrees begins or ends beyond.
+ShellMap shell_map(const Evaluation& evaluation);
+
+/// shell.csv, or shell_x.csv for a shell without azimuths.
+Table shell_table(const ShellMap& map);
+
+/// The map in the folder of a run; none if it has no rings or no equilibrium.
+std::optional<ShellMap> read_shell_map(const std::string& post_folder);
+
+}  // namespace cupola
