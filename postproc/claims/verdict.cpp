@@ -42,10 +42,10 @@ void append_rows(const Quantity& quantity, const std::string& name, RunCache& ca
   const size_t column = table.column(quantity.column);
   for (size_t row = 0; row < table.rows.size(); ++row) {
     if (!passes(table, row, quantity.where)) continue;
-    const double value = table.number(row, column);
+    double value = table.number(row, column);
+    if (reference) value -= reference->number(row, reference->column(quantity.column));
     if (std::isnan(value)) continue;  // an empty cell: the row lacks the quantity
     out->values.push_back(value);
-    if (reference) out->values.back() -= reference->number(row, reference->column(quantity.column));
     if (!quantity.against.empty()) out->against.push_back(table.number(row, table.column(quantity.against)));
   }
 }

@@ -12,9 +12,9 @@
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/program/command_line.hpp"
 #include "postproc/compare/findings.hpp"
+#include "postproc/compare/side_by_side.hpp"
 #include "postproc/figures/gnuplot.hpp"
 #include "postproc/figures/plot_style.hpp"
-#include "postproc/figures/shell_maps.hpp"
 #include "postproc/report/html.hpp"
 #include "postproc/tables/csv_file.hpp"
 
@@ -55,7 +55,8 @@ std::vector<std::vector<double>> curve(const CsvFile& csv, const Overlay& overla
   return rows;
 }
 
-/// The overlaid graph; a figure without commands if fewer than two runs have the table.
+/// The overlaid graph; a figure without commands if fewer than two runs have the table, or if the column is
+/// negligible in all of them.
 Figure overlay_figure(const Overlay& overlay, const std::vector<std::string>& folders,
                       const std::vector<std::string>& labels) {
   CUPOLA_ASSERT(labels.size() == folders.size());
@@ -67,16 +68,20 @@ Figure overlay_figure(const Overlay& overlay, const std::vector<std::string>& fo
   f.height = 480;
   std::string data, plot;
   int curves = 0;
+  bool any = false;
   for (size_t i = 0; i < folders.size(); ++i) {
     const std::string path = (fs::path(folders[i]) / (overlay.table + ".csv")).string();
     if (!fs::exists(path)) continue;
-    data += data_block(fmt::format("run{}", i), curve(read_csv(path), overlay));
+    const std::vector<std::vector<double>> rows = curve(read_csv(path), overlay);
+    any =
+        any || std::any_of(rows.begin(), rows.end(), [](const auto& row) { return std::abs(row[1]) > 0.0; });
+    data += data_block(fmt::format("run{}", i), rows);
     plot += fmt::format("{} $run{} w lp lc rgb '{}' dt {} pt {} ps 0.5 lw 1.5 title '{}'",
                         plot.empty() ? "plot" : ",", i, kColours[i % std::size(kColours)],
                         i / std::size(kColours) + 1, 4 + i, gnuplot_text(labels[i]));
     ++curves;
   }
-  if (curves < 2) return f;
+  if (curves < 2 || !any) return f;
   f.commands = plot_style() + data +
                fmt::format(
                    "set xlabel 'height (m)'\nset ylabel '{}'\nset yrange [0:*]\nset key outside bottom "
@@ -108,74 +113,6 @@ std::vector<Figure> overlay_figures(const std::vector<std::string>& folders,
     if (!figure.commands.empty()) figures.push_back(std::move(figure));
   }
   return figures;
-}
-
-/// The maps of the runs, on common colour scales and with the label of the run after their names.
-std::vector<Figure> common_maps(const std::vector<std::string>& folders,
-                                const std::vector<std::string>& labels) {
-  std::vector<std::optional<ShellMap>> maps;
-  MapScales scales;
-  for (const std::string& folder : folders) {
-    maps.push_back(read_shell_map(folder));
-    if (maps.back()) scales.include(*maps.back());
-  }
-  std::vector<Figure> figures;
-  for (Figure (*draw)(const ShellMap&, const MapScales&) : {force_map, utilisation_map})
-    for (size_t i = 0; i < maps.size(); ++i) {
-      if (!maps[i]) continue;
-      figures.push_back(draw(*maps[i], scales));
-      figures.back().name += " " + labels[i];
-    }
-  return figures;
-}
-
-/// The maps side by side under their titles.
-std::string maps_html(const std::vector<Figure>& maps, const std::string& figure_folder) {
-  std::string out, title;
-  for (const Figure& map : maps) {
-    const std::string label = map.name.substr(map.name.find(' ') + 1);
-    if (map.title != title)
-      out += fmt::format(
-          "{}<h3>{}</h3>\n<p>{} The scales are the same for all runs.</p>\n<div class=\"side\">\n",
-          out.empty() ? "" : "</div>\n", markup_text(map.title), markup_text(map.caption));
-    title = map.title;
-    out += fmt::format(
-        "<figure>{}<figcaption>{}</figcaption></figure>\n",
-        html_picture((fs::path(figure_folder) / (map.name + ".png")).string(), title + ", " + label),
-        markup_text(label));
-  }
-  return out.empty() ? "" : out + "</div>\n";
-}
-
-/// The title of a figure: the first line of its script, "# TITLE".
-std::string title_of(const std::string& name, const std::vector<std::string>& figure_folders) {
-  for (const std::string& folder : figure_folders) {
-    const fs::path script = fs::path(folder) / (name + ".gp");
-    if (!fs::exists(script)) continue;
-    const std::string text = read_text(script.string());
-    if (text.starts_with("# ")) return text.substr(2, text.find('\n') - 2);
-  }
-  return name;
-}
-
-/// The figures of the same name from all runs, side by side.
-std::string side_by_side(const std::string& name, const std::vector<std::string>& folders,
-                         const std::vector<std::string>& labels) {
-  std::vector<std::string> figure_folders;
-  for (const std::string& folder : folders) figure_folders.push_back((fs::path(folder) / "figures").string());
-  const std::string title = title_of(name, figure_folders);
-  std::string pictures;
-  for (size_t i = 0; i < folders.size(); ++i) {
-    const fs::path base = figure_folders[i];
-    const fs::path svg = base / (name + ".svg"), png = base / (name + ".png");
-    const std::string picture =
-        html_picture((fs::exists(svg) ? svg : png).string(), title + ", " + labels[i]);
-    if (!picture.empty())
-      pictures +=
-          fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", picture, markup_text(labels[i]));
-  }
-  if (pictures.empty()) return "";
-  return fmt::format("<h3>{}</h3>\n<div class=\"side\">\n{}</div>\n", markup_text(title), pictures);
 }
 
 std::string comparison_html(const std::vector<PostSummary>& runs, const std::vector<std::string>& folders,
@@ -213,10 +150,17 @@ std::string comparison_html(const std::vector<PostSummary>& runs, const std::vec
 ExitCode compare(const std::vector<std::string>& post_folders, const std::string& output_folder, bool quiet) {
   std::vector<PostSummary> runs;
   for (const std::string& folder : post_folders) runs.push_back(read_post_summary(folder));
-  const std::vector<Figure> figures = overlay_figures(post_folders, run_labels(runs.size()));
+  // Graphs and maps interpret equilibria: they leave out runs that have none.
+  std::vector<std::string> folders, labels;
+  for (size_t i = 0; i < runs.size(); ++i) {
+    if (!runs[i].largest_friction_use) continue;
+    folders.push_back(post_folders[i]);
+    labels.push_back(run_labels(runs.size())[i]);
+  }
+  const std::vector<Figure> figures = overlay_figures(folders, labels);
   make_folder(output_folder);
   const std::string figure_folder = (fs::path(output_folder) / "figures").string();
-  const std::vector<Figure> maps = common_maps(post_folders, run_labels(runs.size()));
+  const std::vector<Figure> maps = common_maps(folders, labels);
   std::vector<Figure> drawn = figures;
   drawn.insert(drawn.end(), maps.begin(), maps.end());
   const std::vector<std::string> problems = draw_figures(figure_folder, drawn);
@@ -226,9 +170,8 @@ ExitCode compare(const std::vector<std::string>& post_folders, const std::string
                         comparison_html(runs, post_folders, figures, maps, figure_folder, problems));
   for (const std::string& problem : problems) fmt::print(stderr, "cupola-post: warning: {}\n", problem);
   if (!quiet) {
-    const std::vector<std::string> labels = run_labels(runs.size());
     for (size_t i = 0; i < runs.size(); ++i)
-      fmt::print("{}: {} ({})\n", labels[i], runs[i].title, post_folders[i]);
+      fmt::print("{}: {} ({})\n", run_labels(runs.size())[i], runs[i].title, post_folders[i]);
     for (const std::string& sentence : findings(runs)) fmt::print("{}\n", sentence);
     fmt::print("open {}\n", (fs::path(output_folder) / "comparison.html").string());
   }

@@ -11,6 +11,8 @@
 namespace cupola {
 namespace {
 
+constexpr const char* kCritical = "critical_friction";
+
 using Values = std::vector<std::optional<double>>;
 
 std::optional<double> least_safety(const PostSummary& s) {
@@ -56,10 +58,17 @@ std::string conclusion(const Measure& measure, const Values& values, const std::
                                        : fmt::format(", by {:.2g} %", 100.0 * (high / low - 1.0)));
 }
 
-std::string sentence(const Measure& measure, const Values& values, const std::vector<std::string>& labels) {
+/// The unit of a measure of a run, after a blank.
+std::string unit_text(const Measure& measure, const PostSummary& run) {
+  const std::string& unit =
+      measure.unit.empty() && measure.key == kCritical ? run.critical_unit : measure.unit;
+  return unit.empty() ? "" : " " + unit;
+}
+
+std::string sentence(const Measure& measure, const Values& values, const std::vector<PostSummary>& runs,
+                     const std::vector<std::string>& labels) {
   if (std::all_of(values.begin(), values.end(), [](const auto& v) { return v == 0.0; }))
     return measure.subject + " negligible in all runs.";
-  const std::string unit = measure.unit.empty() ? "" : " " + measure.unit;
   std::string numbers;
   for (size_t i = 0; i < values.size(); ++i) {
     if (!values[i]) continue;
@@ -67,7 +76,8 @@ std::string sentence(const Measure& measure, const Values& values, const std::ve
     if (*values[i] == 0.0)
       numbers += "negligible in " + labels[i];
     else
-      numbers += fmt::format("{:.4g}{} in {}", measure.scale * *values[i], unit, labels[i]);
+      numbers +=
+          fmt::format("{:.4g}{} in {}", measure.scale * *values[i], unit_text(measure, runs[i]), labels[i]);
   }
   return fmt::format("{} {}: {}.", measure.subject, numbers, conclusion(measure, values, labels));
 }
@@ -108,7 +118,7 @@ const std::vector<Measure>& measures() {
       {"friction_use_percent", "%", 100.0, "The largest friction utilisation of a joint is",
        "How close the joint with the highest demand is to sliding; at 100 % it slides.", "lowest",
        Best::lowest, [](const S& s) { return s.largest_friction_use; }},
-      {"critical_friction", "", 1.0, "The critical value of the limit analysis is",
+      {kCritical, "", 1.0, "The critical value of the limit analysis is",
        "The limit between standing and falling. For friction and thickness, lower is safer; for load, tilt, "
        "acceleration and spread, higher is safer.",
        "lowest", Best::lowest, [](const S& s) { return s.critical_value; }},
@@ -144,15 +154,16 @@ std::vector<std::string> findings(const std::vector<PostSummary>& runs) {
   std::vector<std::string> sentences;
   for (size_t i = 0; i < runs.size(); ++i)
     if (runs[i].status != "stable")
-      sentences.push_back(fmt::format("{} ended with the status `{}`: it has no equilibrium to compare.",
-                                      labels[i], runs[i].status));
+      sentences.push_back(
+          fmt::format("{} ended with the status `{}`{}.", labels[i], runs[i].status,
+                      runs[i].largest_friction_use ? "" : ": it has no equilibrium to compare"));
   if (std::string warning = points_warning(runs, labels); !warning.empty())
     sentences.push_back(std::move(warning));
   for (const Measure& measure : measures()) {
     Values values;
     for (const PostSummary& run : runs) values.push_back(measure.value(run));
     if (std::count_if(values.begin(), values.end(), [](const auto& v) { return v.has_value(); }) >= 2)
-      sentences.push_back(sentence(measure, values, labels));
+      sentences.push_back(sentence(measure, values, runs, labels));
   }
   return sentences;
 }
@@ -192,7 +203,7 @@ Table plain_table(const std::vector<PostSummary>& runs) {
       else if (*value == 0.0)
         row.emplace_back("negligible");
       else
-        row.emplace_back(to_display(m.scale * *value) + (m.unit.empty() ? "" : " " + m.unit));
+        row.emplace_back(to_display(m.scale * *value) + unit_text(m, run));
     }
     if (any) t.rows.push_back(std::move(row));
   }

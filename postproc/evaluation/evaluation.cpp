@@ -189,7 +189,7 @@ bool at_rest(const Summary& summary) {
 bool is_mechanism(const Summary& summary, const Frame& frame) {
   if (summary.analysis == AnalysisType::limit) return frame.time > 0.0;
   const bool in_time = summary.max_speed_m_per_s.has_value();  // of a dynamic run
-  return summary.status == Status::moving && !in_time;
+  return summary.status == Status::moving && !in_time && summary.analysis != AnalysisType::staged;
 }
 
 bool is_vault(const Evaluation& e) {
@@ -256,7 +256,6 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.last = evaluate_frame(e, evaluated_frame(results, &e));
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads);
   count_lost_joints(results, &e);
-  if (!at_rest(e.summary)) return e;
   e.meridians = evaluate_meridians(e);
   e.sections = evaluate_sections(e);
   for (const CutPlane& plane : scene.postproc.planes)

@@ -49,8 +49,8 @@ struct SectionEvaluation {
   std::vector<BedResultant> resultants;  ///< across that bed, by block; empty if it carries no force
 };
 
-/// Everything the postprocessor derives from a run, for its last readable frame. Meridians, sections, planes and
-/// the ratio of ribs to mid-sails interpret an equilibrium: they are empty if the run did not find one.
+/// Everything the postprocessor derives from a run, for its last readable frame. Without an equilibrium (at_rest()) the
+/// forces are those of one instant or of an unfinished solve: tables hold them, texts and figures do not interpret them.
 struct Evaluation {
   Case scene;
   Assembly assembly;

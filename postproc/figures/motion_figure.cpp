@@ -74,7 +74,9 @@ int colour(double share, double light) {
 
 /// Polygons in the order in which they are painted. Each face is painted dark, then a little smaller in its
 /// colour: gnuplot draws the outlines of filled polygons last, over all of them.
-std::vector<std::vector<double>> painted(const std::vector<SeenFace>& faces, const Projection& page) {
+/// Coordinates are multiples of `grid`, m, which keeps the script small.
+std::vector<std::vector<double>> painted(const std::vector<SeenFace>& faces, const Projection& page,
+                                         double grid) {
   constexpr double kOutline = 0.03;  // share of the distance to the centre
   constexpr int kDark = 0x222222;
   std::vector<std::vector<double>> rows;
@@ -84,6 +86,7 @@ std::vector<std::vector<double>> painted(const std::vector<SeenFace>& faces, con
     for (const bool inner : {false, true}) {
       for (const Vec3& x : face.corners) {
         std::vector<double> row = page.row(inner ? Vec3(x + kOutline * (centre - x)) : x);
+        for (double& coordinate : row) coordinate = grid * std::round(coordinate / grid);
         row.push_back(inner ? colour(face.share, face.light) : kDark);
         rows.push_back(std::move(row));
       }
@@ -113,6 +116,7 @@ Figure motion_figure(const Evaluation& e, const std::vector<Shot>& shots) {
   std::vector<std::vector<SeenFace>> seen;
   for (const Shot& shot : shots) seen.push_back(seen_faces(e, shot.blocks, page, largest));
   const bool in_time = !shots.front().mechanism;
+  const double grid = std::pow(10.0, std::floor(std::log10(1e-4 * model_size(e.assembly))));
 
   Figure f;
   f.name = "motion";
@@ -137,7 +141,7 @@ Figure motion_figure(const Evaluation& e, const std::vector<Shot>& shots) {
                   in_time ? "displacement (m)" : "displacement / largest") +
       ranges(seen, page) + (shots.size() == 1 ? "" : "set multiplot layout 2,2\n");
   for (size_t i = 0; i < shots.size(); ++i) {
-    f.commands += data_block(fmt::format("faces{}", i), painted(seen[i], page));
+    f.commands += data_block(fmt::format("faces{}", i), painted(seen[i], page, grid));
     if (in_time) f.commands += fmt::format("set title 't = {:.4g} s'\n", shots[i].time);
     f.commands += fmt::format(
         "plot $faces{} using 1:2:3 with filledcurves closed fc rgb variable, NaN with points palette\n", i);

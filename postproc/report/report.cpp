@@ -93,10 +93,16 @@ std::string figures_section(const ReportInput& input) {
   return out.empty() ? "" : "<h2>Figures</h2>\n" + out;
 }
 
-std::string tables_section(const std::vector<Table>& tables) {
+/// True for a table that reads like the result of an equilibrium: rings, thrust lines, cuts.
+bool interprets(const Table& table) {
+  return table.name != "joints" && table.name != "blocks" && table.name != "stages";
+}
+
+std::string tables_section(const std::vector<Table>& tables, bool equilibrium) {
   constexpr size_t kMaxRows = 200;  // longer tables are linked as CSV only
   std::string out = "<h2>Tables</h2>\n";
   for (const Table& table : tables) {
+    if (!equilibrium && interprets(table)) continue;
     const std::string link = fmt::format("<a href=\"{0}.csv\">{0}.csv</a>", markup_text(table.name));
     if (table.rows.size() > kMaxRows) {
       out += fmt::format("<p>{}: {} rows in {}.</p>\n", markup_text(table.title), table.rows.size(), link);
@@ -151,7 +157,7 @@ std::string report_html(const ReportInput& input) {
   if (!e.assembly.check_report.empty())
     body += "<h2>Geometry check</h2>\n<pre>" + markup_text(e.assembly.check_report) + "</pre>\n";
   body += figures_section(input);
-  body += tables_section(input.tables);
+  body += tables_section(input.tables, at_rest(e.summary));
   body += files_section(at_rest(e.summary));
   body += run_section(input);
   return html_page(e.scene.title, body);

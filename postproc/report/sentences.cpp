@@ -171,7 +171,12 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
 std::vector<std::string> motion_sentences(const Evaluation& e, const std::vector<HistoryRow>& history) {
   std::vector<std::string> out;
   if (e.summary.status == Status::unconverged)
-    out.push_back("Neither forces nor motion are known: the requested accuracy was not reached.");
+    out.push_back(history.empty()
+                      ? "Neither forces nor motion are known: the requested accuracy was not reached."
+                      : "The error of the motion in the figures is unknown: the requested accuracy was "
+                        "not reached.");
+  else if (e.summary.analysis == AnalysisType::staged)
+    out.push_back("The table of stages shows with which rings the vault does not stand.");
   else if (is_mechanism(e.summary, e.last.frame))
     add_mechanism(e, &out);
   else

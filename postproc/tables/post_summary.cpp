@@ -48,6 +48,7 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("thrust_over_weight", s.thrust_over_weight);
   visit("max_displacement_m", s.max_displacement_m);
   visit("critical_value", s.critical_value);
+  visit("critical_unit", s.critical_unit);
 }
 
 Json to_value(const std::optional<double>& value) {
@@ -123,6 +124,14 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
   for (const BlockFields& f : e.last.fields) raise(&s->largest_couple_length_m, f.couple_length);
   if (!e.rings.empty() && e.summary.weight_N > 0.0)
     s->thrust_over_weight = e.rings.front().radial_thrust / e.summary.weight_N;
+  if (e.rib_over_mid_sail) {
+    s->rib_over_mid_sail = e.rib_over_mid_sail->mean;
+    s->rib_over_mid_sail_smallest = e.rib_over_mid_sail->smallest;
+    s->rib_over_mid_sail_largest = e.rib_over_mid_sail->largest;
+  }
+  for (const MeridianEvaluation& m : e.meridians)
+    s->thrust_lines.push_back({m.thrust.name, m.thrust.undefined, m.thrust.inside,
+                               m.thrust.least_face_distance, m.thrust.least_geometric_safety});
 }
 
 }  // namespace
@@ -139,19 +148,14 @@ PostSummary post_summary(const Evaluation& e) {
   s.negligible_force_N = e.last.joints.floor.force;
   s.friction = e.scene.joints.friction;
   s.equilibrium_residual = e.summary.equilibrium_residual.value_or(std::numeric_limits<double>::infinity());
-  if (e.summary.critical) s.critical_value = e.summary.critical->value;
-  s.max_displacement_m = e.summary.max_displacement_m;
-  if (e.rib_over_mid_sail) {
-    s.rib_over_mid_sail = e.rib_over_mid_sail->mean;
-    s.rib_over_mid_sail_smallest = e.rib_over_mid_sail->smallest;
-    s.rib_over_mid_sail_largest = e.rib_over_mid_sail->largest;
+  if (const auto& critical = e.summary.critical) {
+    s.critical_value = critical->value;
+    s.critical_unit = limit_unit(critical->parameter);
   }
+  s.max_displacement_m = e.summary.max_displacement_m;
   s.compliance_per = to_string(e.scene.joints.compliance.per);
   s.points_per_base_joint = points_per_base_joint(e.last.joints);
   if (at_rest(e.summary)) add_equilibrium(e, &s);
-  for (const MeridianEvaluation& m : e.meridians)
-    s.thrust_lines.push_back({m.thrust.name, m.thrust.undefined, m.thrust.inside,
-                              m.thrust.least_face_distance, m.thrust.least_geometric_safety});
   return s;
 }
 

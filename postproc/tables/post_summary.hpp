@@ -33,6 +33,7 @@ struct PostSummary {
   std::optional<double> max_displacement_m;
   double equilibrium_residual = 0.0;     ///< infinite if the run has none
   std::optional<double> critical_value;  ///< of a limit analysis
+  std::string critical_unit;             ///< limit_unit() of its parameter
   struct Line {
     std::string name;
     int undefined = 0;  ///< beds on which its position is undefined

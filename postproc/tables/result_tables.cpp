@@ -77,14 +77,14 @@ Table plane_table(const Evaluation& e, const PlaneCut& cut) {
 
 std::vector<Table> result_tables(const Evaluation& e) {
   std::vector<Table> tables;
-  if (!e.rings.empty() && at_rest(e.summary)) tables.push_back(ring_table(e));
+  if (!e.rings.empty()) tables.push_back(ring_table(e));
   for (const MeridianEvaluation& m : e.meridians) {
     tables.push_back(thrust_table(m.thrust));
     if (!m.hoop.empty()) tables.push_back(hoop_table(m));
   }
   for (const SectionEvaluation& section : e.sections) tables.push_back(section_table(section));
   for (const PlaneCut& cut : e.planes) tables.push_back(plane_table(e, cut));
-  if (e.shell.num_rings() > 0 && at_rest(e.summary)) tables.push_back(shell_table(shell_map(e)));
+  if (e.shell.num_rings() > 0) tables.push_back(shell_table(shell_map(e)));
   tables.push_back(joint_table(e));
   tables.push_back(block_table(e));
   for (Table& table : tables) set_floors(e, &table);

@@ -111,7 +111,19 @@ TEST(Findings, SmallDifferencesArePercentagesNotFactorsOfOne) {
 TEST(Findings, RunsThatAreNotStableAreReportedFirst) {
   auto runs = two_runs();
   runs[1].status = "unconverged";
+  EXPECT_EQ(findings(runs)[0], "B ended with the status `unconverged`.")
+      << "a limit analysis with a wide bracket";
+  runs[1].largest_friction_use.reset();
   EXPECT_EQ(findings(runs)[0], "B ended with the status `unconverged`: it has no equilibrium to compare.");
+}
+
+TEST(Findings, CriticalValuesHaveTheUnitOfTheirParameter) {
+  auto runs = two_runs();
+  for (PostSummary& run : runs) run.critical_unit = "degrees";
+  const auto sentences = findings(runs);
+  EXPECT_TRUE(std::any_of(sentences.begin(), sentences.end(), [](const std::string& s) {
+    return s.find("0.101 degrees in A, 0.152 degrees in B") != std::string::npos;
+  }));
 }
 
 TEST(Findings, MeasuresThatOnlyOneRunHasAreLeftOut) {

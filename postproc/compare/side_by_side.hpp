@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "postproc/figures/gnuplot.hpp"
+
+namespace cupola {
+
+/// The maps of the runs, on common colour scales and with the label of the run after their names.
+std::vector<Figure> common_maps(const std::vector<std::string>& post_folders,
+                                const std::vector<std::string>& labels);
+
+/// The maps, drawn in a folder, side by side under their titles.
+std::string maps_html(const std::vector<Figure>& maps, const std::string& figure_folder);
+
+/// The figures of one name from all runs, side by side under their title.
+std::string side_by_side(const std::string& name, const std::vector<std::string>& post_folders,
+                         const std::vector<std::string>& labels);
+
+}  // namespace cupola
