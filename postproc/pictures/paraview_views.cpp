@@ -20,8 +20,8 @@ struct View {
 
 // In the order of the report. views.py skips views for which a run has no data.
 constexpr View kViews[] = {
-    {"joints", "Resultant of every joint, drawn from its centre of pressure; joints.vtp holds the scale.",
-     true},
+    {"joints",
+     "Resultant of every joint, drawn from its centre of pressure; joint_forces.vtp holds the scale.", true},
     {"thrust_lines", "Thrust lines (orange) between intrados and extrados (black).", true},
     {"sections", "Sections and the resultants across the beds nearest to them.", true},
     {"blocks_meridional", "Meridional force per metre of ring, compression positive.", true},
@@ -46,6 +46,7 @@ std::vector<std::string> words_of(const std::string& command) {
 
 void write_views(const std::string& folder) {
   write_text_atomically((std::filesystem::path(folder) / "views.py").string(), kViewsScript);
+  write_text_atomically((std::filesystem::path(folder) / "open_in_paraview.py").string(), kOpenScript);
 }
 
 std::vector<Picture> draw_pictures(const std::string& folder, const std::string& pvbatch, bool at_rest,

@@ -11,8 +11,8 @@ struct Picture {
   std::string caption;
 };
 
-/// Writes views.py into the folder. It draws the standard views of a run, in pvbatch or as a macro of
-/// ParaView.
+/// Writes two scripts for ParaView into the folder: open_in_paraview.py opens the run in its window, views.py
+/// draws the standard views in pvbatch or as a macro.
 void write_views(const std::string& folder);
 
 /// Draws the standard views into folder/pictures with the given command: pvbatch, or a command line that runs

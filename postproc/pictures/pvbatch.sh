@@ -1,19 +1,14 @@
 #!/bin/sh
 # Runs ParaView's pvbatch without a display:  postproc/pictures/pvbatch.sh views.py
 #
-# Debian's ParaView requires an X display, and the package of its Python module conflicts with the VTK
-# headers. This script unpacks the module into a cache and runs pvbatch on a virtual display. A lock lets only
-# one run at a time, because parallel runs crash.
+# Debian's ParaView requires an X display: this script runs it on a virtual one. A lock lets only one run at a time,
+# because parallel runs crash.
 set -eu
-cache=${XDG_CACHE_HOME:-$HOME/.cache}/cupola
-modules=$cache/python3-paraview/usr/lib/python3/dist-packages
-mkdir -p "$cache"
-exec 9>"$cache/lock"
+lock=${XDG_CACHE_HOME:-$HOME/.cache}/cupola
+mkdir -p "$lock"
+exec 9>"$lock/lock"
 flock 9
-if [ ! -d "$modules/paraview" ] && ! python3 -c 'import paraview' 2>/dev/null; then
-  (cd "$cache" && apt-get download python3-paraview && dpkg-deb -x python3-paraview_*.deb python3-paraview)
-fi
-if [ -d "$modules/paraview" ]; then PYTHONPATH=$modules${PYTHONPATH:+:$PYTHONPATH}; export PYTHONPATH; fi
+. "$(dirname "$0")/python_module.sh"
 if [ -n "${DISPLAY:-}" ]; then exec pvbatch "$@"; fi
 
 # The display number depends on the process id, so that it is free. The server is ready when its socket

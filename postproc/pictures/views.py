@@ -105,7 +105,7 @@ for name, array, title, diverging in [
     show_blocks(view, series, array, title, diverging)
     save(view, name)
 
-joints = XMLPolyDataReader(FileName=[path("joints.vtp")])
+joints = XMLPolyDataReader(FileName=[path("joint_forces.vtp")])
 if has_cells(joints):
     view = new_view(OBLIQUE)
     show_blocks(view, series, opacity=0.15)

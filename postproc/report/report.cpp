@@ -120,11 +120,13 @@ std::string files_section(bool equilibrium) {
     out += fmt::format("<dt><a href=\"{0}\">{0}</a></dt><dd>{1}</dd>\n", file, what);
   };
   row("blocks.pvd", "displaced blocks and their fields in every frame, for ParaView");
-  row("joints.vtp", "the wrench on every joint, as points and as segments to scale");
+  row("joints.vtp", "the wrench on every joint, one point per joint");
+  row("joint_forces.vtp", "the resultants of the joints as segments to scale");
   row("wrenches.vtp", "the wrench on every block from the course below, on its central axis");
   if (equilibrium) row("thrust_lines.vtp", "thrust lines, envelopes and lines of action");
   if (equilibrium) row("sections.vtp", "sections and planes with the resultants across them");
   row("cracks.vtp", "open joints as lines");
+  row("open_in_paraview.py", "opens the run in ParaView: paraview --script=open_in_paraview.py");
   row("views.py", "the standard views, for pvbatch or as a ParaView macro");
   row("summary.json", "the numbers used to compare runs");
   return out + "</dl>\n";

@@ -45,8 +45,10 @@ std::string column_reference() {
          reference_of("hoop_NAME.csv: hoop forces across a meridian", hoop_columns(), {}) +
          reference_of("section_HEIGHTm.csv: resultants across a bed", section_columns(), {}) +
          reference_of("cut_NAME.csv: joints across a plane", plane_columns(), {}) +
-         reference_of("joints.csv, joints.vtp, cracks.vtp: joints", joint_columns(),
-                      {{"joints.vtp", {kJointCellKeys, kJointPointKeys}}, {"cracks.vtp", {kCrackKeys}}}) +
+         reference_of("joints.csv, joints.vtp, joint_forces.vtp, cracks.vtp: joints", joint_columns(),
+                      {{"joints.vtp", {kJointKeys}},
+                       {"joint_forces.vtp", {kJointKeys}},
+                       {"cracks.vtp", {kCrackKeys}}}) +
          reference_of(
              "blocks.csv, blocks_NNNN.vtu, wrenches.vtp: blocks", block_columns(),
              {{"blocks_NNNN.vtu", {kBlockMeshKeys}}, {"wrenches.vtp", {kWrenchCellKeys, kWrenchPointKeys}}}) +

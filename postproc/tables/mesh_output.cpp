@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 
 #include <Eigen/Geometry>
@@ -90,22 +89,24 @@ double segment_scale(const Assembly& assembly, double largest_force) {
 
 Mesh joints_mesh(const Evaluation& e) {
   const auto& joints = e.last.joints.wrenches;
+  Mesh mesh;
+  for (const JointWrench& joint : joints)
+    mesh.add_cell(CellType::vertex, {add_point(&mesh, joint.wrench.point)});
+  mesh.point_data = mesh_arrays(joint_columns(), joints, kJointKeys);
+  mesh.field_data = about(e, 0.0);
+  return mesh;
+}
+
+Mesh joint_forces_mesh(const Evaluation& e) {
+  const auto& joints = e.last.joints.wrenches;
   const double scale = common_scale(e);
   Mesh mesh;
-  for (const JointWrench& joint : joints) add_point(&mesh, joint.wrench.point);
-  for (const JointWrench& joint : joints) add_point(&mesh, joint.wrench.point + scale * drawn_force(joint));
-  const int n = static_cast<int>(joints.size());
-  for (int i = 0; i < n; ++i) mesh.add_cell(CellType::vertex, {i});
-  for (int i = 0; i < n; ++i) mesh.add_cell(CellType::polyline, {i, n + i});
-
-  // Points and tips have the same values, and so do the two cells of a joint.
-  std::vector<std::reference_wrapper<const JointWrench>> rows(joints.begin(), joints.end());
-  rows.insert(rows.end(), joints.begin(), joints.end());
-  mesh.cell_data = mesh_arrays(joint_columns(), rows, kJointCellKeys);
-  mesh.point_data = mesh_arrays(joint_columns(), rows, kJointPointKeys);
-  MeshInts tip(rows.size(), 0);
-  std::fill(tip.begin() + n, tip.end(), 1);
-  mesh.point_data.push_back({"tip", 1, std::move(tip)});
+  for (const JointWrench& joint : joints) {
+    const int start = add_point(&mesh, joint.wrench.point);
+    mesh.add_cell(CellType::polyline,
+                  {start, add_point(&mesh, joint.wrench.point + scale * drawn_force(joint))});
+  }
+  mesh.cell_data = mesh_arrays(joint_columns(), joints, kJointKeys);
   mesh.field_data = about(e, scale);
   return mesh;
 }

@@ -26,10 +26,12 @@ double round_down(double value);
 /// 1, 2 or 5 times a power of ten.
 double segment_scale(const Assembly& assembly, double largest_force);
 
-/// joints.vtp: every joint as a point that carries its wrench, and as a segment from that point along the
-/// force on the joint's upper (or second) block. The segments are drawn to the scale in the field data; `tip`
-/// is 1 at their far ends.
+/// joints.vtp: every joint as one point, its centre of pressure, with its wrench.
 Mesh joints_mesh(const Evaluation& evaluation);
+
+/// joint_forces.vtp: every joint as a segment from its centre of pressure along the force on its upper (or second)
+/// block, to the scale in the field data.
+Mesh joint_forces_mesh(const Evaluation& evaluation);
 
 /// wrenches.vtp: the wrench on every block from the ring below as a segment from its central axis, to the
 /// same scale.

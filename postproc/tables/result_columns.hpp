@@ -86,9 +86,8 @@ inline constexpr std::array kBlockMeshKeys{"meridional_force_N_per_m",
 /// wrenches.vtp: cell data and point data.
 inline constexpr std::array kWrenchCellKeys{"block", "ring", "kind", "resultant_N", "couple_length_m"};
 inline constexpr std::array kWrenchPointKeys{"force_N", "couple_Nm"};
-/// joints.vtp: cell data and point data.
-inline constexpr std::array kJointCellKeys{"force_magnitude_N"};
-inline constexpr std::array kJointPointKeys{
+/// joints.vtp: point data; joint_forces.vtp: cell data.
+inline constexpr std::array kJointKeys{
     "force_magnitude_N", "force_N",   "moment_Nm", "normal",  "couple_length_m", "eccentricity_m", "kern_use",
     "friction_use",      "opening_m", "slip_m",    "block_a", "block_b",         "kind",           "ring"};
 /// cracks.vtp: cell data.

@@ -254,7 +254,7 @@ TEST(Programs, EveryFileStoresItsProvenance) {
     EXPECT_EQ(mesh.field<double>("equilibrium_residual"), summary.equilibrium_residual) << name;
     ++meshes;
   }
-  EXPECT_EQ(meshes, 6) << "blocks, joints, wrenches, thrust lines, sections, cracks";
+  EXPECT_EQ(meshes, 7) << "blocks, joints, joint forces, wrenches, thrust lines, sections, cracks";
   const std::string run_yaml = slurp(folder.file("results/run.yaml"));
   const std::string post = slurp(folder.file("post/summary.json")) + slurp(folder.file("post/report.html"));
   for (const std::string& said : {summary.program_version, summary.case_hash, summary.assembly_hash}) {
