@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/files/number_text.hpp"
 #include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/cyclic_reduction.hpp"
 #include "solver/analysis/record.hpp"
@@ -171,8 +172,8 @@ ModelExplanation explain_model(const Case& scene, const Assembly& assembly) {
                         c.free_blocks, c.fixed_blocks, c.parts, c.islands);
   e.text += fmt::format("  unknowns    {} velocities, {} force components at {} contacts in {} joints\n",
                         c.unknowns, c.force_rows, c.contacts, c.joints);
-  e.text += fmt::format("  weight      {:.6e} N; {} point loads besides gravity\n", first.model.free_weight,
-                        first.model.loads.points.size());
+  e.text += fmt::format("  weight      {}; {} point loads besides gravity\n",
+                        readable_force(first.model.free_weight), first.model.loads.points.size());
   e.text += "  analysis    " + analysis_line(scene.analysis) + "\n";
   e.text += "  active\n" + active_features(scene, c);
   if (scene.analysis.type == AnalysisType::static_) e.text += static_features(scene.analysis);

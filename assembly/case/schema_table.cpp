@@ -1,38 +1,45 @@
 #include "assembly/case/schema_table.hpp"
 
-#include <algorithm>
-#include <array>
+#include <sstream>
 
 #include <fmt/format.h>
 
 namespace cupola {
 namespace {
 
-constexpr size_t kNumColumns = 6;
-using Cells = std::array<std::string, kNumColumns>;
+constexpr size_t kColumns = 120;
 
-Cells cells_of(const SchemaRow& row) {
-  const std::string key = row.condition.empty() ? row.path : fmt::format("{} ({})", row.path, row.condition);
-  return {key, row.type, row.unit, row.range, row.default_value, row.meaning};
+/// The words of `text` in lines of at most kColumns characters. Lines after the first begin with four blanks.
+std::string wrapped(const std::string& text, size_t indent) {
+  std::string out(indent, ' ');
+  size_t column = indent;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (column > indent && column + 1 + word.size() > kColumns) {
+      indent = 4;
+      out += '\n';
+      out.append(indent, ' ');
+      column = indent;
+    }
+    if (column > indent) out += ' ', ++column;
+    out += word;
+    column += word.size();
+  }
+  return out + "\n";
 }
 
 }  // namespace
 
-std::string to_markdown(const SchemaTable& table) {
-  std::vector<Cells> lines{{"key", "type", "unit", "range", "default", "meaning"}};
-  for (const SchemaRow& row : table.rows) lines.push_back(cells_of(row));
-  std::array<size_t, kNumColumns> widths{};
-  for (const Cells& cells : lines)
-    for (size_t c = 0; c < kNumColumns; ++c) widths[c] = std::max(widths[c], cells[c].size());
-
+std::string to_text(const SchemaTable& table) {
   std::string out;
-  for (size_t i = 0; i < lines.size(); ++i) {
-    for (size_t c = 0; c < kNumColumns; ++c)
-      out += c + 1 < kNumColumns ? fmt::format("| {:{}} ", lines[i][c], widths[c])
-                                 : fmt::format("| {} |\n", lines[i][c]);
-    if (i > 0) continue;
-    for (size_t c = 0; c < kNumColumns; ++c)
-      out += c + 1 < kNumColumns ? fmt::format("|{:-<{}}", "", widths[c] + 2) : std::string("|---------|\n");
+  for (const SchemaRow& row : table.rows) {
+    std::string head =
+        row.path + (row.condition.empty() ? "" : fmt::format(" ({})", row.condition)) + ": " + row.type;
+    if (!row.unit.empty() && row.unit != "-") head += " in " + row.unit;
+    if (!row.range.empty()) head += ", " + row.range;
+    if (!row.default_value.empty())
+      head += row.default_value == "required" ? ", required" : ", default " + row.default_value;
+    out += wrapped(head, 0) + wrapped(row.meaning, 4);
   }
   return out;
 }

@@ -21,7 +21,7 @@ struct SchemaTable {
   std::string condition;  ///< of the rows added next
 };
 
-/// The table in Markdown with aligned columns, readable on a terminal and on a web page.
-std::string to_markdown(const SchemaTable& table);
+/// For a terminal of 120 columns: a line with key, type, unit, range and default, and below it the meaning.
+std::string to_text(const SchemaTable& table);
 
 }  // namespace cupola

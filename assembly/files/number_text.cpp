@@ -63,4 +63,9 @@ std::string format_number(double value) {
   return text;
 }
 
+std::string readable_force(double newtons) {
+  return std::abs(newtons) < 1e6 ? fmt::format("{:.5g} kN", 1e-3 * newtons)
+                                 : fmt::format("{:.5g} MN", 1e-6 * newtons);
+}
+
 }  // namespace cupola

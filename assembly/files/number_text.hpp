@@ -27,4 +27,7 @@ std::string read_flag(std::string_view text, bool* value);
 /// The shortest decimal that reads back to the same double.
 std::string format_number(double value);
 
+/// A force with five digits, in kN, or in MN from a thousand kN: "163.42 MN".
+std::string readable_force(double newtons);
+
 }  // namespace cupola

@@ -1,5 +1,6 @@
 #include "generators/surface/arch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -39,6 +40,14 @@ SurfaceMap arch_surface(const ArchSurface& arch, int rings) {
     throw InputError(fmt::format(
         "geometry.surface.half_embrace_deg = {}: must be > {:.6g}, where the arc reaches the crown",
         arch.half_embrace_deg, 90.0 - crown_angle(R, e) * 180.0 / pi));
+  const double opening = 2.0 * (R * std::cos(springing) - e);
+  if (opening < arch.thickness)
+    throw InputError(
+        fmt::format("geometry.surface.half_embrace_deg = {}: the springings are {:.3g} m apart, less than "
+                    "the thickness of {} m, which is "
+                    "no vault. The angle counts at the centre of each arc, from the vertical to the "
+                    "springing: 90 for a semicircle",
+                    arch.half_embrace_deg, std::max(opening, 0.0), arch.thickness));
 
   SurfaceMap surface;
   surface.rows_per_ring = arch.voussoir_segments;

@@ -25,8 +25,8 @@ struct AnalysisSinks {
   /// The contact problem of the static solve or of the last step, and its impulses.
   std::function<void(const ContactProblem&, const VecX& gamma)> problem = [](const ContactProblem&,
                                                                              const VecX&) {};
-  /// Fraction of the work that is done, in [0, 1].
-  std::function<void(double share)> progress = [](double) {};
+  /// Fraction of the work that is done, in [0, 1], and where the run is, in words.
+  std::function<void(double share, const std::string& state)> progress = [](double, const std::string&) {};
   /// The state after the last frame and row, as bytes from which the analysis resumes with the same bits.
   std::function<void(const std::string& bytes)> checkpoint = [](const std::string&) {};
   /// True if the user wants to stop. The analysis then finishes its step, passes a checkpoint and returns.

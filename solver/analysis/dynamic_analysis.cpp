@@ -150,7 +150,9 @@ void DynamicRun::step() {
   if (now_.speed > analysis_.stop.settled_speed) progress_.calm_since = time;
   sinks_.history(history_row(time, report_, now_, progress_.friction_work));
   sinks_.log(log_line(progress_.steps, time, report_, now_));
-  sinks_.progress(std::min(1.0, time / analysis_.duration));
+  sinks_.progress(std::min(1.0, time / analysis_.duration),
+                  fmt::format("{:.2f} of {:g} s, largest displacement {:.3g} m", time, analysis_.duration,
+                              now_.displacement));
 }
 
 /// Adds the accuracy of the last step to that of the run.

@@ -66,9 +66,10 @@ bool LimitRun::keep(double value, Probe probe) {
   const StaticSolution& solution = probe.solution;
   iterations += solution.iterations;
   ++num_trials;
-  sinks.log(fmt::format("trial {:3d}  {} {:12.8g}  {:<11}  |v|/(g h) {:9.2e}  iterations {:4d}", num_trials,
-                        to_string(scene.analysis.limit.parameter), value, to_string(solution.outcome),
-                        solution.speed_ratio, solution.iterations));
+  const LimitSearch::Parameter parameter = scene.analysis.limit.parameter;
+  sinks.log(fmt::format("trial {:3d}  {} {:12.8g} {} {:<11}  |v|/(g h) {:9.2e}  iterations {:4d}", num_trials,
+                        to_string(parameter), value, limit_unit(to_string(parameter)),
+                        to_string(solution.outcome), solution.speed_ratio, solution.iterations));
   sinks.history(fmt::format("{:.17g},{},{:.9e},{:.9e},{}", value, to_string(solution.outcome),
                             solution.speed_ratio, solution.balance.residual, solution.iterations));
   if (solution.outcome == StaticOutcome::equilibrium)

@@ -184,7 +184,8 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
     sinks.table("stages.csv", table);
     sinks.log(fmt::format("ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}", ring, stage.blocks,
                           to_string(stage.outcome), stage.speed_ratio, note(stage)));
-    sinks.progress(static_cast<double>(ring - staged.first_ring + 1) / (last - staged.first_ring + 1));
+    sinks.progress(static_cast<double>(ring - staged.first_ring + 1) / (last - staged.first_ring + 1),
+                   fmt::format("ring {} of {}, {}", ring, last, to_string(stage.outcome)));
     if (sinks.interrupted()) return std::nullopt;
   }
   summary.steps = static_cast<int>(results.size());

@@ -7,11 +7,12 @@
 
 namespace cupola {
 
-ExitCode solve_fclib(const std::string& path, bool quiet) {
+ExitCode solve_fclib(const std::string& path, const std::string& output, bool quiet) {
   const FclibProblem file = read_fclib(path);
   const DelassusProblem& problem = file.local;
   VecX gamma;
   const SolveSummary summary = solve_delassus(problem, DelassusOptions{}, &gamma);
+  if (!output.empty()) write_fclib(output, "solution of " + path, problem, gamma);
   const bool converged = summary.ending == SolveEnding::converged;
   if (!quiet || !converged) {
     fmt::print("{}: {}\n", to_string(summary.ending), summary.message);

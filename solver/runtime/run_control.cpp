@@ -4,16 +4,15 @@
 #include <cstdio>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 
 namespace cupola {
 
-void ProgressBar::show(double share) {
+void ProgressBar::show(double share, const std::string& state) {
   CUPOLA_ASSERT(share >= 0.0 && share <= 1.0);
-  constexpr int kWidth = 30;
+  constexpr int kWidth = 20;
   constexpr double kInterval = 0.2;  // s
   const double now = wall_seconds();
   if (first_share_ < 0.0) {
@@ -26,8 +25,9 @@ void ProgressBar::show(double share) {
   const double done = share - first_share_;
   const std::string left =
       done > 0.0 ? format_duration((now - first_time_) * (1.0 - share) / done) + " left" : "";
-  fmt::print("\r[{:<{}}] {:5.1f} %  {:<14}", std::string(static_cast<std::size_t>(filled), '#'), kWidth,
-             100.0 * share, left);
+  constexpr const char* kClearToEnd = "\033[K";
+  fmt::print("\r[{:<{}}] {:3.0f} %  {}  {}{}", std::string(static_cast<std::size_t>(filled), '#'), kWidth,
+             100.0 * share, state, left, kClearToEnd);
   std::fflush(stdout);
   shown_ = true;
 }
@@ -35,10 +35,6 @@ void ProgressBar::show(double share) {
 void ProgressBar::finish() {
   if (shown_) fmt::print("\n");
   shown_ = false;
-}
-
-bool stdout_is_terminal() {
-  return ::isatty(STDOUT_FILENO) == 1;
 }
 
 std::string format_duration(double seconds) {

@@ -8,8 +8,8 @@ namespace cupola {
 class ProgressBar {
  public:
   /// `share`: completed fraction in [0, 1]. The remaining time is extrapolated from the progress since the
-  /// first call.
-  void show(double share);
+  /// first call. `state`: where the run is, in words.
+  void show(double share, const std::string& state);
   /// Ends the line.
   void finish();
 
@@ -19,9 +19,6 @@ class ProgressBar {
   double last_time_ = 0.0;
   bool shown_ = false;
 };
-
-/// True if stdout is a terminal.
-bool stdout_is_terminal();
 
 /// "1:02:03" or "2:03".
 std::string format_duration(double seconds);

@@ -105,6 +105,19 @@ TEST(Commands, SolveAContactProblemWrittenByTheSolver) {
   EXPECT_TRUE(contains(run.out, "the file's own solution has FCLIB merit")) << run.out;
   EXPECT_EQ(folder.run("cupola-solve --quiet --fclib dome.hdf5").out, "");
   EXPECT_EQ(folder.run("cupola-solve --fclib dome.yaml").code, 2);
+  // The solution is written, and options without effect are refused.
+  ASSERT_EQ(folder.run("cupola-solve --quiet --fclib dome.hdf5 --output solved.hdf5").code, 0);
+  const ProgramRun again = folder.run("cupola-solve --fclib solved.hdf5");
+  EXPECT_TRUE(contains(again.out, "576 contacts, local form")) << again.out;
+  EXPECT_TRUE(contains(again.out, "the file's own solution has FCLIB merit")) << again.out;
+  for (const std::string ignored : {"--threads 2", "--resume", "--set joints.friction=0.3"}) {
+    const ProgramRun refused = folder.run("cupola-solve --fclib dome.hdf5 " + ignored);
+    EXPECT_EQ(refused.code, 2) << ignored;
+    EXPECT_TRUE(contains(refused.err,
+                         ignored.substr(0, ignored.find(' ')) + " has no effect with --fclib; remove it"))
+        << refused.err;
+  }
+  EXPECT_TRUE(contains(folder.run("cupola-solve dome.yaml --fclib dome.hdf5").err, "dome.yaml is ignored"));
 }
 
 TEST(Commands, TabulateASweepAndReportMissingMembers) {

@@ -1,5 +1,7 @@
 #include "assembly/case/case_reader.hpp"
 
+#include <sstream>
+
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
@@ -175,9 +177,34 @@ TEST(Extends, ErrorNamesTheFileThatContainsIt) {
 
 TEST(Schema, NamesEveryKeyOnceWithItsDefault) {
   const std::string schema = case_schema();
-  for (const char* expected : {"| joints.friction ", "| required ", "geometry.surface.span (type: dome)",
-                               "geometry.surface.length (type: wall)", "postproc.meridians[].azimuth_deg"})
+  for (const char* expected :
+       {"\njoints.friction: number, >= 0, default 0.4\n    Coulomb friction coefficient mu\n", ", required\n",
+        "\ngeometry.surface.span (type: dome): number in m, > 0, default 45\n",
+        "\ngeometry.surface.length (type: wall)", "postproc.meridians[].azimuth_deg",
+        "joints.compliance.normal: number in m/N, m3/N, >= 0, default 1e-08 per point, 1e-10 per area\n"})
     EXPECT_NE(schema.find(expected), std::string::npos) << expected;
+  std::istringstream lines(schema);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
+}
+
+TEST(Schema, ShowsOneKeyOrSection) {
+  EXPECT_EQ(case_schema("joints.friction"),
+            "joints.friction: number, >= 0, default 0.4\n    Coulomb friction coefficient mu\n");
+  const std::string sections = case_schema("postproc.meridians");
+  EXPECT_NE(sections.find("postproc.meridians[].azimuth_deg"), std::string::npos) << sections;
+  EXPECT_EQ(sections.find("postproc.planes"), std::string::npos) << sections;
+  const auto refused = [](const std::string& key) -> std::string {
+    try {
+      case_schema(key);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refused("joints.frction"),
+            "error: --schema joints.frction: no such key; did you mean joints.friction?");
+  EXPECT_EQ(refused("mu").find("error: --schema mu: no such key; did you mean joints.friction or "), 0u)
+      << refused("mu");
 }
 
 }  // namespace

@@ -90,6 +90,23 @@ TEST(Arch, SegmentalAndHorseshoeArchesHaveRadialSpringings) {
   }
 }
 
+// At 1.57 degrees, meant in radians, and near the full circle there is no opening to vault over.
+TEST(Arch, RefusesAnglesThatMakeNoVault) {
+  for (double half_embrace : {0.5, 179.0}) {
+    Case c = arch_case(15, 0.1, 1);
+    std::get<ArchSurface>(c.geometry.surface).half_embrace_deg = half_embrace;
+    try {
+      generate(c);
+      FAIL() << half_embrace;
+    } catch (const InputError& error) {
+      EXPECT_NE(
+          std::string(error.what()).find("which is no vault. The angle counts at the centre of each arc"),
+          std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(Arch, BarrelHasARunningBondAlongItsAxis) {
   Case c = arch_case(9, 0.2, 1);
   std::get<ArchSurface>(c.geometry.surface).width = 3.0;
