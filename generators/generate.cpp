@@ -1,6 +1,11 @@
 #include "generators/generate.hpp"
 
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "assembly/base/error.hpp"
+#include "assembly/case/plausibility.hpp"
 #include "assembly/model/block_names.hpp"
 #include "generators/bond/make_bond.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
@@ -17,6 +22,16 @@ CutOptions cut_options(const Case& input) {
   if (input.geometry.stage)
     options.stage_rings = input.geometry.stage->rings * refinement_of(input.geometry.bond);
   return options;
+}
+
+/// The assembly with what the checks found and what is doubtful about its case.
+Assembly with_report(Assembly assembly, const GenerateReport& report, const Case& scene) {
+  assembly.check_report = to_text(report);
+  assembly.block_warnings = warnings_of(report);
+  assembly.case_warnings = scene.warnings;
+  for (std::string& text : implausible_for_blocks(scene, assembly))
+    assembly.case_warnings.push_back(std::move(text));
+  return assembly;
 }
 
 }  // namespace
@@ -48,8 +63,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
                     imported_tolerances(assembly, report->import->facet_angle,
                                         joint_rule(smallest_block_size(assembly), input.contact.margin)),
                     report->import->origins);
-    assembly.check_report = to_text(*report);
-    return assembly;
+    return with_report(std::move(assembly), *report, resolved);
   }
   Assembly assembly = cut_assembly(input);
   report->model = check_model(assembly, generated_tolerances(assembly));
@@ -57,13 +71,21 @@ Assembly generate(const Case& input, GenerateReport* report) {
     report->model.shell_volume = make_surface(geometry.surface, 2).shell_volume;
     if (!report->model.shell_volume) report->model.shell_volume = extrapolated_shell_volume(geometry.surface);
   }
-  assembly.check_report = to_text(*report);
-  return assembly;
+  return with_report(std::move(assembly), *report, input);
 }
 
 std::string to_text(const GenerateReport& report) {
   if (!report.import) return to_text(report.model);
-  return to_text(*report.import) + to_text(report.model, report.import->origins);
+  return to_text(*report.import) + to_text(report.model);
+}
+
+std::vector<std::string> warnings_of(const GenerateReport& report) {
+  if (!report.import) return warnings_of(report.model);
+  std::vector<std::string> warnings = warnings_of(report.model, report.import->origins);
+  if (report.import->sliver_parts > 0)
+    warnings.push_back(
+        fmt::format("{} parts are slivers, thinner than 1e-3 of their size", report.import->sliver_parts));
+  return warnings;
 }
 
 }  // namespace cupola

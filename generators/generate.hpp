@@ -25,4 +25,7 @@ Assembly generate(const Case& input, GenerateReport* report = nullptr);
 
 std::string to_text(const GenerateReport& report);
 
+/// What the user must know about the blocks, one sentence each; Assembly::block_warnings holds the same.
+std::vector<std::string> warnings_of(const GenerateReport& report);
+
 }  // namespace cupola

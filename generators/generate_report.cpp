@@ -79,6 +79,8 @@ std::string report_json(const Assembly& assembly, const GenerateReport& report) 
     json["shell_volume_m3"] = *m.shell_volume;
     json["facets_leave_out"] = 1.0 - m.volume / *m.shell_volume;
   }
+  json["warnings"] = assembly.block_warnings;
+  for (const std::string& text : assembly.case_warnings) json["warnings"].push_back(text);
   const SizeTable table = size_table(assembly);
   for (const auto& [kind, sizes] : table.by_kind) json["sizes_by_kind"][kind] = to_json(sizes);
   for (const auto& [ring, sizes] : table.by_ring) json["sizes_by_ring"].push_back(to_json(sizes));
@@ -100,6 +102,8 @@ std::string report_json(const Assembly& assembly, const GenerateReport& report) 
 std::string report_text(const Assembly& assembly, const GenerateReport& report) {
   const SizeTable table = size_table(assembly);
   std::string text = (assembly.title.empty() ? "" : assembly.title + "\n") + to_text(report);
+  for (const auto* warnings : {&assembly.block_warnings, &assembly.case_warnings})
+    for (const std::string& warning : *warnings) text += "warning: " + warning + "\n";
   text += fmt::format("\n{:34} {:>7} {:>12} {:>12} {:>12}\n", "block volumes, m3", "blocks", "smallest",
                       "mean", "largest");
   for (const auto& [kind, sizes] : table.by_kind) text += row(kind, sizes);

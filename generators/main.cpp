@@ -11,6 +11,7 @@
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/program/command_line.hpp"
+#include "assembly/program/warnings.hpp"
 #include "generators/generate.hpp"
 #include "generators/generate_report.hpp"
 #include "generators/stereotomy/bond_map.hpp"
@@ -40,12 +41,13 @@ ExitCode generate_assembly(int argc, char** argv) {
 
   // 2. Read the case
   const Case scene = line.read_case();
-  if (line.check_only()) return ExitCode::done;
+  if (line.check_only()) return line.report_warnings(scene.warnings), ExitCode::done;
 
   // 3. Generate and check the blocks
   GenerateReport report;
   const Assembly assembly = generate(scene, &report);
   if (!line.quiet()) fmt::print("{}", to_text(report));
+  line.report_warnings(united({assembly.case_warnings, assembly.block_warnings}));
 
   // 4. Write the files
   make_parent(output);

@@ -6,10 +6,12 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/case/plausibility.hpp"
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/content_hash.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/program/warnings.hpp"
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/figures.hpp"
 #include "postproc/pictures/paraview_views.hpp"
@@ -85,6 +87,7 @@ std::vector<Shot> write_frames(const ResultsReader& results, const std::string& 
 
 void write_meshes(const Evaluation& e, const std::string& folder) {
   write_mesh(in_folder(folder, "joints.vtp"), joints_mesh(e));
+  write_mesh(in_folder(folder, "joint_forces.vtp"), joint_forces_mesh(e));
   write_mesh(in_folder(folder, "wrenches.vtp"), wrenches_mesh(e));
   write_mesh(in_folder(folder, "thrust_lines.vtp"), thrust_lines_mesh(e));
   write_mesh(in_folder(folder, "sections.vtp"), sections_mesh(e));
@@ -186,7 +189,10 @@ ExitCode analyse(const AnalyseRequest& request) {
   check_provenance(request, assembly, results.summary());
   Case scene = request.scene;
   resolve_block_names(assembly, &scene.loads, &scene.ties, &scene.supports);
-  Evaluation e = evaluate(scene, std::move(assembly), results);
+  const std::vector<std::string> doubts =
+      united({results.summary().warnings, scene.warnings, implausible_for_blocks(scene, assembly)});
+  report_warnings("cupola-post", doubts, results.summary().warnings, request.strict);
+  Evaluation e = evaluate(scene, std::move(assembly), results, doubts);
 
   const std::string& folder = request.output_folder;
   make_folder(folder);
@@ -207,7 +213,7 @@ ExitCode analyse(const AnalyseRequest& request) {
   write_text_atomically(in_folder(folder, "summary.json"), post_summary_json(e));
   if (!request.tables_only) write_report(request, tables, drawn, history, run_yaml, e);
 
-  for (const std::string& warning : e.warnings) fmt::print(stderr, "cupola-post: warning: {}\n", warning);
+  report_warnings("cupola-post", e.warnings, doubts, false);
   if (!request.quiet)
     fmt::print("{} tables, {} figures, {} pictures; open {}\n", tables.size(), drawn.figures.size(),
                drawn.pictures.size(),

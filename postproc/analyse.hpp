@@ -17,7 +17,8 @@ struct AnalyseRequest {
   std::string pvbatch;         ///< command that runs ParaView's pvbatch; "": no 3-D pictures
   bool tables_only = false;    ///< write no meshes, figures or report
   bool quiet = false;
-  bool force = false;  ///< accept a run whose geometry, loads, joints or analysis differ from the case
+  bool strict = false;  ///< warnings about the case and the blocks are errors
+  bool force = false;   ///< accept a run whose geometry, loads, joints or analysis differ from the case
 };
 
 /// Reads the run, evaluates it and writes the output folder (FORMAT.md lists its files).

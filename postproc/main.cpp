@@ -56,7 +56,8 @@ ExitCode run_analyse(int argc, char** argv) {
   // 2. Case
   request.scene = line.read_case();
   request.quiet = line.quiet();
-  if (line.check_only()) return ExitCode::done;
+  request.strict = line.strict();
+  if (line.check_only()) return line.report_warnings(request.scene.warnings), ExitCode::done;
 
   // 3. Evaluation and output
   return analyse(request);

@@ -4,7 +4,7 @@
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --output results/
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --output low/ --set joints.friction=0.2
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --explain
-//   cupola-solve --fclib Capsules-i125-1213.hdf5
+//   cupola-solve --fclib Capsules-i125-1213.hdf5 --output solved.hdf5
 //   cupola-solve cases/dome_circular_dynamic.yaml --assembly assembly.vtu --output results/ --resume
 
 #include <fmt/format.h>
@@ -36,15 +36,19 @@ ExitCode solve(int argc, char** argv) {
                 "number of threads (default 1); the results are the same to the bit");
   line.optional("--dump-fclib", &request.dump_fclib, "FILE",
                 "write the contact problem of the static solve or of the last step (HDF5)");
-  line.instead_of_case("--fclib", &fclib_path, "FILE", "solve a contact problem in the FCLIB format");
+  line.instead_of_case(
+      "--fclib", &fclib_path, "FILE",
+      "solve a contact problem in the FCLIB format (HDF5); --output FILE writes it with its solution",
+      {"--output", "--quiet"});
   if (const auto ended = line.parse(argc, argv)) return *ended;
 
-  if (!fclib_path.empty()) return solve_fclib(fclib_path, line.quiet());
+  if (!fclib_path.empty()) return solve_fclib(fclib_path, request.output_folder, line.quiet());
 
   // 2. The case
   request.scene = line.read_case();
   request.quiet = line.quiet();
-  if (line.check_only()) return ExitCode::done;
+  request.strict = line.strict();
+  if (line.check_only()) return line.report_warnings(request.scene.warnings), ExitCode::done;
 
   // 3. Explain or solve
   if (explain) {

@@ -8,15 +8,20 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
+#include "assembly/case/plausibility.hpp"
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/content_hash.hpp"
+#include "assembly/files/number_text.hpp"
 #include "assembly/files/results_file.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/program/terminal.hpp"
+#include "assembly/program/warnings.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/collision/geometry_warnings.hpp"
 #include "solver/collision/patch_file.hpp"
 #include "solver/dynamics/scene_options.hpp"
+#include "solver/dynamics/soft_joints.hpp"
 #include "solver/explain.hpp"
 #include "solver/fclib/fclib_file.hpp"
 #include "solver/runtime/checkpoint.hpp"
@@ -27,8 +32,9 @@
 namespace cupola {
 namespace {
 
-/// Reads the assembly and replaces the names of blocks in the case by their numbers.
-Assembly read_matching_assembly(SolveRequest* asked) {
+/// Reads the assembly and replaces the names of blocks in the case by their numbers. With --force, `differs` gets how the
+/// assembly differs from the case.
+Assembly read_matching_assembly(SolveRequest* asked, std::vector<std::string>* differences) {
   SolveRequest& request = *asked;
   const std::string& path = request.assembly_path;
   Assembly assembly = read_assembly(path);
@@ -41,17 +47,27 @@ Assembly read_matching_assembly(SolveRequest* asked) {
       fmt::format("was not made from {}: geometry or material differ", request.scene.file);
   if (!request.force)
     throw InputError(FileLocation{path}, differs + "; run cupola-generate again, or use it with --force");
-  fmt::print(stderr, "cupola-solve: warning: {} {}\n", path, differs);
+  differences->push_back(fmt::format("{} {}", path, differs));
   return assembly;
 }
 
-void print_warnings(const std::vector<std::string>& warnings) {
-  constexpr std::size_t kShown = 10;
-  for (std::size_t i = 0; i < std::min(kShown, warnings.size()); ++i)
-    fmt::print(stderr, "warning: {}\n", warnings[i]);
-  if (warnings.size() > kShown)
-    fmt::print(stderr, "warning: {} more of the same kind\n", warnings.size() - kShown);
-}
+/// Warnings of the run. They are reported when they are found, except those that the generator has printed.
+class RunWarnings {
+ public:
+  RunWarnings(const Assembly& assembly, bool strict)
+      : printed_(united({assembly.case_warnings, assembly.block_warnings})), strict_(strict) {}
+
+  /// Throws InputError if warnings are errors.
+  void add(const std::vector<std::string>& found) {
+    report_warnings("cupola-solve", found, united({printed_, all_}), strict_);
+    all_ = united({all_, found});
+  }
+  const std::vector<std::string>& all() const { return all_; }
+
+ private:
+  std::vector<std::string> printed_, all_;
+  bool strict_;
+};
 
 std::string provenance(const Summary& summary) {
   return fmt::format(
@@ -84,12 +100,15 @@ std::string residuals_line(const Summary& summary) {
 }
 
 void print_summary(const Summary& summary) {
-  fmt::print("{}: {}\n", to_string(summary.status), summary.message);
+  const Colour colour = summary.status == Status::stable        ? Colour::green
+                        : summary.status == Status::unconverged ? Colour::red
+                                                                : Colour::yellow;
+  fmt::print("{}: {}\n", in_colour(to_string(summary.status), colour, stdout), summary.message);
   if (!summary.forces_unique.value) fmt::print("  {}\n", to_sentence(summary.forces_unique));
   fmt::print("  {} free blocks, {} joints, {} contacts, {} unknowns\n", summary.free_blocks, summary.joints,
              summary.contacts, summary.unknowns);
-  fmt::print("  weight {:.6e} N, support reaction {:.6e} N along z\n", summary.weight_N,
-             summary.support_reaction_N.z());
+  fmt::print("  weight {}, support reaction {} along z\n", readable_force(summary.weight_N),
+             readable_force(summary.support_reaction_N.z()));
   fmt::print("  {}\n  {}\n  {}\n", to_sentence(summary.accuracy), residuals_line(summary),
              to_sentence(summary.certified_force_error));
   fmt::print("  law: {}, tangential spring: {}; {} of {} contacts slip\n", to_string(summary.friction_law),
@@ -109,9 +128,10 @@ std::optional<Checkpoint> find_checkpoint(const SolveRequest& request, const std
                       : checkpoint->program_version != program_version() ? "program version"
                                                                          : nullptr;
   if (other == nullptr) return checkpoint;
-  fmt::print(stderr,
-             "cupola-solve: warning: {}: the checkpoint belongs to another {}; starting from the beginning\n",
-             path, other);
+  report_warnings(
+      "cupola-solve",
+      {fmt::format("{}: the checkpoint belongs to another {}; starting from the beginning", path, other)}, {},
+      false);
   return std::nullopt;
 }
 
@@ -120,12 +140,15 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
                          const StopRequest& stop, ResultsWriter* writer, Checkpoint* run,
                          ProgressBar* progress, std::string* last_line) {
   AnalysisSinks sinks;
-  const bool bar = !request.quiet && stdout_is_terminal();
+  const AnalysisType type = request.scene.analysis.type;
+  const bool has_progress = type == AnalysisType::dynamic || type == AnalysisType::staged;
+  const bool bar = !request.quiet && has_progress && is_terminal(stdout);
   sinks.log = [&request, bar, last_line](const std::string& line) {
     *last_line = line;
     if (!request.quiet && !bar) fmt::print("{}\n", line), std::fflush(stdout);
   };
-  if (bar) sinks.progress = [progress](double share) { progress->show(share); };
+  if (bar)
+    sinks.progress = [progress](double share, const std::string& state) { progress->show(share, state); };
   sinks.history = [run](const std::string& row) { run->history += row + "\n"; };
   sinks.frame = [writer, run](const Frame& frame) {
     writer->write_frame(frame);
@@ -153,6 +176,8 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
 std::optional<Summary> summary_unless_interrupted(const Case& scene, const Assembly& assembly,
                                                   const AnalysisSinks& sinks) {
   try {
+    if (scene.analysis.type != AnalysisType::static_)  // which detects the contacts as built itself
+      sinks.as_built(ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly)));
     return run_analysis(scene, assembly, sinks);
   } catch (const Interrupted&) {
     return std::nullopt;
@@ -169,14 +194,18 @@ ExitCode interrupted_before_solving() {
 ExitCode solve_case(SolveRequest request) {
   const StopRequest stop;
   const double started = wall_seconds();
-  const Assembly assembly = read_matching_assembly(&request);
+  std::vector<std::string> differences;
+  const Assembly assembly = read_matching_assembly(&request, &differences);
   const std::string assembly_hash = content_hash(assembly);
   const std::string checkpoint_path = (std::filesystem::path(request.output_folder) / "checkpoint").string();
 
   set_num_threads(request.threads);
   if (stop.made()) return interrupted_before_solving();
+  RunWarnings warnings(assembly, request.strict);
   try {
-    print_warnings(geometry_warnings(assembly, detection_options(request.scene)));
+    warnings.add(
+        united({differences, request.scene.warnings, implausible_for_blocks(request.scene, assembly),
+                assembly.block_warnings, geometry_warnings(assembly, detection_options(request.scene))}));
   } catch (const Interrupted&) {
     return interrupted_before_solving();
   }
@@ -200,10 +229,9 @@ ExitCode solve_case(SolveRequest request) {
   std::string last_line;
   AnalysisSinks sinks = make_sinks(request, checkpoint_path, stop, &writer, &run, &progress, &last_line);
   const std::string patches_path = (std::filesystem::path(request.output_folder) / "patches.vtp").string();
-  bool patches_written = false;
   sinks.as_built = [&](const ContactSet& contacts) {
+    warnings.add(soft_joints(request.scene, assembly, contacts));
     write_patches(patches_path, contacts, assembly_hash);
-    patches_written = true;
   };
   std::optional<Summary> summary = summary_unless_interrupted(request.scene, assembly, sinks);
   progress.finish();
@@ -227,19 +255,21 @@ ExitCode solve_case(SolveRequest request) {
   summary->wall_time_seconds = wall_seconds() - started;
   summary->cpu_time_seconds = cpu_seconds();
   summary->peak_memory_bytes = peak_memory_bytes();
+  summary->warnings = warnings.all();
   writer.write_text("run.yaml", provenance(*summary) + request.scene.effective_yaml);
   // Written again even if an interrupted run wrote it: the summary lists the files that this run wrote.
   if (!run.history.empty()) writer.write_text("history.csv", run.history);
-  if (!patches_written)
-    sinks.as_built(
-        ContactDetector(assembly, detection_options(request.scene)).update(initial_poses(assembly)));
   writer.write_summary(*summary);
   if (!request.quiet) print_summary(*summary);
   return summary->status == Status::unconverged ? ExitCode::accuracy_not_reached : ExitCode::done;
 }
 
 std::string explain_case(SolveRequest request) {
-  return explain_model(request.scene, read_matching_assembly(&request)).text;
+  std::vector<std::string> differences;
+  const Assembly assembly = read_matching_assembly(&request, &differences);
+  RunWarnings(assembly, request.strict)
+      .add(united({differences, request.scene.warnings, implausible_for_blocks(request.scene, assembly)}));
+  return explain_model(request.scene, assembly).text;
 }
 
 }  // namespace cupola

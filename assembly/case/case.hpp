@@ -71,7 +71,8 @@ struct Case {
   std::vector<std::string> inputs;  ///< files read: the case, those it extends, and those it names
   std::string hash;           ///< of all sections except title, postproc and sweep, which do not affect a run
   std::string geometry_hash;  ///< of the sections that the generator reads: geometry, material, imperfections
-  std::string effective_yaml;  ///< every key with its value in force
+  std::string effective_yaml;         ///< every key with its value in force
+  std::vector<std::string> warnings;  ///< implausible values (assembly/case/plausibility.hpp)
 };
 
 }  // namespace cupola

@@ -4,6 +4,8 @@
 
 #include "assembly/case/case_tree.hpp"
 #include "assembly/case/declare.hpp"
+#include "assembly/case/plausibility.hpp"
+#include "assembly/case/suggestion.hpp"
 #include "assembly/files/hash.hpp"
 
 namespace cupola {
@@ -52,6 +54,7 @@ Case read_one_case(const std::string& path, const std::vector<std::string>& set_
   the_case.effective_yaml = to_yaml(root.effective());
   the_case.hash = hash_sections(root.effective(), solver_reads);
   the_case.geometry_hash = hash_sections(root.effective(), generator_reads);
+  the_case.warnings = implausible_values(the_case);
   return the_case;
 }
 
@@ -80,8 +83,24 @@ SchemaTable case_schema_table() {
   return table;
 }
 
-std::string case_schema() {
-  return to_markdown(case_schema_table());
+std::string case_schema(const std::string& key) {
+  const SchemaTable all = case_schema_table();
+  SchemaTable chosen;
+  std::vector<std::string> paths;
+  for (const SchemaRow& row : all.rows) {
+    const std::string& path = row.path;
+    paths.push_back(path);
+    const bool below = path.starts_with(key) && path.size() > key.size() &&
+                       (path[key.size()] == '.' || path[key.size()] == '[');
+    if (key.empty() || path == key || below) chosen.rows.push_back(row);
+  }
+  if (!chosen.rows.empty()) return to_text(chosen);
+  const std::string near = nearest_name(key, paths);
+  const std::string elsewhere = key.find('.') == std::string::npos ? suggestion_for({}, key, key) : "";
+  throw InputError(fmt::format("--schema {}: no such key{}", key,
+                               !elsewhere.empty() ? elsewhere
+                               : near.empty()     ? "; --schema alone prints all"
+                                                  : fmt::format("; did you mean {}?", near)));
 }
 
 }  // namespace cupola

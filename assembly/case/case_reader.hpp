@@ -15,7 +15,8 @@ Case read_case(const std::string& path, const std::vector<std::string>& set_opti
 
 /// All keys: path, type, unit, range, default, meaning.
 SchemaTable case_schema_table();
-/// The same as text (`--schema`).
-std::string case_schema();
+/// The same as text (`--schema`): all keys, or `key` and the keys of that section. Throws InputError for an unknown key,
+/// with the nearest one.
+std::string case_schema(const std::string& key = "");
 
 }  // namespace cupola

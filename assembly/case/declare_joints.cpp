@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "assembly/case/declare.hpp"
 
 namespace cupola {
@@ -10,10 +12,16 @@ void declare_compliance(Section& s, Compliance& compliance) {
       "per", compliance.per, "compliance per contact point (m/N) or per area of joint (m3/N)",
       "choose point (normal and tangential in m/N for each contact point, as in the paper) or area (in m3/N, "
       "independent of the number of contact points)");
-  s.number("normal", compliance.normal, {.unit = "m/N, m3/N", .min = 0},
-           "normal displacement per unit force");
+  compliance = Compliance::default_per(compliance.per);
+  const auto defaults = [](double Compliance::*value) {
+    return fmt::format("{:g} per point, {:g} per area",
+                       Compliance::default_per(Compliance::Per::point).*value,
+                       Compliance::default_per(Compliance::Per::area).*value);
+  };
+  s.number("normal", compliance.normal, {.unit = "m/N, m3/N", .min = 0}, "normal displacement per unit force",
+           defaults(&Compliance::normal));
   s.number("tangential", compliance.tangential, {.unit = "m/N, m3/N", .min = 0},
-           "tangential displacement per unit force");
+           "tangential displacement per unit force", defaults(&Compliance::tangential));
 }
 
 void declare_law_change(Section& s, JointLawChange& law) {

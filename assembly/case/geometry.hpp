@@ -84,7 +84,7 @@ struct ArchSurface {
   double radius_ratio = 0.5;       ///< intrados radius over span, >= 0.5 (0.5: one circle)
   double thickness = 1.0;          ///< m, > 0
   double width = 1.0;              ///< m, > 0, along the axis
-  double half_embrace_deg = 90.0;  ///< angle from the crown side, at the arc's centre, to the springing
+  double half_embrace_deg = 90.0;  ///< at the centre of each arc, from the vertical to the springing
   /// Straight segments that approximate the curved faces of a voussoir. With n segments the relative error of
   /// the volume is (angle/n)^2 / 6; 1 gives polygonal voussoirs.
   int voussoir_segments = 1;

@@ -162,8 +162,8 @@ bool Section::read_integer_key(const std::string& key, int& value, const NumberR
 }
 
 void Section::number(const std::string& key, double& value, const NumberRule& rule,
-                     const std::string& meaning) {
-  document(key, "number", rule, format_number(value), meaning);
+                     const std::string& meaning, const std::string& shown_default) {
+  document(key, "number", rule, shown_default.empty() ? format_number(value) : shown_default, meaning);
   read_number_key(key, value, rule);
 }
 

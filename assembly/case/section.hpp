@@ -39,7 +39,9 @@ class Section {
   /// The name of a file in or below the folder of the case file (see path_inside), or of the bundled case
   /// that names it. `path` gets the path to open; without the key it stays unchanged.
   void file(const std::string& key, std::string& path, const std::string& meaning, bool or_folder = false);
-  void number(const std::string& key, double& value, const NumberRule& rule, const std::string& meaning);
+  /// `shown_default` replaces the value on entry in `--schema`, for a default that depends on other keys.
+  void number(const std::string& key, double& value, const NumberRule& rule, const std::string& meaning,
+              const std::string& shown_default = "");
   /// A number that another key overrides with `value`. The number in the file is checked and ignored;
   /// run.yaml gets `value`.
   void settled_number(const std::string& key, double value, const NumberRule& rule);

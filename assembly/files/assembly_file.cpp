@@ -258,6 +258,9 @@ void write_assembly(const std::string& path, const Assembly& assembly, const std
     for (const Block& block : assembly.blocks) names.push_back(block.name);
     mesh.field_data.push_back({"block_name", 1, std::move(names)});
   }
+  for (const auto& [name, warnings] : {std::pair("block_warnings", &assembly.block_warnings),
+                                       std::pair("case_warnings", &assembly.case_warnings)})
+    if (!warnings->empty()) mesh.field_data.push_back({name, 1, *warnings});
   if (!options.empty()) mesh.field_data.push_back({"options", 1, std::vector<std::string>{options}});
   write_mesh(path, mesh);
 }
@@ -281,6 +284,9 @@ Assembly read_assembly(const std::string& path) {
   assembly.title = mesh.field<std::string>("title");
   assembly.geometry_hash = mesh.field<std::string>("geometry_hash");
   assembly.check_report = mesh.field<std::string>("check_report");
+  for (const auto& [name, warnings] : {std::pair("block_warnings", &assembly.block_warnings),
+                                       std::pair("case_warnings", &assembly.case_warnings)})
+    if (fields.has(name)) *warnings = fields.get_any_size<std::string>(name);
   assembly.num_rings = mesh.field<std::int32_t>("num_rings");
   read_parts(mesh, &assembly);
   read_blocks(fields, &assembly);

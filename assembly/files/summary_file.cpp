@@ -58,6 +58,7 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("cpu_time_seconds", s.cpu_time_seconds);
   visit("peak_memory_bytes", s.peak_memory_bytes);
   visit("threads", s.threads);
+  visit("warnings", s.warnings);
 }
 
 template <class T>
@@ -107,6 +108,9 @@ void from_value(const Json& json, E* value) {
   *value = *known;
 }
 void from_value(const Json& json, std::string* value) {
+  json.get_to(*value);
+}
+void from_value(const Json& json, std::vector<std::string>* value) {
   json.get_to(*value);
 }
 void from_value(const Json& json, Accuracy* accuracy) {

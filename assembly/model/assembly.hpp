@@ -83,6 +83,8 @@ struct Assembly {
   std::string geometry_hash;  ///< hash of the case sections that the generator read
   int num_rings = 0;          ///< rings of the complete model; 0 for imported blocks
   std::string check_report;   ///< results of the generator's checks, as lines of text; may be empty
+  std::vector<std::string> block_warnings;  ///< of the generator about the blocks, one sentence each
+  std::vector<std::string> case_warnings;   ///< of the generator about the rest of its case
 
   int num_faces() const { return static_cast<int>(face_kinds.size()); }
   std::span<const int> face(int f) const {

@@ -143,6 +143,7 @@ struct Summary {
   std::int64_t peak_memory_bytes = 0;
   int threads = 1;
   std::optional<CriticalValue> critical;          ///< limit analysis only
+  std::vector<std::string> warnings;              ///< about the case and the blocks, one sentence each
   std::map<std::string, std::string> text_files;  ///< text files of the results folder: name to hash
 };
 

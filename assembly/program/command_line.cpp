@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/case/case_reader.hpp"
+#include "assembly/program/warnings.hpp"
 
 namespace cupola {
 namespace {
@@ -28,6 +30,20 @@ std::vector<std::string> input_files(const Case& scene) {
   std::ranges::sort(files);
   files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;
+}
+
+/// The arguments with `--set` before each pair KEY=VALUE that follows another: `--set a=1 b=2` sets both.
+std::vector<const char*> with_set_before_each_pair(int argc, const char* const* argv) {
+  std::vector<const char*> out;
+  bool after_pair = false;
+  for (int i = 0; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    const bool is_pair = !word.starts_with('-') && word.find('=') != word.npos;
+    if (after_pair && is_pair && out.back() != std::string_view("--set")) out.push_back("--set");
+    after_pair = is_pair && out.back() == std::string_view("--set");
+    out.push_back(argv[i]);
+  }
+  return out;
 }
 
 }  // namespace
@@ -51,13 +67,18 @@ CommandLine::CommandLine(const std::string& name, const std::string& description
   app_->set_version_flag("--version", name + " " + program_version());
   // parse() checks the required options, because --schema needs none of them.
   app_->add_option("CASE", case_path_, "case file (.yaml)");
-  app_->add_option("--set", set_options_, "change one key of the case, e.g. --set joints.friction=0.3")
+  app_->add_option("--set", set_options_,
+                   "change keys of the case, e.g. --set joints.friction=0.3 title=Slippery")
       ->type_name("KEY.PATH=VALUE")
       ->allow_extra_args(false);
   app_->add_flag("--check", check_only_, "validate the input and stop");
   app_->add_flag("--inputs", list_inputs_, "print the files that the case reads, one per line, and stop");
-  app_->add_flag("--schema", schema_, "print every key of the case file: type, unit, range, default");
-  app_->add_flag("--quiet", quiet_, "print errors only");
+  app_->add_option("--schema", schema_key_,
+                   "print every key of the case file, or those of one section: type, unit, range, default")
+      ->type_name("[KEY]")
+      ->expected(0, 1);
+  app_->add_flag("--quiet", quiet_, "print warnings and errors only");
+  app_->add_flag("--strict", strict_, "treat warnings as errors");
 }
 
 CommandLine::~CommandLine() = default;
@@ -78,9 +99,20 @@ void CommandLine::optional(const std::string& option, int* value, int smallest, 
 }
 
 void CommandLine::instead_of_case(const std::string& option, std::string* value, const std::string& what,
-                                  const std::string& help) {
+                                  const std::string& help, const std::vector<std::string>& heeded) {
   optional(option, value, what, help);
-  instead_of_case_.push_back(value);
+  instead_of_case_.push_back({option, value, heeded});
+}
+
+void CommandLine::refuse_ignored_options(const OtherRun& run) const {
+  if (!case_path_.empty())
+    throw InputError(
+        fmt::format("{} is given, so that {} is ignored; remove one of them", run.option, case_path_));
+  for (const CLI::Option* option : app_->get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && name != run.option && std::ranges::find(run.heeded, name) == run.heeded.end())
+      throw InputError(fmt::format("{} has no effect with {}; remove it", name, run.option));
+  }
 }
 
 void CommandLine::flag(const std::string& option, bool* value, const std::string& help) {
@@ -88,13 +120,18 @@ void CommandLine::flag(const std::string& option, bool* value, const std::string
 }
 
 std::optional<ExitCode> CommandLine::parse(int argc, const char* const* argv) {
-  if (const auto ended = parse_arguments(*app_, argc, argv)) return ended;
-  if (schema_) {
-    fmt::print("{}", case_schema());
+  const std::vector<const char*> arguments = with_set_before_each_pair(argc, argv);
+  if (const auto ended = parse_arguments(*app_, static_cast<int>(arguments.size()), arguments.data()))
+    return ended;
+  if (app_->count("--schema") > 0) {
+    fmt::print("{}", case_schema(schema_key_));
     return ExitCode::done;
   }
-  for (const std::string* value : instead_of_case_)
-    if (!value->empty()) return std::nullopt;
+  for (const OtherRun& run : instead_of_case_) {
+    if (run.value->empty()) continue;
+    refuse_ignored_options(run);
+    return std::nullopt;
+  }
   if (case_path_.empty())
     throw InputError(fmt::format("CASE.yaml is missing; see {} --help", app_->get_name()));
   if (list_inputs_) {
@@ -110,6 +147,11 @@ std::optional<ExitCode> CommandLine::parse(int argc, const char* const* argv) {
 
 Case CommandLine::read_case() const {
   return cupola::read_case(case_path_, set_options_);
+}
+
+void CommandLine::report_warnings(const std::vector<std::string>& warnings,
+                                  const std::vector<std::string>& printed_before) const {
+  cupola::report_warnings(app_->get_name(), warnings, printed_before, strict_);
 }
 
 }  // namespace cupola

@@ -38,9 +38,10 @@ class CommandLine {
   void optional(const std::string& option, std::string* value, const std::string& what,
                 const std::string& help);
   void optional(const std::string& option, int* value, int smallest, const std::string& help);
-  /// A string option that replaces CASE and the required options, for another kind of run.
+  /// A string option that replaces CASE and the required options, for another kind of run. Of the other options that run
+  /// heeds only those in `heeded`; parse() refuses the rest.
   void instead_of_case(const std::string& option, std::string* value, const std::string& what,
-                       const std::string& help);
+                       const std::string& help, const std::vector<std::string>& heeded);
   void flag(const std::string& option, bool* value, const std::string& help);
 
   /// Returns an exit code if the program is to stop: --help, --version and --schema print and return `done`.
@@ -50,19 +51,32 @@ class CommandLine {
   /// Reads the case named on the command line and applies the --set options.
   Case read_case() const;
 
+  /// report_warnings() as the program and with --strict of this command line. A case that is only checked has no
+  /// `printed_before`.
+  void report_warnings(const std::vector<std::string>& warnings,
+                       const std::vector<std::string>& printed_before = {}) const;
+
+  bool strict() const { return strict_; }          ///< --strict: warnings are errors
   bool check_only() const { return check_only_; }  ///< --check: validate and stop
-  bool quiet() const { return quiet_; }            ///< --quiet: errors only
+  bool quiet() const { return quiet_; }            ///< --quiet: warnings and errors only
 
  private:
   std::unique_ptr<CLI::App> app_;
   std::string case_path_;
   std::vector<std::string> set_options_;
   std::vector<std::pair<std::string, std::string*>> required_;
-  std::vector<std::string*> instead_of_case_;
+  struct OtherRun {
+    std::string option;
+    const std::string* value;
+    std::vector<std::string> heeded;
+  };
+  void refuse_ignored_options(const OtherRun& run) const;
+  std::vector<OtherRun> instead_of_case_;
   bool check_only_ = false;
   bool list_inputs_ = false;
+  bool strict_ = false;
   bool quiet_ = false;
-  bool schema_ = false;
+  std::string schema_key_;  // after --schema
 };
 
 }  // namespace cupola

@@ -3,15 +3,20 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 
 #include "assembly/base/error.hpp"
+#include "assembly/program/terminal.hpp"
 
 namespace cupola {
 
 int run_program(std::string_view name, const std::function<ExitCode()>& body) {
-  const auto report = [&name](const char* message) {
+  const auto report = [&name](std::string message) {
     std::fflush(stdout);
-    std::fprintf(stderr, "%.*s: %s\n", static_cast<int>(name.size()), name.data(), message);
+    const std::string word = "error:";
+    if (const size_t at = message.find(word); at != std::string::npos)
+      message.replace(at, word.size(), in_colour(word, Colour::red, stderr));
+    std::fprintf(stderr, "%.*s: %s\n", static_cast<int>(name.size()), name.data(), message.c_str());
   };
   try {
     return static_cast<int>(body());
@@ -21,7 +26,7 @@ int run_program(std::string_view name, const std::function<ExitCode()>& body) {
   } catch (const std::bad_alloc&) {
     report("error: out of memory");
   } catch (const std::exception& error) {
-    report((std::string("error: ") + error.what()).c_str());
+    report(std::string("error: ") + error.what());
   }
   return static_cast<int>(ExitCode::failed);
 }

@@ -288,8 +288,6 @@ std::string to_text(const ImportReport& r) {
   if (several > kListed)
     text +=
         fmt::format("  {} more blocks with several convex parts; --report lists all\n", several - kListed);
-  if (r.sliver_parts > 0)
-    text += fmt::format("warning: {} parts are slivers, thinner than 1e-3 of their size\n", r.sliver_parts);
   if (r.flatness.relative_warp >= kRoundedWarp)
     text += fmt::format(
         "faces deviate from planes by up to {:.2g} m, {:.1g} of the size of their block; facet_angle = "

@@ -221,7 +221,7 @@ ModelReport check_model(const Assembly& assembly, const ModelTolerances& toleran
   return report;
 }
 
-std::string to_text(const ModelReport& r, std::span<const BlockOrigin> origins) {
+std::string to_text(const ModelReport& r) {
   std::string text = fmt::format(
       "{} blocks in {} convex parts, {} supports, {} joints, {} connected components\n"
       "volume {:.6f} m3, blocks {:.4g} to {:.4g} m3\n",
@@ -235,22 +235,22 @@ std::string to_text(const ModelReport& r, std::span<const BlockOrigin> origins) 
       "joint {:.1e} m; shortest edge {:.4g} m\n",
       r.max_convexity_error, r.max_planarity_error, std::max(r.max_overlap, 0.0), r.max_joint_gap,
       r.shortest_edge);
-  if (!r.blocks_without_joint.empty())
-    text += fmt::format("warning: {} blocks have no joint, the first is {}\n", r.blocks_without_joint.size(),
-                        Names{origins}.name(r.blocks_without_joint.front()));
-  constexpr size_t kListed = 10;
-  for (size_t i = 0; i < std::min(kListed, r.narrow_joints.size()); ++i) {
-    const NarrowJoint& joint = r.narrow_joints[i];
-    text += fmt::format(
-        "warning: blocks {} and {}: their joint is only {:.3g} m wide, less than 1e-3 of the smallest block, "
-        "and is "
-        "ignored\n",
-        Names{origins}.name(joint.block_a), Names{origins}.name(joint.block_b), joint.width);
-  }
-  if (r.narrow_joints.size() > kListed)
-    text += fmt::format("warning: {} more joints are too narrow\n", r.narrow_joints.size() - kListed);
-  if (r.num_supports == 0) text += fmt::format("warning: {}\n", kNoBlockIsFixed);
   return text;
+}
+
+std::vector<std::string> warnings_of(const ModelReport& r, std::span<const BlockOrigin> origins) {
+  std::vector<std::string> warnings;
+  const Names names{origins};
+  if (!r.blocks_without_joint.empty())
+    warnings.push_back(fmt::format("{} blocks have no joint, the first is {}", r.blocks_without_joint.size(),
+                                   names.name(r.blocks_without_joint.front())));
+  for (const NarrowJoint& joint : r.narrow_joints)
+    warnings.push_back(fmt::format(
+        "blocks {} and {}: their joint is only {:.3g} m wide, less than 1e-3 of the smallest block, "
+        "and is ignored",
+        names.name(joint.block_a), names.name(joint.block_b), joint.width));
+  if (r.num_supports == 0) warnings.emplace_back(kNoBlockIsFixed);
+  return warnings;
 }
 
 }  // namespace cupola

@@ -68,6 +68,9 @@ ModelTolerances imported_tolerances(const Assembly& assembly, double facet_angle
 ModelReport check_model(const Assembly& assembly, const ModelTolerances& tolerances,
                         std::span<const BlockOrigin> origins = {});
 
-std::string to_text(const ModelReport& report, std::span<const BlockOrigin> origins = {});
+std::string to_text(const ModelReport& report);
+
+/// What the user must know about the blocks, one sentence each.
+std::vector<std::string> warnings_of(const ModelReport& report, std::span<const BlockOrigin> origins = {});
 
 }  // namespace cupola

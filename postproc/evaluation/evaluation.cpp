@@ -229,7 +229,8 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   return out;
 }
 
-Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results) {
+Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results,
+                    const std::vector<std::string>& doubts) {
   Evaluation e;
   e.scene = scene;
   e.assembly = std::move(assembly);
@@ -240,6 +241,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.shell = shell_of(e.assembly, e.up);
   e.axes = shell_axes(e.assembly, e.shell);
   add_status_warnings(e.summary, &e.warnings);
+  for (const std::string& doubt : doubts) e.warnings.push_back(doubt);
   if (e.summary.geometry_hash != scene.geometry_hash || e.assembly.geometry_hash != scene.geometry_hash)
     e.warnings.push_back(
         "the geometry of the case has changed since the assembly was generated or solved: generate and solve "

@@ -89,8 +89,9 @@ void leave_out(const std::string& part, const std::string& reason, Evaluation* e
 std::vector<std::string> notices(const Evaluation& evaluation);
 
 /// Evaluates the last readable frame. Missing or damaged frames are left out and recorded; InputError if none
-/// can be read.
-Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results);
+/// can be read. `doubts`: warnings about the case and the blocks.
+Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results,
+                    const std::vector<std::string>& doubts = {});
 
 /// Evaluates one frame with the assembly, loads and shell of an evaluation. The blocks of a mechanism are displaced
 /// along their velocities, far enough to be seen.

@@ -54,7 +54,7 @@ TwoBlocks two_blocks(const Vec3& shift, bool supported = true) {
   try {
     generate(scene, &report);
     result.joints = report.model.num_joints;
-    result.report = to_text(report);
+    result.report = fmt::format("{}", fmt::join(warnings_of(report), "\n"));
   } catch (const InputError& error) {
     result.refused_by_generator = true;
     result.message = error.what();

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "assembly/case/plausibility.hpp"
+#include "assembly/case/plausible_range.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// Corners of the free blocks, or of all blocks if none is free.
+std::vector<Vec3> corners(const Assembly& assembly) {
+  std::vector<Vec3> points;
+  for (const bool fixed_too : {false, true}) {
+    for (const Part& part : assembly.parts) {
+      if (!fixed_too && assembly.blocks[static_cast<size_t>(part.block)].fixed) continue;
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+        for (const int v : assembly.face(f)) points.push_back(assembly.vertices[static_cast<size_t>(v)]);
+    }
+    if (!points.empty()) break;
+  }
+  return points;
+}
+
+struct Extent {
+  Vec3 low = Vec3::Constant(kFar), high = Vec3::Constant(-kFar);
+  double size() const { return (high - low).maxCoeff(); }
+};
+
+Extent extent_of(const std::vector<Vec3>& points) {
+  Extent extent;
+  for (const Vec3& x : points) {
+    extent.low = extent.low.cwiseMin(x);
+    extent.high = extent.high.cwiseMax(x);
+  }
+  return extent;
+}
+
+std::vector<std::string> cuts_beside(const Postproc& postproc, const std::vector<Vec3>& points,
+                                     const Extent& extent) {
+  std::vector<std::string> out;
+  for (const double height : postproc.sections)
+    if (height < extent.low.z() || height > extent.high.z())
+      out.push_back(fmt::format(
+          "postproc.sections: the height {:g} m cuts no block; the model reaches from {:.4g} to {:.4g} m "
+          "above z = 0",
+          height, extent.low.z(), extent.high.z()));
+  for (const CutPlane& plane : postproc.planes) {
+    double low = kFar, high = -kFar;
+    for (const Vec3& x : points) {
+      const double distance = (x - plane.point).dot(plane.normal.normalized());
+      low = std::min(low, distance);
+      high = std::max(high, distance);
+    }
+    if (low > 0.0 || high < 0.0)
+      out.push_back(fmt::format(
+          "postproc.planes: {} passes {:.4g} m beside the model; the model reaches from ({:.4g}, {:.4g}, "
+          "{:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m",
+          plane.name, std::max(low, -high), extent.low.x(), extent.low.y(), extent.low.z(), extent.high.x(),
+          extent.high.y(), extent.high.z()));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembly& assembly) {
+  const std::vector<Vec3> points = corners(assembly);
+  const Extent extent = extent_of(points);
+  std::vector<PlausibleRange> checks;
+  if (scene.geometry.imported)
+    checks.push_back({"geometry.import (size of the model)", extent.size(), "m", 0.05, 1e3,
+                      "drawn in km? Set geometry.import.metres_per_unit",
+                      "drawn in millimetres? Set geometry.import.metres_per_unit: 0.001"});
+  const LimitSearch& limit = scene.analysis.limit;
+  const auto varies = [&](LimitSearch::Parameter parameter) {
+    return scene.analysis.type == AnalysisType::limit && limit.parameter == parameter;
+  };
+  int free_blocks = 0;
+  for (const Block& block : assembly.blocks) free_blocks += block.fixed ? 0 : 1;
+  const double gravity = scene.loads.gravity.norm();
+  const double weight = free_weight(assembly, gravity > 0.0 ? gravity : 9.81);
+  for (size_t i = 0; i < scene.loads.forces.size() && !varies(LimitSearch::Parameter::load); ++i)
+    if (const double force = scene.loads.forces[i].force.norm(); force > 0.0)
+      checks.push_back({fmt::format("loads.forces[{}].force", i), force, "N",
+                        1e-4 * weight / std::max(1, free_blocks), 1e3 * weight, "in kN? Forces are in N",
+                        "too many digits? Forces are in N"});
+  for (size_t i = 0; i < scene.supports.moves.size() && !varies(LimitSearch::Parameter::spread); ++i)
+    checks.push_back({fmt::format("supports.moves[{}].displacement", i),
+                      scene.supports.moves[i].displacement.norm(), "m", 0.0, extent.size(), "",
+                      kMillimetres});
+  std::vector<std::string> out = sentences(checks);
+  for (std::string& text : cuts_beside(scene.postproc, points, extent)) out.push_back(std::move(text));
+  return out;
+}
+
+}  // namespace cupola

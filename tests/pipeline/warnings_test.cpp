@@ -1,0 +1,143 @@
+// Warnings about implausible input: once on the terminal of a run of three programs, kept in its files, shown in the
+// report, and errors with --strict.
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "assembly/case/bundled.hpp"
+#include "assembly/case/case_reader.hpp"
+#include "assembly/case/plausibility.hpp"
+#include "generators/generate.hpp"
+#include "solver/collision/contact_detector.hpp"
+#include "solver/collision/geometry_warnings.hpp"
+#include "solver/dynamics/scene_options.hpp"
+#include "solver/dynamics/soft_joints.hpp"
+#include "tests/pipeline/program_run.hpp"
+
+namespace cupola::warnings_test {
+namespace {
+
+const std::string kGenerate = "cupola-generate wall.yaml --output assembly.vtu --quiet";
+const std::string kSolve = "cupola-solve wall.yaml --assembly assembly.vtu --output results --quiet";
+const std::string kPost =
+    "cupola-post analyse wall.yaml --assembly assembly.vtu --results results --output post --quiet";
+const std::string kSentence = "material.unit_weight = 18 N/m3: 3000 to 80000 N/m3 expected; in kN/m3";
+
+void write_wall(const ProgramFolder& folder, const std::string& rest) {
+  std::ofstream(folder.file("wall.yaml"))
+      << "geometry: {surface: {type: wall, length: 2, height: 1, thickness: 0.3}, bond: {type: running, "
+         "rings: 3, "
+         "blocks_per_ring: 2}}\njoints: {friction: 0.6, compliance: {per: area}}\n"
+      << rest;
+}
+
+TEST(Warnings, ArePrintedOnceAndKept) {
+  const ProgramFolder folder;
+  write_wall(folder, "material: {unit_weight: 18}\npostproc: {sections: [100]}\n");
+  const ProgramRun generated = folder.run(kGenerate);
+  EXPECT_EQ(generated.code, 0);
+  EXPECT_EQ(generated.err.find("cupola-generate: warning: " + kSentence), 0u) << generated.err;
+  EXPECT_NE(generated.err.find("postproc.sections: the height 100 m cuts no block"), std::string::npos);
+  EXPECT_EQ(std::count(generated.err.begin(), generated.err.end(), '\n'), 2) << generated.err;
+  const ProgramRun solved = folder.run(kSolve);
+  EXPECT_EQ(solved.code, 0);
+  EXPECT_EQ(solved.err, "");
+  const ProgramRun drawn = folder.run(kPost);
+  EXPECT_EQ(drawn.code, 0);
+  EXPECT_EQ(drawn.err, "");
+  for (const char* file : {"results/summary.json", "post/summary.json", "post/report.html"})
+    EXPECT_NE(slurp(folder.file(file)).find(kSentence), std::string::npos) << file;
+  // What the generator has not seen is printed where it appears.
+  const ProgramRun slippery = folder.run(kSolve + " --set joints.friction=30");
+  EXPECT_EQ(slippery.err.find("cupola-solve: warning: joints.friction = 30: at most 3 expected"), 0u)
+      << slippery.err;
+  EXPECT_EQ(std::count(slippery.err.begin(), slippery.err.end(), '\n'), 1) << slippery.err;
+}
+
+TEST(Warnings, SoftJointsAreFoundBeforeTheSolve) {
+  const ProgramFolder folder;
+  write_wall(folder, "");
+  ASSERT_EQ(folder.run(kGenerate).code, 0);
+  const std::string soft = " --set joints.compliance.normal=9e-7";
+  const ProgramRun solved = folder.run(kSolve + soft);
+  EXPECT_EQ(solved.code, 0);
+  EXPECT_NE(solved.err.find("lets the model sink by about"), std::string::npos) << solved.err;
+  EXPECT_NE(slurp(folder.file("results/summary.json")).find("lets the model sink by about"),
+            std::string::npos);
+  EXPECT_EQ(folder.run(kSolve + soft + " --strict").code, 2);
+  const ProgramRun moving =
+      folder.run(kSolve + soft + " --set analysis.type=dynamic --set analysis.duration=0.02");
+  EXPECT_NE(moving.err.find("lets the model sink by about"), std::string::npos) << moving.err;
+}
+
+TEST(Warnings, AreErrorsWithStrict) {
+  const ProgramFolder folder;
+  write_wall(folder, "material: {unit_weight: 18}\n");
+  for (const std::string& command :
+       {kGenerate, kGenerate + " --check", kSolve + " --check", kPost + " --check"}) {
+    EXPECT_EQ(folder.run(command + " --strict --set material.unit_weight=18000").code, 0) << command;
+    const ProgramRun run = folder.run(command + " --strict");
+    EXPECT_EQ(run.code, 2) << command;
+    EXPECT_NE(run.err.find("warning: " + kSentence), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("error: --strict: the warning above is an error"), std::string::npos) << run.err;
+  }
+  ASSERT_EQ(folder.run(kGenerate).code, 0);
+  EXPECT_EQ(folder.run(kSolve + " --strict").code, 2) << "although the generator has printed it";
+  ASSERT_EQ(folder.run(kSolve).code, 0);
+  EXPECT_EQ(folder.run(kPost + " --strict").code, 2);
+}
+
+TEST(Warnings, OneSetOptionChangesSeveralKeys) {
+  const ProgramFolder folder;
+  write_wall(folder, "");
+  for (const std::string options :
+       {"--set joints.friction=30 material.unit_weight=18 --check wall.yaml",
+        "wall.yaml --set joints.friction=30 --check --set material.unit_weight=18",
+        "--set joints.friction=30 material.unit_weight=18 wall.yaml --check"}) {
+    const ProgramRun run = folder.run("cupola-generate " + options);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find(kSentence), std::string::npos) << options << "\n" << run.err;
+    EXPECT_NE(run.err.find("joints.friction = 30"), std::string::npos) << options << "\n" << run.err;
+  }
+}
+
+// Colour and control characters belong on a terminal only.
+TEST(Warnings, AreNotColouredInAFile) {
+  const ProgramFolder folder;
+  write_wall(folder, "material: {unit_weight: 18}\n");
+  EXPECT_EQ(folder.run(kGenerate).err.find('\033'), std::string::npos);
+  EXPECT_EQ(folder.run(kSolve + " --nonsense").err.find('\033'), std::string::npos);
+}
+
+/// All warnings that the programs give for a case as shipped.
+std::vector<std::string> all_warnings(const std::string& path) {
+  Case scene = read_case(path);
+  const Assembly assembly = generate(scene);
+  std::vector<std::string> warnings = assembly.case_warnings;
+  const auto add = [&warnings](const std::vector<std::string>& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  };
+  add(assembly.block_warnings);
+  add(geometry_warnings(assembly, detection_options(scene)));
+  add(soft_joints(scene, assembly,
+                  ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly))));
+  return warnings;
+}
+
+// Of the cases of thousands of blocks one suffices in the fast test.
+TEST(Warnings, NoSmallShippedCaseWarns) {
+  for (const std::string name : {"portal", "wall_window", "wall_small", "wall_herringbone", "dome_circular"})
+    EXPECT_EQ(all_warnings(bundled_folder() + "/" + name + ".yaml"), std::vector<std::string>{}) << name;
+}
+
+TEST(WarningsSlow, NoShippedCaseWarns) {
+  for (const auto& entry : std::filesystem::directory_iterator(bundled_folder())) {
+    if (entry.path().extension() != ".yaml" || entry.path().filename().string().starts_with("claims"))
+      continue;
+    EXPECT_EQ(all_warnings(entry.path().string()), std::vector<std::string>{}) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace cupola::warnings_test

@@ -1,0 +1,65 @@
+#include "solver/dynamics/soft_joints.hpp"
+
+#include <gtest/gtest.h>
+
+#include "solver/collision/contact_detector.hpp"
+#include "solver/dynamics/scene_options.hpp"
+#include "tests/solver/scenes.hpp"
+
+namespace cupola::soft_joints_test {
+namespace {
+
+std::vector<std::string> warnings_of(const Case& scene, const Assembly& assembly) {
+  return soft_joints(scene, assembly,
+                     ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly)));
+}
+
+Case per_area(double normal) {
+  Case scene;
+  scene.joints.compliance = {normal, normal, Compliance::Per::area};
+  return scene;
+}
+
+// Ten cubes of side s = 0.2 m: the joint under cube k from the top carries k rho g s, so that the top sinks by
+// c rho g s (1 + ... + 10) = 55 c rho g s; 1 % of the height of 2 m at c = 1.85e-7 m3/N.
+TEST(SoftJoints, WarnWhereTheTopOfAStackSinksByAHundredthOfItsHeight) {
+  const Assembly stack = testing::stack_of_cubes(0.2, std::vector<double>(10, 1000.0));
+  EXPECT_TRUE(warnings_of(per_area(1.8e-7), stack).empty());
+  const std::vector<std::string> found = warnings_of(per_area(1.9e-7), stack);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].starts_with(
+      "joints.compliance.normal = 1.9e-07 m3/N lets the model sink by about 0.021 m, 1 % of "
+      "its height; "))
+      << found[0];
+  EXPECT_TRUE(warnings_of(per_area(0.0), stack).empty()) << "rigid joints";
+}
+
+// Four contact points carry each cube.
+TEST(SoftJoints, CountThePointsOfCompliancePerPoint) {
+  const Assembly stack = testing::stack_of_cubes(0.2, std::vector<double>(10, 1000.0));
+  Case scene;
+  const double limit = 0.02 / (55 * 1000.0 * 9.81 * 0.008) * 4.0;  // m/N
+  scene.joints.compliance.normal = 0.98 * limit;
+  EXPECT_TRUE(warnings_of(scene, stack).empty());
+  scene.joints.compliance.normal = 1.02 * limit;
+  EXPECT_EQ(warnings_of(scene, stack).size(), 1u);
+  scene.joints.compliance.normal = 0.98 * limit;
+  scene.loads.forces.resize(1);
+  scene.loads.forces[0].block = 10;
+  scene.loads.forces[0].force = Vec3(0, 0, -100.0);  // an eighth of the weight
+  EXPECT_EQ(warnings_of(scene, stack).size(), 1u) << "loads count";
+}
+
+// A wall of 2 m under ten times its weight.
+TEST(SoftJoints, AreNotTheDefaults) {
+  const Assembly wall = testing::running_bond_wall(Vec3(0.4, 0.3, 0.1), 5, 20);
+  for (const Compliance::Per per : {Compliance::Per::point, Compliance::Per::area}) {
+    Case scene;
+    scene.joints.compliance = Compliance::default_per(per);
+    scene.loads.gravity *= 11.0;
+    EXPECT_TRUE(warnings_of(scene, wall).empty()) << to_string(per);
+  }
+}
+
+}  // namespace
+}  // namespace cupola::soft_joints_test
