@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/case/limit_parameter.hpp"
 #include "assembly/files/content_hash.hpp"
+#include "assembly/model/thickness.hpp"
 
 namespace cupola {
 namespace {
@@ -106,13 +108,23 @@ double unbalanced_force(const Summary& s) {
   return s.equilibrium_residual.value_or(0.0) * s.weight_N / s.free_blocks;
 }
 
+/// Sets loads and thickness to those of the equilibrium evaluated.
+void apply_limit(Evaluation* e) {
+  e->acting = e->scene.loads;
+  if (e->summary.analysis != AnalysisType::limit || !e->summary.critical) return;
+  const double value = e->summary.critical->stable;
+  e->acting = case_at(e->scene, value).loads;
+  if (e->scene.analysis.limit.parameter == LimitSearch::Parameter::thickness)
+    e->assembly = with_thickness(e->assembly, value);
+}
+
 /// The applied forces at a time, s.
 std::vector<PointForce> loads_at(const Evaluation& e, double time) {
-  const std::vector<TimeFunction> times = load_times(e.scene.loads);
+  const std::vector<TimeFunction> times = load_times(e.acting);
   std::vector<PointForce> loads = e.loads;
   for (PointForce& load : loads)
     load.force *=
-        factor_at(load.time == PointForce::kDeadLoad ? e.scene.loads.dead_load_time : times[load.time], time);
+        factor_at(load.time == PointForce::kDeadLoad ? e.acting.dead_load_time : times[load.time], time);
   return loads;
 }
 
@@ -215,7 +227,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   out.frame = std::move(frame);
   const bool mechanism = is_mechanism(e.summary, out.frame);
   if (mechanism) displace_mechanism(e.assembly, &out.frame);
-  const Loads& loads = e.scene.loads;
+  const Loads& loads = e.acting;
   out.gravity = factor_at(loads.dead_load_time, out.frame.time) * loads.gravity;
   out.loads = loads_at(e, out.frame.time);
   out.joints = joint_wrenches(e.assembly, out.frame.contacts, e.shell, unbalanced_force(e.summary));
@@ -237,9 +249,6 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.summary = results.summary();
   e.times = results.times();
   if (scene.loads.gravity.norm() > 0.0) e.up = -scene.loads.gravity.normalized();
-  e.loads = applied_loads(scene.loads, e.assembly);
-  e.shell = shell_of(e.assembly, e.up);
-  e.axes = shell_axes(e.assembly, e.shell);
   add_status_warnings(e.summary, &e.warnings);
   for (const std::string& doubt : doubts) e.warnings.push_back(doubt);
   if (e.summary.geometry_hash != scene.geometry_hash || e.assembly.geometry_hash != scene.geometry_hash)
@@ -252,6 +261,10 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   if (e.summary.assembly_hash != content_hash(e.assembly))
     e.warnings.push_back("the results belong to another assembly: the drawings may not match them");
 
+  apply_limit(&e);
+  e.loads = applied_loads(e.acting, e.assembly);
+  e.shell = shell_of(e.assembly, e.up);
+  e.axes = shell_axes(e.assembly, e.shell);
   if (!e.assembly.ties.empty() || !scene.ties.pairs.empty() || !scene.ties.chains.empty())
     e.warnings.push_back("ring sums and wrenches count joints only, not the forces in ties");
 

@@ -53,11 +53,12 @@ struct SectionEvaluation {
 /// forces are those of one instant or of an unfinished solve: tables hold them, texts and figures do not interpret them.
 struct Evaluation {
   Case scene;
-  Assembly assembly;
+  Assembly assembly;  ///< with the thickness of the stable end, if a limit analysis varies it
   Summary summary;
   std::vector<double> times;  ///< s, of all frames
   Vec3 up = Vec3::UnitZ();
-  std::vector<PointForce> loads;  ///< at their full values
+  Loads acting;                   ///< of the case, at the stable end of a limit analysis
+  std::vector<PointForce> loads;  ///< of `acting`, at their full values
   Shell shell;
   std::vector<ShellAxes> axes;
   FrameEvaluation last;

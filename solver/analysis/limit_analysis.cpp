@@ -6,12 +6,12 @@
 #include "assembly/base/process.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/analysis_options.hpp"
-#include "solver/analysis/limit_parameter.hpp"
+#include "assembly/case/limit_parameter.hpp"
 #include "solver/analysis/limit_search.hpp"
 #include "solver/analysis/mechanism.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/analysis/support_path.hpp"
-#include "solver/analysis/thickness.hpp"
+#include "assembly/model/thickness.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {

@@ -9,6 +9,7 @@
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/content_hash.hpp"
+#include "assembly/model/thickness.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/report/stages.hpp"
 #include "postproc/tables/mesh_output.hpp"
@@ -176,6 +177,34 @@ TEST(Evaluation, LimitAnalysisEvaluatesTheEquilibriumAndDisplacesTheMechanism) {
   EXPECT_NEAR(mechanism.frame.blocks.displacement[3].x(), shown, 1e-12);
   EXPECT_EQ(mechanism.frame.blocks.displacement[2].norm(), 0.0);
   EXPECT_EQ(mechanism.groups, (std::vector{0, 0, 0, 1}));
+}
+
+// The forces of a limit analysis balance the loads at the stable end of its bracket, not those of the case.
+TEST(Evaluation, LimitAnalysisIsEvaluatedUnderItsLoads) {
+  const Assembly a = test::column(3);
+  Case scene = column_case();
+  scene.analysis.limit.parameter = LimitSearch::Parameter::acceleration;  // along x
+  Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+  for (Vec3& force : frame.contacts.force) force.x() -= 0.2 * force.z();  // friction on the block above
+  Summary summary = column_summary(a);
+  summary.analysis = AnalysisType::limit;
+  summary.critical = CriticalValue{"acceleration", 0.2005, 0.2, 0.201};
+  const Evaluation e = evaluated(a, {frame}, summary, scene, test::fresh_folder("results"));
+  for (const RingSum& ring : e.rings) EXPECT_LT(ring.relative_difference, 1e-14);
+}
+
+TEST(Evaluation, LimitAnalysisIsEvaluatedAtItsThickness) {
+  const Assembly a = test::column(3);
+  Case scene = column_case();
+  scene.analysis.limit.parameter = LimitSearch::Parameter::thickness;
+  Summary summary = column_summary(a);
+  summary.analysis = AnalysisType::limit;
+  summary.critical = CriticalValue{"thickness", 0.505, 0.5, 0.51};
+  const Frame frame = test::column_at_rest(with_thickness(a, 0.5), kGravity, 0.0, 0.6, 0.4);
+  const Evaluation e = evaluated(a, {frame}, summary, scene, test::fresh_folder("results"));
+  EXPECT_NEAR(e.axes[2].thickness, 0.4, 1e-12);
+  for (const RingSum& ring : e.rings) EXPECT_LT(ring.relative_difference, 1e-14);
+  EXPECT_TRUE(e.warnings.empty()) << "the results belong to the assembly as generated";
 }
 
 TEST(Evaluation, StagedRunHasATableOfRings) {

@@ -4,7 +4,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/limit_search.hpp"
 #include "solver/analysis/mechanism.hpp"
-#include "solver/analysis/thickness.hpp"
+#include "assembly/model/thickness.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 // The search for critical values. The values themselves are rows of the verification manual.

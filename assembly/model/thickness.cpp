@@ -1,4 +1,4 @@
-#include "solver/analysis/thickness.hpp"
+#include "assembly/model/thickness.hpp"
 
 #include <map>
 #include <set>

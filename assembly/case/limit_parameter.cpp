@@ -1,4 +1,4 @@
-#include "solver/analysis/limit_parameter.hpp"
+#include "assembly/case/limit_parameter.hpp"
 
 #include <cmath>
 #include <numbers>
