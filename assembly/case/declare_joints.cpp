@@ -7,11 +7,20 @@ namespace {
 
 constexpr double kStandardGravity = 9.81;  // m/s2, as Material::density
 
+/// How to choose, with the defaults.
+std::string advice_per() {
+  const Compliance point = Compliance::default_per(Compliance::Per::point),
+                   area = Compliance::default_per(Compliance::Per::area);
+  return fmt::format(
+      "choose point (normal and tangential in m/N for each contact point, as in the paper, by default {:g} "
+      "and {:g}) "
+      "or area (in m3/N, independent of the number of contact points, by default {:g} and {:g})",
+      point.normal, point.tangential, area.normal, area.tangential);
+}
+
 void declare_compliance(Section& s, Compliance& compliance) {
-  s.required_choice(
-      "per", compliance.per, "compliance per contact point (m/N) or per area of joint (m3/N)",
-      "choose point (normal and tangential in m/N for each contact point, as in the paper) or area (in m3/N, "
-      "independent of the number of contact points)");
+  s.required_choice("per", compliance.per, "compliance per contact point (m/N) or per area of joint (m3/N)",
+                    advice_per());
   compliance = Compliance::default_per(compliance.per);
   const auto defaults = [](double Compliance::*value) {
     return fmt::format("{:g} per point, {:g} per area",
