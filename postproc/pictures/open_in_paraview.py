@@ -1,6 +1,6 @@
-"""Opens a Cupola run in ParaView: `paraview --script=open_in_paraview.py`, or Macros > Import new macro.
+"""Opens a Cupola run in ParaView: `paraview --script=open_in_paraview.py` in the folder of this file.
 
-Reads the files in its own folder, or in the folder CUPOLA_POST. Left view: the blocks, coloured by the hoop force, or by
+Reads the files in the current folder, or in the folder CUPOLA_POST. Left view: the blocks, coloured by the hoop force, or by
 the bodies of the mechanism if the structure is not at rest. Right view: the forces inside the transparent blocks. Layers
 that are not shown at first are listed in the Pipeline Browser.
 """
@@ -8,7 +8,9 @@ import os
 
 from paraview.simple import *
 
-folder = os.environ.get("CUPOLA_POST") or os.path.dirname(os.path.abspath(globals().get("__file__", "open_in_paraview.py")))
+folder = os.environ.get("CUPOLA_POST") or os.getcwd()
+if not os.path.exists(os.path.join(folder, "blocks.pvd")):
+    raise SystemExit(folder + ": no blocks.pvd; start ParaView in the folder post of a run, or set CUPOLA_POST")
 STONE = (0.85, 0.83, 0.78)
 # (file, visible at first, line width, coloured by an array or in one colour)
 LAYERS = [
