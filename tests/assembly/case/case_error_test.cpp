@@ -114,7 +114,7 @@ const BadCase kBadCases[] = {
      "bad.yaml:6:18: error: loads.gravity = [...]: must be a list of three numbers, [x, y, z]"},
     {"MissingPer", "geometry: {surface: {type: dome}, bond: {type: running}}\n",
      "bad.yaml:1:1: error: joints.compliance.per is missing and has no default; choose point (normal "
-     "and tangential in m/N for each contact point, as in the paper) or area"},
+     "and tangential in m/N for each contact point, as in the paper, by default 1e-08 and 1e-08) or area"},
     {"MissingSurfaceType", "geometry: {surface: {span: 3}}\n",
      "bad.yaml:1:21: error: geometry.surface.type is missing and has no default; give one of dome, "},
     {"MisspeltType", "geometry: {surface: {typ: dome}}\n",
