@@ -4,14 +4,14 @@
 #include <fmt/format.h>
 
 #include "assembly/base/process.hpp"
+#include "assembly/case/limit_parameter.hpp"
+#include "assembly/model/thickness.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/analysis_options.hpp"
-#include "assembly/case/limit_parameter.hpp"
 #include "solver/analysis/limit_search.hpp"
 #include "solver/analysis/mechanism.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/analysis/support_path.hpp"
-#include "assembly/model/thickness.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {
