@@ -72,7 +72,7 @@ std::optional<double> time_multigrid(const ContactProblem& problem) {
 
 double num_passes(const Case& scene) {
   const bool rigid = scene.joints.compliance.normal == 0.0 || scene.joints.compliance.tangential == 0.0;
-  return scene.analysis.friction_law == FrictionLaw::coulomb || rigid ? kPasses : 1.0;
+  return scene.analysis.friction_law != FrictionLaw::associated || rigid ? kPasses : 1.0;
 }
 
 CostEstimate estimate_static(const Case& scene, const Assembly& assembly, const ContactProblem& problem) {

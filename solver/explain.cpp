@@ -81,7 +81,8 @@ std::string active_features(const Case& scene, const ModelCounts& counts) {
   };
   const Analysis& analysis = scene.analysis;
   if (scene.joints.friction > 0.0)
-    line("friction", fmt::format("{}, {}", scene.joints.friction, to_string(analysis.friction_law)));
+    line("friction", fmt::format("{}, {}{}", scene.joints.friction, to_string(analysis.friction_law),
+                                 analysis.dilatancy ? fmt::format(" ({:g})", *analysis.dilatancy) : ""));
   else
     line("friction", "none: normal forces only");
   line("compliance",

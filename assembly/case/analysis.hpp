@@ -75,6 +75,9 @@ struct Analysis {
   AnalysisType type = AnalysisType::static_;
   ContactMethod method = ContactMethod::newton;
   FrictionLaw friction_law = FrictionLaw::associated;
+  /// Opening over slip of sliding joints, as a ratio to the friction coefficient, in [0, 1]. Given only instead of
+  /// friction_law, which then follows from it.
+  std::optional<double> dilatancy;
   /// Static: number of equal sectors around the z axis, of which one is solved; 1: the whole model is solved.
   int cyclic_sectors = 1;
   /// Static: largest equilibrium residual accepted, inertia share included; it determines h. Dynamic: largest

@@ -71,6 +71,23 @@ void declare_wrench_error(Section& s, RequestedAccuracy& accuracy) {
       "static: relative error of the bed-joint wrenches to certify; the solver chooses the tolerance");
 }
 
+/// Case files name the ends of the range or give the ratio, not both.
+void declare_flow_rule(Section& s, Analysis& analysis) {
+  s.optional_number("dilatancy", analysis.dilatancy, {.min = 0, .max = 1}, "as friction_law",
+                    "opening of sliding joints over mu times their slip; 0: coulomb, 1: associated");
+  if (analysis.dilatancy) {
+    s.rule(!s.gives("friction_law"), "dilatancy",
+           "must not be given together with friction_law, which names its ends");
+    analysis.friction_law = *analysis.dilatancy == 1.0   ? FrictionLaw::associated
+                            : *analysis.dilatancy == 0.0 ? FrictionLaw::coulomb
+                                                         : FrictionLaw::dilatant;
+    return;
+  }
+  s.choice(
+      "friction_law", analysis.friction_law, {FrictionLaw::associated, FrictionLaw::coulomb},
+      "associated: sliding joints also open (dilate), a convex problem; coulomb: they slide without opening");
+}
+
 /// Tolerance of each preset: points on the measured curve of error against time.
 double preset_tolerance(RequestedAccuracy::Preset preset, AnalysisType type) {
   const bool moves = type == AnalysisType::dynamic;
@@ -111,9 +128,7 @@ void declare_analysis(Section& s, Analysis& analysis) {
       "type", analysis.type,
       "static equilibrium; motion in time; construction ring by ring; search for a critical parameter value");
   s.choice("method", analysis.method, "numerical method for the contact problem");
-  s.choice(
-      "friction_law", analysis.friction_law,
-      "associated: sliding joints also open (dilate), a convex problem; coulomb: they slide without opening");
+  declare_flow_rule(s, analysis);
   s.integer(
       "cyclic_sectors", analysis.cyclic_sectors, {.min = 1, .max = 100000},
       "static: number of equal sectors around the z axis, of which one is solved; 1: solve the whole model");

@@ -119,6 +119,8 @@ class Section {
   void variant(const std::string& key, Variant& value, const std::vector<Alternative<Variant>>& alternatives,
                const std::string& meaning);
 
+  /// True if the file gives the key.
+  bool gives(const std::string& key) const { return node_ && node_->find(key); }
   /// Checks a rule between several keys; the message refers to `key`.
   void rule(bool holds, const std::string& key, const std::string& text) const;
 

@@ -25,6 +25,7 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("analysis", s.analysis);
   visit("method", s.method);
   visit("friction_law", s.friction_law);
+  visit("dilatancy", s.dilatancy);
   visit("tangential", s.tangential);
   visit("program_version", s.program_version);
   visit("case_hash", s.case_hash);

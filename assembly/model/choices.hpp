@@ -16,10 +16,10 @@ constexpr auto enum_names(ContactMethod) {
 }
 
 /// `associated`: the convex problem of the paper, in which sliding opens the contact by mu |u_t|.
-/// `coulomb`: De Saxce's change of variable; sliding does not open the contact.
-enum class FrictionLaw { associated, coulomb };
+/// `coulomb`: sliding does not open the contact. `dilatant`: between the two, by a given ratio of dilatancy.
+enum class FrictionLaw { associated, coulomb, dilatant };
 constexpr auto enum_names(FrictionLaw) {
-  return std::array{"associated", "coulomb"};
+  return std::array{"associated", "coulomb", "dilatant"};
 }
 
 /// Tangential contact force of a dynamic analysis. `memory`: a spring that remembers its elastic slip.

@@ -116,6 +116,7 @@ struct Summary {
   AnalysisType analysis = AnalysisType::static_;
   ContactMethod method = ContactMethod::newton;
   FrictionLaw friction_law = FrictionLaw::associated;
+  std::optional<double> dilatancy;  ///< if the case gives it
   TangentialSpring tangential = TangentialSpring::memory;
   std::string program_version, case_hash, geometry_hash, assembly_hash;
   int blocks = 0, free_blocks = 0, joints = 0, contacts = 0, unknowns = 0;

@@ -234,6 +234,15 @@ std::string quality_text(const Summary& s) {
         "the slip.");
     if (equilibrium) add("A structure that stands under this law may collapse under Coulomb's law.");
     add(fmt::format("{} of {} contacts slip.", s.slipping_contacts, s.contacts));
+  } else {
+    add(s.friction_law == FrictionLaw::coulomb
+            ? std::string("Coulomb's friction law was used: joints slide without opening.")
+            : fmt::format("Sliding joints open by {:g} times the friction coefficient times the slip.",
+                          s.dilatancy.value_or(1.0)));
+    if (equilibrium) add("The equilibrium found need not be the only one.");
+    if (s.status == Status::moving && s.analysis == AnalysisType::static_)
+      add("That blocks move is proven only where the message says that no equilibrium exists.");
+    add(fmt::format("{} of {} contacts slip.", s.slipping_contacts, s.contacts));
   }
   if (equilibrium || in_time)
     add(fmt::format("The largest penetration at a contact is {:.3g} mm.", 1e3 * s.max_penetration_m));

@@ -181,7 +181,7 @@ void DynamicRun::include_accuracy(double time) {
   const ContactProblem& problem = report_.problem.problem;
   std::optional<ForceCertificate> certificate;
   if (!report_.step_solution.gamma.isZero(0.0)) certificate = report_.residuals.certificate;
-  progress_.worst.include(report_.residuals, certificate, forces_unique(problem, analysis_.friction_law),
+  progress_.worst.include(report_.residuals, certificate, forces_unique(problem, flow_rule(analysis_)),
                           violation);
 }
 

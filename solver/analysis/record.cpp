@@ -172,7 +172,7 @@ double largest_speed(const Frame& frame) {
 }
 
 std::vector<double> static_violations(const ContactSet& contacts, const StaticSolution& solution,
-                                      FrictionLaw law) {
+                                      const FlowRule& law) {
   return law_violations(contacts, solution.step_solution.gamma,
                         contact_law_errors(solution.step.problem, solution.step_solution, law));
 }

@@ -3,6 +3,7 @@
 #include "solver/analysis/static_solve.hpp"
 #include "solver/collision/contact_set.hpp"
 #include "solver/contact/problem/contact_problem.hpp"
+#include "solver/contact/problem/flow_rule.hpp"
 #include "solver/dynamics/contact_memory.hpp"
 #include "solver/dynamics/model.hpp"
 
@@ -50,7 +51,7 @@ double largest_speed(const Frame& frame);
 
 /// law_violations() of a static solve.
 std::vector<double> static_violations(const ContactSet& contacts, const StaticSolution& solution,
-                                      FrictionLaw law);
+                                      const FlowRule& law);
 
 /// The frame of a static solve. Equilibrium: displacements h v, gaps after the displacement, velocities zero. Motion:
 /// no displacements, velocities scaled so that the fastest block moves at 1 m/s. Unconverged: neither.

@@ -25,6 +25,7 @@ std::optional<Summary> run_analysis(const Case& scene, const Assembly& assembly,
   summary->analysis = scene.analysis.type;
   summary->method = scene.analysis.method;
   summary->friction_law = scene.analysis.friction_law;
+  summary->dilatancy = scene.analysis.dilatancy;
   summary->tangential = scene.analysis.tangential;
   return summary;
 }

@@ -73,12 +73,12 @@ double largest_joint_error(const ContactSet& contacts, const ContactProblem& p, 
 }  // namespace
 
 StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, const ContactProblem& problem,
-                                 const ContactSolution& solution, FrictionLaw law, double gravity,
+                                 const ContactSolution& solution, const FlowRule& law, double gravity,
                                  const CyclicSymmetry* symmetry) {
   CUPOLA_ASSERT(loads.size() == problem.v_star.size() && solution.gamma.size() == problem.b.size());
   StaticCertificate certificate;
   const bool rigid = smallest_compliance(problem) == 0.0;
-  const bool coulomb = law == FrictionLaw::coulomb;
+  const bool coulomb = !law.is_associated();
   certificate.forces_unique = forces_unique(problem, law);
   if (problem.num_blocks() == 0 || problem.num_contacts() == 0) {
     certificate.force_error.bounds = "no joint carries force";

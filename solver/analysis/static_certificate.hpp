@@ -5,6 +5,7 @@
 #include "solver/analysis/cyclic_symmetry.hpp"
 #include "solver/collision/contact_set.hpp"
 #include "solver/contact/problem/contact_problem.hpp"
+#include "solver/contact/problem/flow_rule.hpp"
 
 namespace cupola {
 
@@ -47,7 +48,7 @@ struct StaticCertificate {
 /// `loads`: N, N m (6 nb). `gravity`: m/s2, sets that smallest growth rate. `problem` and `solution` are
 /// those of the whole model; with a symmetry the linear algebra is done on one sector.
 StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, const ContactProblem& problem,
-                                 const ContactSolution& solution, FrictionLaw law, double gravity,
+                                 const ContactSolution& solution, const FlowRule& law, double gravity,
                                  const CyclicSymmetry* symmetry = nullptr);
 
 }  // namespace cupola

@@ -15,7 +15,9 @@
 namespace cupola {
 namespace {
 
-constexpr int kMaxSolves = 40;
+constexpr int kMaxSolves = 40, kMaxSolvesOfPath = 250;
+/// Newton iterations within which a point of the path converges, or h is too large.
+constexpr int kIterationsOfPath = 15;
 constexpr double kSolveShare = 0.1;  // part of the tolerance for the contact solve; inertia takes the rest
 
 /// Lower bound of the sum of normal forces of any equilibrium, over the sum found or the sum of the loads if
@@ -52,16 +54,14 @@ class ProximalPoint {
         contacts_(contacts),
         memories_(memories),
         options_(options),
+        associated_(options.solve.law.is_associated()),
         acceleration_(reference_acceleration(model, start)),
         largest_h_(largest_static_step(model, start, contacts)) {
+    follows_path_ =
+        !associated_ && options.solve.method == ContactMethod::newton && std::isfinite(largest_h_);
     set_step(first_static_step(model, start, contacts, acceleration_, options));
   }
 
-  /// Starts from the displacements and forces of another solve of the same scene.
-  void start_from(const StaticSolution& other) {
-    set_step(other.h);
-    x_ = other.step_solution;
-  }
   StaticSolution run();
 
  private:
@@ -74,6 +74,7 @@ class ProximalPoint {
   void speed_up(double contraction);
   double proof(const StaticSolution& trial) const;
   bool moves_steadily(double contraction, int count);
+  bool moves_far();
   StaticSolution finish(StaticOutcome outcome, std::string message);
 
   const Model& model_;
@@ -81,6 +82,8 @@ class ProximalPoint {
   const ContactSet& contacts_;
   const ContactMemories& memories_;
   const StaticOptions& options_;
+  const bool associated_;
+  bool follows_path_ = false;  // solve_static(): non-associated law, compliant joints, Newton's method
   const double acceleration_;  // m/s2, reference
   const double largest_h_;     // s
   ContactSolver solver_;
@@ -90,6 +93,10 @@ class ProximalPoint {
   double residual_ = 1.0;        // equilibrium residual of x_; at the start, of the unsupported structure
   double tightening_ = 1.0;      // factor on the tolerance of the contact solves
   int num_shortened_ = 0, num_steady_ = 0;
+  double settlement_ = 0.0;                                    // m, largest displacement of the first iterate
+  double failed_h_ = std::numeric_limits<double>::infinity();  // s, step at which Newton failed last
+  double steady_residual_ = 0.0;                               // at the start of the steady motion
+  double travel_ = 0.0;                                        // m, sum of the largest increments since then
 };
 
 /// Sets h and converts the last iterate: d = h v and F = gamma / h stay.
@@ -103,9 +110,9 @@ void ProximalPoint::set_step(double h) {
 /// Tolerance of the next contact solve: a small part of the last residual, as an inexact proximal-point
 /// method requires, but no smaller than the answer requires.
 double ProximalPoint::solve_tolerance() const {
-  constexpr double kCoarse = 1e-4;
-  constexpr double kShare = 1e-3;      // of the last residual
-  constexpr double kRounding = 1e-12;  // smallest tolerance that weight_over_load() may cause
+  const double kCoarse = follows_path_ ? 0.1 : 1e-4;
+  const double kShare = follows_path_ ? 0.03 : 1e-3;  // of the last residual
+  constexpr double kRounding = 1e-12;                 // smallest tolerance that weight_over_load() may cause
   const double scale = weight_over_load(model_, acceleration_);
   const double own = kSolveShare * options_.tolerance;
   const double fine = std::max(own * scale, std::min(own, kRounding));
@@ -117,7 +124,8 @@ void ProximalPoint::iterate() {
   solve.reference_speed = trial_.h * acceleration_;
   solve.tolerance = solve_tolerance();
   // After the first iteration few joints change their state, and the last factor is a good preconditioner.
-  solve.lag_factor = x_.v.size() > 0 && !has_many_blocks(step_.problem);
+  solve.lag_factor = !follows_path_ && x_.v.size() > 0 && !has_many_blocks(step_.problem);
+  if (follows_path_ && !solve.max_iterations) solve.max_iterations = kIterationsOfPath;
   ContactProblem& problem = step_.problem;
   const VecX rest = problem.v_star;
   const VecX before = x_.v.size() > 0 ? x_.v : VecX::Zero(rest.size());
@@ -157,10 +165,14 @@ bool ProximalPoint::is_accurate_enough(const StaticSolution& trial) const {
 /// A shorter step makes the contact problem easier, because inertia carries a larger share. False if this was
 /// tried often enough or the user limits the iterations.
 bool ProximalPoint::shorten_step() {
-  constexpr int kMaxShortened = 4;
-  constexpr double kFactor = 0.1;
-  if (options_.solve.max_iterations || ++num_shortened_ > kMaxShortened) return false;
-  set_step(kFactor * trial_.h);
+  constexpr int kMaxShortened = 4, kMaxShortenedOfPath = 40;
+  constexpr double kFactor = 0.1, kPathFactor = 0.4;
+  constexpr double kSettling = 0.0126;  // g h^2 is then of the size of the settlement (first_static_step())
+  if (options_.solve.max_iterations ||
+      ++num_shortened_ > (follows_path_ ? kMaxShortenedOfPath : kMaxShortened))
+    return false;
+  failed_h_ = trial_.h;
+  set_step(trial_.h * (!follows_path_ ? kFactor : num_shortened_ == 1 ? kSettling : kPathFactor));
   return true;
 }
 
@@ -168,10 +180,21 @@ bool ProximalPoint::shorten_step() {
 /// mode of eigenvalue lambda contracts by 1 / (1 + h^2 lambda). Rigid joints do not contract; what remains at
 /// rest is the error of the contact solve, summed over the courses.
 void ProximalPoint::speed_up(double contraction) {
+  constexpr double kBelowFailed = 0.7, kForgetting = 1.2;
   constexpr double kSlow = 0.1, kWanted = 1e-2, kSmallest = 2.0, kLargest = 10.0, kTightening = 0.1;
   if (contraction <= kSlow) return;
   if (trial_.speed_ratio <= kAtRest && std::isinf(largest_h_)) tightening_ *= kTightening;
   if (std::isinf(largest_h_)) return;
+  if (follows_path_) {
+    const int n = trial_.solve.iterations;
+    const double factor = n <= 3 ? 2.5 : n <= 6 ? 1.6 : n <= 9 ? 1.0 : 0.7;
+    // Just below a step that failed the next one fails too, until the structure has moved on.
+    const double limit = std::min(largest_h_, std::max(kBelowFailed * failed_h_, trial_.h));
+    failed_h_ *= kForgetting;
+    const double h = std::min(limit, factor * trial_.h);
+    if (h != trial_.h) set_step(h);
+    return;
+  }
   const double growth = contraction < 1.0 ? std::sqrt(contraction / (1.0 - contraction) / kWanted) : kLargest;
   const double h = std::min(largest_h_, std::clamp(growth, kSmallest, kLargest) * trial_.h);
   if (h > trial_.h) set_step(h);
@@ -195,6 +218,18 @@ bool ProximalPoint::moves_steadily(double contraction, int count) {
   return num_steady_ >= count;
 }
 
+/// True if blocks have moved by 25 times the settlement while the residual changed by less than a quarter.
+bool ProximalPoint::moves_far() {
+  constexpr double kChange = 0.25, kFar = 25.0;
+  if (std::abs(residual_ - steady_residual_) > kChange * steady_residual_) {
+    steady_residual_ = residual_;
+    travel_ = 0.0;
+    return false;
+  }
+  travel_ += largest_speed(trial_.increment);
+  return trial_.speed_ratio > kAtRest && travel_ > kFar * settlement_;
+}
+
 StaticSolution ProximalPoint::finish(StaticOutcome outcome, std::string message) {
   StaticSolution answer = std::move(outcome == StaticOutcome::unconverged && best_.h > 0.0 ? best_ : trial_);
   answer.iterations = trial_.iterations;
@@ -210,8 +245,9 @@ StaticSolution ProximalPoint::finish(StaticOutcome outcome, std::string message)
 
 StaticSolution ProximalPoint::run() {
   constexpr int kMoving = 3, kUnproven = 15;  // steady iterations until the search ends
-  const bool associated = options_.solve.law == FrictionLaw::associated;
-  for (int k = 0; k < kMaxSolves; ++k) {
+  const bool associated = associated_;
+  const int max_solves = follows_path_ ? kMaxSolvesOfPath : kMaxSolves;
+  for (int k = 0; k < max_solves; ++k) {
     iterate();
     options_.log(fmt::format(
         "static  h {:9.3e} s  iterations {:3d}  momentum {:9.2e}  law {:9.2e}  equilibrium {:9.2e}  "
@@ -226,6 +262,7 @@ StaticSolution ProximalPoint::run() {
                     fmt::format("the contact problem was not solved: {}", trial_.solve.message));
     }
     if (accepts(trial_)) break;
+    if (settlement_ == 0.0) settlement_ = trial_.h * largest_speed(trial_.step_solution.v);
     const double contraction = trial_.balance.residual / residual_;
     residual_ = trial_.balance.residual;
     x_ = trial_.step_solution;
@@ -239,7 +276,8 @@ StaticSolution ProximalPoint::run() {
                 "no equilibrium exists: blocks accelerate at up to {:.3g} m/s2, and an equilibrium would "
                 "need normal forces {:.2g} times the larger of those found and the loads",
                 trial_.speed_ratio * acceleration_, needed));
-      const bool steady = moves_steadily(contraction, associated ? kUnproven : kMoving);
+      const bool steady =
+          !follows_path_ ? moves_steadily(contraction, associated ? kUnproven : kMoving) : moves_far();
       if (associated && steady)
         return finish(
             StaticOutcome::unconverged,
@@ -251,9 +289,13 @@ StaticSolution ProximalPoint::run() {
       if (!associated && steady)
         return finish(
             StaticOutcome::moving,
-            fmt::format("a steady motion was found: blocks accelerate at up to {:.3g} m/s2; not proven: "
+            fmt::format("a steady motion was found: blocks accelerate at up to {:.3g} m/s2{}; not proven: "
                         "other contact forces might balance the loads",
-                        trial_.speed_ratio * acceleration_));
+                        trial_.speed_ratio * acceleration_,
+                        follows_path_ ? fmt::format(" and have moved by {:.3g} m, {:.0f} times their first "
+                                                    "settlement",
+                                                    travel_, travel_ / settlement_)
+                                      : ""));
     }
     speed_up(contraction);
   }
@@ -266,7 +308,7 @@ StaticSolution ProximalPoint::run() {
   }
   return finish(StaticOutcome::unconverged,
                 fmt::format("equilibrium residual {:.2e} > tolerance {:.2e} after {} solves",
-                            best_.balance.residual, options_.tolerance, kMaxSolves));
+                            best_.balance.residual, options_.tolerance, max_solves));
 }
 
 void certify(const Model& model, const State& start, const ContactSet& contacts, const StaticOptions& options,
@@ -289,7 +331,7 @@ void certify(const Model& model, const State& start, const ContactSet& contacts,
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
   StaticSolution solution;
-  if (options.solve.law == FrictionLaw::associated) {
+  if (options.solve.law.is_associated()) {
     solution = ProximalPoint(model, start, contacts, memories, options).run();
   } else {
     StaticOptions associated = options;
@@ -301,7 +343,6 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
       return first;
     }
     ProximalPoint coulomb(model, start, contacts, memories, options);
-    if (first.outcome == StaticOutcome::equilibrium) coulomb.start_from(first);
     const int iterations = first.iterations;
     first = {};
     solution = coulomb.run();

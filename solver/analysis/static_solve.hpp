@@ -72,9 +72,21 @@ struct StaticSolution {
 /// Where no equilibrium exists under the associated law, the increments tend to a mechanism u with w . u > 0
 /// that opens every joint or slides along it (kinematic_bound.hpp). `moving` requires that proof.
 ///
-/// Coulomb's law has no such theory: iterations may cycle, several equilibria may exist, and a steady motion
-/// does not exclude an equilibrium. The associated problem is solved first. What it proves to move also moves
-/// under Coulomb's law, because Coulomb's law admits the same forces; otherwise its solution is the start.
+/// Non-associated laws (dilatancy below 1, Coulomb's law at 0) have no such theory: several equilibria may exist,
+/// and a steady motion does not exclude an equilibrium. The associated problem is solved first: what it proves
+/// to move also moves under the other laws, because they admit the same forces. Otherwise the iterations
+/// follow a path from the solution with all contacts sticking, by pseudo-transient continuation (Kelley, Keyes
+/// 1998, "Convergence analysis of pseudo-transient continuation"): h grows where Newton's method converges in a
+/// few iterations and shrinks where it fails. The inertia term makes each point of the path easy, and the
+/// joints close before they slide. The path ends in one of four ways:
+///
+///   equilibrium   the residuals meet the tolerance
+///   moving        blocks moved by 25 times the first settlement while the imbalance changed by less than a quarter
+///   unconverged   h became too short: Newton's method fails on every step
+///   unconverged   the imbalance is still above the tolerance after 250 steps
+///
+/// A path in the dilatancy, from the associated solution to Coulomb's, is shorter far from collapse. Near collapse
+/// it passes through states that exist only because joints have opened: slip grows as 1 / dilatancy there.
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options);
 

@@ -33,11 +33,15 @@ DetectionOptions detection_options(const Case& scene) {
   return options;
 }
 
+FlowRule flow_rule(const Analysis& analysis) {
+  return analysis.dilatancy ? FlowRule(*analysis.dilatancy) : FlowRule(analysis.friction_law);
+}
+
 ContactSolverOptions contact_solver_options(const Analysis& analysis) {
   ContactSolverOptions options;
   options.tolerance = analysis.tolerance;
   options.method = analysis.method;
-  options.law = analysis.friction_law;
+  options.law = flow_rule(analysis);
   options.max_iterations = analysis.iteration_limit();
   return options;
 }

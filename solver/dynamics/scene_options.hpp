@@ -16,6 +16,7 @@ DetectionOptions detection_options(const Case& scene);
 
 /// Contact method, friction law, tolerance and iteration limit of any analysis. The reference speed stays
 /// unset: each step sets its own.
+FlowRule flow_rule(const Analysis& analysis);
 ContactSolverOptions contact_solver_options(const Analysis& analysis);
 
 /// Everything that a dynamic analysis of the case depends on.

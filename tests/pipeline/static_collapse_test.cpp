@@ -39,6 +39,28 @@ TEST(StaticCollapseSlow, DomeMovesUnderCoulombsLaw) {
   EXPECT_NE(summary.message.find("would need normal forces"), std::string::npos) << summary.message;
 }
 
+// The associated law's critical friction is the lowest of all flow rules, because they admit the same forces. All
+// brackets are found from the same cold start.
+TEST(StaticCollapse, CriticalFrictionIsLowestUnderTheAssociatedLaw) {
+  Case scene = dome(0.4);
+  scene.geometry.bond = RunningBond{.rings = 6, .blocks_per_ring = 12, .slices_per_block = 2};
+  scene.analysis.type = AnalysisType::limit;
+  scene.analysis.limit.parameter = LimitSearch::Parameter::friction;
+  scene.analysis.limit.low = 0.03;
+  scene.analysis.limit.high = 0.3;
+  scene.analysis.limit.relative_width = 0.02;
+  const Assembly assembly = cut_assembly(scene);
+  const auto bracket = [&](double dilatancy) {
+    scene.analysis.dilatancy = dilatancy;
+    const Summary summary = run_limit(scene, assembly, {}).value();
+    EXPECT_EQ(summary.status, Status::stable) << dilatancy << ": " << summary.message;
+    return summary.critical.value_or(CriticalValue{});
+  };
+  const CriticalValue associated = bracket(1.0);
+  for (const double dilatancy : {0.0, 0.3})
+    EXPECT_GE(bracket(dilatancy).stable, associated.moving) << dilatancy;
+}
+
 TEST(StaticCollapse, ArchMovesBelowItsMinimumThicknessAndStandsAboveIt) {
   for (const auto& [ratio, expected] : {std::pair{0.99, Status::moving}, {1.01, Status::stable}}) {
     const double thickness = ratio * 0.10672;  // minimum for 27 polygonal voussoirs, centreline radius 1 m

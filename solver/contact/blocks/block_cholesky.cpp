@@ -1,7 +1,6 @@
 #include "solver/contact/blocks/block_cholesky.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <span>
 
@@ -18,13 +17,6 @@ namespace cupola {
 namespace {
 
 constexpr int kTileRows = 64;  // blocks
-
-/// Rows of a block that are unknowns.
-std::span<const int> rows_of(const BlockPattern& pattern) {
-  static constexpr std::array kAll{0, 1, 2, 3, 4, 5};
-  static constexpr std::array kPlane{0, 2, 4};  // x, z, rot y
-  return pattern.plane ? std::span<const int>(kPlane) : std::span<const int>(kAll);
-}
 
 /// c (rows x columns) = beta c + alpha a b^T
 void multiply_transposed(int rows, int columns, int depth, double alpha, const double* a, int ld_a,
@@ -56,7 +48,7 @@ std::vector<BlockCholesky::Tile> BlockCholesky::tiles(int num_rows) {
 
 /// Copies the rows of the tile from the matrix into the panel.
 void BlockCholesky::fill(const BlockMatrix& matrix, int panel, const Tile& tile) {
-  const std::span<const int> unknowns = rows_of(pattern_);
+  const std::span<const int> unknowns = unknowns_of_block(pattern_);
   const int first_column = structure_.first_column[panel], columns = structure_.num_columns(panel);
   const std::int64_t ld = std::int64_t{m_} * structure_.num_rows(panel);
   double* L = values(panel);
@@ -162,7 +154,7 @@ bool BlockCholesky::factorize(const BlockPattern& pattern, const BlockMatrix& ma
     values_ = {};
     structure_ = analyze(pattern);
     pattern_ = pattern;
-    m_ = static_cast<int>(rows_of(pattern).size());
+    m_ = static_cast<int>(unknowns_of_block(pattern).size());
     values_.resize(m_ * m_ * structure_.value_start.back());
     products_ = {};
   }
@@ -208,7 +200,7 @@ bool BlockCholesky::factorize(const BlockPattern& pattern, const BlockMatrix& ma
 
 VecX BlockCholesky::solve(const VecX& rhs) const {
   CUPOLA_ASSERT(valid_ && rhs.size() == 6 * pattern_.num_blocks());
-  const std::span<const int> unknowns = rows_of(pattern_);
+  const std::span<const int> unknowns = unknowns_of_block(pattern_);
   const int nb = pattern_.num_blocks();
   VecX x(m_ * nb), below(m_ * nb);
   for (int k = 0; k < nb; ++k) {

@@ -1,6 +1,7 @@
 #include "solver/contact/blocks/block_matrix.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -20,6 +21,12 @@ std::pair<int, int> column_and_row(const ContactProblem& p, int i) {
 }
 
 }  // namespace
+
+std::span<const int> unknowns_of_block(const BlockPattern& pattern) {
+  static constexpr std::array kAll{0, 1, 2, 3, 4, 5};
+  static constexpr std::array kPlane{0, 2, 4};  // x, z, rot y
+  return pattern.plane ? std::span<const int>(kPlane) : std::span<const int>(kAll);
+}
 
 ContactGraph contact_graph(const ContactProblem& problem) {
   const int nb = problem.num_blocks(), nc = problem.num_contacts();

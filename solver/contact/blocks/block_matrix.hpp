@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solver/contact/problem/contact_problem.hpp"
@@ -15,6 +16,9 @@ struct BlockPattern {
   int num_pairs() const { return static_cast<int>(row.size()); }
   bool operator==(const BlockPattern&) const = default;
 };
+
+/// Rows of a 6x6 block that are unknowns: all, or x, z and rot y in the plane.
+std::span<const int> unknowns_of_block(const BlockPattern& pattern);
 
 /// Symmetric matrix of 6x6 blocks with a given pattern.
 struct BlockMatrix {

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include <Eigen/SparseLU>
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
+#include "solver/contact/methods/gmres.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/contact/problem/whitening.hpp"
@@ -18,25 +19,20 @@ namespace cupola {
 
 namespace {
 
-using Sparse = Eigen::SparseMatrix<double>;
-
 /// w = v_star + D Gamma(D^T w + b - R centre), whitened.
 struct CoulombSubproblem {
   const ContactProblem& p;
+  const ContactGraph& graph;
+  double dilatancy;
   VecX R;       ///< 1/kg (nc)
   VecX centre;  ///< gamma_k (3 nc)
 
-  ContactLaw contact(int i) const {
-    ContactLaw law = contact_law(p, i);
-    law.e_n += R[i];
-    law.e_t += R[i];
-    return law;
-  }
+  ContactLaw contact(int i) const { return {p.E[3 * i] + R[i], p.E[3 * i + 1] + R[i], p.mu[i], dilatancy}; }
   VecX velocity(const VecX& w) const;
   VecX impulses(const VecX& w) const;
   VecX residual(const VecX& w) const { return w - p.v_star - generalized_impulse(p, impulses(w)); }
-  /// d residual / d w = I + D G D^T.
-  Sparse jacobian(const VecX& w) const;
+  /// d residual / d w = I + D G D^T at the relative velocities y.
+  UnsymmetricBlockMatrix jacobian(const VecX& y) const;
 };
 
 VecX CoulombSubproblem::velocity(const VecX& w) const {
@@ -49,48 +45,76 @@ VecX CoulombSubproblem::impulses(const VecX& w) const {
   const VecX y = velocity(w);
   VecX gamma(y.size());
   for (int i = 0; i < p.num_contacts(); ++i)
-    gamma.segment<3>(3 * i) = coulomb_impulse(contact(i), y.segment<3>(3 * i));
+    gamma.segment<3>(3 * i) = contact_impulse(contact(i), y.segment<3>(3 * i));
   return gamma;
 }
 
-Sparse CoulombSubproblem::jacobian(const VecX& w) const {
-  const VecX y = velocity(w);
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(w.size() + 144 * static_cast<size_t>(p.num_contacts()));
-  for (int k = 0; k < w.size(); ++k) entries.emplace_back(k, k, 1.0);
-  const auto add = [&entries](int row_block, int column_block, const Mat6& value) {
-    if (row_block == ContactProblem::kFixed || column_block == ContactProblem::kFixed) return;
-    for (int c = 0; c < 6; ++c)
-      for (int r = 0; r < 6; ++r) entries.emplace_back(6 * row_block + r, 6 * column_block + c, value(r, c));
-  };
-  for (int i = 0; i < p.num_contacts(); ++i) {
-    const Mat3 G = coulomb_stiffness(contact(i), y.segment<3>(3 * i));
-    if (G.isZero(0.0)) continue;
-    const Mat63 D_a_G = p.D_a[i] * G, D_b_G = p.D_b[i] * G;
-    const int a = p.block_a[i], b = p.block_b[i];
-    add(a, a, D_a_G * p.D_a[i].transpose());
-    add(a, b, D_a_G * p.D_b[i].transpose());
-    add(b, a, D_b_G * p.D_a[i].transpose());
-    add(b, b, D_b_G * p.D_b[i].transpose());
-  }
-  Sparse J(w.size(), w.size());
-  J.setFromTriplets(entries.begin(), entries.end());
-  return J;
+UnsymmetricBlockMatrix CoulombSubproblem::jacobian(const VecX& y) const {
+  std::vector<Mat3> G(p.num_contacts());
+  for (int i = 0; i < p.num_contacts(); ++i) G[i] = contact_stiffness(contact(i), y.segment<3>(3 * i));
+  return assemble_jacobian(p, graph, G);
 }
 
-/// Semismooth Newton from `w`. True if |F| <= `tolerance`.
-bool solve_coulomb_subproblem(const CoulombSubproblem& sub, double tolerance, VecX* w,
-                              SolveSummary* summary) {
-  constexpr int kMaxIterations = 30;
-  constexpr double kShortest = 1e-4;
+/// The solution with all contacts sticking, including those with a gap. False if the matrix is singular.
+bool all_stick_start(const CoulombSubproblem& sub, BlockLu* lu, VecX* w) {
+  const ContactProblem& p = sub.p;
+  VecX closing = VecX::Zero(p.b.size());  // along the normal: the contact sticks
+  for (int i = 0; i < p.num_contacts(); ++i) closing[3 * i] = -1.0;
+  if (!lu->factorize(sub.graph.pattern, sub.jacobian(closing))) return false;
+  VecX impulse(p.b.size());
+  const VecX y = sub.velocity(VecX::Zero(p.v_star.size()));
+  for (int i = 0; i < p.num_contacts(); ++i)
+    impulse.segment<3>(3 * i) =
+        -contact_stiffness(sub.contact(i), closing.segment<3>(3 * i)) * y.segment<3>(3 * i);
+  *w = lu->solve(p.v_star + generalized_impulse(p, impulse));
+  return w->allFinite();
+}
+
+double largest_block(const VecX& F) {
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < F.size(); k += 6) {
+    const double norm = F.segment<6>(k).norm();
+    if (!(norm <= largest)) largest = norm;  // keeps NaN
+  }
+  return largest;
+}
+
+/// J d = F by GMRES with the existing factor where `forcing` is given and that succeeds, otherwise by a new
+/// factor.
+bool solve_direction(const BlockPattern& pattern, const UnsymmetricBlockMatrix& J, const VecX& F,
+                     std::optional<double> forcing, BlockLu* lu, VecX* d, SolveSummary* summary) {
+  constexpr int kMaxIterations = 6;  // half the cost of a factorisation at 1,000 blocks
+  if (forcing && lu->has_factor() && lu->pattern() == pattern) {
+    const int iterations = gmres([&](const VecX& x) { return multiply(pattern, J, x); },
+                                 [&](const VecX& r) { return lu->solve(r); }, F, *forcing, kMaxIterations, d);
+    summary->conjugate_gradients += iterations > 0 ? iterations : kMaxIterations;
+    if (iterations > 0) return true;
+  }
+  ++summary->factorizations;
+  if (!lu->factorize(pattern, J)) return false;
+  *d = lu->solve(F);
+  return d->allFinite();
+}
+
+/// Semismooth Newton from `w`, with a line search on |F|. True if no block of F exceeds `tolerance`; otherwise w
+/// is the last iterate. Gives up where |F| has not halved in six iterations.
+bool solve_subproblem(const CoulombSubproblem& sub, double tolerance, const SolveOptions& options,
+                      BlockLu* lu, VecX* w, SolveSummary* summary) {
+  constexpr int kMaxIterations = 30, kPatience = 6;
+  constexpr double kShortest = 1.0 / 64.0, kDecrease = 1e-4;
+  const int max_iterations = options.max_iterations.value_or(kMaxIterations);
+  std::vector<double> norms;
   VecX F = sub.residual(*w);
-  for (int k = 0; k < kMaxIterations && F.norm() > tolerance; ++k) {
+  for (int k = 0; k < max_iterations && !(largest_block(F) <= tolerance); ++k) {
     throw_if_interrupted();
+    norms.push_back(F.norm());
+    if (k >= kPatience && norms[k] > 0.5 * norms[k - kPatience]) return false;
     ++summary->iterations;
-    ++summary->factorizations;
-    Eigen::SparseLU<Sparse> lu(sub.jacobian(*w));
-    if (lu.info() != Eigen::Success) return false;
-    const VecX d = lu.solve(F);
+    std::optional<double> forcing;
+    if (options.lag_factor) forcing = std::clamp(0.3 * tolerance / largest_block(F), 1e-2, 0.1);
+    VecX d;
+    if (!solve_direction(sub.graph.pattern, sub.jacobian(sub.velocity(*w)), F, forcing, lu, &d, summary))
+      return false;
     VecX trial, F_trial;
     double t = 2.0;
     do {  // halved until |F| decreases: the map has kinks, so its slope is unreliable
@@ -98,18 +122,48 @@ bool solve_coulomb_subproblem(const CoulombSubproblem& sub, double tolerance, Ve
       trial = *w - t * d;
       F_trial = sub.residual(trial);
       ++summary->line_search_evaluations;
-    } while (!(F_trial.norm() < (1.0 - 0.1 * t) * F.norm()) && t > kShortest);
+    } while (!(F_trial.norm() < (1.0 - kDecrease * t) * F.norm()) && t > kShortest);
     if (!(F_trial.norm() < F.norm())) return false;
-    *w = trial;
-    F = F_trial;
+    *w = std::move(trial);
+    F = std::move(F_trial);
   }
-  return F.norm() <= tolerance;
+  return largest_block(F) <= tolerance;
 }
+
+/// True if some compliance that the law uses is zero.
+bool has_rigid_contacts(const ContactProblem& p) {
+  for (int i = 0; i < p.num_contacts(); ++i)
+    if (is_rigid(contact_law(p, i))) return true;
+  return false;
+}
+
+/// The best solution so far, judged by residuals of the given problem.
+struct BestSolution {
+  const ContactProblem& problem;
+  const WhitenedProblem& white;
+  const ContactSolverOptions& options;
+  ContactSolution* solution;
+  double error = std::numeric_limits<double>::infinity();
+  Residuals residuals{};
+
+  void include(const VecX& w, const VecX& gamma, SolveSummary* summary) {
+    const ContactSolution x{white.to_v(w), gamma};
+    if (!x.v.allFinite() || !x.gamma.allFinite()) return;
+    const Residuals now = compute_residuals(problem, x, options.reference_speed, options.law);
+    summary->residual_history.push_back(largest_residual(now));
+    const double excess_now = excess(now, options.tolerance);
+    if (!(excess_now < error)) return;
+    error = excess_now;
+    residuals = now;
+    *solution = x;
+  }
+};
 
 }  // namespace
 
-SolveSummary solve_coulomb_newton(const ContactProblem& problem, const SolveOptions& options,
+SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSolverOptions& options,
                                   ContactSolution* solution) {
+  constexpr double kShare = 0.5;  // of the tolerance, so that residuals computed anew meet it too
   constexpr int kMaxOuterIterations = 200;
   constexpr double kLargestShare = 1e3, kSmallestShare = 1e-6;
   const double start = wall_seconds();
@@ -117,48 +171,73 @@ SolveSummary solve_coulomb_newton(const ContactProblem& problem, const SolveOpti
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
   const WhitenedProblem white = whiten(problem);
-  VecX w = solution->v.size() == problem.v_star.size() ? white.to_w(solution->v) : VecX(white.problem.v_star);
+  const ContactGraph graph = contact_graph(problem);
+  CoulombSubproblem sub{white.problem, graph, options.law.dilatancy, VecX::Zero(problem.num_contacts()),
+                        VecX::Zero(problem.b.size())};
+  const bool rigid = has_rigid_contacts(problem);
+  const double scale = root_mean_mass(problem) * options.reference_speed;
+  const double tolerance = kShare * options.tolerance * scale;
+  BestSolution best{problem, white, options, solution};
+  VecX w = white.problem.v_star;
+  if (solution->v.size() == problem.v_star.size())
+    w = white.to_w(solution->v);
+  else if (!rigid)
+    all_stick_start(sub, &lu_, &w);
+
+  // 1. Plain Newton
+  if (!rigid) {
+    VecX next = w;
+    const bool solved = solve_subproblem(sub, tolerance, options, &lu_, &next, &summary);
+    if (solved || options.max_iterations) {
+      const double reached = largest_block(sub.residual(next)) / scale;
+      *solution = {white.to_v(next), sub.impulses(next)};
+      summary.reached = reached;
+      summary.residual_history.push_back(reached);
+      const bool finite = std::isfinite(reached) && solution->v.allFinite() && solution->gamma.allFinite();
+      summary.ending = !finite                                         ? SolveEnding::failed
+                       : solved                                        ? SolveEnding::converged
+                       : summary.iterations >= *options.max_iterations ? SolveEnding::max_iterations
+                                                                       : SolveEnding::stalled;
+      summary.message = fmt::format("momentum residual {:.2e} {} tolerance {:.2e} after {} iterations",
+                                    reached, solved ? "<=" : ">", options.tolerance, summary.iterations);
+      summary.time_seconds = wall_seconds() - start;
+      return summary;
+    }
+    best.include(next, sub.impulses(next), &summary);
+  }
+
+  // 2. Proximal points
   VecX diagonal(problem.num_contacts());
   for (int i = 0; i < problem.num_contacts(); ++i) diagonal[i] = delassus_trace(problem, i) / 3.0;
-  CoulombSubproblem sub{white.problem, {}, VecX::Zero(problem.b.size())};
   if (solution->gamma.size() == problem.b.size()) sub.centre = solution->gamma;
-
-  const double tolerance = 0.1 * options.tolerance * root_mean_mass(problem) * options.reference_speed;
-  double share = 1.0, best = std::numeric_limits<double>::infinity();
-  Residuals best_residuals;
-  while (best > 1.0 && summary.outer_iterations < kMaxOuterIterations && share <= kLargestShare) {
+  SolveOptions fresh = options;
+  fresh.lag_factor = false;  // R changes the matrix
+  double share = 1.0;
+  while (best.error > 1.0 && summary.outer_iterations < kMaxOuterIterations && share <= kLargestShare) {
     ++summary.outer_iterations;
     sub.R = share * diagonal;
     VecX next = w;
-    if (!solve_coulomb_subproblem(sub, tolerance, &next, &summary)) {
+    if (!solve_subproblem(sub, 0.2 * tolerance, fresh, &lu_, &next, &summary)) {
       share *= 10.0;
       continue;
     }
     share = std::max(0.3 * share, kSmallestShare);
     w = next;
     sub.centre = sub.impulses(w);
-    const ContactSolution x{white.to_v(w), sub.centre};
-    CUPOLA_ASSERT(x.v.allFinite() && x.gamma.allFinite());
-    const Residuals residuals = compute_residuals(problem, x, options.reference_speed, FrictionLaw::coulomb);
-    const double error = excess(residuals, options.tolerance);
-    summary.residual_history.push_back(largest_residual(residuals));
-    if (error < best) {
-      best = error;
-      best_residuals = residuals;
-      *solution = x;
-    }
+    best.include(w, sub.centre, &summary);
   }
   summary.time_seconds = wall_seconds() - start;
-  if (!std::isfinite(best)) {
-    summary.message = fmt::format("no proximal point of Coulomb's law found in {} outer iterations",
-                                  summary.outer_iterations);
+  if (!std::isfinite(best.error)) {
+    summary.message =
+        fmt::format("Newton found no usable point of the friction law in {} iterations", summary.iterations);
     return summary;
   }
-  summary.ending = best <= 1.0 ? SolveEnding::converged : SolveEnding::stalled;
+  summary.ending = best.error <= 1.0 ? SolveEnding::converged : SolveEnding::stalled;
   summary.measure = ErrorMeasure::all_residuals;
-  summary.reached = largest_residual(best_residuals);
-  summary.message = fmt::format("{}, after {} proximal points",
-                                residuals_text(best_residuals, options.tolerance), summary.outer_iterations);
+  summary.reached = largest_residual(best.residuals);
+  summary.message = fmt::format("{}, after {} Newton iterations for {} proximal points",
+                                residuals_text(best.residuals, options.tolerance), summary.iterations,
+                                summary.outer_iterations);
   return summary;
 }
 

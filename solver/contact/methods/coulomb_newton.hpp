@@ -1,24 +1,36 @@
 #pragma once
 
+#include "solver/contact/blocks/block_lu.hpp"
 #include "solver/contact/problem/contact_problem.hpp"
 #include "solver/contact/problem/solve_options.hpp"
 #include "solver/contact/problem/solve_summary.hpp"
 
 namespace cupola {
 
-/// Solves a contact problem of any compliance, zero included, under Coulomb's law by the proximal point
-/// method. Each subproblem is solved by a semismooth Newton method in the velocities:
+/// Semismooth Newton method in the velocities for any flow rule, Coulomb's law above all, and any compliance:
 ///
-///     M (v - v_star) = D gamma,   gamma = Gamma(D^T v + b - R gamma_k),   v, gamma -> v, gamma_k+1
+///     F(v) = M (v - v_star) - D Gamma(D^T v + b) = 0,    (M + D G D^T) dv = -F,    v <- v + t dv
 ///
-/// Gamma is Coulomb's explicit law for the compliance E + R (coulomb_impulse in cone.hpp). A fixed point
-/// solves the given problem for any R >= 0. R is a share of the Delassus block of each contact: it grows
-/// tenfold where Newton fails and shrinks where it succeeds. The Jacobian is unsymmetric. Each iteration
-/// costs a sparse LU of 6 nb unknowns, several times the cost of the Cholesky factor of a convex solve. Used
-/// therefore only where the outer iterations (outer_iterations.hpp, De Saxce's fixed point) stall.
+/// Gamma is the explicit impulse of a compliant contact (contact_impulse in cone.hpp), G its unsymmetric
+/// derivative. t is halved until |F| in the norm of M^-1 decreases. Without an initial guess the start is the
+/// solution with all contacts sticking. As F is not the gradient of a cost, Newton may end in a minimum of
+/// |F|. The smaller h, that is the larger the share of inertia, the rarer this is.
 ///
-/// Converged when excess() of the residuals is <= 1, as for the outer iterations.
-SolveSummary solve_coulomb_newton(const ContactProblem& problem, const SolveOptions& options,
-                                  ContactSolution* solution);
+/// Rigid contacts, and compliant ones where plain Newton fails, are solved by the proximal point method: Gamma
+/// takes the compliance E + R and the velocity D^T v + b - R gamma_k. Its fixed point solves the given problem
+/// for any R >= 0. R is a share of the Delassus block of each contact: it grows tenfold where Newton fails and
+/// shrinks where it succeeds. A given max_iterations excludes this second attempt.
+///
+/// The solver object keeps the symbolic factor while the same pairs of blocks touch.
+///
+/// Converged when excess() of the residuals is <= 1.
+class CoulombNewton {
+ public:
+  SolveSummary solve(const ContactProblem& problem, const ContactSolverOptions& options,
+                     ContactSolution* solution);
+
+ private:
+  BlockLu lu_;
+};
 
 }  // namespace cupola

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SparseLU>
+#include <Eigen/UmfPackSupport>
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
@@ -19,11 +19,11 @@ using Sparse = Eigen::SparseMatrix<double>;
 /// One proximal subproblem: gamma = Gamma(W gamma + q - R centre).
 struct DelassusSubproblem {
   const DelassusProblem& p;
-  FrictionLaw law;
+  FlowRule law;
   VecX R;       ///< (nc)
   VecX centre;  ///< gamma_k (3 nc)
 
-  ContactLaw contact(int i) const { return {R[i], R[i], p.mu[i]}; }
+  ContactLaw contact(int i) const { return {R[i], R[i], p.mu[i], law.dilatancy}; }
   VecX velocity(const VecX& gamma) const {
     VecX y = p.W * gamma + p.q;
     for (int i = 0; i < p.num_contacts(); ++i) y.segment<3>(3 * i) -= R[i] * centre.segment<3>(3 * i);
@@ -39,8 +39,7 @@ VecX DelassusSubproblem::residual(const VecX& gamma) const {
   VecX F = gamma;
   for (int i = 0; i < p.num_contacts(); ++i) {
     const Vec3 y_i = y.segment<3>(3 * i);
-    F.segment<3>(3 * i) -=
-        law == FrictionLaw::coulomb ? coulomb_impulse(contact(i), y_i) : contact_impulse(contact(i), y_i);
+    F.segment<3>(3 * i) -= contact_impulse(contact(i), y_i);
   }
   return F;
 }
@@ -51,8 +50,7 @@ Sparse DelassusSubproblem::jacobian(const VecX& gamma) const {
   entries.reserve(9 * p.num_contacts());
   for (int i = 0; i < p.num_contacts(); ++i) {
     const Vec3 y_i = y.segment<3>(3 * i);
-    const Mat3 G =
-        law == FrictionLaw::coulomb ? coulomb_stiffness(contact(i), y_i) : contact_stiffness(contact(i), y_i);
+    const Mat3 G = contact_stiffness(contact(i), y_i);
     for (int c = 0; c < 3; ++c) {
       for (int r = 0; r < 3; ++r) entries.emplace_back(3 * i + r, 3 * i + c, G(r, c));
     }
@@ -75,7 +73,7 @@ bool solve_delassus_subproblem(const DelassusSubproblem& sub, double tolerance, 
     if (F.norm() <= tolerance * gamma->norm()) return true;
     ++summary->iterations;
     ++summary->factorizations;
-    Eigen::SparseLU<Sparse> lu(sub.jacobian(*gamma));
+    Eigen::UmfPackLU<Sparse> lu(sub.jacobian(*gamma));
     if (lu.info() != Eigen::Success) return false;
     const VecX d = lu.solve(F);
     double t = 1.0;

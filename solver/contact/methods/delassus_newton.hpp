@@ -7,7 +7,7 @@ namespace cupola {
 
 struct DelassusOptions {
   double tolerance = 1e-9;  ///< on the larger of fclib_merit and scaled_merit, > 0
-  FrictionLaw law = FrictionLaw::coulomb;
+  FlowRule law = FrictionLaw::coulomb;
   int max_outer_iterations = 500;  ///< >= 1
 };
 

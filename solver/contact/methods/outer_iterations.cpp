@@ -34,11 +34,12 @@ VecX proximal_compliance(const ContactProblem& p, double share) {
 }
 
 /// b' - b = s n - R gamma at (v, gamma), with De Saxce's s = mu |y_t|, y = D^T v + b + E gamma (3 nc).
-VecX shift_at(const ContactProblem& p, const ContactSolution& x, const VecX& R, FrictionLaw law) {
+VecX shift_at(const ContactProblem& p, const ContactSolution& x, const VecX& R, const FlowRule& law) {
   VecX shift = -R.cwiseProduct(x.gamma);
-  if (law == FrictionLaw::associated) return shift;
+  if (law.is_associated()) return shift;
   const VecX y = relative_velocity(p, x.v) + p.b + p.E.cwiseProduct(x.gamma);
-  for (int i = 0; i < p.num_contacts(); ++i) shift[3 * i] += p.mu[i] * y.segment<2>(3 * i + 1).norm();
+  for (int i = 0; i < p.num_contacts(); ++i)
+    shift[3 * i] += (1.0 - law.dilatancy) * p.mu[i] * y.segment<2>(3 * i + 1).norm();
   return shift;
 }
 
@@ -50,7 +51,7 @@ class OuterIteration {
         options_(options),
         convex_(problem),
         x_(guess),
-        accelerated_(options.law == FrictionLaw::coulomb || smallest_compliance(problem) > 0.0),
+        accelerated_(!options.law.is_associated() || smallest_compliance(problem) > 0.0),
         anderson_(kDepth) {
     if (x_.gamma.size() != problem.b.size()) x_.gamma = VecX::Zero(problem.b.size());
     if (x_.v.size() != problem.v_star.size()) x_.v = VecX(0);

@@ -1,7 +1,6 @@
 #include "solver/contact/methods/solve_contact.hpp"
 
 #include "assembly/base/error.hpp"
-#include "solver/contact/methods/coulomb_newton.hpp"
 #include "solver/contact/methods/method_table.hpp"
 #include "solver/contact/methods/outer_iterations.hpp"
 #include "solver/contact/problem/cone.hpp"
@@ -29,13 +28,15 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
                                   ContactSolution* solution) {
   const bool rigid = has_rigid_contact(problem);
   const MethodTraits& method = method_traits(options.method);
+  if (!options.law.is_associated() && options.method == ContactMethod::newton)
+    return coulomb_.solve(problem, options, solution);
   const auto convex = [&](const ContactProblem& p, const SolveOptions& o, ContactSolution* x) {
     const SolveSummary summary = method.solve(newton_, p, o, x);
     CUPOLA_ASSERT(!summary.usable() || (x->v.size() == p.v_star.size() && x->gamma.size() == p.b.size()));
     CUPOLA_ASSERT(!summary.usable() || (x->v.allFinite() && x->gamma.allFinite()));
     return summary;
   };
-  if (!rigid && options.law == FrictionLaw::associated) {
+  if (!rigid && options.law.is_associated()) {
     SolveSummary first = convex(problem, options, solution);
     if (!first.usable() || first.ending == SolveEnding::converged || !method.primal) return first;
     if (options.max_iterations) return first;  // the limit of the caller
@@ -51,24 +52,9 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
     *solution = polished;
     return last.after(first);
   }
-  SolveSummary summary;
-  if (options.law == FrictionLaw::associated && !method.primal) {
-    summary = convex(problem, options, solution);
-  } else {
-    const double share = rigid && method.primal ? kProximalShare : 0.0;
-    summary = solve_by_outer_iterations(problem, {options, share}, convex, solution);
-  }
-  const bool fixed_point_fails =
-      options.law == FrictionLaw::coulomb && summary.ending == SolveEnding::stalled;
-  if (fixed_point_fails && !options.max_iterations) {
-    ContactSolution again = *solution;
-    SolveSummary last = solve_coulomb_newton(problem, options, &again);
-    if (last.ending == SolveEnding::converged) {
-      *solution = again;
-      summary = last.after(summary);
-    }
-  }
-  return summary;
+  if (options.law.is_associated() && !method.primal) return convex(problem, options, solution);
+  const double share = rigid && method.primal ? kProximalShare : 0.0;
+  return solve_by_outer_iterations(problem, {options, share}, convex, solution);
 }
 
 SolveSummary solve_contact(const ContactProblem& problem, const ContactSolverOptions& options,

@@ -6,7 +6,7 @@ namespace cupola {
 
 ContactRegion contact_region(const ContactLaw& law, const Vec3& y) {
   const double y_t = y.tail<2>().norm();
-  if (y[0] >= law.mu * y_t) return ContactRegion::separation;
+  if (y[0] >= law.dilatancy * law.mu * y_t) return ContactRegion::separation;
   if (law.mu > 0.0 && y_t * law.e_n <= -law.mu * y[0] * law.e_t) return ContactRegion::stick;
   return ContactRegion::slip;
 }
@@ -21,7 +21,8 @@ Eigen::Vector2d slip_direction(const Vec3& y) {
 
 /// Normal impulse of a slipping contact.
 double slip_impulse(const ContactLaw& law, const Vec3& y) {
-  return (law.mu * y.tail<2>().norm() - y[0]) / (law.e_n + law.mu * law.mu * law.e_t);
+  const double theta_mu = law.dilatancy * law.mu;
+  return (theta_mu * y.tail<2>().norm() - y[0]) / (law.e_n + theta_mu * law.mu * law.e_t);
 }
 
 /// At mu = 0 the tangential compliance is unused and may be NaN or infinite.
@@ -61,41 +62,15 @@ Mat3 contact_stiffness(const ContactLaw& given, const Vec3& y) {
   }
   const Eigen::Vector2d t = slip_direction(y);
   const Vec3 ray(1.0, -law.mu * t[0], -law.mu * t[1]);  // gamma = a ray
-  G.noalias() = ray * ray.transpose() / (law.e_n + law.mu * law.mu * law.e_t);
+  const double theta_mu = law.dilatancy * law.mu;
+  const Vec3 opening(1.0, -theta_mu * t[0], -theta_mu * t[1]);  // a is proportional to -opening . y
+  G.noalias() = ray * opening.transpose() / (law.e_n + theta_mu * law.mu * law.e_t);
   const double y_t = y.tail<2>().norm();
   if (y_t > 0.0) {  // derivative of the direction of the ray
     const Eigen::Vector2d s(-t[1], t[0]);
     const Eigen::Matrix2d across = s * s.transpose();
     G.bottomRightCorner<2, 2>() += (law.mu * slip_impulse(law, y) / y_t) * across;
   }
-  return G;
-}
-
-Vec3 coulomb_impulse(const ContactLaw& law, const Vec3& y) {
-  if (y[0] >= 0.0) return Vec3::Zero();
-  const double gamma_n = -y[0] / law.e_n;
-  const double y_t = y.tail<2>().norm();
-  Vec3 gamma(gamma_n, 0.0, 0.0);
-  if (law.mu == 0.0 || y_t == 0.0) return gamma;
-  const double gamma_t = std::min(y_t / law.e_t, law.mu * gamma_n);
-  gamma.tail<2>() = -gamma_t / y_t * y.tail<2>();
-  return gamma;
-}
-
-Mat3 coulomb_stiffness(const ContactLaw& law, const Vec3& y) {
-  Mat3 G = Mat3::Zero();
-  if (y[0] >= 0.0) return G;
-  const double gamma_n = -y[0] / law.e_n;
-  const double y_t = y.tail<2>().norm();
-  G(0, 0) = 1.0 / law.e_n;
-  if (law.mu == 0.0) return G;
-  if (y_t <= law.mu * gamma_n * law.e_t) {
-    G(1, 1) = G(2, 2) = 1.0 / law.e_t;
-    return G;
-  }
-  const Eigen::Vector2d t = y.tail<2>() / y_t, s(-t[1], t[0]);
-  G.bottomLeftCorner<2, 1>() = -law.mu / law.e_n * t;
-  G.bottomRightCorner<2, 2>() = (law.mu * gamma_n / y_t) * Eigen::Matrix2d(s * s.transpose());
   return G;
 }
 

@@ -30,13 +30,13 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> whitened_contact_matrix(const Conta
 }
 
 /// |gamma - P(gamma - rho (u + s n))|.
-double natural_map(const DelassusProblem& p, const VecX& gamma, FrictionLaw law, const VecX& rho) {
+double natural_map(const DelassusProblem& p, const VecX& gamma, const FlowRule& law, const VecX& rho) {
   CUPOLA_ASSERT(gamma.size() == p.q.size() && rho.size() == p.num_contacts());
   const VecX u = p.W * gamma + p.q;
   double squared = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {
     Vec3 velocity = u.segment<3>(3 * i);
-    if (law == FrictionLaw::coulomb) velocity[0] += p.mu[i] * velocity.tail<2>().norm();
+    if (!law.is_associated()) velocity[0] += (1.0 - law.dilatancy) * p.mu[i] * velocity.tail<2>().norm();
     const Vec3 gamma_i = gamma.segment<3>(3 * i);
     squared += (gamma_i - project_on_cone({1.0, 1.0, p.mu[i]}, gamma_i - rho[i] * velocity)).squaredNorm();
   }
@@ -57,12 +57,12 @@ DelassusProblem make_delassus(const ContactProblem& problem) {
   return result;
 }
 
-double fclib_merit(const DelassusProblem& problem, const VecX& gamma, FrictionLaw law) {
+double fclib_merit(const DelassusProblem& problem, const VecX& gamma, const FlowRule& law) {
   return natural_map(problem, gamma, law, VecX::Ones(problem.num_contacts())) /
          (1.0 + std::sqrt(problem.q.norm()));
 }
 
-double scaled_merit(const DelassusProblem& problem, const VecX& gamma, FrictionLaw law) {
+double scaled_merit(const DelassusProblem& problem, const VecX& gamma, const FlowRule& law) {
   const double error = natural_map(problem, gamma, law, mean_diagonal(problem).cwiseInverse());
   return error == 0.0 ? 0.0 : gamma.norm() > 0.0 ? error / gamma.norm() : 1.0;
 }

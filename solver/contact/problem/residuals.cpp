@@ -28,7 +28,7 @@ namespace {
 /// Visits every contact with its impulse, the impulse that its law gives, and the metric of the projection:
 /// visit(i, gamma, expected, rigid metric or 0).
 template <class Visit>
-void for_each_expected_impulse(const ContactProblem& p, const ContactSolution& x, FrictionLaw kind,
+void for_each_expected_impulse(const ContactProblem& p, const ContactSolution& x, const FlowRule& kind,
                                Visit visit) {
   const VecX y0 = relative_velocity(p, x.v) + p.b;
   for (int i = 0; i < p.num_contacts(); ++i) {
@@ -36,7 +36,7 @@ void for_each_expected_impulse(const ContactProblem& p, const ContactSolution& x
     Vec3 y = y0.segment<3>(3 * i);
     ContactLaw law = contact_law(p, i);
     const Vec3 elastic(law.e_n * gamma[0], law.e_t * gamma[1], law.e_t * gamma[2]);
-    if (kind == FrictionLaw::coulomb) y[0] += law.mu * (y + elastic).tail<2>().norm();
+    if (!kind.is_associated()) y[0] += (1.0 - kind.dilatancy) * law.mu * (y + elastic).tail<2>().norm();
     double rigid_metric = 0.0;
     if (is_rigid(law)) {  // gamma - rho (y + E gamma) as the impulse of a contact of compliance 1/rho
       rigid_metric = law.e_n = law.e_t = delassus_trace(p, i);
@@ -47,7 +47,7 @@ void for_each_expected_impulse(const ContactProblem& p, const ContactSolution& x
 }
 
 /// Sets contact_law and rigid_contact_speed.
-void measure_contact_law(const ContactProblem& p, const ContactSolution& x, FrictionLaw kind,
+void measure_contact_law(const ContactProblem& p, const ContactSolution& x, const FlowRule& kind,
                          double reference_speed, Residuals* residuals) {
   double squared_error = 0.0, squared_expected = 0.0;
   const auto add = [&](int, const Vec3& gamma, const Vec3& expected, double rigid_metric) {
@@ -93,10 +93,11 @@ double cone_violation(const ContactProblem& p, const VecX& gamma) {
 }
 
 /// Bound of the relative error of the impulses, or why there is none.
-ForceCertificate certificate(const ContactProblem& problem, const ContactSolution& solution, FrictionLaw law,
-                             double cone_violation) {
+ForceCertificate certificate(const ContactProblem& problem, const ContactSolution& solution,
+                             const FlowRule& law, double cone_violation) {
   constexpr double kRounding = 1e-14;  // |gamma_t| = mu gamma_n holds to a few eps
-  if (law == FrictionLaw::coulomb) return {{}, "Coulomb's law is not a minimisation and has no duality gap"};
+  if (!law.is_associated())
+    return {{}, "a non-associated law (Coulomb's) is not a minimisation and has no duality gap"};
   if (smallest_compliance(problem) == 0.0) return {{}, "some compliance is zero"};
   if (!(cone_violation <= kRounding)) return {{}, "some impulses lie outside their friction cones"};
   const double norm = compliance_norm(problem, solution.gamma);
@@ -118,7 +119,7 @@ double law_tolerance(const Residuals& residuals, double tolerance) {
 
 }  // namespace
 
-VecX contact_law_errors(const ContactProblem& problem, const ContactSolution& solution, FrictionLaw law) {
+VecX contact_law_errors(const ContactProblem& problem, const ContactSolution& solution, const FlowRule& law) {
   VecX errors(problem.num_contacts());
   for_each_expected_impulse(problem, solution, law,
                             [&errors](int i, const Vec3& gamma, const Vec3& expected, double) {
@@ -158,11 +159,11 @@ double smallest_compliance(const ContactProblem& p) {
   return smallest;
 }
 
-ForcesUnique forces_unique(const ContactProblem& problem, FrictionLaw law) {
+ForcesUnique forces_unique(const ContactProblem& problem, const FlowRule& law) {
   if (smallest_compliance(problem) == 0.0)
     return {false, "some joint compliance is zero, so that many forces balance the same loads"};
-  if (law == FrictionLaw::coulomb && problem.mu.size() > 0 && problem.mu.maxCoeff() > 0.0)
-    return {false, "under Coulomb's law a contact problem can have several solutions"};
+  if (!law.is_associated() && problem.mu.size() > 0 && problem.mu.maxCoeff() > 0.0)
+    return {false, "under a non-associated law (Coulomb's) a contact problem can have several solutions"};
   return {true, "associated law with a compliance above zero at every contact"};
 }
 
@@ -187,7 +188,7 @@ double root_mean_mass(const ContactProblem& problem) {
 }
 
 Residuals compute_residuals(const ContactProblem& problem, const ContactSolution& solution,
-                            double reference_speed, FrictionLaw law) {
+                            double reference_speed, const FlowRule& law) {
   CUPOLA_ASSERT(reference_speed > 0.0);
   CUPOLA_ASSERT(solution.gamma.size() == problem.b.size());
   Residuals residuals;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "assembly/model/accuracy.hpp"
-#include "assembly/model/choices.hpp"
 #include "solver/contact/problem/contact_problem.hpp"
+#include "solver/contact/problem/flow_rule.hpp"
 
 namespace cupola {
 
@@ -13,7 +13,7 @@ struct Residuals {
   /// sqrt(mean mass) * reference_speed: the unbalanced impulse relative to the weight of a mean block.
   double momentum = 0.0;
   /// |gamma - P(gamma - rho (y + s n))| / |gamma| with y = D^T v + b + E gamma, P the projection on the cone,
-  /// and s = 0 (associated) or mu |y_t| (coulomb). rho_i = 1/E_i and P is in the norm of E_i; where E_i = 0,
+  /// and s = (1 - dilatancy) mu |y_t|, De Saxce's term (0: associated law). rho_i = 1/E_i and P is in the norm of E_i; where E_i = 0,
   /// rho_i = 1/trace(N_ii) and P is Euclidean. For gamma = 0: 0 if that is correct, otherwise 1. One number
   /// for all contacts: contact_law_errors() shows where the law is violated.
   double contact_law = 0.0;
@@ -33,10 +33,10 @@ struct Residuals {
 
 /// `reference_speed`: h |g|, m/s, > 0, the speed that a free block gains in a step.
 Residuals compute_residuals(const ContactProblem& problem, const ContactSolution& solution,
-                            double reference_speed, FrictionLaw law = FrictionLaw::associated);
+                            double reference_speed, const FlowRule& law = {});
 
 /// |gamma - P(gamma - rho (y + s n))| of each contact, N s (nc): the terms of Residuals::contact_law.
-VecX contact_law_errors(const ContactProblem& problem, const ContactSolution& solution, FrictionLaw law);
+VecX contact_law_errors(const ContactProblem& problem, const ContactSolution& solution, const FlowRule& law);
 
 /// Largest of the momentum residual, the contact-law residual and the speed of rigid contacts.
 double largest_residual(const Residuals& residuals);
@@ -55,7 +55,7 @@ std::string residuals_text(const Residuals& residuals, double tolerance);
 double smallest_compliance(const ContactProblem& problem);
 
 /// Whether the impulses of the problem are unique. They are under the associated law if all E > 0.
-ForcesUnique forces_unique(const ContactProblem& problem, FrictionLaw law);
+ForcesUnique forces_unique(const ContactProblem& problem, const FlowRule& law);
 
 /// trace(N_ii), N = D^T M^-1 D, 1/kg: response of the contact to a unit impulse on itself.
 double delassus_trace(const ContactProblem& problem, int i);

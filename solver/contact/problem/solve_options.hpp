@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "assembly/model/choices.hpp"
+#include "solver/contact/problem/flow_rule.hpp"
 
 namespace cupola {
 
@@ -26,7 +27,7 @@ struct SolveOptions {
 /// Options of a contact problem of any friction law, solved by a given method.
 struct ContactSolverOptions : SolveOptions {
   ContactMethod method = ContactMethod::newton;
-  FrictionLaw law = FrictionLaw::associated;
+  FlowRule law;
 };
 
 }  // namespace cupola

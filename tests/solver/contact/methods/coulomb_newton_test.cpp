@@ -11,8 +11,9 @@ namespace {
 
 using scenes::kGravity;
 
-SolveOptions options_for(const ContactProblem& problem, double tolerance) {
-  SolveOptions options;
+ContactSolverOptions options_for(const ContactProblem& problem, double tolerance) {
+  ContactSolverOptions options;
+  options.law = FrictionLaw::coulomb;
   options.tolerance = tolerance;
   options.reference_speed = kGravity * problem.h;
   return options;
@@ -21,7 +22,7 @@ SolveOptions options_for(const ContactProblem& problem, double tolerance) {
 /// Solves with a cold start and checks the residuals of the solution.
 ContactSolution solve(const ContactProblem& problem, double tolerance = 1e-10) {
   ContactSolution x;
-  const SolveSummary summary = solve_coulomb_newton(problem, options_for(problem, tolerance), &x);
+  const SolveSummary summary = CoulombNewton().solve(problem, options_for(problem, tolerance), &x);
   EXPECT_EQ(summary.ending, SolveEnding::converged) << summary.message;
   if (!summary.usable()) return x;
   const Residuals residuals = compute_residuals(problem, x, kGravity * problem.h, FrictionLaw::coulomb);
@@ -40,15 +41,34 @@ TEST(CoulombNewton, SlidesDownTheIncline) {
   }
 }
 
+// A step from rest with dilatancy theta: v_n = theta mu v_t and N = m (g h cos a + v_n), so that
+// v_t = A h / (1 + theta mu^2). At theta = 1 this is the first speed of the associated law's closed form.
+TEST(CoulombNewton, OpensTheContactByTheDilatancy) {
+  const double h = 0.01, mu = 0.4, angle = std::atan(0.5);
+  const double A = kGravity * (std::sin(angle) - mu * std::cos(angle));
+  for (const double dilatancy : {0.0, 0.25, 0.75}) {
+    for (const double c : {0.0, 1e-15}) {
+      const ContactProblem problem = scenes::incline(0.5, h, {mu, c, c});
+      ContactSolverOptions options = options_for(problem, 1e-10);
+      options.law = FlowRule(dilatancy);
+      ContactSolution x;
+      const SolveSummary summary = CoulombNewton().solve(problem, options, &x);
+      ASSERT_EQ(summary.ending, SolveEnding::converged) << summary.message;
+      const double v_t = A * h / (1.0 + dilatancy * mu * mu);
+      EXPECT_NEAR(x.v[0], v_t, 1e-9 * kGravity * h) << dilatancy;
+      EXPECT_NEAR(x.v[2], dilatancy * mu * v_t, 1e-9 * kGravity * h) << dilatancy;
+    }
+  }
+}
+
 TEST(CoulombNewton, AgreesWithTheOuterIterations) {
   scenes::DomeShape shape;
   shape.rings = 8;
   shape.blocks_per_ring = 12;
   for (const double mu : {0.0, 0.2, 0.4}) {
     const ContactProblem problem = scenes::dome(shape, 1.0, {mu, 1e-8, 1e-8});
-    ContactSolverOptions options;
-    static_cast<SolveOptions&>(options) = options_for(problem, 1e-10);
-    options.law = FrictionLaw::coulomb;
+    ContactSolverOptions options = options_for(problem, 1e-10);
+    options.method = ContactMethod::interior_point;
     ContactSolution reference;
     const SolveSummary summary = solve_contact(problem, options, &reference);
     ASSERT_EQ(summary.ending, SolveEnding::converged) << summary.message;
@@ -60,7 +80,7 @@ TEST(CoulombNewton, ReportsItsEndingForAnyInput) {
   ContactProblem broken = scenes::incline(0.5, 0.01, {0.4, 1e-8, 1e-8});
   broken.mu[0] = -1.0;
   ContactSolution x;
-  EXPECT_EQ(solve_coulomb_newton(broken, options_for(broken, 1e-8), &x).ending, SolveEnding::failed);
+  EXPECT_EQ(CoulombNewton().solve(broken, options_for(broken, 1e-8), &x).ending, SolveEnding::failed);
   // Above mu = 1 there may be no solution. `converged` must agree with the residuals.
   scenes::DomeShape shape;
   shape.rings = 4;
@@ -69,7 +89,7 @@ TEST(CoulombNewton, ReportsItsEndingForAnyInput) {
     for (const double c : {1e-8, 0.0}) {
       const ContactProblem problem = scenes::dome(shape, 0.01, {mu, c, c});
       ContactSolution answer;
-      const SolveSummary summary = solve_coulomb_newton(problem, options_for(problem, 1e-8), &answer);
+      const SolveSummary summary = CoulombNewton().solve(problem, options_for(problem, 1e-8), &answer);
       if (!summary.usable()) continue;
       const Residuals residuals =
           compute_residuals(problem, answer, kGravity * problem.h, FrictionLaw::coulomb);

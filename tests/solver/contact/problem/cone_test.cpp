@@ -81,6 +81,48 @@ TEST(Cone, StiffnessIsTheDerivativeOfTheImpulse) {
   }
 }
 
+// The definition of the flow rule, checked on the impulse, and the derivative by differences.
+TEST(Cone, SlidingContactsOpenByTheirDilatancy) {
+  for (const double dilatancy : {0.0, 0.3, 1.0}) {
+    for (Sample s : kSamples) {
+      s.law.dilatancy = dilatancy;
+      const Vec3 gamma = contact_impulse(s.law, s.y);
+      const Vec3 z = s.y + Vec3(s.law.e_n, s.law.e_t, s.law.e_t).cwiseProduct(gamma);
+      const double rounding = 1e-14 * s.y.norm() * (1 + s.law.mu);
+      switch (contact_region(s.law, s.y)) {
+        case ContactRegion::separation:
+          EXPECT_TRUE(gamma.isZero(0.0));
+          EXPECT_GE(s.y[0], dilatancy * s.law.mu * s.y.tail<2>().norm());
+          break;
+        case ContactRegion::stick:
+          EXPECT_LE(z.norm(), rounding);
+          EXPECT_LE(gamma.tail<2>().norm(), s.law.mu * gamma[0] * (1 + 4e-16));
+          break;
+        case ContactRegion::slip:
+          EXPECT_NEAR(gamma.tail<2>().norm(), s.law.mu * gamma[0], 1e-14 * gamma.norm());
+          EXPECT_NEAR(z[0], dilatancy * s.law.mu * z.tail<2>().norm(), rounding);
+          EXPECT_NEAR(z.tail<2>().dot(gamma.tail<2>()), -z.tail<2>().norm() * gamma.tail<2>().norm(),
+                      rounding * gamma.norm());
+      }
+    }
+  }
+}
+
+TEST(Cone, StiffnessIsTheDerivativeForAnyDilatancy) {
+  for (const double dilatancy : {0.0, 0.3}) {
+    const ContactLaw law{2.0, 0.5, 0.4, dilatancy};
+    for (const Vec3& y :
+         {Vec3(-1.0, 0.03, -0.04), Vec3(-1.0, 3.0, 4.0), Vec3(1.0, 3.0, -4.0), Vec3(0.1, 3.0, 4.0)}) {
+      const Mat3 G = contact_stiffness(law, y);
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 e = 1e-6 * Vec3::Unit(k);
+        const Vec3 slope = (contact_impulse(law, y + e) - contact_impulse(law, y - e)) / 2e-6;
+        EXPECT_LE((G.col(k) + slope).norm(), 1e-8 * std::max(G.norm(), 1.0)) << y.transpose();  // eps / step
+      }
+    }
+  }
+}
+
 TEST(Cone, FrictionlessContactIgnoresTangentialValues) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const ContactLaw law{2.0, nan, 0.0};
