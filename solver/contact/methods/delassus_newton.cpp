@@ -73,7 +73,8 @@ bool solve_delassus_subproblem(const DelassusSubproblem& sub, double tolerance, 
     if (F.norm() <= tolerance * gamma->norm()) return true;
     ++summary->iterations;
     ++summary->factorizations;
-    Eigen::UmfPackLU<Sparse> lu(sub.jacobian(*gamma));
+    const Sparse J = sub.jacobian(*gamma);  // the solver keeps a reference to it
+    Eigen::UmfPackLU<Sparse> lu(J);
     if (lu.info() != Eigen::Success) return false;
     const VecX d = lu.solve(F);
     double t = 1.0;
