@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "assembly/base/process.hpp"
+#include "solver/contact/problem/conic_contact.hpp"
 #include "solver/contact/problem/residuals.hpp"
-#include "solver/contact/problem/second_order_cone.hpp"
 #include "solver/contact/problem/whitening.hpp"
 #include "solver/runtime/interruption.hpp"
 
@@ -17,54 +16,6 @@ namespace cupola {
 namespace {
 
 constexpr double kToBoundary = 0.99;  // share of the step to the boundary
-
-/// A contact in coordinates in which Y and Y* are the same cone K: gamma^ = (mu gamma_n, gamma_t),
-/// z^ = (z_n / mu, z_t). At mu = 0 only the first component is used, without scaling.
-struct ConicContact {
-  bool frictionless = false;
-  Vec3 to_cone = Vec3::Ones();  ///< diagonal S: gamma^ = S gamma, z^ = S^-1 z
-  Vec3 E = Vec3::Zero();
-  Vec3 gamma = Vec3::UnitX();  ///< gamma^, interior of K
-  Vec3 z = Vec3::UnitX();      ///< z^, interior of K
-  NesterovTodd nt;
-  Mat3 G = Mat3::Zero();  ///< (S W^2 S + E)^-1
-
-  void scale();
-  Vec3 d(double target, const Vec3& affine_gamma, const Vec3& affine_z) const;
-  double largest_step(const Vec3& d_gamma, const Vec3& d_z) const;
-};
-
-void ConicContact::scale() {
-  if (frictionless) {
-    const double w = std::sqrt(z[0] / gamma[0]);
-    nt.W = Vec3(w, 0, 0).asDiagonal();
-    nt.W_inverse = Vec3(1 / w, 0, 0).asDiagonal();
-    nt.W_squared = Vec3(w * w, 0, 0).asDiagonal();
-    nt.lambda = Vec3(std::sqrt(z[0] * gamma[0]), 0, 0);
-    G = Vec3(1.0 / (w * w + E[0]), 0, 0).asDiagonal();
-    return;
-  }
-  nt = nesterov_todd(z, gamma);
-  Mat3 A = to_cone.asDiagonal() * nt.W_squared * to_cone.asDiagonal();
-  A.diagonal() += E;
-  G = A.llt().solve(Mat3::Identity());
-}
-
-/// Scaled right-hand side lambda \ (target e - lambda o lambda - (W^-1 dz) o (W dgamma)) for the given affine
-/// step (dgamma, dz).
-Vec3 ConicContact::d(double target, const Vec3& affine_gamma, const Vec3& affine_z) const {
-  const Vec3 a = nt.W_inverse * affine_z, c = nt.W * affine_gamma;
-  if (frictionless) return Vec3((target - nt.lambda[0] * nt.lambda[0] - a[0] * c[0]) / nt.lambda[0], 0, 0);
-  return jordan_quotient(nt.lambda, Vec3(target * Vec3::UnitX() - jordan_product(a, c))) - nt.lambda;
-}
-
-double ConicContact::largest_step(const Vec3& d_gamma, const Vec3& d_z) const {
-  if (!frictionless) return std::min(step_to_boundary(gamma, d_gamma, 10.0), step_to_boundary(z, d_z, 10.0));
-  double t = 10.0;
-  if (d_gamma[0] < 0.0) t = std::min(t, -gamma[0] / d_gamma[0]);
-  if (d_z[0] < 0.0) t = std::min(t, -z[0] / d_z[0]);
-  return t;
-}
 
 struct Step {
   VecX w, gamma, z;  ///< gamma and z in cone coordinates
@@ -102,10 +53,7 @@ class InteriorPoint {
 
 VecX InteriorPoint::gamma() const {
   VecX gamma(p_.b.size());
-  for (int i = 0; i < p_.num_contacts(); ++i) {
-    gamma.segment<3>(3 * i) = contacts_[i].gamma.cwiseQuotient(contacts_[i].to_cone);
-    if (contacts_[i].frictionless) gamma.segment<2>(3 * i + 1).setZero();
-  }
+  for (int i = 0; i < p_.num_contacts(); ++i) gamma.segment<3>(3 * i) = contacts_[i].force();
   return gamma;
 }
 
@@ -117,15 +65,12 @@ Vec3 pushed_inside(Vec3 x, double margin) {
 
 bool InteriorPoint::start() {
   const int nc = p_.num_contacts();
-  contacts_.resize(nc);
+  contacts_.reserve(nc);
   std::vector<Mat3> G(nc);
   VecX impulse(3 * nc);
   constexpr double kRigidStiffness = 1.0;  // whitened, unit mass: of the order of the blocks' own response
   for (int i = 0; i < nc; ++i) {
-    ConicContact& contact = contacts_[i];
-    contact.frictionless = p_.mu[i] == 0.0;
-    contact.to_cone = contact.frictionless ? Vec3(1, 0, 0) : Vec3(p_.mu[i], 1, 1);
-    contact.E = p_.E.segment<3>(3 * i);
+    const ConicContact& contact = contacts_.emplace_back(p_.mu[i], p_.E.segment<3>(3 * i));
     Vec3 stiffness = Vec3::Constant(kRigidStiffness);
     for (int k = 0; k < 3; ++k) {
       if (contact.E[k] > 0.0) stiffness[k] = 1.0 / contact.E[k];

@@ -29,6 +29,8 @@ double step_to_boundary(const Vec3& x, const Vec3& d, double limit) {
   const double a = cone_determinant(d);
   const double b = x[0] * d[0] - x.tail<2>().dot(d.tail<2>());
   const double c = cone_determinant(x);
+  // A step along the axis has a double root, which rounding may lose.
+  if (d[0] < 0.0) limit = std::min(limit, -x[0] / d[0]);
   const double discriminant = b * b - a * c;
   if (discriminant < 0.0 || (a >= 0.0 && b >= 0.0)) return limit;
   // The form of the root without cancellation: c / (-b + s) for b < 0, (-b - s) / a for b >= 0 > a.

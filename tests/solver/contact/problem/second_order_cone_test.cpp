@@ -52,6 +52,14 @@ TEST(SecondOrderCone, StepEndsExactlyOnTheBoundary) {
   }
 }
 
+// The double root of the determinant must not be lost to rounding.
+TEST(SecondOrderCone, StepAlongTheAxisEndsAtTheApex) {
+  for (int k = 1; k <= 1000; ++k) {
+    const Vec3 x(0.1 * k / 7.0, 1e-17 * k, 0.0), d(-0.3 * k / 11.0, 1e-17, -1e-17 * k);
+    EXPECT_NEAR(step_to_boundary(x, d, 10.0), -x[0] / d[0], 1e-7) << k;
+  }
+}
+
 TEST(SecondOrderCone, DeterminantIsAccurateNearTheBoundary) {
   const Vec3 x(1.0, 1.0 - 1e-15, 0.0);
   EXPECT_NEAR(cone_determinant(x), 2e-15, 1e-16 * 4);

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "solver/conic/conic_problem.hpp"
+
+namespace cupola {
+
+/// What a solution proves, computed from the matrices of the problem alone.
+struct ConicBounds {
+  /// The least value is at most this: c . gamma + e . t plus the work v . (D gamma + P t + w) of the forces
+  /// that equilibrium still lacks.
+  double upper = 0.0;
+  /// Over all states whose forces and multipliers are at most kLargestForces times those of the solution, the value
+  /// is at least this: w . v + r . q less what the violations of s in Y* and of e + P^T v - R q = 0 could gain.
+  double lower = 0.0;
+  double imbalance = 0.0;       ///< largest |D gamma + P t + w| of a block over the largest load of a block
+  double cone_violation = 0.0;  ///< largest (|gamma_t| - mu gamma_n)+, over the largest gamma_n
+  double relative_gap() const;  ///< |upper - lower| over the larger of their sizes
+};
+constexpr double kLargestForces = 1e3;
+
+/// Bounds on the least value from a solution that is `optimal` or `stalled`.
+ConicBounds conic_bounds(const ConicProblem& problem, const ConicSolution& solution);
+
+}  // namespace cupola

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "assembly/base/named_enum.hpp"
+#include "solver/contact/problem/contact_problem.hpp"
+
+namespace cupola {
+
+using MatX = Eigen::MatrixXd;
+
+/// A linear objective over the forces that balance the loads within the friction cones:
+///
+///     minimise    c . gamma + e . t
+///     subject to  D gamma + P t + w = 0          equilibrium of every block
+///                 Q^T gamma + R^T t = r          further linear conditions
+///                 gamma_i in Y_i                 |gamma_t| <= mu gamma_n
+///
+/// with free multipliers t, usually those of loads. Its dual,
+///
+///     maximise    w . v + r . q
+///     subject to  s = c + D^T v - Q q in Y*,     e + P^T v - R q = 0
+///
+/// is a mechanism v under the imposed dislocations c: w . v is the work of the loads on it. (A Lagrange
+/// multiplier of the equilibrium is a velocity.) At the solution gamma . s = 0.
+struct ConicProblem {
+  ContactProblem contacts;  ///< D, mu, plane; M only scales the unknowns; v_star, b, E and h are not used
+  VecX load;                ///< w: N, N m (6 nb)
+  VecX cost;                ///< c (3 nc)
+  MatX load_columns;        ///< P (6 nb, nt)
+  VecX multiplier_cost;     ///< e (nt)
+  MatX rows;                ///< Q (3 nc, nq)
+  MatX row_multipliers;     ///< R (nt, nq)
+  VecX row_values;          ///< r (nq)
+};
+
+/// How solve_conic() ended.
+enum class ConicOutcome {
+  optimal,     ///< primal and dual values agree to the tolerance
+  infeasible,  ///< no forces satisfy the conditions; v is the proof: s = D^T v - Q q in Y*, w . v + r . q > 0
+  unbounded,   ///< gamma is a ray: D gamma + P t = 0, Q^T gamma + R^T t = 0, c . gamma + e . t < 0
+  stalled      ///< none of these to the tolerance; the best iterate is returned
+};
+constexpr auto enum_names(ConicOutcome) {
+  return std::array{"optimal", "infeasible", "unbounded", "stalled"};
+}
+
+struct ConicOptions {
+  double tolerance = 1e-9;  ///< relative gap and residuals; see solve_conic()
+  int max_iterations = 100;
+};
+
+/// Primal and dual solution, or the certificate that the outcome names (of arbitrary length).
+struct ConicSolution {
+  ConicOutcome outcome = ConicOutcome::stalled;
+  VecX gamma;           ///< N (3 nc)
+  VecX multipliers;     ///< t (nt)
+  VecX v;               ///< mechanism (6 nb)
+  VecX row_velocities;  ///< q (nq)
+  double primal = 0.0;  ///< c . gamma + e . t
+  double dual = 0.0;    ///< w . v + r . q
+  int iterations = 0;
+  double seconds = 0.0;
+};
+
+}  // namespace cupola

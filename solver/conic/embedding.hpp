@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/conic/normal_equations.hpp"
+#include "solver/contact/problem/conic_contact.hpp"
+
+namespace cupola {
+
+/// Residuals of the five rows of the embedding, and the values that decide when to stop.
+struct EmbeddingResiduals {
+  VecX equilibrium, rows, dual, multipliers;
+  double gap = 0.0;           ///< of the fifth row
+  double primal = 0.0;        ///< c . gamma + e . t
+  double dual_value = 0.0;    ///< w . v + r . q
+  double primal_error = 0.0;  ///< of the solution scaled by 1 / tau
+  double dual_error = 0.0;
+  double ray_error = 0.0;        ///< |D gamma + P t|, |Q^T gamma + R^T t|
+  double mechanism_error = 0.0;  ///< |s - D^T v + Q q|, |P^T v - R q|
+};
+
+struct EmbeddingStep {
+  VecX v, q, t, gamma;  ///< gamma: in the contacts' own coordinates
+  double tau = 0.0, kappa = 0.0;
+  std::vector<Vec3> cone_gamma, cone_z;
+  double length = 10.0;
+};
+
+/// The homogeneous self-dual embedding of a scaled conic problem (solve_conic.hpp), at one iterate.
+class Embedding {
+ public:
+  /// `problem` must outlive it and be scaled.
+  explicit Embedding(const ConicProblem& problem);
+
+  const VecX& v() const { return v_; }
+  const VecX& q() const { return q_; }
+  const VecX& t() const { return t_; }
+  double tau() const { return tau_; }
+  double kappa() const { return kappa_; }
+  VecX gamma() const;
+  EmbeddingResiduals residuals() const;
+
+  /// Updates the scaling of the contacts and the factor. False if it is lost to rounding.
+  [[nodiscard]] bool factorize();
+  /// Mean of gamma . s of the contacts and tau kappa. Requires factorize().
+  double complementarity() const;
+  /// Newton step to zero complementarity.
+  EmbeddingStep predictor(const EmbeddingResiduals& r) const;
+  /// Newton step that leaves the share sigma of the residuals and of the complementarity.
+  EmbeddingStep corrector(const EmbeddingResiduals& r, double sigma, const EmbeddingStep& predicted) const;
+  double complementarity_after(const EmbeddingStep& step, double length) const;
+  void take(const EmbeddingStep& step, double length);
+  /// Removes the rounding from the equilibrium of the forces, if they stay in their cones.
+  void balance_forces();
+
+ private:
+  EmbeddingStep direction(const EmbeddingResiduals& r, double keep, const std::vector<Vec3>& d,
+                          double d_kappa) const;
+  void refine(const EmbeddingResiduals& r, double remove, EmbeddingStep* step) const;
+
+  const ConicProblem& p_;
+  NormalEquations equations_;
+  NormalEquations::Unknowns unit_;  ///< response to d_tau = 1
+  VecX unit_gamma_;
+  std::vector<ConicContact> contacts_;  ///< gamma and s
+  VecX v_, q_, t_;
+  double tau_ = 1.0, kappa_ = 1.0;
+};
+
+}  // namespace cupola

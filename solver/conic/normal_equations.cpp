@@ -1,0 +1,101 @@
+#include "solver/conic/normal_equations.hpp"
+
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace cupola {
+
+NormalEquations::NormalEquations(const ConicProblem& problem)
+    : p_(problem), graph_(contact_graph(problem.contacts)), without_mass_(problem.contacts) {
+  without_mass_.M.assign(problem.contacts.num_blocks(), Mat6::Zero());
+}
+
+VecX NormalEquations::times_V(const VecX& x) const {
+  VecX y(x.size());
+  for (int i = 0; i < p_.contacts.num_contacts(); ++i)
+    y.segment<3>(3 * i).noalias() = V_[i] * x.segment<3>(3 * i);
+  return y;
+}
+
+VecX NormalEquations::times_V_transposed(const VecX& x) const {
+  VecX y(x.size());
+  for (int i = 0; i < p_.contacts.num_contacts(); ++i)
+    y.segment<3>(3 * i).noalias() = V_[i].transpose() * x.segment<3>(3 * i);
+  return y;
+}
+
+bool NormalEquations::factorize(std::vector<Mat3> V) {
+  // Relative to the diagonal of a block, of the order of its rounding: contacts without friction, or blocks
+  // that nothing holds, leave motions that change no distance.
+  constexpr double kRegularisation = 1e-15;
+  V_ = std::move(V);
+  std::vector<Mat3> G;
+  G.reserve(V_.size());
+  for (const Mat3& V_i : V_) G.push_back(V_i.transpose() * V_i);
+  BlockMatrix H = assemble_hessian(without_mass_, graph_, G);
+  for (Mat6& A : H.diagonal) {
+    const double largest = A.diagonal().maxCoeff();
+    if (!std::isfinite(largest)) return false;
+    A.diagonal().array() += kRegularisation * (largest > 0.0 ? largest : 1.0);
+  }
+  if (!factor_.factorize(graph_.pattern, H)) return false;
+
+  const Eigen::Index nq = p_.rows.cols(), nt = p_.load_columns.cols();
+  columns_.resize(p_.load.size(), nq + nt);
+  MatX corner = MatX::Zero(nq + nt, nq + nt);
+  for (Eigen::Index k = 0; k < nq; ++k) {
+    const VecX scaled = times_G(p_.rows.col(k));
+    columns_.col(k) = -generalized_impulse(p_.contacts, scaled);
+    corner.col(k).head(nq) = p_.rows.transpose() * scaled;
+  }
+  columns_.rightCols(nt) = -p_.load_columns;
+  corner.bottomLeftCorner(nt, nq) = p_.row_multipliers;
+  corner.topRightCorner(nq, nt) = p_.row_multipliers.transpose();
+  solved_.resize(columns_.rows(), columns_.cols());
+  for (Eigen::Index k = 0; k < columns_.cols(); ++k) solved_.col(k) = solve(VecX(columns_.col(k)));
+  schur_ = corner - columns_.transpose() * solved_;
+  return solved_.allFinite();
+}
+
+VecX NormalEquations::multiply(const VecX& v) const {
+  return generalized_impulse(p_.contacts, times_G(relative_velocity(p_.contacts, v)));
+}
+
+VecX NormalEquations::solve(const VecX& f) const {
+  constexpr int kMaxIterations = 8;
+  constexpr double kEnough = 1e-14;  // of the norm of f
+  VecX x = factor_.solve(f);
+  VecX r = f - multiply(x);
+  const double enough = kEnough * f.norm();
+  VecX z = factor_.solve(r), direction = z;
+  double rz = r.dot(z);
+  VecX best = x;
+  double least = r.norm();
+  for (int k = 0; k < kMaxIterations && r.norm() > enough; ++k) {
+    const VecX product = multiply(direction);
+    const double curvature = direction.dot(product);
+    if (!(curvature > 0.0) || !(rz > 0.0)) break;
+    x += rz / curvature * direction;
+    r -= rz / curvature * product;
+    if (r.norm() < least) {
+      least = r.norm();
+      best = x;
+    }
+    z = factor_.solve(r);
+    const double next = r.dot(z);
+    direction = z + next / rz * direction;
+    rz = next;
+  }
+  return best;
+}
+
+NormalEquations::Unknowns NormalEquations::solve(const VecX& f, const VecX& border) const {
+  VecX v = solve(f);
+  if (border.size() == 0) return {v, border};
+  const VecX rest = schur_.fullPivLu().solve(border - columns_.transpose() * v);
+  v -= solved_ * rest;
+  return {v, rest};
+}
+
+}  // namespace cupola

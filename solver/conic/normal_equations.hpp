@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/conic/conic_problem.hpp"
+#include "solver/contact/blocks/block_cholesky.hpp"
+
+namespace cupola {
+
+/// The normal equations of one iteration of solve_conic(), in whitened unknowns:
+///
+///     [ D G D^T    -D G Q   -P  ] [ v ]   [ f ]
+///     [ -Q^T G D^T  Q^T G Q  R^T ] [ q ] = [ g ]
+///     [ -P^T        R        0   ] [ t ]   [ h ]
+///
+/// The first block has the pattern of the contact graph and a sparse Cholesky factor. The other rows and
+/// columns, a few dense ones, are eliminated by their Schur complement.
+///
+/// G spans many orders of magnitude near the solution, so that the factor alone loses digits. Each solution
+/// is improved by a few iterations of conjugate gradients preconditioned with it.
+class NormalEquations {
+ public:
+  struct Unknowns {
+    VecX v;       ///< (6 nb)
+    VecX border;  ///< q, t (nq + nt)
+  };
+
+  /// `problem` must outlive it and have M = identity (whitened).
+  explicit NormalEquations(const ConicProblem& problem);
+
+  /// False if the matrix is not positive definite in double precision. V: per contact, G = V^T V (nc). V is
+  /// applied twice instead of G, whose small eigenvalues have lost their digits.
+  [[nodiscard]] bool factorize(std::vector<Mat3> V);
+  Unknowns solve(const VecX& f, const VecX& border) const;
+  /// V x, V^T x and G x per contact (3 nc).
+  VecX times_V(const VecX& x) const;
+  VecX times_V_transposed(const VecX& x) const;
+  VecX times_G(const VecX& x) const { return times_V_transposed(times_V(x)); }
+
+ private:
+  VecX multiply(const VecX& v) const;
+  VecX solve(const VecX& f) const;
+
+  const ConicProblem& p_;
+  ContactGraph graph_;
+  ContactProblem without_mass_;  ///< for assemble_hessian()
+  BlockCholesky factor_;
+  std::vector<Mat3> V_;
+  MatX columns_;           ///< -[D G Q, P] (6 nb, nq + nt)
+  MatX solved_;            ///< (D G D^T)^-1 columns_
+  Eigen::MatrixXd schur_;  ///< corner - columns_^T solved_
+};
+
+}  // namespace cupola

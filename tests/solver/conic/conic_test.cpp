@@ -1,0 +1,185 @@
+// Ranges and limits with closed forms, and the certificates of problems without a solution.
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "solver/conic/conic_bounds.hpp"
+#include "solver/conic/solve_conic.hpp"
+#include "tests/solver/contact/contact_scenes.hpp"
+
+namespace cupola::conic_test {
+namespace {
+
+using scenes::Joint;
+
+// The solver asks for 1e-9 of the problem's values. A hundred times that leaves room for the scaling of one
+// force by the whole.
+constexpr double kAgrees = 1e-7;
+
+/// The rigid blocks of a contact problem under their weights, without an objective.
+ConicProblem conic(const ContactProblem& p) {
+  ConicProblem problem;
+  problem.contacts = p;
+  problem.load = VecX::Zero(6 * p.num_blocks());
+  for (int k = 0; k < p.num_blocks(); ++k)
+    problem.load.segment<6>(6 * k) = p.M[k] * p.v_star.segment<6>(6 * k) / p.h;
+  problem.cost = VecX::Zero(3 * p.num_contacts());
+  problem.load_columns = MatX(problem.load.size(), 0);
+  problem.rows = MatX(problem.cost.size(), 0);
+  return problem;
+}
+
+/// Adds a multiplier of a load, which is to be as large as possible.
+void maximise_load(ConicProblem* problem, const VecX& load) {
+  problem->load_columns = load;
+  problem->multiplier_cost = VecX::Constant(1, -1.0);
+  problem->row_multipliers = MatX(1, 0);
+}
+
+/// Horizontal load along x, of the size of the weights.
+VecX sideways(const ConicProblem& problem) {
+  VecX load = VecX::Zero(problem.load.size());
+  for (Eigen::Index k = 0; k < load.size(); k += 6) load[k] = -problem.load[k + 2];
+  return load;
+}
+
+/// Least and largest value of the objective; both certified to 1e-9.
+std::pair<double, double> range(ConicProblem problem) {
+  double ends[2];
+  for (double& end : ends) {
+    const double sign = &end == ends ? 1.0 : -1.0;
+    problem.cost *= sign;
+    const ConicSolution solution = solve_conic(problem);
+    EXPECT_EQ(solution.outcome, ConicOutcome::optimal) << solution.iterations;
+    const ConicBounds bounds = conic_bounds(problem, solution);
+    EXPECT_LE(bounds.imbalance, 1e-12);
+    EXPECT_LE(bounds.cone_violation, 1e-12);
+    EXPECT_LE(bounds.lower, bounds.upper + 1e-9 * std::abs(bounds.upper));
+    EXPECT_NEAR(bounds.lower, bounds.upper, 1e-6 * std::max(1.0, std::abs(bounds.upper)));
+    end = sign * solution.primal;
+    problem.cost *= sign;
+  }
+  return {ends[0], ends[1]};
+}
+
+// N_++ = W (1 + x + y) / 4 + t, and the other legs likewise, with a free t: legs (++) and (--) gain what the
+// others lose.
+TEST(Conic, RangeOfALegOfATable) {
+  const double W = 1000.0, x = 0.3, y = -0.2;
+  ConicProblem problem = conic(scenes::table(W, x, y, 0.01, {.mu = 0.4}));
+  problem.cost[0] = 1.0;
+  const auto [least, largest] = range(problem);
+  const double a = W * (1 + x + y) / 4, b = W * (1 + x - y) / 4, c = W * (1 - x + y) / 4,
+               d = W * (1 - x - y) / 4;
+  EXPECT_NEAR(least, a - std::min(a, d), kAgrees * W);
+  EXPECT_NEAR(largest, a + std::min(b, c), kAgrees * W);
+}
+
+// Of two bodies on each other the lower joint carries both weights. Without friction nothing holds them
+// sideways, so that the equilibrium rows are dependent.
+TEST(Conic, ForceThatEquilibriumDeterminesHasNoRange) {
+  for (const double mu : {0.0, 0.4}) {
+    ConicProblem problem = conic(scenes::stack({1000.0, 2000.0}, 0.01, {.mu = mu}));
+    for (int i = 0; i < 4; ++i) problem.cost[3 * i] = 1.0;
+    const auto [least, largest] = range(problem);
+    const double weight = 3000.0 * scenes::kGravity;
+    EXPECT_NEAR(least, weight, kAgrees * weight) << mu;
+    EXPECT_NEAR(largest, weight, kAgrees * weight) << mu;
+  }
+}
+
+// A block of 1 x 1 x 0.2 m slides at mu, or tips at width / height = 5.
+TEST(Conic, HorizontalLoadSlidesOrTipsABlock) {
+  for (const double mu : {1e-4, 0.3, 1.0, 10.0}) {
+    ConicProblem problem = conic(scenes::incline(0.0, 0.01, {.mu = mu}));
+    maximise_load(&problem, sideways(problem));
+    const ConicSolution solution = solve_conic(problem);
+    ASSERT_EQ(solution.outcome, ConicOutcome::optimal) << mu;
+    EXPECT_NEAR(solution.multipliers[0], std::min(mu, 5.0), kAgrees * std::min(mu, 5.0)) << mu;
+    EXPECT_NEAR(-solution.dual, std::min(mu, 5.0), kAgrees * std::min(mu, 5.0)) << mu;
+  }
+}
+
+// Slope 0.5 at mu = 0.4. The proof is a motion that no joint resists and that the weight drives.
+TEST(Conic, BlockThatSlidesHasNoAdmissibleState) {
+  const ConicProblem problem = conic(scenes::incline(0.5, 0.01, {.mu = 0.4}));
+  const ConicSolution solution = solve_conic(problem);
+  ASSERT_EQ(solution.outcome, ConicOutcome::infeasible);
+  const VecX& v = solution.v;
+  EXPECT_GT(problem.load.dot(v), 0.0);
+  const VecX s = relative_velocity(problem.contacts, v);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_LE(0.4 * s.segment<2>(3 * i + 1).norm() - s[3 * i], 1e-8 * v.head<3>().norm());
+  EXPECT_GT(v[0], 0.0);  // down the slope
+}
+
+// At mu = 0.6 on a slope of 0.5 the same block stands.
+TEST(Conic, BlockThatHoldsHasAnAdmissibleState) {
+  EXPECT_EQ(solve_conic(conic(scenes::incline(0.5, 0.01, {.mu = 0.6}))).outcome, ConicOutcome::optimal);
+}
+
+// Between two walls a block can be pressed by any force.
+TEST(Conic, ClampedBlockHasUnboundedForces) {
+  scenes::Scene scene(0.01, {0, 0, -scenes::kGravity});
+  const int block = scene.add_box({0, 0, 0}, {1, 1, 1}, 2000.0);
+  scene.add_patch(scenes::kGround, block, {-0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {1, 0, 0}, {.mu = 0.4});
+  scene.add_patch(block, scenes::kGround, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {1, 0, 0}, {.mu = 0.4});
+  ConicProblem problem = conic(scene.problem());
+  problem.cost[0] = -1.0;
+  const ConicSolution ray = solve_conic(problem);
+  ASSERT_EQ(ray.outcome, ConicOutcome::unbounded);
+  EXPECT_GT(ray.gamma[0], 0.0);
+  const VecX imbalance = generalized_impulse(problem.contacts, ray.gamma);
+  EXPECT_LE(imbalance.norm(), 1e-7 * ray.gamma.norm());
+  // Its least force is what friction needs: 4 mu (N + N') = W on both sides together.
+  problem.cost.setZero();
+  for (int i = 0; i < 4; ++i) problem.cost[3 * i] = 1.0;
+  const ConicSolution least = solve_conic(problem);
+  ASSERT_EQ(least.outcome, ConicOutcome::optimal);
+  const double weight = 2000.0 * scenes::kGravity;
+  EXPECT_NEAR(least.primal, weight / (2 * 0.4), kAgrees * weight);
+}
+
+// 27 polygonal voussoirs, t/R = 0.15, over the weight: primal and dual of an independent interior-point
+// program agree to the digits given. At mu = 0.4 the base slides at H = mu V, V = W / 2.
+TEST(Conic, ThrustOfASemicircularArch) {
+  for (const double mu : {0.5, 0.4}) {
+    ConicProblem problem = conic(scenes::arch(27, 0.15, std::numbers::pi / 2, 0.0, 0.01, {.mu = mu}));
+    const double weight = -problem.load(Eigen::seq(2, Eigen::last, 6)).sum();
+    // Force of the first voussoir on the left springing, outwards: minus that of the ground on it.
+    for (int i = 0; i < 4; ++i)
+      problem.cost.segment<3>(3 * i) = problem.contacts.D_b[i].row(0).transpose() / weight;
+    const auto [least, largest] = range(problem);
+    EXPECT_NEAR(least, 0.1755685, 1e-7) << mu;
+    EXPECT_NEAR(largest, mu == 0.4 ? 0.2 : 0.2273735, 1e-7) << mu;
+  }
+}
+
+// Ratio of two legs of the table by the transformation of Charnes and Cooper: forces over the denominator,
+// the weight a free multiplier.
+TEST(Conic, RangeOfARatio) {
+  const double W = 1000.0, x = 0.3, y = -0.2;
+  ConicProblem problem = conic(scenes::table(W, x, y, 0.01, {.mu = 0.4}));
+  problem.cost[0] = 1.0;
+  problem.load_columns = problem.load;
+  problem.load.setZero();
+  problem.multiplier_cost = VecX::Zero(1);
+  problem.rows = MatX::Zero(problem.cost.size(), 1);
+  problem.rows(3, 0) = 1.0;  // the force of leg (+-) is 1
+  problem.row_multipliers = MatX::Zero(1, 1);
+  problem.row_values = VecX::Ones(1);
+  const ConicSolution solution = solve_conic(problem);
+  ASSERT_EQ(solution.outcome, ConicOutcome::optimal);
+  const double a = (1 + x + y) / 4, b = (1 + x - y) / 4, d = (1 - x - y) / 4;
+  EXPECT_NEAR(solution.primal, (a - std::min(a, d)) / (b + std::min(a, d)), kAgrees);
+  EXPECT_GT(solution.multipliers[0], 0.0);
+}
+
+TEST(Conic, RefusesSizesThatDoNotMatch) {
+  ConicProblem problem = conic(scenes::table(1000.0, 0, 0, 0.01, {}));
+  problem.cost.conservativeResize(3);
+  EXPECT_THROW(solve_conic(problem), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace cupola::conic_test
