@@ -150,6 +150,9 @@ std::string analysis_line(const Analysis& analysis) {
     case AnalysisType::staged:
       return fmt::format("staged, {}: one equilibrium per ring", method);
     case AnalysisType::limit:
+      if (uses_direct_limit(analysis))
+        return fmt::format("limit, direct: conic programmes over all admissible states between {:g} and {:g}",
+                           analysis.limit.low, analysis.limit.high);
       return fmt::format("limit, {}: about {:.0f} equilibria between {:g} and {:g}", method,
                          num_equilibria(analysis, 0), analysis.limit.low, analysis.limit.high);
   }

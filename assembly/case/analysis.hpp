@@ -34,11 +34,19 @@ struct LimitSearch {
   /// spread:       factor on `supports.moves`
   enum class Parameter { friction, tilt, acceleration, load, thickness, spread };
   Parameter parameter = Parameter::friction;
+  /// direct:    conic programmes over all admissible states; associated law, not for `spread`
+  /// bisection: one static solve for each value tried
+  /// automatic: direct where it applies
+  enum class Method { automatic, direct, bisection };
+  Method method = Method::automatic;
   double low = 0.0, high = 1.0;              ///< initial bracket: stable at one end, not at the other
-  double relative_width = 1e-3;              ///< relative width of the final bracket, in (0, 1)
+  double relative_width = 1e-3;              ///< bisection: relative width of the final bracket, in (0, 1)
   Eigen::Vector3d direction{1.0, 0.0, 0.0};  ///< tilt and acceleration: horizontal direction of the pull
   std::optional<RingJoints> joints;          ///< friction: only these joints; none: all joints
 };
+constexpr auto enum_names(LimitSearch::Method) {
+  return std::array{"automatic", "direct", "bisection"};
+}
 constexpr auto enum_names(LimitSearch::Parameter) {
   return std::array{"friction", "tilt", "acceleration", "load", "thickness", "spread"};
 }

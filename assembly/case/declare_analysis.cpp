@@ -35,16 +35,21 @@ void declare_limit(Section& s, LimitSearch& limit) {
            "parameter whose critical value is sought: friction coefficient; tilt of gravity (deg); "
            "horizontal acceleration (g); factor on loads.forces and loads.faces (load); factor on the shell "
            "thickness about its middle surface; factor on supports.moves (spread)");
+  s.choice("method", limit.method,
+           "direct: conic programmes over all admissible states (associated law, not for spread); bisection: "
+           "one static solve per value; automatic: direct where it applies");
   s.number("low", limit.low, {}, "lower end of the initial bracket");
   s.number("high", limit.high, {}, "upper end of the initial bracket");
   s.number("relative_width", limit.relative_width, {.above = 0, .below = 1},
-           "width of the final bracket over its middle value");
+           "bisection: width of the final bracket over its middle value; direct: 1e-5 or better");
   s.vector3("direction", limit.direction, {}, "tilt, acceleration: horizontal direction of the pull");
   s.optional_section("joints", limit.joints, "friction: vary only these joints; default: all joints",
                      declare_joint_group);
   s.rule(limit.parameter != Parameter::thickness || limit.low > 0.0, "low",
          "must be > 0 when parameter is thickness");
   s.rule(limit.low < limit.high, "high", "must be > low");
+  s.rule(limit.method != LimitSearch::Method::direct || limit.parameter != Parameter::spread, "method",
+         "direct does not apply to spread, which follows displacements; use bisection");
 }
 
 void declare_staged(Section& s, StagedConstruction& staged) {
@@ -161,6 +166,9 @@ void declare_analysis(Section& s, Analysis& analysis) {
                      "dynamic: leave islands of blocks at rest out of the contact problem", declare_sleep);
   s.rule(!analysis.sleep || (analysis.type == AnalysisType::dynamic && !analysis.adaptive), "sleep",
          "requires type: dynamic without adaptive");
+  s.rule(analysis.limit.method != LimitSearch::Method::direct ||
+             analysis.friction_law == FrictionLaw::associated,
+         "limit.method", "direct requires friction_law: associated; use bisection under Coulomb's law");
   s.rule(!analysis.accuracy.wrench_error || analysis.type == AnalysisType::static_, "accuracy",
          "wrench_error is for static analysis only; for other types give a tolerance or a preset");
   s.rule(analysis.type != AnalysisType::dynamic || analysis.duration / analysis.time_step <= kMostSteps,

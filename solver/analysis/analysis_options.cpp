@@ -26,6 +26,13 @@ StaticOptions static_options(const Analysis& analysis) {
   return options;
 }
 
+bool uses_direct_limit(const Analysis& analysis) {
+  using Method = LimitSearch::Method;
+  if (analysis.limit.method != Method::automatic) return analysis.limit.method == Method::direct;
+  return analysis.limit.parameter != LimitSearch::Parameter::spread &&
+         analysis.friction_law == FrictionLaw::associated;
+}
+
 double num_equilibria(const Analysis& analysis, int num_rings) {
   switch (analysis.type) {
     case AnalysisType::static_:
@@ -35,6 +42,12 @@ double num_equilibria(const Analysis& analysis, int num_rings) {
       return 0.5 * std::max(2, num_rings);
     case AnalysisType::limit: {
       const LimitSearch& limit = analysis.limit;
+      // A conic programme takes the time of about four static solves; three for loads, eight for joints.
+      if (uses_direct_limit(analysis))
+        return limit.parameter == LimitSearch::Parameter::friction ||
+                       limit.parameter == LimitSearch::Parameter::thickness
+                   ? 32.0
+                   : 12.0;
       const double widest = std::max(std::abs(limit.low), std::abs(limit.high));
       const double halvings = std::log2((limit.high - limit.low) / (widest * limit.relative_width));
       return 2.0 + std::ceil(std::max(0.0, halvings));

@@ -9,7 +9,10 @@ namespace cupola {
 /// motion, of each trial of a limit analysis and of each stage of a construction.
 StaticOptions static_options(const Analysis& analysis);
 
-/// Static solves of the whole model in one analysis, on average. A limit analysis takes one for each end of
+/// True if a limit analysis computes its critical value by conic programmes instead of bisection.
+bool uses_direct_limit(const Analysis& analysis);
+
+/// Static solves of the whole model in one analysis, on average. A limit analysis by bisection takes one for each end of
 /// the bracket and one per halving; a construction takes one per ring, of half the model on average.
 double num_equilibria(const Analysis& analysis, int num_rings);
 

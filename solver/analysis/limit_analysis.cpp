@@ -8,6 +8,7 @@
 #include "assembly/model/thickness.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/analysis_options.hpp"
+#include "solver/analysis/direct_limit.hpp"
 #include "solver/analysis/limit_search.hpp"
 #include "solver/analysis/mechanism.hpp"
 #include "solver/analysis/record.hpp"
@@ -123,21 +124,19 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
   }
   if (!run.moving) return "";
   const Probe& probe = *run.moving;
-  const Mechanism mechanism = find_mechanism(probe.model, probe.start, probe.contacts, probe.solution);
-  State moving = probe.start;
-  moving.v = mechanism.v;
-  moving.time = 1.0;
-  run.sinks.frame(make_frame(probe.model, moving, probe.contacts, probe.solution.forces.contacts,
-                             static_violations(probe.contacts, probe.solution, run.options.solve.law),
-                             probe.memories, std::vector<Vec3>(moving.poses.size(), Vec3::Zero())));
-  run.sinks.table("mechanism_blocks.csv", mechanism_blocks_csv(probe.model, mechanism));
-  run.sinks.table("mechanism_joints.csv", mechanism_joints_csv(mechanism));
+  const StaticSolution& solution = probe.solution;
+  const Mechanism mechanism = find_mechanism(probe.model, probe.start, probe.contacts, solution.step.problem,
+                                             solution.increment / solution.h);
+  write_mechanism(probe.model, probe.start, probe.contacts, probe.memories, mechanism,
+                  solution.forces.contacts,
+                  static_violations(probe.contacts, solution, run.options.solve.law), run.sinks);
   return describe(mechanism);
 }
 
 }  // namespace
 
 std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
+  if (uses_direct_limit(scene.analysis)) return run_direct_limit(scene, assembly, sinks);
   LimitRun run{scene, assembly, sinks, static_options(scene.analysis), {}, {}};
   const LimitSearch::Parameter parameter = scene.analysis.limit.parameter;
   run.options.log = sinks.log;

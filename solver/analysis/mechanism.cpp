@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "solver/analysis/record.hpp"
 
 namespace cupola {
 namespace {
@@ -78,12 +79,10 @@ void find_groups(const Model& model, Mechanism* mechanism) {
 }  // namespace
 
 Mechanism find_mechanism(const Model& model, const State& start, const ContactSet& contacts,
-                         const StaticSolution& solution) {
-  CUPOLA_ASSERT(solution.increment.size() == 6 * static_cast<Eigen::Index>(model.num_free()));
-  CUPOLA_ASSERT(solution.step.num_contacts == static_cast<int>(contacts.points.size()));
-  const VecX v = solution.increment / solution.h;
+                         const ContactProblem& problem, const VecX& v) {
+  CUPOLA_ASSERT(v.size() == 6 * static_cast<Eigen::Index>(model.num_free()));
+  CUPOLA_ASSERT(problem.num_contacts() >= static_cast<int>(contacts.points.size()));
   const double fastest = std::max(largest_speed(v), 1e-300);
-  const ContactProblem& problem = solution.step.problem;
   const VecX u = relative_velocity(problem, v);
 
   Mechanism mechanism;
@@ -102,6 +101,19 @@ Mechanism find_mechanism(const Model& model, const State& start, const ContactSe
     mechanism.violation =
         std::max(mechanism.violation, (problem.mu[i] * u.segment<2>(3 * i + 1).norm() - u[3 * i]) / fastest);
   return mechanism;
+}
+
+void write_mechanism(const Model& model, const State& start, const ContactSet& contacts,
+                     const ContactMemories& memories, const Mechanism& mechanism,
+                     const std::vector<Vec3>& forces, const std::vector<double>& violations,
+                     const AnalysisSinks& sinks) {
+  State moving = start;
+  moving.v = mechanism.v;
+  moving.time = 1.0;
+  sinks.frame(make_frame(model, moving, contacts, forces, violations, memories,
+                         std::vector<Vec3>(moving.poses.size(), Vec3::Zero())));
+  sinks.table("mechanism_blocks.csv", mechanism_blocks_csv(model, mechanism));
+  sinks.table("mechanism_joints.csv", mechanism_joints_csv(mechanism));
 }
 
 std::string mechanism_blocks_csv(const Model& model, const Mechanism& mechanism) {

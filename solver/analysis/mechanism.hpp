@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "assembly/base/named_enum.hpp"
-#include "solver/analysis/record.hpp"
-#include "solver/analysis/static_solve.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "solver/dynamics/contact_memory.hpp"
+#include "solver/dynamics/model.hpp"
 
 namespace cupola {
 
@@ -36,9 +37,16 @@ struct Mechanism {
   double violation = 0.0;   ///< largest (mu |u_t| - u_n)+ of a contact, relative to the fastest block
 };
 
-/// The mechanism of a static solution with the outcome `moving`.
+/// The mechanism with the velocities v (6 nb), of any length. `problem`: the rows of `contacts` come first.
 Mechanism find_mechanism(const Model& model, const State& start, const ContactSet& contacts,
-                         const StaticSolution& solution);
+                         const ContactProblem& problem, const VecX& v);
+
+/// Writes the mechanism as a frame at 1 s, with its largest speed scaled to 1 m/s, and as two tables. `forces`
+/// (N, nc) and `violations` (nc) are those of the frame.
+void write_mechanism(const Model& model, const State& start, const ContactSet& contacts,
+                     const ContactMemories& memories, const Mechanism& mechanism,
+                     const std::vector<Vec3>& forces, const std::vector<double>& violations,
+                     const AnalysisSinks& sinks);
 
 /// Tables of the blocks and joints of a mechanism.
 std::string mechanism_blocks_csv(const Model& model, const Mechanism& mechanism);

@@ -44,7 +44,9 @@ constexpr auto enum_names(ConicOutcome) {
 }
 
 struct ConicOptions {
-  double tolerance = 1e-9;  ///< relative gap and residuals; see solve_conic()
+  double tolerance = 1e-9;  ///< largest error of an `optimal` solution; see solve_conic()
+  double target =
+      1e-12;  ///< error at which the iteration stops; beyond `tolerance` as far as rounding allows
   int max_iterations = 100;
 };
 

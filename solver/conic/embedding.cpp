@@ -28,6 +28,27 @@ VecX Embedding::gamma() const {
   return gamma;
 }
 
+Embedding::Point Embedding::point() const {
+  Point point{{}, {}, v_, q_, t_, tau_, kappa_};
+  for (const ConicContact& contact : contacts_) {
+    point.gamma.push_back(contact.gamma);
+    point.z.push_back(contact.z);
+  }
+  return point;
+}
+
+void Embedding::move_to(const Point& point) {
+  v_ = point.v;
+  q_ = point.q;
+  t_ = point.t;
+  tau_ = point.tau;
+  kappa_ = point.kappa;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    contacts_[i].gamma = point.gamma[i];
+    contacts_[i].z = point.z[i];
+  }
+}
+
 EmbeddingResiduals Embedding::residuals() const {
   const VecX gamma = this->gamma();
   EmbeddingResiduals r;
@@ -175,6 +196,7 @@ void Embedding::refine(const EmbeddingResiduals& r, double remove, EmbeddingStep
 }
 
 void Embedding::balance_forces() {
+  if (!factorize()) return;
   EmbeddingStep step{VecX::Zero(v_.size()),
                      VecX::Zero(q_.size()),
                      VecX::Zero(t_.size()),
@@ -190,7 +212,7 @@ void Embedding::balance_forces() {
     const ConicContact& contact = contacts_[i];
     const Vec3 gamma =
         contact.gamma + contact.to_cone.cwiseProduct(step.gamma.segment<3>(3 * static_cast<Eigen::Index>(i)));
-    if (gamma[0] < (contact.frictionless ? 0.0 : gamma.tail<2>().norm())) return;
+    if (!(gamma[0] >= (contact.frictionless ? 0.0 : gamma.tail<2>().norm()))) return;
     balanced.push_back(gamma);
   }
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].gamma = balanced[i];

@@ -40,6 +40,15 @@ class Embedding {
   VecX gamma() const;
   EmbeddingResiduals residuals() const;
 
+  /// The unknowns of an iterate.
+  struct Point {
+    std::vector<Vec3> gamma, z;  ///< cone coordinates
+    VecX v, q, t;
+    double tau = 1.0, kappa = 1.0;
+  };
+  Point point() const;
+  void move_to(const Point& point);
+
   /// Updates the scaling of the contacts and the factor. False if it is lost to rounding.
   [[nodiscard]] bool factorize();
   /// Mean of gamma . s of the contacts and tau kappa. Requires factorize().

@@ -17,9 +17,9 @@ namespace cupola {
 /// objective has no minimum. Nesterov-Todd scaling and Mehrotra's predictor and corrector as in the contact
 /// method `interior_point`. Free multipliers and further conditions are a dense border of the sparse matrix.
 ///
-/// `optimal`: gap, equilibrium and dual residuals are at most `tolerance` of 1 plus the size of the problem's
-/// values, in scaled units (forces over the largest load of a block). Redundant contacts and dependent
-/// equilibrium rows are admitted. Throws std::invalid_argument for sizes that do not match, and Interrupted.
+/// The error of an iterate is the largest of its equilibrium residual, its dual residual and its gap (over the
+/// larger of 1 and the objective), in scaled units: forces over the largest load of a block, the objective over
+/// its largest coefficient. Redundant contacts and dependent equilibrium rows are admitted. Throws std::invalid_argument for sizes that do not match, and Interrupted.
 ConicSolution solve_conic(const ConicProblem& problem, const ConicOptions& options = {});
 
 }  // namespace cupola

@@ -101,6 +101,10 @@ const BadCase kBadCases[] = {
      "bad.yaml:6:22: error: analysis.accuracy = drat: did you mean draft? It must be one of custom, draft, "},
     {"WrenchErrorOfMotion", kGood + "analysis: {type: dynamic, accuracy: {wrench_error: 1e-3}}\n",
      "bad.yaml:6:37: error: analysis.accuracy = {...}: wrench_error is for static analysis only"},
+    {"DirectLimitUnderCoulomb",
+     kGood + "analysis: {type: limit, friction_law: coulomb, limit: {method: direct}}\n", "bad.yaml:6:"},
+    {"DirectLimitOfASpread", kGood + "analysis: {type: limit, limit: {method: direct, parameter: spread}}\n",
+     "bad.yaml:6:41: error: analysis.limit.method = direct: direct does not apply to spread"},
     {"MisspeltChoice", kGood + "analysis: {type: dinamic}\n",
      "bad.yaml:6:18: error: analysis.type = dinamic: did you mean dynamic? It must be one of static, "
      "dynamic, "},

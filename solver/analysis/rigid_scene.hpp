@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+
+#include "assembly/case/case.hpp"
+#include "solver/conic/conic_problem.hpp"
+#include "solver/dynamics/contact_memory.hpp"
+#include "solver/dynamics/equilibrium.hpp"
+#include "solver/dynamics/model.hpp"
+
+namespace cupola {
+
+/// The assembly as built, as rigid blocks with joints that only press and rub: what an admissible state of
+/// forces has to satisfy. Compliance does not enter.
+struct RigidScene {
+  std::shared_ptr<const Assembly> assembly;
+  Model model;
+  State start;
+  ContactSet contacts;  ///< closed ones only
+  ContactMemories memories;
+  ConicProblem problem;  ///< equilibrium under the loads at time 0, without an objective
+};
+
+/// Contacts whose gap exceeds 1e-3 of the smallest block, the least width of a joint (joint_rule.hpp), are
+/// open and carry nothing; a tie carries only tension, a strut only compression.
+RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly);
+
+/// Balance of the forces gamma (N), recomputed from points and world forces.
+Equilibrium balance_of(const RigidScene& scene, const VecX& gamma);
+
+}  // namespace cupola

@@ -1,0 +1,106 @@
+// Critical values by conic programmes, against closed forms and against bisection. Published and independent
+// values are rows of the verification manual.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "solver/analysis/analysis.hpp"
+#include "solver/analysis/analysis_options.hpp"
+#include "tests/solver/motion_scenes.hpp"
+
+namespace cupola::direct_limit_test {
+namespace {
+
+using Parameter = LimitSearch::Parameter;
+
+Case limit_case(Parameter parameter, double low, double high, double friction) {
+  Case scene = testing::make_case(friction, 1e-8, 0.01);
+  scene.analysis.type = AnalysisType::limit;
+  scene.analysis.limit.parameter = parameter;
+  scene.analysis.limit.low = low;
+  scene.analysis.limit.high = high;
+  return scene;
+}
+
+double critical(const Case& scene, const Assembly& assembly) {
+  const Summary summary = run_limit(scene, assembly, {}).value();
+  EXPECT_EQ(summary.status, Status::stable) << summary.message;
+  return summary.critical ? summary.critical->value : std::nan("");
+}
+
+// The whole tower tips about the edge of its lowest bed: tan(tilt) = width / height. The tolerance is the width
+// of the bracket, which rounding widens for 200 cubes.
+TEST(DirectLimit, SlenderTowerTipsAtItsBase) {
+  for (const int cubes : {1, 10, 200, 500}) {
+    const double exact = std::atan(1.0 / cubes) * 180.0 / std::numbers::pi;
+    EXPECT_NEAR(critical(limit_case(Parameter::tilt, 0.0, 60.0, 2.0),
+                         testing::stack_of_cubes(1.0, std::vector(cubes, 1000.0))),
+                exact, 1e-5 * exact)
+        << cubes;
+  }
+}
+
+TEST(DirectLimit, BlockSlidesAtItsFriction) {
+  const Assembly box = testing::box_on_floor({1.0, 0.5, 0.2});
+  EXPECT_NEAR(critical(limit_case(Parameter::acceleration, 0.0, 2.0, 0.3), box), 0.3, 1e-6 * 0.3);
+  EXPECT_NEAR(critical(limit_case(Parameter::tilt, 0.0, 60.0, 0.3), box),
+              std::atan(0.3) * 180.0 / std::numbers::pi, 2e-5);
+  Case scene = limit_case(Parameter::friction, 0.01, 1.0, 0.3);
+  scene.loads.gravity = testing::tilted_gravity(0.25);
+  EXPECT_NEAR(critical(scene, box), 0.25, 1e-5 * 0.25);
+}
+
+// A horizontal force at mid-height of a flat block: P = mu W.
+TEST(DirectLimit, FactorOnAForce) {
+  const Assembly box = testing::box_on_floor({1.0, 0.5, 0.2});
+  Case scene = limit_case(Parameter::load, 0.0, 10.0, 0.3);
+  BlockForce push;
+  push.block.number = 1;
+  push.force = {100.0, 0, 0};
+  scene.loads.forces = {push};
+  const double weight = 1000.0 * 0.1 * testing::kG;
+  EXPECT_NEAR(critical(scene, box), 0.3 * weight / 100.0, 1e-6 * 0.3 * weight / 100.0);
+}
+
+// Compliance does not enter a limit. The bracket of bisection is that of its static solves.
+TEST(DirectLimit, AgreesWithBisection) {
+  const Assembly arch = testing::make_arch({.voussoirs = 12, .thickness = 0.16});
+  for (const auto& [parameter, low, high] :
+       {std::tuple{Parameter::friction, 0.1, 0.8}, std::tuple{Parameter::acceleration, 0.0, 0.5},
+        std::tuple{Parameter::tilt, 0.0, 20.0}}) {
+    Case scene = limit_case(parameter, low, high, 0.7);
+    const double direct = critical(scene, arch);
+    scene.analysis.limit.method = LimitSearch::Method::bisection;
+    EXPECT_NEAR(direct, critical(scene, arch), 1e-3 * direct) << to_string(parameter);
+  }
+}
+
+TEST(DirectLimit, IsChosenWhereItApplies) {
+  Analysis analysis = limit_case(Parameter::tilt, 0, 1, 0.3).analysis;
+  EXPECT_TRUE(uses_direct_limit(analysis));
+  analysis.limit.parameter = Parameter::spread;
+  EXPECT_FALSE(uses_direct_limit(analysis));
+  analysis.limit.parameter = Parameter::friction;
+  EXPECT_TRUE(uses_direct_limit(analysis));
+  analysis.friction_law = FrictionLaw::coulomb;
+  EXPECT_FALSE(uses_direct_limit(analysis));
+}
+
+// The state at the critical value balances the loads, and the mechanism moves against no joint.
+TEST(DirectLimit, GivesAnAdmissibleStateAndAMechanism) {
+  std::vector<Frame> frames;
+  AnalysisSinks sinks;
+  sinks.frame = [&](const Frame& frame) { frames.push_back(frame); };
+  const Summary summary = run_limit(limit_case(Parameter::acceleration, 0.0, 0.5, 0.7),
+                                    testing::make_arch({.voussoirs = 12, .thickness = 0.16}), sinks)
+                              .value();
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_LE(summary.equilibrium_residual.value(), 1e-8);
+  for (int i = 0; i < frames[0].contacts.size(); ++i) EXPECT_GE(frames[0].contacts.normal_force[i], 0.0);
+  EXPECT_NE(summary.message.find("groups of blocks move"), std::string::npos) << summary.message;
+  EXPECT_EQ(frames[1].time, 1.0);
+}
+
+}  // namespace
+}  // namespace cupola::direct_limit_test
