@@ -89,12 +89,9 @@ double order_of_facets(const ReferenceRow&) {
   return observed_order(0.5, error);
 }
 
-/// The compliance of a joint falls with the size of the bricks, so that the shell stays as compliant as a whole.
 double thrust_of_bricks(int refine) {
-  Case scene = repository_case(
+  const Case scene = repository_case(
       "dome_circular", {"joints.compliance.per=area", "geometry.bond.refine=" + std::to_string(refine)});
-  scene.joints.compliance.normal /= refine;
-  scene.joints.compliance.tangential /= refine;
   const Assembly dome = generate(scene);
   return outward_thrust(dome, solve_equilibrium(scene, dome).frame.contacts);
 }
