@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/thickness.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/limit_search.hpp"
 #include "solver/analysis/mechanism.hpp"
-#include "assembly/model/thickness.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 // The search for critical values. The values themselves are rows of the verification manual.
@@ -79,7 +79,8 @@ TEST(Mechanism, SemicircleFormsFiveMovingGroups) {
   const StaticSolution solution =
       solve_static(model, rest, contacts, match_memories({}, contacts.points), {.tolerance = 1e-5});
   ASSERT_EQ(solution.outcome, StaticOutcome::moving) << solution.message;
-  const Mechanism mechanism = find_mechanism(model, rest, contacts, solution.step.problem, solution.increment);
+  const Mechanism mechanism =
+      find_mechanism(model, rest, contacts, solution.step.problem, solution.increment);
   EXPECT_EQ(mechanism.num_groups, 5);
   int hinges = 0;
   for (const MovingJoint& joint : mechanism.joints) {
