@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/cyclic_reduction.hpp"
 #include "solver/analysis/static_step.hpp"
 #include "solver/contact/methods/newton.hpp"
@@ -62,6 +63,12 @@ class ProximalPoint {
     set_step(first_static_step(model, start, contacts, acceleration_, options));
   }
 
+  /// Starts from the displacements and forces of another solve of the same scene instead of following a path.
+  void start_from(const StaticSolution& other) {
+    follows_path_ = false;
+    set_step(other.h);
+    x_ = other.step_solution;
+  }
   StaticSolution run();
 
  private:
@@ -326,6 +333,14 @@ void certify(const Model& model, const State& start, const ContactSet& contacts,
         "end the equilibrium";
 }
 
+/// True if the path showed nothing: it ended without a verdict, or called a motion steady before any block had
+/// moved by 1 % of the smallest. Stiff joints beside soft ones, or nearly rigid ones, do that.
+bool shows_nothing(const Model& model, const StaticSolution& solution) {
+  constexpr double kShare = 0.01;
+  if (solution.outcome != StaticOutcome::moving) return solution.outcome == StaticOutcome::unconverged;
+  return largest_speed(solution.step_solution.v) * solution.h < kShare * smallest_block_size(*model.assembly);
+}
+
 }  // namespace
 
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
@@ -344,8 +359,14 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
     }
     ProximalPoint coulomb(model, start, contacts, memories, options);
     const int iterations = first.iterations;
-    first = {};
     solution = coulomb.run();
+    if (first.outcome == StaticOutcome::equilibrium && shows_nothing(model, solution)) {
+      ProximalPoint again(model, start, contacts, memories, options);
+      again.start_from(first);
+      if (StaticSolution second = again.run(); second.outcome == StaticOutcome::equilibrium)
+        solution = std::move(second);
+    }
+    first = {};
     solution.iterations += iterations;
   }
   certify(model, start, contacts, options, &solution);

@@ -228,7 +228,9 @@ TEST(Commands, ExplainTheModelWithoutSolvingIt) {
   const std::string limit = explained(
       " --set analysis.type=limit --set analysis.limit.parameter=friction --set analysis.limit.low=0.1 "
       "--set analysis.limit.high=0.4 --set analysis.limit.relative_width=0.01");
-  EXPECT_TRUE(contains(limit, "limit, newton: about 9 equilibria between 0.1 and 0.4")) << limit;
+  EXPECT_TRUE(
+      contains(limit, "limit, direct: conic programmes over all admissible states between 0.1 and 0.4"))
+      << limit;
   EXPECT_EQ(folder.contents().size(), 2u) << "case and assembly";
 }
 

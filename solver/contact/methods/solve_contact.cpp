@@ -1,5 +1,7 @@
 #include "solver/contact/methods/solve_contact.hpp"
 
+#include <optional>
+
 #include "assembly/base/error.hpp"
 #include "solver/contact/methods/method_table.hpp"
 #include "solver/contact/methods/outer_iterations.hpp"
@@ -28,8 +30,6 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
                                   ContactSolution* solution) {
   const bool rigid = has_rigid_contact(problem);
   const MethodTraits& method = method_traits(options.method);
-  if (!options.law.is_associated() && options.method == ContactMethod::newton)
-    return coulomb_.solve(problem, options, solution);
   const auto convex = [&](const ContactProblem& p, const SolveOptions& o, ContactSolution* x) {
     const SolveSummary summary = method.solve(newton_, p, o, x);
     CUPOLA_ASSERT(!summary.usable() || (x->v.size() == p.v_star.size() && x->gamma.size() == p.b.size()));
@@ -53,8 +53,18 @@ SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSo
     return last.after(first);
   }
   if (options.law.is_associated() && !method.primal) return convex(problem, options, solution);
+  std::optional<SolveSummary> newton;
+  if (!options.law.is_associated() && options.method == ContactMethod::newton) {
+    ContactSolution x = *solution;
+    newton = coulomb_.solve(problem, options, &x);
+    if (newton->ending == SolveEnding::converged || options.max_iterations) {
+      *solution = std::move(x);
+      return *newton;
+    }
+  }
   const double share = rigid && method.primal ? kProximalShare : 0.0;
-  return solve_by_outer_iterations(problem, {options, share}, convex, solution);
+  const SolveSummary last = solve_by_outer_iterations(problem, {options, share}, convex, solution);
+  return newton ? last.after(*newton) : last;
 }
 
 SolveSummary solve_contact(const ContactProblem& problem, const ContactSolverOptions& options,
