@@ -11,6 +11,7 @@
 #include "solver/analysis/direct_limit.hpp"
 #include "solver/analysis/mechanism.hpp"
 #include "solver/analysis/record.hpp"
+#include "solver/analysis/static_solve.hpp"
 
 namespace cupola {
 namespace {
@@ -127,13 +128,15 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
     const std::string mechanism = write_ends(limit, sinks, &summary);
     const double width = limit.relative_width();
     summary.accuracy.reached = summary.accuracy.worst_over_run = width;
-    if (width <= kWidth) summary.status = Status::stable;
+    // Recomputed from points and world forces: what the solver calls admissible must balance.
+    const bool balanced = summary.equilibrium_residual.value() <= kOutcomeTolerance;
+    if (width <= kWidth && balanced) summary.status = Status::stable;
     summary.critical = CriticalValue{name, limit.middle(), limit.admissible, limit.moving};
     const std::string unit = limit_unit(name);
-    summary.message = fmt::format(
-        "{}{}: an admissible state at {:.8g}, a mechanism at {:.8g} (relative width {:.1e}){}; {}", name,
-        unit.empty() ? "" : " (" + unit + ")", limit.admissible, limit.moving, width, limit.message,
-        mechanism);
+    summary.message = fmt::format("{}{}: {} at {:.8g}, a mechanism at {:.8g} (relative width {:.1e}){}; {}",
+                                  name, unit.empty() ? "" : " (" + unit + ")",
+                                  balanced ? "an admissible state" : "forces that do not balance the loads",
+                                  limit.admissible, limit.moving, width, limit.message, mechanism);
   }
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;

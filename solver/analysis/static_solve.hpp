@@ -85,6 +85,9 @@ struct StaticSolution {
 ///   unconverged   h became too short: Newton's method fails on every step
 ///   unconverged   the imbalance is still above the tolerance after 250 steps
 ///
+/// Where the path shows nothing (unconverged, or a motion of less than 1 % of the smallest block), the proximal-
+/// point iteration above is tried from the associated solution; its equilibrium counts, nothing else of it.
+///
 /// A path in the dilatancy, from the associated solution to Coulomb's, is shorter far from collapse. Near collapse
 /// it passes through states that exist only because joints have opened: slip grows as 1 / dilatancy there.
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
