@@ -50,6 +50,16 @@ void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "")
   }
 }
 
+/// `cupola:NAME` if a file of this name comes with Cupola, else "".
+std::string bundled_name(const std::string& file) {
+  const std::string folder = bundled_folder();
+  const fs::path name = fs::path(file).filename();
+  std::error_code error;
+  const bool comes_with_cupola =
+      !folder.empty() && name.extension() == ".yaml" && fs::is_regular_file(fs::path(folder) / name, error);
+  return comes_with_cupola ? kBundledPrefix + name.stem().string() : "";
+}
+
 /// Files read so far.
 struct Chain {
   std::vector<fs::path> identities;
@@ -79,8 +89,11 @@ CaseNode load_file(const std::string& path, const std::string& root_folder, Chai
   if (chain->identities.size() >= kLongestChain)
     throw InputError(name.where, fmt::format("extends = {}: more than {} files extend one another",
                                              shown(name), kLongestChain));
-  if (!fs::is_regular_file(base_path))
-    throw InputError(name.where, fmt::format("extends = {}: no such file", shown(name)));
+  if (!fs::is_regular_file(base_path)) {
+    const std::string meant = bundled_name(name.text);
+    throw InputError(name.where, fmt::format("extends = {}: no such file{}", shown(name),
+                                             meant.empty() ? "" : fmt::format("; did you mean {}?", meant)));
+  }
 
   tree.entries.erase(tree.entries.begin() + (extends - tree.entries.data()));
   CaseNode merged = load_file(base_path, bundled ? bundled_folder() : root_folder, chain);
@@ -124,13 +137,6 @@ CaseNode parse_set_option(const std::string& option) {
   }
 }
 
-/// What to do about a case file outside the folder of the case.
-std::string remedy_for(const std::string& name) {
-  if (fs::path(name).extension() != ".yaml") return {};
-  return fmt::format("; copy it there, or, for a case that comes with Cupola, write {}{}", kBundledPrefix,
-                     fs::path(name).stem().string());
-}
-
 }  // namespace
 
 std::string path_inside(const std::string& root_folder, const std::string& from_file, const std::string& name,
@@ -141,9 +147,12 @@ std::string path_inside(const std::string& root_folder, const std::string& from_
     throw InputError(where, fmt::format("{}: cannot be accessed: {}", shown(name), error.message()));
   const fs::path root = identity_of(root_folder.empty() ? "." : root_folder);
   const fs::path relative = identity_of(path).lexically_relative(root);
-  if (fs::path(name).is_absolute() || relative.empty() || *relative.begin() == "..")
-    throw InputError(where, fmt::format("{}: the file must lie in or below the folder of the case{}",
-                                        shown(name), remedy_for(name)));
+  if (fs::path(name).is_absolute() || relative.empty() || *relative.begin() == "..") {
+    const std::string bundled = bundled_name(name);
+    throw InputError(where,
+                     fmt::format("{}: the file must lie in or below the folder of the case; copy it there{}",
+                                 shown(name), bundled.empty() ? "" : fmt::format(", or write {}", bundled)));
+  }
   return path.string();
 }
 

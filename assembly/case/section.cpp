@@ -99,18 +99,17 @@ void Section::record(const std::string& key, CaseNode value) {
 
 void Section::require(const std::string& key, const std::string& hint) {
   if (!describing())
-    missing_.push_back(fmt::format("{} is missing and has no default{}", path_of(key), hint));
+    missing_.emplace_back(where_, fmt::format("{} is missing and has no default{}", path_of(key), hint));
 }
 
-void Section::check_given(const std::string& key) const {
-  if (missing_.empty()) return;
+void Section::fail_without(const std::string& key) const {
   std::vector<std::string> given;
   if (node_)
     for (const CaseNode::Entry& entry : node_->entries) given.push_back(entry.key);
   const std::string near = nearest_name(key, given);
-  throw InputError(
-      where_,
-      missing_.front() + (near.empty() ? "" : fmt::format("; is {} a misspelling of it?", shown(near))));
+  throw InputError(where_,
+                   missing_.back().second +
+                       (near.empty() ? "" : fmt::format("; is {} a misspelling of it?", shown(near))));
 }
 
 void Section::text(const std::string& key, std::string& value, const std::string& meaning) {
@@ -362,7 +361,7 @@ void Section::open(const std::string& key, const std::string& meaning, const Dec
   child.schema_ = schema_;
   child.files_ = files_;
   declare(child);
-  child.finish();
+  close(child);
   record(key, child.effective());
 }
 
@@ -387,7 +386,7 @@ void Section::open_list(const std::string& key, const std::string& meaning, cons
       Section item(&node->items[i], fmt::format("{}[{}]", path_of(key), i), node->items[i].where, case_file_);
       item.files_ = files_;
       declare_item(item);
-      item.finish();
+      close(item);
       values.items.push_back(item.effective());
     }
   }
@@ -409,7 +408,12 @@ void Section::rule(bool holds, const std::string& key, const std::string& text) 
   throw InputError(where_, fmt::format("{}: {}", path_of(key), text));
 }
 
-void Section::finish() const {
+void Section::close(const Section& child) {
+  child.check_names();
+  missing_.insert(missing_.end(), child.missing_.begin(), child.missing_.end());
+}
+
+void Section::check_names() const {
   if (node_) {
     for (const auto& [key, where, value] : node_->entries) {
       if (contains(known_, key)) continue;
@@ -423,7 +427,11 @@ void Section::finish() const {
                                           joined(known_)));
     }
   }
-  if (!missing_.empty()) throw InputError(where_, missing_.front());
+}
+
+void Section::finish() const {
+  check_names();
+  if (!missing_.empty()) throw InputError(missing_.front().first, missing_.front().second);
 }
 
 }  // namespace cupola

@@ -124,8 +124,8 @@ class Section {
   /// Checks a rule between several keys; the message refers to `key`.
   void rule(bool holds, const std::string& key, const std::string& text) const;
 
-  /// Throws InputError for an unknown key and for a missing required key. To be called after the declaration,
-  /// by the code that created the section.
+  /// Throws InputError for a missing required key of this section or of one below it. To be called once, after
+  /// the declaration of the whole file: a missing key is reported only where nothing that is given is wrong.
   void finish() const;
   /// From now on `files` receives the paths that file() reads.
   void collect_files(std::vector<std::string>* files) { files_ = files; }
@@ -152,7 +152,9 @@ class Section {
   void record(const std::string& key, const std::string& text, bool quoted = false);
   void record(const std::string& key, CaseNode value);
   void require(const std::string& key, const std::string& hint = "");
-  void check_given(const std::string& key) const;  // a variant cannot be declared further without its type
+  [[noreturn]] void fail_without(const std::string& key) const;  // `key` is the last missing one
+  void check_names() const;                                      // throws for an unknown key
+  void close(const Section& child);  // checks its names and takes over its missing keys
 
   /// Index of the chosen name, or the default without the key. If there is no default (-1), the key is
   /// required.
@@ -173,7 +175,7 @@ class Section {
   std::vector<std::string>* files_ = nullptr;
   CaseNode effective_;
   std::vector<std::string> known_;
-  std::vector<std::string> missing_;
+  std::vector<std::pair<FileLocation, std::string>> missing_;  // messages
 };
 
 template <NamedEnum E>
@@ -237,7 +239,7 @@ void Section::variant(const std::string& key, Variant& value,
   std::vector<std::string> names;
   for (const auto& alternative : alternatives) names.push_back(alternative.name);
   const int chosen = choose(key, names, -1, meaning);
-  check_given(key);
+  if (chosen < 0 && !describing()) fail_without(key);  // the other keys depend on it
   if (chosen >= 0) alternatives[static_cast<size_t>(chosen)].declare(*this, value);
   if (!describing()) return;
   for (const auto& alternative : alternatives) {

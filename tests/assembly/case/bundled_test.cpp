@@ -47,16 +47,22 @@ TEST(BundledCase, NamesLeadToNoOtherFile) {
         << name;
 }
 
-TEST(Case, ExtendingAFileElsewhereIsRefusedWithARemedy) {
+TEST(Case, BundledCasesThatAreNamedAsFilesAreSuggested) {
   const ScratchFolder scratch;
-  try {
-    read_case(scratch.write("mine/bad.yaml", "extends: ../cases/dome_circular.yaml\n"));
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("for a case that comes with Cupola, write cupola:dome_circular"),
-              std::string::npos)
-        << error.what();
-  }
+  const auto message = [&scratch](const std::string& extends) -> std::string {
+    try {
+      read_case(scratch.write("mine/bad.yaml", "extends: " + extends + "\n"));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_NE(message("../cases/dome_circular.yaml").find("copy it there, or write cupola:dome_circular"),
+            std::string::npos);
+  EXPECT_NE(message("dome_circular.yaml").find("no such file; did you mean cupola:dome_circular?"),
+            std::string::npos);
+  EXPECT_EQ(message("../cases/my_dome.yaml").find("cupola:"), std::string::npos);
+  EXPECT_EQ(message("my_dome.yaml").find("cupola:"), std::string::npos);
 }
 
 }  // namespace

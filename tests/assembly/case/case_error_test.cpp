@@ -29,6 +29,9 @@ const std::string kGood =
     "joints:\n"
     "  compliance: {per: point}\n";
 
+/// Without the required key joints.compliance.per.
+const std::string kDome = "geometry: {surface: {type: dome}, bond: {type: running}}\n";
+
 struct BadCase {
   std::string name;
   std::string text;
@@ -72,10 +75,12 @@ const BadCase kBadCases[] = {
      "compliance"},
     {"DecimalComma", kGood + "  friction: 0,2\n",
      "bad.yaml:6:13: error: joints.friction = 0,2: must be a number; a decimal comma? Write 0.2"},
-    {"DecimalCommaInAMap",
-     "joints: {friction: 0,25, compliance: {per: point}}\ngeometry: {surface: {type: dome}, bond: {type: "
-     "running}}\n",
+    {"DecimalCommaInAMap", "joints: {friction: 0,25, compliance: {per: point}}\n" + kDome,
      "bad.yaml:1:22: error: joints.25: unknown key; a decimal comma? Write friction: 0.25. Valid keys"},
+    {"DecimalCommaBeforeMissingKeys", "loads: {lantern: {}}\njoints: {friction: 0,25}\n" + kDome,
+     "bad.yaml:2:22: error: joints.25: unknown key; a decimal comma? Write friction: 0.25. Valid keys"},
+    {"UnknownSectionBeforeMissingKeys", kDome + "lods: {}\n",
+     "bad.yaml:2:1: error: lods: unknown key; did you mean loads?"},
     {"OtherName", kGood + "  mu: 0.4\n",
      "bad.yaml:6:3: error: joints.mu: unknown key; did you mean joints.friction or joints.bed.friction"},
     {"RetiredKey", "geometry: {import: {most_overlap: 1e-3}}\n",
@@ -116,7 +121,7 @@ const BadCase kBadCases[] = {
      "bad.yaml:6:25: error: material.unit_weight = 0: must be > 0"},
     {"TwoGravityNumbers", kGood + "loads: {gravity: [0, 1]}\n",
      "bad.yaml:6:18: error: loads.gravity = [...]: must be a list of three numbers, [x, y, z]"},
-    {"MissingPer", "geometry: {surface: {type: dome}, bond: {type: running}}\n",
+    {"MissingPer", kDome,
      "bad.yaml:1:1: error: joints.compliance.per is missing and has no default; choose point (normal "
      "and tangential in m/N for each contact point, as in the paper, by default 1e-08 and 1e-08) or area"},
     {"MissingSurfaceType", "geometry: {surface: {span: 3}}\n",

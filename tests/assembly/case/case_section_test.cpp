@@ -33,8 +33,10 @@ TEST(SectionFile, OpensOnlyFilesInOrBelowTheFolderOfTheCase) {
   EXPECT_EQ(read("mesh: meshes/../meshes/block.obj"), scratch.file("meshes/../meshes/block.obj"));
   EXPECT_EQ(message_of([&] { read("mesh: meshes/none.obj"); }),
             "case.yaml:1:7: error: geometry.mesh = meshes/none.obj: no such file in the folder of the case");
-  EXPECT_EQ(message_of([&] { read("mesh: ../../etc/passwd"); }),
-            "case.yaml:1:7: error: ../../etc/passwd: the file must lie in or below the folder of the case");
+  EXPECT_EQ(
+      message_of([&] { read("mesh: ../../etc/passwd"); }),
+      "case.yaml:1:7: error: ../../etc/passwd: the file must lie in or below the folder of the case; copy "
+      "it there");
 }
 
 TEST(SectionFlag, AcceptsOnlyTrueAndFalse) {
