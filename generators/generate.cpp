@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/case/plausibility.hpp"
 #include "assembly/model/block_names.hpp"
@@ -66,7 +67,14 @@ Assembly generate(const Case& input, GenerateReport* report) {
     return with_report(std::move(assembly), *report, resolved);
   }
   Assembly assembly = cut_assembly(input);
-  report->model = check_model(assembly, generated_tolerances(assembly));
+  ModelTolerances tolerances = generated_tolerances(assembly);
+  if (geometry.imperfections && geometry.imperfections->gap > 0.0) {  // joints as the solver finds them
+    const JointRule rule = joint_rule(smallest_block_size(assembly), input.contact.margin);
+    tolerances.joint_gap = rule.margin;
+    tolerances.joint_width = rule.min_width;
+    tolerances.joint_angle = rule.max_angle;
+  }
+  report->model = check_model(assembly, tolerances);
   if (!geometry.stage) {
     report->model.shell_volume = make_surface(geometry.surface, 2).shell_volume;
     if (!report->model.shell_volume) report->model.shell_volume = extrapolated_shell_volume(geometry.surface);
@@ -84,7 +92,8 @@ std::vector<std::string> warnings_of(const GenerateReport& report) {
   std::vector<std::string> warnings = warnings_of(report.model, report.import->origins);
   if (report.import->sliver_parts > 0)
     warnings.push_back(
-        fmt::format("{} parts are slivers, thinner than 1e-3 of their size", report.import->sliver_parts));
+        fmt::format("{}, thinner than 1e-3 of the size",
+                    counted(report.import->sliver_parts, "part is a sliver", "parts are slivers")));
   return warnings;
 }
 

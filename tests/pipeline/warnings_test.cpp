@@ -111,8 +111,9 @@ TEST(Warnings, AreNotColouredInAFile) {
 }
 
 /// All warnings that the programs give for a case as shipped.
-std::vector<std::string> all_warnings(const std::string& path) {
-  Case scene = read_case(path);
+std::vector<std::string> all_warnings(const std::string& path,
+                                      const std::vector<std::string>& settings = {}) {
+  Case scene = read_case(path, settings);
   const Assembly assembly = generate(scene);
   std::vector<std::string> warnings = assembly.case_warnings;
   const auto add = [&warnings](const std::vector<std::string>& more) {
@@ -129,6 +130,12 @@ std::vector<std::string> all_warnings(const std::string& path) {
 TEST(Warnings, NoSmallShippedCaseWarns) {
   for (const std::string name : {"portal", "wall_window", "wall_small", "wall_herringbone", "dome_circular"})
     EXPECT_EQ(all_warnings(bundled_folder() + "/" + name + ".yaml"), std::vector<std::string>{}) << name;
+}
+
+// Joints that an imperfection opens are still joints.
+TEST(Warnings, NoBlockOfAModelWithGapsLacksJoints) {
+  EXPECT_EQ(all_warnings(bundled_folder() + "/dome_circular.yaml", {"imperfections.gap=2e-4"}),
+            std::vector<std::string>{});
 }
 
 TEST(WarningsSlow, NoShippedCaseWarns) {
