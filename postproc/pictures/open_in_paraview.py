@@ -1,8 +1,8 @@
 """Opens a Cupola run in ParaView: `paraview --script=open_in_paraview.py` in the folder of this file.
 
 Reads the files in the current folder, or in the folder CUPOLA_POST. Left view: the blocks, coloured by the hoop force, or by
-the bodies of the mechanism if the structure is not at rest. Right view: the forces inside the transparent blocks. Layers
-that are not shown at first are listed in the Pipeline Browser.
+the bodies of the mechanism if the structure is not at rest. Right view: the forces inside the transparent blocks, if it is
+at rest. Layers that are not shown at first are listed in the Pipeline Browser.
 """
 import os
 
@@ -70,11 +70,12 @@ scene = GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()
 scene.AnimationTime = times[-1]
 blocks.UpdatePipeline(times[-1])
+at_rest = blocks.CellData.GetArray("mechanism_group").GetRange()[1] == 0  # otherwise the bodies are numbered from 1
 hoop = blocks.CellData.GetArray("hoop_force_N_per_m")
 low, high = hoop.GetRange() if hoop else (0.0, 0.0)
 shown = Show(blocks, left)
 shown.Representation, shown.EdgeColor = "Surface With Edges", [0.3, 0.3, 0.3]
-if low == low and high > low:  # not NaN, not all zero
+if at_rest and low == low and high > low:  # not NaN, not all zero
     by_array(shown, left, "hoop_force_N_per_m", "hoop force (N/m), compression positive", symmetric=True)
 else:
     by_array(shown, left, "mechanism_group", "body of the mechanism")
@@ -89,6 +90,7 @@ for name, visible, width, colour in LAYERS:
     if layer.GetDataInformation().GetNumberOfCells() == 0:
         Delete(layer)
         continue
+    visible = visible and at_rest  # the forces of a motion are those of one instant
     display = Show(layer, right)
     display.LineWidth = width
     if isinstance(colour, str):

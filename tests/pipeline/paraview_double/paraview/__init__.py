@@ -1,0 +1,1 @@
+"""A stand-in for ParaView: see simple.py."""
