@@ -1,10 +1,12 @@
 #include "solver/cost_estimate.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/static_start.hpp"
@@ -13,6 +15,7 @@
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/whitening.hpp"
 #include "solver/dynamics/scene_options.hpp"
+#include "solver/runtime/interruption.hpp"
 
 namespace cupola {
 namespace {
@@ -75,67 +78,100 @@ double num_passes(const Case& scene) {
   return scene.analysis.friction_law != FrictionLaw::associated || rigid ? kPasses : 1.0;
 }
 
-CostEstimate estimate_static(const Case& scene, const Assembly& assembly, const ContactProblem& problem) {
-  CostEstimate cost;
+/// Adds the time of `work`, which the time limit may end, to the estimate. False if it did.
+bool add_time(const std::string& what, const std::function<void()>& work, CostEstimate* cost) {
+  const double started = cpu_seconds();
+  bool ended = true;
+  try {
+    work();
+  } catch (const Interrupted&) {
+    ended = false;
+  }
+  const double taken = cpu_seconds() - started;
+  cost->seconds += taken;
+  if (!ended) cost->left_out = fmt::format("{}, which had not ended after {:.2g} s", what, taken);
+  return ended;
+}
+
+void estimate_static(const Case& scene, const Assembly& assembly, const ContactProblem& problem,
+                     CostEstimate* cost) {
   const double solves = num_equilibria(scene.analysis, assembly.num_rings) * num_passes(scene);
   if (method_traits(scene.analysis.method).uses_multigrid && has_many_blocks(problem)) {
-    if (const std::optional<double> once = time_multigrid(problem)) {
-      cost.seconds = solves * kMultigridSolvesPerSolve * *once;
-      cost.basis = fmt::format("one multigrid solve, {:.3g} s", *once);
-      return cost;
+    std::optional<double> once;
+    if (!add_time(
+            "a multigrid solve", [&] { once = time_multigrid(problem); }, cost))
+      return;
+    if (once) {
+      cost->seconds = solves * kMultigridSolvesPerSolve * *once;
+      cost->basis = fmt::format("one multigrid solve, {:.3g} s", *once);
+      return;
     }
   }
   BlockCholesky factor;
-  const double once = time_factorization(problem, &factor);
-  cost.factor_entries = factor.num_nonzeros();
-  cost.seconds = solves * kFactorizationsPerSolve * once;
-  cost.basis = fmt::format("one factorisation, {:.3g} s", once);
-  return cost;
+  double once = 0.0;
+  if (!add_time(
+          "a factorisation", [&] { once = time_factorization(problem, &factor); }, cost))
+    return;
+  cost->factor_entries = factor.num_nonzeros();
+  cost->seconds = solves * kFactorizationsPerSolve * once;
+  cost->basis = fmt::format("one factorisation, {:.3g} s", once);
 }
 
-CostEstimate estimate_motion(const Case& scene, const Assembly& assembly, const ContactProblem& problem) {
-  CostEstimate cost;
+/// False if no motion follows.
+bool estimate_start(const Case& scene, Simulation* simulation, CostEstimate* cost) {
+  StaticStart start;
+  const auto solve = [&] {
+    start = start_from_equilibrium(
+        scene, [](const std::string&) {}, simulation);
+  };
+  if (!add_time("the static start", solve, cost)) return false;
+  cost->basis = fmt::format("static start, {:.3g} s", cost->seconds);
+  if (start.solution.outcome == StaticOutcome::equilibrium) return true;
+  cost->basis += ", which finds no equilibrium";
+  return false;
+}
+
+void estimate_motion(const Case& scene, const Assembly& assembly, const ContactProblem& problem,
+                     CostEstimate* cost) {
   Simulation simulation = make_simulation(scene, assembly);
-  if (simulation.options().static_start) {
-    const double started = cpu_seconds();
-    const StaticStart start = start_from_equilibrium(
-        scene, [](const std::string&) {}, &simulation);
-    cost.seconds = cpu_seconds() - started;
-    cost.basis = fmt::format("static start, {:.3g} s", cost.seconds);
-    if (start.solution.outcome != StaticOutcome::equilibrium) {
-      cost.basis += ", which finds no equilibrium";
-      return cost;
-    }
-    cost.basis += "; ";
+  if (simulation.options().static_start && !estimate_start(scene, &simulation, cost)) return;
+  const double duration = scene.analysis.duration, started = cpu_seconds();
+  const auto more = [&] {
+    return static_cast<int>(cost->steps.size()) < kTimedSteps && cpu_seconds() - started < kTimingBudget &&
+           simulation.state().time < duration * (1.0 - 1e-12);
+  };
+  while (more()) {
+    const double before = cpu_seconds();
+    StepReport report;
+    const auto step = [&] { report = simulation.advance(step_limit(scene, simulation.state().time)); };
+    if (!add_time(fmt::format("step {}", cost->steps.size() + 1), step, cost)) break;
+    cost->steps.push_back({report.h, report.solve.iterations, cpu_seconds() - before});
   }
-  const double duration = scene.analysis.duration;
-  double timed = 0.0;
-  while (static_cast<int>(cost.steps.size()) < kTimedSteps && timed < kTimingBudget &&
-         simulation.state().time < duration * (1.0 - 1e-12)) {
-    const double started = cpu_seconds();
-    const StepReport report = simulation.advance(step_limit(scene, simulation.state().time));
-    cost.steps.push_back({report.h, report.solve.iterations, cpu_seconds() - started});
-    timed += cost.steps.back().seconds;
-  }
-  cost.seconds += timed;
-  const TimedStep& last = cost.steps.back();
-  cost.seconds += std::max(0.0, duration - simulation.state().time) / last.h * last.seconds;
-  cost.basis += fmt::format("{} step{}, the last of {:.3g} s in {:.3g} s", cost.steps.size(),
-                            cost.steps.size() == 1 ? "" : "s", last.h, last.seconds);
-  if (method_traits(scene.analysis.method).uses_factor) {
-    BlockCholesky factor;
-    time_factorization(problem, &factor);
-    cost.factor_entries = factor.num_nonzeros();
-  }
-  return cost;
+  if (cost->steps.empty()) return;
+  const TimedStep& last = cost->steps.back();
+  cost->seconds += std::max(0.0, duration - simulation.state().time) / last.h * last.seconds;
+  if (!cost->basis.empty()) cost->basis += "; ";
+  cost->basis += fmt::format("{}, the last of {:.3g} s in {:.3g} s", counted(cost->steps.size(), "step"),
+                             last.h, last.seconds);
+  if (!method_traits(scene.analysis.method).uses_factor || !cost->left_out.empty()) return;
+  BlockCholesky factor;
+  const double motion = cost->seconds;
+  if (add_time(
+          "a factorisation", [&] { time_factorization(problem, &factor); }, cost))
+    cost->factor_entries = factor.num_nonzeros();
+  cost->seconds = motion;
 }
 
 }  // namespace
 
-CostEstimate estimate_cost(const Case& scene, const Assembly& assembly, const ContactProblem& problem) {
-  CostEstimate cost = scene.analysis.type == AnalysisType::dynamic
-                          ? estimate_motion(scene, assembly, problem)
-                          : estimate_static(scene, assembly, problem);
+CostEstimate estimate_cost(const Case& scene, const Assembly& assembly, const ContactProblem& problem,
+                           double time_limit) {
+  const TimeLimit limit(time_limit);
+  CostEstimate cost;
+  if (scene.analysis.type == AnalysisType::dynamic)
+    estimate_motion(scene, assembly, problem, &cost);
+  else
+    estimate_static(scene, assembly, problem, &cost);
   cost.bytes = static_cast<double>(peak_memory_bytes());
   return cost;
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/files/number_text.hpp"
 #include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/cyclic_reduction.hpp"
@@ -91,11 +92,11 @@ std::string active_features(const Case& scene, const ModelCounts& counts) {
                    scene.joints.compliance.per == Compliance::Per::area ? "area (m3/N)" : "point (m/N)"));
   if (analysis.plane)
     line("plane", "motion in x-z: three unknowns per block, one contact point instead of two");
-  if (counts.ties > 0) line("ties", fmt::format("{} ties and struts", counts.ties));
+  if (counts.ties > 0) line("ties", counted(counts.ties, "tie or strut", "ties and struts"));
   if (scene.supports.moving()) line("supports", "move");
   if (scene.contact.method == ContactDetection::Method::perturbed_gjk)
-    line("contact", fmt::format("perturbed GJK, {} queries per pair of parts",
-                                scene.contact.perturbation.perturbations));
+    line("contact", fmt::format("perturbed GJK, {} per pair of parts",
+                                counted(scene.contact.perturbation.perturbations, "query", "queries")));
   return text;
 }
 
@@ -145,8 +146,10 @@ std::string analysis_line(const Analysis& analysis) {
             "dynamic, {}: {:g} s in adaptive steps, the first of {:g} s; contacts are updated where "
             "blocks have moved",
             method, analysis.duration, analysis.time_step);
-      return fmt::format("dynamic, {}: {:.0f} steps of {:g} s; contacts are updated where blocks have moved",
-                         method, std::ceil(analysis.duration / analysis.time_step), analysis.time_step);
+      return fmt::format(
+          "dynamic, {}: {} of {:g} s; contacts are updated where blocks have moved", method,
+          counted(static_cast<long long>(std::ceil(analysis.duration / analysis.time_step)), "step"),
+          analysis.time_step);
     case AnalysisType::staged:
       return fmt::format("staged, {}: one equilibrium per ring", method);
     case AnalysisType::limit:
@@ -163,29 +166,40 @@ std::string duration_text(double seconds) {
   return seconds < 120.0 ? fmt::format("{:.2g} s", seconds) : fmt::format("{:.2g} min", seconds / 60.0);
 }
 
+std::string cost_text(const CostEstimate& cost) {
+  const bool complete = cost.left_out.empty();
+  std::string text = fmt::format("  estimate    {}{} of processor time", complete ? "" : "at least ",
+                                 duration_text(cost.seconds));
+  if (!cost.basis.empty()) text += fmt::format(" ({})", cost.basis);
+  text += fmt::format(", {:.0f} MB", cost.bytes / 1e6);
+  if (cost.factor_entries > 0)
+    text += fmt::format(", {} in the factor", counted(cost.factor_entries, "entry", "entries"));
+  text += "\n";
+  if (!complete) text += fmt::format("  left out    {}, and what follows it\n", cost.left_out);
+  return text;
+}
+
 }  // namespace
 
-ModelExplanation explain_model(const Case& scene, const Assembly& assembly) {
+ModelExplanation explain_model(const Case& scene, const Assembly& assembly, double time_limit) {
   ModelExplanation e;
   const FirstProblem first = build_first_problem(scene, assembly);
   e.counts = count_model(first, first.sector ? scene.analysis.cyclic_sectors : 1);
-  e.cost = estimate_cost(scene, assembly, first.solved());
+  e.cost = estimate_cost(scene, assembly, first.solved(), time_limit);
   const ModelCounts& c = e.counts;
   e.text = fmt::format("{} ({})\n", scene.title.empty() ? "untitled" : scene.title, scene.file);
-  e.text += fmt::format("  blocks      {} free, {} fixed (no unknowns), {} convex parts, {} island(s)\n",
-                        c.free_blocks, c.fixed_blocks, c.parts, c.islands);
-  e.text += fmt::format("  unknowns    {} velocities, {} force components at {} contacts in {} joints\n",
-                        c.unknowns, c.force_rows, c.contacts, c.joints);
-  e.text += fmt::format("  weight      {}; {} point loads besides gravity\n",
-                        readable_force(first.model.free_weight), first.model.loads.points.size());
+  e.text += fmt::format("  blocks      {} free, {} fixed (no unknowns), {}, {}\n", c.free_blocks,
+                        c.fixed_blocks, counted(c.parts, "convex part"), counted(c.islands, "island"));
+  e.text += fmt::format("  unknowns    {}, {} at {} in {}\n", counted(c.unknowns, "velocity", "velocities"),
+                        counted(c.force_rows, "force component"), counted(c.contacts, "contact"),
+                        counted(c.joints, "joint"));
+  e.text += fmt::format("  weight      {}; {} besides gravity\n", readable_force(first.model.free_weight),
+                        counted(first.model.loads.points.size(), "point load"));
   e.text += "  analysis    " + analysis_line(scene.analysis) + "\n";
   e.text += "  active\n" + active_features(scene, c);
   if (scene.analysis.type == AnalysisType::static_) e.text += static_features(scene.analysis);
   if (scene.analysis.type == AnalysisType::dynamic) e.text += motion_features(scene);
-  e.text += fmt::format("  estimate    {} of processor time ({}), {:.0f} MB", duration_text(e.cost.seconds),
-                        e.cost.basis, e.cost.bytes / 1e6);
-  if (e.cost.factor_entries > 0) e.text += fmt::format(", {} entries in the factor", e.cost.factor_entries);
-  e.text += "\n";
+  e.text += cost_text(e.cost);
   return e;
 }
 

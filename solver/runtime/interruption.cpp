@@ -4,6 +4,8 @@
 #include <csignal>
 #include <ctime>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 namespace {
 
@@ -15,7 +17,7 @@ long long monotonic_milliseconds() noexcept {
 }
 
 constexpr long long kNever = -1;
-std::atomic<long long> time_of_request = kNever;
+std::atomic<long long> time_of_request = kNever, deadline = kNever;
 static_assert(std::atomic<long long>::is_always_lock_free);  // as a signal handler requires
 
 void request_stop(int signal) {
@@ -41,10 +43,21 @@ bool StopRequest::made() const {
   return time_of_request != kNever;
 }
 
+TimeLimit::TimeLimit(double seconds) {
+  CUPOLA_ASSERT(deadline == kNever);
+  deadline = monotonic_milliseconds() + static_cast<long long>(1000.0 * seconds);
+}
+
+TimeLimit::~TimeLimit() {
+  deadline = kNever;
+}
+
 bool must_abandon() noexcept {
   constexpr long long kGrace = 1000;  // ms
-  const long long requested = time_of_request;
-  return requested != kNever && monotonic_milliseconds() - requested > kGrace;
+  const long long requested = time_of_request, last = deadline;
+  if (requested == kNever && last == kNever) return false;
+  const long long now = monotonic_milliseconds();
+  return (requested != kNever && now - requested > kGrace) || (last != kNever && now >= last);
 }
 
 void throw_if_interrupted() {

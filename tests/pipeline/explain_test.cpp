@@ -46,6 +46,26 @@ TEST(Explain, InactiveFeaturesAddNothing) {
     EXPECT_EQ(rough.text.find(phrase), std::string::npos) << phrase << "\n" << rough.text;
 }
 
+// A limit of zero ends every part that is timed: the same path as a static start that takes hours.
+TEST(Explain, EndsAtItsTimeLimitAndNamesWhatItLeavesOut) {
+  const Assembly wall = generate(case_of("wall_large", {}));
+  const std::vector<std::string> motion{"analysis.type=dynamic", "analysis.duration=0.1"};
+  std::vector<std::string> from_rest = motion;
+  from_rest.emplace_back("analysis.start=static");
+  for (const auto& [settings, left_out] :
+       {std::pair{std::vector<std::string>{}, "a factorisation, which had"},
+        std::pair{motion, "step 1, which had not ended after"},
+        std::pair{from_rest, "the static start, which had not ended after"}}) {
+    const Case input = case_of("wall_large", settings);
+    const ModelExplanation e = explain_model(input, wall, 0.0);
+    EXPECT_EQ(e.cost.left_out.find(left_out), 0u) << e.cost.left_out;
+    EXPECT_NE(e.text.find("estimate    at least"), std::string::npos) << e.text;
+    EXPECT_NE(e.text.find("left out    " + std::string(left_out)), std::string::npos) << e.text;
+    EXPECT_EQ(e.counts.free_blocks, 10);
+    EXPECT_EQ(explain_model(input, wall).cost.left_out, "");
+  }
+}
+
 class ExplainSlow : public ::testing::TestWithParam<std::pair<const char*, std::vector<std::string>>> {};
 
 TEST_P(ExplainSlow, EstimatesTimeWithinAFactorOfTwo) {
