@@ -1,10 +1,12 @@
 #include "postproc/analyse.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/case/plausibility.hpp"
 #include "assembly/files/assembly_file.hpp"
@@ -43,46 +45,51 @@ void remove_earlier_output(const std::string& folder) {
       if (entry.path().extension() == ending) std::filesystem::remove(entry.path(), ignored);
 }
 
-/// True for a frame of the figure of the motion: four instants of a motion in time, evenly spaced, or the mechanism.
-bool is_shot(const Evaluation& e, size_t index, const Frame& frame) {
-  if (is_mechanism(e.summary, frame)) return true;
-  if (e.summary.analysis != AnalysisType::dynamic || at_rest(e.summary)) return false;
-  constexpr size_t kShots = 4;
-  for (size_t i = 1; i <= kShots; ++i)
-    if (index > 0 && index == (e.times.size() - 1) * i / kShots) return true;
-  return false;
+/// The evaluation of a frame; none if it cannot be read, which is recorded.
+std::optional<FrameEvaluation> frame_at(size_t index, const ResultsReader& results, Evaluation* e) {
+  if (e->times[index] == e->last.frame.time) return e->last;
+  try {
+    return evaluate_frame(*e, results.read_frame(static_cast<int>(index)));
+  } catch (const InputError& error) {
+    leave_out(fmt::format("frame {}", index), error.what(), e);
+    return std::nullopt;
+  }
+}
+
+/// The frames that show the motion: mechanisms, or instants of a motion in time; at most four, evenly spaced, with the
+/// last. `moving`: all that could be shown.
+std::vector<Shot> shots_of(const std::vector<size_t>& moving, const ResultsReader& results, Evaluation* e) {
+  constexpr size_t kMost = 4;
+  std::vector<Shot> shots;
+  const size_t count = std::min(moving.size(), kMost);
+  for (size_t i = 1; i <= count; ++i) {
+    const std::optional<FrameEvaluation> frame = frame_at(moving[moving.size() * i / count - 1], results, e);
+    if (!frame) continue;
+    Shot shot{frame->frame.time, frame->frame.blocks, is_mechanism(e->summary, frame->frame), {}};
+    if (e->summary.analysis == AnalysisType::staged) shot.ring = static_cast<int>(std::lround(shot.time));
+    shots.push_back(std::move(shot));
+  }
+  return shots;
 }
 
 /// Writes the displaced blocks of every readable frame and returns those that the figure of the motion shows.
-/// Unreadable frames are left out.
-std::vector<Shot> write_frames(const ResultsReader& results, const std::string& folder,
-                               Evaluation* evaluation) {
-  const Evaluation& e = *evaluation;
-  const DisplacedBlocks blocks(e);
+std::vector<Shot> write_frames(const ResultsReader& results, const std::string& folder, Evaluation* e) {
+  const DisplacedBlocks blocks(*e);
+  const bool in_time = e->summary.analysis == AnalysisType::dynamic && !at_rest(e->summary);
   std::vector<PvdEntry> entries;
-  std::vector<Shot> shots;
-  for (size_t i = 0; i < e.times.size(); ++i) {
-    FrameEvaluation frame;
-    if (e.times[i] == e.last.frame.time) {
-      frame = e.last;
-    } else {
-      try {
-        frame = evaluate_frame(e, results.read_frame(static_cast<int>(i)));
-      } catch (const InputError& error) {
-        leave_out(fmt::format("frame {}", i), error.what(), evaluation);
-        continue;
-      }
-    }
+  std::vector<size_t> moving;
+  for (size_t i = 0; i < e->times.size(); ++i) {
+    const std::optional<FrameEvaluation> frame = frame_at(i, results, e);
+    if (!frame) continue;
     const std::string name = fmt::format("blocks_{:04}.vtu", i);
-    Mesh mesh = blocks.at(frame);
-    for (MeshArray& array : about(e, 0.0)) mesh.field_data.push_back(std::move(array));
+    Mesh mesh = blocks.at(*frame);
+    for (MeshArray& array : about(*e, 0.0)) mesh.field_data.push_back(std::move(array));
     write_mesh(in_folder(folder, name), mesh);
-    entries.push_back({e.times[i], name});
-    if (is_shot(e, i, frame.frame))
-      shots.push_back({frame.frame.time, frame.frame.blocks, is_mechanism(e.summary, frame.frame)});
+    entries.push_back({e->times[i], name});
+    if (is_mechanism(e->summary, frame->frame) || (in_time && i > 0)) moving.push_back(i);
   }
   write_pvd(in_folder(folder, "blocks.pvd"), entries);
-  return shots;
+  return shots_of(moving, results, e);
 }
 
 void write_meshes(const Evaluation& e, const std::string& folder) {
@@ -215,8 +222,8 @@ ExitCode analyse(const AnalyseRequest& request) {
 
   report_warnings("cupola-post", e.warnings, doubts, false);
   if (!request.quiet)
-    fmt::print("{} tables, {} figures, {} pictures; open {}\n", tables.size(), drawn.figures.size(),
-               drawn.pictures.size(),
+    fmt::print("{}, {}, {}; open {}\n", counted(tables.size(), "table"),
+               counted(drawn.figures.size(), "figure"), counted(drawn.pictures.size(), "picture"),
                in_folder(folder, request.tables_only ? "summary.json" : "report.html"));
   throw_if_incomplete(e, folder);
   return ExitCode::done;

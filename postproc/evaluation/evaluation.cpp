@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/case/limit_parameter.hpp"
 #include "assembly/files/content_hash.hpp"
@@ -20,16 +21,16 @@ namespace {
 /// displacement.
 constexpr double kGroupShare = 0.02;
 
-double largest_displacement(const Frame& frame) {
+double largest_norm(const std::vector<Vec3>& vectors) {
   double largest = 0.0;
-  for (const Vec3& d : frame.blocks.displacement) largest = std::max(largest, d.norm());
+  for (const Vec3& v : vectors) largest = std::max(largest, v.norm());
   return largest;
 }
 
 void check_blocks(const Frame& frame, const Assembly& assembly) {
   if (frame.blocks.position.size() != assembly.blocks.size())
-    throw InputError(fmt::format("the results hold {} blocks and the assembly {}: solve this assembly again",
-                                 frame.blocks.size(), assembly.blocks.size()));
+    throw InputError(fmt::format("the results hold {} and the assembly {}: solve this assembly again",
+                                 counted(frame.blocks.size(), "block"), assembly.blocks.size()));
 }
 
 /// Displaces the blocks of a mechanism along their velocities until the fastest has moved by kShown times the
@@ -37,8 +38,7 @@ void check_blocks(const Frame& frame, const Assembly& assembly) {
 void displace_mechanism(const Assembly& assembly, Frame* frame) {
   constexpr double kShown = 0.05;
   BlockTable& blocks = frame->blocks;
-  double fastest = 0.0;
-  for (const Vec3& v : blocks.velocity) fastest = std::max(fastest, v.norm());
+  const double fastest = largest_norm(blocks.velocity);
   if (fastest == 0.0) return;
   const double time = kShown * model_size(assembly) / fastest;
   for (size_t b = 0; b < blocks.position.size(); ++b) {
@@ -98,8 +98,8 @@ void count_lost_joints(const ResultsReader& results, Evaluation* e) {
   }
   if (e->lost_joints.value_or(0) > 0)
     e->warnings.push_back(
-        fmt::format("{} joint{} that carried force in the first frame {} separated completely in the last",
-                    *e->lost_joints, *e->lost_joints == 1 ? "" : "s", *e->lost_joints == 1 ? "has" : "have"));
+        fmt::format("{} that carried force in the first frame separated completely before the last",
+                    counted(*e->lost_joints, "joint")));
 }
 
 /// N, force that an equilibrium leaves unbalanced on a block.
@@ -199,9 +199,17 @@ bool at_rest(const Summary& summary) {
 }
 
 bool is_mechanism(const Summary& summary, const Frame& frame) {
-  if (summary.analysis == AnalysisType::limit) return frame.time > 0.0;
-  const bool in_time = summary.max_speed_m_per_s.has_value();  // of a dynamic run
-  return summary.status == Status::moving && !in_time && summary.analysis != AnalysisType::staged;
+  switch (summary.analysis) {
+    case AnalysisType::limit:
+      return frame.time > 0.0;
+    case AnalysisType::static_:
+      return summary.status == Status::moving;
+    case AnalysisType::staged:
+      return largest_norm(frame.blocks.velocity) > 0.0;
+    case AnalysisType::dynamic:
+      return false;
+  }
+  return false;
 }
 
 bool is_vault(const Evaluation& e) {
@@ -236,8 +244,8 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   if (at_rest(e.summary) && !mechanism)
     out.groups.assign(e.assembly.blocks.size(), 0);
   else
-    out.groups =
-        mechanism_groups(e.assembly, out.frame, out.joints, kGroupShare * largest_displacement(out.frame));
+    out.groups = mechanism_groups(e.assembly, out.frame, out.joints,
+                                  kGroupShare * largest_norm(out.frame.blocks.displacement));
   return out;
 }
 

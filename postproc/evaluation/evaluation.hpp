@@ -77,7 +77,7 @@ struct Evaluation {
 bool at_rest(const Summary& summary);
 
 /// True for a frame that holds directions of motion without an amplitude: the mechanism of a limit analysis, or the
-/// motion that a static solve found.
+/// motion that the static solve of a case or of a stage of construction found.
 bool is_mechanism(const Summary& summary, const Frame& frame);
 
 /// True for a vault about the z axis, where azimuths are meaningful.

@@ -19,7 +19,8 @@ struct HistoryRow {
 struct Shot {
   double time = 0.0;  ///< s
   BlockTable blocks;
-  bool mechanism = false;  ///< without amplitude
+  bool mechanism = false;   ///< without amplitude
+  std::optional<int> ring;  ///< the ring just laid, in a staged analysis; those above do not exist yet
 };
 
 /// Profile with thrust line, envelope and lines of action; r, v, couple length and distance to the nearer

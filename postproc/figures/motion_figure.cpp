@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "postproc/figures/figures.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/figures/projection.hpp"
@@ -34,12 +35,13 @@ double largest_displacement_of(const BlockTable& blocks) {
 }
 
 /// The faces towards the reader, from the farthest to the nearest, so that each hides those behind it.
-std::vector<SeenFace> seen_faces(const Evaluation& e, const BlockTable& blocks, const Projection& page,
+std::vector<SeenFace> seen_faces(const Evaluation& e, const Shot& shot, const Projection& page,
                                  double largest) {
+  const BlockTable& blocks = shot.blocks;
   std::vector<SeenFace> faces;
   for (const Part& part : e.assembly.parts) {
     const Block& block = e.assembly.blocks[part.block];
-    if (block.fixed) continue;
+    if (block.fixed || (shot.ring && block.ring > *shot.ring)) continue;
     const Eigen::Vector4d& q = blocks.quaternion_wxyz[part.block];
     const Mat3 R = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
@@ -106,6 +108,20 @@ std::string ranges(const std::vector<std::vector<SeenFace>>& shots, const Projec
                      box.max().y());
 }
 
+std::string caption_of(const std::vector<Shot>& shots) {
+  if (!shots.front().mechanism)
+    return fmt::format(
+        "The blocks where the motion has carried them, at {}, to scale; the colour is the displacement.",
+        counted(shots.size(), "instant"));
+  const std::string stages =
+      shots.front().ring
+          ? " Each panel shows a stage at which the vault does not stand, with the ring just laid."
+          : "";
+  return "The directions in which the blocks begin to move." + stages +
+         " A mechanism has no amplitude: the displacements are drawn large enough to be seen, and the colour "
+         "shows them relative to the largest.";
+}
+
 }  // namespace
 
 Figure motion_figure(const Evaluation& e, const std::vector<Shot>& shots) {
@@ -114,21 +130,14 @@ Figure motion_figure(const Evaluation& e, const std::vector<Shot>& shots) {
   double largest = 0.0;
   for (const Shot& shot : shots) largest = std::max(largest, largest_displacement_of(shot.blocks));
   std::vector<std::vector<SeenFace>> seen;
-  for (const Shot& shot : shots) seen.push_back(seen_faces(e, shot.blocks, page, largest));
+  for (const Shot& shot : shots) seen.push_back(seen_faces(e, shot, page, largest));
   const bool in_time = !shots.front().mechanism;
   const double grid = std::pow(10.0, std::floor(std::log10(1e-4 * model_size(e.assembly))));
 
   Figure f;
   f.name = "motion";
   f.title = in_time ? "Displaced shape" : "Mechanism";
-  f.caption =
-      in_time ? fmt::format(
-                    "The blocks where the motion has carried them, at {} instant{}, to scale; the colour is "
-                    "the displacement.",
-                    shots.size(), shots.size() == 1 ? "" : "s")
-              : "The directions in which the blocks begin to move. A mechanism has no amplitude: the "
-                "displacements are "
-                "drawn large enough to be seen, and the colour shows them relative to the largest.";
+  f.caption = caption_of(shots);
   f.width = shots.size() == 1 ? 900 : 1200;
   f.height = shots.size() == 1 ? 700 : 950;
   f.vector = false;
@@ -143,6 +152,7 @@ Figure motion_figure(const Evaluation& e, const std::vector<Shot>& shots) {
   for (size_t i = 0; i < shots.size(); ++i) {
     f.commands += data_block(fmt::format("faces{}", i), painted(seen[i], page, grid));
     if (in_time) f.commands += fmt::format("set title 't = {:.4g} s'\n", shots[i].time);
+    if (shots[i].ring) f.commands += fmt::format("set title 'ring {} just laid'\n", *shots[i].ring);
     f.commands += fmt::format(
         "plot $faces{} using 1:2:3 with filledcurves closed fc rgb variable, NaN with points palette\n", i);
   }

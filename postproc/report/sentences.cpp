@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/tables/post_summary.hpp"
@@ -106,13 +107,12 @@ void add_mechanism(const Evaluation& e, std::vector<std::string>* out) {
   constexpr double kMuch = 0.1;
   const size_t bodies = count_bodies(e);
   out->push_back(
-      fmt::format("The blocks begin to move as {} bod{}. {} of {} free blocks move at more than a tenth of "
-                  "the largest speed, which "
-                  "is that of {}. A motion found by a static analysis has directions but no amplitude; the "
+      fmt::format("The blocks begin to move as {}. {} of {} exceed a tenth of the largest speed, which is "
+                  "that of {}. A motion found by a static analysis has directions but no amplitude; the "
                   "figure shows the "
                   "directions.",
-                  bodies, bodies == 1 ? "y" : "ies", count_moving(e, kMuch * farthest.displacement),
-                  e.summary.free_blocks, block_text(e, farthest.block)));
+                  counted(bodies, "body", "bodies"), count_moving(e, kMuch * farthest.displacement),
+                  counted(e.summary.free_blocks, "free block"), block_text(e, farthest.block)));
 }
 
 void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& history,
@@ -121,11 +121,11 @@ void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& hist
   const Farthest farthest = farthest_block(e);
   const size_t bodies = count_bodies(e);
   out->push_back(fmt::format(
-      "At the end, {:.4g} s, the largest displacement is {:.3g} m, of {}; {} of {} free blocks have moved "
+      "At the end, {:.4g} s, the largest displacement is {:.3g} m, of {}; {} of {} moved "
       "farther than "
-      "{:g} m. The blocks move as {} bod{}.",
+      "{:g} m. The blocks move as {}.",
       e.last.frame.time, farthest.displacement, block_text(e, farthest.block), count_moving(e, threshold),
-      e.summary.free_blocks, threshold, bodies, bodies == 1 ? "y" : "ies"));
+      counted(e.summary.free_blocks, "free block"), threshold, counted(bodies, "body", "bodies")));
   if (history.empty()) return;
   const auto first = std::find_if(history.begin(), history.end(), [threshold](const HistoryRow& row) {
     return row.max_displacement > threshold;
@@ -181,7 +181,10 @@ std::vector<std::string> motion_sentences(const Evaluation& e, const std::vector
                       : "The error of the motion in the figures is unknown: the requested accuracy was "
                         "not reached.");
   else if (e.summary.analysis == AnalysisType::staged)
-    out.push_back("The table of stages shows with which rings the vault does not stand.");
+    out.push_back(
+        "The table of stages shows with which rings the vault does not stand, the figure how its blocks "
+        "begin "
+        "to move.");
   else if (is_mechanism(e.summary, e.last.frame))
     add_mechanism(e, &out);
   else
@@ -233,7 +236,7 @@ std::string quality_text(const Summary& s) {
     add("The associated friction law was used: sliding joints also open, by the friction coefficient times "
         "the slip.");
     if (equilibrium) add("A structure that stands under this law may collapse under Coulomb's law.");
-    add(fmt::format("{} of {} contacts slip.", s.slipping_contacts, s.contacts));
+    add(fmt::format("Contacts that slip: {} of {}.", s.slipping_contacts, s.contacts));
   } else {
     add(s.friction_law == FrictionLaw::coulomb
             ? std::string("Coulomb's friction law was used: joints slide without opening.")
@@ -242,7 +245,7 @@ std::string quality_text(const Summary& s) {
     if (equilibrium) add("The equilibrium found need not be the only one.");
     if (s.status == Status::moving && s.analysis == AnalysisType::static_)
       add("That blocks move is proven only where the message says that no equilibrium exists.");
-    add(fmt::format("{} of {} contacts slip.", s.slipping_contacts, s.contacts));
+    add(fmt::format("Contacts that slip: {} of {}.", s.slipping_contacts, s.contacts));
   }
   if (equilibrium || in_time)
     add(fmt::format("The largest penetration at a contact is {:.3g} mm.", 1e3 * s.max_penetration_m));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/analysis/analysis.hpp"
@@ -81,6 +82,8 @@ Frame StageRun::frame(const StaticSolution& solution, const Assembly& complete) 
     blocks.position[block] = frame.blocks.position[i];
     blocks.quaternion_wxyz[block] = frame.blocks.quaternion_wxyz[i];
     blocks.displacement[block] = frame.blocks.displacement[i];
+    blocks.velocity[block] = frame.blocks.velocity[i];
+    blocks.angular_velocity[block] = frame.blocks.angular_velocity[i];
   }
   frame.blocks = std::move(blocks);
   return frame;
@@ -131,12 +134,14 @@ void judge(const std::vector<StageResult>& stages, double fresh_friction, Summar
       worst = &stage;
   }
   summary->status = unconverged > 0 ? Status::unconverged : moving > 0 ? Status::moving : Status::stable;
-  summary->message = fmt::format("{} of {} stages do not stand with a fresh friction of {:g}", moving,
-                                 stages.size(), fresh_friction);
+  summary->message = fmt::format("{} of {} cannot stand with a fresh friction of {:g}", moving,
+                                 counted(stages.size(), "stage"), fresh_friction);
   if (failed)
     summary->message +=
         fmt::format(", {} did not converge; ring {}: {}", unconverged, failed->ring, failed->message);
-  if (need_none > 0) summary->message += fmt::format("; {} stand without friction", need_none);
+  if (need_none > 0)
+    summary->message +=
+        fmt::format("; {} without friction", counted(need_none, "stage stands", "stages stand"));
   if (worst == nullptr) return;
   const Bracket& bracket = *worst->critical;
   summary->critical =

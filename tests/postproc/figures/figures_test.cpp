@@ -131,7 +131,7 @@ TEST(ShellMaps, ReadBackUnchangedFromTheTable) {
 // The nearest face is painted last; a mechanism has no unit of length.
 TEST(MotionFigure, PaintsTheFacesOfTheDisplacedBlocksFromBackToFront) {
   const Evaluation e = test::column_evaluation(0.6, 0.4);
-  Shot shot{2.0, e.last.frame.blocks, false};
+  Shot shot{2.0, e.last.frame.blocks, false, {}};
   shot.blocks.displacement[3] = Vec3(0.3, -0.1, 0.0);
   shot.blocks.position[3] += Vec3(0.3, -0.1, 0.0);
   const Figure figure = motion_figure(e, {shot});
@@ -143,6 +143,13 @@ TEST(MotionFigure, PaintsTheFacesOfTheDisplacedBlocksFromBackToFront) {
   EXPECT_NE(figure.commands.find("displacement (m)"), std::string::npos);
   shot.mechanism = true;
   EXPECT_EQ(motion_figure(e, {shot}).commands.find("displacement (m)"), std::string::npos);
+}
+
+TEST(MotionFigure, OmitsTheBlocksThatAStageLacks) {
+  const Evaluation e = test::column_evaluation(0.6, 0.4);
+  const Figure figure = motion_figure(e, {Shot{1.0, e.last.frame.blocks, true, 1}});
+  EXPECT_EQ(data_of(figure, "faces0").size(), 2u * 2u * 4u) << "rings 0 and 1, one face each, painted twice";
+  EXPECT_NE(figure.commands.find("set title 'ring 1 just laid'"), std::string::npos);
 }
 
 TEST(SectionFigure, StatesScaleAndGlobalCheck) {

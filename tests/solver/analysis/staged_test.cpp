@@ -68,15 +68,28 @@ TEST(Staged, CriticalFreshFrictionEqualsTheSlope) {
   scene.analysis.staged.critical_friction = false;
   const StagedResult slides = run(scene, wall);
   EXPECT_EQ(slides.summary.status, Status::moving);
-  EXPECT_NE(slides.summary.message.find("3 of 3 stages do not stand"), std::string::npos)
+  EXPECT_NE(slides.summary.message.find("3 of 3 stages cannot stand"), std::string::npos)
       << slides.summary.message;
+  ASSERT_EQ(slides.frames.size(), 3u);
+  for (size_t ring = 0; ring < 3; ++ring)
+    for (size_t b = 0; b < wall.blocks.size(); ++b) {
+      const bool slips = !wall.blocks[b].fixed && wall.blocks[b].ring == static_cast<int>(ring);
+      const double speed = slides.frames[ring].blocks.velocity[b].norm();
+      EXPECT_LE(speed, 1.0 + 1e-12);
+      if (slips)
+        EXPECT_GT(speed, 0.5) << "block " << b << " of the course just laid";
+      else
+        EXPECT_LT(speed, 0.05) << "block " << b << " in stage " << ring
+                               << ": its bed has hardened, it moves only "
+                               << "by its compliance";
+    }
 }
 
 // On level ground no course slides, even without friction.
 TEST(Staged, ReportsStagesThatNeedNoFriction) {
   const StagedResult built = run(staged_case(0.6, 0.1), testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 2));
   EXPECT_EQ(built.summary.status, Status::stable) << built.summary.message;
-  EXPECT_NE(built.summary.message.find("; 2 stand without friction"), std::string::npos)
+  EXPECT_NE(built.summary.message.find("; 2 stages stand without friction"), std::string::npos)
       << built.summary.message;
   EXPECT_FALSE(built.summary.critical);
   for (const std::vector<std::string>& row : built.rows) {
