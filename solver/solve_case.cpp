@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/case/plausibility.hpp"
@@ -105,14 +106,16 @@ void print_summary(const Summary& summary) {
                                                                 : Colour::yellow;
   fmt::print("{}: {}\n", in_colour(to_string(summary.status), colour, stdout), summary.message);
   if (!summary.forces_unique.value) fmt::print("  {}\n", to_sentence(summary.forces_unique));
-  fmt::print("  {} free blocks, {} joints, {} contacts, {} unknowns\n", summary.free_blocks, summary.joints,
-             summary.contacts, summary.unknowns);
+  fmt::print("  {}, {}, {}, {}\n", counted(summary.free_blocks, "free block"),
+             counted(summary.joints, "joint"), counted(summary.contacts, "contact"),
+             counted(summary.unknowns, "unknown"));
   fmt::print("  weight {}, support reaction {} along z\n", readable_force(summary.weight_N),
              readable_force(summary.support_reaction_N.z()));
   fmt::print("  {}\n  {}\n  {}\n", to_sentence(summary.accuracy), residuals_line(summary),
              to_sentence(summary.certified_force_error));
-  fmt::print("  law: {}, tangential spring: {}; {} of {} contacts slip\n", to_string(summary.friction_law),
-             to_string(summary.tangential), summary.slipping_contacts, summary.contacts);
+  fmt::print("  law: {}, tangential spring: {}; contacts that slip: {} of {}\n",
+             to_string(summary.friction_law), to_string(summary.tangential), summary.slipping_contacts,
+             summary.contacts);
   fmt::print("  solve {:.3f} s, total {:.3f} s, peak memory {:.0f} MB\n", summary.solve_time_seconds,
              summary.wall_time_seconds, static_cast<double>(summary.peak_memory_bytes) / 1e6);
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/files/content_hash.hpp"
@@ -116,8 +117,9 @@ class Columns {
   const std::vector<T>& get(const std::string& name, size_t rows, int components = 1) const {
     const auto& values = mesh_.array<T>(arrays_, name, components);
     if (values.size() != rows * static_cast<size_t>(components))
-      throw InputError(FileLocation{mesh_.file}, fmt::format("array `{}` has {} values, expected {}", name,
-                                                             values.size(), rows * components));
+      throw InputError(FileLocation{mesh_.file},
+                       fmt::format("array `{}` has {}, expected {}", name, counted(values.size(), "value"),
+                                   rows * components));
     return values;
   }
   bool has(const std::string& name) const { return mesh_.has(arrays_, name); }

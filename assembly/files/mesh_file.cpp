@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/markup.hpp"
@@ -40,8 +41,8 @@ const std::vector<T>& Mesh::array(const std::vector<MeshArray>& arrays, const st
       throw InputError(FileLocation{file},
                        fmt::format("array `{}` must have the type {}", name, type_name<T>()));
     if (array.components != components)
-      throw InputError(FileLocation{file}, fmt::format("array `{}` has {} components, expected {}", name,
-                                                       array.components, components));
+      throw InputError(FileLocation{file}, fmt::format("array `{}` has {}, expected {}", name,
+                                                       counted(array.components, "component"), components));
     return *values;
   }
   throw InputError(FileLocation{file}, fmt::format("array `{}` is missing", name));
@@ -52,7 +53,7 @@ const T& Mesh::field(const std::string& name) const {
   const std::vector<T>& values = array<T>(field_data, name, 1);
   if (values.size() != 1)
     throw InputError(FileLocation{file},
-                     fmt::format("field `{}` has {} values, expected 1", name, values.size()));
+                     fmt::format("field `{}` has {}, expected 1", name, counted(values.size(), "value")));
   return values[0];
 }
 

@@ -33,6 +33,7 @@
 #include <vtkXMLUtilities.h>
 #include <vtkZLibDataCompressor.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/hash.hpp"
@@ -281,8 +282,8 @@ std::vector<MeshArray> arrays_of(const std::string& path, vtkFieldData* data, vt
   for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
     vtkAbstractArray* array = data->GetAbstractArray(i);
     if (tuples >= 0 && array->GetNumberOfTuples() != tuples)
-      reject(path, fmt::format("array `{}` has {} rows, expected {}",
-                               array->GetName() ? array->GetName() : "", array->GetNumberOfTuples(), tuples));
+      reject(path, fmt::format("array `{}` has {}, expected {}", array->GetName() ? array->GetName() : "",
+                               counted(array->GetNumberOfTuples(), "row"), tuples));
     arrays.push_back(from_vtk(path, array));
   }
   return arrays;
@@ -295,8 +296,8 @@ void read_points(vtkPointSet* data, Mesh* mesh) {
 
 int checked_point(vtkIdType id, const Mesh& mesh) {
   if (id < 0 || id >= mesh.num_points())
-    reject(mesh.file,
-           fmt::format("a cell refers to point {}, but there are only {} points", id, mesh.num_points()));
+    reject(mesh.file, fmt::format("a cell refers to point {}, but there are only {}", id,
+                                  counted(mesh.num_points(), "point")));
   return static_cast<int>(id);
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 
 namespace cupola {
@@ -131,9 +132,9 @@ BondPattern fill_bond(const FillBond& bond, const BondGrid& grid) {
     const RingFill fill = fill_ring(lattice, joints.empty() ? std::vector<int>{} : joints.back());
     if (fill.cost == kInfinity)
       throw InputError(fmt::format(
-          "geometry.bond: ring {} of {} slices cannot be filled with blocks of {} to {} slices; widen "
+          "geometry.bond: ring {} of {} cannot be filled with blocks of {} to {}; widen "
           "narrowest and widest, or increase slices_per_block",
-          ring, lattice.num_units, lattice.narrowest, lattice.widest));
+          ring, counted(lattice.num_units, "slice"), lattice.narrowest, counted(lattice.widest, "slice")));
     joints.push_back(fill.joints);
   }
   BondPattern pattern = pattern_of(joints, lattice, grid);

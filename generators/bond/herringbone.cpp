@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 
 namespace cupola {
@@ -120,9 +121,9 @@ void check_fit(const HerringboneBond& bond, const BondGrid& grid, double phase_i
   const int num_verticals = bond.blocks_per_ring * bond.verticals_per_block;
   if (grid.closed && num_verticals / bond.spirals < bond.rings_per_vertical)
     throw InputError(
-        fmt::format("geometry.bond.spirals = {}: spirals of {} verticals do not fit into a ring that is {} "
+        fmt::format("geometry.bond.spirals = {}: spirals of {} do not fit into a ring that is {} "
                     "verticals wide",
-                    bond.spirals, bond.rings_per_vertical, num_verticals));
+                    bond.spirals, counted(bond.rings_per_vertical, "vertical"), num_verticals));
   if (!grid.closed && bond.spirals != 1)
     throw InputError(fmt::format("geometry.bond.spirals = {}: must be 1 on an open surface", bond.spirals));
   if (!grid.closed && phase_in_verticals != std::round(phase_in_verticals))

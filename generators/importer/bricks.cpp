@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "generators/importer/readers.hpp"
 #include "generators/importer/text_lines.hpp"
 
@@ -28,10 +29,10 @@ std::vector<std::vector<Vec3>> read_parts(const TextLines& lines) {
   const size_t num_words = lines.words().size();
   const auto close = [&](size_t end) {
     if (numbers.size() % 3 != 0)
-      lines.fail(fmt::format(
-          "part {} has {} numbers up to value {} of the row, '{}'; a corner has three, x y z: look for a "
-          "stray or a missing number",
-          parts.size() + 1, numbers.size(), end, lines.words()[end - 1]));
+      lines.fail(
+          fmt::format("part {} has {} up to value {} of the row, '{}'; a corner has three, x y z: look for a "
+                      "stray or a missing number",
+                      parts.size() + 1, counted(numbers.size(), "number"), end, lines.words()[end - 1]));
     std::vector<Vec3>& part = parts.emplace_back();
     for (size_t i = 0; i < numbers.size(); i += 3)
       part.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
@@ -51,8 +52,8 @@ std::vector<std::vector<Vec3>> read_parts(const TextLines& lines) {
 
 RawTie tie_of_row(const TextLines& lines, size_t num_words) {
   if (lines.words().size() < num_words)
-    lines.fail(
-        fmt::format("the row has {} values, at least {} are required", lines.words().size(), num_words));
+    lines.fail(fmt::format("the row has {}, at least {} are required", counted(lines.words().size(), "value"),
+                           num_words));
   RawTie tie;
   tie.where = lines.where();
   tie.block_a = lines.words()[1];
@@ -71,7 +72,8 @@ std::vector<RawBlock> read_bricks(const std::string& path) {
     const size_t num_words = lines.words().size();
     lines.enter(fmt::format("block {}", lines.words()[0]));
     if (num_words < kFirstCoordinate)
-      lines.fail(fmt::format("the row has {} values, at least {} are required", num_words, kFirstCoordinate));
+      lines.fail(fmt::format("the row has {}, at least {} are required", counted(num_words, "value"),
+                             kFirstCoordinate));
     RawBlock block{std::string(lines.words()[0]), lines.where(), {}, {}, expect_number(lines, 1) != 0.0, {}};
     block.density = expect_number(lines, 4);
     if (*block.density <= 0.0) lines.fail(fmt::format("density = {}: must be > 0", *block.density));

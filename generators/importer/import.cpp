@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "generators/decomposition/decompose.hpp"
 #include "generators/importer/mesh_repair.hpp"
 #include "generators/importer/readers.hpp"
@@ -277,35 +278,36 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
 
 std::string to_text(const ImportReport& r) {
   std::string text = fmt::format(
-      "{} blocks imported: {} pieces already convex, {} split by planes, {} by their cross-section, "
+      "{} imported: {} already convex, {} split by planes, {} by their cross-section, "
       "{} by Nef polyhedra; largest relative volume error {:.1e}\n",
-      r.origins.size(), r.already_convex, r.by_planes, r.as_prisms, r.by_nef, r.largest_volume_error);
+      counted(r.origins.size(), "block"), counted(r.already_convex, "piece"), r.by_planes, r.as_prisms,
+      r.by_nef, r.largest_volume_error);
   constexpr int kListed = 10;
   int several = 0;
   for (size_t b = 0; b < r.origins.size(); ++b)
     if (r.parts[b] > 1 && ++several <= kListed)
-      text += fmt::format("  block {}: {} convex parts\n", r.origins[b].name, r.parts[b]);
+      text += fmt::format("  block {}: {}\n", r.origins[b].name, counted(r.parts[b], "convex part"));
   if (several > kListed)
-    text +=
-        fmt::format("  {} more blocks with several convex parts; --report lists all\n", several - kListed);
+    text += fmt::format("  {} with several convex parts; --report lists all\n",
+                        counted(several - kListed, "more block"));
   if (r.flatness.relative_warp >= kRoundedWarp)
     text += fmt::format(
         "faces deviate from planes by up to {:.2g} m, {:.1g} of the size of their block; facet_angle = "
         "{:.2g} rad and "
-        "snap = {:.2g} m{}: {} facets moved to common planes\n",
+        "snap = {:.2g} m{}: {} moved to common planes\n",
         r.flatness.warp, r.flatness.relative_warp, r.facet_angle, r.snap,
-        r.chosen ? ", chosen from that" : "", r.snapped_facets);
+        r.chosen ? ", chosen from that" : "", counted(r.snapped_facets, "facet"));
   else if (r.snapped_facets > 0)
-    text += fmt::format("{} facets moved to common planes\n", r.snapped_facets);
+    text += fmt::format("{} moved to common planes\n", counted(r.snapped_facets, "facet"));
   if (r.flatness.bent > 0)
-    text += fmt::format("{} faces are warped by more than 0.05 rad and count as several triangles\n",
-                        r.flatness.bent);
+    text += fmt::format("{} warped by more than 0.05 rad: counted as several triangles\n",
+                        counted(r.flatness.bent, "face"));
   if (r.sliver_parts + r.by_nef > 0)
     text += fmt::format(
         "note: slivers and Nef polyhedra often mean that faces made of triangles are not quite plane; "
         "geometry.import.facet_angle is {:.2g} rad, a larger value joins them\n",
         r.facet_angle);
-  if (r.ties > 0) text += fmt::format("{} ties\n", r.ties);
+  if (r.ties > 0) text += counted(r.ties, "tie") + "\n";
   return text;
 }
 

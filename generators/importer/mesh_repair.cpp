@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "generators/decomposition/convex_hull.hpp"
 #include "generators/importer/polygon_triangles.hpp"
@@ -141,7 +142,7 @@ TriangleMesh repair_mesh(const RawBlock& block, double weld) {
   for (const auto f : surface.faces()) face_of_file[f] = soup.face[f];
   int open_edges = 0;
   for (const auto edge : surface.edges()) open_edges += surface.is_border(edge) ? 1 : 0;
-  if (open_edges > 0) fail(block, fmt::format("not closed, {} boundary edges", open_edges));
+  if (open_edges > 0) fail(block, fmt::format("not closed, {}", counted(open_edges, "boundary edge")));
   if (!pmp::triangulate_faces(surface)) fail(block, "a face cannot be triangulated");
   if (pmp::does_self_intersect(surface)) fail(block, "its surface intersects itself");
   if (!pmp::is_outward_oriented(surface)) {

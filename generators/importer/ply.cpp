@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "generators/importer/binary_bytes.hpp"
 #include "generators/importer/readers.hpp"
@@ -51,7 +52,7 @@ Header read_header(TextLines* lines) {
   while (lines->next()) {
     const auto& w = lines->words();
     const auto need = [&](size_t n) {
-      if (w.size() < n) lines->fail(fmt::format("'{}' requires {} more words", w[0], n - 1));
+      if (w.size() < n) lines->fail(fmt::format("'{}' requires {}", w[0], counted(n - 1, "more word")));
     };
     if (w[0] == "end_header") return header;
     if (w[0] == "format") {
@@ -150,8 +151,10 @@ void read_row(const Element& element, Values* values, const std::string& path, P
       continue;
     for (int v : list)
       if (v < 0 || v >= static_cast<int>(mesh->vertices.size()))
-        throw InputError(FileLocation{path}, fmt::format("face {}: vertex {} is out of range, {} are defined",
-                                                         mesh->faces.size(), v, mesh->vertices.size()));
+        throw InputError(
+            FileLocation{path},
+            fmt::format("face {}: vertex {} is out of range, the file defines {}", mesh->faces.size(), v,
+                        counted(mesh->vertices.size(), "vertex", "vertices")));
     if (list.size() < 3)
       throw InputError(FileLocation{path},
                        fmt::format("face {}: fewer than three vertices", mesh->faces.size()));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "generators/importer/binary_bytes.hpp"
 #include "generators/importer/readers.hpp"
@@ -30,8 +31,8 @@ PolygonMesh read_binary(const std::string& path, const std::string& bytes) {
   const auto num_triangles = data.take<std::uint32_t>();
   if (num_triangles > data.bytes_left() / kTriangleBytes)
     throw InputError(FileLocation{path},
-                     fmt::format("declares {} triangles, but the rest of the file has {} bytes",
-                                 num_triangles, data.bytes_left()));
+                     fmt::format("declares {}, but the rest of the file has {}",
+                                 counted(num_triangles, "triangle"), counted(data.bytes_left(), "byte")));
   PolygonMesh mesh;
   for (std::uint32_t t = 0; t < num_triangles; ++t) {
     for (int i = 0; i < 3; ++i) data.take<float>();  // normal; the order of the vertices defines it

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/files/atomic_file.hpp"
 
 namespace cupola {
@@ -56,8 +57,8 @@ void TextLines::fail(const std::string& message) const {
 double TextLines::number(size_t word, const std::string& context) const {
   double value = 0.0;
   if (word >= words_.size())
-    fail(fmt::format("a number is missing after '{}', the line has {} words{}", words_.back(), words_.size(),
-                     context));
+    fail(fmt::format("a number is missing after '{}', the line has {}{}", words_.back(),
+                     counted(words_.size(), "word"), context));
   if (!parse(words_[word], &value) || !std::isfinite(value))
     fail(fmt::format("'{}' is not a finite number{}", words_[word], context));
   return value;
@@ -66,7 +67,7 @@ double TextLines::number(size_t word, const std::string& context) const {
 long TextLines::integer(size_t word) const {
   long value = 0;
   if (word >= words_.size())
-    fail(fmt::format("a whole number is missing, the line has {} words", words_.size()));
+    fail(fmt::format("a whole number is missing, the line has {}", counted(words_.size(), "word")));
   if (!parse(words_[word], &value)) fail(fmt::format("'{}' is not a whole number", words_[word]));
   return value;
 }
@@ -78,7 +79,8 @@ Vec3 TextLines::point(size_t first) const {
 size_t TextLines::count(size_t word, size_t bytes_each) const {
   const long value = integer(word);
   if (value < 0 || static_cast<size_t>(value) > bytes_left() / bytes_each + 1)
-    fail(fmt::format("declares {} items, but the rest of the file has {} bytes", value, bytes_left()));
+    fail(fmt::format("declares {}, but the rest of the file has {}", counted(value, "item"),
+                     counted(bytes_left(), "byte")));
   return static_cast<size_t>(value);
 }
 

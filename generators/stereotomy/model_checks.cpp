@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/model/block_names.hpp"
 #include "generators/stereotomy/mesh_checks.hpp"
@@ -52,7 +53,8 @@ void check_boundaries(const Assembly& assembly, bool part_by_part, const Names& 
   if (defects.empty()) return;
   const BoundaryDefect& d = defects.front();
   using enum BoundaryDefect::Kind;
-  const std::string what = d.kind == open ? fmt::format("not closed, {} boundary edges", d.boundary_edges)
+  const std::string what = d.kind == open
+                               ? fmt::format("not closed, {}", counted(d.boundary_edges, "boundary edge"))
                            : d.kind == inside_out ? "inside out"
                                                   : "its surface intersects itself";
   names.fail(d.block,
@@ -223,9 +225,10 @@ ModelReport check_model(const Assembly& assembly, const ModelTolerances& toleran
 
 std::string to_text(const ModelReport& r) {
   std::string text = fmt::format(
-      "{} blocks in {} convex parts, {} supports, {} joints, {} connected components\n"
+      "{} in {}, {}, {}, {}\n"
       "volume {:.6f} m3, blocks {:.4g} to {:.4g} m3\n",
-      r.num_blocks, r.num_parts, r.num_supports, r.num_joints, r.islands, r.volume, r.smallest_block,
+      counted(r.num_blocks, "block"), counted(r.num_parts, "convex part"), counted(r.num_supports, "support"),
+      counted(r.num_joints, "joint"), counted(r.islands, "connected component"), r.volume, r.smallest_block,
       r.largest_block);
   if (r.shell_volume)
     text += fmt::format("smooth shell {:.6f} m3; the facets reduce it by a fraction of {:.3e}\n",
@@ -242,7 +245,8 @@ std::vector<std::string> warnings_of(const ModelReport& r, std::span<const Block
   std::vector<std::string> warnings;
   const Names names{origins};
   if (!r.blocks_without_joint.empty())
-    warnings.push_back(fmt::format("{} blocks have no joint, the first is {}", r.blocks_without_joint.size(),
+    warnings.push_back(fmt::format("{} no joint, the first is {}",
+                                   counted(r.blocks_without_joint.size(), "block has", "blocks have"),
                                    names.name(r.blocks_without_joint.front())));
   for (const NarrowJoint& joint : r.narrow_joints)
     warnings.push_back(fmt::format(

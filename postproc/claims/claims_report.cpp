@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "postproc/report/html.hpp"
 
@@ -30,8 +31,8 @@ std::string shown_number(const Claim& claim, const ClaimResult& result) {
   std::string text = to_display(*result.number) + (claim.unit.empty() ? "" : " " + claim.unit);
   if (result.numbers.size() < 2) return text;
   const auto [smallest, largest] = std::minmax_element(result.numbers.begin(), result.numbers.end());
-  return fmt::format("{} ({} to {} in {} runs)", text, to_display(*smallest), to_display(*largest),
-                     result.numbers.size());
+  return fmt::format("{} ({} to {} in {})", text, to_display(*smallest), to_display(*largest),
+                     counted(result.numbers.size(), "run"));
 }
 
 std::string remark(const ClaimResult& result) {
@@ -40,7 +41,7 @@ std::string remark(const ClaimResult& result) {
 }
 
 std::string counts(const std::vector<ClaimResult>& results) {
-  std::string out = fmt::format("{} claims", results.size());
+  std::string out = counted(results.size(), "claim");
   const char* separator = ": ";
   for (const std::string& verdict : names_of<Verdict>()) {
     int count = 0;

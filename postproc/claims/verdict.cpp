@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "postproc/tables/run_files.hpp"
 #include "postproc/tables/table.hpp"
@@ -36,8 +37,8 @@ void append_rows(const Quantity& quantity, const std::string& name, RunCache& ca
   const CsvFile* reference =
       quantity.reference.empty() ? nullptr : &cache.run(quantity.reference).table(quantity.table);
   if (reference && reference->rows.size() != table.rows.size())
-    throw InputError(fmt::format("claims: table {} has {} rows in {} but {} in its reference {}",
-                                 quantity.table, table.rows.size(), name, reference->rows.size(),
+    throw InputError(fmt::format("claims: table {} has {} in {} but {} in its reference {}", quantity.table,
+                                 counted(table.rows.size(), "row"), name, reference->rows.size(),
                                  quantity.reference));
   const size_t column = table.column(quantity.column);
   for (size_t row = 0; row < table.rows.size(); ++row) {
@@ -64,8 +65,8 @@ double evaluate(const Quantity& quantity, RunCache& cache) {
   if (v.values.empty()) throw InputError(fmt::format("claims: `where` selects no row of {}", source));
   const Take take = quantity.status.empty() ? quantity.take : Take::mean;
   if (take == Take::only && v.values.size() != 1)
-    throw InputError(fmt::format("claims: {} values in {}; choose how to reduce them with `take`",
-                                 v.values.size(), source));
+    throw InputError(fmt::format("claims: {} in {}; choose how to reduce them with `take`",
+                                 counted(v.values.size(), "value"), source));
   return reduce(take, v.values, v.against);
 }
 
@@ -169,7 +170,8 @@ ClaimResult evaluate(const Claim& claim, RunCache& cache) {
   });
   const bool holds = within == static_cast<std::ptrdiff_t>(result.numbers.size());
   if (!holds && claim.each_run)
-    result.reason = fmt::format("Within the limits in {} of {} runs.", within, result.numbers.size());
+    result.reason =
+        fmt::format("Within the limits in {} of {}.", within, counted(result.numbers.size(), "run"));
   if (claim.quote.empty())
     result.verdict = holds ? Verdict::holds : Verdict::does_not_hold;
   else

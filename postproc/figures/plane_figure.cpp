@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "postproc/figures/figures.hpp"
 #include "postproc/figures/plot_style.hpp"
 
@@ -32,11 +33,11 @@ std::string caption_of(const Evaluation& e, const PlaneCut& cut, double largest,
   std::string text = fmt::format(
       "The plane through ({:g}, {:g}, {:g}) m with normal ({:.3g}, {:.3g}, {:.3g}). Circles: normal force of "
       "each joint across it, compression blue and tension orange; their areas are to scale, the largest is "
-      "{:.3g} {}. On the blocks beyond, the {} joints together exert {:.4g} {} along the normal and "
+      "{:.3g} {}. On the blocks beyond, {} together exert {:.4g} {} along the normal and "
       "{:.4g} {} in the plane.",
       cut.point.x(), cut.point.y(), cut.point.z(), cut.normal.x(), cut.normal.y(), cut.normal.z(),
-      unit.per_newton * largest, unit.name, cut.joints.size(), sum.per_newton * through, sum.name,
-      sum.per_newton * along, sum.name);
+      unit.per_newton * largest, unit.name, counted(cut.joints.size(), "joint"), sum.per_newton * through,
+      sum.name, sum.per_newton * along, sum.name);
   const ForceUnit load = force_unit(cut.load_beyond.norm());
   return text +
          fmt::format(

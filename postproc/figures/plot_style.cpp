@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
+
 namespace cupola {
 
 std::string plot_style() {
@@ -39,9 +41,9 @@ std::string describe(const ThrustLine& line) {
       "m, {}.",
       line.inside ? "stays" : "does not stay", line.least_face_distance, safety);
   if (line.undefined > 0)
-    text += fmt::format(
-        " It is undefined at {} of {} beds, whose resultants are negligible or run along the bed.",
-        line.undefined, line.points.size());
+    text +=
+        fmt::format(" It is undefined at {} of {}, where the resultant is negligible or runs along the bed.",
+                    line.undefined, counted(line.points.size(), "bed"));
   return text;
 }
 

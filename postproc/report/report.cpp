@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/process.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/html.hpp"
@@ -59,8 +60,9 @@ std::string model_section(const Evaluation& e) {
   row("Case", e.scene.title);
   row("Analysis", fmt::format("{}, method {}, friction law {}, tangential spring {}", to_string(s.analysis),
                               to_string(s.method), to_string(s.friction_law), to_string(s.tangential)));
-  row("Blocks", fmt::format("{}, of which {} free; {} unknowns", s.blocks, s.free_blocks, s.unknowns));
-  row("Joints", fmt::format("{} with {} contact points", s.joints, s.contacts));
+  row("Blocks",
+      fmt::format("{}, of which {} free; {}", s.blocks, s.free_blocks, counted(s.unknowns, "unknown")));
+  row("Joints", fmt::format("{} with {}", s.joints, counted(s.contacts, "contact point")));
   row("Weight of the free blocks", force_text(s.weight_N));
   row("Total load, weight included", force_text(s.applied_load_N.norm()));
   row("Friction coefficient", fmt::format("{:g}", e.scene.joints.friction));
@@ -105,7 +107,8 @@ std::string tables_section(const std::vector<Table>& tables, bool equilibrium) {
     if (!equilibrium && interprets(table)) continue;
     const std::string link = fmt::format("<a href=\"{0}.csv\">{0}.csv</a>", markup_text(table.name));
     if (table.rows.size() > kMaxRows) {
-      out += fmt::format("<p>{}: {} rows in {}.</p>\n", markup_text(table.title), table.rows.size(), link);
+      out += fmt::format("<p>{}: {} in {}.</p>\n", markup_text(table.title),
+                         counted(table.rows.size(), "row"), link);
       continue;
     }
     out += fmt::format("<details><summary>{}</summary>\n{}<p>Full precision: {}.</p></details>\n",
@@ -136,9 +139,9 @@ std::string run_section(const ReportInput& input) {
   const Summary& s = input.evaluation->summary;
   std::string out = "<h2>Run</h2>\n";
   out += paragraph(fmt::format(
-      "Solved by cupola-solve {} in {:.3g} s ({:.3g} s in the contact solver) on {} thread{}, peak memory "
+      "Solved by cupola-solve {} in {:.3g} s ({:.3g} s in the contact solver) on {}, peak memory "
       "{:.0f} MB. Report written by cupola-post {}. Hash of the case {}, of the assembly {}.",
-      s.program_version, s.wall_time_seconds, s.solve_time_seconds, s.threads, s.threads == 1 ? "" : "s",
+      s.program_version, s.wall_time_seconds, s.solve_time_seconds, counted(s.threads, "thread"),
       1e-6 * static_cast<double>(s.peak_memory_bytes), program_version(), s.case_hash, s.assembly_hash));
   if (!input.run_yaml.empty())
     out += "<details><summary>run.yaml: the effective options</summary><pre>" + markup_text(input.run_yaml) +

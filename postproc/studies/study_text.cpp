@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
+
 namespace cupola {
 namespace {
 
@@ -85,14 +87,14 @@ std::vector<std::string> study_text(const std::vector<StudyRow>& rows) {
   if (!missing.empty()) paragraphs.push_back("Not run: " + listed(missing) + ".");
   for (const StudyRow& row : rows)
     if (row.point.is_reference() && row.finished())
-      paragraphs.push_back(fmt::format(
-          "Reference {}: {:.2g} s{}, {:.0f} MB, {} contacts, status {}, certified force error {}.",
-          row.point.name, row.seconds(), row.uses_wall_time() ? " wall time" : "",
-          static_cast<double>(row.summary->peak_memory_bytes) / 1e6, row.summary->contacts,
-          to_string(row.summary->status),
-          row.summary->certified_force_error.value
-              ? fmt::format("{:.1e}", *row.summary->certified_force_error.value)
-              : std::string("none")));
+      paragraphs.push_back(
+          fmt::format("Reference {}: {:.2g} s{}, {:.0f} MB, {}, status {}, certified force error {}.",
+                      row.point.name, row.seconds(), row.uses_wall_time() ? " wall time" : "",
+                      static_cast<double>(row.summary->peak_memory_bytes) / 1e6,
+                      counted(row.summary->contacts, "contact"), to_string(row.summary->status),
+                      row.summary->certified_force_error.value
+                          ? fmt::format("{:.1e}", *row.summary->certified_force_error.value)
+                          : std::string("none")));
   for (const std::string& knob : knobs_of(rows))
     if (std::string text = knob_text(rows, knob); !text.empty()) paragraphs.push_back(std::move(text));
   return paragraphs;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/case/case_reader.hpp"
 #include "assembly/files/atomic_file.hpp"
@@ -56,8 +57,8 @@ ExitCode run_sweep(int argc, const char* const* argv) {
   // 3. Table
   const Table table = sweep_table(scene.sweep, members, runs_folder);
   const int missing = num_missing(table);
-  const std::string verdict = fmt::format("{} of {} members are finished, {} missing",
-                                          members.size() - missing, members.size(), missing);
+  const std::string verdict = fmt::format("finished: {} of {}, {} missing", members.size() - missing,
+                                          counted(members.size(), "member"), missing);
   fmt::print("{}\n{}\n", aligned_text(table), verdict);
   if (!output_folder.empty()) {
     make_folder(output_folder);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 
@@ -68,9 +69,10 @@ CsvFile parse_csv(const std::string& text, const std::string& path) {
   while (std::getline(stream, line)) {
     file.rows.push_back(cells_of(line));
     if (file.rows.back().size() != file.columns.size())
-      throw InputError(FileLocation{path, static_cast<int>(file.rows.size()) + 1, 0},
-                       fmt::format("{} cells in a row, but {} columns in the header", file.rows.back().size(),
-                                   file.columns.size()));
+      throw InputError(
+          FileLocation{path, static_cast<int>(file.rows.size()) + 1, 0},
+          fmt::format("{} in a row, but {} in the header", counted(file.rows.back().size(), "cell"),
+                      counted(file.columns.size(), "column")));
   }
   return file;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/files/byte_archive.hpp"
@@ -245,9 +246,9 @@ std::string stop_note(Stop stop, const Analysis& analysis) {
 /// Why the run is unconverged: the measure that was missed, and where the contact law is violated most.
 std::string missed_text(const Analysis& analysis, const RunProgress& progress, const SolveSummary& last) {
   if (!last.usable()) return fmt::format("step {} failed: {}", progress.steps, last.message);
-  std::string text = fmt::format(
-      "{} of {} steps missed the tolerance {:.1e} of the {}; the worst reached {:.2e}", progress.missed_steps,
-      progress.steps, analysis.tolerance, to_string(progress.measure), progress.worst_error);
+  std::string text = fmt::format("{} of {} missed the tolerance {:.1e} of the {}; the worst reached {:.2e}",
+                                 progress.missed_steps, counted(progress.steps, "step"), analysis.tolerance,
+                                 to_string(progress.measure), progress.worst_error);
   if (const auto& violation = progress.worst.violation; violation && violation->value > analysis.tolerance)
     text += fmt::format(
         "; at {:.4g} s a force between blocks {} and {} violates the contact law by {:.2g} times the force "
@@ -285,8 +286,8 @@ void judge(const Analysis& analysis, const RunProgress& progress, const SolveSum
   }
   if (progress.rounded_steps > 0)
     summary->message += fmt::format(
-        "; in {} steps rounding of the velocities kept the contact-law residual above the tolerance {:.1e}",
-        progress.rounded_steps, analysis.tolerance);
+        "; in {} rounding of the velocities kept the contact-law residual above the tolerance {:.1e}",
+        counted(progress.rounded_steps, "step"), analysis.tolerance);
 }
 
 Summary DynamicRun::summarize(Stop stop, double seconds) const {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "solver/analysis/record.hpp"
 
@@ -143,9 +144,9 @@ std::string describe(const Mechanism& mechanism) {
   };
   const bool one = mechanism.num_groups == 1;
   return fmt::format(
-      "{} group{} of blocks move{}; joints that slide: {}, open: {}, hinge: {}; relative power of the loads "
+      "{} of blocks {}; joints that slide: {}, open: {}, hinge: {}; relative power of the loads "
       "{:.3g}, largest violation of the friction cones {:.1e}",
-      mechanism.num_groups, one ? "" : "s", one ? "s" : "", count(JointMotion::sliding),
+      counted(mechanism.num_groups, "group"), one ? "moves" : "move", count(JointMotion::sliding),
       count(JointMotion::opening), count(JointMotion::hinging), mechanism.load_power, mechanism.violation);
 }
 

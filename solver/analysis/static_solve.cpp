@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/cyclic_reduction.hpp"
@@ -289,10 +290,10 @@ StaticSolution ProximalPoint::run() {
         return finish(
             StaticOutcome::unconverged,
             fmt::format(
-                "blocks accelerate at up to {:.3g} m/s2 in {} iterations, but it is not proven that no "
+                "blocks accelerate at up to {:.3g} m/s2 in {}, but it is not proven that no "
                 "equilibrium exists: it would need normal forces {:.2g} times the larger of those found "
                 "and the loads, and the proof requires {:g} times",
-                trial_.speed_ratio * acceleration_, kUnproven, needed, kProven));
+                trial_.speed_ratio * acceleration_, counted(kUnproven, "iteration"), needed, kProven));
       if (!associated && steady)
         return finish(
             StaticOutcome::moving,
@@ -314,8 +315,8 @@ StaticSolution ProximalPoint::run() {
     return finish(StaticOutcome::equilibrium, message);
   }
   return finish(StaticOutcome::unconverged,
-                fmt::format("equilibrium residual {:.2e} > tolerance {:.2e} after {} solves",
-                            best_.balance.residual, options_.tolerance, max_solves));
+                fmt::format("equilibrium residual {:.2e} > tolerance {:.2e} after {}", best_.balance.residual,
+                            options_.tolerance, counted(max_solves, "solve")));
 }
 
 void certify(const Model& model, const State& start, const ContactSet& contacts, const StaticOptions& options,

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 
 namespace cupola {
@@ -67,8 +68,8 @@ void add_chain(const Assembly& assembly, const ChainTie& chain, std::vector<Tie>
       around.emplace_back(std::atan2(b.centroid.y(), b.centroid.x()), static_cast<int>(block));
   }
   if (around.size() < 3)
-    throw InputError(fmt::format("ties.chains: ring {} has {} free blocks; a chain requires at least three",
-                                 chain.ring, around.size()));
+    throw InputError(fmt::format("ties.chains: ring {} has {}; a chain requires at least three", chain.ring,
+                                 counted(around.size(), "free block")));
   std::sort(around.begin(), around.end());
   for (size_t i = 0; i < around.size(); ++i) {
     PairTie link;

@@ -15,6 +15,7 @@ extern "C" {
 #include <fclib.h>
 }
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "solver/fclib/hdf5_reader.hpp"
@@ -44,7 +45,8 @@ Sparse read_matrix(const Hdf5Reader& file, const std::string& name, Eigen::Index
         fmt::format("{}/nz = {}: must be -2 (by rows), -1 (by columns) or a number of triplets", name, nz));
   const std::size_t majors = static_cast<std::size_t>(by_rows ? m : n);
   if (p.size() < (triplets ? static_cast<std::size_t>(nz) : majors + 1))
-    reject(file.path(), fmt::format("{}/p has {} elements, fewer than its matrix requires", name, p.size()));
+    reject(file.path(),
+           fmt::format("{}/p has {}, fewer than its matrix requires", name, counted(p.size(), "element")));
 
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](std::size_t k, int row, int column) {
@@ -87,9 +89,8 @@ VecX read_vector(const Hdf5Reader& file, const std::string& name) {
 void check_contacts(const Hdf5Reader& file, int spacedim, Eigen::Index rows, const VecX& mu) {
   if (spacedim != 3) reject(file.path(), fmt::format("space dimension {}: only 3 is supported", spacedim));
   if (rows == 0 || rows != 3 * mu.size())
-    reject(file.path(),
-           fmt::format("{} contact rows for {} contacts: must be three per contact, and at least one contact",
-                       rows, mu.size()));
+    reject(file.path(), fmt::format("{} for {}: must be three per contact, and at least one contact",
+                                    counted(rows, "contact row"), counted(mu.size(), "contact")));
   if (mu.minCoeff() < 0.0) reject(file.path(), fmt::format("mu = {} < 0", mu.minCoeff()));
 }
 
@@ -129,7 +130,8 @@ std::optional<VecX> read_impulses(const Hdf5Reader& file, Eigen::Index size) {
   if (!file.written("/solution/r")) return std::nullopt;
   VecX impulses = read_vector(file, "/solution/r");
   if (impulses.size() != size)
-    reject(file.path(), fmt::format("/solution/r has {} elements, expected {}", impulses.size(), size));
+    reject(file.path(),
+           fmt::format("/solution/r has {}, expected {}", counted(impulses.size(), "element"), size));
   return impulses;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 
 namespace cupola {
@@ -103,8 +104,8 @@ std::vector<T> Hdf5Reader::read(const std::string& name) const {
   const double declared = std::max(static_cast<double>(size) * element_bytes,
                                    chunk_bytes(layout, H5Sget_simple_extent_ndims(space), element_bytes));
   if (declared > kLargestCompression * stored)
-    reject_hdf5(path_, fmt::format("{} declares {} elements, but the file has only {} bytes of data for it",
-                                   name, size, stored));
+    reject_hdf5(path_, fmt::format("{} declares {}, but the file has only {} bytes of data for it", name,
+                                   counted(size, "element"), stored));
   std::vector<T> values(static_cast<size_t>(size));
   const hid_t memory_type = whole ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
   if (size > 0 && H5Dread(data, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
@@ -123,7 +124,7 @@ std::vector<double> Hdf5Reader::numbers(const std::string& name) const {
 int Hdf5Reader::integer(const std::string& name) const {
   const std::vector<int> values = integers(name);
   if (values.size() != 1)
-    reject_hdf5(path_, fmt::format("{} has {} elements, expected one", name, values.size()));
+    reject_hdf5(path_, fmt::format("{} has {}, expected one", name, counted(values.size(), "element")));
   return values.front();
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "solver/contact/methods/delassus_newton.hpp"
 #include "solver/fclib/fclib_file.hpp"
 
@@ -16,8 +17,8 @@ ExitCode solve_fclib(const std::string& path, const std::string& output, bool qu
   const bool converged = summary.ending == SolveEnding::converged;
   if (!quiet || !converged) {
     fmt::print("{}: {}\n", to_string(summary.ending), summary.message);
-    fmt::print("  {} contacts, {} form; Coulomb's law, method newton on the local form\n",
-               problem.num_contacts(), file.was_global ? "global" : "local");
+    fmt::print("  {}, {} form; Coulomb's law, method newton on the local form\n",
+               counted(problem.num_contacts(), "contact"), file.was_global ? "global" : "local");
     fmt::print("  FCLIB merit {:.2e}, scaled residual {:.2e}\n",
                fclib_merit(problem, gamma, FrictionLaw::coulomb),
                scaled_merit(problem, gamma, FrictionLaw::coulomb));
@@ -25,8 +26,8 @@ ExitCode solve_fclib(const std::string& path, const std::string& output, bool qu
       fmt::print("  the file's own solution has FCLIB merit {:.2e}\n",
                  fclib_merit(problem, *file.impulses, FrictionLaw::coulomb));
     }
-    fmt::print("  {} outer iterations, {} iterations, {:.3f} s\n", summary.outer_iterations,
-               summary.iterations, summary.time_seconds);
+    fmt::print("  {}, {}, {:.3f} s\n", counted(summary.outer_iterations, "outer iteration"),
+               counted(summary.iterations, "iteration"), summary.time_seconds);
   }
   return converged ? ExitCode::done : ExitCode::accuracy_not_reached;
 }

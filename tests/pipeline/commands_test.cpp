@@ -131,7 +131,7 @@ TEST(Commands, TabulateASweepAndReportMissingMembers) {
   const std::string tabulate = "cupola-post sweep dome.yaml --runs runs --output table";
   const ProgramRun half = folder.run(tabulate);
   EXPECT_EQ(half.code, 1) << half.err;
-  EXPECT_TRUE(contains(half.out, "1 of 2 members are finished, 1 missing")) << half.out;
+  EXPECT_TRUE(contains(half.out, "finished: 1 of 2 members, 1 missing")) << half.out;
   EXPECT_TRUE(contains(half.out, "no assembly: see the output of the run")) << half.out;
   run_dome(folder, second, "--set joints.friction=0.5");
   EXPECT_EQ(folder.run(tabulate).code, 0);

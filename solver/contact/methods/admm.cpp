@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/contact/blocks/block_cholesky.hpp"
 #include "solver/contact/problem/cone.hpp"
@@ -118,8 +119,9 @@ SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& optio
   summary.ending = converged ? SolveEnding::converged : SolveEnding::max_iterations;
   summary.measure = ErrorMeasure::all_residuals;
   summary.reached = best;
-  summary.message = fmt::format("largest residual {:.2e} {} tolerance {:.2e} after {} iterations", best,
-                                converged ? "<=" : ">", options.tolerance, summary.iterations);
+  summary.message =
+      fmt::format("largest residual {:.2e} {} tolerance {:.2e} after {}", best, converged ? "<=" : ">",
+                  options.tolerance, counted(summary.iterations, "iteration"));
   return summary;
 }
 

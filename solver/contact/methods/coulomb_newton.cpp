@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/contact/methods/gmres.hpp"
@@ -198,8 +199,9 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
                        : solved                                        ? SolveEnding::converged
                        : summary.iterations >= *options.max_iterations ? SolveEnding::max_iterations
                                                                        : SolveEnding::stalled;
-      summary.message = fmt::format("momentum residual {:.2e} {} tolerance {:.2e} after {} iterations",
-                                    reached, solved ? "<=" : ">", options.tolerance, summary.iterations);
+      summary.message =
+          fmt::format("momentum residual {:.2e} {} tolerance {:.2e} after {}", reached, solved ? "<=" : ">",
+                      options.tolerance, counted(summary.iterations, "iteration"));
       summary.time_seconds = wall_seconds() - start;
       return summary;
     }
@@ -228,16 +230,16 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
   }
   summary.time_seconds = wall_seconds() - start;
   if (!std::isfinite(best.error)) {
-    summary.message =
-        fmt::format("Newton found no usable point of the friction law in {} iterations", summary.iterations);
+    summary.message = fmt::format("Newton found no usable point of the friction law in {}",
+                                  counted(summary.iterations, "iteration"));
     return summary;
   }
   summary.ending = best.error <= 1.0 ? SolveEnding::converged : SolveEnding::stalled;
   summary.measure = ErrorMeasure::all_residuals;
   summary.reached = largest_residual(best.residuals);
-  summary.message = fmt::format("{}, after {} Newton iterations for {} proximal points",
-                                residuals_text(best.residuals, options.tolerance), summary.iterations,
-                                summary.outer_iterations);
+  summary.message = fmt::format("{}, after {} for {}", residuals_text(best.residuals, options.tolerance),
+                                counted(summary.iterations, "Newton iteration"),
+                                counted(summary.outer_iterations, "proximal point"));
   return summary;
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/UmfPackSupport>
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/contact/problem/cone.hpp"
@@ -139,8 +140,9 @@ SolveSummary solve_delassus(const DelassusProblem& problem, const DelassusOption
   summary.ending = converged                   ? SolveEnding::converged
                    : std::isfinite(best_error) ? SolveEnding::stalled
                                                : SolveEnding::failed;
-  summary.message = fmt::format("merit {:.2e} {} tolerance {:.2e} after {} outer iterations", best_error,
-                                converged ? "<=" : ">", options.tolerance, summary.outer_iterations);
+  summary.message =
+      fmt::format("merit {:.2e} {} tolerance {:.2e} after {}", best_error, converged ? "<=" : ">",
+                  options.tolerance, counted(summary.outer_iterations, "outer iteration"));
   summary.time_seconds = wall_seconds() - start;
   return summary;
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/duality_gap.hpp"
@@ -84,8 +85,9 @@ void finish_dual(const DualProblem& dual, double accuracy, const SolveOptions& o
   if (!std::isfinite(accuracy)) summary->ending = SolveEnding::failed;
   summary->measure = dual.measure;
   summary->reached = accuracy;
-  summary->message = fmt::format("{} {:.2e} {} tolerance {:.2e} after {} iterations", to_string(dual.measure),
-                                 accuracy, converged ? "<=" : ">", options.tolerance, summary->iterations);
+  summary->message =
+      fmt::format("{} {:.2e} {} tolerance {:.2e} after {}", to_string(dual.measure), accuracy,
+                  converged ? "<=" : ">", options.tolerance, counted(summary->iterations, "iteration"));
 }
 
 }  // namespace cupola

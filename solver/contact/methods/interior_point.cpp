@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/contact/problem/conic_contact.hpp"
 #include "solver/contact/problem/residuals.hpp"
@@ -174,16 +175,14 @@ bool InteriorPoint::should_stop() {
   }
   if (relative <= options_.tolerance) {
     summary_.ending = SolveEnding::converged;
-    summary_.message =
-        fmt::format("complementarity {:.2e} <= tolerance {:.2e} of the elastic work after {} iterations",
-                    relative, options_.tolerance, summary_.iterations);
+    summary_.message = fmt::format("complementarity {:.2e} <= tolerance {:.2e} of the elastic work after {}",
+                                   relative, options_.tolerance, counted(summary_.iterations, "iteration"));
     return true;
   }
   if (summary_.iterations >= limit) {
     summary_.ending = SolveEnding::max_iterations;
-    summary_.message =
-        fmt::format("complementarity {:.2e} > tolerance {:.2e} of the elastic work after {} iterations",
-                    relative, options_.tolerance, summary_.iterations);
+    summary_.message = fmt::format("complementarity {:.2e} > tolerance {:.2e} of the elastic work after {}",
+                                   relative, options_.tolerance, counted(summary_.iterations, "iteration"));
     return true;
   }
   return false;

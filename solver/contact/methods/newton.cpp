@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/contact/methods/block_descent.hpp"
@@ -103,8 +104,8 @@ bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int
   constexpr int kStagnationLimit = 12;
   if (residual(point) <= options.tolerance) {
     summary.ending = SolveEnding::converged;
-    summary.message = fmt::format("momentum residual {:.2e} <= tolerance {:.2e} after {} iterations",
-                                  residual(point), options.tolerance, summary.iterations);
+    summary.message = fmt::format("momentum residual {:.2e} <= tolerance {:.2e} after {}", residual(point),
+                                  options.tolerance, counted(summary.iterations, "iteration"));
     return true;
   }
   if (!std::isfinite(residual(point)) || !std::isfinite(point.cost)) {
@@ -116,14 +117,14 @@ bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int
   if (iterations_without_gain >= kStagnationLimit) {
     summary.ending = SolveEnding::stalled;
     summary.message =
-        fmt::format("Newton stalled: momentum residual {:.2e} above the tolerance {:.2e} after {} iterations",
-                    best_residual, options.tolerance, summary.iterations);
+        fmt::format("Newton stalled: momentum residual {:.2e} above the tolerance {:.2e} after {}",
+                    best_residual, options.tolerance, counted(summary.iterations, "iteration"));
     return true;
   }
   if (summary.iterations >= max_iterations()) {
     summary.ending = SolveEnding::max_iterations;
-    summary.message = fmt::format("momentum residual {:.2e} > tolerance {:.2e} after {} iterations",
-                                  best_residual, options.tolerance, summary.iterations);
+    summary.message = fmt::format("momentum residual {:.2e} > tolerance {:.2e} after {}", best_residual,
+                                  options.tolerance, counted(summary.iterations, "iteration"));
     return true;
   }
   return false;
@@ -146,8 +147,8 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
     if (!motions.empty() && iterations_since_best >= kMultigridStagnationLimit) {
       motions = {};
       summary.ending = SolveEnding::stalled;
-      summary.message = fmt::format("multigrid-preconditioned CG made no progress for {} iterations",
-                                    kMultigridStagnationLimit);
+      summary.message = fmt::format("multigrid-preconditioned CG made no progress for {}",
+                                    counted(kMultigridStagnationLimit, "iteration"));
       break;
     }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/contact/methods/anderson.hpp"
@@ -141,8 +142,8 @@ void OuterIteration::run(const ConvexSolve& solve, ContactSolution* best_solutio
                                                                  : SolveEnding::stalled;
   summary->measure = ErrorMeasure::all_residuals;
   summary->reached = largest_residual(best_residuals);
-  summary->message = fmt::format("{}, after {} outer iterations",
-                                 residuals_text(best_residuals, options_.tolerance), iteration);
+  summary->message = fmt::format("{}, after {}", residuals_text(best_residuals, options_.tolerance),
+                                 counted(iteration, "outer iteration"));
 }
 
 }  // namespace

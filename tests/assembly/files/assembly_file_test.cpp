@@ -169,7 +169,7 @@ TEST(AssemblyFile, ErrorsNameInconsistentContent) {
   EXPECT_TRUE(has(error_with<double>("block_density", false, [](Doubles* v) { (*v)[1] = -1; }),
                   "block 1 is invalid"));
   EXPECT_TRUE(has(error_with<double>("block_mass", false, [](Doubles* v) { v->pop_back(); }),
-                  "`block_mass` has 1 values, expected 2"));
+                  "`block_mass` has 1 value, expected 2"));
   EXPECT_TRUE(
       has(error_with<double>("block_density", false, [](Doubles* v) { (*v)[1] *= 2; }), "content_hash"));
 }
