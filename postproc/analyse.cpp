@@ -222,8 +222,9 @@ ExitCode analyse(const AnalyseRequest& request) {
 
   report_warnings("cupola-post", e.warnings, doubts, false);
   if (!request.quiet)
-    fmt::print("{}, {}, {}; open {}\n", counted(tables.size(), "table"),
-               counted(drawn.figures.size(), "figure"), counted(drawn.pictures.size(), "picture"),
+    fmt::print("{}, {}{}; open {}\n", counted(tables.size(), "table"),
+               counted(drawn.figures.size(), "figure"),
+               drawn.pictures.empty() ? "" : ", " + counted(drawn.pictures.size(), "picture"),
                in_folder(folder, request.tables_only ? "summary.json" : "report.html"));
   throw_if_incomplete(e, folder);
   return ExitCode::done;

@@ -100,15 +100,8 @@ std::string residuals_line(const Summary& summary) {
   return fmt::format("residuals{}: {}", state, fmt::join(parts, ", "));
 }
 
-void print_summary(const Summary& summary) {
-  const Colour colour = summary.status == Status::stable        ? Colour::green
-                        : summary.status == Status::unconverged ? Colour::red
-                                                                : Colour::yellow;
-  fmt::print("{}: {}\n", in_colour(to_string(summary.status), colour, stdout), summary.message);
+void print_forces(const Summary& summary) {
   if (!summary.forces_unique.value) fmt::print("  {}\n", to_sentence(summary.forces_unique));
-  fmt::print("  {}, {}, {}, {}\n", counted(summary.free_blocks, "free block"),
-             counted(summary.joints, "joint"), counted(summary.contacts, "contact"),
-             counted(summary.unknowns, "unknown"));
   fmt::print("  weight {}, support reaction {} along z\n", readable_force(summary.weight_N),
              readable_force(summary.support_reaction_N.z()));
   fmt::print("  {}\n  {}\n  {}\n", to_sentence(summary.accuracy), residuals_line(summary),
@@ -116,6 +109,20 @@ void print_summary(const Summary& summary) {
   fmt::print("  law: {}, tangential spring: {}; contacts that slip: {} of {}\n",
              to_string(summary.friction_law), to_string(summary.tangential), summary.slipping_contacts,
              summary.contacts);
+}
+
+void print_summary(const Summary& summary) {
+  const Colour colour = summary.status == Status::stable        ? Colour::green
+                        : summary.status == Status::unconverged ? Colour::red
+                                                                : Colour::yellow;
+  fmt::print("{}: {}\n", in_colour(to_string(summary.status), colour, stdout), summary.message);
+  fmt::print("  {}, {}, {}, {}\n", counted(summary.free_blocks, "free block"),
+             counted(summary.joints, "joint"), counted(summary.contacts, "contact"),
+             counted(summary.unknowns, "unknown"));
+  if (summary.status != Status::moving || summary.max_speed_m_per_s)
+    print_forces(summary);  // those of a static solve that found a motion balance nothing
+  else
+    fmt::print("  weight {}; law: {}\n", readable_force(summary.weight_N), to_string(summary.friction_law));
   fmt::print("  solve {:.3f} s, total {:.3f} s, peak memory {:.0f} MB\n", summary.solve_time_seconds,
              summary.wall_time_seconds, static_cast<double>(summary.peak_memory_bytes) / 1e6);
 }
