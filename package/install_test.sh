@@ -50,7 +50,11 @@ echo "extends: cupola:dome_circlar" > typo.yaml
 echo "extends: cupola:../../../../etc/passwd" > outside.yaml
 "$root/usr/bin/cupola-generate" outside.yaml --check 2>&1 | grep -q "no bundled case has this name" || fail "path out of the folder"
 "$cupola" run my_wal.yaml 2>&1 | grep -q "did you mean my_wall" || fail "nearest case"
+"$cupola" run my_wall 2>&1 | grep -q "give the file of the case: my_wall.yaml" || fail "case without .yaml"
 "$cupola" cases | grep -q dome_circular || fail "list of cases"
+"$cupola" cases | grep -q claims && fail "claims are no cases"
+cp my_wall.yaml second_wall.yaml
+"$cupola" run my_wall.yaml second_wall.yaml > two.log 2>&1 || { cat two.log; fail "two cases"; }
 
 dpkg --root="$root" --force-not-root --log=/dev/null -r cupola > "$work/dpkg.log" 2>&1 || { cat "$work/dpkg.log"; fail "removal"; }
 [ ! -e "$cupola" ] || fail "files remain after removal"

@@ -19,6 +19,11 @@ expect hlep "did you mean help"
 expect my_dome.yaml "my_dome.yaml: give the name of the case, not its file: my_dome"
 expect ./my_dom.yaml "give the name of the case, not its file: my_dome"
 expect something_else "something_else: no case in . and no target has this name."
+# Several goals.
+cp my_dome.yaml other_dome.yaml
+for goals in "my_dome other_dome" "help packages"; do
+  make -n -f "$makefile" FOLDER=. $goals > out.txt 2>&1 || { echo "$goals:"; cat out.txt; failed=1; }
+done
 make -n -f "$makefile" FOLDER=. my_dome > out.txt 2>&1 || { cat out.txt; failed=1; }
 grep -q 'cupola-generate ./my_dome.yaml --output out/my_dome/assembly.vtu' out.txt || { echo "my_dome: not run here"; failed=1; }
 exit $failed
