@@ -134,8 +134,8 @@ void judge(const std::vector<StageResult>& stages, double fresh_friction, Summar
       worst = &stage;
   }
   summary->status = unconverged > 0 ? Status::unconverged : moving > 0 ? Status::moving : Status::stable;
-  summary->message = fmt::format("{} of {} cannot stand with a fresh friction of {:g}", moving,
-                                 counted(stages.size(), "stage"), fresh_friction);
+  summary->message = fmt::format("stages that do not stand with a fresh friction of {:g}: {} of {}",
+                                 fresh_friction, moving, stages.size());
   if (failed)
     summary->message +=
         fmt::format(", {} did not converge; ring {}: {}", unconverged, failed->ring, failed->message);
