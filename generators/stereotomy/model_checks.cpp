@@ -16,8 +16,6 @@
 namespace cupola {
 namespace {
 
-constexpr double kNoWidth = 1e-6;  // of the least width of a joint: narrower overlaps are rounding
-
 double model_size(const Assembly& assembly) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& v : assembly.vertices) {

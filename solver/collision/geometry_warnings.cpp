@@ -8,6 +8,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/model/joint_rule.hpp"
 #include "solver/collision/face_clipping.hpp"
 #include "solver/collision/separating_axis.hpp"
 #include "solver/runtime/interruption.hpp"
@@ -86,7 +87,7 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
   const CollisionModel& model = detector.model();
   const std::vector<Pose> poses = initial_poses(assembly);
   NarrowPhaseOptions any_width = detector.narrow_phase();
-  any_width.min_width = 10.0 * any_width.tolerance;
+  any_width.min_width *= kNoWidth;
 
   std::vector<Box> boxes;
   for (int block = 0; block < model.num_blocks(); ++block)
