@@ -95,6 +95,22 @@ Json to_value(const ForcesUnique& unique) {
   return {{"value", unique.value}, {"reason", unique.reason}};
 }
 
+Json to_value(const RangeEnd& end) {
+  Json json = {{"outcome", to_string(end.outcome)}};
+  if (end.value) json["value"] = *end.value;
+  if (end.bound) json["bound"] = *end.bound;
+  if (end.frame) json["frame"] = *end.frame;
+  return json;
+}
+Json to_value(const ForceRange& range) {
+  Json json = {{"quantity", range.quantity},
+               {"unit", range.unit},
+               {"min", to_value(range.min)},
+               {"max", to_value(range.max)}};
+  if (range.chosen) json["chosen"] = *range.chosen;
+  return json;
+}
+
 /// JSON has no infinities and NaN: they are written as null and read back as NaN.
 void from_value(const Json& json, double* value) {
   *value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
@@ -147,6 +163,23 @@ void from_value(const Json& json, LawViolation* violation) {
   from_value(json.at("block_b"), &violation->block_b);
   from_value(json.at("time_s"), &violation->time);
 }
+template <class T>
+void read_optional(const Json& json, const char* key, std::optional<T>* value) {
+  if (json.contains(key)) from_value(json.at(key), &value->emplace());
+}
+void from_value(const Json& json, RangeEnd* end) {
+  from_value(json.at("outcome"), &end->outcome);
+  read_optional(json, "value", &end->value);
+  read_optional(json, "bound", &end->bound);
+  read_optional(json, "frame", &end->frame);
+}
+void from_value(const Json& json, ForceRange* range) {
+  from_value(json.at("quantity"), &range->quantity);
+  from_value(json.at("unit"), &range->unit);
+  from_value(json.at("min"), &range->min);
+  from_value(json.at("max"), &range->max);
+  read_optional(json, "chosen", &range->chosen);
+}
 
 }  // namespace
 
@@ -165,6 +198,7 @@ std::string to_json(const Summary& summary) {
     json["critical_value"] = critical->value;
     json["bracket"] = {critical->stable, critical->moving};
   }
+  for (const ForceRange& range : summary.ranges) json["ranges"].push_back(to_value(range));
   json["text_files"] = summary.text_files;
   return json.dump(2) + "\n";
 }
@@ -216,6 +250,12 @@ Summary summary_from_json(const std::string& text, const std::string& file) {
       throw InputError(FileLocation{file},
                        "critical_value: parameter or bracket is missing or has the wrong type");
     }
+  }
+  try {
+    for (const Json& range : json.value("ranges", Json::array()))
+      from_value(range, &summary.ranges.emplace_back());
+  } catch (const std::exception&) {
+    throw InputError(FileLocation{file}, "ranges: a key is missing or has the wrong type");
   }
   try {
     if (json.contains("text_files")) json["text_files"].get_to(summary.text_files);

@@ -4,9 +4,9 @@
 
 namespace cupola {
 
-enum class AnalysisType { static_, dynamic, staged, limit };
+enum class AnalysisType { static_, dynamic, staged, limit, range };
 constexpr auto enum_names(AnalysisType) {
-  return std::array{"static", "dynamic", "staged", "limit"};
+  return std::array{"static", "dynamic", "staged", "limit", "range"};
 }
 
 /// Methods for the frictional contact problem of one step; solver/contact/methods describes each.

@@ -103,6 +103,31 @@ struct CriticalValue {
   double moving = 0.0;  ///< end at which it moves
 };
 
+/// How the search for one end of a range ended. `unbounded`: a self-stress without load (a jammed wedge) changes the
+/// quantity without limit.
+enum class RangeOutcome { bounded, unbounded, unconverged };
+constexpr auto enum_names(RangeOutcome) {
+  return std::array{"bounded", "unbounded", "unconverged"};
+}
+
+/// One end of the range of a quantity over all admissible states.
+struct RangeEnd {
+  RangeOutcome outcome = RangeOutcome::unconverged;
+  std::optional<double> value;  ///< attained by the state found; absent if unbounded
+  /// No admissible state lies beyond, among those with forces of up to 1000 times the largest of the state found.
+  std::optional<double> bound;
+  std::optional<int> frame;  ///< that shows the state, or the self-stress alone if unbounded
+};
+
+/// Smallest and largest value of a quantity over all forces that balance the loads within the joint laws.
+struct ForceRange {
+  std::string quantity;  ///< "thrust", "normal force of joint 12-13"
+  std::string unit;      ///< "N", "m", "" for ratios
+  RangeEnd min, max;
+  std::optional<double>
+      chosen;  ///< in the state that the compliances choose (static analysis); absent without one
+};
+
 /// Unit of the parameter of a limit analysis: "degrees", "g", "factor", or "" for friction.
 std::string limit_unit(const std::string& parameter);
 
@@ -144,6 +169,7 @@ struct Summary {
   std::int64_t peak_memory_bytes = 0;
   int threads = 1;
   std::optional<CriticalValue> critical;          ///< limit analysis only
+  std::vector<ForceRange> ranges;                 ///< range analysis only
   std::vector<std::string> warnings;              ///< about the case and the blocks, one sentence each
   std::map<std::string, std::string> text_files;  ///< text files of the results folder: name to hash
 };
