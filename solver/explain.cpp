@@ -152,6 +152,11 @@ std::string analysis_line(const Analysis& analysis) {
           analysis.time_step);
     case AnalysisType::staged:
       return fmt::format("staged, {}: one equilibrium per ring", method);
+    case AnalysisType::range:
+      return fmt::format(
+          "range: one equilibrium by {}, and two conic programmes over all admissible states for each of {} "
+          "quantities",
+          method, analysis.range.quantities.size());
     case AnalysisType::limit:
       if (uses_direct_limit(analysis))
         return fmt::format("limit, direct: conic programmes over all admissible states between {:g} and {:g}",

@@ -40,6 +40,7 @@ Assembly read_matching_assembly(SolveRequest* asked, std::vector<std::string>* d
   const std::string& path = request.assembly_path;
   Assembly assembly = read_assembly(path);
   resolve_block_names(assembly, &request.scene.loads, &request.scene.ties, &request.scene.supports);
+  resolve_block_names(assembly, &request.scene.analysis.range.quantities);
   const bool any_fixed = std::ranges::any_of(assembly.blocks, [](const Block& block) { return block.fixed; });
   if (!any_fixed && request.scene.analysis.type != AnalysisType::dynamic)
     throw InputError(FileLocation{path}, kNoBlockIsFixed);
@@ -91,7 +92,8 @@ std::string residuals_line(const Summary& summary) {
   if (const auto& violation = summary.largest_law_violation)
     parts.push_back(fmt::format("worst contact {:.2e} (blocks {} and {})", violation->value,
                                 violation->block_a, violation->block_b));
-  const bool run_of_steps = summary.steps > 1 && summary.analysis != AnalysisType::limit;
+  const bool run_of_steps =
+      summary.steps > 1 && summary.analysis != AnalysisType::limit && summary.analysis != AnalysisType::range;
   add(run_of_steps ? "equilibrium at the end" : "equilibrium", summary.equilibrium_residual);
   if (parts.empty()) return "no residuals: no state was found that they could describe";
   const char* state = summary.analysis == AnalysisType::limit ? " at the stable end of the bracket"

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "assembly/model/choices.hpp"
+#include "assembly/model/force_quantity.hpp"
 #include "assembly/model/joint_laws.hpp"
 
 namespace cupola {
@@ -32,7 +33,9 @@ struct LimitSearch {
   /// load:         factor on `loads.forces` and `loads.faces`
   /// thickness:    factor on the thickness of the masonry, about its middle surface
   /// spread:       factor on `supports.moves`
-  enum class Parameter { friction, tilt, acceleration, load, thickness, spread };
+  /// joint_extent: factor on the extent of every joint about its centroid; its inverse is the geometric safety of the
+  ///               safest admissible state
+  enum class Parameter { friction, tilt, acceleration, load, thickness, spread, joint_extent };
   Parameter parameter = Parameter::friction;
   /// direct:    conic programmes over all admissible states; associated law, not for `spread`
   /// bisection: one static solve for each value tried
@@ -48,8 +51,14 @@ constexpr auto enum_names(LimitSearch::Method) {
   return std::array{"automatic", "direct", "bisection"};
 }
 constexpr auto enum_names(LimitSearch::Parameter) {
-  return std::array{"friction", "tilt", "acceleration", "load", "thickness", "spread"};
+  return std::array{"friction", "tilt", "acceleration", "load", "thickness", "spread", "joint_extent"};
 }
+
+/// Ranges of forces over all admissible states: forces that balance the loads within the joint laws.
+struct RangeSearch {
+  std::vector<ForceQuantity> quantities;
+  bool states = false;  ///< write a frame for each end
+};
 
 /// Construction ring by ring. The bed under the ring just laid has the friction of fresh mortar.
 struct StagedConstruction {
@@ -118,6 +127,7 @@ struct Analysis {
   StopRules stop;
   std::optional<Sleep> sleep;  ///< dynamic; none: all islands are solved in every step
   LimitSearch limit;
+  RangeSearch range;
   StagedConstruction staged;
 };
 constexpr auto enum_names(Analysis::Start) {

@@ -20,6 +20,7 @@ void declare_loads(Section& s, Loads& loads);
 void declare_ties(Section& s, Ties& ties);
 void declare_supports(Section& s, Supports& supports);
 void declare_analysis(Section& s, Analysis& analysis);
+void declare_range(Section& s, RangeSearch& range);
 void declare_output(Section& s, Output& output);
 void declare_postproc(Section& s, Postproc& postproc);
 

@@ -31,10 +31,12 @@ void declare_stop(Section& s, StopRules& stop) {
 
 void declare_limit(Section& s, LimitSearch& limit) {
   using Parameter = LimitSearch::Parameter;
-  s.choice("parameter", limit.parameter,
-           "parameter whose critical value is sought: friction coefficient; tilt of gravity (deg); "
-           "horizontal acceleration (g); factor on loads.forces and loads.faces (load); factor on the shell "
-           "thickness about its middle surface; factor on supports.moves (spread)");
+  s.choice(
+      "parameter", limit.parameter,
+      "parameter whose critical value is sought: friction coefficient; tilt of gravity (deg); "
+      "horizontal acceleration (g); factor on loads.forces and loads.faces (load); factor on the shell "
+      "thickness about its middle surface; factor on supports.moves (spread); factor on the extent of every "
+      "joint about its centroid (direct only), whose inverse is the geometric safety of the safest state");
   s.choice("method", limit.method,
            "direct: conic programmes over all admissible states (associated law, not for spread); bisection: "
            "one static solve per value; automatic: direct where it applies");
@@ -45,11 +47,14 @@ void declare_limit(Section& s, LimitSearch& limit) {
   s.vector3("direction", limit.direction, {}, "tilt, acceleration: horizontal direction of the pull");
   s.optional_section("joints", limit.joints, "friction: vary only these joints; default: all joints",
                      declare_joint_group);
-  s.rule(limit.parameter != Parameter::thickness || limit.low > 0.0, "low",
-         "must be > 0 when parameter is thickness");
+  s.rule((limit.parameter != Parameter::thickness && limit.parameter != Parameter::joint_extent) ||
+             limit.low > 0.0,
+         "low", "must be > 0 when parameter is thickness or joint_extent");
   s.rule(limit.low < limit.high, "high", "must be > low");
   s.rule(limit.method != LimitSearch::Method::direct || limit.parameter != Parameter::spread, "method",
          "direct does not apply to spread, which follows displacements; use bisection");
+  s.rule(limit.method != LimitSearch::Method::bisection || limit.parameter != Parameter::joint_extent,
+         "method", "bisection does not apply to joint_extent, which asks for admissible states; use direct");
 }
 
 void declare_staged(Section& s, StagedConstruction& staged) {
@@ -131,7 +136,8 @@ void declare_accuracy(Section& s, Analysis& analysis) {
 void declare_analysis(Section& s, Analysis& analysis) {
   s.choice(
       "type", analysis.type,
-      "static equilibrium; motion in time; construction ring by ring; search for a critical parameter value");
+      "static equilibrium; motion in time; construction ring by ring; search for a critical parameter value; "
+      "ranges of forces over all admissible states");
   s.choice("method", analysis.method, "numerical method for the contact problem");
   declare_flow_rule(s, analysis);
   s.integer(
@@ -156,7 +162,10 @@ void declare_analysis(Section& s, Analysis& analysis) {
            "varying friction, else rest");
   s.section("stop", analysis.stop, "dynamic: conditions that end the run before its duration", declare_stop);
   s.section("limit", analysis.limit, "limit: parameter and bracket of the search", declare_limit);
+  s.section("range", analysis.range, "range: quantities sought over all admissible states", declare_range);
   s.section("staged", analysis.staged, "staged: which stages, and the fresh mortar", declare_staged);
+  s.rule(analysis.type != AnalysisType::range || !analysis.range.quantities.empty(), "range",
+         "must list at least one quantity: {quantities: [thrust]}");
   s.rule(analysis.type == AnalysisType::static_ || analysis.cyclic_sectors == 1, "cyclic_sectors",
          "values above 1 require analysis.type: static");
   s.flag("plane", analysis.plane,
@@ -169,6 +178,9 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.rule(analysis.limit.method != LimitSearch::Method::direct ||
              analysis.friction_law == FrictionLaw::associated,
          "limit.method", "direct requires friction_law: associated; use bisection under Coulomb's law");
+  s.rule(analysis.limit.parameter != LimitSearch::Parameter::joint_extent ||
+             analysis.friction_law == FrictionLaw::associated,
+         "limit.parameter", "joint_extent requires friction_law: associated");
   s.rule(!analysis.accuracy.wrench_error || analysis.type == AnalysisType::static_, "accuracy",
          "wrench_error is for static analysis only; for other types give a tolerance or a preset");
   s.rule(analysis.type != AnalysisType::dynamic || analysis.duration / analysis.time_step <= kMostSteps,

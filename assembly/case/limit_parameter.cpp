@@ -57,7 +57,8 @@ Case case_at(const Case& scene, double value) {
       }
       break;
     case LimitSearch::Parameter::thickness:
-      break;  // changes the assembly, not the case: with_thickness()
+    case LimitSearch::Parameter::joint_extent:
+      break;  // change the assembly and its contacts, not the case
     case LimitSearch::Parameter::spread:
       for (SupportMove& move : at.supports.moves) move.time = TableInTime{"", {0.0, 1e6}, {0.0, 1e6}};
       break;

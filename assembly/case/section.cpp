@@ -30,6 +30,15 @@ CaseNode scalar(const std::string& text, bool quoted = false) {
   return node;
 }
 
+/// The map {type: name} that a bare name stands for.
+CaseNode map_of_type(const CaseNode& name) {
+  CaseNode map;
+  map.kind = CaseNode::Kind::map;
+  map.where = name.where;
+  map.entries.push_back({"type", name.where, name});
+  return map;
+}
+
 CaseNode list_of_numbers(const double* values, size_t size) {
   CaseNode node;
   node.kind = CaseNode::Kind::list;
@@ -371,8 +380,9 @@ bool Section::open_optional(const std::string& key, const std::string& meaning, 
   return !describing();
 }
 
-void Section::open_list(const std::string& key, const std::string& meaning, const DeclareKeys& declare_item) {
-  document(key, "list of maps", {}, "[]", meaning);
+void Section::open_list(const std::string& key, Items kind, const std::string& meaning,
+                        const DeclareKeys& declare_item) {
+  document(key, kind == Items::maps ? "list of maps" : "list of maps or names", {}, "[]", meaning);
   if (describing()) {
     Section item(schema_, path_of(key) + "[]");
     declare_item(item);
@@ -383,7 +393,9 @@ void Section::open_list(const std::string& key, const std::string& meaning, cons
   if (const CaseNode* node = look_up(key)) {
     if (node->kind != CaseNode::Kind::list) fail(key, *node, "must be a list of maps");
     for (size_t i = 0; i < node->items.size(); ++i) {
-      Section item(&node->items[i], fmt::format("{}[{}]", path_of(key), i), node->items[i].where, case_file_);
+      const bool named = kind == Items::maps_or_names && node->items[i].kind == CaseNode::Kind::scalar;
+      const CaseNode given = named ? map_of_type(node->items[i]) : node->items[i];
+      Section item(&given, fmt::format("{}[{}]", path_of(key), i), given.where, case_file_);
       item.files_ = files_;
       declare_item(item);
       close(item);

@@ -103,9 +103,11 @@ class Section {
   template <class T>
   void optional_section(const std::string& key, std::optional<T>& value, const std::string& meaning,
                         void (*declare)(Section&, T&));
+  /// `maps_or_names`: a bare name stands for the map {type: name}.
+  enum class Items { maps, maps_or_names };
   template <class T>
   void list(const std::string& key, std::vector<T>& values, const std::string& meaning,
-            void (*declare)(Section&, T&));
+            void (*declare)(Section&, T&), Items items = Items::maps);
 
   /// One alternative of a variant: its name (after `type:`) and its keys.
   template <class Variant>
@@ -162,7 +164,8 @@ class Section {
              const std::string& meaning, const std::string& advice = "");
   void open(const std::string& key, const std::string& meaning, const DeclareKeys& declare);
   bool open_optional(const std::string& key, const std::string& meaning, const DeclareKeys& declare);
-  void open_list(const std::string& key, const std::string& meaning, const DeclareKeys& declare_item);
+  void open_list(const std::string& key, Items kind, const std::string& meaning,
+                 const DeclareKeys& declare_item);
   void describe_alternative(const std::string& key, const std::string& name, const std::string& meaning,
                             const DeclareKeys& declare);
   bool describing() const { return schema_ != nullptr; }
@@ -225,8 +228,8 @@ void Section::optional_section(const std::string& key, std::optional<T>& value, 
 
 template <class T>
 void Section::list(const std::string& key, std::vector<T>& values, const std::string& meaning,
-                   void (*declare)(Section&, T&)) {
-  open_list(key, meaning, [&](Section& s) {
+                   void (*declare)(Section&, T&), Items items) {
+  open_list(key, items, meaning, [&](Section& s) {
     T item{};
     declare(s, item);
     values.push_back(std::move(item));

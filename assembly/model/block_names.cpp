@@ -1,5 +1,6 @@
 #include "assembly/model/block_names.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
@@ -13,34 +14,80 @@ std::string block_label(const Assembly& assembly, int block) {
   return name.empty() ? std::to_string(block) : name;
 }
 
-void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Supports* supports) {
-  std::map<std::string, int> number_of;
-  std::vector<std::string> names;
-  for (size_t b = 0; b < assembly.blocks.size(); ++b) {
-    if (assembly.blocks[b].name.empty()) continue;
-    number_of[assembly.blocks[b].name] = static_cast<int>(b);
-    names.push_back(assembly.blocks[b].name);
+std::string block_labels(const Assembly& assembly, const std::vector<int>& blocks) {
+  constexpr size_t kMost = 8;
+  std::string text;
+  for (size_t i = 0; i < std::min(blocks.size(), kMost); ++i)
+    text += (i ? ", " : "") + block_label(assembly, blocks[i]);
+  return blocks.size() > kMost ? text + ", ..." : text;
+}
+
+namespace {
+
+/// Replaces names of blocks by their numbers.
+class BlockNames {
+ public:
+  explicit BlockNames(const Assembly& assembly) {
+    for (size_t b = 0; b < assembly.blocks.size(); ++b) {
+      if (assembly.blocks[b].name.empty()) continue;
+      number_of_[assembly.blocks[b].name] = static_cast<int>(b);
+      names_.push_back(assembly.blocks[b].name);
+    }
   }
-  const auto resolve = [&](const char* key, BlockRef* block) {
+
+  /// `key` of the case is for the message.
+  void resolve(const char* key, BlockRef* block) const {
     if (block->name.empty()) return;
-    const auto found = number_of.find(block->name);
-    if (found == number_of.end()) {
-      const std::string near = nearest_name(block->name, names);
+    const auto found = number_of_.find(block->name);
+    if (found == number_of_.end()) {
+      const std::string near = nearest_name(block->name, names_);
       throw InputError(fmt::format("{}: no block is named '{}'{}", key, block->name,
                                    !near.empty() ? fmt::format("; did you mean '{}'?", near)
-                                   : names.empty()
+                                   : names_.empty()
                                        ? "; generated blocks have numbers only"
-                                       : fmt::format("; the first block is '{}'", names.front())));
+                                       : fmt::format("; the first block is '{}'", names_.front())));
     }
     *block = found->second;
+  }
+
+ private:
+  std::map<std::string, int> number_of_;
+  std::vector<std::string> names_;
+};
+
+/// The blocks that a quantity names.
+std::vector<BlockRef*> blocks_of(ForceQuantity* quantity) {
+  std::vector<BlockRef*> blocks;
+  const auto add_group = [&blocks](BaseBlocks* group) {
+    for (BlockRef& block : group->blocks) blocks.push_back(&block);
   };
-  for (BlockForce& force : loads->forces) resolve("loads.forces", &force.block);
+  if (auto* reaction = std::get_if<BlockReaction>(quantity)) blocks.push_back(&reaction->block);
+  if (auto* joint = std::get_if<JointForce>(quantity)) blocks = {&joint->block_a, &joint->block_b};
+  if (auto* share = std::get_if<BaseShare>(quantity)) add_group(&share->of);
+  if (auto* ratio = std::get_if<BaseRatio>(quantity)) {
+    add_group(&ratio->of);
+    add_group(&ratio->over);
+  }
+  return blocks;
+}
+
+}  // namespace
+
+void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Supports* supports) {
+  const BlockNames names(assembly);
+  for (BlockForce& force : loads->forces) names.resolve("loads.forces", &force.block);
   for (PairTie& pair : ties->pairs) {
-    resolve("ties.pairs", &pair.block_a);
-    resolve("ties.pairs", &pair.block_b);
+    names.resolve("ties.pairs", &pair.block_a);
+    names.resolve("ties.pairs", &pair.block_b);
   }
   for (SupportMove& move : supports->moves)
-    for (BlockRef& block : move.blocks) resolve("supports.moves", &block);
+    for (BlockRef& block : move.blocks) names.resolve("supports.moves", &block);
+}
+
+void resolve_block_names(const Assembly& assembly, std::vector<ForceQuantity>* quantities) {
+  const BlockNames names(assembly);
+  for (ForceQuantity& quantity : *quantities)
+    for (BlockRef* block : blocks_of(&quantity)) names.resolve("analysis.range.quantities", block);
 }
 
 }  // namespace cupola

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "assembly/model/assembly.hpp"
+#include "assembly/model/force_quantity.hpp"
 #include "assembly/model/loads.hpp"
 
 namespace cupola {
@@ -10,9 +12,13 @@ namespace cupola {
 /// Name of a block for messages and tables: its name in the imported file, else its number.
 std::string block_label(const Assembly& assembly, int block);
 
+/// The labels of the first eight of several blocks: "12, 13, ...".
+std::string block_labels(const Assembly& assembly, const std::vector<int>& blocks);
+
 /// Replaces the names of blocks in a case by their numbers. Throws InputError for a name that no block has,
 /// with the nearest name.
 void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Supports* supports);
+void resolve_block_names(const Assembly& assembly, std::vector<ForceQuantity>* quantities);
 
 /// What to do about an imported model without supports.
 inline constexpr const char* kNoBlockIsFixed =

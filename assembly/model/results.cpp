@@ -20,12 +20,16 @@ std::vector<Joint> joints_of(const ContactTable& contacts) {
 std::string limit_unit(const std::string& parameter) {
   if (parameter == "tilt") return "degrees";
   if (parameter == "acceleration") return "g";
-  return parameter.ends_with("friction") ? "" : "factor";  // load, thickness, spread
+  return parameter.ends_with("friction") ? "" : "factor";  // load, thickness, spread, joint_extent
 }
 
 std::string phrase(const std::string& parameter, double value) {
   const std::string unit = limit_unit(parameter);
-  if (unit == "factor") return fmt::format("a {} factor of {:.5g}", parameter, value);
+  if (unit == "factor") {
+    std::string name = parameter;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return fmt::format("a {} factor of {:.5g}", name, value);
+  }
   return fmt::format("a{} {} of {:.5g}{}{}", parameter.starts_with('a') ? "n" : "", parameter, value,
                      unit.empty() ? "" : " ", unit);
 }

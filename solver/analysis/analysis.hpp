@@ -51,6 +51,10 @@ std::optional<Summary> run_dynamic(const Case& scene, const Assembly& assembly, 
 /// Frames: the last equilibrium, and the mechanism with its largest speed scaled to 1 m/s.
 std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
+/// Smallest and largest values of the quantities of the case over all admissible states, beside the state that the
+/// compliances choose. Frames: that state, or any admissible one; on request the two ends of each range.
+std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
+
 /// Construction ring by ring. Each stage is a static solve of the rings laid so far; the bed of the last ring
 /// has the friction of fresh mortar. On request, the critical fresh friction of each stage is searched for.
 std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);

@@ -14,6 +14,7 @@ StaticOptions static_options(const Analysis& analysis) {
   options.solve = contact_solver_options(analysis);
   switch (analysis.type) {
     case AnalysisType::static_:
+    case AnalysisType::range:
       break;
     case AnalysisType::dynamic:
       options.tolerance = std::min(analysis.tolerance, kStartTolerance);
@@ -33,6 +34,11 @@ bool uses_direct_limit(const Analysis& analysis) {
          analysis.friction_law == FrictionLaw::associated;
 }
 
+bool changes_joints(LimitSearch::Parameter parameter) {
+  using enum LimitSearch::Parameter;
+  return parameter == friction || parameter == thickness || parameter == joint_extent;
+}
+
 double num_equilibria(const Analysis& analysis, int num_rings) {
   switch (analysis.type) {
     case AnalysisType::static_:
@@ -40,14 +46,12 @@ double num_equilibria(const Analysis& analysis, int num_rings) {
       return 1.0;
     case AnalysisType::staged:
       return 0.5 * std::max(2, num_rings);
+    case AnalysisType::range:  // a conic programme takes the time of about four static solves
+      return 1.0 + 8.0 * static_cast<double>(analysis.range.quantities.size());
     case AnalysisType::limit: {
       const LimitSearch& limit = analysis.limit;
       // A conic programme takes the time of about four static solves; three for loads, eight for joints.
-      if (uses_direct_limit(analysis))
-        return limit.parameter == LimitSearch::Parameter::friction ||
-                       limit.parameter == LimitSearch::Parameter::thickness
-                   ? 32.0
-                   : 12.0;
+      if (uses_direct_limit(analysis)) return changes_joints(limit.parameter) ? 32.0 : 12.0;
       const double widest = std::max(std::abs(limit.low), std::abs(limit.high));
       const double halvings = std::log2((limit.high - limit.low) / (widest * limit.relative_width));
       return 2.0 + std::ceil(std::max(0.0, halvings));

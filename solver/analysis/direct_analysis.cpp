@@ -53,7 +53,8 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
     auto at = limit.parameter == LimitSearch::Parameter::thickness
                   ? std::make_shared<const Assembly>(with_thickness(assembly, value))
                   : std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {});
-    return rigid_scene(case_at(scene, value), std::move(at));
+    const bool shrinks = limit.parameter == LimitSearch::Parameter::joint_extent;
+    return rigid_scene(case_at(scene, value), std::move(at), shrinks ? value : 1.0);
   };
   int trials = 0;
   const auto report = [&](const DirectTrial& trial) {
@@ -73,6 +74,7 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
       return limit_of_loads(scene_at, limit.low, limit.high, kWidth, report);
     case Parameter::friction:
     case Parameter::thickness:
+    case Parameter::joint_extent:
       return limit_of_joints(scene_at, limit.low, limit.high, kWidth, limit.parameter == Parameter::friction,
                              report);
     case Parameter::spread:
@@ -84,24 +86,17 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
 /// Writes the admissible state and the mechanism as frames. Returns a description of the mechanism.
 std::string write_ends(const DirectLimit& limit, const AnalysisSinks& sinks, Summary* summary) {
   const RigidScene& stable = limit.at_admissible;
-  const JointForces forces = joint_forces(stable.contacts, limit.gamma, 1.0);
-  const std::vector<double> none(stable.contacts.points.size(), 0.0);
-  const Frame frame = make_frame(stable.model, stable.start, stable.contacts, forces.contacts, none,
-                                 stable.memories, std::vector<Vec3>(stable.start.poses.size(), Vec3::Zero()));
+  const Frame frame = admissible_frame(stable, limit.gamma, stable.start.time);
   sinks.frame(frame);
   summarize_frame(frame, stable.model, summary);
-  const Equilibrium balance = balance_of(stable, limit.gamma);
-  summary->applied_load_N = balance.applied_load;
-  summary->support_reaction_N = balance.support_reaction;
-  summary->inertia_share = balance.inertia_share;
-  summary->equilibrium_residual = balance.residual;
+  summarize_balance(balance_of(stable, limit.gamma), summary);
 
   const RigidScene& moving = limit.at_moving;
   const Mechanism mechanism =
       find_mechanism(moving.model, moving.start, moving.contacts, moving.problem.contacts, limit.mechanism);
   if (moving.contacts.points.size() == stable.contacts.points.size())
-    write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism, forces.contacts,
-                    none, sinks);
+    write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism,
+                    frame.contacts.force, frame.contacts.law_violation, sinks);
   return describe(mechanism);
 }
 

@@ -202,6 +202,13 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   return frame;
 }
 
+void summarize_balance(const Equilibrium& balance, Summary* summary) {
+  summary->applied_load_N = balance.applied_load;
+  summary->support_reaction_N = balance.support_reaction;
+  summary->inertia_share = balance.inertia_share;
+  summary->equilibrium_residual = balance.residual;
+}
+
 void summarize_static(const StaticSolution& solution, const Frame& frame, const Model& model,
                       double tolerance, Summary* summary) {
   summarize_frame(frame, model, summary);
@@ -211,10 +218,7 @@ void summarize_static(const StaticSolution& solution, const Frame& frame, const 
   summary->iterations = solution.iterations;
   summary->steps = 1;
   summary->time_step_s = solution.h;
-  summary->applied_load_N = solution.balance.applied_load;
-  summary->support_reaction_N = solution.balance.support_reaction;
-  summary->inertia_share = solution.balance.inertia_share;
-  summary->equilibrium_residual = solution.balance.residual;
+  summarize_balance(solution.balance, summary);
   summary->momentum_residual = solution.residuals.momentum;
   summary->contact_law_residual = solution.residuals.contact_law;
   summary->friction_cone_violation = solution.residuals.cone_violation;

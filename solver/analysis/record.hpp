@@ -59,6 +59,9 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
                    const ContactMemories& memories, const StaticSolution& solution,
                    const StaticOptions& options);
 
+/// Sets the loads, the reactions and the residual of an equilibrium.
+void summarize_balance(const Equilibrium& balance, Summary* summary);
+
 /// Sets the fields of the summary that follow from a static solve and its frame.
 void summarize_static(const StaticSolution& solution, const Frame& frame, const Model& model,
                       double tolerance, Summary* summary);

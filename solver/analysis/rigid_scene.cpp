@@ -1,13 +1,34 @@
 #include "solver/analysis/rigid_scene.hpp"
 
+#include <algorithm>
+
 #include "assembly/model/joint_rule.hpp"
+#include "solver/analysis/joint_geometry.hpp"
+#include "solver/analysis/record.hpp"
 #include "solver/collision/contact_detector.hpp"
+#include "solver/dynamics/law_violation.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/time_step.hpp"
 
 namespace cupola {
 
-RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly) {
+namespace {
+
+void scale_joints(const Case& scene, const Assembly& assembly, double extent, ContactSet* contacts) {
+  const JointGeometry joints(scene, assembly, *contacts);
+  for (const auto& [key, pair] : joints.pairs()) {
+    for (const int i : pair.contacts) {
+      Contact& contact = contacts->points[i];
+      const Vec3 shift = (extent - 1.0) * (0.5 * (contact.point_a + contact.point_b) - pair.centroid);
+      contact.point_a += shift;
+      contact.point_b += shift;
+    }
+  }
+}
+
+}  // namespace
+
+RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly, double joint_extent) {
   RigidScene rigid;
   rigid.assembly = std::move(assembly);
   rigid.model = make_model(scene, *rigid.assembly);
@@ -16,6 +37,7 @@ RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assemb
   rigid.contacts = detector.update(rigid.start.poses);
   const double open = joint_rule(smallest_block_size(*rigid.assembly), scene.contact.margin).min_width;
   std::erase_if(rigid.contacts.points, [&](const Contact& contact) { return contact.gap > open; });
+  if (joint_extent != 1.0) scale_joints(scene, *rigid.assembly, joint_extent, &rigid.contacts);
   rigid.memories = match_memories({}, rigid.contacts.points);
 
   const StepOptions step{.h = 1.0, .time_advance = 0.0};
@@ -27,6 +49,21 @@ RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assemb
   problem.load_columns = MatX(problem.load.size(), 0);
   problem.rows = MatX(problem.cost.size(), 0);
   return rigid;
+}
+
+Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time) {
+  const ContactProblem& problem = scene.problem.contacts;
+  VecX outside(problem.num_contacts());
+  for (int i = 0; i < problem.num_contacts(); ++i) {
+    const auto force = gamma.segment<3>(3 * i);
+    outside[i] = std::max({force.tail<2>().norm() - problem.mu[i] * force[0], -force[0], 0.0});
+  }
+  Frame frame =
+      make_frame(scene.model, scene.start, scene.contacts, joint_forces(scene.contacts, gamma, 1.0).contacts,
+                 law_violations(scene.contacts, gamma, outside), scene.memories,
+                 std::vector<Vec3>(scene.start.poses.size(), Vec3::Zero()));
+  frame.time = time;
+  return frame;
 }
 
 Equilibrium balance_of(const RigidScene& scene, const VecX& gamma) {

@@ -22,8 +22,13 @@ struct RigidScene {
 };
 
 /// Contacts whose gap exceeds 1e-3 of the smallest block, the least width of a joint (joint_rule.hpp), are
-/// open and carry nothing; a tie carries only tension, a strut only compression.
-RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly);
+/// open and carry nothing; a tie carries only tension, a strut only compression. `joint_extent` scales the distances of
+/// the contact points from the centroid of their joint (all faces between two blocks).
+RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly,
+                       double joint_extent = 1.0);
+
+/// The frame of the forces gamma (N) on the assembly as built. law_violation: excess over the friction cone.
+Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time);
 
 /// Balance of the forces gamma (N), recomputed from points and world forces.
 Equilibrium balance_of(const RigidScene& scene, const VecX& gamma);

@@ -13,6 +13,8 @@ std::optional<Summary> run(const Case& scene, const Assembly& assembly, const An
       return run_staged(scene, assembly, sinks);
     case AnalysisType::limit:
       return run_limit(scene, assembly, sinks);
+    case AnalysisType::range:
+      return run_range(scene, assembly, sinks);
   }
   return std::nullopt;
 }

@@ -29,6 +29,8 @@ ConicBounds conic_bounds(const ConicProblem& problem, const ConicSolution& x) {
   const ContactProblem& p = problem.contacts;
   const VecX imbalance =
       generalized_impulse(p, x.gamma) + problem.load_columns * x.multipliers + problem.load;
+  const VecX missing_rows = problem.row_values - problem.rows.transpose() * x.gamma -
+                            problem.row_multipliers.transpose() * x.multipliers;
   ConicBounds bounds;
   double largest_load = largest_block(p, problem.load);
   for (Eigen::Index j = 0; j < problem.load_columns.cols(); ++j)
@@ -50,7 +52,8 @@ ConicBounds conic_bounds(const ConicProblem& problem, const ConicSolution& x) {
                      problem.row_multipliers * x.row_velocities;
   gain += power.cwiseAbs().dot(x.multipliers.cwiseAbs());
   bounds.lower = problem.load.dot(x.v) + problem.row_values.dot(x.row_velocities) - kLargestForces * gain;
-  bounds.upper = problem.cost.dot(x.gamma) + problem.multiplier_cost.dot(x.multipliers) + x.v.dot(imbalance);
+  bounds.upper = problem.cost.dot(x.gamma) + problem.multiplier_cost.dot(x.multipliers) + x.v.dot(imbalance) +
+                 x.row_velocities.dot(missing_rows);
   return bounds;
 }
 

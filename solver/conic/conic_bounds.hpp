@@ -7,7 +7,7 @@ namespace cupola {
 /// What a solution proves, computed from the matrices of the problem alone.
 struct ConicBounds {
   /// The least value is at most this: c . gamma + e . t plus the work v . (D gamma + P t + w) of the forces
-  /// that equilibrium still lacks.
+  /// that equilibrium still lacks, and the product of q and what the further conditions lack.
   double upper = 0.0;
   /// Over all states whose forces and multipliers are at most kLargestForces times those of the solution, the value
   /// is at least this: w . v + r . q less what the violations of s in Y* and of e + P^T v - R q = 0 could gain.

@@ -30,6 +30,7 @@ const Computations& computations() {
     add_dome_rows(&map);
     add_invariance_rows(&map);
     add_convergence_rows(&map);
+    add_range_rows(&map);
     return map;
   }();
   return all;

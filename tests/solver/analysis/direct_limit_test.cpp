@@ -76,6 +76,13 @@ TEST(DirectLimit, AgreesWithBisection) {
   }
 }
 
+// The resultant at the base of a tilted cube lies tan(a) / 2 of its side from the middle, whose half is the extent.
+TEST(DirectLimit, LeastExtentOfTheJoints) {
+  Case scene = limit_case(Parameter::joint_extent, 0.01, 1.0, 0.7);
+  scene.loads.gravity = testing::tilted_gravity(0.4);
+  EXPECT_NEAR(critical(scene, testing::box_on_floor({1, 1, 1})), 0.4, 1e-5 * 0.4);
+}
+
 TEST(DirectLimit, IsChosenWhereItApplies) {
   Analysis analysis = limit_case(Parameter::tilt, 0, 1, 0.3).analysis;
   EXPECT_TRUE(uses_direct_limit(analysis));

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "assembly/case/case.hpp"
+#include "solver/collision/contact_set.hpp"
+
+namespace cupola {
+
+/// All patches between two blocks a < b.
+struct BlockPair {
+  Vec3 centroid = Vec3::Zero();  ///< m, world, weighted by area
+  Vec3 normal = Vec3::Zero();    ///< unit, from a to b, weighted by area
+  std::vector<int> contacts;     ///< indices into the contact set
+};
+
+/// The joints of an assembly as pairs of blocks.
+class JointGeometry {
+ public:
+  JointGeometry(const Case& scene, const Assembly& assembly, const ContactSet& contacts);
+
+  using Pairs = std::map<std::pair<int, int>, BlockPair>;
+  const Pairs& pairs() const { return pairs_; }
+  /// The joint of two blocks, in either order. Throws InputError if they do not touch.
+  const BlockPair& pair(int block_a, int block_b) const;
+  /// Horizontal unit vector away from the axis of a vault, or from the middle of an arch. Throws InputError for models
+  /// without such an axis.
+  Vec3 outward(const Vec3& point) const;
+  /// Outward is one of two opposite directions.
+  bool is_arch() const;
+
+ private:
+  const Case& scene_;
+  const Assembly& assembly_;
+  Pairs pairs_;
+};
+
+}  // namespace cupola

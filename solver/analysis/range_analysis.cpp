@@ -1,0 +1,231 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "assembly/base/process.hpp"
+#include "assembly/files/number_text.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "solver/analysis/analysis_options.hpp"
+#include "solver/analysis/mechanism.hpp"
+#include "solver/analysis/range_end.hpp"
+#include "solver/analysis/record.hpp"
+#include "solver/conic/solve_conic.hpp"
+#include "solver/dynamics/scene_options.hpp"
+#include "solver/runtime/threads.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kGap = 1e-6;  // largest relative distance of an end from its bound
+const char* const kRangeTable =
+    "quantity,unit,min,max,min_bound,max_bound,chosen,min_outcome,max_outcome,min_frame,max_frame\n";
+
+/// The state that the compliances choose, with the contacts of a static analysis.
+struct ChosenState {
+  ContactSet contacts;
+  StaticSolution solution;
+  Frame frame;
+  bool found() const { return solution.outcome == StaticOutcome::equilibrium; }
+};
+
+ChosenState chosen_state(const Case& scene, const RigidScene& rigid, const AnalysisSinks& sinks) {
+  ChosenState chosen;
+  chosen.contacts = ContactDetector(*rigid.assembly, detection_options(scene)).update(rigid.start.poses);
+  const ContactMemories memories = match_memories({}, chosen.contacts.points);
+  StaticOptions options = static_options(scene.analysis);
+  options.log = sinks.log;
+  chosen.solution = solve_static(rigid.model, rigid.start, chosen.contacts, memories, options);
+  if (chosen.found())
+    chosen.frame =
+        static_frame(rigid.model, rigid.start, chosen.contacts, memories, chosen.solution, options);
+  return chosen;
+}
+
+std::vector<RangeObjective> all_objectives(const Case& scene, const Model& model,
+                                           const ContactSet& contacts) {
+  std::vector<RangeObjective> all;
+  for (const ForceQuantity& quantity : scene.analysis.range.quantities)
+    for (RangeObjective& objective : range_objectives(quantity, scene, model, contacts))
+      all.push_back(std::move(objective));
+  return all;
+}
+
+std::string text_of(const RangeEnd& end) {
+  return end.value ? fmt::format("{:.10g}", *end.value) : to_string(end.outcome);
+}
+
+/// Both ends of every objective; frames are written in their order.
+class RangeSearchRun {
+ public:
+  RangeSearchRun(const RigidScene& scene, const std::vector<RangeObjective>& objectives, bool states,
+                 const AnalysisSinks& sinks)
+      : scene_(scene), objectives_(objectives), states_(states), sinks_(sinks) {}
+
+  /// Solves all ends, as many at once as there are threads. False if the user wants to stop.
+  [[nodiscard]] bool run(std::vector<ForceRange>* ranges);
+  int solves() const { return solves_; }
+  int iterations() const { return iterations_; }
+
+ private:
+  void write_frame(RangeSolution* solution);
+
+  const RigidScene& scene_;
+  const std::vector<RangeObjective>& objectives_;
+  const bool states_;
+  const AnalysisSinks& sinks_;
+  int frames_ = 1;  // frame 0 is written before
+  int solves_ = 0, iterations_ = 0;
+};
+
+void RangeSearchRun::write_frame(RangeSolution* solution) {
+  if (!states_ || solution->gamma.size() == 0) return;
+  solution->end.frame = frames_;
+  sinks_.frame(admissible_frame(scene_, solution->gamma, frames_++));
+}
+
+bool RangeSearchRun::run(std::vector<ForceRange>* ranges) {
+  constexpr double kWork = 1e12;  // of one batch: always worth all threads
+  const int count = static_cast<int>(objectives_.size());
+  const int batch = std::max(1, num_threads() / 2);
+  for (int first = 0; first < count; first += batch) {
+    if (sinks_.interrupted()) return false;
+    const int size = std::min(batch, count - first);
+    std::vector<RangeSolution> found(static_cast<size_t>(2 * size));
+    share_loop(kWork, 2 * size, [&](int i) {
+      found[i] = range_end(scene_, objectives_[first + i / 2], i % 2 == 0 ? 1.0 : -1.0);
+    });
+    for (int i = 0; i < size; ++i) {
+      const RangeObjective& objective = objectives_[first + i];
+      ForceRange range{objective.quantity, objective.unit, {}, {}, {}};
+      for (RangeSolution* end : {&found[2 * i], &found[2 * i + 1]}) {
+        write_frame(end);
+        ++solves_;
+        iterations_ += end->iterations;
+      }
+      range.min = found[2 * i].end;
+      range.max = found[2 * i + 1].end;
+      ranges->push_back(range);
+      sinks_.log(fmt::format("range {:4d} of {}  {:<36} {:>18} ... {:<18} {}", first + i + 1, count,
+                             range.quantity, text_of(range.min), text_of(range.max), range.unit));
+      sinks_.progress(static_cast<double>(first + i + 1) / count, range.quantity);
+    }
+  }
+  return true;
+}
+
+/// Fills in the values of the chosen state, whose contacts may be others.
+void add_chosen(const ChosenState& chosen, const Case& scene, const Model& model,
+                std::vector<ForceRange>* ranges) {
+  if (!chosen.found()) return;
+  const std::vector<RangeObjective> objectives = all_objectives(scene, model, chosen.contacts);
+  CUPOLA_ASSERT(objectives.size() == ranges->size());
+  for (size_t i = 0; i < ranges->size(); ++i) {
+    const double value = objectives[i](chosen.solution.forces);
+    if (std::isfinite(value)) (*ranges)[i].chosen = value;
+  }
+}
+
+std::string ranges_csv(const std::vector<ForceRange>& ranges) {
+  const auto number = [](const auto& value) {
+    return value ? fmt::format("{:.17g}", *value) : std::string();
+  };
+  const auto frame = [](const std::optional<int>& value) { return value ? std::to_string(*value) : ""; };
+  std::string csv = kRangeTable;
+  for (const ForceRange& r : ranges)
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", r.quantity, r.unit, number(r.min.value),
+                       number(r.max.value), number(r.min.bound), number(r.max.bound), number(r.chosen),
+                       to_string(r.min.outcome), to_string(r.max.outcome), frame(r.min.frame),
+                       frame(r.max.frame));
+  return csv;
+}
+
+/// The sentence that leads: the first quantity, and what was not found.
+std::string describe(const std::vector<ForceRange>& ranges) {
+  const ForceRange& r = ranges.front();
+  const auto end = [&r](const RangeEnd& e) {
+    if (e.outcome == RangeOutcome::unbounded) return std::string("without limit");
+    if (!e.value) return std::string("unknown");
+    return r.unit == "N" ? readable_force(*e.value) : fmt::format("{:.5g} {}", *e.value, r.unit);
+  };
+  std::string text =
+      fmt::format("an admissible state exists, which says nothing about the history; {}: {} ... {}",
+                  r.quantity, end(r.min), end(r.max));
+  if (r.chosen)
+    text += fmt::format(", chosen by the compliances {}", end({RangeOutcome::bounded, r.chosen, {}, {}}));
+  const auto unknown = std::count_if(ranges.begin(), ranges.end(), [](const ForceRange& range) {
+    return range.min.outcome == RangeOutcome::unconverged || range.max.outcome == RangeOutcome::unconverged;
+  });
+  if (unknown > 0) text += fmt::format("; {} of {} ranges are incomplete", unknown, ranges.size());
+  return text;
+}
+
+/// Frame 0: the chosen state, or any admissible one. False if there is none; the mechanism is then the frame.
+bool write_start(const RigidScene& rigid, const ChosenState& chosen, const AnalysisSinks& sinks,
+                 Summary* summary) {
+  if (chosen.found()) {
+    sinks.frame(chosen.frame);
+    summarize_frame(chosen.frame, rigid.model, summary);
+    summarize_balance(chosen.solution.balance, summary);
+    return true;
+  }
+  const ConicSolution any = solve_conic(rigid.problem);
+  const Frame frame = admissible_frame(rigid, any.gamma, 0.0);
+  summarize_frame(frame, rigid.model, summary);
+  if (any.outcome == ConicOutcome::infeasible) {
+    const Mechanism mechanism =
+        find_mechanism(rigid.model, rigid.start, rigid.contacts, rigid.problem.contacts, any.v);
+    const size_t nc = rigid.contacts.points.size();
+    write_mechanism(rigid.model, rigid.start, rigid.contacts, rigid.memories, mechanism,
+                    std::vector<Vec3>(nc, Vec3::Zero()), std::vector<double>(nc, 0.0), sinks);
+    summary->status = Status::moving;
+    summary->message = "no admissible state exists: " + describe(mechanism);
+    return false;
+  }
+  sinks.frame(frame);
+  summarize_balance(balance_of(rigid, any.gamma), summary);
+  summary->message = fmt::format("the search for an admissible state ended {}", to_string(any.outcome));
+  return any.outcome == ConicOutcome::optimal;
+}
+
+}  // namespace
+
+std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
+  const double started = wall_seconds();
+  const RigidScene rigid =
+      rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));
+  const std::vector<RangeObjective> objectives = all_objectives(scene, rigid.model, rigid.contacts);
+
+  Summary summary;
+  summary.accuracy = {
+      "ends of the ranges",
+      "largest distance from the proven bound, relative to the larger end or the mean block weight", kGap};
+  summary.certified_force_error.bounds = "the forces are one of the admissible states";
+  summary.forces_unique = {false, "they are one of the admissible states"};
+  const ChosenState chosen = chosen_state(scene, rigid, sinks);
+  if (write_start(rigid, chosen, sinks, &summary)) {
+    RangeSearchRun run(rigid, objectives, scene.analysis.range.states, sinks);
+    if (!run.run(&summary.ranges)) return std::nullopt;
+    add_chosen(chosen, scene, rigid.model, &summary.ranges);
+    summary.steps = run.solves();
+    summary.iterations = run.iterations();
+    double gap = 0.0;
+    bool complete = true;
+    for (size_t i = 0; i < summary.ranges.size(); ++i) {
+      const ForceRange& range = summary.ranges[i];
+      const double small = range.unit == "N" ? rigid.model.block_weight : kNegligibleShare;
+      gap = std::max(gap, relative_gap(range, small));
+      for (const RangeEnd* end : {&range.min, &range.max})
+        complete = complete && end->outcome != RangeOutcome::unconverged;
+    }
+    summary.accuracy.reached = summary.accuracy.worst_over_run = gap;
+    summary.status = complete && gap <= kGap ? Status::stable : Status::unconverged;
+    summary.message = describe(summary.ranges);
+    sinks.table("ranges.csv", ranges_csv(summary.ranges));
+  }
+  summary.solve_time_seconds = wall_seconds() - started;
+  return summary;
+}
+
+}  // namespace cupola

@@ -1,0 +1,87 @@
+#include "solver/analysis/range_end.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/conic/conic_bounds.hpp"
+#include "solver/conic/solve_conic.hpp"
+
+namespace cupola {
+namespace {
+
+/// The conic problem whose least value is `towards` times the end.
+ConicProblem problem_of(const RigidScene& scene, const RangeObjective& objective, double towards) {
+  ConicProblem problem = scene.problem;
+  problem.cost = towards * objective.value.coefficients(scene.contacts);
+  if (!objective.over) return problem;
+  problem.load_columns = problem.load;
+  problem.load.setZero();
+  problem.multiplier_cost = VecX::Zero(1);
+  problem.rows = objective.over->coefficients(scene.contacts);
+  problem.row_multipliers = MatX::Zero(1, 1);
+  problem.row_values = VecX::Ones(1);
+  return problem;
+}
+
+/// The same without loads: t = 0.
+ConicProblem without_loads(ConicProblem problem) {
+  problem.load_columns.resize(Eigen::NoChange, 0);
+  problem.multiplier_cost.resize(0);
+  problem.row_multipliers.resize(0, 1);
+  return problem;
+}
+
+double largest_normal_force(const VecX& gamma) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < gamma.size(); i += 3) largest = std::max(largest, gamma[i]);
+  return largest;
+}
+
+}  // namespace
+
+RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective, double towards) {
+  RangeSolution found;
+  ConicProblem problem = problem_of(scene, objective, towards);
+  ConicSolution solution = solve_conic(problem);
+  found.iterations = solution.iterations;
+  // The multiplier of the loads is free in the conic problem. Where it turns out negative, loads only hinder.
+  if (objective.over && solution.multipliers[0] < 0.0) {
+    problem = without_loads(problem);
+    solution = solve_conic(problem);
+    found.iterations += solution.iterations;
+  }
+  found.gamma = std::move(solution.gamma);
+  switch (solution.outcome) {
+    case ConicOutcome::unbounded:
+      found.end.outcome = RangeOutcome::unbounded;
+      found.gamma *= scene.model.block_weight / largest_normal_force(found.gamma);
+      return found;
+    case ConicOutcome::infeasible:  // of a ratio: its denominator is zero in every state
+      return found;
+    case ConicOutcome::optimal:
+    case ConicOutcome::stalled:
+      break;
+  }
+  solution.gamma = found.gamma;
+  const ConicBounds bounds = conic_bounds(problem, solution);
+  found.end.value = towards * bounds.upper + objective.value.constant;
+  found.end.bound = towards * std::min(bounds.lower, bounds.upper) + objective.value.constant;
+  // What its own bound does not tell from zero is zero.
+  if (std::abs(*found.end.value) <= std::abs(*found.end.value - *found.end.bound)) found.end.value = 0.0;
+  if (solution.outcome == ConicOutcome::optimal) found.end.outcome = RangeOutcome::bounded;
+  if (objective.over && solution.multipliers.size() > 0 && solution.multipliers[0] > 0.0)
+    found.gamma /= solution.multipliers[0];
+  return found;
+}
+
+double relative_gap(const ForceRange& range, double small) {
+  double size = small, gap = 0.0;
+  for (const RangeEnd* end : {&range.min, &range.max}) {
+    if (!end->value || !end->bound) continue;
+    size = std::max(size, std::abs(*end->value));
+    gap = std::max(gap, std::abs(*end->value - *end->bound));
+  }
+  return gap > 0.0 ? gap / size : 0.0;
+}
+
+}  // namespace cupola

@@ -1,0 +1,176 @@
+// Ranges of forces over all admissible states, against closed forms. Independently computed ranges of arches and domes
+// are rows of the verification manual.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "solver/analysis/analysis.hpp"
+#include "tests/solver/motion_scenes.hpp"
+
+namespace cupola::range_test {
+namespace {
+
+constexpr double kRange = 1e-6;  // the gap that a range analysis promises, relative
+
+Case range_case(double friction, std::vector<ForceQuantity> quantities) {
+  Case scene = testing::make_case(friction, 1e-8, 0.01);
+  scene.geometry.surface = WallSurface{};
+  scene.analysis.type = AnalysisType::range;
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.range.quantities = std::move(quantities);
+  return scene;
+}
+
+Summary ranges_of(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks = {}) {
+  return run_range(scene, assembly, sinks).value();
+}
+
+/// The only range, which must have been found.
+ForceRange range_of(const Case& scene, const Assembly& assembly) {
+  const Summary summary = ranges_of(scene, assembly);
+  EXPECT_EQ(summary.status, Status::stable) << summary.message;
+  EXPECT_LE(summary.accuracy.reached, summary.accuracy.asked);
+  return summary.ranges.empty() ? ForceRange{} : summary.ranges.front();
+}
+
+JointForce joint(int a, int b, JointForce::Component component, Vec3 direction = Vec3::UnitX()) {
+  return {a, b, component, direction};
+}
+
+void expect_ends(const ForceRange& range, double low, double high, double size) {
+  ASSERT_TRUE(range.min.value && range.max.value) << range.quantity;
+  EXPECT_NEAR(*range.min.value, low, kRange * size) << range.quantity;
+  EXPECT_NEAR(*range.max.value, high, kRange * size) << range.quantity;
+  EXPECT_LE(*range.min.bound, *range.min.value + kRange * size);
+  EXPECT_GE(*range.max.bound, *range.max.value - kRange * size);
+  if (range.chosen) {
+    EXPECT_GE(*range.chosen, low - kRange * size) << range.quantity;
+    EXPECT_LE(*range.chosen, high + kRange * size) << range.quantity;
+  }
+}
+
+/// A slab on four square legs, which are supports: legs 0 to 3 counter-clockwise, slab 4.
+Assembly table(double half_distance, double leg) {
+  std::vector<testing::BoxSpec> boxes;
+  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+    boxes.push_back(
+        {.center = {x * half_distance, y * half_distance, -0.5}, .size = {leg, leg, 1.0}, .fixed = true});
+  boxes.push_back({.center = {0, 0, 0.1}, .size = {4, 4, 0.2}});
+  return testing::make_boxes(boxes);
+}
+
+double weight_of(const Assembly& assembly) {
+  return free_weight(assembly, testing::kG);
+}
+
+// A leg carries the most when the slab rests on the inner corner of this leg and the outer corner of the opposite one.
+TEST(Range, LegOfATable) {
+  const Assembly slab = table(1.5, 0.2);
+  const double inner = 1.4, outer = 1.6, weight = weight_of(slab);
+  const ForceRange leg =
+      range_of(range_case(0.5, {BlockReaction{0, BlockReaction::Component::vertical, {}}}), slab);
+  expect_ends(leg, 0.0, weight * outer / (inner + outer), weight);
+  EXPECT_NEAR(leg.chosen.value(), weight / 4, 1e-6 * weight);
+}
+
+// Equilibrium alone determines these; friction and redundant contacts make no difference.
+TEST(Range, ClosesWhereEquilibriumDetermines) {
+  const Assembly box = testing::box_on_floor({1.0, 0.5, 0.2});
+  const double weight = weight_of(box);
+  for (const double friction : {0.0, 0.4, 10.0}) {
+    expect_ends(range_of(range_case(friction, {joint(0, 1, JointForce::Component::normal)}), box), weight,
+                weight, weight);
+    expect_ends(range_of(range_case(friction, {joint(0, 1, JointForce::Component::shear)}), box), 0.0, 0.0,
+                weight);
+  }
+  Case pushed = range_case(
+      0.4, {joint(0, 1, JointForce::Component::eccentricity), joint(0, 1, JointForce::Component::resultant)});
+  BlockForce push;
+  push.block.number = 1;
+  push.force = {0.2 * weight, 0, 0};
+  pushed.loads.forces = {push};
+  const Summary summary = ranges_of(pushed, box);
+  ASSERT_EQ(summary.ranges.size(), 2u);
+  expect_ends(summary.ranges[0], 0.2 * 0.1, 0.2 * 0.1, 0.1);  // force times height over weight, m
+  expect_ends(summary.ranges[1], -0.2 * weight, -0.2 * weight, weight);
+}
+
+// A block held by friction between two walls: each presses with at least W / (2 mu), and with any larger force.
+TEST(Range, JammedBlockHasNoLargestForce) {
+  const Assembly jammed = testing::make_boxes(
+      {{.center = {-1, 0, 0}, .fixed = true}, {.center = {0, 0, 0}}, {.center = {1, 0, 0}, .fixed = true}});
+  const double weight = weight_of(jammed);
+  std::vector<Frame> frames;
+  AnalysisSinks sinks;
+  sinks.frame = [&](const Frame& frame) { frames.push_back(frame); };
+  Case scene = range_case(0.5, {joint(0, 1, JointForce::Component::normal)});
+  scene.analysis.range.states = true;
+  const Summary summary = ranges_of(scene, jammed, sinks);
+  EXPECT_EQ(summary.status, Status::stable) << summary.message;
+  ASSERT_EQ(summary.ranges.size(), 1u);
+  const ForceRange& range = summary.ranges.front();
+  EXPECT_NEAR(range.min.value.value(), weight, kRange * weight);
+  EXPECT_EQ(range.max.outcome, RangeOutcome::unbounded);
+  EXPECT_FALSE(range.max.value);
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_EQ(range.min.frame, 1);
+  EXPECT_EQ(range.max.frame, 2);
+  EXPECT_EQ(frames[2].time, 2.0);
+}
+
+// Two equal blocks on the floor and a third one across both: its weight may rest on either.
+TEST(Range, ShareAndRatioOfTheBase) {
+  const Assembly pier = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true},
+                                             {.center = {-1, 0, 0.5}},
+                                             {.center = {1, 0, 0.5}},
+                                             {.center = {0, 0, 1.5}, .size = {3, 1, 1}}});
+  const double weight = 1000.0 * testing::kG, beam = 3.0 * weight;
+  // The beam rests on the inner edge of one block, 0.5 m from its middle, and on the outer edge of the other.
+  const double most = beam * 1.5 / (0.5 + 1.5) + weight, least = beam * 0.5 / (0.5 + 1.5) + weight;
+  const BaseBlocks first{BaseBlocks::Group::listed, {1}}, second{BaseBlocks::Group::listed, {2}};
+  const Summary summary = ranges_of(range_case(0.5, {BaseShare{first}, BaseRatio{first, second}}), pier);
+  ASSERT_EQ(summary.ranges.size(), 2u) << summary.message;
+  expect_ends(summary.ranges[0], least / (least + most), most / (least + most), 1.0);
+  expect_ends(summary.ranges[1], least / most, most / least, 1.0);
+}
+
+TEST(Range, WithoutAdmissibleState) {
+  Case scene = range_case(0.2, {joint(0, 1, JointForce::Component::normal)});
+  scene.loads.gravity = testing::tilted_gravity(0.5);
+  std::vector<Frame> frames;
+  AnalysisSinks sinks;
+  sinks.frame = [&](const Frame& frame) { frames.push_back(frame); };
+  const Summary summary = ranges_of(scene, testing::box_on_floor({1, 1, 1}), sinks);
+  EXPECT_EQ(summary.status, Status::moving);
+  EXPECT_TRUE(summary.ranges.empty());
+  EXPECT_NE(summary.message.find("no admissible state exists"), std::string::npos) << summary.message;
+  ASSERT_EQ(frames.size(), 1u);
+}
+
+TEST(Range, RefusesWhatTheModelDoesNotHave) {
+  const Assembly pair = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true},
+                                             {.center = {0, 0, 0.5}},
+                                             {.center = {3, 0, 0.5}}});
+  const auto message = [&](const ForceQuantity& quantity) -> std::string {
+    try {
+      ranges_of(range_case(0.4, {quantity}), pair);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message(BaseThrust{}).find("a wall has no axis"), std::string::npos);
+  EXPECT_NE(message(joint(1, 2, JointForce::Component::normal))
+                .find("blocks 1 and 2 have no closed joint; block 1 touches 0"),
+            std::string::npos);
+  EXPECT_NE(message(joint(0, 1, JointForce::Component::shear, Vec3::UnitZ())).find("normal to joint 0-1"),
+            std::string::npos);
+  EXPECT_NE(message(BlockReaction{7, BlockReaction::Component::vertical, {}}).find("block 7 does not exist"),
+            std::string::npos);
+  EXPECT_NE(message(TieForce{}).find("the model has no ties"), std::string::npos);
+  EXPECT_NE(message(BaseShare{{BaseBlocks::Group::ribs, {}}}).find("no block of the group"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace cupola::range_test
