@@ -97,6 +97,9 @@ struct Analysis {
   std::optional<double> dilatancy;
   /// Static: number of equal sectors around the z axis, of which one is solved; 1: the whole model is solved.
   int cyclic_sectors = 1;
+  /// Static: number of horizontal directions in which the least acceleration that makes the structure move is sought; 0:
+  /// none.
+  int robustness = 0;
   /// Static: largest equilibrium residual accepted, inertia share included; it determines h. Dynamic: largest
   /// relative momentum residual of a step.
   double tolerance = 1e-9;

@@ -143,6 +143,9 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.integer(
       "cyclic_sectors", analysis.cyclic_sectors, {.min = 1, .max = 100000},
       "static: number of equal sectors around the z axis, of which one is solved; 1: solve the whole model");
+  s.integer(
+      "robustness", analysis.robustness, {.min = 0, .max = 3600},
+      "static: horizontal directions in which to find the least acceleration that makes it move; 0: none");
   declare_accuracy(s, analysis);
   s.integer("max_iterations", analysis.max_iterations, {.min = 0, .max = 1000000},
             "iterations of the method per contact problem; 0: the method's own limit");
@@ -168,6 +171,8 @@ void declare_analysis(Section& s, Analysis& analysis) {
          "must list at least one quantity: {quantities: [thrust]}");
   s.rule(analysis.type == AnalysisType::static_ || analysis.cyclic_sectors == 1, "cyclic_sectors",
          "values above 1 require analysis.type: static");
+  s.rule(analysis.type == AnalysisType::static_ || analysis.robustness == 0, "robustness",
+         "requires analysis.type: static; the limit analysis of an acceleration takes one direction");
   s.flag("plane", analysis.plane,
          "restrict motion to the x-z plane, with three unknowns per block; the model must be plane (walls, "
          "arches)");

@@ -59,6 +59,7 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("cpu_time_seconds", s.cpu_time_seconds);
   visit("peak_memory_bytes", s.peak_memory_bytes);
   visit("threads", s.threads);
+  visit("robustness", s.robustness);
   visit("warnings", s.warnings);
 }
 
@@ -90,6 +91,12 @@ Json to_value(const LawViolation& violation) {
           {"block_a", violation.block_a},
           {"block_b", violation.block_b},
           {"time_s", violation.time}};
+}
+Json to_value(const Robustness& robustness) {
+  return {{"directions", robustness.directions},
+          {"acceleration_g", robustness.acceleration_g},
+          {"moving_g", robustness.moving_g},
+          {"azimuth_deg", robustness.azimuth_deg}};
 }
 Json to_value(const ForcesUnique& unique) {
   return {{"value", unique.value}, {"reason", unique.reason}};
@@ -162,6 +169,12 @@ void from_value(const Json& json, LawViolation* violation) {
   from_value(json.at("block_a"), &violation->block_a);
   from_value(json.at("block_b"), &violation->block_b);
   from_value(json.at("time_s"), &violation->time);
+}
+void from_value(const Json& json, Robustness* robustness) {
+  from_value(json.at("directions"), &robustness->directions);
+  from_value(json.at("acceleration_g"), &robustness->acceleration_g);
+  from_value(json.at("moving_g"), &robustness->moving_g);
+  from_value(json.at("azimuth_deg"), &robustness->azimuth_deg);
 }
 template <class T>
 void read_optional(const Json& json, const char* key, std::optional<T>* value) {

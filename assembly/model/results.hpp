@@ -128,6 +128,15 @@ struct ForceRange {
       chosen;  ///< in the state that the compliances choose (static analysis); absent without one
 };
 
+/// The smallest horizontal acceleration, over equally spaced directions, that makes a structure move under the
+/// associated law. Under Coulomb's law a smaller one may.
+struct Robustness {
+  int directions = 0;
+  double acceleration_g = 0.0;  ///< an admissible state exists at this value
+  double moving_g = 0.0;        ///< a mechanism proves motion at this value
+  double azimuth_deg = 0.0;     ///< direction of the acceleration of the blocks, from x towards y
+};
+
 /// Unit of the parameter of a limit analysis: "degrees", "g", "factor", or "" for friction.
 std::string limit_unit(const std::string& parameter);
 
@@ -170,6 +179,7 @@ struct Summary {
   int threads = 1;
   std::optional<CriticalValue> critical;          ///< limit analysis only
   std::vector<ForceRange> ranges;                 ///< range analysis only
+  std::optional<Robustness> robustness;           ///< static analysis, on request
   std::vector<std::string> warnings;              ///< about the case and the blocks, one sentence each
   std::map<std::string, std::string> text_files;  ///< text files of the results folder: name to hash
 };

@@ -203,6 +203,7 @@ bool is_mechanism(const Summary& summary, const Frame& frame) {
     case AnalysisType::limit:
       return frame.time > 0.0;
     case AnalysisType::static_:
+    case AnalysisType::range:
       return summary.status == Status::moving;
     case AnalysisType::staged:
       return largest_norm(frame.blocks.velocity) > 0.0;

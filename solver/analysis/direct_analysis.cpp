@@ -100,6 +100,12 @@ std::string write_ends(const DirectLimit& limit, const AnalysisSinks& sinks, Sum
   return describe(mechanism);
 }
 
+/// Coulomb's law admits the same forces but does not let every such state stand.
+std::string bound_for_coulomb(const DirectLimit& limit) {
+  return fmt::format("; under Coulomb's law the critical value is the same or {}",
+                     limit.moving < limit.admissible ? "larger" : "smaller");
+}
+
 }  // namespace
 
 std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assembly,
@@ -131,7 +137,8 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
     summary.message = fmt::format("{}{}: {} at {:.8g}, a mechanism at {:.8g} (relative width {:.1e}){}; {}",
                                   name, unit.empty() ? "" : " (" + unit + ")",
                                   balanced ? "an admissible state" : "forces that do not balance the loads",
-                                  limit.admissible, limit.moving, width, limit.message, mechanism);
+                                  limit.admissible, limit.moving, width, limit.message, mechanism) +
+                      bound_for_coulomb(limit);
   }
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;

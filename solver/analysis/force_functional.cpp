@@ -132,24 +132,23 @@ std::vector<RangeObjective> Objectives::operator()(const JointForce& joint) cons
   check_block(assembly_, joint.block_a);
   check_block(assembly_, joint.block_b);
   const BlockPair& pair = joints_.pair(joint.block_a, joint.block_b);
-  RangeObjective objective = normal_force(joint.block_a, joint.block_b);
-  if (joint.component == normal) return {objective};
-  objective.quantity = fmt::format("{} of joint {}-{}", to_string(joint.component), label(joint.block_a),
-                                   label(joint.block_b));
+  const RangeObjective pressure = normal_force(joint.block_a, joint.block_b);
+  if (joint.component == normal) return {pressure};
+  const std::string name = fmt::format("{} of joint {}-{}", to_string(joint.component), label(joint.block_a),
+                                       label(joint.block_b));
   if (joint.component == eccentricity) {
     const Vec3 d = in_plane(joint, pair);
-    objective.over = objective.value;
-    objective.unit = "m";
+    ForceFunctional moment = pressure.value;
     for (const int i : pair.contacts)
-      objective.value.contacts[i] *= d.dot(contacts_.points[i].point_a - pair.centroid);
-    return {objective};
+      moment.contacts[i] *= d.dot(contacts_.points[i].point_a - pair.centroid);
+    return {{name, "m", moment, pressure.value}};
   }
-  objective.value = none();
   const Vec3 direction = joint.component == shear ? in_plane(joint, pair)
                          : joint.direction        ? *joint.direction
                                                   : joints_.outward(pair.centroid);
-  add(pair, joint.block_b, direction, &objective.value);
-  return {objective};
+  ForceFunctional force = none();
+  add(pair, joint.block_b, direction, &force);
+  return {{name, "N", force, {}}};
 }
 
 std::vector<RangeObjective> Objectives::operator()(const HoopForce& hoop) const {

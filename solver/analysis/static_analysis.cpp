@@ -9,6 +9,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/record.hpp"
+#include "solver/analysis/robustness.hpp"
 #include "solver/analysis/static_solve.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/runtime/threads.hpp"
@@ -95,6 +96,11 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   }
   summary.unknowns /= scene.analysis.cyclic_sectors;
   if (summary.max_displacement_m) summary.message += linearity_note(assembly, *summary.max_displacement_m);
+  if (scene.analysis.robustness > 0 && solution.outcome == StaticOutcome::equilibrium) {
+    summary.robustness = find_robustness(scene, assembly);
+    summary.message += summary.robustness ? describe(*summary.robustness)
+                                          : "; no horizontal acceleration was found that makes it move";
+  }
   sinks.problem(solution.step.problem, solution.step_solution.gamma);
   solution.step = {};  // for a large model as large as the frame, whose writing takes as much memory again
   sinks.frame(frame);

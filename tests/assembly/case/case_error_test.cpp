@@ -110,6 +110,24 @@ const BadCase kBadCases[] = {
      kGood + "analysis: {type: limit, friction_law: coulomb, limit: {method: direct}}\n", "bad.yaml:6:"},
     {"DirectLimitOfASpread", kGood + "analysis: {type: limit, limit: {method: direct, parameter: spread}}\n",
      "bad.yaml:6:41: error: analysis.limit.method = direct: direct does not apply to spread"},
+    {"RangeWithoutQuantities", kGood + "analysis: {type: range}\n",
+     "bad.yaml:6:11: error: analysis.range: must list at least one quantity: {quantities: [thrust]}"},
+    {"UnknownQuantity", kGood + "analysis: {range: {quantities: [trust]}}\n",
+     "bad.yaml:6:33: error: analysis.range.quantities[0].type = trust: did you mean thrust? It must be one "
+     "of "},
+    {"JointOfOneBlock",
+     kGood + "analysis: {range: {quantities: [{type: joint, blocks: [3], component: normal}]}}\n",
+     "bad.yaml:6:55: error: analysis.range.quantities[0].blocks = [...]: must name the two blocks of the "
+     "joint: "},
+    {"JointWithoutComponent", kGood + "analysis: {range: {quantities: [{type: joint, blocks: [3, 4]}]}}\n",
+     "bad.yaml:6:33: error: analysis.range.quantities[0].component is missing and has no default; normal "
+     "is "},
+    {"ShareOfNothing", kGood + "analysis: {range: {quantities: [share]}}\n",
+     "bad.yaml:6:33: error: analysis.range.quantities[0].of: must be ribs, mid_sails or herringbone, or "
+     "list "},
+    {"BisectionOfJointExtent",
+     kGood + "analysis: {type: limit, limit: {low: 0.1, method: bisection, parameter: joint_extent}}\n",
+     "bad.yaml:6:51: error: analysis.limit.method = bisection: bisection does not apply to joint_extent"},
     {"MisspeltChoice", kGood + "analysis: {type: dinamic}\n",
      "bad.yaml:6:18: error: analysis.type = dinamic: did you mean dynamic? It must be one of static, "
      "dynamic, "},

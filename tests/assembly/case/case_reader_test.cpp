@@ -58,6 +58,30 @@ TEST(ReadCase, TitleNamesWhatSetChanges) {
   EXPECT_EQ(read_case(path, {"title=B", "output.frames_every=0.1"}).title, "B");
 }
 
+TEST(ReadCase, QuantitiesOfARangeAreNamesOrMaps) {
+  const ScratchFolder scratch;
+  const Case c = read_case(
+      scratch.write("range.yaml", kDome),
+      {"analysis.type=range",
+       "analysis.range.quantities=[thrust, {type: joint, blocks: [12, \"west 3\"], component: eccentricity, "
+       "direction: [0, 0, 1]}, {type: ratio, of: ribs, over: {blocks: [4]}}]"});
+  const std::vector<ForceQuantity>& quantities = c.analysis.range.quantities;
+  ASSERT_EQ(quantities.size(), 3u);
+  EXPECT_TRUE(std::holds_alternative<BaseThrust>(quantities[0]));
+  const auto& joint = std::get<JointForce>(quantities[1]);
+  EXPECT_EQ(joint.block_a.number, 12);
+  EXPECT_EQ(joint.block_b.name, "west 3");
+  EXPECT_EQ(joint.component, JointForce::Component::eccentricity);
+  EXPECT_EQ(joint.direction, Eigen::Vector3d(0, 0, 1));
+  const auto& ratio = std::get<BaseRatio>(quantities[2]);
+  EXPECT_EQ(ratio.of.group, BaseBlocks::Group::ribs);
+  EXPECT_EQ(ratio.over.group, BaseBlocks::Group::listed);
+  EXPECT_EQ(ratio.over.blocks.size(), 1u);
+  // run.yaml holds the values in force and reads back.
+  const Case again = read_case(scratch.write("again.yaml", c.effective_yaml));
+  EXPECT_EQ(again.effective_yaml, c.effective_yaml);
+}
+
 TEST(ReadCase, KeepsTheDefaultsOfTheStructs) {
   const ScratchFolder scratch;
   const Case c = read_case(scratch.write("wall.yaml", kWall));

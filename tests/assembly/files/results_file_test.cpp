@@ -245,6 +245,32 @@ TEST(SummaryJson, WritesNotCertifiedAndNull) {
   EXPECT_TRUE(std::isnan(back.momentum_residual.value()));
 }
 
+TEST(SummaryJson, RangesRoundTrip) {
+  Summary s = example_summary();
+  s.analysis = AnalysisType::range;
+  s.ranges = {{"thrust",
+               "N",
+               {RangeOutcome::bounded, 1.0 / 3.0, 0.3333, 1},
+               {RangeOutcome::unbounded, {}, {}, 2},
+               0.7},
+              {"force of tie 0", "N", {}, {}, {}}};
+  const std::string text = to_json(s);
+  const Summary back = summary_from_json(text, "summary.json");
+  EXPECT_EQ(to_json(back), text);
+  ASSERT_EQ(back.ranges.size(), 2u);
+  EXPECT_EQ(back.ranges[0].quantity, "thrust");
+  EXPECT_EQ(back.ranges[0].min.value, 1.0 / 3.0);
+  EXPECT_EQ(back.ranges[0].min.bound, 0.3333);
+  EXPECT_EQ(back.ranges[0].max.outcome, RangeOutcome::unbounded);
+  EXPECT_FALSE(back.ranges[0].max.value);
+  EXPECT_EQ(back.ranges[0].max.frame, 2);
+  EXPECT_EQ(back.ranges[0].chosen, 0.7);
+  EXPECT_EQ(back.ranges[1].max.outcome, RangeOutcome::unconverged);
+  std::string damaged = text;
+  damaged.replace(damaged.find("\"min\""), 5, "\"low\"");
+  EXPECT_THROW(summary_from_json(damaged, "summary.json"), InputError);
+}
+
 TEST(SummaryJson, ErrorsNameTheKey) {
   const std::string good = to_json(example_summary());
   const auto error_of = [](const std::string& text) -> std::string {

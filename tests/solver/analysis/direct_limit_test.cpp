@@ -83,6 +83,20 @@ TEST(DirectLimit, LeastExtentOfTheJoints) {
   EXPECT_NEAR(critical(scene, testing::box_on_floor({1, 1, 1})), 0.4, 1e-5 * 0.4);
 }
 
+// A brick tips about the edge of its base: half width over half height, here about the y axis first. Friction would
+// let it slide at 0.7.
+TEST(Robustness, BrickTipsAboutItsLongEdge) {
+  Case scene = testing::make_case(0.7, 1e-8, 0.01);
+  scene.analysis.type = AnalysisType::static_;
+  scene.analysis.robustness = 8;
+  const Summary summary = run_static(scene, testing::box_on_floor({0.2, 0.5, 0.8}), {});
+  ASSERT_TRUE(summary.robustness) << summary.message;
+  EXPECT_NEAR(summary.robustness->acceleration_g, 0.25, 1e-6);
+  EXPECT_NEAR(summary.robustness->moving_g, 0.25, 1e-6);
+  EXPECT_EQ(summary.robustness->azimuth_deg, 0.0);
+  EXPECT_EQ(summary.robustness->directions, 8);
+}
+
 TEST(DirectLimit, IsChosenWhereItApplies) {
   Analysis analysis = limit_case(Parameter::tilt, 0, 1, 0.3).analysis;
   EXPECT_TRUE(uses_direct_limit(analysis));
@@ -106,6 +120,8 @@ TEST(DirectLimit, GivesAnAdmissibleStateAndAMechanism) {
   EXPECT_LE(summary.equilibrium_residual.value(), 1e-8);
   for (int i = 0; i < frames[0].contacts.size(); ++i) EXPECT_GE(frames[0].contacts.normal_force[i], 0.0);
   EXPECT_NE(summary.message.find("groups of blocks move"), std::string::npos) << summary.message;
+  EXPECT_TRUE(summary.message.ends_with("under Coulomb's law the critical value is the same or smaller"))
+      << summary.message;
   EXPECT_EQ(frames[1].time, 1.0);
 }
 
