@@ -89,7 +89,8 @@ bool add_time(const std::string& what, const std::function<void()>& work, CostEs
   }
   const double taken = cpu_seconds() - started;
   cost->seconds += taken;
-  if (!ended) cost->left_out = fmt::format("{}, which had not ended after {:.2g} s of processor time", what, taken);
+  if (!ended)
+    cost->left_out = fmt::format("{}, which had not ended after {:.2g} s of processor time", what, taken);
   return ended;
 }
 
