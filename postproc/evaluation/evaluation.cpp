@@ -13,6 +13,7 @@
 #include "assembly/case/limit_parameter.hpp"
 #include "assembly/files/content_hash.hpp"
 #include "assembly/model/thickness.hpp"
+#include "postproc/evaluation/meridians.hpp"
 
 namespace cupola {
 namespace {
@@ -54,11 +55,12 @@ std::string frame_name(int index) {
   return fmt::format("frame {}", index);
 }
 
-/// The last frame that can be read. For a limit analysis it is the first frame, the last equilibrium; the
-/// mechanism follows it.
+/// The last frame that can be read. For a limit analysis it is the first frame, the last equilibrium, which the
+/// mechanism follows; for a range analysis the first frame, which the ends of the ranges follow.
 Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
-  const bool limit = results.summary().analysis == AnalysisType::limit;
-  for (int i = limit ? 0 : static_cast<int>(results.times().size()) - 1;; --i) {
+  const AnalysisType type = results.summary().analysis;
+  const bool first = type == AnalysisType::limit || type == AnalysisType::range;
+  for (int i = first ? 0 : static_cast<int>(results.times().size()) - 1;; --i) {
     try {
       return results.read_frame(i);
     } catch (const InputError& error) {
@@ -71,8 +73,12 @@ Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
 void add_status_warnings(const Summary& summary, std::vector<std::string>* warnings) {
   if (summary.status == Status::unconverged && summary.analysis == AnalysisType::limit)
     warnings->push_back("the critical value was not bracketed to the requested width");
+  else if (summary.status == Status::unconverged && !summary.ranges.empty())
+    warnings->push_back("not all ends of the ranges were found to the requested accuracy");
   else if (summary.status == Status::unconverged)
     warnings->push_back("the solver did not reach the requested accuracy: do not use its forces");
+  else if (!at_rest(summary) && summary.analysis == AnalysisType::range)
+    warnings->push_back("the structure moves: there is no admissible state of which ranges could be found");
   else if (!at_rest(summary))
     warnings->push_back("the structure moves: its forces are those of one instant, not of an equilibrium");
 }
@@ -118,6 +124,15 @@ void apply_limit(Evaluation* e) {
     e->assembly = with_thickness(e->assembly, value);
 }
 
+/// True for a frame of a range analysis that shows an unbounded end: forces that balance themselves, without loads.
+bool is_self_stress(const Summary& summary, const Frame& frame) {
+  const auto shown = [&frame](const RangeEnd& end) {
+    return end.outcome == RangeOutcome::unbounded && end.frame && *end.frame == frame.time;
+  };
+  return std::any_of(summary.ranges.begin(), summary.ranges.end(),
+                     [&shown](const ForceRange& range) { return shown(range.min) || shown(range.max); });
+}
+
 /// The applied forces at a time, s.
 std::vector<PointForce> loads_at(const Evaluation& e, double time) {
   const std::vector<TimeFunction> times = load_times(e.acting);
@@ -126,10 +141,6 @@ std::vector<PointForce> loads_at(const Evaluation& e, double time) {
     load.force *=
         factor_at(load.time == PointForce::kDeadLoad ? e.acting.dead_load_time : times[load.time], time);
   return loads;
-}
-
-ThrustInput thrust_input(const Evaluation& e) {
-  return {&e.assembly, &e.shell, &e.last.frame.contacts, &e.last.joints, e.last.from_below, e.last.gravity};
 }
 
 /// Resultants of all blocks that stand on a bed or that the bed runs through. An upright block of a wall is
@@ -152,19 +163,6 @@ std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput&
   return resultants;
 }
 
-std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {
-  std::vector<MeridianEvaluation> meridians;
-  const ThrustInput input = thrust_input(e);
-  using enum SurfaceTraits::Meridians;
-  const SurfaceTraits::Meridians drawn = traits_of(e.scene.geometry.surface).meridians;
-  if (drawn == one) meridians.push_back({thrust_line(input, "arch", std::nullopt), {}});
-  if (drawn != by_azimuth) return meridians;
-  for (const Meridian& meridian : e.scene.postproc.meridians)
-    meridians.push_back({thrust_line(input, meridian.name, meridian.azimuth_deg),
-                         hoop_forces(e.assembly, e.last.joints, meridian.azimuth_deg)});
-  return meridians;
-}
-
 /// Azimuth of a meridian of the case, degrees; none without a meridian of this name.
 std::optional<double> meridian_named(const std::string& name, const Case& scene) {
   if (traits_of(scene.geometry.surface).meridians != SurfaceTraits::Meridians::by_azimuth)
@@ -175,7 +173,7 @@ std::optional<double> meridian_named(const std::string& name, const Case& scene)
 }
 
 std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e) {
-  const ThrustInput input = thrust_input(e);
+  const ThrustInput input = thrust_input(e, e.last);
   std::vector<SectionEvaluation> sections;
   for (const double height : e.scene.postproc.sections) {
     SectionEvaluation section{height, -1, cut_by_plane(e.assembly, {Vec3::UnitZ(), height}), {}};
@@ -195,6 +193,7 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e) {
 
 bool at_rest(const Summary& summary) {
   if (summary.analysis == AnalysisType::limit) return summary.equilibrium_residual.has_value();
+  if (summary.analysis == AnalysisType::range) return !summary.ranges.empty();
   return summary.status == Status::stable;
 }
 
@@ -237,8 +236,12 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   const bool mechanism = is_mechanism(e.summary, out.frame);
   if (mechanism) displace_mechanism(e.assembly, &out.frame);
   const Loads& loads = e.acting;
-  out.gravity = factor_at(loads.dead_load_time, out.frame.time) * loads.gravity;
-  out.loads = loads_at(e, out.frame.time);
+  if (!is_self_stress(e.summary, out.frame)) {
+    // The time of a frame of a range analysis is its number: all its states bear the same loads.
+    const double time = e.summary.analysis == AnalysisType::range ? 0.0 : out.frame.time;
+    out.gravity = factor_at(loads.dead_load_time, time) * loads.gravity;
+    out.loads = loads_at(e, time);
+  }
   out.joints = joint_wrenches(e.assembly, out.frame.contacts, e.shell, unbalanced_force(e.summary));
   out.from_below = wrenches_from_below(e.assembly, out.joints);
   out.fields = block_fields(e.assembly, out.frame, out.joints, out.from_below, out.loads, e.axes);
@@ -281,12 +284,14 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads);
   count_lost_joints(results, &e);
   e.meridians = evaluate_meridians(e);
+  add_ends_of_thrust(results, &e);
   e.sections = evaluate_sections(e);
   for (const CutPlane& plane : scene.postproc.planes)
     e.planes.push_back(plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads));
   const std::optional<double> rib = meridian_named("rib", scene),
                               mid_sail = meridian_named("mid_sail", scene);
-  if (rib && mid_sail) e.rib_over_mid_sail = rib_ratio(thrust_input(e), scene.geometry, *rib, *mid_sail);
+  if (rib && mid_sail)
+    e.rib_over_mid_sail = rib_ratio(thrust_input(e, e.last), scene.geometry, *rib, *mid_sail);
   return e;
 }
 

@@ -30,6 +30,8 @@ struct FrameEvaluation {
 struct MeridianEvaluation {
   ThrustLine thrust;
   std::vector<HoopRow> hoop;  ///< empty for an arch
+  /// Thrust lines at the ends of the range of the thrust, if the run has their frames.
+  std::optional<ThrustLine> least_thrust, greatest_thrust;
 };
 
 /// The resultant across a bed within the width of one block, on the part above.
@@ -49,7 +51,8 @@ struct SectionEvaluation {
   std::vector<BedResultant> resultants;  ///< across that bed, by block; empty if it carries no force
 };
 
-/// Everything the postprocessor derives from a run, for its last readable frame. Without an equilibrium (at_rest()) the
+/// Everything the postprocessor derives from a run, for its last readable frame or, of a limit or range analysis, the
+/// first one. Without an equilibrium (at_rest()) the
 /// forces are those of one instant or of an unfinished solve: tables hold them, texts and figures do not interpret them.
 struct Evaluation {
   Case scene;
@@ -73,11 +76,11 @@ struct Evaluation {
 };
 
 /// True if the forces evaluated are those of an equilibrium: of a stable run, or of the stable end of a limit
-/// analysis.
+/// analysis, or frame 0 of a range analysis that found an admissible state.
 bool at_rest(const Summary& summary);
 
 /// True for a frame that holds directions of motion without an amplitude: the mechanism of a limit analysis, or the
-/// motion that the static solve of a case or of a stage of construction found.
+/// motion that the static solve of a case or of a stage of construction, or a range analysis, found.
 bool is_mechanism(const Summary& summary, const Frame& frame);
 
 /// True for a vault about the z axis, where azimuths are meaningful.
@@ -89,7 +92,7 @@ void leave_out(const std::string& part, const std::string& reason, Evaluation* e
 /// Everything to report before the numbers: first the parts that could not be read, then the warnings.
 std::vector<std::string> notices(const Evaluation& evaluation);
 
-/// Evaluates the last readable frame. Missing or damaged frames are left out and recorded; InputError if none
+/// Evaluates the frame that Evaluation describes. Missing or damaged frames are left out and recorded; InputError if none
 /// can be read. `doubts`: warnings about the case and the blocks.
 Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results,
                     const std::vector<std::string>& doubts = {});

@@ -1,0 +1,94 @@
+// Frames of a range analysis: which one is evaluated, under which loads, and the thrust lines at the ends.
+
+#include <gtest/gtest.h>
+
+#include "postproc/report/report.hpp"
+#include "postproc/tables/post_summary.hpp"
+#include "tests/postproc/ranges.hpp"
+
+namespace cupola::range_evaluation_test {
+namespace {
+
+/// The column as an arch, which has a thrust line.
+Case arch_case() {
+  Case scene = test::column_case();
+  scene.geometry.surface = ArchSurface{};
+  return scene;
+}
+
+TEST(RangeEvaluation, EvaluatesFrameZeroAndTheThrustLinesOfBothEnds) {
+  const Assembly a = test::column(3);
+  const std::string folder = test::fresh_folder("results");
+  const Evaluation e = test::evaluated(a, test::range_frames(a), test::range_summary(a), arch_case(), folder);
+  EXPECT_TRUE(at_rest(e.summary));
+  EXPECT_EQ(e.last.frame.time, 0.0);
+  EXPECT_FALSE(is_mechanism(e.summary, ResultsReader(folder, content_hash(a)).read_frame(2)));
+  EXPECT_TRUE(e.warnings.empty());
+  ASSERT_EQ(e.meridians.size(), 1u);
+  const MeridianEvaluation& m = e.meridians[0];
+  ASSERT_TRUE(m.least_thrust && m.greatest_thrust);
+  // Frame i has its resultants at y = 0.4 + 0.05 i of a thickness of 0.8 m.
+  for (size_t bed = 0; bed < 3; ++bed) {
+    EXPECT_NEAR(m.thrust.points[bed].position, 0.5, 1e-12);
+    EXPECT_NEAR(m.least_thrust->points[bed].position, 0.45 / 0.8, 1e-12);
+    EXPECT_NEAR(m.greatest_thrust->points[bed].position, 0.5 / 0.8, 1e-12);
+  }
+}
+
+TEST(RangeEvaluation, OnlyBoundedEndsWithAFrameHaveAThrustLine) {
+  const Assembly a = test::column(3);
+  Summary summary = test::range_summary(a);
+  summary.ranges[0].min.outcome = RangeOutcome::unbounded;
+  summary.ranges[0].max.frame.reset();
+  const Evaluation e =
+      test::evaluated(a, test::range_frames(a), summary, arch_case(), test::fresh_folder("results"));
+  EXPECT_FALSE(e.meridians[0].least_thrust);
+  EXPECT_FALSE(e.meridians[0].greatest_thrust);
+}
+
+// The time of a frame is its number: the loads must not follow their time function there. The frame of an unbounded
+// end shows a self-stress, on which no load acts.
+TEST(RangeEvaluation, AllStatesBearTheSameLoadsAndSelfStressesNone) {
+  const Assembly a = test::column(3);
+  Case scene = arch_case();
+  scene.loads.dead_load_time = RampInTime{0.5, 1.0, 0.0, 4.0};
+  const std::string folder = test::fresh_folder("results");
+  const Evaluation e = test::evaluated(a, test::range_frames(a), test::range_summary(a), scene, folder);
+  const ResultsReader results(folder, content_hash(a));
+  ASSERT_GT(e.last.gravity.norm(), 0.0);
+  EXPECT_EQ(evaluate_frame(e, results.read_frame(2)).gravity, e.last.gravity);
+  EXPECT_EQ(evaluate_frame(e, results.read_frame(4)).gravity, Vec3(0, 0, 0)) << "shows the unbounded end";
+}
+
+TEST(RangeEvaluation, WithoutAnAdmissibleStateFrameZeroIsAMechanism) {
+  const Assembly a = test::column(3);
+  Summary summary = test::range_summary(a);
+  summary.ranges.clear();
+  summary.status = Status::moving;
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
+  frame.blocks.velocity[3] = Vec3(1.0, 0, 0);
+  const Evaluation e = test::evaluated(a, {frame}, summary, arch_case(), test::fresh_folder("results"));
+  EXPECT_FALSE(at_rest(e.summary));
+  EXPECT_TRUE(is_mechanism(e.summary, e.last.frame));
+  EXPECT_GT(e.last.frame.blocks.displacement[3].x(), 0.0);
+  EXPECT_FALSE(post_summary(e).thrust_over_weight);
+  EXPECT_EQ(verdict_text(summary), "The structure moves: no admissible state exists.");
+  ASSERT_EQ(e.warnings.size(), 1u);
+  EXPECT_NE(e.warnings[0].find("no admissible state"), std::string::npos);
+}
+
+// A range whose search did not converge leaves the state of frame 0 in equilibrium.
+TEST(RangeEvaluation, AnIncompleteRangeStillHasAnEquilibrium) {
+  const Assembly a = test::column(3);
+  Summary summary = test::range_summary(a);
+  summary.status = Status::unconverged;
+  const Evaluation e =
+      test::evaluated(a, test::range_frames(a), summary, arch_case(), test::fresh_folder("results"));
+  EXPECT_TRUE(at_rest(e.summary));
+  ASSERT_EQ(e.warnings.size(), 1u);
+  EXPECT_NE(e.warnings[0].find("not all ends of the ranges"), std::string::npos);
+  EXPECT_NE(verdict_text(summary).find("An admissible state exists, but"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cupola::range_evaluation_test
