@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "postproc/compare/range_findings.hpp"
+#include "postproc/tables/range_values.hpp"
 
 namespace cupola {
 namespace {
@@ -165,6 +167,7 @@ std::vector<std::string> findings(const std::vector<PostSummary>& runs) {
     if (std::count_if(values.begin(), values.end(), [](const auto& v) { return v.has_value(); }) >= 2)
       sentences.push_back(sentence(measure, values, runs, labels));
   }
+  for (std::string& finding : range_findings(runs, labels)) sentences.push_back(std::move(finding));
   return sentences;
 }
 
@@ -185,6 +188,7 @@ Table comparison_table(const std::vector<PostSummary>& runs) {
     }
     t.rows.push_back(std::move(row));
   }
+  add_range_columns(ranges_of(runs), &t);
   return t;
 }
 
@@ -207,6 +211,7 @@ Table plain_table(const std::vector<PostSummary>& runs) {
     }
     if (any) t.rows.push_back(std::move(row));
   }
+  add_range_rows(runs, &t);
   return t;
 }
 

@@ -12,7 +12,8 @@ namespace cupola {
 /// One line per member, NAME CASE key.path=value ..., in the format of cases/variants.txt.
 std::string members_text(const std::vector<SweepMember>& members, const std::string& case_name);
 
-/// One row per member: settings, status, residual, displacement, critical value and time. A member without
+/// One row per member: settings, status, residual, displacement, critical value and time, and minimum, chosen value and
+/// maximum of each range of a range analysis. A member without
 /// results has the status `missing` and a remark that says how far it got.
 Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMember>& members,
                   const std::string& runs_folder);

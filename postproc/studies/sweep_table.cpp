@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
 #include "postproc/studies/sweep.hpp"
+#include "postproc/tables/csv_file.hpp"
+#include "postproc/tables/range_values.hpp"
 #include "postproc/tables/run_files.hpp"
 
 namespace cupola {
@@ -30,6 +31,12 @@ std::string progress(const std::string& folder) {
   return "no assembly: see the output of the run";
 }
 
+/// The ranges of a finished member; none for other analyses.
+std::vector<ForceRange> ranges_of_member(const std::string& folder) {
+  const std::string path = folder + "/results/ranges.csv";
+  return std::filesystem::exists(path) ? read_ranges(read_csv(path)) : std::vector<ForceRange>();
+}
+
 }  // namespace
 
 std::string members_text(const std::vector<SweepMember>& members, const std::string& case_name) {
@@ -51,11 +58,13 @@ Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMem
       {"critical_value", "", "critical value of a limit analysis: middle of the bracket"},
       {"cpu_time_seconds", "s", "processor time of cupola-solve"}};
   t.columns.insert(t.columns.end(), numbers.begin(), numbers.end());
+  std::vector<std::vector<ForceRange>> ranges;
   for (const SweepMember& member : members) {
     std::vector<Table::Cell> row = {member.name};
     for (const std::string& setting : member.settings)
       row.emplace_back(setting.substr(setting.find('=') + 1));
     const std::string folder = fmt::format("{}/{}", runs_folder, member.name);
+    ranges.push_back(ranges_of_member(folder));
     if (std::filesystem::exists(folder + "/results/summary.json")) {
       RunFiles run(folder);
       row.emplace_back(run.status());
@@ -69,6 +78,7 @@ Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMem
     CUPOLA_ASSERT(row.size() == t.columns.size());
     t.rows.push_back(std::move(row));
   }
+  add_range_columns(ranges, &t);
   return t;
 }
 

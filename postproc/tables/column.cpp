@@ -38,6 +38,7 @@ void append_cells(const Value& value, std::vector<Table::Cell>* cells) {
                         },
                         [&](double number) { cells->push_back(number); },
                         [&](int number) { cells->push_back(number); },
+                        [&](const std::string& text) { cells->push_back(text); },
                         [&](auto kind) { cells->push_back(to_string(kind)); }},
              value);
 }

@@ -16,8 +16,8 @@
 
 namespace cupola {
 
-/// A value of a column. Kinds are names in tables and codes in mesh files.
-using Value = std::variant<double, int, Vec3, BlockKind, JointKind>;
+/// A value of a column. Kinds are names in tables and codes in mesh files; texts occur in tables only.
+using Value = std::variant<double, int, Vec3, BlockKind, JointKind, std::string>;
 
 /// What is known about a column apart from its values.
 struct ColumnInfo {

@@ -77,6 +77,7 @@ Json to_json(const Value& value) {
                    return Json{v.x(), v.y(), v.z()};
                  },
                  [](double number) { return Json(number); }, [](int number) { return Json(number); },
+                 [](const std::string& text) { return Json(text); },
                  [](auto kind) { return Json(to_string(kind)); }},
       value);
 }
@@ -89,6 +90,38 @@ Json rings_json(const Evaluation& e) {
       ring[key] = to_json(column_named(ring_columns(), key).value({cut, e.up}));
   }
   return rings;
+}
+
+Json ranges_json(const std::vector<ForceRange>& ranges) {
+  Json list = Json::array();
+  for (const ForceRange& range : ranges) {
+    Json& entry = list.emplace_back();
+    for (const char* key : kRangeSummaryKeys)  // infinities and NaN become null
+      entry[key] = to_json(column_named(range_columns(), key).value(range));
+  }
+  return list;
+}
+
+RangeEnd end_of(const Json& entry, const std::string& end) {
+  RangeEnd out;
+  const auto outcome = enum_from_name<RangeOutcome>(entry.at(end + "_outcome").get<std::string>());
+  if (!outcome) throw InputError(end + "_outcome: unknown name");
+  out.outcome = *outcome;
+  from_value(entry.at(end), &out.value);
+  from_value(entry.at(end + "_bound"), &out.bound);
+  if (const int frame = entry.at(end + "_frame").get<int>(); frame >= 0) out.frame = frame;
+  return out;
+}
+
+void from_value(const Json& json, std::vector<ForceRange>* ranges) {
+  for (const Json& entry : json) {
+    ForceRange& range = ranges->emplace_back();
+    entry.at("quantity").get_to(range.quantity);
+    entry.at("unit").get_to(range.unit);
+    range.min = end_of(entry, "min");
+    range.max = end_of(entry, "max");
+    from_value(entry.at("chosen"), &range.chosen);
+  }
 }
 
 std::optional<double> points_per_base_joint(const JointWrenches& joints) {
@@ -155,6 +188,7 @@ PostSummary post_summary(const Evaluation& e) {
   s.max_displacement_m = e.summary.max_displacement_m;
   s.compliance_per = to_string(e.scene.joints.compliance.per);
   s.points_per_base_joint = points_per_base_joint(e.last.joints);
+  s.ranges = e.summary.ranges;
   if (at_rest(e.summary)) add_equilibrium(e, &s);
   return s;
 }
@@ -184,6 +218,7 @@ std::string post_summary_json(const Evaluation& e) {
          {"through_N", cut.across.force.dot(cut.normal)},
          {"along_N", (cut.across.force - cut.across.force.dot(cut.normal) * cut.normal).norm()},
          {"relative_difference", cut.relative_difference}});
+  json["ranges"] = ranges_json(s.ranges);
   json["rings"] = rings_json(e);
   return json.dump(2) + "\n";
 }
@@ -218,6 +253,7 @@ PostSummary read_post_summary(const std::string& folder) {
     read(entry, "least_geometric_safety", &line.least_geometric_safety);
     s.thrust_lines.push_back(std::move(line));
   }
+  read(json, "ranges", &s.ranges);
   return s;
 }
 

@@ -42,6 +42,7 @@ struct PostSummary {
     double least_geometric_safety = 0.0;
   };
   std::vector<Line> thrust_lines;
+  std::vector<ForceRange> ranges;  ///< of a range analysis
 };
 PostSummary post_summary(const Evaluation& evaluation);
 

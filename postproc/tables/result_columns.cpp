@@ -1,6 +1,10 @@
 #include "postproc/tables/result_columns.hpp"
 
+#include <limits>
+
 #include <fmt/format.h>
+
+#include "postproc/tables/range_values.hpp"
 
 namespace cupola {
 namespace {
@@ -26,6 +30,10 @@ std::vector<int> beside_spiral(const Assembly& assembly, const JointWrenches& jo
     if (upright(a) && !upright(b)) beside[b] = 1;
   }
   return beside;
+}
+
+double or_nan(const std::optional<double>& value) {
+  return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace
@@ -63,6 +71,33 @@ std::vector<PlaneJoint> plane_joints(const Evaluation& e, const PlaneCut& cut) {
 }
 
 // clang-format off: one line per column.
+
+const Columns<ForceRange>& range_columns() {
+  using R = ForceRange;
+  static const Columns<R> columns{
+      {"quantity", "", "of the forces", &R::quantity},
+      {"unit", "", "of the values of the row: N, m or none", &R::unit},
+      {"min", "", "smallest value of the states found; -inf: unbounded", [](const R& r) { return least(r); }},
+      {"chosen", "", "value in the state that the compliances choose; empty without one",
+       [](const R& r) { return or_nan(r.chosen); }},
+      {"max", "", "largest value of the states found; inf: unbounded",
+       [](const R& r) { return greatest(r); }},
+      {"min_bound", "",
+       "no admissible state lies below, with forces of up to 1000 times those of the state found",
+       [](const R& r) { return or_nan(r.min.bound); }},
+      {"max_bound", "", "no admissible state lies above, likewise",
+       [](const R& r) { return or_nan(r.max.bound); }},
+      {"min_outcome", "", "bounded, unbounded or unconverged",
+       [](const R& r) { return to_string(r.min.outcome); }},
+      {"max_outcome", "", "bounded, unbounded or unconverged",
+       [](const R& r) { return to_string(r.max.outcome); }},
+      {"min_frame", "", "frame of the state of the smallest value; -1: none",
+       [](const R& r) { return r.min.frame.value_or(-1); }},
+      {"max_frame", "", "frame of the state of the largest value; -1: none",
+       [](const R& r) { return r.max.frame.value_or(-1); }},
+  };
+  return columns;
+}
 
 const Columns<RingRow>& ring_columns() {
   using R = RingRow;

@@ -60,6 +60,7 @@ struct SectionCell {
   double resultant = 0.0;  ///< N, of a segment
 };
 
+const Columns<ForceRange>& range_columns();
 const Columns<RingRow>& ring_columns();
 const Columns<JointWrench>& joint_columns();
 const Columns<BlockRow>& block_columns();
@@ -95,6 +96,10 @@ inline constexpr std::array kCrackKeys{"opening_m", "slip_m", "kind"};
 /// thrust_lines.vtp and sections.vtp: cell data.
 inline constexpr std::array kLineCellKeys{"what", "meridian", "resultant_N"};
 inline constexpr std::array kSectionCellKeys{"what", "cut", "block", "height_m", "resultant_N"};
+/// summary.json: `ranges`.
+inline constexpr std::array kRangeSummaryKeys{"quantity",    "unit",      "min",       "chosen",
+                                              "max",         "min_bound", "max_bound", "min_outcome",
+                                              "max_outcome", "min_frame", "max_frame"};
 /// summary.json: `rings`.
 inline constexpr std::array kRingSummaryKeys{
     "ring",         "height_m",   "joint_force_N", "load_above_N", "relative_difference",

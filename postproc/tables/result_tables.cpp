@@ -33,6 +33,10 @@ void set_floors(const Evaluation& e, Table* table) {
 
 }  // namespace
 
+Table range_table(const std::vector<ForceRange>& ranges) {
+  return make_table("ranges", "Ranges over all admissible states", range_columns(), ranges);
+}
+
 Table ring_table(const Evaluation& e) {
   std::vector<RingRow> rows;
   for (const RingSum& cut : e.rings) rows.push_back({cut, e.up});
@@ -77,6 +81,7 @@ Table plane_table(const Evaluation& e, const PlaneCut& cut) {
 
 std::vector<Table> result_tables(const Evaluation& e) {
   std::vector<Table> tables;
+  if (!e.summary.ranges.empty()) tables.push_back(range_table(e.summary.ranges));
   if (!e.rings.empty()) tables.push_back(ring_table(e));
   for (const MeridianEvaluation& m : e.meridians) {
     tables.push_back(thrust_table(m.thrust));

@@ -7,6 +7,7 @@
 
 namespace cupola {
 
+Table range_table(const std::vector<ForceRange>& ranges);
 Table ring_table(const Evaluation& evaluation);
 Table joint_table(const Evaluation& evaluation);
 Table block_table(const Evaluation& evaluation);

@@ -1,0 +1,118 @@
+#include "postproc/tables/range_values.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double value_of(const RangeEnd& end, double unbounded) {
+  if (end.outcome == RangeOutcome::unbounded) return unbounded;
+  return end.value.value_or(kNone);
+}
+
+/// A cell; none if it is empty or infinite.
+std::optional<double> number_in(const CsvFile& csv, size_t row, const std::string& column) {
+  const double value = csv.number(row, csv.column(column));
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+RangeEnd end_in(const CsvFile& csv, size_t row, const std::string& end) {
+  const std::string& outcome = csv.rows[row][csv.column(end + "_outcome")];
+  const auto named = enum_from_name<RangeOutcome>(outcome);
+  if (!named)
+    throw InputError(FileLocation{csv.path, static_cast<int>(row) + 2, 0},
+                     fmt::format("{}_outcome = `{}`: must be one of {}", end, outcome,
+                                 fmt::join(names_of<RangeOutcome>(), ", ")));
+  RangeEnd out{*named, number_in(csv, row, end), number_in(csv, row, end + "_bound"), {}};
+  if (const auto frame = number_in(csv, row, end + "_frame"); frame && *frame >= 0.0)
+    out.frame = static_cast<int>(*frame);
+  return out;
+}
+
+/// The name of a column: lower case, words joined by underscores, unit last.
+std::string range_key(const std::string& quantity, const std::string& value, const std::string& unit) {
+  std::string key;
+  for (const char c : quantity + " " + value) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else if (!key.empty() && key.back() != '_')
+      key += '_';
+  }
+  return unit.empty() ? key : key + "_" + unit;
+}
+
+}  // namespace
+
+double least(const ForceRange& range) {
+  return value_of(range.min, -std::numeric_limits<double>::infinity());
+}
+
+double greatest(const ForceRange& range) {
+  return value_of(range.max, std::numeric_limits<double>::infinity());
+}
+
+bool has_chosen(const std::vector<ForceRange>& ranges) {
+  return std::any_of(ranges.begin(), ranges.end(),
+                     [](const ForceRange& range) { return range.chosen.has_value(); });
+}
+
+double size_of(const ForceRange& range) {
+  double size = 0.0;
+  for (const std::optional<double>& value : {range.min.value, range.chosen, range.max.value})
+    if (value && std::isfinite(*value)) size = std::max(size, std::abs(*value));
+  return size;
+}
+
+const ForceRange* range_named(const std::string& quantity, const std::vector<ForceRange>& ranges) {
+  const auto found = std::find_if(ranges.begin(), ranges.end(),
+                                  [&quantity](const ForceRange& r) { return r.quantity == quantity; });
+  return found == ranges.end() ? nullptr : &*found;
+}
+
+std::vector<ForceRange> read_ranges(const CsvFile& csv) {
+  std::vector<ForceRange> ranges;
+  for (size_t row = 0; row < csv.rows.size(); ++row) {
+    ForceRange& range = ranges.emplace_back();
+    range.quantity = csv.rows[row][csv.column("quantity")];
+    range.unit = csv.rows[row][csv.column("unit")];
+    range.min = end_in(csv, row, "min");
+    range.max = end_in(csv, row, "max");
+    range.chosen = number_in(csv, row, "chosen");
+  }
+  return ranges;
+}
+
+std::vector<ForceRange> quantities_of(const std::vector<std::vector<ForceRange>>& runs) {
+  std::vector<ForceRange> all;
+  for (const std::vector<ForceRange>& ranges : runs)
+    for (const ForceRange& range : ranges)
+      if (range_named(range.quantity, all) == nullptr) all.push_back(range);
+  return all;
+}
+
+void add_range_columns(const std::vector<std::vector<ForceRange>>& runs, Table* table) {
+  CUPOLA_ASSERT(runs.size() == table->rows.size());
+  for (const ForceRange& quantity : quantities_of(runs)) {
+    for (const char* value : {"min", "chosen", "max"})
+      table->columns.push_back({range_key(quantity.quantity, value, quantity.unit), quantity.unit,
+                                fmt::format("{}: {} over all admissible states", quantity.quantity, value)});
+    for (size_t i = 0; i < runs.size(); ++i) {
+      const ForceRange* range = range_named(quantity.quantity, runs[i]);
+      const std::initializer_list<Table::Cell> cells = {range ? least(*range) : kNone,
+                                                        range ? range->chosen.value_or(kNone) : kNone,
+                                                        range ? greatest(*range) : kNone};
+      table->rows[i].insert(table->rows[i].end(), cells);
+    }
+  }
+}
+
+}  // namespace cupola
