@@ -113,6 +113,7 @@ Figure history_figure(const Evaluation& e, const std::vector<HistoryRow>& histor
 std::vector<Figure> result_figures(const Evaluation& e, const std::vector<HistoryRow>& history,
                                    const std::vector<Shot>& shots) {
   std::vector<Figure> figures;
+  if (!e.summary.ranges.empty()) figures.push_back(range_figure(e));
   if (!shots.empty()) figures.push_back(motion_figure(e, shots));
   if (history.size() > 1) figures.push_back(history_figure(e, history));
   if (!at_rest(e.summary)) return figures;

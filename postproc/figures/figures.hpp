@@ -23,7 +23,12 @@ struct Shot {
   std::optional<int> ring;  ///< the ring just laid, in a staged analysis; those above do not exist yet
 };
 
-/// Profile with thrust line, envelope and lines of action; r, v, couple length and distance to the nearer
+/// Ranges of a range analysis as bars from minimum to maximum, with a mark at the chosen value. Forces, lengths and
+/// ratios have axes of their own, forces one for each of N, kN and MN.
+Figure range_figure(const Evaluation& evaluation);
+
+/// Profile with thrust line, envelope and lines of action, and thin lines of least and greatest thrust where the
+/// meridian has them; r, v, couple length and distance to the nearer
 /// face beside it (paper, figures 7, 8, 10, 13).
 Figure thrust_figure(const Evaluation& evaluation, const MeridianEvaluation& meridian);
 

@@ -6,6 +6,7 @@
 
 #include "postproc/figures/figures.hpp"
 #include "postproc/figures/plot_style.hpp"
+#include "postproc/tables/range_values.hpp"
 
 namespace cupola {
 namespace {
@@ -33,10 +34,20 @@ double abscissa(const ThrustLine& line, bool arch, const Vec3& p) {
   return std::cos(angle) * p.x() + std::sin(angle) * p.y();
 }
 
-/// Data blocks of a thrust figure: skins, beds, thrust line, lines of action, envelope, graphs.
-std::string thrust_data(const ThrustLine& line, bool arch, const ForceUnit& unit) {
+/// The points of a thrust line, interrupted where its position is undefined.
+Rows line_rows(const ThrustLine& line, bool arch) {
+  Rows rows;
+  for (const ThrustPoint& p : line.points)
+    rows.push_back(p.is_placed() ? std::vector{abscissa(line, arch, p.point), p.point.z()}
+                                 : std::vector<double>{});
+  return rows;
+}
+
+/// Data blocks of a thrust figure: skins, beds, thrust lines, lines of action, envelope, graphs.
+std::string thrust_data(const MeridianEvaluation& m, bool arch, const ForceUnit& unit) {
+  const ThrustLine& line = m.thrust;
   const auto at = [&](const Vec3& p) { return std::vector{abscissa(line, arch, p), p.z()}; };
-  Rows skins[2], beds, thrust, action, envelope, graphs;
+  Rows skins[2], beds, action, envelope, graphs;
   double longest = 0.0;
   for (const ThrustPoint& p : line.points) longest = std::max(longest, p.r);
   for (const ThrustPoint& p : line.points) {
@@ -44,41 +55,52 @@ std::string thrust_data(const ThrustLine& line, bool arch, const ForceUnit& unit
     skins[1].push_back(at(p.extrados));
     beds.insert(beds.end(), {at(p.intrados), at(p.extrados), {}});
     if (p.is_placed()) {
-      thrust.push_back(at(p.point));
       const double thickness = (p.extrados - p.intrados).norm();
       const Vec3 reach = longest > 0.0 ? Vec3(1.5 * thickness / longest * p.force) : Vec3(Vec3::Zero());
       action.insert(action.end(), {at(p.point - reach), at(p.point + reach), {}});
-    } else {
-      thrust.push_back({});  // the line is interrupted
     }
     graphs.push_back({arch ? 0.5 * (p.intrados.x() + p.extrados.x()) : p.height(), unit.per_newton * p.r,
                       unit.per_newton * p.v, p.couple_length, p.face_distance});
   }
   for (const Vec3& p : line.envelope) envelope.push_back(at(p));
+  std::string ends;
+  if (m.least_thrust) ends += data_block("least", line_rows(*m.least_thrust, arch));
+  if (m.greatest_thrust) ends += data_block("greatest", line_rows(*m.greatest_thrust, arch));
   return data_block("intrados", skins[0]) + data_block("extrados", skins[1]) + data_block("beds", beds) +
-         data_block("thrust", thrust) + data_block("action", action) + data_block("envelope", envelope) +
-         data_block("graphs", graphs);
+         data_block("thrust", line_rows(line, arch)) + data_block("action", action) +
+         data_block("envelope", envelope) + data_block("graphs", graphs) + ends;
 }
 
-std::string profile_plot() {
+std::string profile_plot(const MeridianEvaluation& m, const Summary& summary) {
+  std::string title = "thrust line";
+  if (summary.analysis == AnalysisType::range)
+    title += has_chosen(summary.ranges) ? " (chosen)" : " (one state)";
+  std::string ends;
+  if (m.least_thrust) ends += fmt::format(", $least w l lc rgb '{}' lw 1.2 title 'least thrust'", kBlue);
+  if (m.greatest_thrust)
+    ends += fmt::format(", $greatest w l lc rgb '{}' lw 1.2 title 'greatest thrust'", kPurple);
   return fmt::format(
       "plot $beds w l lc rgb '#cccccc' lw 0.7 notitle, $intrados w l lc rgb 'black' lw 1.5 title 'intrados, "
       "extrados',"
       " $extrados w l lc rgb 'black' lw 1.5 notitle,"
       " $action w l lc rgb '{2}' lw 1 title 'lines of action', $envelope w l lc rgb '{1}' lw 1.5 dt 2 title "
       "'envelope',"
-      " $thrust w lp lc rgb '{0}' lw 2 pt 7 ps 0.5 title 'thrust line'\n",
-      kOrange, kGreen, kSky);
+      " $thrust w lp lc rgb '{0}' lw 2 pt 7 ps 0.5 title '{3}'{4}\n",
+      kOrange, kGreen, kSky, title, ends);
 }
 
 /// Four panels with a common height axis: profile, resultant, couple length, distance to the nearer face.
-std::string vault_panels(const ThrustLine& line, int width, int height, const ForceUnit& unit) {
+std::string vault_panels(const MeridianEvaluation& m, int width, int height, const ForceUnit& unit,
+                         const std::string& profile) {
   Range x, z;
-  for (const ThrustPoint& p : line.points) {
-    for (const Vec3& q : {p.intrados, p.extrados, p.is_placed() ? p.point : p.intrados}) {
-      x.add(abscissa(line, false, q));
-      z.add(q.z());
-    }
+  for (const ThrustLine* line : {&m.thrust, m.least_thrust ? &*m.least_thrust : nullptr,
+                                 m.greatest_thrust ? &*m.greatest_thrust : nullptr}) {
+    if (line == nullptr) continue;
+    for (const ThrustPoint& p : line->points)
+      for (const Vec3& q : {p.intrados, p.extrados, p.is_placed() ? p.point : p.intrados}) {
+        x.add(abscissa(*line, false, q));
+        z.add(q.z());
+      }
   }
   z.widen();
   x.widen();
@@ -99,7 +121,7 @@ std::string vault_panels(const ThrustLine& line, int width, int height, const Fo
              "(m)'\n"
              "set ylabel 'height (m)'\nset key at graph 0.02,0.02 left bottom\n",
              margins(kLeft, right), x.low, x.high, z.low, z.high) +
-         profile_plot() + margins(right + gap, right + gap + panel) +
+         profile + margins(right + gap, right + gap + panel) +
          fmt::format(
              "set xrange [0:*]\nset xlabel 'resultant ({2})'\nunset ylabel\n"
              "plot $graphs using 2:1 w lp lc rgb '{0}' pt 7 ps 0.4 title 'r: norm', $graphs using 3:1 w l lc "
@@ -119,12 +141,12 @@ std::string vault_panels(const ThrustLine& line, int width, int height, const Fo
 }
 
 /// Profile on top; below it resultant, couple length and distance to the nearer face, over x.
-std::string arch_panels(const ForceUnit& unit) {
+std::string arch_panels(const ForceUnit& unit, const std::string& profile) {
   const auto band = [](double bottom, double top) {
     return fmt::format("set bmargin at screen {}\nset tmargin at screen {}\n", bottom, top);
   };
   return "set multiplot\nset lmargin at screen 0.09\nset rmargin at screen 0.97\n" + band(0.57, 0.97) +
-         "set size ratio -1\nset ylabel 'height (m)'\nset key bottom center\n" + profile_plot() +
+         "set size ratio -1\nset ylabel 'height (m)'\nset key bottom center\n" + profile +
          "set size noratio\nset key top center\n" + band(0.41, 0.51) +
          fmt::format(
              "set ylabel 'resultant ({2})'\nset yrange [0:*]\n"
@@ -164,10 +186,14 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
       " r is the norm of the resultant of a strip one block wide across a bed, v its vertical component. The "
       "largest couple length of such a resultant is " +
       length_text(couple) + ".";
+  if (m.least_thrust || m.greatest_thrust)
+    f.caption +=
+        " The thin lines belong to the states of least and greatest thrust among all admissible ones.";
   f.width = 1400;
   f.height = arch ? 900 : 640;
-  f.commands = plot_style() + fmt::format("couple = {}\n", couple) + thrust_data(line, arch, unit) +
-               (arch ? arch_panels(unit) : vault_panels(line, f.width, f.height, unit));
+  const std::string profile = profile_plot(m, e.summary);
+  f.commands = plot_style() + fmt::format("couple = {}\n", couple) + thrust_data(m, arch, unit) +
+               (arch ? arch_panels(unit, profile) : vault_panels(m, f.width, f.height, unit, profile));
   return f;
 }
 
