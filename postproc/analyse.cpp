@@ -37,7 +37,8 @@ void remove_earlier_output(const std::string& folder) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    for (const char* start : {"rings.csv", "stages.csv", "shell", "thrust_", "hoop_", "section_", "cut_"})
+    for (const char* start :
+         {"ranges.csv", "rings.csv", "stages.csv", "shell", "thrust_", "hoop_", "section_", "cut_"})
       if (name.starts_with(start) && name.ends_with(".csv")) std::filesystem::remove(entry.path(), ignored);
   }
   for (const auto& entry : std::filesystem::directory_iterator(in_folder(folder, "figures"), ignored))

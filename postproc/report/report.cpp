@@ -1,7 +1,9 @@
 #include "postproc/report/report.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -9,6 +11,8 @@
 #include "assembly/base/process.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/html.hpp"
+#include "postproc/report/ranges.hpp"
+#include "postproc/tables/range_values.hpp"
 
 namespace cupola {
 namespace {
@@ -51,6 +55,12 @@ std::string list_section(const std::string& heading, const std::vector<std::stri
   return out + "</ul>\n";
 }
 
+/// Of a range analysis the findings belong to one state of many.
+std::string findings_heading(const Summary& s) {
+  if (s.analysis != AnalysisType::range) return "Findings";
+  return has_chosen(s.ranges) ? "Findings in the chosen state" : "Findings in one admissible state";
+}
+
 std::string model_section(const Evaluation& e) {
   std::string out = "<h2>Model</h2>\n<dl>\n";
   const auto row = [&out](const std::string& name, const std::string& value) {
@@ -70,7 +80,12 @@ std::string model_section(const Evaluation& e) {
   const Compliance& c = e.scene.joints.compliance;
   const char* unit = c.per == Compliance::Per::point ? "m/N per contact point" : "m³/N per joint area";
   row("Joint compliance", fmt::format("normal {:g}, tangential {:g} {}", c.normal, c.tangential, unit));
-  row("Time shown", fmt::format("{:g} s, frame {} of {}", e.last.frame.time, e.times.size(), e.times.size()));
+  const auto shown = std::find(e.times.begin(), e.times.end(), e.last.frame.time) - e.times.begin() + 1;
+  if (s.analysis == AnalysisType::range && at_rest(s))
+    row("State shown",
+        has_chosen(s.ranges) ? "the one that the compliances choose" : "one of the admissible ones");
+  else
+    row("Time shown", fmt::format("{:g} s, frame {} of {}", e.last.frame.time, shown, e.times.size()));
   return out + "</dl>\n<details><summary>All keys of the case</summary><pre>" +
          markup_text(e.scene.effective_yaml) + "</pre></details>\n";
 }
@@ -81,23 +96,35 @@ std::string figure_html(const std::string& picture, const std::string& title, co
                      markup_text(title), markup_text(caption));
 }
 
+std::string figure_html(const ReportInput& input, const Figure& figure) {
+  const std::string file = figure.name + (figure.vector ? ".svg" : ".png");
+  return figure_html(html_picture((std::filesystem::path(input.figure_folder) / file).string(), figure.title),
+                     figure.title + ".", figure.caption);
+}
+
+bool shows_ranges(const Figure& figure) {
+  return figure.name == "ranges";
+}
+
+/// The figure that belongs to the section of the ranges; "" without one.
+std::string range_picture(const ReportInput& input) {
+  const auto figure = std::find_if(input.figures.begin(), input.figures.end(), shows_ranges);
+  return figure == input.figures.end() ? "" : figure_html(input, *figure);
+}
+
 std::string figures_section(const ReportInput& input) {
   std::string out;
   for (const Picture& picture : input.pictures)
     out += figure_html(html_picture(picture.path, picture.caption), "", picture.caption);
-  for (const Figure& figure : input.figures) {
-    const auto file = [&](const char* ending) {
-      return (std::filesystem::path(input.figure_folder) / (figure.name + ending)).string();
-    };
-    out += figure_html(html_picture(file(figure.vector ? ".svg" : ".png"), figure.title), figure.title + ".",
-                       figure.caption);
-  }
+  for (const Figure& figure : input.figures)
+    if (!shows_ranges(figure)) out += figure_html(input, figure);
   return out.empty() ? "" : "<h2>Figures</h2>\n" + out;
 }
 
 /// True for a table that reads like the result of an equilibrium: rings, thrust lines, cuts.
 bool interprets(const Table& table) {
-  return table.name != "joints" && table.name != "blocks" && table.name != "stages";
+  static const std::set<std::string> kPlain{"joints", "blocks", "stages", "ranges"};
+  return !kPlain.contains(table.name);
 }
 
 std::string tables_section(const std::vector<Table>& tables, bool equilibrium) {
@@ -155,8 +182,9 @@ std::string report_html(const ReportInput& input) {
   const Evaluation& e = *input.evaluation;
   std::string body = "<h1>" + markup_text(e.scene.title) + "</h1>\n";
   body += verdict_section(e);
+  body += ranges_section(e, range_picture(input));
   body += "<h2>Solution quality</h2>\n" + paragraph(quality_text(e.summary) + " " + floor_text(e));
-  body += at_rest(e.summary) ? list_section("Findings", finding_sentences(e))
+  body += at_rest(e.summary) ? list_section(findings_heading(e.summary), finding_sentences(e))
                              : list_section("Motion", motion_sentences(e, input.history));
   body += model_section(e);
   if (!e.assembly.check_report.empty())

@@ -21,7 +21,7 @@ struct ReportInput {
   std::string run_yaml;           ///< text of run.yaml; "" if it cannot be read
 };
 
-/// report.html as one self-contained file: warnings, verdict, solution quality, findings, model, geometry
+/// report.html as one self-contained file: warnings, verdict, ranges of a range analysis, solution quality, findings, model, geometry
 /// check, pictures, figures, tables, files and run information, in this order. A run that found no equilibrium has the
 /// motion in place of the findings, and no certificate.
 std::string report_html(const ReportInput& input);

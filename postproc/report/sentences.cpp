@@ -108,7 +108,7 @@ void add_mechanism(const Evaluation& e, std::vector<std::string>* out) {
   const size_t bodies = count_bodies(e);
   out->push_back(
       fmt::format("The blocks begin to move as {}. {} of {} exceed a tenth of the largest speed, which is "
-                  "that of {}. A motion found by a static analysis has directions but no amplitude; the "
+                  "that of {}. A mechanism has directions but no amplitude; the "
                   "figure shows the "
                   "directions.",
                   counted(bodies, "body", "bodies"), count_moving(e, kMuch * farthest.displacement),
@@ -197,6 +197,13 @@ std::string verdict_text(const Summary& s) {
     return fmt::format(
         "The structure stands at {} and moves at {:.5g}. The forces below are those at {:.5g}.",
         phrase(s.critical->parameter, s.critical->stable), s.critical->moving, s.critical->stable);
+  if (s.analysis == AnalysisType::range && s.status == Status::stable)
+    return "Forces exist that balance the loads within the joint laws.";
+  if (s.analysis == AnalysisType::range && !s.ranges.empty())
+    return "Forces exist that balance the loads, but not all ends of the ranges reached the requested "
+           "accuracy.";
+  if (s.analysis == AnalysisType::range && s.status == Status::moving)
+    return "The structure moves: no forces balance the loads within the joint laws.";
   switch (s.status) {
     case Status::stable:
       return "The structure is at rest.";
