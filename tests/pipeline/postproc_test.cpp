@@ -22,7 +22,7 @@ Evaluation solved(const Case& scene) {
   AnalysisSinks sinks;
   sinks.frame = [&writer](const Frame& frame) { writer.write_frame(frame); };
   sinks.log = sinks.history = [](const std::string&) {};
-  Summary summary = run_static(scene, assembly, sinks);
+  Summary summary = run_analysis(scene, assembly, sinks).value();
   summary.assembly_hash = content_hash(assembly);
   writer.write_summary(summary);
   return evaluate(scene, assembly, ResultsReader(folder, content_hash(assembly)));
@@ -70,6 +70,55 @@ TEST(PostprocVault, RibOverMidSailCoversAllSailsAndWholePeriods) {
   EXPECT_NEAR(turned.rib_over_mid_sail->mean, uneven.rib_over_mid_sail->mean, 1e-6);
   EXPECT_GT(std::abs(turned.meridians[0].thrust.points[0].r / uneven.meridians[0].thrust.points[0].r - 1.0),
             1e-3);
+}
+
+/// A semicircular arch of 27 voussoirs, its thickness 0.15 of its mean radius.
+Evaluation ranges_of_arch() {
+  Case scene;
+  ArchSurface arch;
+  arch.span = 18.5;
+  arch.thickness = 1.5;
+  scene.geometry.surface = arch;
+  StackBond bond;
+  bond.rings = 27;
+  bond.blocks_per_ring = 1;
+  scene.geometry.bond = bond;
+  scene.joints.friction = 0.6;
+  scene.analysis.type = AnalysisType::range;
+  scene.analysis.range.quantities = {BaseThrust{}};
+  scene.analysis.range.states = true;
+  return solved(scene);
+}
+
+// J. Heyman, The Stone Skeleton (1995): as its supports spread, an arch opens at the intrados of the crown, so that the
+// line of least thrust touches the extrados there and the intrados in the haunches; as they close, the line of greatest
+// thrust touches the extrados at the springings and the intrados in the haunches. The horizontal force of a line is the
+// value of the range.
+TEST(PostprocRange, LinesOfLeastAndGreatestThrustOfAnArch) {
+  const Evaluation e = ranges_of_arch();
+  ASSERT_EQ(e.summary.status, Status::stable);
+  ASSERT_EQ(e.meridians.size(), 1u);
+  ASSERT_TRUE(e.meridians[0].least_thrust && e.meridians[0].greatest_thrust);
+  const ForceRange& thrust = e.summary.ranges.at(0);
+  EXPECT_GT(thrust.chosen.value(), thrust.min.value.value());
+  EXPECT_LT(thrust.chosen.value(), thrust.max.value.value());
+  constexpr double kTouches = 1e-3;  // of the thickness; the forces are exact to 1e-6 of the thrust
+  const auto lowest = [](const ThrustLine& line) {
+    double position = 1.0;
+    for (const ThrustPoint& p : line.points) position = std::min(position, p.position);
+    return position;
+  };
+  for (const auto& [line, value] : {std::pair{&*e.meridians[0].least_thrust, *thrust.min.value},
+                                    std::pair{&*e.meridians[0].greatest_thrust, *thrust.max.value}}) {
+    ASSERT_EQ(line->points.size(), 28u);
+    EXPECT_NEAR(lowest(*line), 0.0, kTouches);
+    for (const ThrustPoint& p : line->points) {
+      EXPECT_GE(p.face_distance, -kTouches * 1.5) << "bed " << p.bed;
+      EXPECT_NEAR(std::abs(p.force.x()), value, 1e-5 * value);
+    }
+  }
+  EXPECT_NEAR(e.meridians[0].least_thrust->points[13].position, 1.0, kTouches) << "beside the crown";
+  EXPECT_NEAR(e.meridians[0].greatest_thrust->points[0].position, 1.0, kTouches) << "at the springing";
 }
 
 // Ring forces and membrane forces over the height are rows of the verification manual.
