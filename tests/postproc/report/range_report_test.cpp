@@ -142,6 +142,17 @@ TEST(RangeReport, ShowsTheMechanismWhereNoStateIsAdmissible) {
   EXPECT_FALSE(std::filesystem::exists(post + "/ranges.csv"));
 }
 
+TEST(RangeReport, ExplainsTheStatusOnlyWhereItApplies) {
+  Evaluation e;
+  e.summary.ranges = test::some_ranges();
+  const auto explained = [&e](Status status) {
+    e.summary.status = status;
+    return ranges_section(e, "").find("The status &quot;stable&quot; says") != std::string::npos;
+  };
+  EXPECT_TRUE(explained(Status::stable));
+  EXPECT_FALSE(explained(Status::unconverged));
+}
+
 TEST(RangeReport, ManyQuantitiesAreLeftToTheTable) {
   Evaluation e;
   e.summary.ranges.assign(31, test::some_ranges()[0]);
