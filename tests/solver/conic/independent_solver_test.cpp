@@ -1,0 +1,89 @@
+// Least values of linear objectives over all admissible states, against cvxopt (Debian package python3-cvxopt).
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "assembly/files/number_text.hpp"
+#include "solver/conic/solve_conic.hpp"
+#include "tests/solver/contact/contact_scenes.hpp"
+
+namespace cupola::independent_solver_test {
+namespace {
+
+const std::string kScript = CUPOLA_SOURCE_DIR "/tests/solver/conic/second_order_cone_programme.py";
+
+/// The rigid blocks of a contact problem under their weights, with a random objective that favours large forces, so
+/// that it has a least value.
+ConicProblem random_problem(const ContactProblem& p, unsigned seed) {
+  ConicProblem problem;
+  problem.contacts = p;
+  problem.load = VecX::Zero(6 * p.num_blocks());
+  for (int k = 0; k < p.num_blocks(); ++k)
+    problem.load.segment<6>(6 * k) = p.M[k] * p.v_star.segment<6>(6 * k) / p.h;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  problem.cost = VecX(3 * p.num_contacts());
+  for (Eigen::Index i = 0; i < problem.cost.size(); ++i) problem.cost[i] = uniform(random);
+  for (int i = 0; i < p.num_contacts(); ++i)
+    problem.cost[3 * i] += 1.0 + p.mu[i] * problem.cost.segment<2>(3 * i + 1).norm();
+  problem.load_columns = MatX(problem.load.size(), 0);
+  problem.rows = MatX(problem.cost.size(), 0);
+  return problem;
+}
+
+void write(const ConicProblem& problem, const std::string& file) {
+  const ContactProblem& p = problem.contacts;
+  std::ofstream out(file);
+  const auto line = [&out](const auto& values) {
+    for (const double value : values) out << format_number(value) << ' ';
+    out << '\n';
+  };
+  out << p.num_blocks() << ' ' << p.num_contacts() << '\n';
+  line(problem.load);
+  line(problem.cost);
+  line(p.mu);
+  MatX D(problem.load.size(), problem.cost.size());
+  for (Eigen::Index j = 0; j < D.cols(); ++j) D.col(j) = generalized_impulse(p, VecX::Unit(D.cols(), j));
+  for (Eigen::Index k = 0; k < D.rows(); ++k) line(D.row(k));
+}
+
+double least_by_cvxopt(const ConicProblem& problem) {
+  const std::string base =
+      (std::filesystem::temp_directory_path() / ("cupola_cvxopt_" + std::to_string(::getpid()))).string();
+  write(problem, base + ".in");
+  const std::string command = "python3 " + kScript + " < " + base + ".in > " + base + ".out";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  std::string status;
+  double value = std::nan("");
+  std::ifstream(base + ".out") >> status >> value;
+  EXPECT_EQ(status, "optimal");
+  std::filesystem::remove(base + ".in");
+  std::filesystem::remove(base + ".out");
+  return value;
+}
+
+// cvxopt is asked for 1e-10 and usually reaches 1e-8.
+TEST(IndependentSolverSlow, FindsTheSameLeastValues) {
+  if (std::system("python3 -c 'import cvxopt' 2> /dev/null") != 0)
+    GTEST_SKIP() << "needs the package python3-cvxopt";
+  const scenes::Joint joint{};
+  const std::vector<ContactProblem> models{scenes::stack({1000, 2000, 500}, 0.01, joint),
+                                           scenes::table(1000, 0.1, 0.2, 0.01, joint),
+                                           scenes::arch(12, 0.2, 1.2, 0.0, 0.01, joint),
+                                           scenes::dome({.rings = 4, .blocks_per_ring = 8}, 0.01, joint)};
+  for (size_t m = 0; m < models.size(); ++m) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      const ConicProblem problem = random_problem(models[m], seed);
+      const ConicSolution solution = solve_conic(problem);
+      ASSERT_EQ(solution.outcome, ConicOutcome::optimal) << m;
+      EXPECT_NEAR(least_by_cvxopt(problem), solution.primal, 1e-6 * std::abs(solution.primal)) << m;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cupola::independent_solver_test
