@@ -59,6 +59,21 @@ class Objectives {
   JointGeometry joints_;
 };
 
+/// A group of base blocks in words.
+std::string name_of(const BaseBlocks& blocks) {
+  switch (blocks.group) {
+    case BaseBlocks::Group::mid_sails:
+      return "mid-sails";
+    case BaseBlocks::Group::listed:
+      return "listed blocks";
+    case BaseBlocks::Group::herringbone:
+      return "herringbone blocks";
+    case BaseBlocks::Group::ribs:
+      break;
+  }
+  return "ribs";
+}
+
 const Vec3 kDown = -Vec3::UnitZ();
 
 ForceFunctional Objectives::none() const {
@@ -179,7 +194,7 @@ std::vector<RangeObjective> Objectives::operator()(const HoopForce& hoop) const 
 
 std::vector<RangeObjective> Objectives::operator()(const BaseShare& share) const {
   const std::set<int> blocks = base_blocks(share.of);
-  RangeObjective objective{fmt::format("share of {}", to_string(share.of.group)), "", weight_of(blocks, 1.0),
+  RangeObjective objective{fmt::format("share of the {}", name_of(share.of)), "", weight_of(blocks, 1.0),
                            weight_of(base_blocks(), 1.0)};
   return {objective};
 }
@@ -189,7 +204,7 @@ std::vector<RangeObjective> Objectives::operator()(const BaseRatio& ratio) const
     const std::set<int> blocks = base_blocks(group);
     return weight_of(blocks, 1.0 / static_cast<double>(blocks.size()));
   };
-  return {{fmt::format("ratio of {} to {}", to_string(ratio.of.group), to_string(ratio.over.group)), "",
+  return {{fmt::format("ratio of the {} to the {}", name_of(ratio.of), name_of(ratio.over)), "",
            mean(ratio.of), mean(ratio.over)}};
 }
 

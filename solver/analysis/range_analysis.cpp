@@ -6,6 +6,7 @@
 
 #include "assembly/base/process.hpp"
 #include "assembly/files/number_text.hpp"
+#include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/mechanism.hpp"
@@ -134,7 +135,7 @@ std::string ranges_csv(const std::vector<ForceRange>& ranges) {
   const auto frame = [](const std::optional<int>& value) { return value ? std::to_string(*value) : ""; };
   std::string csv = kRangeTable;
   for (const ForceRange& r : ranges)
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", r.quantity, r.unit, number(r.min.value),
+    csv += fmt::format("\"{}\",{},{},{},{},{},{},{},{},{},{}\n", r.quantity, r.unit, number(r.min.value),
                        number(r.max.value), number(r.min.bound), number(r.max.bound), number(r.chosen),
                        to_string(r.min.outcome), to_string(r.max.outcome), frame(r.min.frame),
                        frame(r.max.frame));
@@ -198,9 +199,9 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
   const std::vector<RangeObjective> objectives = all_objectives(scene, rigid.model, rigid.contacts);
 
   Summary summary;
-  summary.accuracy = {
-      "ends of the ranges",
-      "largest distance from the proven bound, relative to the larger end or the mean block weight", kGap};
+  summary.accuracy = {"ends of the ranges",
+                      "largest distance from the proven bound, relative to the larger end or to one block",
+                      kGap};
   summary.certified_force_error.bounds = "the forces are one of the admissible states";
   summary.forces_unique = {false, "they are one of the admissible states"};
   const ChosenState chosen = chosen_state(scene, rigid, sinks);
@@ -214,7 +215,9 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
     bool complete = true;
     for (size_t i = 0; i < summary.ranges.size(); ++i) {
       const ForceRange& range = summary.ranges[i];
-      const double small = range.unit == "N" ? rigid.model.block_weight : kNegligibleShare;
+      const double small = range.unit == "N"   ? rigid.model.block_weight
+                           : range.unit == "m" ? smallest_block_size(assembly)
+                                               : 1.0;
       gap = std::max(gap, relative_gap(range, small));
       for (const RangeEnd* end : {&range.min, &range.max})
         complete = complete && end->outcome != RangeOutcome::unconverged;
