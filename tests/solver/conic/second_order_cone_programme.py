@@ -23,7 +23,7 @@ def main():
     for i in range(nc):
         g[3 * i, 3 * i] = -mu[i]
         g[3 * i + 1, 3 * i + 1] = g[3 * i + 2, 3 * i + 2] = -1.0
-    solvers.options.update(show_progress=False, abstol=1e-10, reltol=1e-10, feastol=1e-10)
+    solvers.options.update(show_progress=False, abstol=1e-8, reltol=1e-8, feastol=1e-8)
     found = solvers.conelp(matrix(c), matrix(g), matrix(np.zeros(3 * nc)), {"l": 0, "q": [3] * nc, "s": []},
                            matrix(vt[:rank]), matrix(-(u[:, :rank].T @ w) / s[:rank] / scale))
     print(found["status"], f"{found['primal objective'] * scale:.15g}" if found["status"] == "optimal" else "")
