@@ -66,9 +66,11 @@ RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective
   const ConicBounds bounds = conic_bounds(problem, solution);
   found.end.value = towards * bounds.upper + objective.value.constant;
   found.end.bound = towards * std::min(bounds.lower, bounds.upper) + objective.value.constant;
-  // What its own bound does not tell from zero is zero.
-  if (std::abs(*found.end.value) <= std::abs(*found.end.value - *found.end.bound)) found.end.value = 0.0;
-  if (solution.outcome == ConicOutcome::optimal) found.end.outcome = RangeOutcome::bounded;
+  if (solution.outcome == ConicOutcome::optimal) {
+    found.end.outcome = RangeOutcome::bounded;
+    // What its own bound does not tell from zero is zero.
+    if (std::abs(*found.end.value) <= std::abs(*found.end.value - *found.end.bound)) found.end.value = 0.0;
+  }
   if (objective.over && solution.multipliers.size() > 0 && solution.multipliers[0] > 0.0)
     found.gamma /= solution.multipliers[0];
   return found;
