@@ -117,7 +117,11 @@ void print_summary(const Summary& summary) {
   const Colour colour = summary.status == Status::stable        ? Colour::green
                         : summary.status == Status::unconverged ? Colour::red
                                                                 : Colour::yellow;
-  fmt::print("{}: {}\n", in_colour(to_string(summary.status), colour, stdout), summary.message);
+  // A limit that was found leads with the critical value, not with the status of one end of its bracket.
+  if (summary.critical && summary.status == Status::stable)
+    fmt::print("{}\n", in_colour(summary.message, colour, stdout));
+  else
+    fmt::print("{}: {}\n", in_colour(to_string(summary.status), colour, stdout), summary.message);
   fmt::print("  {}, {}, {}, {}\n", counted(summary.free_blocks, "free block"),
              counted(summary.joints, "joint"), counted(summary.contacts, "contact"),
              counted(summary.unknowns, "unknown"));

@@ -35,7 +35,20 @@ struct LimitSearch {
   /// spread:       factor on `supports.moves`
   /// joint_extent: factor on the extent of every joint about its centroid; its inverse is the geometric safety of the
   ///               safest admissible state
-  enum class Parameter { friction, tilt, acceleration, load, thickness, spread, joint_extent };
+  /// lantern:      weight of `loads.lantern` over that of the free blocks
+  /// peak_stress:  Pa, largest compressive stress of a contact point: the least one that an admissible state needs. `low`
+  ///               and `high` are not used
+  enum class Parameter {
+    friction,
+    tilt,
+    acceleration,
+    load,
+    thickness,
+    spread,
+    joint_extent,
+    lantern,
+    peak_stress
+  };
   Parameter parameter = Parameter::friction;
   /// direct:    conic programmes over all admissible states; associated law, not for `spread`
   /// bisection: one static solve for each value tried
@@ -43,7 +56,9 @@ struct LimitSearch {
   enum class Method { automatic, direct, bisection };
   Method method = Method::automatic;
   double low = 0.0, high = 1.0;              ///< initial bracket: stable at one end, not at the other
-  double relative_width = 1e-3;              ///< bisection: relative width of the final bracket, in (0, 1)
+  /// Largest relative width of the final bracket, in (0, 1). None: 1e-3 by bisection; direct 1e-4 for friction,
+  /// thickness and joint_extent, 1e-6 for the others, which are one conic programme.
+  std::optional<double> relative_width;
   Eigen::Vector3d direction{1.0, 0.0, 0.0};  ///< tilt and acceleration: horizontal direction of the pull
   std::optional<RingJoints> joints;          ///< friction: only these joints; none: all joints
 };
@@ -51,7 +66,8 @@ constexpr auto enum_names(LimitSearch::Method) {
   return std::array{"automatic", "direct", "bisection"};
 }
 constexpr auto enum_names(LimitSearch::Parameter) {
-  return std::array{"friction", "tilt", "acceleration", "load", "thickness", "spread", "joint_extent"};
+  return std::array{"friction", "tilt",         "acceleration", "load",       "thickness",
+                    "spread",   "joint_extent", "lantern",      "peak_stress"};
 }
 
 /// Ranges of forces over all admissible states: forces that balance the loads within the joint laws.

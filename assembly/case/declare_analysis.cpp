@@ -29,6 +29,11 @@ void declare_stop(Section& s, StopRules& stop) {
            "a block slower than this counts as settled");
 }
 
+/// Of the forces, whatever state the compliances choose.
+bool asks_for_admissible_states(LimitSearch::Parameter parameter) {
+  return parameter == LimitSearch::Parameter::joint_extent || parameter == LimitSearch::Parameter::peak_stress;
+}
+
 void declare_limit(Section& s, LimitSearch& limit) {
   using Parameter = LimitSearch::Parameter;
   s.choice(
@@ -36,14 +41,17 @@ void declare_limit(Section& s, LimitSearch& limit) {
       "parameter whose critical value is sought: friction coefficient; tilt of gravity (deg); "
       "horizontal acceleration (g); factor on loads.forces and loads.faces (load); factor on the shell "
       "thickness about its middle surface; factor on supports.moves (spread); factor on the extent of every "
-      "joint about its centroid (direct only), whose inverse is the geometric safety of the safest state");
+      "joint about its centroid (direct only), whose inverse is the geometric safety of the safest state; weight "
+      "of the lantern over that of the blocks; least peak stress of an admissible state (Pa, direct only, with "
+      "compliance per area)");
   s.choice("method", limit.method,
            "direct: conic programmes over all admissible states (associated law, not for spread); bisection: "
            "one static solve per value; automatic: direct where it applies");
-  s.number("low", limit.low, {}, "lower end of the initial bracket");
-  s.number("high", limit.high, {}, "upper end of the initial bracket");
-  s.number("relative_width", limit.relative_width, {.above = 0, .below = 1},
-           "bisection: width of the final bracket over its middle value; direct: 1e-5 or better");
+  s.number("low", limit.low, {}, "lower end of the initial bracket; not used by peak_stress");
+  s.number("high", limit.high, {}, "upper end of the initial bracket; not used by peak_stress");
+  s.optional_number("relative_width", limit.relative_width, {.above = 0, .below = 1},
+                    "1e-3 by bisection; direct: 1e-4 for friction, thickness and joint_extent, else 1e-6",
+                    "largest width of the final bracket over its middle value");
   s.vector3("direction", limit.direction, {}, "tilt, acceleration: horizontal direction of the pull");
   s.optional_section("joints", limit.joints, "friction: vary only these joints; default: all joints",
                      declare_joint_group);
@@ -53,8 +61,10 @@ void declare_limit(Section& s, LimitSearch& limit) {
   s.rule(limit.low < limit.high, "high", "must be > low");
   s.rule(limit.method != LimitSearch::Method::direct || limit.parameter != Parameter::spread, "method",
          "direct does not apply to spread, which follows displacements; use bisection");
-  s.rule(limit.method != LimitSearch::Method::bisection || limit.parameter != Parameter::joint_extent,
-         "method", "bisection does not apply to joint_extent, which asks for admissible states; use direct");
+  s.rule(limit.method != LimitSearch::Method::bisection || !asks_for_admissible_states(limit.parameter),
+         "method",
+         "bisection does not apply to joint_extent and peak_stress, which ask for admissible states; use "
+         "direct");
 }
 
 void declare_staged(Section& s, StagedConstruction& staged) {
@@ -142,7 +152,8 @@ void declare_analysis(Section& s, Analysis& analysis) {
   declare_flow_rule(s, analysis);
   s.integer(
       "cyclic_sectors", analysis.cyclic_sectors, {.min = 1, .max = 100000},
-      "static: number of equal sectors around the z axis, of which one is solved; 1: solve the whole model");
+      "static, range: number of equal sectors around the z axis, of which one is solved (a range: for quantities "
+      "that repeat around the axis too); 1: solve the whole model");
   s.integer(
       "robustness", analysis.robustness, {.min = 0, .max = 3600},
       "static: horizontal directions in which to find the least acceleration that makes it move; 0: none");
@@ -169,8 +180,10 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.section("staged", analysis.staged, "staged: which stages, and the fresh mortar", declare_staged);
   s.rule(analysis.type != AnalysisType::range || !analysis.range.quantities.empty(), "range",
          "must list at least one quantity: {quantities: [thrust]}");
-  s.rule(analysis.type == AnalysisType::static_ || analysis.cyclic_sectors == 1, "cyclic_sectors",
-         "values above 1 require analysis.type: static");
+  s.rule(analysis.type == AnalysisType::static_ || analysis.type == AnalysisType::range ||
+             analysis.cyclic_sectors == 1,
+         "cyclic_sectors",
+         "values above 1 require analysis.type: static or range");
   s.rule(analysis.type == AnalysisType::static_ || analysis.robustness == 0, "robustness",
          "requires analysis.type: static; the limit analysis of an acceleration takes one direction");
   s.flag("plane", analysis.plane,
@@ -183,9 +196,9 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.rule(analysis.limit.method != LimitSearch::Method::direct ||
              analysis.friction_law == FrictionLaw::associated,
          "limit.method", "direct requires friction_law: associated; use bisection under Coulomb's law");
-  s.rule(analysis.limit.parameter != LimitSearch::Parameter::joint_extent ||
+  s.rule(!asks_for_admissible_states(analysis.limit.parameter) ||
              analysis.friction_law == FrictionLaw::associated,
-         "limit.parameter", "joint_extent requires friction_law: associated");
+         "limit.parameter", "joint_extent and peak_stress require friction_law: associated");
   s.rule(!analysis.accuracy.wrench_error || analysis.type == AnalysisType::static_, "accuracy",
          "wrench_error is for static analysis only; for other types give a tolerance or a preset");
   s.rule(analysis.type != AnalysisType::dynamic || analysis.duration / analysis.time_step <= kMostSteps,

@@ -58,7 +58,11 @@ Case case_at(const Case& scene, double value) {
       break;
     case LimitSearch::Parameter::thickness:
     case LimitSearch::Parameter::joint_extent:
-      break;  // change the assembly and its contacts, not the case
+    case LimitSearch::Parameter::peak_stress:
+      break;  // change the assembly, its contacts or what they carry, not the case
+    case LimitSearch::Parameter::lantern:
+      at.loads.lantern = TopLoad{value};
+      break;
     case LimitSearch::Parameter::spread:
       for (SupportMove& move : at.supports.moves) move.time = TableInTime{"", {0.0, 1e6}, {0.0, 1e6}};
       break;

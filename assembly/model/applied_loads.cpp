@@ -76,7 +76,7 @@ std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assemb
   const double weight = free_weight(assembly, g);
   const Vec3 down = g > 0.0 ? Vec3(loads.gravity / g) : Vec3(-Vec3::UnitZ());
   const auto add_top = [&](const std::optional<TopLoad>& load, const char* key) {
-    if (load && load->weight_fraction > 0.0)
+    if (load && load->weight_fraction != 0.0)  // negative in the derivative of a limit analysis
       add_top_load(assembly, load->weight_fraction * weight, down, key, &forces);
   };
   add_top(loads.lantern, "lantern");

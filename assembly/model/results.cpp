@@ -20,17 +20,32 @@ std::vector<Joint> joints_of(const ContactTable& contacts) {
 std::string limit_unit(const std::string& parameter) {
   if (parameter == "tilt") return "degrees";
   if (parameter == "acceleration") return "g";
+  if (parameter == "lantern") return "times the weight";
+  if (parameter == "peak_stress") return "Pa";
   return parameter.ends_with("friction") ? "" : "factor";  // load, thickness, spread, joint_extent
 }
 
+namespace {
+
+std::string in_words(std::string parameter) {
+  std::replace(parameter.begin(), parameter.end(), '_', ' ');
+  return parameter;
+}
+
+}  // namespace
+
+std::string critical_text(const CriticalValue& critical) {
+  const std::string unit = limit_unit(critical.parameter);
+  if (unit == "factor")
+    return fmt::format("critical {} factor: {:.6g}", in_words(critical.parameter), critical.value);
+  return fmt::format("critical {}: {:.6g}{}{}", in_words(critical.parameter), critical.value,
+                     unit.empty() ? "" : " ", unit);
+}
+
 std::string phrase(const std::string& parameter, double value) {
-  const std::string unit = limit_unit(parameter);
-  if (unit == "factor") {
-    std::string name = parameter;
-    std::replace(name.begin(), name.end(), '_', ' ');
-    return fmt::format("a {} factor of {:.5g}", name, value);
-  }
-  return fmt::format("a{} {} of {:.5g}{}{}", parameter.starts_with('a') ? "n" : "", parameter, value,
+  const std::string unit = limit_unit(parameter), name = in_words(parameter);
+  if (unit == "factor") return fmt::format("a {} factor of {:.5g}", name, value);
+  return fmt::format("a{} {} of {:.5g}{}{}", name.starts_with('a') ? "n" : "", name, value,
                      unit.empty() ? "" : " ", unit);
 }
 

@@ -126,6 +126,8 @@ struct ForceRange {
   RangeEnd min, max;
   std::optional<double>
       chosen;  ///< in the state that the compliances choose (static analysis); absent without one
+  /// Blocks of the joint whose normal force it is, the smaller first.
+  std::optional<std::pair<int, int>> joint = std::nullopt;
 };
 
 /// The smallest horizontal acceleration, over equally spaced directions, that makes a structure move under the
@@ -137,8 +139,11 @@ struct Robustness {
   double azimuth_deg = 0.0;     ///< direction of the acceleration of the blocks, from x towards y
 };
 
-/// Unit of the parameter of a limit analysis: "degrees", "g", "factor", or "" for friction.
+/// Unit of the parameter of a limit analysis: "degrees", "g", "Pa", "times the weight", "factor", or "" for friction.
 std::string limit_unit(const std::string& parameter);
+
+/// "critical friction: 0.08465", "critical tilt: 6.9873 degrees".
+std::string critical_text(const CriticalValue& critical);
 
 /// A value of the parameter with its name and unit: "a tilt of 6.9873 degrees".
 std::string phrase(const std::string& parameter, double value);

@@ -39,6 +39,12 @@ bool changes_joints(LimitSearch::Parameter parameter) {
   return parameter == friction || parameter == thickness || parameter == joint_extent;
 }
 
+double bracket_width(const Analysis& analysis) {
+  if (analysis.limit.relative_width) return *analysis.limit.relative_width;
+  if (!uses_direct_limit(analysis)) return 1e-3;
+  return changes_joints(analysis.limit.parameter) ? 1e-4 : 1e-6;
+}
+
 double num_equilibria(const Analysis& analysis, int num_rings) {
   switch (analysis.type) {
     case AnalysisType::static_:
@@ -50,10 +56,10 @@ double num_equilibria(const Analysis& analysis, int num_rings) {
       return 1.0 + 8.0 * static_cast<double>(analysis.range.quantities.size());
     case AnalysisType::limit: {
       const LimitSearch& limit = analysis.limit;
-      // A conic programme takes the time of about four static solves; three for loads, eight for joints.
-      if (uses_direct_limit(analysis)) return changes_joints(limit.parameter) ? 32.0 : 12.0;
+      // A conic programme takes the time of about four static solves; three for loads, five for joints.
+      if (uses_direct_limit(analysis)) return changes_joints(limit.parameter) ? 20.0 : 12.0;
       const double widest = std::max(std::abs(limit.low), std::abs(limit.high));
-      const double halvings = std::log2((limit.high - limit.low) / (widest * limit.relative_width));
+      const double halvings = std::log2((limit.high - limit.low) / (widest * bracket_width(analysis)));
       return 2.0 + std::ceil(std::max(0.0, halvings));
     }
   }

@@ -11,8 +11,10 @@ StaticOptions static_options(const Analysis& analysis);
 
 /// True if a limit analysis computes its critical value by conic programmes instead of bisection.
 bool uses_direct_limit(const Analysis& analysis);
-/// The parameter changes what the joints can bear, not the loads.
+/// The parameter changes what the joints can bear, not the loads: its direct search takes several conic programmes.
 bool changes_joints(LimitSearch::Parameter parameter);
+/// The relative width of the final bracket of a limit analysis, given or by default.
+double bracket_width(const Analysis& analysis);
 
 /// Static solves of the whole model in one analysis, on average. A limit analysis by bisection takes one for each end of
 /// the bracket and one per halving; a construction takes one per ring, of half the model on average.

@@ -8,6 +8,7 @@
 #include "assembly/base/process.hpp"
 #include "assembly/case/limit_parameter.hpp"
 #include "assembly/model/thickness.hpp"
+#include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/direct_limit.hpp"
 #include "solver/analysis/mechanism.hpp"
 #include "solver/analysis/record.hpp"
@@ -16,7 +17,6 @@
 namespace cupola {
 namespace {
 
-constexpr double kWidth = 1e-5;  // relative; loads reach 1e-7 unless the structure is very slender
 const char* const kDirectHistory = "value,admissible,pull,iterations";
 
 double degrees(double tangent) {
@@ -25,7 +25,8 @@ double degrees(double tangent) {
 
 /// The search of a tilt in its tangent, with all loads over its cosine: weights are then linear in it, and a
 /// factor on all loads changes no limit.
-DirectLimit limit_of_tilt(const SceneAt& scene_at, double low, double high, const ReportTrial& report) {
+DirectLimit limit_of_tilt(const SceneAt& scene_at, double low, double high, double width,
+                          const ReportTrial& report) {
   const auto tangent = [](double angle) {
     constexpr double kSteepest = 89.0;  // degrees
     return std::tan(std::clamp(angle, -kSteepest, kSteepest) * std::numbers::pi / 180.0);
@@ -39,7 +40,7 @@ DirectLimit limit_of_tilt(const SceneAt& scene_at, double low, double high, cons
     trial.value = degrees(trial.value);
     report(trial);
   };
-  DirectLimit limit = limit_of_loads(at_tangent, tangent(low), tangent(high), kWidth, in_degrees);
+  DirectLimit limit = limit_of_loads(at_tangent, tangent(low), tangent(high), width, in_degrees);
   if (!limit.found) return limit;
   limit.gamma /= std::hypot(1.0, limit.admissible);
   limit.admissible = degrees(limit.admissible);
@@ -49,6 +50,7 @@ DirectLimit limit_of_tilt(const SceneAt& scene_at, double low, double high, cons
 
 DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
   const LimitSearch& limit = scene.analysis.limit;
+  const double width = bracket_width(scene.analysis);
   const auto scene_at = [&](double value) {
     auto at = limit.parameter == LimitSearch::Parameter::thickness
                   ? std::make_shared<const Assembly>(with_thickness(assembly, value))
@@ -68,22 +70,25 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
   using Parameter = LimitSearch::Parameter;
   switch (limit.parameter) {
     case Parameter::tilt:
-      return limit_of_tilt(scene_at, limit.low, limit.high, report);
+      return limit_of_tilt(scene_at, limit.low, limit.high, width, report);
     case Parameter::load:
     case Parameter::acceleration:
-      return limit_of_loads(scene_at, limit.low, limit.high, kWidth, report);
+    case Parameter::lantern:
+      return limit_of_loads(scene_at, limit.low, limit.high, width, report);
     case Parameter::friction:
     case Parameter::thickness:
     case Parameter::joint_extent:
-      return limit_of_joints(scene_at, limit.low, limit.high, kWidth, limit.parameter == Parameter::friction,
+      return limit_of_joints(scene_at, limit.low, limit.high, width, limit.parameter == Parameter::friction,
                              report);
+    case Parameter::peak_stress:
+      return least_peak_stress(scene, scene_at(0.0), report);
     case Parameter::spread:
       break;  // follows displacements: uses_direct_limit() is false
   }
   throw std::logic_error("a direct limit analysis of a spread");
 }
 
-/// Writes the admissible state and the mechanism as frames. Returns a description of the mechanism.
+/// Writes the admissible state and the mechanism as frames. Returns a description of the mechanism: "; " and a clause.
 std::string write_ends(const DirectLimit& limit, const AnalysisSinks& sinks, Summary* summary) {
   const RigidScene& stable = limit.at_admissible;
   const Frame frame = admissible_frame(stable, limit.gamma, stable.start.time);
@@ -91,13 +96,25 @@ std::string write_ends(const DirectLimit& limit, const AnalysisSinks& sinks, Sum
   summarize_frame(frame, stable.model, summary);
   summarize_balance(balance_of(stable, limit.gamma), summary);
 
+  if (limit.mechanism.size() == 0) return "";
   const RigidScene& moving = limit.at_moving;
   const Mechanism mechanism =
       find_mechanism(moving.model, moving.start, moving.contacts, moving.problem.contacts, limit.mechanism);
   if (moving.contacts.points.size() == stable.contacts.points.size())
     write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism,
                     frame.contacts.force, frame.contacts.law_violation, sinks);
-  return describe(mechanism);
+  return "; " + describe(mechanism);
+}
+
+/// The critical value and what proves it from both sides.
+std::string bounds_text(const CriticalValue& critical, const DirectLimit& limit, bool balanced) {
+  const std::string state =
+      fmt::format("{} at {:.8g}", balanced ? "an admissible state" : "forces that do not balance the loads",
+                  limit.admissible);
+  const std::string other =
+      fmt::format("{} {:.8g}", limit.mechanism.size() > 0 ? "a mechanism at" : "none below", limit.moving);
+  return fmt::format("{}; {}, {} (relative width {:.1e}){}", critical_text(critical), state, other,
+                     limit.relative_width(), limit.message);
 }
 
 /// Coulomb's law admits the same forces but does not let every such state stand.
@@ -111,34 +128,33 @@ std::string bound_for_coulomb(const DirectLimit& limit) {
 std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assembly,
                                         const AnalysisSinks& sinks) {
   const std::string name = to_string(scene.analysis.limit.parameter);
-  const double started = wall_seconds();
+  const double started = wall_seconds(), asked = bracket_width(scene.analysis);
   sinks.history(kDirectHistory);
   const DirectLimit limit = search(scene, assembly, sinks);
 
   Summary summary;
   summary.steps = limit.trials;
   summary.iterations = limit.iterations;
-  summary.accuracy = {"critical value", "width of its bracket, relative to the middle", kWidth};
-  summary.certified_force_error.bounds = "no equilibrium was found";
-  summary.forces_unique = {false, "no equilibrium was found"};
-  summary.status = Status::unconverged;
+  summary.accuracy = {"critical value", "width of its bracket, relative to the middle", asked};
+  const bool state = limit.gamma.size() > 0;
+  summary.certified_force_error.bounds =
+      state ? "the forces at a limit are one of the admissible states" : "no equilibrium was found";
+  summary.forces_unique = {false,
+                           state ? "they are one of the admissible states" : "no equilibrium was found"};
+  summary.status = limit.unlimited   ? Status::stable
+                   : limit.no_state ? Status::moving
+                                    : Status::unconverged;
   summary.message = name + ": " + limit.message;
+  if (limit.unlimited) write_ends(limit, sinks, &summary);
   if (limit.found) {
-    summary.certified_force_error.bounds = "the forces at a limit are one of the admissible states";
-    summary.forces_unique = {false, "they are one of the admissible states at the critical value"};
     const std::string mechanism = write_ends(limit, sinks, &summary);
     const double width = limit.relative_width();
     summary.accuracy.reached = summary.accuracy.worst_over_run = width;
     // Recomputed from points and world forces: what the solver calls admissible must balance.
     const bool balanced = summary.equilibrium_residual.value() <= kOutcomeTolerance;
-    if (width <= kWidth && balanced) summary.status = Status::stable;
+    if (width <= asked && balanced) summary.status = Status::stable;
     summary.critical = CriticalValue{name, limit.middle(), limit.admissible, limit.moving};
-    const std::string unit = limit_unit(name);
-    summary.message = fmt::format("{}{}: {} at {:.8g}, a mechanism at {:.8g} (relative width {:.1e}){}; {}",
-                                  name, unit.empty() ? "" : " (" + unit + ")",
-                                  balanced ? "an admissible state" : "forces that do not balance the loads",
-                                  limit.admissible, limit.moving, width, limit.message, mechanism) +
-                      bound_for_coulomb(limit);
+    summary.message = bounds_text(*summary.critical, limit, balanced) + mechanism + bound_for_coulomb(limit);
   }
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;

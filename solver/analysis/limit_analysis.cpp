@@ -85,7 +85,7 @@ bool LimitRun::keep(double value, Probe probe) {
 
 Bracket LimitRun::search_value() {
   const LimitSearch& limit = scene.analysis.limit;
-  return bisect(limit.low, limit.high, {limit.relative_width, 0.0},
+  return bisect(limit.low, limit.high, {bracket_width(scene.analysis), 0.0},
                 [this](double value) -> std::optional<LimitTrial> {
                   Probe probe = probe_at(value);
                   const LimitTrial trial{value, probe.solution.outcome, probe.solution.speed_ratio};
@@ -99,7 +99,7 @@ Bracket LimitRun::follow_spread() {
   const Model model = make_model(case_at(scene, 0.0), assembly);
   SupportPath path(model, detection_options(scene), options);
   return follow(
-      &path, limit.low, limit.high, limit.relative_width,
+      &path, limit.low, limit.high, bracket_width(scene.analysis),
       [&](const LimitTrial& trial, const StaticSolution& solution) {
         return keep(trial.value, {{}, model, path.start(), path.contacts(), path.memories(), solution});
       });
@@ -149,22 +149,23 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   Summary summary;
   const std::string mechanism = write_frames(run, &summary);
   summary.status = bracket.narrow ? Status::stable : Status::unconverged;
-  const std::string unit = limit_unit(to_string(parameter));
-  summary.message = fmt::format("{}{}: {}{}{}", to_string(parameter), unit.empty() ? "" : " (" + unit + ")",
-                                bracket.message, mechanism.empty() ? "" : "; ", mechanism);
+  if (bracket.found)
+    summary.critical =
+        CriticalValue{to_string(parameter), bracket.middle(), bracket.stable.value, bracket.moving.value};
+  summary.message =
+      fmt::format("{}: {}{}{}", summary.critical ? critical_text(*summary.critical) : to_string(parameter),
+                  bracket.message, mechanism.empty() ? "" : "; ", mechanism);
   if (!bracket.narrow && !run.undecided.empty()) summary.message += "; " + run.undecided;
   summary.steps = run.num_trials;
   summary.iterations = run.iterations;
   summary.accuracy = {"critical value", "width of its bracket, relative to the middle",
-                      scene.analysis.limit.relative_width};
+                      bracket_width(scene.analysis)};
   if (bracket.found) {
-    summary.critical =
-        CriticalValue{to_string(parameter), bracket.middle(), bracket.stable.value, bracket.moving.value};
     const double width = std::abs(bracket.stable.value - bracket.moving.value) / std::abs(bracket.middle());
     summary.accuracy.reached = summary.accuracy.worst_over_run = width;
     if (!bracket.narrow)
       summary.message += fmt::format("; bracket width {:.1e} of the middle > {:.1e} requested", width,
-                                     scene.analysis.limit.relative_width);
+                                     bracket_width(scene.analysis));
   }
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;

@@ -26,10 +26,8 @@ DirectionLimit limit_towards(const Case& scene, const RigidScene& rest, double a
   pushed.analysis.limit.parameter = LimitSearch::Parameter::acceleration;
   pushed.analysis.limit.direction = {std::cos(azimuth), std::sin(azimuth), 0.0};
   const Model model = make_model(case_at(pushed, 1.0), *rest.assembly);
-  ConicProblem problem = rest.problem;
-  problem.load_columns = applied_forces(model, rest.start, rest.start.time) - problem.load;
-  problem.multiplier_cost = VecX::Constant(1, -1.0);
-  problem.row_multipliers = MatX(1, 0);
+  const ConicProblem problem = with_multiplier(
+      rest.problem, applied_forces(model, rest.start, rest.start.time) - rest.problem.load, -1.0);
   const ConicSolution solution = solve_conic(problem);
   if (solution.outcome != ConicOutcome::optimal) return {};
   const ConicBounds bounds = conic_bounds(problem, solution);

@@ -32,6 +32,9 @@ struct ConicProblem {
   VecX row_values;          ///< r (nq)
 };
 
+/// The problem without its objective, with one multiplier of a further load and its cost.
+ConicProblem with_multiplier(ConicProblem problem, const VecX& load, double cost);
+
 /// How solve_conic() ended.
 enum class ConicOutcome {
   optimal,     ///< primal and dual values agree to the tolerance
@@ -47,6 +50,9 @@ struct ConicOptions {
   double tolerance = 1e-9;  ///< largest error of an `optimal` solution; see solve_conic()
   double target =
       1e-12;  ///< error at which the iteration stops; beyond `tolerance` as far as rounding allows
+  /// The iteration also stops at this error over the scaled objective (at most 1): for estimates of a value that is
+  /// refined later. 0: never.
+  double relative_target = 0.0;
   int max_iterations = 100;
 };
 

@@ -55,6 +55,7 @@ ConicOutcome iterate(const ConicOptions& options, int num_contacts, Embedding* x
   Embedding::Point best = x->point();
   int since_best = 0;
   double highest = -std::numeric_limits<double>::infinity();
+  double enough = options.target;
   while (true) {
     throw_if_interrupted();
     const EmbeddingResiduals r = x->residuals();
@@ -71,13 +72,14 @@ ConicOutcome iterate(const ConicOptions& options, int num_contacts, Embedding* x
       best = x->point();
       since_best = 0;
     }
-    if (least <= options.target || (least <= options.tolerance && since_best >= kPatience)) break;
+    enough = std::max(options.target, options.relative_target * std::min(1.0, std::abs(r.primal) / x->tau()));
+    if (least <= enough || (least <= options.tolerance && since_best >= kPatience)) break;
     if (!std::isfinite(error) || *iterations >= options.max_iterations) break;
     ++*iterations;
     if (!advance(r, x)) break;
   }
   x->move_to(best);
-  return least <= options.tolerance ? ConicOutcome::optimal : ConicOutcome::stalled;
+  return least <= std::max(options.tolerance, enough) ? ConicOutcome::optimal : ConicOutcome::stalled;
 }
 
 }  // namespace

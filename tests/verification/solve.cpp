@@ -37,7 +37,7 @@ double critical_value(const Case& scene, const Assembly& assembly) {
   const Summary summary = run_limit(scene, assembly, {}).value();
   // A trial that does not converge may leave a bracket somewhat wider than requested.
   if (!summary.critical || std::abs(summary.critical->stable - summary.critical->moving) >
-                               2.0 * scene.analysis.limit.relative_width * std::abs(summary.critical->value))
+                               2.0 * summary.accuracy.asked * std::abs(summary.critical->value))
     throw std::runtime_error(summary.message);
   return summary.critical->value;
 }

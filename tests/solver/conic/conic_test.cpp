@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/conic/conic_bounds.hpp"
+#include "solver/conic/opening_motion.hpp"
 #include "solver/conic/solve_conic.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
@@ -100,6 +101,34 @@ TEST(Conic, HorizontalLoadSlidesOrTipsABlock) {
   }
 }
 
+/// Block of 1 x 1 x 0.2 m on level ground, on 8 x 8 points of which 4 would do.
+ContactProblem block_on_many_points(const Joint& joint) {
+  scenes::Scene scene(0.01, {0, 0, -scenes::kGravity});
+  const int block = scene.add_box({0, 0, 0.1}, {1, 1, 0.2}, 2000.0);
+  for (int i = 0; i < 64; ++i)
+    scene.add_contact(scenes::kGround, block, {(i / 8) / 7.0 - 0.5, (i % 8) / 7.0 - 0.5, 0.0}, {0, 0, 1},
+                      joint);
+  return scene.problem();
+}
+
+TEST(Conic, RedundantPointsChangeNothing) {
+  for (const double mu : {0.3, 10.0}) {
+    ConicProblem problem = conic(block_on_many_points({.mu = mu}));
+    maximise_load(&problem, sideways(problem));
+    const ConicSolution solution = solve_conic(problem);
+    ASSERT_EQ(solution.outcome, ConicOutcome::optimal) << mu;
+    EXPECT_NEAR(solution.multipliers[0], std::min(mu, 5.0), kAgrees * std::min(mu, 5.0)) << mu;
+  }
+  // The half at x < 0 carries the least where it presses at its edge, 1/2 from the middle, and the other half at its
+  // nearest points, 1/14 from it.
+  ConicProblem problem = conic(block_on_many_points({.mu = 0.3}));
+  for (int i = 0; i < 32; ++i) problem.cost[3 * i] = 1.0;
+  const auto [least, largest] = range(problem);
+  const double weight = 400.0 * scenes::kGravity;
+  EXPECT_NEAR(least, weight / 8, kAgrees * weight);
+  EXPECT_NEAR(largest, weight * 7 / 8, kAgrees * weight);
+}
+
 // Slope 0.5 at mu = 0.4. The proof is a motion that no joint resists and that the weight drives.
 TEST(Conic, BlockThatSlidesHasNoAdmissibleState) {
   const ConicProblem problem = conic(scenes::incline(0.5, 0.01, {.mu = 0.4}));
@@ -173,6 +202,37 @@ TEST(Conic, RangeOfARatio) {
   const double a = (1 + x + y) / 4, b = (1 + x - y) / 4, d = (1 - x - y) / 4;
   EXPECT_NEAR(solution.primal, (a - std::min(a, d)) / (b + std::min(a, d)), kAgrees);
   EXPECT_GT(solution.multipliers[0], 0.0);
+}
+
+// 200 cubes, each closed joint a hinge at x = 0.5 m: the loads drive the mechanism at width / height. Bounds to 1e-6 need a
+// mechanism without the rounding of 800 contacts.
+TEST(Conic, OpeningMotionSharpensTheBoundOfASlenderTower) {
+  ConicProblem problem = conic(scenes::stack(std::vector(200, 1000.0), 0.01, {.mu = 2.0}));
+  maximise_load(&problem, sideways(problem));
+  ConicSolution solution = solve_conic(problem);
+  const ConicBounds rough = conic_bounds(problem, solution);
+  ASSERT_TRUE(open_contacts(problem, &solution));
+  const ConicBounds sharp = conic_bounds(problem, solution);
+  const double exact = 1.0 / 200;
+  EXPECT_LE(-sharp.upper, exact * (1 + 1e-12));
+  EXPECT_GE(-sharp.lower, exact * (1 - 1e-12));
+  EXPECT_LE(sharp.upper - sharp.lower, 1e-6 * exact);
+  EXPECT_LE(sharp.upper - sharp.lower, rough.upper - rough.lower);
+}
+
+// A block between two walls can jam: no motion opens both joints.
+TEST(Conic, NoMotionOpensAJammedBlock) {
+  scenes::Scene scene(0.01, {0, 0, -scenes::kGravity});
+  const int block = scene.add_box({0, 0, 0}, {1, 1, 1}, 2000.0);
+  for (const double side : {-1.0, 1.0})
+    scene.add_patch(scenes::kGround, block, {0.5 * side, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {-side, 0, 0},
+                    {.mu = 0.4});
+  ConicProblem problem = conic(scene.problem());
+  maximise_load(&problem, problem.load);
+  ConicSolution solution;
+  solution.v = VecX::Ones(6);
+  EXPECT_FALSE(open_contacts(problem, &solution));
+  EXPECT_EQ(solution.v, VecX::Ones(6));
 }
 
 TEST(Conic, RefusesSizesThatDoNotMatch) {

@@ -1,0 +1,52 @@
+#include "solver/conic/opening_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/base/error.hpp"
+#include "solver/conic/normal_equations.hpp"
+#include "solver/conic/scaled_problem.hpp"
+
+namespace cupola {
+namespace {
+
+/// s_n - mu norm(s_t) of each contact: >= 0 in Y*.
+VecX distance_inside(const ContactProblem& p, const VecX& v) {
+  const VecX s = relative_velocity(p, v);
+  VecX inside(p.num_contacts());
+  for (int i = 0; i < p.num_contacts(); ++i)
+    inside[i] = s[3 * i] - (p.mu[i] > 0.0 ? p.mu[i] * s.segment<2>(3 * i + 1).norm() : 0.0);
+  return inside;
+}
+
+/// Empty if rounding leaves none.
+VecX opening_motion(const ConicProblem& problem) {
+  ScaledConicProblem s = scaled(problem);
+  s.problem.load_columns.resize(Eigen::NoChange, 0);
+  NormalEquations equations(s.problem);
+  if (!equations.factorize(std::vector<Mat3>(s.problem.contacts.num_contacts(), Mat3::Identity()))) return {};
+  VecX open = VecX::Zero(problem.cost.size());
+  open(Eigen::seq(0, Eigen::last, 3)).setOnes();
+  return s.white.to_v(equations.solve(generalized_impulse(s.problem.contacts, open), VecX()).v);
+}
+
+}  // namespace
+
+bool open_contacts(const ConicProblem& problem, ConicSolution* solution) {
+  CUPOLA_ASSERT(problem.load_columns.cols() == 1 && problem.rows.cols() == 0 && problem.cost.isZero(0.0));
+  constexpr double kMargin = 2.0;  // covers the rounding of the sum
+  const VecX opening = opening_motion(problem);
+  if (opening.size() == 0) return false;
+  const VecX gained = distance_inside(problem.contacts, opening);
+  if (!(gained.minCoeff() > 0.0)) return false;
+  const VecX inside = distance_inside(problem.contacts, solution->v);
+  const double share = kMargin * std::max(0.0, (-inside.cwiseQuotient(gained)).maxCoeff());
+  const VecX v = solution->v + share * opening;
+  const double power = problem.load_columns.col(0).dot(v);
+  if (power * problem.multiplier_cost[0] >= 0.0) return false;
+  solution->v = v * (-problem.multiplier_cost[0] / power);
+  solution->dual = problem.load.dot(solution->v);
+  return true;
+}
+
+}  // namespace cupola
