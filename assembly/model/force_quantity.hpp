@@ -72,7 +72,8 @@ struct TieForce {
   int tie = 0;
 };
 
-/// The normal force of every joint whose centroid lies within the first of a number of equal sectors about the axis.
+/// The normal force of every joint whose centroid lies within the first of a number of equal sectors about the axis. In an
+/// analysis of one sector (`analysis.cyclic_sectors`): the mean over the joint and its images about the axis.
 struct AllJoints {
   int sectors = 1;
 };

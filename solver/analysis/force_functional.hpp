@@ -2,9 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "assembly/model/force_quantity.hpp"
+#include "solver/analysis/joint_geometry.hpp"
 #include "solver/dynamics/equilibrium.hpp"
 
 namespace cupola {
@@ -24,15 +25,36 @@ struct ForceFunctional {
 struct RangeObjective {
   std::string quantity, unit;  ///< as in ForceRange
   ForceFunctional value;
-  std::optional<ForceFunctional> over;
+  std::optional<ForceFunctional> over = std::nullopt;
+  std::optional<std::pair<int, int>> joint = std::nullopt;  ///< as in ForceRange
+  /// The mean over the images of the joint about the axis, in an analysis of one sector: the value of all states that
+  /// repeat.
+  bool mean_of_images = false;
 
   double operator()(const JointForces& forces) const;
 };
 
-/// The objectives that a quantity stands for: one, or one per joint. Axes, centroids and areas are those of the
-/// assembly as built. Throws InputError for a quantity that the model does not have: the thrust of a wall, the joint of
-/// blocks that do not touch, the reaction of a block that rests on no support.
-std::vector<RangeObjective> range_objectives(const ForceQuantity& quantity, const Case& scene,
-                                             const Model& model, const ContactSet& contacts);
+/// The forces of a model from which quantities are made, as built.
+class ForceScene {
+ public:
+  ForceScene(const Case& of_case, const Model& of_model, const ContactSet& detected)
+      : scene(of_case),
+        model(of_model),
+        assembly(*of_model.assembly),
+        contacts(detected),
+        joints(of_case, *of_model.assembly, detected) {}
+
+  bool fixed(int block) const { return assembly.blocks[block].fixed; }
+  std::string label(int block) const;
+  ForceFunctional zero() const;
+  /// Adds direction . (force of the pair on `block`).
+  void add(const BlockPair& pair, int block, const Vec3& direction, ForceFunctional* f) const;
+
+  const Case& scene;
+  const Model& model;
+  const Assembly& assembly;
+  const ContactSet& contacts;
+  const JointGeometry joints;
+};
 
 }  // namespace cupola

@@ -5,12 +5,13 @@
 #include <fmt/format.h>
 
 #include "assembly/base/process.hpp"
-#include "assembly/files/number_text.hpp"
 #include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/mechanism.hpp"
 #include "solver/analysis/range_end.hpp"
+#include "solver/analysis/range_objectives.hpp"
+#include "solver/analysis/range_record.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/conic/solve_conic.hpp"
 #include "solver/dynamics/scene_options.hpp"
@@ -20,8 +21,6 @@ namespace cupola {
 namespace {
 
 constexpr double kGap = 1e-6;  // largest relative distance of an end from its bound
-const char* const kRangeTable =
-    "quantity,unit,min,max,min_bound,max_bound,chosen,min_outcome,max_outcome,min_frame,max_frame\n";
 
 /// The state that the compliances choose, with the contacts of a static analysis.
 struct ChosenState {
@@ -60,14 +59,17 @@ std::string text_of(const RangeEnd& end) {
 /// Both ends of every objective; frames are written in their order.
 class RangeSearchRun {
  public:
-  RangeSearchRun(const RigidScene& scene, const std::vector<RangeObjective>& objectives, bool states,
+  RangeSearchRun(const RigidScene& scene, const std::vector<RangeObjective>& objectives, const Case& of_case,
                  const AnalysisSinks& sinks)
-      : scene_(scene), objectives_(objectives), states_(states), sinks_(sinks) {}
+      : scene_(scene), objectives_(objectives), states_(of_case.analysis.range.states), sinks_(sinks) {
+    if (const int sectors = of_case.analysis.cyclic_sectors; sectors > 1) sector_.emplace(scene, sectors);
+  }
 
   /// Solves all ends, as many at once as there are threads. False if the user wants to stop.
   [[nodiscard]] bool run(std::vector<ForceRange>* ranges);
   int solves() const { return solves_; }
   int iterations() const { return iterations_; }
+  int of_sector() const { return of_sector_; }  ///< ranges for which one sector was solved
 
  private:
   void write_frame(RangeSolution* solution);
@@ -76,8 +78,9 @@ class RangeSearchRun {
   const std::vector<RangeObjective>& objectives_;
   const bool states_;
   const AnalysisSinks& sinks_;
+  std::optional<SectorProblem> sector_;
   int frames_ = 1;  // frame 0 is written before
-  int solves_ = 0, iterations_ = 0;
+  int solves_ = 0, iterations_ = 0, of_sector_ = 0;
 };
 
 void RangeSearchRun::write_frame(RangeSolution* solution) {
@@ -95,11 +98,13 @@ bool RangeSearchRun::run(std::vector<ForceRange>* ranges) {
     const int size = std::min(batch, count - first);
     std::vector<RangeSolution> found(static_cast<size_t>(2 * size));
     share_loop(kWork, 2 * size, [&](int i) {
-      found[i] = range_end(scene_, objectives_[first + i / 2], i % 2 == 0 ? 1.0 : -1.0);
+      found[i] = range_end(scene_, objectives_[first + i / 2], i % 2 == 0 ? 1.0 : -1.0,
+                           sector_ ? &*sector_ : nullptr);
     });
     for (int i = 0; i < size; ++i) {
       const RangeObjective& objective = objectives_[first + i];
-      ForceRange range{objective.quantity, objective.unit, {}, {}, {}};
+      ForceRange range{objective.quantity, objective.unit, {}, {}, {}, objective.joint};
+      of_sector_ += found[2 * i].of_sector ? 1 : 0;
       for (RangeSolution* end : {&found[2 * i], &found[2 * i + 1]}) {
         write_frame(end);
         ++solves_;
@@ -126,40 +131,6 @@ void add_chosen(const ChosenState& chosen, const Case& scene, const Model& model
     const double value = objectives[i](chosen.solution.forces);
     if (std::isfinite(value)) (*ranges)[i].chosen = value;
   }
-}
-
-std::string ranges_csv(const std::vector<ForceRange>& ranges) {
-  const auto number = [](const auto& value) {
-    return value ? fmt::format("{:.17g}", *value) : std::string();
-  };
-  const auto frame = [](const std::optional<int>& value) { return value ? std::to_string(*value) : ""; };
-  std::string csv = kRangeTable;
-  for (const ForceRange& r : ranges)
-    csv += fmt::format("\"{}\",{},{},{},{},{},{},{},{},{},{}\n", r.quantity, r.unit, number(r.min.value),
-                       number(r.max.value), number(r.min.bound), number(r.max.bound), number(r.chosen),
-                       to_string(r.min.outcome), to_string(r.max.outcome), frame(r.min.frame),
-                       frame(r.max.frame));
-  return csv;
-}
-
-/// The sentence that leads: the first quantity, and what was not found.
-std::string describe(const std::vector<ForceRange>& ranges) {
-  const ForceRange& r = ranges.front();
-  const auto end = [&r](const RangeEnd& e) {
-    if (e.outcome == RangeOutcome::unbounded) return std::string("without limit");
-    if (!e.value) return std::string("unknown");
-    return r.unit == "N" ? readable_force(*e.value) : fmt::format("{:.5g} {}", *e.value, r.unit);
-  };
-  std::string text =
-      fmt::format("an admissible state exists, which says nothing about the history; {}: {} ... {}",
-                  r.quantity, end(r.min), end(r.max));
-  if (r.chosen)
-    text += fmt::format(", chosen by the compliances {}", end({RangeOutcome::bounded, r.chosen, {}, {}}));
-  const auto unknown = std::count_if(ranges.begin(), ranges.end(), [](const ForceRange& range) {
-    return range.min.outcome == RangeOutcome::unconverged || range.max.outcome == RangeOutcome::unconverged;
-  });
-  if (unknown > 0) text += fmt::format("; {} of {} ranges are incomplete", unknown, ranges.size());
-  return text;
 }
 
 /// Frame 0: the chosen state, or any admissible one. False if there is none; the mechanism is then the frame.
@@ -206,15 +177,14 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
   summary.forces_unique = {false, "they are one of the admissible states"};
   const ChosenState chosen = chosen_state(scene, rigid, sinks);
   if (write_start(rigid, chosen, sinks, &summary)) {
-    RangeSearchRun run(rigid, objectives, scene.analysis.range.states, sinks);
+    RangeSearchRun run(rigid, objectives, scene, sinks);
     if (!run.run(&summary.ranges)) return std::nullopt;
     add_chosen(chosen, scene, rigid.model, &summary.ranges);
     summary.steps = run.solves();
     summary.iterations = run.iterations();
     double gap = 0.0;
     bool complete = true;
-    for (size_t i = 0; i < summary.ranges.size(); ++i) {
-      const ForceRange& range = summary.ranges[i];
+    for (const ForceRange& range : summary.ranges) {
       const double small = range.unit == "N"   ? rigid.model.block_weight
                            : range.unit == "m" ? smallest_block_size(assembly)
                                                : 1.0;
@@ -225,6 +195,10 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
     summary.accuracy.reached = summary.accuracy.worst_over_run = gap;
     summary.status = complete && gap <= kGap ? Status::stable : Status::unconverged;
     summary.message = describe(summary.ranges);
+    if (const int sectors = scene.analysis.cyclic_sectors; sectors > 1)
+      summary.message +=
+          fmt::format("; one of {} sectors was solved for {} of {} quantities, those that repeat", sectors,
+                      run.of_sector(), summary.ranges.size());
     sinks.table("ranges.csv", ranges_csv(summary.ranges));
   }
   summary.solve_time_seconds = wall_seconds() - started;

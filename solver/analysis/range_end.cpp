@@ -9,15 +9,35 @@
 namespace cupola {
 namespace {
 
+/// An objective in the unknowns of a conic problem that has no other objective.
+struct ConicObjective {
+  const ConicProblem* problem = nullptr;
+  VecX value;
+  std::optional<VecX> over;
+  bool of_sector = false;
+};
+
+/// In the forces of a sector where one is given and the objective repeats, else in those of the whole model.
+ConicObjective objective_in(const RigidScene& scene, const RangeObjective& objective,
+                            const SectorProblem* sector) {
+  ConicObjective whole{&scene.problem, objective.value.coefficients(scene.contacts), {}};
+  if (objective.over) whole.over = objective.over->coefficients(scene.contacts);
+  if (sector == nullptr) return whole;
+  const std::optional<VecX> value = sector->coefficients(whole.value, objective.mean_of_images);
+  const std::optional<VecX> over = whole.over ? sector->coefficients(*whole.over, false) : std::nullopt;
+  if (!value || over.has_value() != whole.over.has_value()) return whole;
+  return {&sector->problem(), *value, over, true};
+}
+
 /// The conic problem whose least value is `towards` times the end.
-ConicProblem problem_of(const RigidScene& scene, const RangeObjective& objective, double towards) {
-  ConicProblem problem = scene.problem;
-  problem.cost = towards * objective.value.coefficients(scene.contacts);
+ConicProblem problem_of(const ConicObjective& objective, double towards) {
+  ConicProblem problem = *objective.problem;
+  problem.cost = towards * objective.value;
   if (!objective.over) return problem;
   problem.load_columns = problem.load;
   problem.load.setZero();
   problem.multiplier_cost = VecX::Zero(1);
-  problem.rows = objective.over->coefficients(scene.contacts);
+  problem.rows = *objective.over;
   problem.row_multipliers = MatX::Zero(1, 1);
   problem.row_values = VecX::Ones(1);
   return problem;
@@ -39,9 +59,12 @@ double largest_normal_force(const VecX& gamma) {
 
 }  // namespace
 
-RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective, double towards) {
+RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective, double towards,
+                        const SectorProblem* sector) {
   RangeSolution found;
-  ConicProblem problem = problem_of(scene, objective, towards);
+  const ConicObjective linear = objective_in(scene, objective, sector);
+  found.of_sector = linear.of_sector;
+  ConicProblem problem = problem_of(linear, towards);
   ConicSolution solution = solve_conic(problem);
   found.iterations = solution.iterations;
   // The multiplier of the loads is free in the conic problem. Where it turns out negative, loads only hinder.
@@ -50,29 +73,25 @@ RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective
     solution = solve_conic(problem);
     found.iterations += solution.iterations;
   }
-  found.gamma = std::move(solution.gamma);
-  switch (solution.outcome) {
-    case ConicOutcome::unbounded:
-      found.end.outcome = RangeOutcome::unbounded;
-      found.gamma *= scene.model.block_weight / largest_normal_force(found.gamma);
-      return found;
-    case ConicOutcome::infeasible:  // of a ratio: its denominator is zero in every state
-      return found;
-    case ConicOutcome::optimal:
-    case ConicOutcome::stalled:
-      break;
+  if (solution.outcome == ConicOutcome::optimal || solution.outcome == ConicOutcome::stalled) {
+    const ConicBounds bounds = conic_bounds(problem, solution);
+    found.end.value = towards * bounds.upper + objective.value.constant;
+    found.end.bound = towards * std::min(bounds.lower, bounds.upper) + objective.value.constant;
   }
-  solution.gamma = found.gamma;
-  const ConicBounds bounds = conic_bounds(problem, solution);
-  found.end.value = towards * bounds.upper + objective.value.constant;
-  found.end.bound = towards * std::min(bounds.lower, bounds.upper) + objective.value.constant;
   if (solution.outcome == ConicOutcome::optimal) {
     found.end.outcome = RangeOutcome::bounded;
     // What its own bound does not tell from zero is zero.
     if (std::abs(*found.end.value) <= std::abs(*found.end.value - *found.end.bound)) found.end.value = 0.0;
   }
-  if (objective.over && solution.multipliers.size() > 0 && solution.multipliers[0] > 0.0)
+  found.gamma = linear.of_sector ? sector->whole_forces(solution.gamma) : std::move(solution.gamma);
+  // Infeasible: a ratio whose denominator is zero in every state.
+  if (solution.outcome == ConicOutcome::unbounded) {
+    found.end.outcome = RangeOutcome::unbounded;
+    found.gamma *= scene.model.block_weight / largest_normal_force(found.gamma);
+  } else if (solution.outcome != ConicOutcome::infeasible && objective.over &&
+             solution.multipliers.size() > 0 && solution.multipliers[0] > 0.0) {
     found.gamma /= solution.multipliers[0];
+  }
   return found;
 }
 
