@@ -114,6 +114,7 @@ Json to_value(const ForceRange& range) {
                {"unit", range.unit},
                {"min", to_value(range.min)},
                {"max", to_value(range.max)}};
+  if (range.joint) json["joint"] = {range.joint->first, range.joint->second};
   if (range.chosen) json["chosen"] = *range.chosen;
   return json;
 }
@@ -191,6 +192,7 @@ void from_value(const Json& json, ForceRange* range) {
   from_value(json.at("unit"), &range->unit);
   from_value(json.at("min"), &range->min);
   from_value(json.at("max"), &range->max);
+  if (json.contains("joint")) json["joint"].get_to(range->joint.emplace());
   read_optional(json, "chosen", &range->chosen);
 }
 

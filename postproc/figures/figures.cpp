@@ -113,7 +113,11 @@ Figure history_figure(const Evaluation& e, const std::vector<HistoryRow>& histor
 std::vector<Figure> result_figures(const Evaluation& e, const std::vector<HistoryRow>& history,
                                    const std::vector<Shot>& shots) {
   std::vector<Figure> figures;
-  if (!e.summary.ranges.empty()) figures.push_back(range_figure(e));
+  const std::vector<ForceRange>& ranges = e.summary.ranges;
+  if (!ranges.empty()) figures.push_back(range_figure(e));
+  if (e.shell.num_rings() > 0 &&
+      std::any_of(ranges.begin(), ranges.end(), [](const ForceRange& r) { return r.joint.has_value(); }))
+    figures.push_back(certainty_map(e));
   if (!shots.empty()) figures.push_back(motion_figure(e, shots));
   if (history.size() > 1) figures.push_back(history_figure(e, history));
   if (!at_rest(e.summary)) return figures;

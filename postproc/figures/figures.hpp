@@ -27,6 +27,10 @@ struct Shot {
 /// ratios have axes of their own, forces one for each of N, kN and MN.
 Figure range_figure(const Evaluation& evaluation);
 
+/// The joints of the unrolled shell, coloured by how uncertain their normal force is: the width of its range over its mean,
+/// of a range analysis of single joints. In gnuplot's data: $joints has one segment per joint and its value.
+Figure certainty_map(const Evaluation& evaluation);
+
 /// Profile with thrust line, envelope and lines of action, and thin lines of least and greatest thrust where the
 /// meridian has them; r, v, couple length and distance to the nearer
 /// face beside it (paper, figures 7, 8, 10, 13).

@@ -8,12 +8,27 @@
 
 #include "assembly/files/part_cells.hpp"
 #include "postproc/tables/mesh_parts.hpp"
+#include "postproc/tables/range_values.hpp"
 #include "postproc/tables/result_columns.hpp"
 
 namespace cupola {
 namespace {
 
 using CellType = Mesh::CellType;
+
+/// The array `relative_range` of a range analysis of joints; NaN for joints without a range.
+void add_relative_ranges(const Evaluation& e, Mesh* mesh) {
+  std::map<std::pair<int, int>, double> of_joint;
+  for (const ForceRange& range : e.summary.ranges)
+    if (range.joint) of_joint.emplace(*range.joint, relative_range(range));
+  if (of_joint.empty()) return;
+  MeshDoubles values;
+  for (const JointWrench& joint : e.last.joints.wrenches) {
+    const auto found = of_joint.find(std::minmax({joint.block_a, joint.block_b}));
+    values.push_back(found == of_joint.end() ? std::nan("") : found->second);
+  }
+  mesh->point_data.push_back({"relative_range", 1, std::move(values)});
+}
 
 /// The force that is drawn: on the upper block of a bed joint, on the second block of any other.
 Vec3 drawn_force(const JointWrench& joint) {
@@ -93,6 +108,7 @@ Mesh joints_mesh(const Evaluation& e) {
   for (const JointWrench& joint : joints)
     mesh.add_cell(CellType::vertex, {add_point(&mesh, joint.wrench.point)});
   mesh.point_data = mesh_arrays(joint_columns(), joints, kJointKeys);
+  add_relative_ranges(e, &mesh);
   mesh.field_data = about(e, 0.0);
   return mesh;
 }

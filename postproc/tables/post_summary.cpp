@@ -121,6 +121,8 @@ void from_value(const Json& json, std::vector<ForceRange>* ranges) {
     range.min = end_of(entry, "min");
     range.max = end_of(entry, "max");
     from_value(entry.at("chosen"), &range.chosen);
+    if (const int block_a = entry.at("block_a").get<int>(); block_a >= 0)
+      range.joint = std::pair{block_a, entry.at("block_b").get<int>()};
   }
 }
 

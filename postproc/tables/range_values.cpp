@@ -72,6 +72,15 @@ double size_of(const ForceRange& range) {
   return size;
 }
 
+double relative_range(const ForceRange& range) {
+  for (const RangeEnd* end : {&range.min, &range.max})
+    if (end->outcome == RangeOutcome::unbounded) return std::numeric_limits<double>::infinity();
+  for (const RangeEnd* end : {&range.min, &range.max})
+    if (end->outcome != RangeOutcome::bounded || !end->value) return kNone;
+  const double mean = 0.5 * std::abs(*range.max.value + *range.min.value);
+  return mean > 0.0 ? (*range.max.value - *range.min.value) / mean : kNone;
+}
+
 const ForceRange* range_named(const std::string& quantity, const std::vector<ForceRange>& ranges) {
   const auto found = std::find_if(ranges.begin(), ranges.end(),
                                   [&quantity](const ForceRange& r) { return r.quantity == quantity; });
@@ -87,6 +96,8 @@ std::vector<ForceRange> read_ranges(const CsvFile& csv) {
     range.min = end_in(csv, row, "min");
     range.max = end_in(csv, row, "max");
     range.chosen = number_in(csv, row, "chosen");
+    const auto a = number_in(csv, row, "block_a"), b = number_in(csv, row, "block_b");
+    if (a && b && *a >= 0.0) range.joint = std::pair{static_cast<int>(*a), static_cast<int>(*b)};
   }
   return ranges;
 }

@@ -19,6 +19,10 @@ bool has_chosen(const std::vector<ForceRange>& ranges);
 /// Largest size of the finite values of a range, in its unit; 0 without any.
 double size_of(const ForceRange& range);
 
+/// Width of a range over the magnitude of its mean: 0 for a certain value, 2 for one between 0 and a maximum. Infinite if
+/// unbounded; NaN if an end was not found or both are zero.
+double relative_range(const ForceRange& range);
+
 /// The range of a quantity; null if there is none.
 const ForceRange* range_named(const std::string& quantity, const std::vector<ForceRange>& ranges);
 

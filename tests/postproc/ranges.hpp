@@ -18,7 +18,8 @@ inline std::vector<ForceRange> some_ranges() {
        "N",
        {RangeOutcome::unconverged, 150.0, {}, {}},
        bounded_end(4e3, 4.8e3, 7),
-       {}}};
+       {},
+       std::pair{12, 13}}};
 }
 
 inline Summary range_summary(const Assembly& a) {

@@ -22,8 +22,9 @@ namespace {
 
 /// The head and a first row as cupola-solve writes them.
 constexpr const char* kSolved =
-    "quantity,unit,min,max,min_bound,max_bound,chosen,min_outcome,max_outcome,min_frame,max_frame\n"
-    "thrust,N,12,,11.9,,20,bounded,unbounded,,\n";
+    "quantity,unit,min,max,min_bound,max_bound,chosen,min_outcome,max_outcome,min_frame,max_frame,"
+    "block_a,block_b\n"
+    "thrust,N,12,,11.9,,20,bounded,unbounded,,,,\n";
 
 void expect_equal(const RangeEnd& a, const RangeEnd& b) {
   EXPECT_EQ(a.outcome, b.outcome);
@@ -38,6 +39,7 @@ void expect_equal(const std::vector<ForceRange>& a, const std::vector<ForceRange
     EXPECT_EQ(a[i].quantity, b[i].quantity);
     EXPECT_EQ(a[i].unit, b[i].unit);
     EXPECT_EQ(a[i].chosen, b[i].chosen);
+    EXPECT_EQ(a[i].joint, b[i].joint);
     expect_equal(a[i].min, b[i].min);
     expect_equal(a[i].max, b[i].max);
   }
@@ -64,7 +66,7 @@ TEST(RangeTable, ReadsTheTableOfTheSolver) {
   EXPECT_EQ(greatest(read[0]), std::numeric_limits<double>::infinity());
   EXPECT_THROW(
       read_ranges(parse_csv("quantity,unit,min,max,min_bound,max_bound,chosen,min_outcome,max_outcome,"
-                            "min_frame,max_frame\nthrust,N,1,2,1,2,1,found,bounded,,\n",
+                            "min_frame,max_frame,block_a,block_b\nthrust,N,1,2,1,2,1,found,bounded,,,,\n",
                             "ranges.csv")),
       InputError);
 }
