@@ -73,12 +73,16 @@ RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective
     solution = solve_conic(problem);
     found.iterations += solution.iterations;
   }
-  if (solution.outcome == ConicOutcome::optimal || solution.outcome == ConicOutcome::stalled) {
+  constexpr double kProven =
+      1e-6;  // relative: what a range promises, of a solution that rounding kept from its tolerance
+  bool bounded = solution.outcome == ConicOutcome::optimal;
+  if (bounded || solution.outcome == ConicOutcome::stalled) {
     const ConicBounds bounds = conic_bounds(problem, solution);
+    bounded = bounded || (bounds.imbalance <= kProven && bounds.relative_gap() <= kProven);
     found.end.value = towards * bounds.upper + objective.value.constant;
     found.end.bound = towards * std::min(bounds.lower, bounds.upper) + objective.value.constant;
   }
-  if (solution.outcome == ConicOutcome::optimal) {
+  if (bounded) {
     found.end.outcome = RangeOutcome::bounded;
     // What its own bound does not tell from zero is zero.
     if (std::abs(*found.end.value) <= std::abs(*found.end.value - *found.end.bound)) found.end.value = 0.0;
