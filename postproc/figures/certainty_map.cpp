@@ -99,7 +99,7 @@ Figure certainty_map(const Evaluation& e) {
   f.width = 1100;
   f.height = 640;
   std::string plots =
-      fmt::format("$outlines using 1:2:3:4:5:6 with boxxyerror fs empty border lc rgb '{}' notitle", kGrey);
+      fmt::format("$outlines using 1:2:3:4:5:6 with boxxyerror fs empty lc rgb '{}' notitle", kGrey);
   const auto add = [&plots](const Rows& rows, const char* name, const std::string& style) {
     if (!rows.empty()) plots += fmt::format(", ${} using 1:2:3:4{}", name, style);
   };

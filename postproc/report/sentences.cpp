@@ -193,6 +193,12 @@ std::vector<std::string> motion_sentences(const Evaluation& e, const std::vector
 }
 
 std::string verdict_text(const Summary& s) {
+  if (s.analysis == AnalysisType::limit && s.critical && s.critical->parameter == "peak_stress")
+    return fmt::format(
+        "In one admissible state no stress exceeds {:.5g} Pa; every other one has a stress of at least "
+        "{:.5g} Pa "
+        "somewhere. The forces below are those of the state found.",
+        s.critical->stable, s.critical->moving);
   if (s.analysis == AnalysisType::limit && s.critical)
     return fmt::format(
         "The structure stands at {} and moves at {:.5g}. The forces below are those at {:.5g}.",

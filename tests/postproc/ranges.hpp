@@ -29,6 +29,19 @@ inline Summary range_summary(const Assembly& a) {
   return s;
 }
 
+/// A range analysis without an admissible state, whose only frame is a mechanism.
+struct MovingRun {
+  Summary summary;
+  Frame frame;
+};
+inline MovingRun moving_range_run(const Assembly& a) {
+  MovingRun run{range_summary(a), column_at_rest(a, kGravity, 0.0, 0.6, 0.4)};
+  run.summary.ranges.clear();
+  run.summary.status = Status::moving;
+  run.frame.blocks.velocity[3] = Vec3(1.0, 0, 0);
+  return run;
+}
+
 /// Frame 0 of a column at rest, and frames 1 to 7 whose resultants act at other points; the time is the number.
 inline std::vector<Frame> range_frames(const Assembly& a) {
   std::vector<Frame> frames;

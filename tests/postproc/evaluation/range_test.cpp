@@ -62,11 +62,7 @@ TEST(RangeEvaluation, AllStatesBearTheSameLoadsAndSelfStressesNone) {
 
 TEST(RangeEvaluation, WithoutAnAdmissibleStateFrameZeroIsAMechanism) {
   const Assembly a = test::column(3);
-  Summary summary = test::range_summary(a);
-  summary.ranges.clear();
-  summary.status = Status::moving;
-  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
-  frame.blocks.velocity[3] = Vec3(1.0, 0, 0);
+  const auto [summary, frame] = test::moving_range_run(a);
   const Evaluation e = test::evaluated(a, {frame}, summary, arch_case(), test::fresh_folder("results"));
   EXPECT_FALSE(at_rest(e.summary));
   EXPECT_TRUE(is_mechanism(e.summary, e.last.frame));

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "postproc/figures/figures.hpp"
@@ -98,6 +99,32 @@ TEST(ThrustFigure, DrawsTheEndsOfTheRangeBesideTheChosenLine) {
   const Figure without = thrust_figure(of_static, plain);
   EXPECT_NE(without.commands.find("title 'thrust line'"), std::string::npos);
   EXPECT_EQ(without.commands.find("least thrust"), std::string::npos);
+}
+
+ForceRange joint_range(int a, int b, RangeEnd min, RangeEnd max) {
+  return {fmt::format("normal force of joint {}-{}", a, b), "N", min, max, {}, std::pair{a, b}};
+}
+
+// A column of three blocks on block 0: the joint with the support at the foot, the others between rings.
+TEST(CertaintyMap, ColoursEachJointByTheWidthOfItsRangeOverItsMean) {
+  const Assembly a = test::column(3);
+  Summary summary = test::range_summary(a);
+  summary.ranges = {joint_range(0, 1, test::bounded_end(2.0, 2.0, 1), test::bounded_end(2.0, 2.0, 2)),
+                    joint_range(1, 2, test::bounded_end(1.0, 1.0, 1), test::bounded_end(3.0, 3.0, 2)),
+                    joint_range(2, 3, test::bounded_end(1.0, 1.0, 1), {RangeOutcome::unbounded, {}, {}, {}})};
+  const Figure figure = certainty_map(
+      test::evaluated(a, test::range_frames(a), summary, test::column_case(), test::fresh_folder("results")));
+  const auto joints = blocks_of(figure, "joints").at(0), unlimited = blocks_of(figure, "unlimited").at(0);
+  ASSERT_EQ(joints.size(), 2u);
+  EXPECT_EQ(joints[0][1], 0.0) << "the foot";
+  EXPECT_EQ(joints[0][4], 0.0) << "certain";
+  EXPECT_EQ(joints[1][1], 1.0);
+  EXPECT_EQ(joints[1][4], 1.0) << "from 1 to 3 about 2";
+  EXPECT_GT(joints[1][2], 0.0) << "level";
+  EXPECT_EQ(joints[1][3], 0.0) << "level";
+  ASSERT_EQ(unlimited.size(), 1u);
+  EXPECT_EQ(unlimited[0][1], 2.0);
+  EXPECT_EQ(blocks_of(figure, "unknown").at(0).size(), 0u);
 }
 
 }  // namespace

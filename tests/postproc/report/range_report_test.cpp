@@ -8,6 +8,7 @@
 #include "assembly/files/atomic_file.hpp"
 #include "postproc/analyse.hpp"
 #include "postproc/report/ranges.hpp"
+#include "postproc/report/report.hpp"
 #include "tests/postproc/ranges.hpp"
 
 namespace cupola::range_report_test {
@@ -127,11 +128,7 @@ TEST(RangeReport, WithoutACompliantStateNothingIsChosen) {
 // Without an admissible state there is a mechanism, as after a static analysis, and no range.
 TEST(RangeReport, ShowsTheMechanismWhereNoStateIsAdmissible) {
   const Assembly a = test::column(3);
-  Summary summary = test::range_summary(a);
-  summary.ranges.clear();
-  summary.status = Status::moving;
-  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
-  frame.blocks.velocity[3] = Vec3(1.0, 0, 0);
+  const auto [summary, frame] = test::moving_range_run(a);
   const std::string post = analysed_ranges(summary, {frame});
   const std::string html = read_text(post + "/report.html");
   EXPECT_NE(html.find("The structure moves: no forces balance the loads within the joint laws."),
@@ -140,6 +137,17 @@ TEST(RangeReport, ShowsTheMechanismWhereNoStateIsAdmissible) {
   EXPECT_EQ(html.find("<h2>Ranges"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(post + "/figures/motion.gp"));
   EXPECT_FALSE(std::filesystem::exists(post + "/ranges.csv"));
+}
+
+TEST(LimitReport, APeakStressIsNotAPlaceWhereTheStructureMoves) {
+  Summary summary;
+  summary.analysis = AnalysisType::limit;
+  summary.critical = CriticalValue{"peak_stress", 2e5, 2.001e5, 1.999e5};
+  EXPECT_EQ(verdict_text(summary).find("moves"), std::string::npos);
+  EXPECT_NE(verdict_text(summary).find("no stress exceeds 2.001e+05 Pa"), std::string::npos);
+  summary.critical->parameter = "lantern";
+  EXPECT_NE(verdict_text(summary).find("a lantern of 2.001e+05 times the weight and moves"),
+            std::string::npos);
 }
 
 TEST(RangeReport, ExplainsTheStatusOnlyWhereItApplies) {
