@@ -155,6 +155,11 @@ double critical_acceleration_of_model(const ReferenceRow& row) {
   return critical_value(scene, generate(scene));
 }
 
+double critical_lantern_of_model(const ReferenceRow& row) {
+  const Case scene = paper_limit(row.text("case"), "lantern", 0.0, 20.0, {"joints.friction=" + row.text("mu")});
+  return critical_value(scene, generate(scene));
+}
+
 double thrust_of_model(const ReferenceRow& row) {
   Case scene = repository_case(row.text("case"), {"joints.friction=" + row.text("mu")});
   scene.loads.lantern.reset();
@@ -212,6 +217,7 @@ void add_dome_rows(Computations* all) {
   rows["membrane"] = meridional_force;
   rows["dome_friction"] = least_friction_of_model;
   rows["dome_acceleration"] = critical_acceleration_of_model;
+  rows["dome_lantern"] = critical_lantern_of_model;
   rows["dome_thrust_range"] = thrust_of_model;
   rows["dome_limit"] = least_friction_of_dome;
   rows["hemisphere_thickness"] = least_thickness_of_hemisphere;
