@@ -35,10 +35,10 @@ Mesh thrust_lines_mesh(const Evaluation& e) {
         thrust.push_back(p.point);
         add_line({p.point, p.point + scale * p.force}, LineCell::line_of_action, index, p.r);
       } else {  // the line is interrupted
-        add_line(std::exchange(thrust, {}), LineCell::thrust_line, index);
+        add_line(std::exchange(thrust, {}), LineCell::line_of_thrust, index);
       }
     }
-    add_line(thrust, LineCell::thrust_line, index);
+    add_line(thrust, LineCell::line_of_thrust, index);
     add_line(line.envelope, LineCell::envelope, index);
     add_line(intrados, LineCell::intrados, index);
     add_line(extrados, LineCell::extrados, index);

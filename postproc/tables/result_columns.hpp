@@ -44,8 +44,8 @@ std::vector<PlaneJoint> plane_joints(const Evaluation& evaluation, const PlaneCu
 
 /// A cell of thrust_lines.vtp.
 struct LineCell {
-  enum What { thrust_line, envelope, line_of_action, intrados, extrados };
-  int what = thrust_line;
+  enum What { line_of_thrust, envelope, line_of_action, intrados, extrados };
+  int what = line_of_thrust;
   int meridian = 0;        ///< index into Evaluation::meridians
   double resultant = 0.0;  ///< N, of a line of action
 };

@@ -123,7 +123,7 @@ void add_directions(Rows* rows) {
          fmt::format("wall pushed by 0.2 g, {:g} m/N normal, {:g} tangential", normal, tangential),
          kExact,
          {Ending::stable},
-         [=] {
+         [normal = normal, tangential = tangential] {
            Scene scene{statics(0.4, normal), wall_of_36()};
            scene.input.joints.compliance.tangential = tangential;
            scene.input.loads.gravity.x() = 0.2 * testing::kG;

@@ -128,9 +128,10 @@ std::vector<KnownForce> weight_above(const Scene& scene, const Frame& frame) {
   for (int row = 0; row < frame.contacts.size(); ++row) {
     const int a = level(frame.contacts.block_a[row]), b = level(frame.contacts.block_b[row]);
     if (a == b) continue;
-    CUPOLA_ASSERT(std::abs(a - b) == 1);
-    known[std::max(a, b)].rows.push_back(row);
-    known[std::max(a, b)].signs.push_back(b > a ? 1 : -1);
+    for (int k = std::min(a, b) + 1; k <= std::max(a, b); ++k) {  // thin plates also meet the next but one
+      known[k].rows.push_back(row);
+      known[k].signs.push_back(b > a ? 1 : -1);
+    }
   }
   return known;
 }

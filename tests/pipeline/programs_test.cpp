@@ -302,7 +302,7 @@ TEST(Programs, AFailedRunKeepsTheOldAssembly) {
 
 // Batch systems limit the address space. If OpenBLAS cannot allocate its buffers it retries for ever.
 TEST(Programs, ReportTooLittleAddressSpace) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef CUPOLA_SANITIZED
   GTEST_SKIP() << "sanitizers take all the address space";
 #endif
   const ProgramFolder folder;
@@ -314,7 +314,7 @@ TEST(Programs, ReportTooLittleAddressSpace) {
 
 // A hundred threads do not fit into this address space; OpenBLAS would wait for its buffers for ever.
 TEST(Programs, RefuseTooManyThreadsForTheAddressSpace) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef CUPOLA_SANITIZED
   GTEST_SKIP() << "sanitizers take all the address space";
 #endif
   const ProgramFolder folder;

@@ -108,13 +108,26 @@ TEST(EdgeContact, IsContinuousWithTheFaceContact) {
   }
 }
 
-/// Distance of two separate unit cubes, from sampled points on the faces of each projected onto the other:
-/// slow, but independent of the separating axes.
-double sampled_distance(const Pose& a, const Pose& b, int n) {
-  double best = 1e300;
-  const auto to_box = [](const Pose& box, const Vec3& x) {
-    const Vec3 local = box.q_WB.conjugate() * (x - box.p_WB);
-    return (local - local.cwiseMax(-0.5).cwiseMin(0.5)).norm();
+/// Nearest points of two separate unit cubes.
+struct Nearest {
+  double distance = 1e300;  ///< m
+  /// Number of faces of its cube on which each of the two points lies: 1 inside a face, 2 on an edge, 3 at a vertex.
+  int faces_a = 0, faces_b = 0;
+};
+
+/// From sampled points on the faces of each cube projected onto the other: slow, but independent of the separating
+/// axes.
+Nearest sampled_distance(const Pose& a, const Pose& b, int n) {
+  Nearest best;
+  const auto num_faces = [](const Vec3& on_cube) {
+    return static_cast<int>((on_cube.cwiseAbs().array() > 0.5 - 1e-12).count());
+  };
+  const auto include = [&](const Pose& from, const Pose& to, const Vec3& x) {
+    const Vec3 local = to.q_WB.conjugate() * (from.p_WB + from.q_WB * x - to.p_WB);
+    const Vec3 nearest = local.cwiseMax(-0.5).cwiseMin(0.5);
+    if ((local - nearest).norm() >= best.distance) return;
+    best = {(local - nearest).norm(), num_faces(x), num_faces(nearest)};
+    if (&from == &b) std::swap(best.faces_a, best.faces_b);
   };
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-0.5, 0.5})
@@ -124,13 +137,15 @@ double sampled_distance(const Pose& a, const Pose& b, int n) {
           x[axis] = side;
           x[(axis + 1) % 3] = -0.5 + static_cast<double>(i) / n;
           x[(axis + 2) % 3] = -0.5 + static_cast<double>(k) / n;
-          best = std::min(best, to_box(b, a.p_WB + a.q_WB * x));
-          best = std::min(best, to_box(a, b.p_WB + b.q_WB * x));
+          include(a, b, x);
+          include(b, a, x);
         }
   return best;
 }
 
-// Random cubes near each other have a contact with the right gap if and only if they are within the margin.
+// Random cubes near each other have a contact if and only if they are within the margin. A vertex that is nearest to a
+// vertex or an edge makes one only as it gets closer: no force acts between them before a face or two edges meet. The
+// gap of a face contact is at most the distance.
 TEST(EdgeContact, RandomBoxesAgreeWithSampledDistance) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
@@ -141,18 +156,25 @@ TEST(EdgeContact, RandomBoxesAgreeWithSampledDistance) {
   int near = 0;
   for (int trial = 0; trial < 300; ++trial) {
     auto poses = initial_poses(scene);
-    poses[1].p_WB = Vec3(normal(random), normal(random), normal(random)).normalized() * distance(random);
-    poses[1].q_WB = Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
-    const double expected = sampled_distance(poses[0], poses[1], 60);
+    Vec3 direction;  // one statement per number: the order of arguments depends on the compiler
+    for (int k = 0; k < 3; ++k) direction[k] = normal(random);
+    Eigen::Vector4d rotation;
+    for (int k = 0; k < 4; ++k) rotation[k] = normal(random);
+    poses[1].p_WB = distance(random) * direction.normalized();
+    poses[1].q_WB = Quaterniond(rotation.normalized());
+    const Nearest nearest = sampled_distance(poses[0], poses[1], 60);
+    const double expected = nearest.distance;
     const ContactSet set = ContactDetector(scene, options).update(poses);
     double gap = 1e300;
     for (const Contact& contact : set.points) gap = std::min(gap, contact.gap);
     const double sampling = 1.0 / 60;  // distance of the nearest point from the grid
-    if (expected > sampling && expected < options.margin) {
+    const bool at_vertex = nearest.faces_a + nearest.faces_b > 4;
+    if (expected > sampling && expected < options.margin && !at_vertex) {
       ++near;
-      // Between two vertices the gap along a face or edge normal is smaller than the distance.
       ASSERT_FALSE(set.points.empty()) << trial << " at " << expected;
-      EXPECT_LT(gap, expected + 1e-12) << trial;
+      if (std::min(nearest.faces_a, nearest.faces_b) == 1) {
+        EXPECT_LT(gap, expected + 1e-12) << trial;
+      }
     }
     if (expected > 2 * options.margin) {
       EXPECT_TRUE(set.points.empty()) << trial << " at " << expected;
