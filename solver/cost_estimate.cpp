@@ -41,7 +41,7 @@ BlockMatrix sticking_hessian(const ContactProblem& problem, const WhitenedProble
     ContactLaw law = contact_law(problem, i);
     law.e_n = law.e_n > 0.0 ? law.e_n : kProximal;
     law.e_t = law.e_t > 0.0 ? law.e_t : kProximal;
-    G.push_back(contact_stiffness(law, -Vec3::UnitX()));
+    G.push_back(sticking_stiffness(law));
   }
   return assemble_hessian(white.problem, graph, G);
 }

@@ -90,6 +90,12 @@ std::string active_features(const Case& scene, const ModelCounts& counts) {
        fmt::format("{:g} normal and {:g} tangential per {}", scene.joints.compliance.normal,
                    scene.joints.compliance.tangential,
                    scene.joints.compliance.per == Compliance::Per::area ? "area (m3/N)" : "point (m/N)"));
+  if (scene.joints.have_strength()) {
+    const JointStrength& strength = scene.joints.strength;
+    line("strength", fmt::format("tension {:g}, cohesion {:g}, compression {:g} Pa; {} of each joint",
+                                 strength.tension, strength.cohesion, strength.compression,
+                                 counted(scene.contact.subdivide * scene.contact.subdivide, "piece")));
+  }
   if (analysis.plane)
     line("plane", "motion in x-z: three unknowns per block, one contact point instead of two");
   if (counts.ties > 0) line("ties", counted(counts.ties, "tie or strut", "ties and struts"));

@@ -23,6 +23,7 @@
 #include "solver/collision/patch_file.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/soft_joints.hpp"
+#include "solver/dynamics/weak_joints.hpp"
 #include "solver/explain.hpp"
 #include "solver/fclib/fclib_file.hpp"
 #include "solver/runtime/checkpoint.hpp"
@@ -179,6 +180,10 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
     write_checkpoint(checkpoint_path, *run);
   };
   if (!request.dump_fclib.empty()) {
+    if (request.scene.joints.have_strength())
+      throw InputError(
+          FileLocation{request.scene.file},
+          "joints have tension, cohesion or compressive_strength: --dump-fclib writes dry joints only");
     sinks.problem = [&request](const ContactProblem& problem, const VecX& gamma) {
       write_fclib(request.dump_fclib, request.scene.title, make_delassus(problem), gamma);
     };
@@ -247,6 +252,7 @@ ExitCode solve_case(SolveRequest request) {
   const std::string patches_path = (std::filesystem::path(request.output_folder) / "patches.vtp").string();
   sinks.as_built = [&](const ContactSet& contacts) {
     warnings.add(soft_joints(request.scene, assembly, contacts));
+    warnings.add(weak_joints(request.scene, assembly, contacts));
     write_patches(patches_path, contacts, assembly_hash);
   };
   std::optional<Summary> summary = summary_unless_interrupted(request.scene, assembly, sinks);

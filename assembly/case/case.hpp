@@ -26,6 +26,8 @@ struct ContactDetection {
   /// which the shrunk shapes are swept. 0: 1 % of the size (cube root of the volume) of the smallest free
   /// block.
   double margin = 0.0;
+  int subdivide =
+      1;  ///< >= 1: the contact points of compliance per area are those of subdivide^2 pieces of a joint
 
   /// Options of perturbed_gjk (paper, section 2.3).
   struct Perturbation {

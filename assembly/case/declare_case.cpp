@@ -10,6 +10,26 @@ void declare_swept_key(Section& s, SweptKey& swept) {
   s.rule(!swept.values.empty(), "values", "must hold at least one value");
 }
 
+/// What joints with strength cannot be combined with.
+void declare_strength_rules(Section& s, Case& the_case) {
+  if (!the_case.joints.have_strength()) return;
+  Analysis& analysis = the_case.analysis;
+  LimitSearch& limit = analysis.limit;
+  if (limit.method == LimitSearch::Method::automatic) limit.method = LimitSearch::Method::bisection;
+  const bool bisects = limit.method == LimitSearch::Method::bisection &&
+                       limit.parameter != LimitSearch::Parameter::joint_extent;
+  s.rule(analysis.type == AnalysisType::static_ || (analysis.type == AnalysisType::limit && bisects),
+         "analysis",
+         "joints with tension, cohesion or compressive_strength require type: static, or type: limit by "
+         "bisection, "
+         "so not of joint_extent");
+  s.rule(analysis.robustness == 0, "analysis", "robustness requires joints without strength");
+  s.rule(analysis.method != ContactMethod::interior_point, "analysis",
+         "method: interior_point requires joints without strength; use newton");
+  s.rule(the_case.contact.method == ContactDetection::Method::face_clipping, "contact",
+         "joints with tension, cohesion or compressive_strength require method: face_clipping");
+}
+
 }  // namespace
 
 void declare_case(Section& s, Case& the_case) {
@@ -26,6 +46,7 @@ void declare_case(Section& s, Case& the_case) {
   s.section("analysis", the_case.analysis, "type of analysis, method and accuracy", declare_analysis);
   s.section("output", the_case.output, "what is written during the analysis", declare_output);
   s.section("postproc", the_case.postproc, "meridians, sections and planes to evaluate", declare_postproc);
+  declare_strength_rules(s, the_case);
   s.list("sweep", the_case.sweep, "parameter study: keys and the values they take, in all combinations",
          declare_swept_key);
 }

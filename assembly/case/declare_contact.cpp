@@ -10,6 +10,10 @@ void declare_contact(Section& s, ContactDetection& contact) {
   s.number("margin", contact.margin, {.unit = "m", .min = 0},
            "faces up to this far apart make contacts; perturbed_gjk also rounds edges by this radius; 0: 1 % "
            "of the smallest block's size");
+  s.integer(
+      "subdivide", contact.subdivide, {.min = 1, .max = 64},
+      "compliance per area: cut each joint into this number squared of pieces with contact points each; "
+      "joints with strength need 2 or more");
   ContactDetection::Perturbation& gjk = contact.perturbation;
   s.integer("perturbations", gjk.perturbations, {.min = 1, .max = 10000},
             "perturbed_gjk: queries per pair of parts");

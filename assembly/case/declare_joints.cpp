@@ -40,6 +40,12 @@ void declare_law_change(Section& s, JointLawChange& law) {
                     "normal compliance of these joints");
   s.optional_number("tangential", law.tangential, {.unit = "m/N, m3/N", .min = 0}, "as elsewhere",
                     "tangential compliance of these joints");
+  s.optional_number("tension", law.tension, {.unit = "Pa", .min = 0}, "as elsewhere",
+                    "tensile strength of these joints");
+  s.optional_number("cohesion", law.cohesion, {.unit = "Pa", .min = 0}, "as elsewhere",
+                    "cohesion of these joints");
+  s.optional_number("compressive_strength", law.compressive_strength, {.unit = "Pa", .above = 0},
+                    "as elsewhere", "compressive strength of these joints");
 }
 
 void declare_ring_joints(Section& s, RingJoints& joints) {
@@ -73,6 +79,15 @@ void declare_joints(Section& s, Joints& joints) {
   s.number("friction", joints.friction, {.min = 0}, "Coulomb friction coefficient mu");
   s.section("compliance", joints.compliance, "elastic displacement of the joints under force",
             declare_compliance);
+  JointStrength& strength = joints.strength;
+  s.number("tension", strength.tension, {.unit = "Pa", .min = 0},
+           "tensile strength per area of joint; ends at cohesion / friction");
+  s.number("cohesion", strength.cohesion, {.unit = "Pa", .min = 0},
+           "shear strength per area of joint without normal force: shear <= cohesion + friction x pressure");
+  std::optional<double> compression;
+  s.optional_number("compressive_strength", compression, {.unit = "Pa", .above = 0}, "none",
+                    "largest pressure in a joint");
+  strength.compression = compression.value_or(strength.compression);
   s.optional_section("bed", joints.bed, "joints between rings", declare_law_change);
   s.optional_section("head", joints.head, "joints within a ring", declare_law_change);
   s.optional_section("herringbone", joints.herringbone, "joints that touch a herringbone block",
@@ -81,6 +96,14 @@ void declare_joints(Section& s, Joints& joints) {
   s.list("rings", joints.rings, "joint laws of particular rings; the last entry that matches a joint applies",
          declare_ring_joints);
   declare_time(s, "friction_time", joints.friction_time, "factor on every friction coefficient");
+  const char* key = strength.tension > 0.0        ? "tension"
+                    : strength.cohesion > 0.0     ? "cohesion"
+                    : strength != JointStrength{} ? "compressive_strength"
+                                                  : "compliance";
+  s.rule(!joints.have_strength() || joints.compliance.per == Compliance::Per::area, key,
+         "tension, cohesion and compressive_strength require compliance: {per: area}, because only then a "
+         "contact "
+         "point stands for an area of joint");
 }
 
 }  // namespace cupola

@@ -37,7 +37,8 @@ Case case_at(const Case& scene, double value) {
   switch (limit.parameter) {
     case LimitSearch::Parameter::friction: {
       RingJoints group = limit.joints.value_or(RingJoints{0, kLastRing, RingJoints::Sort::all, {}});
-      group.law = {value, {}, {}};
+      group.law = {};
+      group.law.friction = value;
       at.joints.rings.push_back(group);
       break;
     }

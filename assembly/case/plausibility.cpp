@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -91,12 +92,23 @@ void add_joint_checks(const Joints& joints, std::vector<PlausibleRange>* checks)
                        area ? "a stiffness, or in mm3/N? Compliance is its reciprocal, such as 1e-10 m3/N"
                             : "a stiffness, or in mm/N? Compliance is its reciprocal, such as 1e-8 m/N"});
   };
+  const auto strength = [checks](const std::string& key, double value) {
+    if (value == 0.0 || std::isinf(value)) return;
+    checks->push_back({key, value, "Pa", 50.0, 1e9, "in MPa or kPa? Strengths are in Pa: 2.5 MPa is 2.5e6",
+                       "too many digits? Stone carries up to 3e8 Pa"});
+  };
   const auto change = [&](const std::string& key, const JointLawChange& law) {
+    strength(key + "tension", law.tension.value_or(0.0));
+    strength(key + "cohesion", law.cohesion.value_or(0.0));
+    strength(key + "compressive_strength", law.compressive_strength.value_or(0.0));
     if (law.friction) friction(key, *law.friction);
     if (law.normal) compliance(key + "normal", *law.normal);
     if (law.tangential) compliance(key + "tangential", *law.tangential);
   };
   friction("joints.", joints.friction);
+  strength("joints.tension", joints.strength.tension);
+  strength("joints.cohesion", joints.strength.cohesion);
+  strength("joints.compressive_strength", joints.strength.compression);
   compliance("joints.compliance.normal", joints.compliance.normal);
   compliance("joints.compliance.tangential", joints.compliance.tangential);
   for (const auto& [key, law] :
@@ -162,6 +174,17 @@ void add_analysis_checks(const Case& scene, std::vector<PlausibleRange>* checks)
                        "in mm or cm? Multiply direction by 0.001 or 0.01"});
 }
 
+/// Tension that the joints never reach, because friction is exhausted before.
+std::optional<std::string> unused_tension(const Joints& joints) {
+  const JointStrength& strength = joints.strength;
+  if (joints.friction == 0.0 || strength.tension <= strength.cohesion / joints.friction) return std::nullopt;
+  return fmt::format(
+      "joints.tension = {:g} Pa exceeds cohesion / friction = {:g} Pa, at which a joint has no shear "
+      "strength left; "
+      "the smaller value applies",
+      strength.tension, strength.cohesion / joints.friction);
+}
+
 }  // namespace
 
 std::vector<std::string> implausible_values(const Case& scene) {
@@ -171,7 +194,9 @@ std::vector<std::string> implausible_values(const Case& scene) {
   add_joint_checks(scene.joints, &checks);
   add_load_checks(scene, &checks);
   add_analysis_checks(scene, &checks);
-  return sentences(checks);
+  std::vector<std::string> warnings = sentences(checks);
+  if (const auto unused = unused_tension(scene.joints)) warnings.push_back(*unused);
+  return warnings;
 }
 
 }  // namespace cupola

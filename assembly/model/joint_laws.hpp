@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -26,10 +27,19 @@ constexpr auto enum_names(Compliance::Per) {
   return std::array{"point", "area"};
 }
 
+/// Strength per area of joint, Pa. The default is a dry joint.
+struct JointStrength {
+  double tension = 0.0;   ///< >= 0
+  double cohesion = 0.0;  ///< >= 0, shear strength without normal force
+  double compression = std::numeric_limits<double>::infinity();  ///< > 0
+  bool operator==(const JointStrength&) const = default;
+};
+
 /// Values that differ for a group of joints; the others are the general ones.
 struct JointLawChange {
   std::optional<double> friction;
   std::optional<double> normal, tangential;  ///< compliance, in the unit of Joints::compliance
+  std::optional<double> tension, cohesion, compressive_strength;  ///< Pa
 };
 
 /// Joints of some rings with a law of their own. `base` joints touch a fixed support, `herringbone` joints a
@@ -55,9 +65,13 @@ constexpr auto enum_names(RingJoints::Sort) {
 struct Joints {
   double friction = 0.4;  ///< mu, >= 0
   Compliance compliance;
+  JointStrength strength;
   std::optional<JointLawChange> bed, head, herringbone, base;
   std::vector<RingJoints> rings;
   TimeFunction friction_time;  ///< factor on every friction coefficient
+
+  /// True if some joints have a tension, a cohesion or a compressive strength.
+  bool have_strength() const;
 };
 
 }  // namespace cupola

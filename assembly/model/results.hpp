@@ -43,12 +43,14 @@ struct ContactTable {
   std::vector<Vec3> normal;          ///< unit, from a to b
   std::vector<double> gap;           ///< m, positive when apart
   std::vector<Vec3> force;           ///< N, world axes, acting on b
-  std::vector<double> normal_force;  ///< N, >= 0
-  std::vector<double> friction_use;  ///< |tangential force| / (mu normal force); 0 without force
+  std::vector<double> normal_force;  ///< N, >= 0 in dry joints
+  std::vector<double> friction_use;  ///< |tangential force| / (cohesion + mu normal force); 0 without force
   std::vector<double> area;          ///< m2, tributary area of the point
   std::vector<double> slip;          ///< m, accumulated sliding
   /// Error of the force in the contact law, over the force of the joint; NaN where both blocks sleep.
   std::vector<double> law_violation;
+  /// Pressure over the compressive strength, or pull over the tensile strength; empty if all joints are dry.
+  std::vector<double> strength_use;
 
   int size() const { return static_cast<int>(joint.size()); }
   void reserve(std::size_t contacts) {

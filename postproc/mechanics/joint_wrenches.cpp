@@ -1,6 +1,7 @@
 #include "postproc/mechanics/joint_wrenches.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -41,7 +42,11 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
     weighted += n * (contacts.point[*row] - joint->patch.centroid);
     friction += n * contacts.friction_use[*row];
     area += contacts.area[*row];
-    if (n <= 0.0) open_area += contacts.area[*row];
+    if (contacts.force[*row].isZero(0.0)) open_area += contacts.area[*row];
+    if (contacts.area[*row] > 0.0)
+      joint->largest_pressure = std::max(joint->largest_pressure, n / contacts.area[*row]);
+    if (!contacts.strength_use.empty())
+      joint->strength_use = std::fmax(joint->strength_use, contacts.strength_use[*row]);  // NaN at first
     joint->opening = std::max(joint->opening, contacts.gap[*row]);
     joint->slip = std::max(joint->slip, contacts.slip[*row]);
   }

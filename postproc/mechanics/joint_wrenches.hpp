@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "assembly/model/results.hpp"
@@ -17,18 +18,21 @@ struct JointWrench : Joint {
   PlanarHull patch;            ///< hull of the contact points in their mean plane
   Wrench wrench;               ///< on block_b, about the centre of pressure
   CentralAxis axis;
-  bool negligible = false;                  ///< its force is not above the floor of the frame
-  Vec3 centre_of_pressure = Vec3::Zero();   ///< m, of the normal forces; the patch centroid if unloaded
-  double couple_length = 0.0;               ///< m, on the central axis
-  double normal_force = 0.0;                ///< N, sum over the points
-  double eccentricity = 0.0;                ///< m, distance of the centre of pressure from the patch centroid
-  double edge_distance = 0.0;               ///< m, distance of the centre of pressure from the outline
-  double kern = 0.0;                        ///< kern utilisation, at most 1 inside the kern
-  double friction_use = 0.0;                ///< (sum |t_i| / mu) / sum n_i; 1: every point slides
-  double opening = 0.0;                     ///< m, largest gap of its points, >= 0
-  double open_share = 0.0;                  ///< share of the area whose points carry no force
-  double slip = 0.0;                        ///< m, largest accumulated slip of its points
-  int contact_start = 0, num_contacts = 0;  ///< into JointWrenches::contacts
+  bool negligible = false;                 ///< its force is not above the floor of the frame
+  Vec3 centre_of_pressure = Vec3::Zero();  ///< m, of the normal forces; the patch centroid if unloaded
+  double couple_length = 0.0;              ///< m, on the central axis
+  double normal_force = 0.0;               ///< N, sum over the points
+  double eccentricity = 0.0;               ///< m, distance of the centre of pressure from the patch centroid
+  double edge_distance = 0.0;              ///< m, distance of the centre of pressure from the outline
+  double kern = 0.0;                       ///< kern utilisation, at most 1 inside the kern
+  double friction_use = 0.0;               ///< (sum |t_i| / mu) / sum n_i; 1: every point slides
+  double opening = 0.0;                    ///< m, largest gap of its points, >= 0
+  double open_share = 0.0;                 ///< share of the area whose points carry no force
+  double slip = 0.0;                       ///< m, largest accumulated slip of its points
+  double largest_pressure = 0.0;           ///< Pa, largest normal force of a point over its area
+  double strength_use =
+      std::numeric_limits<double>::quiet_NaN();  ///< largest of its points; NaN in a dry joint
+  int contact_start = 0, num_contacts = 0;       ///< into JointWrenches::contacts
 };
 
 struct JointWrenches {

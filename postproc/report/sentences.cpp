@@ -65,6 +65,13 @@ std::string friction_text(const PostSummary& s) {
                      use > kSliding ? ": this joint slides" : "");
 }
 
+std::string strength_text(const PostSummary& s) {
+  return fmt::format(
+      "The largest pressure on a joint is {:.3g} MPa. Of its compressive or tensile strength a joint "
+      "uses at most {}.",
+      1e-6 * s.largest_pressure_Pa.value_or(0.0), percent(*s.largest_strength_use));
+}
+
 /// Blocks that move farther than `least`, m.
 int count_moving(const Evaluation& e, double least) {
   int count = 0;
@@ -145,6 +152,7 @@ void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& hist
 std::vector<std::string> finding_sentences(const Evaluation& e) {
   const PostSummary s = post_summary(e);
   std::vector<std::string> out;
+  if (s.largest_strength_use) out.push_back(strength_text(s));
   add_thrust(e, &out);
   for (const PlaneCut& cut : e.planes)
     out.push_back(

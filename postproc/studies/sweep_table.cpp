@@ -14,10 +14,10 @@ namespace {
 
 constexpr const char* kMissing = "missing";
 
-/// A number of results/summary.json; empty if the analysis does not write it.
+/// A number of results/summary.json or post/summary.json; empty if the run does not have it.
 Table::Cell number_or_empty(RunFiles& run, const std::string& key) {
   try {
-    return run.number("results." + key);
+    return run.number(key);
   } catch (const InputError&) {
     return std::string();
   }
@@ -29,6 +29,25 @@ std::string progress(const std::string& folder) {
   if (there("results/checkpoint")) return "interrupted: repeat the command to resume";
   if (there("assembly.vtu")) return "no results: see the output of the run";
   return "no assembly: see the output of the run";
+}
+
+/// Adds what joints with strength use of it, if the members have strength.
+void add_strength_columns(const std::vector<SweepMember>& members, const std::string& runs_folder, Table* t) {
+  const std::vector<Table::Column> columns = {
+      {"largest_pressure_Pa", "Pa", "largest pressure on a joint"},
+      {"largest_strength_use", "", "largest share of compressive or tensile strength that a joint uses"}};
+  std::vector<std::vector<Table::Cell>> cells;
+  bool any = false;
+  for (const SweepMember& member : members) {
+    RunFiles run(fmt::format("{}/{}", runs_folder, member.name));
+    std::vector<Table::Cell>& row = cells.emplace_back();
+    for (const Table::Column& column : columns) row.push_back(number_or_empty(run, "post." + column.key));
+    any = any || std::holds_alternative<double>(row.back());
+  }
+  if (!any) return;
+  t->columns.insert(t->columns.end(), columns.begin(), columns.end());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    t->rows[i].insert(t->rows[i].end(), cells[i].begin(), cells[i].end());
 }
 
 /// The ranges of a finished member; none for other analyses.
@@ -69,7 +88,8 @@ Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMem
       RunFiles run(folder);
       row.emplace_back(run.status());
       row.emplace_back(std::string());
-      for (const Table::Column& column : numbers) row.push_back(number_or_empty(run, column.key));
+      for (const Table::Column& column : numbers)
+        row.push_back(number_or_empty(run, "results." + column.key));
     } else {
       row.emplace_back(std::string(kMissing));
       row.emplace_back(progress(folder));
@@ -78,6 +98,7 @@ Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMem
     CUPOLA_ASSERT(row.size() == t.columns.size());
     t.rows.push_back(std::move(row));
   }
+  add_strength_columns(members, runs_folder, &t);
   add_range_columns(ranges, &t);
   return t;
 }

@@ -44,6 +44,8 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("points_per_base_joint", s.points_per_base_joint);
   visit("largest_couple_length_m", s.largest_couple_length_m);
   visit("largest_friction_use", s.largest_friction_use);
+  visit("largest_pressure_Pa", s.largest_pressure_Pa);
+  visit("largest_strength_use", s.largest_strength_use);
   visit("mean_kern_use", s.mean_kern_use);
   visit("thrust_over_weight", s.thrust_over_weight);
   visit("max_displacement_m", s.max_displacement_m);
@@ -151,6 +153,8 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
   double kern = 0.0, force = 0.0;
   for (const JointWrench& joint : e.last.joints.wrenches) {
     raise(&s->largest_friction_use, joint.friction_use);
+    raise(&s->largest_pressure_Pa, joint.largest_pressure);
+    if (!std::isnan(joint.strength_use)) raise(&s->largest_strength_use, joint.strength_use);
     if (joint.upper < 0 || joint.negligible) continue;
     kern += joint.normal_force * joint.kern;
     force += joint.normal_force;

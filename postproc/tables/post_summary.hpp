@@ -28,6 +28,8 @@ struct PostSummary {
   std::optional<double> points_per_base_joint;    ///< mean number of contact points; none without base joints
   std::optional<double> largest_couple_length_m;  ///< of a block's wrench from the ring below
   std::optional<double> largest_friction_use;     ///< of a joint
+  std::optional<double> largest_pressure_Pa;      ///< on a joint
+  std::optional<double> largest_strength_use;     ///< of a joint with strength
   std::optional<double> mean_kern_use;            ///< mean over the bed joints, weighted by normal force
   std::optional<double> thrust_over_weight;
   std::optional<double> max_displacement_m;

@@ -37,6 +37,7 @@ ContactProblem reduce(const ContactProblem& problem, const CyclicSymmetry& symme
     reduced.b.segment<3>(3 * i) = problem.b.segment<3>(3 * row);
     reduced.E.segment<3>(3 * i) = problem.E.segment<3>(3 * row);
     reduced.mu[i] = problem.mu[row];
+    if (!problem.strength.empty()) reduced.strength.push_back(problem.strength[row]);
     // u = D^T v and v = R v_representative, so that the columns of the representative are R^T D.
     const auto side = [&](int block, const Mat63& D, int* orbit) -> Mat63 {
       *orbit = block == ContactProblem::kFixed ? block : symmetry.blocks[block].orbit;

@@ -14,24 +14,44 @@ namespace {
 
 constexpr double kOnBoundary = 1e-9;  // distance from the cone's boundary, relative, that counts as sliding
 
+/// True if the contact carries a normal force, or shear by cohesion.
+bool is_loaded(const ContactLaw& law, const Vec3& gamma) {
+  return gamma[0] > 0.0 || law.strength.cohesion > 0.0 || law.strength.tension > 0.0;
+}
+
 bool is_sliding(const ContactLaw& law, const Vec3& gamma) {
-  return gamma[0] > 0.0 && gamma.tail<2>().norm() >= law.mu * gamma[0] * (1.0 - kOnBoundary);
+  return is_loaded(law, gamma) && gamma.tail<2>().norm() >= law.shear_limit(gamma[0]) * (1.0 - kOnBoundary);
+}
+
+/// True if the normal impulse is at the limit of tension or compression.
+bool is_yielding(const ContactLaw& law, const Vec3& gamma) {
+  const double tension = law.tension_limit(), compression = law.strength.compression;
+  return gamma[0] >= compression * (1.0 - kOnBoundary) ||
+         gamma[0] <= -tension + kOnBoundary * (tension + law.strength.cohesion);
 }
 
 double energy_norm(const ContactProblem& p, const VecX& gamma) {
   double squared = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {
     squared += p.E[3 * i] * gamma[3 * i] * gamma[3 * i];
-    if (p.mu[i] > 0.0) squared += p.E[3 * i + 1] * gamma.segment<2>(3 * i + 1).squaredNorm();
+    if (contact_law(p, i).carries_shear())
+      squared += p.E[3 * i + 1] * gamma.segment<2>(3 * i + 1).squaredNorm();
   }
   return std::sqrt(squared);
 }
 
-/// The point of the cone that has the tangential part of gamma, or 0 for gamma_n <= 0.
-Vec3 raised_into_cone(double mu, const Vec3& gamma) {
-  if (gamma[0] <= 0.0) return Vec3::Zero();
-  if (mu == 0.0) return {gamma[0], 0.0, 0.0};
-  return {std::max(gamma[0], gamma.tail<2>().norm() / mu), gamma[1], gamma[2]};
+/// The admissible impulse that has the tangential part of gamma, or 0 for gamma_n <= 0 in a dry joint. Shear beyond
+/// what the compressive strength permits is cut.
+Vec3 made_admissible(const ContactLaw& law, const Vec3& gamma) {
+  if (!is_loaded(law, gamma)) return Vec3::Zero();
+  double n = std::clamp(gamma[0], -law.tension_limit(), law.strength.compression);
+  if (!law.carries_shear()) return {n, 0.0, 0.0};
+  const double shear = gamma.tail<2>().norm();
+  if (law.mu > 0.0)
+    n = std::min(std::max(n, (shear - law.strength.cohesion) / law.mu), law.strength.compression);
+  const bool cannot_rise = law.mu == 0.0 || n == law.strength.compression;
+  const double cut = cannot_rise && shear > 0.0 ? std::min(1.0, law.shear_limit(n) / shear) : 1.0;
+  return {n, cut * gamma[1], cut * gamma[2]};
 }
 
 /// Geometric stiffness of one side of a contact times h^2, for rotations about the centroid: the force f on
@@ -57,7 +77,7 @@ double rounding_of_velocities(const ContactProblem& p, const ContactSolution& x)
     add(p.block_a[i], p.D_a[i]);
     add(p.block_b[i], p.D_b[i]);
     squared += size[0] * size[0] / p.E[3 * i];
-    if (p.mu[i] > 0.0) squared += size.tail<2>().squaredNorm() / p.E[3 * i + 1];
+    if (contact_law(p, i).carries_shear()) squared += size.tail<2>().squaredNorm() / p.E[3 * i + 1];
   }
   return kEps * std::sqrt(squared);
 }
@@ -99,24 +119,25 @@ bool ForceProjection::is_stable(const ContactSolution& x, double gravity) {
 }
 
 /// Per contact the stiffness of the changes that its impulse may undergo: all where it sticks, in the tangent
-/// plane of the cone where it slides, none where it is open.
+/// plane of the admissible impulses where it slides or yields, none where it is open.
 std::vector<Mat3> ForceProjection::tangents(const ContactSolution& x) const {
   std::vector<Mat3> S(p_.num_contacts(), Mat3::Zero());
   for (int i = 0; i < p_.num_contacts(); ++i) {
     const ContactLaw law = contact_law(p_, i);
     const Vec3 g = x.gamma.segment<3>(3 * i);
-    if (g[0] <= 0.0) continue;
-    if (law.mu == 0.0) {
-      S[i](0, 0) = 1.0 / law.e_n;
+    if (!is_loaded(law, g)) continue;
+    const bool yields = is_yielding(law, g);
+    if (!law.carries_shear()) {
+      if (!yields) S[i](0, 0) = 1.0 / law.e_n;
     } else if (is_sliding(law, g)) {
       const Eigen::Vector2d t = g.tail<2>().normalized();
       const Vec3 ray(1.0, law.mu * t[0], law.mu * t[1]), turn(0.0, -t[1], t[0]);
       const double slip = (relative_velocity(p_, i, x.v) + p_.b.segment<3>(3 * i)).tail<2>().norm();
-      const double against_turning = law.mu * g[0] / std::max(slip, law.e_t * law.mu * g[0]);
-      S[i] = ray * ray.transpose() / (law.e_n + law.mu * law.mu * law.e_t) +
-             against_turning * turn * turn.transpose();
+      const double limit = law.shear_limit(g[0]);
+      if (limit > 0.0) S[i] = limit / std::max(slip, law.e_t * limit) * turn * turn.transpose();
+      if (!yields) S[i] += ray * ray.transpose() / (law.e_n + law.mu * law.mu * law.e_t);
     } else {
-      S[i].diagonal() << 1.0 / law.e_n, 1.0 / law.e_t, 1.0 / law.e_t;
+      S[i].diagonal() << (yields ? 0.0 : 1.0 / law.e_n), 1.0 / law.e_t, 1.0 / law.e_t;
     }
   }
   return S;
@@ -183,11 +204,12 @@ std::optional<ForceErrorBound> ForceProjection::force_error(const ContactSolutio
   constexpr double kNegligible = 1e-2;            // of the total correction
   constexpr double kFirst = 1e-6, kLater = 1e-2;  // reductions of the imbalance in one round
   ContactSolution balanced = x;
-  const auto raise_into_cones = [&] {
+  const auto make_admissible = [&] {
     for (int i = 0; i < p_.num_contacts(); ++i)
-      balanced.gamma.segment<3>(3 * i) = raised_into_cone(p_.mu[i], balanced.gamma.segment<3>(3 * i));
+      balanced.gamma.segment<3>(3 * i) =
+          made_admissible(contact_law(p_, i), balanced.gamma.segment<3>(3 * i));
   };
-  raise_into_cones();
+  make_admissible();
   if (!preconditioner_.has_factor() &&
       !preconditioner_.factorize(graph_.pattern,
                                  assemble_hessian(white_.problem, graph_, tangents(balanced))))
@@ -202,7 +224,7 @@ std::optional<ForceErrorBound> ForceProjection::force_error(const ContactSolutio
     if (settled || round + 1 == kRounds) break;  // the last change only measures what remains
     balanced.gamma += change->gamma;
     balanced.v += change->v;
-    raise_into_cones();
+    make_admissible();
   }
   const VecX y = relative_velocity(p_, balanced.v) + p_.b;
   double gap = 0.0;

@@ -34,6 +34,12 @@ Accuracy force_balance_accuracy(const StaticSolution& solution, double tolerance
           reached};
 }
 
+/// Share of the compressive strength that a push uses, or of the tensile strength that a pull uses.
+double strength_use(const JointLaw& law, double normal_force) {
+  if (normal_force >= 0.0) return normal_force / law.strength.compression;
+  return law.strength.tension > 0.0 ? -normal_force / law.strength.tension : 0.0;
+}
+
 }  // namespace
 
 JointNumbers number_joints(const ContactSet& contacts) {
@@ -110,7 +116,8 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
     const Vec3& force = contact_forces[i];
     const double normal_force = contact.normal.dot(force);
     const double tangential_force = (force - normal_force * contact.normal).norm();
-    const double limit = joint_law(model, contacts, contact, state.time).mu * normal_force;
+    const JointLaw law = joint_law(model, contacts, contact, state.time);
+    const double limit = law.strength.cohesion + law.mu * normal_force;
     table.block_a.push_back(contact.block_a);
     table.block_b.push_back(contact.block_b);
     table.kind.push_back(patch.kind);
@@ -123,6 +130,7 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
     table.friction_use.push_back(limit > 0.0 ? tangential_force / limit : 0.0);
     table.area.push_back(contact.area);
     table.slip.push_back(memories.values[i].plastic_slip);
+    if (model.joints.has_strength()) table.strength_use.push_back(strength_use(law, normal_force));
   }
 
   BlockTable& blocks = frame.blocks;

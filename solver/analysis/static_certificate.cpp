@@ -7,6 +7,7 @@
 #include "solver/analysis/cyclic_reduction.hpp"
 #include "solver/analysis/force_projection.hpp"
 #include "solver/analysis/record.hpp"
+#include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/dynamics/time_step.hpp"
 
@@ -55,7 +56,8 @@ double largest_joint_error(const ContactSet& contacts, const ContactProblem& p, 
     joint.moment += arm.cross(force);
     joint.force_change += change;
     joint.moment_change += arm.cross(change);
-    const double stiffest = p.mu[i] > 0.0 ? std::min(p.E[3 * i], p.E[3 * i + 1]) : p.E[3 * i];
+    const double stiffest =
+        contact_law(p, i).carries_shear() ? std::min(p.E[3 * i], p.E[3 * i + 1]) : p.E[3 * i];
     joint.compliance_sum += (1.0 + arm.squaredNorm()) / stiffest;
   }
   for (const Joint& joint : joints) mean += joint.force.norm() / numbers.count;
@@ -101,8 +103,9 @@ StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, 
   std::optional<ForceErrorBound> error = projection.force_error(x);
   if (!error) {
     certificate.force_error.bounds =
-        "the forces in the loaded joints could not be brought into exact equilibrium inside the friction "
-        "cones";
+        "the forces in the loaded joints could not be brought into exact equilibrium inside the limits of "
+        "the "
+        "joints";
     return certificate;
   }
   if (symmetry) {

@@ -178,7 +178,7 @@ void ContactDetector::detect() {
   std::set<ContactId> lateral = transfer_identities(memory_.contacts, &fresh);
   // Overlaps as built are left to the solver. With compliance per area the points of a small area are so
   // compliant that their force stays small.
-  if (memory_.num_detections == 0 || options_.points != PatchPoints::corners) lateral.clear();
+  if (memory_.num_detections == 0 || options_.sampling.points != PatchPoints::corners) lateral.clear();
   memory_.contacts = std::move(fresh);
   moved_.clear();  // moved_contacts_ refers to the old contacts
   carry_contacts(std::vector<char>(memory_.now.poses.size(), 1));
@@ -230,7 +230,7 @@ AnchoredContacts ContactDetector::find_contacts(int block_start, int block_end) 
       for (const JointPatch& patch :
            perturbed_gjk_ ? perturb_blocks(*perturbed_gjk_, model_, a, b, pose_ab, options_.margin, reach)
                           : clip_blocks(model_, a, b, pose_ab, narrow))
-        append_patch(model_, patch, pose_ab, narrow.margin, options_.points, nominal_area, &fresh);
+        append_patch(model_, patch, pose_ab, narrow.margin, options_.sampling, nominal_area, &fresh);
     }
   }
   return fresh;

@@ -17,7 +17,7 @@ struct DetectionOptions {
   /// margin requires detection less often but adds contacts that are open. 0: 1 % of the smallest free block
   /// (cube root of its volume).
   double margin = 0.0;
-  PatchPoints points = PatchPoints::corners;
+  PatchSampling sampling;
   /// Contacts are detected again when a block has moved by this fraction of the margin, in (0, 0.25]. Two
   /// blocks that approach each other undetected are then still half the margin apart.
   double moved_fraction = 0.25;

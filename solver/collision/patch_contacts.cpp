@@ -180,7 +180,8 @@ void append(AnchoredContacts more, AnchoredContacts* contacts) {
 }
 
 void append_patch(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
-                  double margin, PatchPoints points, double nominal_area, AnchoredContacts* contacts) {
+                  double margin, const PatchSampling& sampling, double nominal_area,
+                  AnchoredContacts* contacts) {
   const int block_a = model.parts[patch.part_a].block;
   const int block_b = model.parts[patch.part_b].block;
   CUPOLA_ASSERT(block_a < block_b);
@@ -204,7 +205,7 @@ void append_patch(const CollisionModel& model, const JointPatch& patch, const Ei
     const std::vector<Vec2> outline = patch.outline();
     shape.area = polygon_area(outline);
     for (const Vec2& x : outline) polygon.push_back(lift_to_faces(patch, x).on_a);
-    for (const PatchPoint& point : patch_points(outline, points))
+    for (const PatchPoint& point : patch_points(outline, sampling))
       append(lift_to_faces(patch, point.position),
              point.corner < 0 ? CornerNormal{patch.normal, 0.5} : patch.corners[point.corner].normal,
              point.area, point.corner);

@@ -32,7 +32,8 @@ void append(AnchoredContacts more, AnchoredContacts* contacts);
 /// patch. An edge or vertex contact has no area: each of its points gets `nominal_area` (m2) unless the patch
 /// has a `point_area`. World positions are left to move_contacts().
 void append_patch(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
-                  double margin, PatchPoints points, double nominal_area, AnchoredContacts* contacts);
+                  double margin, const PatchSampling& sampling, double nominal_area,
+                  AnchoredContacts* contacts);
 
 /// Contacts and patches to update when some blocks move.
 struct MovedContacts {

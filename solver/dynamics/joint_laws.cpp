@@ -11,6 +11,9 @@ JointLaw apply_change(JointLaw law, const JointLawChange& change) {
   law.mu = change.friction.value_or(law.mu);
   law.compliance_normal = change.normal.value_or(law.compliance_normal);
   law.compliance_tangential = change.tangential.value_or(law.compliance_tangential);
+  law.strength.tension = change.tension.value_or(law.strength.tension);
+  law.strength.cohesion = change.cohesion.value_or(law.strength.cohesion);
+  law.strength.compression = change.compressive_strength.value_or(law.strength.compression);
   return law;
 }
 
@@ -30,6 +33,10 @@ const std::optional<JointLawChange>& change_of(const Joints& joints, JointClass 
       break;
   }
   return none;
+}
+
+JointStrength times(const JointStrength& strength, double area) {
+  return {area * strength.tension, area * strength.cohesion, area * strength.compression};
 }
 
 bool applies_to(RingJoints::Sort group, JointClass kind) {
@@ -65,8 +72,9 @@ JointClass joint_class(const Assembly& assembly, const Patch& patch) {
 }
 
 JointTable::JointTable(const Joints& joints, int num_rings)
-    : per_area_(joints.compliance.per == Compliance::Per::area) {
-  const JointLaw general{joints.friction, joints.compliance.normal, joints.compliance.tangential};
+    : per_area_(joints.compliance.per == Compliance::Per::area), has_strength_(joints.have_strength()) {
+  const JointLaw general{joints.friction, joints.compliance.normal, joints.compliance.tangential,
+                         joints.strength};
   for (int k = 0; k < kNumJointClasses; ++k) {
     const auto kind = static_cast<JointClass>(k);
     const auto& change = change_of(joints, kind);
@@ -87,6 +95,7 @@ JointLaw JointTable::law(const Assembly& assembly, const Patch& patch, double ar
   const double share = per_area_ ? area : multiplicity;
   law.compliance_normal /= share;
   law.compliance_tangential /= share;
+  if (has_strength_) law.strength = patch.area > 0.0 ? times(law.strength, area) : JointStrength{};
   return law;
 }
 

@@ -8,11 +8,13 @@
 
 namespace cupola {
 
-/// Friction and compliance of one contact point.
+/// Friction, compliance and strength of one contact point.
 struct JointLaw {
   double mu = 0.0;
   double compliance_normal = 0.0;      ///< m/N per point; in a JointTable per area: m3/N
   double compliance_tangential = 0.0;  ///< same unit
+  /// Largest forces, N per point (see ContactStrength); in a JointTable stresses, Pa.
+  JointStrength strength = {};
 };
 
 /// Classes of joints that can have different laws. A base joint lies on a support. A herringbone joint
@@ -28,13 +30,14 @@ class JointTable {
   JointTable() = default;
   explicit JointTable(const Joints& joints, int num_rings);
 
+  bool has_strength() const { return has_strength_; }
   /// Law of a contact point of the patch with tributary area `area` (m2) and the given multiplicity (see
-  /// Contact), at full friction.
+  /// Contact), at full friction. Blocks that touch at an edge or a corner have no strength.
   JointLaw law(const Assembly& assembly, const Patch& patch, double area, int multiplicity = 1) const;
 
  private:
   std::array<std::vector<JointLaw>, kNumJointClasses> laws_;  // by class, then ring
-  bool per_area_ = false;
+  bool per_area_ = false, has_strength_ = false;
 };
 
 }  // namespace cupola

@@ -18,8 +18,9 @@ bool starts_static(const Case& scene) {
 
 DetectionOptions detection_options(const Case& scene) {
   DetectionOptions options;
-  options.points =
+  options.sampling.points =
       scene.joints.compliance.per == Compliance::Per::area ? PatchPoints::quadrature : PatchPoints::corners;
+  options.sampling.subdivide = scene.contact.subdivide;
   options.margin = scene.contact.margin;
   options.contact_file = scene.contact.file;
   options.plane = scene.analysis.plane;

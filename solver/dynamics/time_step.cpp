@@ -71,6 +71,9 @@ void set_contact_rows(const Model& model, const State& state, const ContactSet& 
 
     const JointLaw law = joint_law(model, contacts, contact, end);
     problem->mu[i] = law.mu;
+    if (model.joints.has_strength())
+      problem->strength[i] = {h * law.strength.tension, h * law.strength.cohesion,
+                              h * law.strength.compression};
     problem->E.segment<3>(3 * i) << law.compliance_normal, law.compliance_tangential,
         law.compliance_tangential;
     problem->E.segment<3>(3 * i) /= h * h_alpha;
@@ -147,6 +150,7 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
   step.num_contacts = static_cast<int>(contacts.points.size());
   step.problem.h = options.h;
   resize_rows(step.num_contacts + static_cast<int>(model.ties.size()), &step);
+  if (model.joints.has_strength()) step.problem.strength.resize(step.problem.block_a.size());
   set_free_velocities(model, state, options, &step.problem);
   set_contact_rows(model, state, contacts, memories, options, &step.problem);
   set_tie_rows(model, state, options, step.num_contacts, &step.problem);

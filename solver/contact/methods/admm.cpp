@@ -55,7 +55,8 @@ void AlternatingDirections::iterate() {
   const VecX shifted = relaxed - gamma.cwiseQuotient(R);
   VecX next(gamma.size());
   for (int i = 0; i < p.num_contacts(); ++i) {
-    const ContactLaw law{p.E[3 * i] + 1.0 / R[3 * i], p.E[3 * i + 1] + 1.0 / R[3 * i + 1], p.mu[i]};
+    const ContactLaw law =
+        contact_law(p, i, p.E[3 * i] + 1.0 / R[3 * i], p.E[3 * i + 1] + 1.0 / R[3 * i + 1]);
     next.segment<3>(3 * i) = contact_impulse(law, shifted.segment<3>(3 * i));
   }
   const VecX z_next = relaxed + (next - gamma).cwiseQuotient(R);

@@ -28,7 +28,11 @@ struct CoulombSubproblem {
   VecX R;       ///< 1/kg (nc)
   VecX centre;  ///< gamma_k (3 nc)
 
-  ContactLaw contact(int i) const { return {p.E[3 * i] + R[i], p.E[3 * i + 1] + R[i], p.mu[i], dilatancy}; }
+  ContactLaw contact(int i) const {
+    ContactLaw law = contact_law(p, i, p.E[3 * i] + R[i], p.E[3 * i + 1] + R[i]);
+    law.dilatancy = dilatancy;
+    return law;
+  }
   VecX velocity(const VecX& w) const;
   VecX impulses(const VecX& w) const;
   VecX residual(const VecX& w) const { return w - p.v_star - generalized_impulse(p, impulses(w)); }
@@ -59,14 +63,12 @@ UnsymmetricBlockMatrix CoulombSubproblem::jacobian(const VecX& y) const {
 /// The solution with all contacts sticking, including those with a gap. False if the matrix is singular.
 bool all_stick_start(const CoulombSubproblem& sub, BlockLu* lu, VecX* w) {
   const ContactProblem& p = sub.p;
-  VecX closing = VecX::Zero(p.b.size());  // along the normal: the contact sticks
-  for (int i = 0; i < p.num_contacts(); ++i) closing[3 * i] = -1.0;
-  if (!lu->factorize(sub.graph.pattern, sub.jacobian(closing))) return false;
+  std::vector<Mat3> G(p.num_contacts());
+  for (int i = 0; i < p.num_contacts(); ++i) G[i] = sticking_stiffness(sub.contact(i));
+  if (!lu->factorize(sub.graph.pattern, assemble_jacobian(p, sub.graph, G))) return false;
   VecX impulse(p.b.size());
   const VecX y = sub.velocity(VecX::Zero(p.v_star.size()));
-  for (int i = 0; i < p.num_contacts(); ++i)
-    impulse.segment<3>(3 * i) =
-        -contact_stiffness(sub.contact(i), closing.segment<3>(3 * i)) * y.segment<3>(3 * i);
+  for (int i = 0; i < p.num_contacts(); ++i) impulse.segment<3>(3 * i) = -G[i] * y.segment<3>(3 * i);
   *w = lu->solve(p.v_star + generalized_impulse(p, impulse));
   return w->allFinite();
 }

@@ -96,7 +96,7 @@ bool solve_delassus_subproblem(const DelassusSubproblem& sub, double tolerance, 
 VecX on_cone(const DelassusProblem& p, const VecX& gamma) {
   VecX result(gamma.size());
   for (int i = 0; i < p.num_contacts(); ++i) {
-    result.segment<3>(3 * i) = project_on_cone({1.0, 1.0, p.mu[i]}, gamma.segment<3>(3 * i));
+    result.segment<3>(3 * i) = project_on_admissible({1.0, 1.0, p.mu[i]}, gamma.segment<3>(3 * i));
   }
   return result;
 }

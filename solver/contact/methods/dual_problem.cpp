@@ -21,8 +21,8 @@ VecX DualProblem::times(const VecX& gamma) const {
 VecX DualProblem::project(const VecX& x) const {
   VecX result(x.size());
   for (int i = 0; i < white.problem.num_contacts(); ++i) {
-    const ContactLaw metric{B[3 * i], B[3 * i + 1], white.problem.mu[i]};
-    result.segment<3>(3 * i) = project_on_cone(metric, x.segment<3>(3 * i));
+    const ContactLaw metric = contact_law(white.problem, i, B[3 * i], B[3 * i + 1]);
+    result.segment<3>(3 * i) = project_on_admissible(metric, x.segment<3>(3 * i));
   }
   return result;
 }

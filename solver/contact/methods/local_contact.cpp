@@ -1,5 +1,6 @@
 #include "solver/contact/methods/local_contact.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include <Eigen/LU>
@@ -10,22 +11,24 @@ namespace cupola {
 
 namespace {
 
-/// Without friction only the normal row is used.
-Vec3 solve_frictionless(const Mat3& A, const Vec3& r) {
-  return {std::max(0.0, -r[0] / A(0, 0)), 0.0, 0.0};
+/// Without shear only the normal row is used.
+Vec3 solve_normal(const Mat3& A, const Vec3& r, const ContactStrength& strength) {
+  return {std::clamp(-r[0] / A(0, 0), -strength.tension, strength.compression), 0.0, 0.0};
 }
 
 }  // namespace
 
-Vec3 solve_local_contact(const Mat3& A, const Vec3& r, double mu, const Vec3& guess) {
-  if (mu == 0.0) return solve_frictionless(A, r);
+Vec3 solve_local_contact(const Mat3& A, const Vec3& r, const ContactLaw& law, const Vec3& guess) {
+  if (!law.carries_shear()) return solve_normal(A, r, law.strength);
   // Row sums bound the eigenvalues (Gershgorin), so the projected step is a descent step.
   const Vec3 sums = A.cwiseAbs().rowwise().sum();
-  const ContactLaw metric{sums[0], std::max(sums[1], sums[2]), mu};
+  ContactLaw metric = law;
+  metric.e_n = sums[0];
+  metric.e_t = std::max(sums[1], sums[2]);
   const Mat3 B = Vec3(metric.e_n, metric.e_t, metric.e_t).asDiagonal();
 
   constexpr int kMaxIterations = 100;
-  Vec3 gamma = project_on_cone(metric, guess);
+  Vec3 gamma = project_on_admissible(metric, guess);
   double last_error = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMaxIterations; ++k) {
     const Vec3 y = A * gamma + r - B * gamma;

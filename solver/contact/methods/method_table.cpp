@@ -60,6 +60,8 @@ SolveSummary solve_newton_with_fallback(NewtonSolver& newton, const ContactProbl
                                         const SolveOptions& options, ContactSolution* solution) {
   const int usual_iterations = usual_newton_iterations(problem);  // interior point takes about 27
   const int limit = options.max_iterations.value_or(kNewtonIterations);
+  // The interior-point method knows cones, not strengths.
+  if (!problem.strength.empty()) return newton.solve(problem, options, solution);
   SolveOptions plain = options;
   plain.max_iterations = std::min(limit, usual_iterations);
   const SolveSummary first = newton.solve(problem, plain, solution);

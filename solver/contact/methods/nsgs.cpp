@@ -28,7 +28,7 @@ void sweep(const ContactProblem& p, const std::vector<Mat3>& A, VecX* gamma, Vec
     Vec3 y = p.b.segment<3>(3 * i) + p.E.segment<3>(3 * i).cwiseProduct(old);
     if (a != ContactProblem::kFixed) y += p.D_a[i].transpose() * w->segment<6>(6 * a);
     if (b != ContactProblem::kFixed) y += p.D_b[i].transpose() * w->segment<6>(6 * b);
-    const Vec3 fresh = solve_local_contact(A[i], y - A[i] * old, p.mu[i], old);
+    const Vec3 fresh = solve_local_contact(A[i], y - A[i] * old, contact_law(p, i), old);
     const Vec3 change = fresh - old;
     if (change.isZero(0.0)) continue;
     gamma->segment<3>(3 * i) = fresh;

@@ -20,12 +20,14 @@ PrimalPoint primal_point(const ContactProblem& p, VecX w) {
   VecX impulse = VecX::Zero(momentum.size());
   for (int i = 0; i < p.num_contacts(); ++i) {  // one pass, because reading D dominates the cost
     const Vec3 y = relative_velocity(p, i, point.w) + p.b.segment<3>(3 * i);
-    const Vec3 gamma = contact_impulse(contact_law(p, i), y);
+    const ContactLaw law = contact_law(p, i);
+    const Vec3 gamma = contact_impulse(law, y);
     add_impulse(p, i, gamma, &impulse);
     point.y.segment<3>(3 * i) = y;
     point.gamma.segment<3>(3 * i) = gamma;
     point.cost += 0.5 * p.E[3 * i] * gamma[0] * gamma[0];
-    if (p.mu[i] > 0.0) point.cost += 0.5 * p.E[3 * i + 1] * gamma.tail<2>().squaredNorm();
+    if (law.carries_shear()) point.cost += 0.5 * p.E[3 * i + 1] * gamma.tail<2>().squaredNorm();
+    if (!p.strength.empty()) point.cost -= gamma.dot(y + p.E.segment<3>(3 * i).cwiseProduct(gamma));
   }
   point.gradient = momentum - impulse;
   for (int k = 0; k < p.num_blocks(); ++k) {

@@ -28,6 +28,7 @@ void check_sizes(const ContactProblem& p) {
   check("b", p.b.size(), 3 * nc);
   check("E", p.E.size(), 3 * nc);
   check("mu", p.mu.size(), nc);
+  if (!p.strength.empty()) check("strength", std::ssize(p.strength), nc);
 }
 
 void check_block(const ContactProblem& p, int k) {
@@ -62,6 +63,13 @@ void check_contact(const ContactProblem& p, int i) {
   if (!std::isfinite(p.mu[i]) || p.mu[i] < 0.0) {
     reject(fmt::format("mu of contact {} = {}: must be finite and >= 0", i, p.mu[i]));
   }
+  if (p.strength.empty()) return;
+  const ContactStrength& s = p.strength[i];
+  if (!(std::isfinite(s.tension) && s.tension >= 0.0 && std::isfinite(s.cohesion) && s.cohesion >= 0.0 &&
+        s.compression > 0.0))
+    reject(fmt::format(
+        "strength of contact {}: tension {}, cohesion {}, compression {}: must be >= 0, >= 0, > 0", i,
+        s.tension, s.cohesion, s.compression));
 }
 
 }  // namespace

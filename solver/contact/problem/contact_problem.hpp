@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,24 @@ using VecX = Eigen::VectorXd;
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
+/// Strength of one contact, as impulses (N s): the stress that its area of joint carries, times the area and
+/// the step. The default is a dry joint.
+struct ContactStrength {
+  double tension = 0.0;                                          ///< >= 0, largest pull
+  double cohesion = 0.0;                                         ///< >= 0, shear carried at gamma_n = 0
+  double compression = std::numeric_limits<double>::infinity();  ///< > 0, largest push
+};
+
 /// The frictional contact problem of one time step, in the form that every method takes. M is symmetric
 /// positive definite, E >= 0:
 ///
 ///     M (v - v_star) = D gamma,     gamma in Y  _|_  D^T v + b + E gamma in Y*          (paper eq. 9-13)
 ///
-/// Y is the product of the cones |gamma_t| <= mu gamma_n. The paper writes N = D^T M^-1 D - E with
+/// Y is the product of the cones |gamma_t| <= mu gamma_n. Joints with strength replace the cone by the convex set
+///
+///     |gamma_t| <= cohesion + mu gamma_n,   -tension <= gamma_n <= compression
+///
+/// and the second condition by: -(D^T v + b + E gamma) is an outward normal of that set at gamma. The paper writes N = D^T M^-1 D - E with
 /// E = -K^-1/h^2; here E is positive and added. This is the associated law, a convex problem. Under Coulomb's
 /// law De Saxce's term mu |u_t| is added to the normal component of the dual variable (FrictionLaw in
 /// assembly/model/choices.hpp, outer_iterations.hpp).
@@ -29,16 +42,17 @@ using Mat3 = Eigen::Matrix3d;
 struct ContactProblem {
   static constexpr int kFixed = -1;  ///< block index of a body without unknowns
 
-  std::vector<Mat6> M;       ///< kg, kg m2: mass matrix per block (nb)
-  VecX v_star;               ///< m/s, rad/s: free velocity, i.e. without contact impulses (6 nb)
-  std::vector<int> block_a;  ///< block of D_a, or kFixed (nc)
-  std::vector<int> block_b;  ///< block of D_b, or kFixed (nc)
-  std::vector<Mat63> D_a;    ///< rows of D for block a; unused when it is fixed (nc)
-  std::vector<Mat63> D_b;    ///< rows of D for block b; unused when it is fixed (nc)
-  VecX b;                    ///< m/s: gap and elastic slip over (h + alpha) (3 nc)
-  VecX E;                    ///< 1/kg: diag c / (h (h + alpha)); both tangents equal (3 nc)
-  VecX mu;                   ///< friction coefficient (nc)
-  double h = 0.0;            ///< s, step; converts impulses to forces (force = gamma / h)
+  std::vector<Mat6> M;                    ///< kg, kg m2: mass matrix per block (nb)
+  VecX v_star;                            ///< m/s, rad/s: free velocity, i.e. without contact impulses (6 nb)
+  std::vector<int> block_a;               ///< block of D_a, or kFixed (nc)
+  std::vector<int> block_b;               ///< block of D_b, or kFixed (nc)
+  std::vector<Mat63> D_a;                 ///< rows of D for block a; unused when it is fixed (nc)
+  std::vector<Mat63> D_b;                 ///< rows of D for block b; unused when it is fixed (nc)
+  VecX b;                                 ///< m/s: gap and elastic slip over (h + alpha) (3 nc)
+  VecX E;                                 ///< 1/kg: diag c / (h (h + alpha)); both tangents equal (3 nc)
+  VecX mu;                                ///< friction coefficient (nc)
+  std::vector<ContactStrength> strength;  ///< (nc), or empty: all joints are dry
+  double h = 0.0;                         ///< s, step; converts impulses to forces (force = gamma / h)
   /// Motion in the plane x-z: D is zero in the rows y, rot x and rot z, and M does not couple these with the
   /// others. Factors then have three unknowns per block.
   bool plane = false;
@@ -47,7 +61,7 @@ struct ContactProblem {
   int num_contacts() const { return static_cast<int>(block_a.size()); }
 
   /// Checks sizes, finite values, M symmetric positive definite, E >= 0, mu >= 0, equal E for both tangents,
-  /// two different blocks per contact, h > 0. Throws std::invalid_argument that names the first violation.
+  /// strengths >= 0, two different blocks per contact, h > 0. Throws std::invalid_argument that names the first violation.
   void validate() const;
   /// The message of validate(), or an empty string for a valid problem.
   std::string defect() const;

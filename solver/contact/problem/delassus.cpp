@@ -38,7 +38,8 @@ double natural_map(const DelassusProblem& p, const VecX& gamma, const FlowRule& 
     Vec3 velocity = u.segment<3>(3 * i);
     if (!law.is_associated()) velocity[0] += (1.0 - law.dilatancy) * p.mu[i] * velocity.tail<2>().norm();
     const Vec3 gamma_i = gamma.segment<3>(3 * i);
-    squared += (gamma_i - project_on_cone({1.0, 1.0, p.mu[i]}, gamma_i - rho[i] * velocity)).squaredNorm();
+    squared +=
+        (gamma_i - project_on_admissible({1.0, 1.0, p.mu[i]}, gamma_i - rho[i] * velocity)).squaredNorm();
   }
   return std::sqrt(squared);
 }

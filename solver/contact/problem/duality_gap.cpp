@@ -37,8 +37,7 @@ class RoundingBounds {
 
 /// Rounding of an impulse, and its distance from the cone.
 Vec3 RoundingBounds::uncertainty(const ContactLaw& law, const Vec3& gamma) {
-  const double outside = std::max({0.0, gamma.tail<2>().norm() - law.mu * gamma[0], -gamma[0]});
-  return 4.0 * kMachineEps * gamma.cwiseAbs() + Vec3::Constant(outside);
+  return 4.0 * kMachineEps * gamma.cwiseAbs() + Vec3::Constant(limit_excess(law, gamma));
 }
 
 /// |L^-1| times a bound of each component of the error of r = M (v - v_star) - D gamma.
@@ -83,7 +82,7 @@ void RoundingBounds::add_contacts() {
     const Vec3 y = relative_velocity(p_, i, x_.v) + p_.b.segment<3>(3 * i);
     const double opening = y[0] - law.mu * y.tail<2>().norm();
     if (gamma.isZero(0.0) && opening > error[0] + law.mu * error.tail<2>().norm()) continue;
-    const double e_t = law.mu > 0.0 ? law.e_t : law.e_n;
+    const double e_t = law.carries_shear() ? law.e_t : law.e_n;
     const Vec3 E(law.e_n, e_t, e_t);
     squared_ += error.cwiseAbs2().cwiseQuotient(E).sum();
     squared_ += uncertainty(law, gamma).cwiseAbs2().cwiseProduct(E).sum();
@@ -94,27 +93,30 @@ void RoundingBounds::add_contacts() {
 
 double contact_duality_gap(const ContactLaw& law, const Vec3& y, const Vec3& gamma) {
   const Vec3 gamma_v = contact_impulse(law, y);
-  const double e_t = law.mu > 0.0 ? law.e_t : 0.0;
+  const double e_t = law.carries_shear() ? law.e_t : 0.0;
   const Vec3 difference = gamma - gamma_v;
   const double distance = 0.5 * difference.dot(Vec3(law.e_n, e_t, e_t).cwiseProduct(difference));
-  switch (contact_region(law, y)) {  // gamma . z with z = y + E gamma(v), without cancellation
-    case ContactRegion::separation:
-      return distance + std::max(0.0, gamma.dot(y));
-    case ContactRegion::stick:
-      return distance;  // z = 0
-    case ContactRegion::slip:
-      break;
+  // The rest is (gamma - gamma(v)) . z with z = y + E gamma(v), without cancellation.
+  const ContactRegion region = contact_region(law, y);
+  if (region == ContactRegion::separation) return distance + std::max(0.0, gamma.dot(y));
+  if (region == ContactRegion::stick) return distance;  // z = 0
+  const bool slips = region != ContactRegion::yield;
+  const double z_t = slips ? std::max(0.0, y.tail<2>().norm() - e_t * gamma_v.tail<2>().norm()) : 0.0;
+  double rest = 0.0;
+  if (region != ContactRegion::slip) {  // gamma(v)_n is at the pull, which opens the joint, or at the push
+    const double yielding = y[0] + law.e_n * gamma_v[0] - law.mu * z_t;
+    rest = std::max(0.0, yielding * (gamma[0] - gamma_v[0]));
   }
-  // z = |z_t| (mu, t) and gamma . z = |z_t| [(mu gamma_n - |gamma_t|) + |gamma_t| |t + gamma_t/|gamma_t||^2 /
-  // 2]
-  constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();  // of |gamma_t| and mu gamma_n
-  const double z_t = std::max(0.0, y.tail<2>().norm() - e_t * gamma_v.tail<2>().norm());
-  const double gamma_t = gamma.tail<2>().norm();
-  double inside = law.mu * gamma[0] - gamma_t;
-  if (inside <= kRounding * law.mu * gamma[0]) inside = 0.0;
+  if (!slips) return distance + rest;
+  // |z_t| [(c + mu gamma_n - |gamma_t|) + |gamma_t| |t + gamma_t / |gamma_t||^2 / 2], z_t = |z_t| t
+  constexpr double kRounding =
+      8.0 * std::numeric_limits<double>::epsilon();  // of |gamma_t| and c + mu gamma_n
+  const double gamma_t = gamma.tail<2>().norm(), limit = law.shear_limit(gamma[0]);
+  double inside = limit - gamma_t;
+  if (inside <= kRounding * limit) inside = 0.0;
   if (gamma_t > 0.0 && y.tail<2>().norm() > 0.0)
     inside += 0.5 * gamma_t * (y.tail<2>().normalized() + gamma.tail<2>() / gamma_t).squaredNorm();
-  return distance + z_t * inside;
+  return distance + rest + z_t * inside;
 }
 
 double duality_gap(const ContactProblem& p, const ContactSolution& x) {
@@ -136,7 +138,7 @@ double compliance_norm(const ContactProblem& problem, const VecX& gamma) {
   for (int i = 0; i < problem.num_contacts(); ++i) {
     const Vec3 g = gamma.segment<3>(3 * i);
     squared += problem.E[3 * i] * g[0] * g[0];
-    if (problem.mu[i] > 0.0) squared += problem.E[3 * i + 1] * g.tail<2>().squaredNorm();
+    if (contact_law(problem, i).carries_shear()) squared += problem.E[3 * i + 1] * g.tail<2>().squaredNorm();
   }
   return std::sqrt(squared);
 }

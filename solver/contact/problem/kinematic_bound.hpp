@@ -14,8 +14,16 @@ namespace cupola {
 ///
 /// so their normal components sum to at least (v . M v_star) / max delta. The result is
 ///
+/// Joints with strength can in addition dissipate up to
+///
+///     sum_i  c |u_t| + T (u_n - mu |u_t|)+,
+///
+/// and no more than F delta where their compression F is finite. v dissipates less than the loads do work: no
+/// equilibrium.
+///
 ///     infinity    if v opens every joint or slides along it (u in Y*) while the loads do work:
-///                 the kinematic theorem of limit analysis;
+///                 the kinematic theorem of limit analysis, or the dissipation cannot
+///                 reach the work;
 ///     0           if the loads do no work;
 ///     a value below the sum of the actual normal forces, for every v, if the structure stands.
 ///

@@ -84,10 +84,8 @@ double contact_law_rounding(const ContactProblem& p, const ContactSolution& x) {
 double cone_violation(const ContactProblem& p, const VecX& gamma) {
   double violation = 0.0, largest = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {
-    const double gamma_n = gamma[3 * i];
-    const double gamma_t = gamma.segment<2>(3 * i + 1).norm();
-    violation = std::max({violation, gamma_t - p.mu[i] * gamma_n, -gamma_n});
-    largest = std::max(largest, std::abs(gamma_n));
+    violation = std::max(violation, limit_excess(contact_law(p, i), gamma.segment<3>(3 * i)));
+    largest = std::max(largest, std::abs(gamma[3 * i]));
   }
   return violation > 0.0 ? violation / std::max(largest, std::numeric_limits<double>::min()) : 0.0;
 }
@@ -99,7 +97,7 @@ ForceCertificate certificate(const ContactProblem& problem, const ContactSolutio
   if (!law.is_associated())
     return {{}, "a non-associated law (Coulomb's) is not a minimisation and has no duality gap"};
   if (smallest_compliance(problem) == 0.0) return {{}, "some compliance is zero"};
-  if (!(cone_violation <= kRounding)) return {{}, "some impulses lie outside their friction cones"};
+  if (!(cone_violation <= kRounding)) return {{}, "some impulses exceed the limits of their joints"};
   const double norm = compliance_norm(problem, solution.gamma);
   if (!(norm > 0.0)) return {{}, "no contact is loaded"};
   return {force_error_bound(problem, solution) / norm,
@@ -154,7 +152,7 @@ double smallest_compliance(const ContactProblem& p) {
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < p.num_contacts(); ++i) {
     smallest = std::min(smallest, p.E[3 * i]);
-    if (p.mu[i] > 0.0) smallest = std::min(smallest, p.E[3 * i + 1]);
+    if (contact_law(p, i).carries_shear()) smallest = std::min(smallest, p.E[3 * i + 1]);
   }
   return smallest;
 }

@@ -24,7 +24,8 @@ struct Residuals {
   /// Part of contact_law that is due to rounding of D^T v alone: eps | |D|^T |v| / E | / |gamma|. Large where
   /// blocks slide fast on contacts of tiny compliance; no pair (v, gamma) in double precision does better.
   double contact_law_rounding = 0.0;
-  /// max over contacts of (|gamma_t| - mu gamma_n)+ and (-gamma_n)+, over the largest |gamma_n|.
+  /// max over contacts of limit_excess() (dry: (|gamma_t| - mu gamma_n)+ and (-gamma_n)+), over the largest
+  /// |gamma_n|.
   double cone_violation = 0.0;
   /// Bound of |gamma - exact|_E / |gamma|_E, see duality_gap.hpp. None where some E = 0, where gamma is
   /// outside the cone or zero, and under Coulomb's law, which is not a minimisation.

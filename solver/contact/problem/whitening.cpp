@@ -42,6 +42,7 @@ WhitenedProblem whiten(const ContactProblem& problem) {
   p.b = problem.b;
   p.E = problem.E;
   p.mu = problem.mu;
+  p.strength = problem.strength;
   p.h = problem.h;
   p.plane = problem.plane;
   p.v_star = white.to_w(problem.v_star);

@@ -202,7 +202,8 @@ TEST(StaticSolve, CertificateBoundsTheErrorOfAFirstOrderMethod) {
 TEST(StaticSolve, CertifiesMixedCompliances) {
   for (const double stiff : {1e-9, 1e-13}) {
     Case input = make_case(0.4, 1e-6, 0.01);
-    input.joints.head = JointLawChange{.friction = {}, .normal = stiff, .tangential = stiff};
+    input.joints.head = JointLawChange{};
+    input.joints.head->normal = input.joints.head->tangential = stiff;
     const Scene scene(input, testing::running_bond_wall({0.5, 0.3, 0.25}, 3, 4));
     const StaticSolution solution = scene.solve(1e-8);
     ASSERT_EQ(solution.outcome, StaticOutcome::equilibrium) << solution.message;

@@ -19,7 +19,7 @@ using Eigen::Quaterniond;
 
 ContactSet contacts_at_rest(const Assembly& assembly, PatchPoints points = PatchPoints::corners) {
   DetectionOptions options;
-  options.points = points;
+  options.sampling.points = points;
   return ContactDetector(assembly, options).update(initial_poses(assembly));
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -190,13 +191,36 @@ TEST(PatchQuadrature, IsExactForSecondMoments) {
       {{0, 0}, {4, -1}, {5, 3}, {1, 1}},     // general quadrilateral
       regular_polygon(5, 2.0, 0.2),
       regular_polygon(8, 0.5, 0.7)};
-  for (const auto& polygon : polygons) {
-    const auto points = quadrature_points(polygon);
-    const Eigen::Matrix3d exact = exact_moments(polygon);
-    // Rounding errors of sums over at most 17 points.
-    EXPECT_LT((summed_moments(points) - exact).norm(), 1e-14 * exact.norm()) << polygon.size() << " corners";
-    for (const PatchPoint& p : points) EXPECT_GT(p.area, 0.0);
-  }
+  for (const int subdivide : {1, 2, 5})
+    for (const auto& polygon : polygons) {
+      const auto points = quadrature_points(polygon, subdivide);
+      const Eigen::Matrix3d exact = exact_moments(polygon);
+      // Rounding errors of sums over at most some hundred points.
+      EXPECT_LT((summed_moments(points) - exact).norm(), 1e-13 * exact.norm())
+          << polygon.size() << " corners";
+      for (const PatchPoint& p : points) EXPECT_GT(p.area, 0.0);
+    }
+}
+
+// Points of neighbouring pieces that coincide are one point, and the corners keep their numbers.
+TEST(PatchQuadrature, DividedPatchesShareTheirPoints) {
+  const auto check = [](const std::vector<Vec2>& polygon, int subdivide, std::size_t count) {
+    const auto points = quadrature_points(polygon, subdivide);
+    EXPECT_EQ(points.size(), count);
+    std::set<int> numbers;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      numbers.insert(points[i].corner);
+      if (i < polygon.size()) {
+        EXPECT_EQ(points[i].position, polygon[i]);
+        EXPECT_EQ(points[i].corner, static_cast<int>(i));
+      }
+      for (std::size_t k = 0; k < i; ++k) EXPECT_GT((points[i].position - points[k].position).norm(), 1e-3);
+    }
+    EXPECT_EQ(numbers.size(), points.size());
+  };
+  check(box(0, 0, 2, 1), 3, 16 + 9);                       // nodes of a 4 x 4 grid and 9 centres
+  check(regular_polygon(3, 1.0), 3, 10 + 9);               // 10 nodes and 9 triangles
+  check({{0, 0}, {4, 0}, {3, 1}, {1, 1}}, 2, 13 + 4 * 4);  // 1 + 4 + 4 + 4 nodes and 4 triangles each
 }
 
 TEST(PatchQuadrature, HasTheDocumentedNumberOfPoints) {

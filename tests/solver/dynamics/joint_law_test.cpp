@@ -6,6 +6,12 @@
 namespace cupola::joint_law_test {
 namespace {
 
+JointLawChange with_friction(double mu) {
+  JointLawChange law;
+  law.friction = mu;
+  return law;
+}
+
 using testing::make_case;
 
 struct WallLaws {
@@ -32,8 +38,11 @@ TEST(JointLaws, LawOfARingOverridesLawOfAClassOverridesGeneralLaw) {
   Joints joints;
   joints.friction = 0.4;
   joints.compliance = {1e-8, 2e-8, Compliance::Per::point};
-  joints.bed = JointLawChange{.friction = 0.3, .normal = 5e-8, .tangential = {}};
-  joints.base = JointLawChange{.friction = 0.7, .normal = {}, .tangential = {}};
+  joints.bed = JointLawChange{};
+  joints.bed->friction = 0.3;
+  joints.bed->normal = 5e-8;
+  joints.base = JointLawChange{};
+  joints.base->friction = 0.7;
   WallLaws laws = laws_of(joints, wall);
   EXPECT_EQ(laws.base.mu, 0.7);
   EXPECT_EQ(laws.bed.mu, 0.3);
@@ -41,14 +50,8 @@ TEST(JointLaws, LawOfARingOverridesLawOfAClassOverridesGeneralLaw) {
   EXPECT_EQ(laws.bed.compliance_tangential, 2e-8);
   EXPECT_EQ(laws.head.mu, 0.4);
 
-  joints.rings = {{.from = 1,
-                   .to = 1,
-                   .sort = RingJoints::Sort::all,
-                   .law = {.friction = 0.2, .normal = {}, .tangential = {}}},
-                  {.from = 0,
-                   .to = 5,
-                   .sort = RingJoints::Sort::head,
-                   .law = {.friction = 0.1, .normal = {}, .tangential = {}}}};
+  joints.rings = {{.from = 1, .to = 1, .sort = RingJoints::Sort::all, .law = with_friction(0.2)},
+                  {.from = 0, .to = 5, .sort = RingJoints::Sort::head, .law = with_friction(0.1)}};
   laws = laws_of(joints, wall);
   EXPECT_EQ(laws.base.mu, 0.7) << "ring 0";
   EXPECT_EQ(laws.bed.mu, 0.2) << "ring 1";

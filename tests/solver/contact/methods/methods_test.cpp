@@ -145,7 +145,7 @@ TEST(LocalContact, SolvesStickSlipAndSeparation) {
   for (const double mu : {0.1, 0.4, 3.0}) {
     for (const Vec3& r : {Vec3(-1, 0, 0), Vec3(-1, 0.1, 0.05), Vec3(-1, 2, -1), Vec3(0.1, 2, -1),
                           Vec3(1, 0.1, 0.1), Vec3(0, 0, 0), Vec3(5, -1, 2), Vec3(-1e-9, 1, 1)}) {
-      const Vec3 gamma = solve_local_contact(A, r, mu, Vec3::Zero()), slow = slow_local(A, r, mu);
+      const Vec3 gamma = solve_local_contact(A, r, {.mu = mu}, Vec3::Zero()), slow = slow_local(A, r, mu);
       EXPECT_LE((gamma - slow).norm(), 1e-12 * r.norm())
           << r.transpose() << " mu " << mu << ": " << gamma.transpose() << " | " << slow.transpose();
     }
@@ -155,8 +155,8 @@ TEST(LocalContact, SolvesStickSlipAndSeparation) {
 TEST(LocalContact, FrictionlessContactUsesTheNormalRowOnly) {
   Mat3 A = Mat3::Constant(std::nan(""));
   A(0, 0) = 2.0;
-  EXPECT_EQ(solve_local_contact(A, {-3.0, std::nan(""), 1.0}, 0.0, Vec3::Zero()), Vec3(1.5, 0, 0));
-  EXPECT_EQ(solve_local_contact(A, {3.0, std::nan(""), 1.0}, 0.0, Vec3::Zero()), Vec3::Zero().eval());
+  EXPECT_EQ(solve_local_contact(A, {-3.0, std::nan(""), 1.0}, {.mu = 0.0}, Vec3::Zero()), Vec3(1.5, 0, 0));
+  EXPECT_EQ(solve_local_contact(A, {3.0, std::nan(""), 1.0}, {.mu = 0.0}, Vec3::Zero()), Vec3::Zero().eval());
 }
 
 }  // namespace
