@@ -55,7 +55,7 @@ struct LimitSearch {
   /// automatic: direct where it applies
   enum class Method { automatic, direct, bisection };
   Method method = Method::automatic;
-  double low = 0.0, high = 1.0;              ///< initial bracket: stable at one end, not at the other
+  double low = 0.0, high = 1.0;  ///< initial bracket: stable at one end, not at the other
   /// Largest relative width of the final bracket, in (0, 1). None: 1e-3 by bisection; direct 1e-4 for friction,
   /// thickness and joint_extent, 1e-6 for the others, which are one conic programme.
   std::optional<double> relative_width;

@@ -31,7 +31,8 @@ void declare_stop(Section& s, StopRules& stop) {
 
 /// Of the forces, whatever state the compliances choose.
 bool asks_for_admissible_states(LimitSearch::Parameter parameter) {
-  return parameter == LimitSearch::Parameter::joint_extent || parameter == LimitSearch::Parameter::peak_stress;
+  return parameter == LimitSearch::Parameter::joint_extent ||
+         parameter == LimitSearch::Parameter::peak_stress;
 }
 
 void declare_limit(Section& s, LimitSearch& limit) {
@@ -41,8 +42,10 @@ void declare_limit(Section& s, LimitSearch& limit) {
       "parameter whose critical value is sought: friction coefficient; tilt of gravity (deg); "
       "horizontal acceleration (g); factor on loads.forces and loads.faces (load); factor on the shell "
       "thickness about its middle surface; factor on supports.moves (spread); factor on the extent of every "
-      "joint about its centroid (direct only), whose inverse is the geometric safety of the safest state; weight "
-      "of the lantern over that of the blocks; least peak stress of an admissible state (Pa, direct only, with "
+      "joint about its centroid (direct only), whose inverse is the geometric safety of the safest state; "
+      "weight "
+      "of the lantern over that of the blocks; least peak stress of an admissible state (Pa, direct only, "
+      "with "
       "compliance per area)");
   s.choice("method", limit.method,
            "direct: conic programmes over all admissible states (associated law, not for spread); bisection: "
@@ -150,10 +153,10 @@ void declare_analysis(Section& s, Analysis& analysis) {
       "ranges of forces over all admissible states");
   s.choice("method", analysis.method, "numerical method for the contact problem");
   declare_flow_rule(s, analysis);
-  s.integer(
-      "cyclic_sectors", analysis.cyclic_sectors, {.min = 1, .max = 100000},
-      "static, range: number of equal sectors around the z axis, of which one is solved (a range: for quantities "
-      "that repeat around the axis too); 1: solve the whole model");
+  s.integer("cyclic_sectors", analysis.cyclic_sectors, {.min = 1, .max = 100000},
+            "static, range: number of equal sectors around the z axis, of which one is solved (a range: for "
+            "quantities "
+            "that repeat around the axis too); 1: solve the whole model");
   s.integer(
       "robustness", analysis.robustness, {.min = 0, .max = 3600},
       "static: horizontal directions in which to find the least acceleration that makes it move; 0: none");
@@ -182,8 +185,7 @@ void declare_analysis(Section& s, Analysis& analysis) {
          "must list at least one quantity: {quantities: [thrust]}");
   s.rule(analysis.type == AnalysisType::static_ || analysis.type == AnalysisType::range ||
              analysis.cyclic_sectors == 1,
-         "cyclic_sectors",
-         "values above 1 require analysis.type: static or range");
+         "cyclic_sectors", "values above 1 require analysis.type: static or range");
   s.rule(analysis.type == AnalysisType::static_ || analysis.robustness == 0, "robustness",
          "requires analysis.type: static; the limit analysis of an acceleration takes one direction");
   s.flag("plane", analysis.plane,

@@ -97,9 +97,10 @@ inline constexpr std::array kCrackKeys{"opening_m", "slip_m", "kind"};
 inline constexpr std::array kLineCellKeys{"what", "meridian", "resultant_N"};
 inline constexpr std::array kSectionCellKeys{"what", "cut", "block", "height_m", "resultant_N"};
 /// summary.json: `ranges`.
-inline constexpr std::array kRangeSummaryKeys{
-    "quantity",    "unit",        "min",       "chosen",    "max",            "min_bound", "max_bound",
-    "min_outcome", "max_outcome", "min_frame", "max_frame", "relative_range", "block_a",   "block_b"};
+inline constexpr std::array kRangeSummaryKeys{"quantity",    "unit",      "min",       "chosen",
+                                              "max",         "min_bound", "max_bound", "min_outcome",
+                                              "max_outcome", "min_frame", "max_frame", "relative_range",
+                                              "block_a",     "block_b"};
 /// summary.json: `rings`.
 inline constexpr std::array kRingSummaryKeys{
     "ring",         "height_m",   "joint_force_N", "load_above_N", "relative_difference",

@@ -141,9 +141,7 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
       state ? "the forces at a limit are one of the admissible states" : "no equilibrium was found";
   summary.forces_unique = {false,
                            state ? "they are one of the admissible states" : "no equilibrium was found"};
-  summary.status = limit.unlimited   ? Status::stable
-                   : limit.no_state ? Status::moving
-                                    : Status::unconverged;
+  summary.status = limit.unlimited ? Status::stable : limit.no_state ? Status::moving : Status::unconverged;
   summary.message = name + ": " + limit.message;
   if (limit.unlimited) write_ends(limit, sinks, &summary);
   if (limit.found) {
