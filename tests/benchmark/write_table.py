@@ -1,6 +1,6 @@
 """Writes a table of measurements into a Markdown page.
 
-    PROGRAM | write_table.py PAGE.md NAME [COLUMN=HEADING ...]
+    PROGRAM | write_table.py [--digits=3] PAGE.md NAME [COLUMN=HEADING ...]
 
 Reads CSV with a header line (lines before it, and the context of Google Benchmark, are skipped) and replaces the text
 between `<!-- table NAME -->` and `<!-- end -->` by a Markdown table and a line with date, version, machine and load.
@@ -29,15 +29,18 @@ def context():
             f"load average {load:.1f} at the end.")
 
 
-def shown(text):
+def shown(text, digits):
     try:
         value = float(text)
     except ValueError:
         return text.replace("|", "/")
-    return text if value == int(value) and abs(value) < 1e15 and "e" not in text.lower() else f"{value:.3g}"
+    return text if value == int(value) and abs(value) < 1e15 and "e" not in text.lower() else f"{value:.{digits}g}"
 
 
 def main():
+    digits = 3
+    if sys.argv[1].startswith("--digits="):
+        digits = int(sys.argv.pop(1).split("=")[1])
     page, name = sys.argv[1], sys.argv[2]
     lines = [line for line in sys.stdin if "," in line]
     first = next(i for i, line in enumerate(lines) if not line.startswith(("{", " ")))
@@ -47,7 +50,7 @@ def main():
     columns = dict(argument.split("=", 1) for argument in sys.argv[3:]) or {key: key for key in rows[0]}
     table = "| " + " | ".join(columns.values()) + " |\n|" + "---|" * len(columns) + "\n"
     for row in rows:
-        table += "| " + " | ".join(shown(row[key] or "") for key in columns) + " |\n"
+        table += "| " + " | ".join(shown(row[key] or "", digits) for key in columns) + " |\n"
     with open(page, encoding="utf-8") as file:
         text = file.read()
     pattern = rf"(<!-- table {re.escape(name)} -->\n).*?(<!-- end -->)"
