@@ -24,6 +24,7 @@
 #include "postproc/tables/mesh_parts.hpp"
 #include "postproc/tables/post_summary.hpp"
 #include "postproc/tables/result_tables.hpp"
+#include "postproc/viewer/viewer.hpp"
 
 namespace cupola {
 namespace {
@@ -73,8 +74,10 @@ std::vector<Shot> shots_of(const std::vector<size_t>& moving, const ResultsReade
   return shots;
 }
 
-/// Writes the displaced blocks of every readable frame and returns those that the figure of the motion shows.
-std::vector<Shot> write_frames(const ResultsReader& results, const std::string& folder, Evaluation* e) {
+/// Writes the displaced blocks of every readable frame, adds them to the film, and returns those that the figure of the
+/// motion shows.
+std::vector<Shot> write_frames(const ResultsReader& results, const std::string& folder, Evaluation* e,
+                               Film* film) {
   const DisplacedBlocks blocks(*e);
   const bool in_time = e->summary.analysis == AnalysisType::dynamic && !at_rest(e->summary);
   std::vector<PvdEntry> entries;
@@ -86,6 +89,7 @@ std::vector<Shot> write_frames(const ResultsReader& results, const std::string& 
     Mesh mesh = blocks.at(*frame);
     for (MeshArray& array : about(*e, 0.0)) mesh.field_data.push_back(std::move(array));
     write_mesh(in_folder(folder, name), mesh);
+    film->add(i, *frame);
     entries.push_back({e->times[i], name});
     if (is_mechanism(e->summary, frame->frame) || (in_time && i > 0)) moving.push_back(i);
   }
@@ -118,6 +122,7 @@ void check_provenance(const AnalyseRequest& request, const Assembly& assembly, c
 }
 
 struct Drawn {
+  std::string viewer;  ///< the 3-D view, as HTML
   std::vector<Figure> figures;
   std::vector<Picture> pictures;
 };
@@ -126,9 +131,10 @@ struct Drawn {
 Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const std::optional<Table>& stages,
            const std::vector<HistoryRow>& history, Evaluation* e) {
   const std::string& folder = request.output_folder;
-  const std::vector<Shot> shots = write_frames(results, folder, e);
+  Film film(*e);
+  const std::vector<Shot> shots = write_frames(results, folder, e, &film);
   write_meshes(*e, folder);
-  Drawn drawn{result_figures(*e, history, shots), {}};
+  Drawn drawn{viewer_html(*e, film), result_figures(*e, history, shots), {}};
   if (const auto figure = stages ? stage_figure(*stages) : std::nullopt)
     drawn.figures.insert(drawn.figures.begin(), *figure);
   for (std::string& problem : draw_figures(in_folder(folder, "figures"), drawn.figures))
@@ -146,6 +152,7 @@ void write_report(const AnalyseRequest& request, const std::vector<Table>& table
                         report_html({.evaluation = &e,
                                      .tables = tables,
                                      .history = history,
+                                     .viewer = drawn.viewer,
                                      .figures = drawn.figures,
                                      .pictures = drawn.pictures,
                                      .figure_folder = in_folder(folder, "figures"),

@@ -74,12 +74,12 @@ table.claims { width: 100%; table-layout: fixed }
 .claims th, .claims td { text-align: left; padding: .45rem .6rem }
 .claims col:nth-child(1) { width: 9.5rem } .claims col:nth-child(2) { width: 6.5rem }
 .claims col:nth-child(4) { width: 38% }
-.claims p { margin: 0 0 .25rem } .claims blockquote { margin: 0 0 .25rem; color: #444; font-style: italic }
-.claims .value { font-weight: 600 } .claims .small { color: #444; font-size: .8rem }
-.claims td.good { color: #005f45; font-weight: 600 } .claims td.bad { color: #a34700; font-weight: 600 }
+.claims p { margin: 0 0 .25rem } .claims blockquote { margin: 0 0 .25rem; color: var(--soft); font-style: italic }
+.claims .value { font-weight: 600 } .claims .small { color: var(--soft); font-size: .8rem }
+.claims td.good { color: var(--good); font-weight: 600 } .claims td.bad { color: var(--bad); font-weight: 600 }
 @media (max-width: 800px) {
   .claims, .claims tbody, .claims tr, .claims td { display: block } .claims tr:first-child { display: none }
-  .claims td { border: 0; padding: .1rem 0 } .claims tr { border-bottom: 1px solid #ddd; padding: .6rem 0 }
+  .claims td { border: 0; padding: .1rem 0 } .claims tr { border-bottom: 1px solid var(--line); padding: .6rem 0 }
 }
 </style>
 )";

@@ -22,11 +22,12 @@ ForceUnit force_unit(double largest) {
 std::string force_text(double newtons) {
   if (newtons == 0.0) return "negligible";
   const ForceUnit unit = force_unit(std::abs(newtons));
-  return fmt::format("{:.5g} {}", unit.per_newton * newtons, unit.name);
+  return fmt::format("{:.4g} {}", unit.per_newton * newtons, unit.name);
 }
 
 std::string length_text(double metres) {
-  return metres == 0.0 ? "negligible" : fmt::format("{:.3g} m", metres);
+  if (metres == 0.0) return "negligible";
+  return std::abs(metres) < 1.0 ? fmt::format("{:.3g} mm", 1e3 * metres) : fmt::format("{:.3g} m", metres);
 }
 
 std::string describe(const ThrustLine& line) {
@@ -36,10 +37,9 @@ std::string describe(const ThrustLine& line) {
       std::isinf(line.least_geometric_safety)
           ? "it runs through the middle of every bed"
           : fmt::format("its smallest geometric safety is {:.3g}", line.least_geometric_safety);
-  std::string text = fmt::format(
-      "The thrust line {} inside the thickness. Its smallest distance from a face is {:.3g} "
-      "m, {}.",
-      line.inside ? "stays" : "does not stay", line.least_face_distance, safety);
+  std::string text =
+      fmt::format("The thrust line {} inside the thickness. Its smallest distance from a face is {}, {}.",
+                  line.inside ? "stays" : "does not stay", length_text(line.least_face_distance), safety);
   if (line.undefined > 0)
     text +=
         fmt::format(" It is undefined at {} of {}, where the resultant is negligible or runs along the bed.",

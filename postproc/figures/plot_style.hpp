@@ -24,10 +24,10 @@ struct ForceUnit {
   const char* name = "N";
 };
 ForceUnit force_unit(double largest);
-/// "1.2346 MN"; "negligible" for 0.
+/// "1.235 MN"; "negligible" for 0.
 std::string force_text(double newtons);
 
-/// "0.0123 m"; "negligible" for 0.
+/// "12.3 mm", "1.23 m"; "negligible" for 0.
 std::string length_text(double metres);
 
 /// Where a thrust line runs, with its least distance to a face and its least geometric safety.

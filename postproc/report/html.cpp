@@ -1,67 +1,63 @@
 #include "postproc/report/html.hpp"
 
-#include <cstdint>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
+#include "assembly/files/base64.hpp"
 
 namespace cupola {
 namespace {
 
-// Dark text on white; every colour pair has a contrast of at least 4.5. No scripts and no external files.
+// Dark text on white, or the reverse where the reader prefers it; every colour pair has a contrast of at least 4.5. No
+// external files.
 constexpr const char* kStyle = R"css(
-:root { color-scheme: light; }
+:root { color-scheme: light dark; --paper: #fff; --text: #1a1a1a; --soft: #444; --link: #00507d; --line: #ddd;
+  --good: #005f45; --good-back: #f0f7f4; --bad: #a34700; --bad-back: #fdf3ec; --code: #f5f5f5; }
+@media (prefers-color-scheme: dark) { :root { --paper: #15181b; --text: #e8e8e8; --soft: #b4b4b4; --link: #8ec9f0; --line: #3a3f44;
+  --good: #4fc3a1; --good-back: #17302a; --bad: #f0a060; --bad-back: #35261a; --code: #22272b; } }
 * { box-sizing: border-box; }
-body { margin: 0 auto; padding: 1rem 1.25rem 3rem; max-width: 70rem; color: #1a1a1a; background: #fff;
+body { margin: 0 auto; padding: 1rem 1.25rem 3rem; max-width: 78rem; color: var(--text); background: var(--paper);
   font: 1rem/1.5 system-ui, "DejaVu Sans", sans-serif; overflow-wrap: break-word; }
 h1 { font-size: 1.6rem; line-height: 1.25; margin: .5rem 0; }
 h2 { font-size: 1.25rem; margin: 2rem 0 .5rem; border-bottom: 1px solid #999; }
 h3 { font-size: 1.05rem; margin: 1.5rem 0 .25rem; }
-a { color: #00507d; }
-.verdict { border-left: .4rem solid #005f45; background: #f0f7f4; padding: .6rem 1rem; }
-.verdict.bad { border-color: #a34700; background: #fdf3ec; }
-.warning { border-left: .4rem solid #a34700; background: #fdf3ec; padding: .4rem 1rem; margin: .5rem 0; }
+a { color: var(--link); } p, li, figcaption { max-width: 55rem; }
+.verdict { border-left: .4rem solid var(--good); background: var(--good-back); padding: .6rem 1rem; max-width: none; }
+.verdict strong { display: block; font-size: 1.15rem; }
+.verdict.bad { border-color: var(--bad); background: var(--bad-back); }
+.warning { border-left: .4rem solid var(--bad); background: var(--bad-back); padding: .4rem 1rem; margin: .5rem 0;
+  max-width: none; }
+.key-numbers { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 15rem), 1fr)); gap: .75rem; margin: 1rem 0; }
+.key-numbers div { border: 1px solid var(--line); border-radius: .3rem; padding: .5rem .8rem; }
+.key-numbers span, .key-numbers small { display: block; color: var(--soft); } .key-numbers strong { font-size: 1.5rem; }
 .scroll { overflow-x: auto; max-width: 100%; }
 table { border-collapse: collapse; font-size: .875rem; margin: .5rem 0; font-variant-numeric: tabular-nums; }
-th, td { padding: .15rem .6rem; border-bottom: 1px solid #ddd; text-align: right; vertical-align: top; }
+th, td { padding: .15rem .6rem; border-bottom: 1px solid var(--line); text-align: right; vertical-align: top; }
 th { border-bottom: 2px solid #777; font-weight: 600; }
-th small { display: block; font-weight: 400; color: #444; }
+th small { display: block; font-weight: 400; color: var(--soft); }
 td.text, th.text { text-align: left; }
 figure { margin: 1rem 0; }
-figure img { display: block; max-width: 100%; height: auto; }
-figcaption { font-size: .9rem; color: #333; max-width: 55rem; }
-pre { overflow-x: auto; background: #f5f5f5; padding: .75rem; font-size: .8rem; line-height: 1.35; }
+figure img { display: block; max-width: 100%; height: auto; background: #fff; }
+figcaption { font-size: .9rem; color: var(--soft); }
+pre { overflow-x: auto; background: var(--code); padding: .75rem; font-size: .8rem; line-height: 1.35; }
 summary { cursor: pointer; }
 dl { display: grid; grid-template-columns: minmax(9rem, max-content) minmax(0, 1fr); gap: .1rem 1rem; margin: .5rem 0; }
-dt { color: #444; } dd { margin: 0; }
+dt { color: var(--soft); } dd { margin: 0; }
 .side { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 0 1rem; }
 @media (max-width: 600px) {
   body { padding: .5rem .75rem 2rem; } h1 { font-size: 1.3rem; }
   figure { overflow-x: auto; } figure img { max-width: none; width: 40rem; }
   dl { grid-template-columns: minmax(0, 1fr); } dd { margin: 0 0 .4rem; }
 }
-@media print {
+@media print { :root { --paper: #fff; --text: #1a1a1a; --soft: #444; }
   body { max-width: none; padding: 0; font-size: 10pt; } figure, .verdict, .warning, tr { break-inside: avoid; }
   h2, h3 { break-after: avoid; } details > summary { display: none; } .scroll { overflow: visible; }
   a { color: inherit; text-decoration: none; }
 }
 )css";
-
-std::string base64(const std::string& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (size_t j = 0; j < 3; ++j)
-      group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
-    for (size_t j = 0; j < 4; ++j) out += i + j <= bytes.size() ? kDigits[group >> (18 - 6 * j) & 63] : '=';
-  }
-  return out;
-}
 
 }  // namespace
 

@@ -1,7 +1,6 @@
 #include "postproc/report/report.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <set>
 
@@ -10,6 +9,7 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/base/process.hpp"
 #include "postproc/figures/plot_style.hpp"
+#include "postproc/report/first_screen.hpp"
 #include "postproc/report/html.hpp"
 #include "postproc/report/ranges.hpp"
 #include "postproc/tables/range_values.hpp"
@@ -32,23 +32,6 @@ std::string paragraph(const std::string& text) {
   return "<p>" + markup_text(text) + "</p>\n";
 }
 
-std::string capitalised(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
-
-std::string verdict_section(const Evaluation& e) {
-  std::string out;
-  for (const std::string& warning : notices(e))
-    out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
-  const bool good = e.summary.status == Status::stable;
-  out += fmt::format("<p class=\"verdict{}\"><strong>{}</strong> {}</p>\n", good ? "" : " bad",
-                     markup_text(verdict_text(e.summary)), markup_text(capitalised(e.summary.message) + "."));
-  if (at_rest(e.summary) && !e.summary.forces_unique.value)
-    out += paragraph(to_sentence(e.summary.forces_unique));
-  return out;
-}
-
 std::string list_section(const std::string& heading, const std::vector<std::string>& sentences) {
   std::string out = "<h2>" + heading + "</h2>\n<ul>\n";
   for (const std::string& sentence : sentences) out += "<li>" + markup_text(sentence) + "</li>\n";
@@ -61,13 +44,12 @@ std::string findings_heading(const Summary& s) {
   return has_chosen(s.ranges) ? "Findings in the chosen state" : "Findings in one admissible state";
 }
 
-std::string model_section(const Evaluation& e) {
-  std::string out = "<h2>Model</h2>\n<dl>\n";
+std::string case_section(const Evaluation& e) {
+  std::string out = "<h2>The case</h2>\n<dl>\n";
   const auto row = [&out](const std::string& name, const std::string& value) {
     out += "<dt>" + markup_text(name) + "</dt><dd>" + markup_text(value) + "</dd>\n";
   };
   const Summary& s = e.summary;
-  row("Case", e.scene.title);
   row("Analysis", fmt::format("{}, method {}, friction law {}, tangential spring {}", to_string(s.analysis),
                               to_string(s.method), to_string(s.friction_law), to_string(s.tangential)));
   row("Blocks",
@@ -86,8 +68,12 @@ std::string model_section(const Evaluation& e) {
         has_chosen(s.ranges) ? "the one that the compliances choose" : "one of the admissible ones");
   else
     row("Time shown", fmt::format("{:g} s, frame {} of {}", e.last.frame.time, shown, e.times.size()));
-  return out + "</dl>\n<details><summary>All keys of the case</summary><pre>" +
-         markup_text(e.scene.effective_yaml) + "</pre></details>\n";
+  out += "</dl>\n";
+  if (!e.assembly.check_report.empty())
+    out += "<details><summary>Checks of the geometry</summary><pre>" + markup_text(e.assembly.check_report) +
+           "</pre></details>\n";
+  return out + "<details><summary>All keys of the case</summary><pre>" + markup_text(e.scene.effective_yaml) +
+         "</pre></details>\n";
 }
 
 std::string figure_html(const std::string& picture, const std::string& title, const std::string& caption) {
@@ -181,16 +167,14 @@ std::string run_section(const ReportInput& input) {
 std::string report_html(const ReportInput& input) {
   const Evaluation& e = *input.evaluation;
   std::string body = "<h1>" + markup_text(e.scene.title) + "</h1>\n";
-  body += verdict_section(e);
+  body += first_screen(e, input.history, input.viewer);
   body += ranges_section(e, range_picture(input));
-  body += "<h2>Solution quality</h2>\n" + paragraph(quality_text(e.summary) + " " + floor_text(e));
   body += at_rest(e.summary) ? list_section(findings_heading(e.summary), finding_sentences(e))
                              : list_section("Motion", motion_sentences(e, input.history));
-  body += model_section(e);
-  if (!e.assembly.check_report.empty())
-    body += "<h2>Geometry check</h2>\n<pre>" + markup_text(e.assembly.check_report) + "</pre>\n";
   body += figures_section(input);
   body += tables_section(input.tables, at_rest(e.summary));
+  body += "<h2>How good the answer is</h2>\n" + paragraph(quality_text(e.summary) + " " + floor_text(e));
+  body += case_section(e);
   body += files_section(at_rest(e.summary));
   body += run_section(input);
   return html_page(e.scene.title, body);

@@ -15,15 +15,16 @@ struct ReportInput {
   const Evaluation* evaluation = nullptr;
   std::vector<Table> tables;
   std::vector<HistoryRow> history;  ///< of a dynamic run
+  std::string viewer;               ///< the 3-D view, as HTML; may be empty
   std::vector<Figure> figures;
   std::vector<Picture> pictures;  ///< drawn by ParaView
   std::string figure_folder;      ///< folder of the figure files
   std::string run_yaml;           ///< text of run.yaml; "" if it cannot be read
 };
 
-/// report.html as one self-contained file: warnings, verdict, ranges of a range analysis, solution quality, findings, model, geometry
-/// check, pictures, figures, tables, files and run information, in this order. A run that found no equilibrium has the
-/// motion in place of the findings, and no certificate.
+/// report.html as one self-contained file: first_screen(), ranges of a range analysis, findings, pictures, figures, tables,
+/// solution quality, case, files and run information, in this order. A run that found no equilibrium has the motion in place
+/// of the findings, and no certificate.
 std::string report_html(const ReportInput& input);
 
 /// What moves and how, one sentence per item. Of an unconverged run: that nothing is known.

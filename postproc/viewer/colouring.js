@@ -1,0 +1,74 @@
+// What the colours mean: by bond, by displacement, by body, or by a column of the tables of blocks or joints.
+
+class Colouring {
+  constructor(scene, model) {
+    this.scene = scene, this.model = model, this.header = scene.header;
+    this.key = "bond";
+  }
+
+  /** The choices: groups of [value, label]. */
+  choices() {
+    const label = (column) => column.label;
+    const blocks = [["bond", "Bond"]];
+    if (this.header.film.largest_shift_m > 0) blocks.push(["displacement", "Displacement"]);
+    if (this.header.bodies > 1) blocks.push(["body", "Bodies that move as one"]);
+    for (const column of this.header.block_columns) if (column.colour) blocks.push(["block." + column.key, label(column)]);
+    const joints = this.header.states.length && this.header.joint_outlines
+      ? this.header.joint_columns.filter((c) => c.colour).map((c) => ["joint." + c.key, label(c)]) : [];
+    return [["Blocks", blocks], ["Joints", joints]];
+  }
+
+  get ofJoints() { return this.key.startsWith("joint."); }
+
+  /** Paints the model and returns the legend as HTML. */
+  apply() {
+    if (this.key === "bond") return this.byName(this.scene.get("block.role"), this.header.roles, kRoles);
+    if (this.key === "body") {
+      const body = this.scene.get("block.body");
+      const colour = (n) => n === 0 ? kBodies[0] : kBodies[1 + (n - 1) % (kBodies.length - 1)];
+      this.model.paint("block", (b) => colour(body[b]));
+      return swatches([[kBodies[0], "Supports, and what stands with them"], [kBodies[1], "Other colours: bodies that move"]]);
+    }
+    return this.byNumber();
+  }
+
+  byName(codes, names, colours) {
+    this.model.paint("block", (b) => colours[codes[b]]);
+    const present = new Set(codes);
+    return swatches(names.map((name, i) => [colours[i], name]).filter((_, i) => present.has(i)));
+  }
+
+  byNumber() {
+    const [what, name] = this.ofJoints ? ["joint", this.key.slice(6)] : ["block", this.key.replace("block.", "")];
+    const moved = name === "displacement";
+    const values = moved ? Float64Array.from({length: this.model.pose.blocks}, (_, b) => this.model.pose.displacement(b))
+                         : what === "joint" ? this.model.joint(name) : this.scene.get("block." + name);
+    const columns = what === "joint" ? this.header.joint_columns : this.header.block_columns;
+    const column = moved ? {label: "Displacement", unit: "m"} : columns.find((c) => c.key === name);
+    const scale = moved ? {stops: kSequential, low: 0, high: this.header.film.largest_shift_m} : scaleOf(values, name);
+    const fixed = what === "block" ? this.scene.get("block.fixed") : [];
+    this.model.paint(what, (i) => fixed[i] ? kUndefined : colourAt(scale, values[i]));
+    return bar(column, scale, values.some((v) => Number.isNaN(v)));
+  }
+}
+
+const css = (c) => `rgb(${c.map(Math.round).join(",")})`;
+
+function swatches(entries) {
+  return entries.map(([colour, name]) => `<span class="swatch"><i style="background:${css(colour)}"></i>${escaped(name)}</span>`).join("");
+}
+
+function bar(column, scale, gaps) {
+  const [factor, unit] = unitFor(Math.max(Math.abs(scale.low), Math.abs(scale.high)), column.unit);
+  const number = (v) => digits(v / factor);
+  const signed = scale.low < 0;
+  return `<b>${escaped(column.label)}${unit ? ", " + unit : ""}</b>` +
+    `<span class="bar" style="background:linear-gradient(to right,${scale.stops.map(css).join(",")})"></span>` +
+    `<span class="ends"><span>${scale.cutLow ? "≤ " : ""}${number(scale.low)}</span>` +
+    (signed ? "<span>0</span>" : "") + `<span>${scale.cutHigh ? "≥ " : ""}${number(scale.high)}</span></span>` +
+    (gaps ? swatches([[kUndefined, "no force"]]) : "");
+}
+
+function escaped(text) {
+  return String(text).replace(/[&<>"]/g, (c) => ({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"}[c]));
+}

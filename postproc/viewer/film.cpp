@@ -1,0 +1,100 @@
+#include "postproc/viewer/film.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+namespace cupola {
+namespace {
+
+/// Largest number of poses (blocks times frames) of a film. A pose takes some 12 characters of the report, so that the
+/// film takes 12 MB at most.
+constexpr size_t kMostPoses = 1'000'000;
+
+/// Largest number of joints of all states of a range together. A joint takes some 150 characters.
+constexpr size_t kMostStateJoints = 50'000;
+
+Vec3 rotation_vector(const Eigen::Vector4d& wxyz) {
+  const Eigen::AngleAxisd turn(Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized());
+  return turn.angle() * turn.axis();
+}
+
+void append_vector(const Vec3& v, std::vector<double>* numbers) {
+  numbers->insert(numbers->end(), v.begin(), v.end());
+}
+
+Film::Kind kind_of(const Evaluation& e) {
+  switch (e.summary.analysis) {
+    case AnalysisType::dynamic:
+      return Film::Kind::motion;
+    case AnalysisType::staged:
+      return Film::Kind::stages;
+    case AnalysisType::limit:
+      return e.times.size() > 1 ? Film::Kind::mechanism : Film::Kind::displacement;
+    case AnalysisType::static_:
+      if (is_mechanism(e.summary, e.last.frame)) return Film::Kind::mechanism;
+      return e.times.size() > 1 ? Film::Kind::motion : Film::Kind::displacement;
+    case AnalysisType::range:
+      return is_mechanism(e.summary, e.last.frame) ? Film::Kind::mechanism : Film::Kind::displacement;
+  }
+  return Film::Kind::displacement;
+}
+
+}  // namespace
+
+Film::Film(const Evaluation& evaluation) : evaluation_(evaluation), kind_(kind_of(evaluation)) {
+  const size_t poses = evaluation.times.size() * evaluation.assembly.blocks.size();
+  stride_ = std::max<size_t>(1, (poses + kMostPoses - 1) / kMostPoses);
+  if (kind_ == Kind::mechanism) evaluated_ = 0;
+}
+
+void Film::add(size_t index, const FrameEvaluation& frame) {
+  const bool is_evaluated = frame.frame.time == evaluation_.last.frame.time;
+  if (kind_ == Kind::motion || kind_ == Kind::stages) {
+    if (index % stride_ != 0 && !is_evaluated) {
+      ++skipped_;
+      return;
+    }
+    if (is_evaluated) bodies_ = frame.groups, evaluated_ = num_frames();
+    add_poses(frame.frame.blocks, frame.frame.time);
+  } else if (kind_ == Kind::mechanism) {
+    if (!is_mechanism(evaluation_.summary, frame.frame)) return;
+    times_.clear(), shifts_.clear(), turns_.clear();  // the last one counts
+    bodies_ = frame.groups;
+    add_poses(frame.frame.blocks, frame.frame.time);
+  } else {
+    if (is_evaluated) {
+      bodies_ = frame.groups;
+      evaluated_ = 0;
+      add_poses(frame.frame.blocks, frame.frame.time);
+    }
+    add_range_state(frame);
+  }
+}
+
+void Film::add_poses(const BlockTable& blocks, double time) {
+  times_.push_back(time);
+  const std::vector<Block>& rest = evaluation_.assembly.blocks;
+  for (size_t b = 0; b < rest.size(); ++b) {
+    append_vector(blocks.position[b] - rest[b].centroid, &shifts_);
+    append_vector(rotation_vector(blocks.quaternion_wxyz[b]), &turns_);
+  }
+}
+
+void Film::add_range_state(const FrameEvaluation& frame) {
+  const int number = static_cast<int>(std::lround(frame.frame.time));
+  for (const ForceRange& range : evaluation_.summary.ranges)
+    for (const auto& [end, name] : {std::pair{&range.min, "Least"}, std::pair{&range.max, "Greatest"}}) {
+      if (!end->frame || *end->frame != number || number == 0) continue;
+      size_t joints = evaluation_.last.joints.wrenches.size() + frame.joints.wrenches.size();
+      for (const State& state : states_) joints += state.joints.wrenches.size();
+      if (joints > kMostStateJoints)
+        ++skipped_states_;
+      else
+        states_.push_back({fmt::format("{} {}", name, range.quantity), frame.joints});
+    }
+}
+
+}  // namespace cupola

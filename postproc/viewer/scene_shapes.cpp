@@ -1,0 +1,117 @@
+#include "postproc/viewer/scene_shapes.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "postproc/tables/mesh_output.hpp"
+
+namespace cupola {
+namespace {
+
+/// Faces with the same vertices are the two sides of a joint. Returns true for each of them.
+std::vector<bool> faces_with_partner(const Assembly& assembly) {
+  std::map<std::vector<int>, int> first_with;
+  std::vector<bool> has_partner(static_cast<size_t>(assembly.num_faces()), false);
+  for (int f = 0; f < assembly.num_faces(); ++f) {
+    const auto face = assembly.face(f);
+    std::vector<int> ids(face.begin(), face.end());
+    std::sort(ids.begin(), ids.end());
+    const auto [known, is_new] = first_with.try_emplace(std::move(ids), f);
+    if (!is_new) has_partner[f] = has_partner[known->second] = true;
+  }
+  return has_partner;
+}
+
+/// Polylines of one kind.
+struct Lines {
+  nlohmann::json list = nlohmann::json::array();
+  std::vector<Vec3> points;
+
+  void add(const char* what, const std::vector<Vec3>& line) {
+    if (line.size() < 2) return;
+    list.push_back({{"what", what}, {"count", line.size()}});
+    points.insert(points.end(), line.begin(), line.end());
+  }
+
+  /// A thrust line is interrupted where its position is undefined.
+  void add(const char* what, const ThrustLine& thrust) {
+    std::vector<Vec3> run;
+    for (const ThrustPoint& p : thrust.points) {
+      if (p.is_placed())
+        run.push_back(p.point);
+      else
+        add(what, std::exchange(run, {}));
+    }
+    add(what, run);
+  }
+};
+
+}  // namespace
+
+Box box_of(const Assembly& assembly) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  const bool any_free =
+      std::any_of(assembly.blocks.begin(), assembly.blocks.end(), [](const Block& b) { return !b.fixed; });
+  Box box{Vec3::Constant(kFar), Vec3::Constant(-kFar)};
+  for (const Part& part : assembly.parts) {
+    if (any_free && assembly.blocks[part.block].fixed) continue;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      for (const int v : assembly.face(f)) {
+        box.low = box.low.cwiseMin(assembly.vertices[v]);
+        box.high = box.high.cwiseMax(assembly.vertices[v]);
+      }
+  }
+  return box;
+}
+
+Lattice lattice_of(const Assembly& assembly) {
+  constexpr double kLargestStep = 1e-4;  // m
+  constexpr double kSteps = 65535.0;     // of 16 bits
+  const Box box = box_of(assembly);
+  return {std::min(kLargestStep, (box.high - box.low).maxCoeff() / kSteps), box.low};
+}
+
+void add_faces(const Assembly& assembly, bool inner_faces, const Lattice& lattice, PackedArrays* arrays) {
+  constexpr size_t kMostCorners = 255;  // of one face, as a byte counts them; further ones are left out
+  const std::vector<bool> has_partner = faces_with_partner(assembly);
+  std::vector<std::uint8_t> sizes, inner;
+  std::vector<int> vertices, of_block(assembly.blocks.size(), 0);
+  for (const Part& part : assembly.parts) {
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      if (assembly.face_kinds[f] == FaceKind::internal || (has_partner[f] && !inner_faces)) continue;
+      const auto face = assembly.face(f);
+      const size_t corners = std::min(face.size(), kMostCorners);
+      sizes.push_back(static_cast<std::uint8_t>(corners));
+      inner.push_back(has_partner[f]);
+      vertices.insert(vertices.end(), face.begin(), face.begin() + static_cast<std::ptrdiff_t>(corners));
+      ++of_block[part.block];
+    }
+  }
+  arrays->add_points("vertices", assembly.vertices, lattice);
+  arrays->add("face_sizes", sizes);
+  arrays->add("face_inner", inner);
+  arrays->add("face_vertices", vertices, 1);
+  arrays->add("block_faces", of_block);
+}
+
+nlohmann::json add_lines(const Evaluation& e, const Lattice& lattice, PackedArrays* arrays) {
+  Lines lines;
+  if (at_rest(e.summary)) {
+    for (const MeridianEvaluation& m : e.meridians) {
+      lines.add("thrust", m.thrust);
+      if (m.least_thrust) lines.add("least", *m.least_thrust);
+      if (m.greatest_thrust) lines.add("greatest", *m.greatest_thrust);
+    }
+    const Mesh cracks = cracks_mesh(e);
+    for (int cell = 0; cell < cracks.num_cells(); ++cell) {
+      std::vector<Vec3> outline;
+      for (int i = cracks.cell_start[cell]; i < cracks.cell_start[cell + 1]; ++i)
+        outline.emplace_back(&cracks.points[3 * static_cast<size_t>(cracks.cell_points[i])]);
+      lines.add("crack", outline);
+    }
+  }
+  arrays->add_points("lines", lines.points, lattice);
+  return lines.list;
+}
+
+}  // namespace cupola

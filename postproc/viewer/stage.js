@@ -1,0 +1,143 @@
+// Canvas, camera and drawing on demand.
+
+/** True if the browser draws without a graphics processor: smooth outlines would cost three quarters of the speed. */
+function drawsInSoftware() {
+  const context = document.createElement("canvas").getContext("webgl2");
+  const names = context && context.getExtension("WEBGL_debug_renderer_info");
+  return Boolean(names) && /swiftshader|llvmpipe|software|basic render/i.test(context.getParameter(names.UNMASKED_RENDERER_WEBGL));
+}
+
+class Stage {
+  /** `box`: the eight corners of the model; `outline`: flat coordinates of points that the standard views enclose. */
+  constructor(canvas, host, up, box, outline) {
+    this.canvas = canvas, this.host = host, this.box = box, this.outline = outline;
+    this.up = new THREE.Vector3(...up);
+    this.shared = {cut: {value: new THREE.Vector4(0, 0, 1, 1e31)}, up: {value: this.up},
+                   ink: {value: new THREE.Color()}, inside: {value: new THREE.Color()}};
+    this.fast = !drawsInSoftware();
+    const context = canvas.getContext("webgl2", {antialias: this.fast, alpha: false});
+    if (!context) throw new Error("this browser offers no WebGL 2");
+    this.renderer = new THREE.WebGLRenderer({canvas, context});
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 1000);
+    this.camera.up.copy(this.up);
+    this.controls = new THREE.OrbitControls(this.camera, canvas);
+    this.controls.addEventListener("start", () => { this.moved = true; });
+    this.controls.enableKeys = false;
+    this.controls.screenSpacePanning = true;
+    this.controls.addEventListener("change", () => this.invalidate());
+    this.controls.enableZoom = false;  // the wheel scrolls the page until the picture has the focus
+    canvas.addEventListener("focus", () => { this.controls.enableZoom = true; });
+    canvas.addEventListener("blur", () => { this.controls.enableZoom = false; });
+    canvas.addEventListener("touchstart", () => { this.controls.enableZoom = true; });
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    this.theme();
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.theme());
+    this.look("outside");
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+  }
+
+  theme() {
+    const style = getComputedStyle(this.host), read = (name) => style.getPropertyValue(name).trim();
+    this.renderer.setClearColor(new THREE.Color(read("--picture")));
+    this.shared.ink.value.set(read("--ink"));
+    this.shared.inside.value.set(read("--inside"));
+    this.invalidate();
+  }
+
+  resize() {
+    const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
+    if (!width || !height) return;
+    const before = this.camera.aspect;
+    this.renderer.setPixelRatio(this.fast ? Math.min(devicePixelRatio || 1, 2) : 1);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    if (before !== this.camera.aspect && !this.moved) this.look(this.standard);
+    this.invalidate();
+  }
+
+  invalidate() {
+    if (this.pending) return;
+    this.pending = requestAnimationFrame(() => { this.pending = 0; this.draw(); });
+  }
+
+  draw() { this.renderer.render(this.scene, this.camera); }
+
+  /** Two horizontal axes and the vertical one. The first is the longer horizontal side of the model. */
+  axes() {
+    const z = this.up.clone(), x = Math.abs(z.x) < 0.9 ? new THREE.Vector3(1, 0, 0) : new THREE.Vector3(0, 1, 0);
+    x.addScaledVector(z, -x.dot(z)).normalize();
+    const y = new THREE.Vector3().crossVectors(z, x);
+    return this.extentAlong(y) > 1.5 * this.extentAlong(x) ? [y, x.negate(), z] : [x, y, z];
+  }
+
+  extentAlong(axis) {
+    const along = this.box.map((corner) => corner.dot(axis));
+    return Math.max(...along) - Math.min(...along);
+  }
+
+  extent(number) { return this.extentAlong(this.axes()[number]); }
+
+  middle() {
+    return this.box.reduce((sum, corner) => sum.add(corner), new THREE.Vector3()).multiplyScalar(1 / this.box.length);
+  }
+
+  /** A standard view of the whole model. */
+  look(name) {
+    const flat = this.extent(1) < 0.35 * this.extent(0);  // a wall or an arch
+    const directions = {outside: flat ? [0.38, -0.9, 0.16] : [0.45, -0.8, 0.42], front: [0, -1, 0.02], side: [1, 0, 0.02], top: [0, -0.01, 1],
+                        below: [0.25, -0.45, -1]};
+    const [x, y, z] = this.axes(), d = directions[name];
+    const direction = new THREE.Vector3().addScaledVector(x, d[0]).addScaledVector(y, d[1]).addScaledVector(z, d[2]).normalize();
+    const middle = this.middle(), camera = this.camera;
+    camera.position.copy(middle).add(direction);
+    camera.lookAt(middle);
+    camera.updateMatrixWorld();
+    const slope = Math.tan(camera.fov * Math.PI / 360), inverse = new THREE.Matrix4().getInverse(camera.matrixWorld);
+    const p = new THREE.Vector3(), size = this.box[0].distanceTo(middle);
+    let distance = 0;
+    for (let i = 0; i < this.outline.length; i += 3) {
+      p.set(this.outline[i], this.outline[i + 1], this.outline[i + 2]).applyMatrix4(inverse);
+      const wide = Math.max(Math.abs(p.x) / (slope * camera.aspect), Math.abs(p.y) / slope);
+      distance = Math.max(distance, wide + p.z + 1);
+    }
+    camera.position.copy(middle).addScaledVector(direction, 1.08 * distance);
+    camera.near = size / 200, camera.far = 50 * size;
+    camera.updateProjectionMatrix();
+    this.controls.target.copy(middle);
+    this.controls.update();
+    this.standard = name, this.moved = false;
+    this.invalidate();
+  }
+
+  key(event) {
+    const turns = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
+    if (turns[event.key]) this.turn(0.1 * turns[event.key][0], 0.1 * turns[event.key][1]);
+    else if (event.key === "+" || event.key === "=") this.zoom(0.9);
+    else if (event.key === "-") this.zoom(1 / 0.9);
+    else if (event.key === "Home") this.look("outside");
+    else return;
+    event.preventDefault();
+  }
+
+  turn(around, over) {
+    const target = this.controls.target, arm = this.camera.position.clone().sub(target);
+    const side = new THREE.Vector3().crossVectors(this.up, arm).normalize();
+    const steep = arm.angleTo(this.up);
+    arm.applyAxisAngle(side, -Math.min(Math.max(over, steep - Math.PI + 0.02), steep - 0.02));
+    arm.applyAxisAngle(this.up, around);
+    this.camera.position.copy(target).add(arm);
+    this.moved = true;
+    this.controls.update();
+    this.invalidate();
+  }
+
+  zoom(factor) {
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
+    this.moved = true;
+    this.controls.update();
+    this.invalidate();
+  }
+}

@@ -1,0 +1,99 @@
+#include "postproc/report/first_screen.hpp"
+
+#include <limits>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/postproc/scene.hpp"
+
+namespace cupola::first_screen_test {
+namespace {
+
+/// A joint of 1 m2 with a normal force (N), a friction use and a distance of the force from the edge (m).
+JointWrench joint(double normal_force, double friction_use, double edge_distance) {
+  JointWrench j;
+  j.normal_force = normal_force;
+  j.wrench.force = Vec3(0, 0, normal_force);
+  j.friction_use = friction_use;
+  j.edge_distance = edge_distance;
+  j.patch.area = 1.0;
+  return j;
+}
+
+TEST(FirstScreen, OfTheSlidingJointsTheMostLoadedIsTheWorst) {
+  JointWrenches joints;
+  joints.wrenches = {joint(1000, 0.5, 0.4), joint(10, 1.0, 0.5), joint(20, 0.9995, 0.5)};
+  EXPECT_EQ(worst_joints(joints).sliding, 2u) << "both slide; which has the larger quotient is rounding";
+  joints.wrenches[2].friction_use = 0.99;
+  EXPECT_EQ(worst_joints(joints).sliding, 1u);
+}
+
+TEST(FirstScreen, TheWorstEdgeIsThatOfALoadedJoint) {
+  JointWrenches joints;
+  joints.wrenches = {joint(1000, 0.1, 0.4), joint(5, 0.1, 0.001), joint(500, 0.1, 0.3)};
+  EXPECT_EQ(worst_joints(joints).edge, 2u) << "joint 1 carries less than a hundredth of the largest force";
+  joints.wrenches[2].patch.area = 0.25;  // 0.3 m are more than half of its side of 0.5 m
+  EXPECT_EQ(worst_joints(joints).edge, 0u);
+}
+
+TEST(FirstScreen, NegligibleJointsAreNeverTheWorst) {
+  JointWrenches joints;
+  joints.wrenches = {joint(1e-9, 1.0, 0.0)};
+  joints.wrenches[0].negligible = true;
+  EXPECT_FALSE(worst_joints(joints).sliding);
+  EXPECT_FALSE(worst_joints(joints).edge);
+}
+
+TEST(FirstScreen, ALimitAnalysisBeginsWithItsCriticalValue) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.analysis = AnalysisType::limit;
+  e.summary.critical = CriticalValue{"tilt", 9.4623222, 9.4623221, 9.4623223};
+  const std::vector<KeyNumber> numbers = key_numbers(e, {});
+  ASSERT_EQ(numbers.size(), 3u);
+  EXPECT_EQ(numbers[0].name, "Critical tilt");
+  EXPECT_EQ(numbers[0].value, "9.462 degrees");
+}
+
+TEST(FirstScreen, ARangeAnalysisGivesTheRangeInPlaceOfTheChosenThrust) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  ForceRange range{.quantity = "thrust", .unit = "N", .min = {}, .max = {}, .chosen = 2e7};
+  range.min = {RangeOutcome::bounded, 1.25e7, 1.25e7, {}};
+  range.max = {RangeOutcome::unbounded, {}, {}, {}};
+  e.summary.analysis = AnalysisType::range;
+  e.summary.ranges = {range};
+  const std::vector<KeyNumber> numbers = key_numbers(e, {});
+  ASSERT_GE(numbers.size(), 1u);
+  EXPECT_EQ(numbers[0].name, "Outward thrust");
+  EXPECT_EQ(numbers[0].value, "12.5 to ∞ MN");
+  EXPECT_NE(numbers[0].detail.find("chosen by the compliances: 20 MN"), std::string::npos);
+}
+
+// Three blocks of which the upper two moved by 0.8 m; the threshold of 0.5 m was passed at 1.26 s.
+TEST(FirstScreen, AMotionBeginsWithHowFarAndWhen) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.analysis = AnalysisType::dynamic;
+  e.summary.status = Status::collapsed;
+  e.last.frame.blocks.displacement[2] = Vec3(0.8, 0, 0);
+  std::vector<HistoryRow> history;
+  for (int i = 0; i <= 100; ++i) history.push_back({0.02 * i, 0.008 * i, 0.4, 0.0});
+  const std::vector<KeyNumber> numbers = key_numbers(e, history);
+  ASSERT_EQ(numbers.size(), 3u);
+  EXPECT_EQ(numbers[0].value, "800 mm");
+  EXPECT_EQ(numbers[1].value, "at 1.26 s");
+  EXPECT_EQ(numbers[2].value, "0.4 m/s");
+}
+
+TEST(FirstScreen, StandsBeforeTheFirstHeadingAndEndsWithTheWorstJoints) {
+  const Evaluation e = test::column_evaluation(0.3, 0.4);
+  const std::string html = first_screen(e, {}, "<section id=\"view\"></section>");
+  const size_t verdict = html.find("class=\"verdict\""), numbers = html.find("key-numbers"),
+               view = html.find("id=\"view\""), worst = html.find("Worst joints");
+  EXPECT_LT(verdict, numbers);
+  EXPECT_LT(numbers, view);
+  EXPECT_LT(view, worst);
+  EXPECT_NE(html.find("data-joint="), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cupola::first_screen_test

@@ -1,0 +1,198 @@
+// The 3-D view of a report, opened in headless Chromium without network and used with the mouse.
+
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "assembly/files/assembly_file.hpp"
+#include "postproc/analyse.hpp"
+#include "postproc/tables/csv_file.hpp"
+#include "tests/postproc/browser.hpp"
+#include "tests/postproc/scene.hpp"
+
+namespace cupola::viewer_test {
+namespace {
+
+using test::Browser;
+
+/// Analyses frames of a column and returns the folder post/.
+std::string analysed(const std::string& name, const std::vector<Frame>& frames, const Summary& summary) {
+  const std::string folder = test::fresh_folder(name);
+  const Assembly a = test::column(3);
+  write_assembly(folder + "/assembly.vtu", a);
+  ResultsWriter writer(folder + "/results", content_hash(a));
+  for (const Frame& frame : frames) writer.write_frame(frame);
+  writer.write_text("run.yaml", "title: column\n");
+  writer.write_summary(summary);
+  EXPECT_EQ(analyse({.scene = test::column_case(),
+                     .assembly_path = folder + "/assembly.vtu",
+                     .results_folder = folder + "/results",
+                     .output_folder = folder + "/post",
+                     .pvbatch = "",
+                     .quiet = true}),
+            ExitCode::done);
+  return folder + "/post";
+}
+
+std::string column_at_rest() {
+  const Assembly a = test::column(3);
+  return analysed("rest", {test::column_at_rest(a, test::kGravity, 0.0, 0.5, 0.3)}, test::column_summary(a));
+}
+
+/// The upper blocks slide away by 0.4 m per frame.
+std::string sliding_column(int num_frames) {
+  const Assembly a = test::column(3);
+  std::vector<Frame> frames;
+  for (int i = 0; i < num_frames; ++i) {
+    Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
+    frame.time = i;
+    for (const size_t b : {2u, 3u}) {
+      frame.blocks.displacement[b] = Vec3(0.4 * i, 0, 0);
+      frame.blocks.position[b].x() += 0.4 * i;
+    }
+    frames.push_back(frame);
+  }
+  Summary summary = test::column_summary(a);
+  summary.status = Status::collapsed;
+  summary.analysis = AnalysisType::dynamic;
+  return analysed("sliding", frames, summary);
+}
+
+/// Opens a report and waits until its view can be used. The page's variable `view` is the viewer.
+void open_view(const std::string& post, Browser* browser) {
+  browser->open(post + "/report.html");
+  browser->value("window.cupolaView.then((v) => { window.view = v; return true; })");
+}
+
+/// Pixels of the picture that differ from its corner.
+constexpr const char* kDrawnPixels = R"js((() => {
+  view.stage.draw();
+  const gl = view.stage.renderer.context, w = gl.drawingBufferWidth, h = gl.drawingBufferHeight;
+  const p = new Uint8Array(4 * w * h);
+  gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, p);
+  let drawn = 0;
+  for (let i = 4; i < p.length; i += 4) drawn += p[i] !== p[0] || p[i + 1] !== p[1] || p[i + 2] !== p[2];
+  return drawn / (w * h);
+})())js";
+
+TEST(Viewer, DrawsTheModelWithoutComplaintInLightAndDark) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  const std::string post = column_at_rest();
+  Browser browser;
+  for (const bool dark : {false, true})
+    for (const int width : {1280, 390}) {
+      browser.resize(width, 900, dark);
+      open_view(post, &browser);
+      EXPECT_GT(browser.value(kDrawnPixels).get<double>(), 0.05) << width;
+      EXPECT_EQ(browser.value("document.documentElement.scrollWidth - innerWidth"), 0) << width;
+      const std::string paper = browser.value("getComputedStyle(document.body).backgroundColor");
+      EXPECT_EQ(paper == "rgb(255, 255, 255)", !dark) << paper;
+      browser.value("view.model.faces.visible = false");
+      EXPECT_LT(browser.value(kDrawnPixels).get<double>(), 0.01) << "the pixels were those of the blocks";
+    }
+  EXPECT_EQ(fmt::format("{}", fmt::join(browser.complaints(), "\n")), "");
+}
+
+TEST(Viewer, AClickOnABlockShowsItsNumbersOfTheTable) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  const std::string post = column_at_rest();
+  Browser browser;
+  open_view(post, &browser);
+  const auto middle = browser.value(
+      "(() => { const r = view.stage.canvas.getBoundingClientRect(); return [r.x + r.width / 2, r.y + "
+      "r.height / 2]; })()");
+  browser.click(middle[0], middle[1]);
+  const std::string heading = browser.value("document.querySelector('#view .numbers h3').textContent");
+  ASSERT_TRUE(heading.starts_with("Block ")) << heading;
+  const size_t block = std::stoul(heading.substr(6));
+  const CsvFile csv = read_csv(post + "/blocks.csv");
+  for (const char* key : {"weight_N", "resultant_N", "kern_use", "displacement_z_m"}) {
+    const auto shown = browser.value(
+        fmt::format("Number(document.querySelector('#view [data-key={}]').dataset.value)", key));
+    EXPECT_EQ(shown.is_null() ? std::nan("") : shown.get<double>(), csv.number(block, csv.column(key)))
+        << key;
+  }
+}
+
+// The worst joint is named in the text, and a click on it selects it in the picture.
+TEST(Viewer, LinksInTheTextSelectTheirJoint) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  const std::string post = column_at_rest();
+  Browser browser;
+  open_view(post, &browser);
+  const size_t joint =
+      std::stoul(browser.value("document.querySelector('li [data-joint]').dataset.joint").get<std::string>());
+  browser.value("document.querySelector('li [data-joint]').click()");
+  EXPECT_EQ(browser.value("document.querySelector('#view .numbers h3').textContent"),
+            fmt::format("Joint {}", joint));
+  const CsvFile csv = read_csv(post + "/joints.csv");
+  EXPECT_EQ(browser.value("Number(document.querySelector('#view [data-key=edge_distance_m]').dataset.value)"),
+            csv.number(joint, csv.column("edge_distance_m")));
+}
+
+TEST(Viewer, EveryNumberOfEveryJointIsThatOfTheTable) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  const std::string post = column_at_rest();
+  const CsvFile csv = read_csv(post + "/joints.csv");
+  Browser browser;
+  open_view(post, &browser);
+  const auto keys = browser.value("view.header.joint_columns.map((c) => c.key)");
+  EXPECT_GE(keys.size(), 15u);
+  for (const std::string key : keys) {
+    const auto values = browser.value(fmt::format("Array.from(view.model.joint('{}'))", key));
+    ASSERT_EQ(values.size(), csv.rows.size());
+    for (size_t j = 0; j < csv.rows.size(); ++j) {
+      const double expected = csv.number(j, csv.column(key));
+      EXPECT_TRUE(values[j].is_number() ? values[j].get<double>() == expected : std::isnan(expected))
+          << key << " of joint " << j;
+    }
+  }
+}
+
+TEST(Viewer, TheFilmOfAMotionAdvances) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  Browser browser;
+  open_view(sliding_column(6), &browser);
+  EXPECT_EQ(browser.value("view.film.count"), 6);
+  const char* place =
+      "view.film.show({}), view.model.faces.geometry.attributes.position.array["
+      "3 * view.model.blocks.start[3]]";
+  const double first = browser.value(fmt::format(fmt::runtime(place), 0)).get<double>();
+  const double last = browser.value(fmt::format(fmt::runtime(place), 5)).get<double>();
+  EXPECT_NEAR(last - first, 2.0, 1e-4);  // rounding of the positions
+  browser.value("view.find('.play').click()");
+  browser.value(
+      "new Promise((done) => { const t = setInterval(() => { if (view.film.frame === 5 && "
+      "!view.film.isPlaying) "
+      "{ clearInterval(t); done(true); } }, 50); setTimeout(() => done(false), 20000); })");
+  EXPECT_EQ(browser.value("view.film.frame"), 5);
+  EXPECT_EQ(browser.value("view.find('.film output').textContent"), "5.000 s");
+  EXPECT_TRUE(browser.complaints().empty());
+}
+
+TEST(Viewer, EveryControlWorksWithoutComplaint) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  Browser browser;
+  open_view(column_at_rest(), &browser);
+  const int used = browser.value(R"js((() => {
+    window.URL.createObjectURL = () => "data:,";
+    let used = 0;
+    const fire = (element, type) => { element.dispatchEvent(new Event(type)); ++used; };
+    for (const button of view.host.querySelectorAll("button")) { button.click(); ++used; }
+    for (const select of view.host.querySelectorAll("select"))
+      for (const option of select.options) { select.value = option.value; fire(select, "change"); }
+    for (const range of view.host.querySelectorAll("input[type=range]"))
+      for (const value of [range.min, range.max]) { range.value = value; fire(range, "input"); }
+    for (const box of view.host.querySelectorAll("input[type=checkbox]")) { box.click(); ++used; }
+    for (const key of ["ArrowLeft", "ArrowUp", "+", "-", "Home"]) view.stage.canvas.dispatchEvent(new KeyboardEvent("keydown", {key}));
+    view.stage.draw();
+    return used;
+  })())js");
+  EXPECT_GT(used, 30);
+  EXPECT_EQ(fmt::format("{}", fmt::join(browser.complaints(), "\n")), "");
+}
+
+}  // namespace
+}  // namespace cupola::viewer_test
