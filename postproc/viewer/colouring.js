@@ -11,7 +11,7 @@ class Colouring {
     const label = (column) => column.label;
     const blocks = [["bond", "Bond"]];
     if (this.header.film.largest_shift_m > 0) blocks.push(["displacement", "Displacement"]);
-    if (this.header.bodies > 1) blocks.push(["body", "Bodies that move as one"]);
+    if (this.header.bodies > 0) blocks.push(["body", "Bodies that move as one"]);
     for (const column of this.header.block_columns) if (column.colour) blocks.push(["block." + column.key, label(column)]);
     const joints = this.header.states.length && this.header.joint_outlines
       ? this.header.joint_columns.filter((c) => c.colour).map((c) => ["joint." + c.key, label(c)]) : [];

@@ -224,9 +224,14 @@ std::vector<std::string> notes_of(const Evaluation& e, const Film& film, bool in
   return notes;
 }
 
+/// The largest number of a body; 0 if nothing moves.
+int largest_body(const Film& film) {
+  return film.bodies().empty() ? 0 : *std::max_element(film.bodies().begin(), film.bodies().end());
+}
+
 /// The first colours: of the motion if there is one.
 std::string first_colour(const Evaluation& e, const Film& film) {
-  if (film.kind() == Film::Kind::mechanism) return "body";
+  if (film.kind() == Film::Kind::mechanism && largest_body(film) > 0) return "body";
   return film.kind() == Film::Kind::motion && !at_rest(e.summary) ? "displacement" : "bond";
 }
 
@@ -269,8 +274,6 @@ std::string scene_bytes(const Evaluation& e, const Film& film) {
   const Json lines = add_lines(e, lattice, &arrays);
   const Json frames = add_film(e, film, lattice, &arrays);
   const Box box = box_of(e.assembly);
-  const auto bodies =
-      film.bodies().empty() ? 0 : *std::max_element(film.bodies().begin(), film.bodies().end());
   return arrays.bytes({{"title", e.scene.title},
                        {"up", point(e.up)},
                        {"box", {point(box.low), point(box.high)}},
@@ -279,7 +282,7 @@ std::string scene_bytes(const Evaluation& e, const Film& film) {
                        {"roles", kBondRoles},
                        {"kinds", names_of<JointKind>()},
                        {"names", block_names_of(e.assembly)},
-                       {"bodies", bodies},
+                       {"bodies", largest_body(film)},
                        {"colour", first_colour(e, film)},
                        {"floor_N", e.last.joints.floor.force},
                        {"block_columns", column_entries(block_columns(), block_keys(e))},
