@@ -43,7 +43,7 @@ void add_rings(const Evaluation& e, const PostSummary& s, std::vector<std::strin
                                    percent(*s.mean_cv_pressure), percent(*s.largest_cv_pressure)));
   if (is_vault(e) && s.thrust_over_weight)
     out->push_back(
-        fmt::format("The outward thrust at the base, summed over the blocks, is {}, {:.4f} times the weight.",
+        fmt::format("The outward thrust at the base, summed over the blocks, is {}, {:.4g} times the weight.",
                     force_text(e.rings.front().radial_thrust), *s.thrust_over_weight));
 }
 

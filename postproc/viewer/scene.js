@@ -51,9 +51,8 @@ class Scene {
     if (array.type === "f32") return Float64Array.from(new Float32Array(buffer));
     const integers = decodedIntegers(buffer, array.delta);
     if (!array.step) return integers;
-    const numbers = Float64Array.from(integers, (n) => n * array.step);
-    if (array.origin)
-      for (let i = 0; i < numbers.length; ++i) numbers[i] += array.origin[i % 3];
+    const numbers = new Float64Array(array.count), origin = array.origin || [0, 0, 0];
+    for (let i = 0; i < numbers.length; ++i) numbers[i] = origin[i % 3] + integers[i] * array.step;
     return numbers;
   }
 }

@@ -1,22 +1,30 @@
 // Canvas, camera and drawing on demand.
 
 /** True if the browser draws without a graphics processor: smooth outlines would cost three quarters of the speed. */
-function drawsInSoftware() {
-  const context = document.createElement("canvas").getContext("webgl2");
-  const names = context && context.getExtension("WEBGL_debug_renderer_info");
+function drawsInSoftware(context) {
+  const names = context.getExtension("WEBGL_debug_renderer_info");
   return Boolean(names) && /swiftshader|llvmpipe|software|basic render/i.test(context.getParameter(names.UNMASKED_RENDERER_WEBGL));
+}
+
+/** A canvas in the place of the given one and its context, with smooth outlines where they cost little. */
+function contextOf(canvas) {
+  const open = (target, antialias) => target.getContext("webgl2", {antialias, alpha: false});
+  const plain = open(canvas, false);
+  if (!plain) throw new Error("this browser offers no WebGL 2");
+  if (drawsInSoftware(plain)) return {canvas, context: plain, software: true};
+  const smooth = canvas.cloneNode();
+  canvas.replaceWith(smooth);
+  return {canvas: smooth, context: open(smooth, true), software: false};
 }
 
 class Stage {
   /** `box`: the eight corners of the model; `outline`: flat coordinates of points that the standard views enclose. */
-  constructor(canvas, host, up, box, outline) {
-    this.canvas = canvas, this.host = host, this.box = box, this.outline = outline;
+  constructor(place, host, up, box, outline) {
+    const {canvas, context, software} = contextOf(place);
+    this.canvas = canvas, this.host = host, this.box = box, this.outline = outline, this.software = software;
     this.up = new THREE.Vector3(...up);
     this.shared = {cut: {value: new THREE.Vector4(0, 0, 1, 1e31)}, up: {value: this.up},
                    ink: {value: new THREE.Color()}, inside: {value: new THREE.Color()}};
-    this.fast = !drawsInSoftware();
-    const context = canvas.getContext("webgl2", {antialias: this.fast, alpha: false});
-    if (!context) throw new Error("this browser offers no WebGL 2");
     this.renderer = new THREE.WebGLRenderer({canvas, context});
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 1000);
@@ -50,7 +58,7 @@ class Stage {
     const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
     if (!width || !height) return;
     const before = this.camera.aspect;
-    this.renderer.setPixelRatio(this.fast ? Math.min(devicePixelRatio || 1, 2) : 1);
+    this.renderer.setPixelRatio(this.software ? 1 : Math.min(devicePixelRatio || 1, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();

@@ -69,7 +69,7 @@ void open_view(const std::string& post, Browser* browser) {
 /// Pixels of the picture that differ from its corner.
 constexpr const char* kDrawnPixels = R"js((() => {
   view.stage.draw();
-  const gl = view.stage.renderer.context, w = gl.drawingBufferWidth, h = gl.drawingBufferHeight;
+  const gl = view.stage.renderer.getContext(), w = gl.drawingBufferWidth, h = gl.drawingBufferHeight;
   const p = new Uint8Array(4 * w * h);
   gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, p);
   let drawn = 0;
