@@ -26,29 +26,37 @@ class Colouring {
     if (this.key === "body") {
       const body = this.scene.get("block.body");
       const colour = (n) => n === 0 ? kBodies[0] : kBodies[1 + (n - 1) % (kBodies.length - 1)];
-      this.model.paint("block", (b) => colour(body[b]));
+      this.model.paintBlocks((b) => colour(body[b]));
       return swatches([[kBodies[0], "Supports, and what stands with them"], [kBodies[1], "Other colours: bodies that move"]]);
     }
     return this.byNumber();
   }
 
   byName(codes, names, colours) {
-    this.model.paint("block", (b) => colours[codes[b]]);
+    this.model.paintBlocks((b) => colours[codes[b]]);
     const present = new Set(codes);
     return swatches(names.map((name, i) => [colours[i], name]).filter((_, i) => present.has(i)));
   }
 
   byNumber() {
-    const [what, name] = this.ofJoints ? ["joint", this.key.slice(6)] : ["block", this.key.replace("block.", "")];
-    const moved = name === "displacement";
-    const values = moved ? Float64Array.from({length: this.model.pose.blocks}, (_, b) => this.model.pose.displacement(b))
-                         : what === "joint" ? this.model.joint(name) : this.scene.get("block." + name);
-    const columns = what === "joint" ? this.header.joint_columns : this.header.block_columns;
-    const column = moved ? {label: "Displacement", unit: "m"} : columns.find((c) => c.key === name);
+    if (this.ofJoints) return this.byJointColumn(this.key.slice(6));
+    const moved = this.key === "displacement", name = this.key.replace("block.", ""), {pose} = this.model;
+    const values = moved ? Float64Array.from({length: pose.blocks}, (_, b) => pose.displacement(b)) : this.scene.get(this.key);
+    const column = moved ? {label: "Displacement", unit: "m"} : this.header.block_columns.find((c) => c.key === name);
     const scale = moved ? {stops: kSequential, low: 0, high: this.header.film.largest_shift_m} : scaleOf(values, name);
-    const fixed = what === "block" ? this.scene.get("block.fixed") : [];
-    this.model.paint(what, (i) => fixed[i] ? kUndefined : colourAt(scale, values[i]));
+    const fixed = this.scene.get("block.fixed");
+    this.model.paintBlocks((b) => fixed[b] ? kUndefined : colourAt(scale, values[b]));
     return bar(column, scale, values.some((v) => Number.isNaN(v)));
+  }
+
+  /** Two states side by side have one scale. */
+  byJointColumn(name) {
+    const {sets} = this.model, all = [].concat(...sets.map((set) => Array.from(set.get(name)))), scale = scaleOf(all, name);
+    for (const set of sets) {
+      const values = set.get(name);
+      this.model.paintJoints(set, (j) => colourAt(scale, values[j]));
+    }
+    return bar(this.header.joint_columns.find((c) => c.key === name), scale, all.some((v) => Number.isNaN(v)));
   }
 }
 

@@ -22,9 +22,7 @@ class Numbers {
 
   course(ring) { return ring >= 0 && this.header.courses > 0 ? `, course ${ring}` : ""; }
 
-  html({what, index}) {
-    return what === "block" ? this.block(index) : this.joint(index);
-  }
+  html({what, index, set}) { return what === "block" ? this.block(index) : this.joint(index, set); }
 
   block(b) {
     const group = this.header.roles[this.scene.get("block.role")[b]];
@@ -34,18 +32,18 @@ class Numbers {
   }
 
   jointsOf(block) {
-    if (!this.header.states.length) return "";
-    const a = this.model.joint("block_a"), b = this.model.joint("block_b"), found = [];
+    if (!this.model.sets.length) return "";
+    const {get} = this.model.sets[0], a = get("block_a"), b = get("block_b"), found = [];
     for (let j = 0; j < a.length; ++j) if (a[j] === block || b[j] === block) found.push(j);
-    const link = (j) => `<a href="#" data-joint="${j}">${this.header.kinds[this.model.joint("kind")[j]]} joint with ${a[j] === block ? b[j] : a[j]}</a>`;
+    const link = (j) => `<a href="#" data-joint="${j}">${this.header.kinds[get("kind")[j]]} joint with ${a[j] === block ? b[j] : a[j]}</a>`;
     return `<p>${found.map(link).join(", ")}</p>`;
   }
 
-  joint(j) {
-    const get = this.model.joint, kind = this.header.kinds[get("kind")[j]];
+  joint(j, {get, number}) {
+    const kind = this.header.kinds[get("kind")[j]];
     const side = (b) => `<a href="#" data-block="${b}">${escaped(this.blockName(b).toLowerCase())}</a>`;
-    const rows = this.header.joint_columns.filter((c) => this.scene.has(`state${this.model.state}.${c.key}`)).map((c) => numberRow(c, get(c.key)[j]));
-    return `<h3>Joint ${j}</h3><p>${escaped(kind[0].toUpperCase() + kind.slice(1))} joint between ${side(get("block_a")[j])} and ` +
+    const rows = this.header.joint_columns.map((c) => numberRow(c, get(c.key)[j]));
+    return `<h3>Joint ${j}${this.header.states.length > 1 ? ", " + escaped(this.header.states[number].name) : ""}</h3><p>${escaped(kind[0].toUpperCase() + kind.slice(1))} joint between ${side(get("block_a")[j])} and ` +
            `${side(get("block_b")[j])}${this.course(get("ring")[j])}. Forces act on the second block.</p><table>${rows.join("")}</table>`;
   }
 }

@@ -60,7 +60,7 @@ class Stage {
     const before = this.camera.aspect;
     this.renderer.setPixelRatio(this.software ? 1 : Math.min(devicePixelRatio || 1, 2));
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
+    this.camera.aspect = width / height / (this.parts ? this.parts.length : 1);
     this.camera.updateProjectionMatrix();
     if (before !== this.camera.aspect && !this.moved) this.look(this.standard);
     this.invalidate();
@@ -71,7 +71,18 @@ class Stage {
     this.pending = requestAnimationFrame(() => { this.pending = 0; this.draw(); });
   }
 
-  draw() { this.renderer.render(this.scene, this.camera); }
+  /** Draws the picture. `parts`: functions that show what each part of the picture, from left to right, contains; null: one
+   * picture. */
+  draw() {
+    const parts = this.parts || [() => {}], width = this.canvas.clientWidth / parts.length;
+    this.renderer.setScissorTest(parts.length > 1);
+    parts.forEach((enter, i) => {
+      enter();
+      this.renderer.setViewport(i * width, 0, width, this.canvas.clientHeight);
+      this.renderer.setScissor(i * width, 0, width, this.canvas.clientHeight);
+      this.renderer.render(this.scene, this.camera);
+    });
+  }
 
   /** Two horizontal axes and the vertical one. The first is the longer horizontal side of the model. */
   axes() {

@@ -2,14 +2,14 @@
 
 const kMarkup = `
   <div class="picture"><canvas tabindex="0" aria-label="Model in three dimensions: drag to turn it, click a block or joint for its numbers"></canvas>
-    <div class="legend"></div><div class="forces-legend"></div>
+    <div class="legend"></div><div class="part-names" hidden></div><div class="forces-legend"></div>
     <div class="film" hidden><button class="play" type="button">Play</button><input class="frame" type="range" min="0" step="1" value="0" aria-label="Frame"><output></output></div>
   </div>
   <div class="side-panel">
     <div class="buttons views"></div>
     <label>Colours <select class="colour"></select></label>
     <label>Blocks <select class="blocks"><option value="solid">solid</option><option value="ghost">see-through</option><option value="edges">edges only</option><option value="none">hidden</option></select></label>
-    <label class="states" hidden>Forces of <select class="state"></select></label>
+    <div class="states" hidden><label>Forces of <select class="state"></select></label><label>beside it <select class="second"></select></label></div>
     <div class="switches"></div>
     <label class="of-forces">Length of arrows <input class="length" type="range" min="-1" max="1" step="0.01" value="0"></label>
     <label class="of-magnification">Displacement <output></output><input class="magnify" type="range" min="0" max="1" step="0.01" value="0"></label>
@@ -80,19 +80,22 @@ class Viewer {
   }
 
   addStates() {
-    const states = this.header.states;
-    this.find(".states").hidden = states.length < 2;
-    this.find(".state").innerHTML = states.map((s, i) => `<option value="${i}">${escaped(s.name)}</option>`).join("");
-    this.on(".state", "change", (e) => this.setState(Number(e.target.value)));
+    const states = this.header.states.map((s, i) => `<option value="${i}">${escaped(s.name)}</option>`).join("");
+    this.find(".states").hidden = this.header.states.length < 2;
+    this.find(".state").innerHTML = states;
+    this.find(".second").innerHTML = `<option value="">nothing</option>${states}`;
+    for (const select of [".state", ".second"]) this.on(select, "change", () => this.setStates());
   }
 
-  setState(number) {
-    this.model.select(null);
-    this.model.showState(number);
-    this.model.update();
-    this.model.filter();
+  setStates() {
+    const first = Number(this.find(".state").value), second = this.find(".second").value;
+    this.model.showStates(second === "" ? [first] : [first, Number(second)]);
+    const names = this.find(".part-names");
+    names.hidden = second === "";
+    names.innerHTML = this.model.sets.map((set) => `<span>${escaped(this.header.states[set.number].name)}</span>`).join("");
     this.setColour(this.colouring.key);
-    this.showForces(this.forces);
+    this.showForces(this.forces || second !== "" && !this.colouring.ofJoints);
+    this.select(null);
   }
 
   setColour(key) {
@@ -114,6 +117,7 @@ class Viewer {
 
   showForces(on) {
     this.forces = on;
+    if (this.find("[name=forces]")) this.find("[name=forces]").checked = on;
     if (on) this.goToForces();
     if (on && this.find(".blocks").value === "solid") this.setBlocks("ghost");
     if (!on && !this.colouring.ofJoints && this.find(".blocks").value === "ghost") this.setBlocks("solid");
@@ -135,8 +139,8 @@ class Viewer {
 
   /** Joints and arrows are shown only in the frame to which they belong. */
   updateVisible() {
-    const {joints, arrows} = this.model, belongs = this.film.showsForces;
-    if (joints) joints.visible = belongs && this.colouring.ofJoints, arrows.visible = belongs && Boolean(this.forces);
+    const belongs = this.film.showsForces;
+    this.model.showJoints(belongs && this.colouring.ofJoints, belongs && Boolean(this.forces));
     this.stage.invalidate();
   }
 
@@ -144,8 +148,8 @@ class Viewer {
     const legend = this.find(".forces-legend");
     legend.hidden = !this.forces;
     if (!this.forces) return;
-    const scale = this.model.arrows.material.uniforms.scale.value;  // m per N
-    const present = new Set(this.model.joint("kind"));
+    const set = this.model.sets[0], scale = set.arrows.material.uniforms.scale.value;  // m per N
+    const present = new Set(set.get("kind"));
     legend.innerHTML = `<b>Forces: 1 m stands for ${shown(scale > 0 ? 1 / scale : 0, "N")}</b>` +
       swatches(this.header.kinds.map((kind, i) => [kJointColours[i], kind]).filter((_, i) => present.has(i)));
   }
@@ -222,15 +226,15 @@ class Viewer {
       const link = e.target.closest("[data-joint],[data-block]");
       if (!link) return;
       e.preventDefault();
-      const what = "joint" in link.dataset ? "joint" : "block";
+      const what = "joint" in link.dataset ? "joint" : "block", set = this.model.sets[0];
       if (!this.host.contains(link)) this.host.scrollIntoView({block: "start"});
-      this.select({what, index: Number(link.dataset[what])});
+      this.select({what, index: Number(link.dataset[what]), set});
     });
   }
 
   /** Marks a block or joint and shows its numbers; null: nothing. */
   select(choice) {
-    this.model.select(choice ? choice.what : null, choice ? choice.index : 0);
+    this.model.select(choice);
     this.find(".numbers").innerHTML = choice ? this.numbers.html(choice) : "<p class=\"hint\">Click a block, an arrow or a coloured joint for its numbers.</p>";
   }
 

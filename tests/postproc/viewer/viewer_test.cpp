@@ -141,7 +141,7 @@ TEST(Viewer, EveryNumberOfEveryJointIsThatOfTheTable) {
   const auto keys = browser.value("view.header.joint_columns.map((c) => c.key)");
   EXPECT_GE(keys.size(), 15u);
   for (const std::string key : keys) {
-    const auto values = browser.value(fmt::format("Array.from(view.model.joint('{}'))", key));
+    const auto values = browser.value(fmt::format("Array.from(view.model.sets[0].get('{}'))", key));
     ASSERT_EQ(values.size(), csv.rows.size());
     for (size_t j = 0; j < csv.rows.size(); ++j) {
       const double expected = csv.number(j, csv.column(key));
