@@ -172,6 +172,24 @@ TEST(Viewer, TheFilmOfAMotionAdvances) {
   EXPECT_TRUE(browser.complaints().empty());
 }
 
+// An arrow starts at the centre of pressure of its joint: a click half-way up selects the joint.
+TEST(Viewer, AClickOnAnArrowShowsItsJoint) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  Browser browser;
+  open_view(column_at_rest(), &browser);
+  browser.value("view.find('input[name=forces]').click()");
+  const auto place = browser.value(R"js((() => {
+    const set = view.model.sets[0], p = set.arrows.geometry.attributes.position.array, v = 3 * set.arrows.userData.rods.per;
+    const root = view.stage.middle().set(p[v], p[v + 1], p[v + 2]);  // of joint 1
+    root.z += 0.5 * set.scale * set.get("force_z_N")[1];
+    root.project(view.stage.camera);
+    const r = view.stage.canvas.getBoundingClientRect();
+    return [r.x + (root.x + 1) / 2 * r.width, r.y + (1 - root.y) / 2 * r.height];
+  })())js");
+  browser.click(place[0], place[1]);
+  EXPECT_EQ(browser.value("document.querySelector('#view .numbers h3').textContent"), "Joint 1");
+}
+
 TEST(Viewer, EveryControlWorksWithoutComplaint) {
   if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
   Browser browser;
