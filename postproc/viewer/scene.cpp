@@ -53,8 +53,9 @@ std::string label_of(const ColumnInfo& column) {
   std::erase(suffix, ' ');
   std::string text = column.array_name();
   if (text == suffix)
-    return std::string(1, static_cast<char>(std::toupper(column.meaning[0]))) + column.meaning.substr(1);
-  if (!suffix.empty() && text.ends_with("_" + suffix)) text.resize(text.size() - suffix.size() - 1);
+    text = column.meaning;
+  else if (!suffix.empty() && text.ends_with("_" + suffix))
+    text.resize(text.size() - suffix.size() - 1);
   std::replace(text.begin(), text.end(), '_', ' ');
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
