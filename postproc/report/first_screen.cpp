@@ -143,11 +143,11 @@ std::string worst_html(const Evaluation& e) {
   }
   if (worst.edge) {
     const JointWrench& j = e.last.joints.wrenches[*worst.edge];
-    out += fmt::format(
-        "<li>{} is the nearest to opening as a hinge: its force of {} acts {} from the edge{}.</li>\n",
-        joint_link(e, *worst.edge), markup_text(force_text(j.wrench.force.norm())),
-        markup_text(length_text(std::max(j.edge_distance, 0.0))),
-        j.kern > 1.0 ? ", outside the kern, so that a part of the joint is unloaded" : "");
+    const bool on_edge = j.edge_distance < 1e-3 * std::sqrt(j.patch.area);
+    out += fmt::format("<li>{} is the nearest to opening as a hinge: its force of {} acts {}{}.</li>\n",
+                       joint_link(e, *worst.edge), markup_text(force_text(j.wrench.force.norm())),
+                       on_edge ? "on the edge" : length_text(j.edge_distance) + " from the edge",
+                       j.kern > 1.0 ? ", outside the kern, so that a part of the joint is unloaded" : "");
   }
   return out.empty() ? "" : "<h2>Worst joints</h2>\n<ul>\n" + out + "</ul>\n";
 }
@@ -170,7 +170,7 @@ std::vector<KeyNumber> key_numbers(const Evaluation& e, const std::vector<Histor
 
 WorstJoints worst_joints(const JointWrenches& joints) {
   // Joints of small forces say little about the structure: a hinge needs force.
-  constexpr double kLoaded = 0.01;  // of the largest joint force
+  constexpr double kLoaded = 0.1;  // of the largest joint force
   double largest = 0.0;
   for (const JointWrench& joint : joints.wrenches) largest = std::max(largest, joint.wrench.force.norm());
   WorstJoints worst;
@@ -198,11 +198,11 @@ std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& his
   std::string out;
   for (const std::string& warning : notices(e))
     out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
-  out += fmt::format("<p class=\"verdict{}\"><strong>{}</strong> {}</p>\n",
+  out += fmt::format("<p class=\"verdict{}\"><strong>{}</strong> <small>{}</small></p>\n",
                      s.status == Status::stable ? "" : " bad", markup_text(verdict_text(s)),
                      markup_text(with_capital(s.message) + "."));
   if (at_rest(s))
-    out += "<p>" +
+    out += "<p><strong>How sure is that?</strong> " +
            markup_text(s.forces_unique.value ? to_sentence(s.certified_force_error)
                                              : to_sentence(s.forces_unique)) +
            "</p>\n";

@@ -26,7 +26,7 @@ h2 { font-size: 1.25rem; margin: 2rem 0 .5rem; border-bottom: 1px solid #999; }
 h3 { font-size: 1.05rem; margin: 1.5rem 0 .25rem; }
 a { color: var(--link); } p, li, figcaption { max-width: 55rem; }
 .verdict { border-left: .4rem solid var(--good); background: var(--good-back); padding: .6rem 1rem; max-width: none; }
-.verdict strong { display: block; font-size: 1.15rem; }
+.verdict strong { display: block; font-size: 1.15rem; } .verdict small { font-size: .85rem; color: var(--soft); }
 .verdict.bad { border-color: var(--bad); background: var(--bad-back); }
 .warning { border-left: .4rem solid var(--bad); background: var(--bad-back); padding: .4rem 1rem; margin: .5rem 0;
   max-width: none; }

@@ -27,20 +27,22 @@ void add_thrust(const Evaluation& e, std::vector<std::string>* out) {
 void add_rings(const Evaluation& e, const PostSummary& s, std::vector<std::string>* out) {
   if (e.rings.empty()) return;
   constexpr double kBalanced = 0.01;  // a dynamic run at rest still has small accelerations
-  out->push_back(fmt::format(fmt::runtime(*s.largest_ring_difference <= kBalanced
-                                              ? "In every ring the joint forces balance the load above; the "
-                                                "largest relative difference is {:.1e}."
-                                              : "The joint forces below a ring differ from the load above by "
-                                                "up to {:.1e} of it: ties or inertia carry the "
-                                                "rest."),
-                             *s.largest_ring_difference));
+  const char* ring = is_vault(e) ? "ring" : "course";
+  out->push_back(
+      *s.largest_ring_difference <= kBalanced
+          ? fmt::format("In every {} the joint forces balance the load above; the largest "
+                        "relative difference is {:.1e}.",
+                        ring, *s.largest_ring_difference)
+          : fmt::format("The joint forces below a {} differ from the load above by up to {:.1e} of "
+                        "it: ties or inertia carry the rest.",
+                        ring, *s.largest_ring_difference));
   out->push_back(*s.largest_cv_pressure == 0.0
-                     ? "The bed pressure is the same on all blocks of a ring: its coefficient of variation "
-                       "is negligible."
-                     : fmt::format("The coefficient of variation of the bed pressure within a ring is {} on "
-                                   "average over the rings "
-                                   "and {} at most.",
-                                   percent(*s.mean_cv_pressure), percent(*s.largest_cv_pressure)));
+                     ? fmt::format("The bed pressure is the same on all blocks of a {}: its coefficient of "
+                                   "variation is negligible.",
+                                   ring)
+                     : fmt::format("The coefficient of variation of the bed pressure within a {0} is {1} on "
+                                   "average over the {0}s and {2} at most.",
+                                   ring, percent(*s.mean_cv_pressure), percent(*s.largest_cv_pressure)));
   if (is_vault(e) && s.thrust_over_weight)
     out->push_back(
         fmt::format("The outward thrust at the base, summed over the blocks, is {}, {:.4g} times the weight.",

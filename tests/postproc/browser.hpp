@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,10 +33,12 @@ class Browser {
 
   explicit Browser(int width = 1280, int height = 900, bool dark = false) {
     start(fresh_folder("browser"));
-    for (const Json& target : send("Target.getTargets")["targetInfos"])
+    const Json targets = send("Target.getTargets");
+    for (const Json& target : targets["targetInfos"])
       if (target["type"] == "page")
         session_ =
             send("Target.attachToTarget", {{"targetId", target["targetId"]}, {"flatten", true}})["sessionId"];
+    EXPECT_FALSE(session_.empty());
     for (const char* domain : {"Page", "Runtime", "Log", "Network"}) send(std::string(domain) + ".enable");
     send("Network.emulateNetworkConditions",
          {{"offline", true}, {"latency", 0}, {"downloadThroughput", -1}, {"uploadThroughput", -1}});
@@ -49,6 +52,7 @@ class Browser {
     send("Browser.close");
     ::close(to_);
     ::close(from_);
+    if (!running_) ::kill(process_, SIGKILL);
     ::waitpid(process_, nullptr, 0);
   }
 
@@ -107,6 +111,7 @@ class Browser {
   }
 
   Json send(const std::string& method, const Json& parameters = Json::object()) {
+    asked_ = method + parameters.dump();
     Json message{{"id", ++last_id_}, {"method", method}, {"params", parameters}};
     if (!session_.empty()) message["sessionId"] = session_;
     const std::string text = message.dump() + '\0';
@@ -124,8 +129,10 @@ class Browser {
   void receive() {
     size_t end = 0;
     while ((end = buffer_.find('\0')) == std::string::npos) {
+      constexpr int kPatience = 120'000;  // ms; drawing by software takes seconds on a busy machine
+      pollfd ready{from_, POLLIN, 0};
       char bytes[65536];
-      const ssize_t n = ::read(from_, bytes, sizeof bytes);
+      const ssize_t n = ::poll(&ready, 1, kPatience) == 1 ? ::read(from_, bytes, sizeof bytes) : 0;
       if (n <= 0) {
         fail();
         return;
@@ -135,14 +142,18 @@ class Browser {
     const Json message = Json::parse(buffer_.substr(0, end));
     buffer_.erase(0, end + 1);
     const std::string method = message.value("method", "");
-    if (message.value("id", 0) == last_id_) answer_ = message.value("result", Json::object());
+    if (message.value("id", 0) == last_id_) {
+      EXPECT_FALSE(message.contains("error")) << asked_ << "\n" << message.dump();
+      answer_ = message.value("result", Json::object());
+    }
     if (method == "Page.loadEventFired") loaded_ = true;
     for (const char* complaint : {"Runtime.exceptionThrown", "Log.entryAdded", "Runtime.consoleAPICalled"})
       if (method == complaint) complaints_.push_back(message["params"].dump());
   }
 
   Json fail() {
-    if (running_ && !closing_) ADD_FAILURE() << "Chromium ended unexpectedly, or cannot be started";
+    if (running_ && !closing_)
+      ADD_FAILURE() << "Chromium cannot be started, ended, or did not answer " << asked_;
     running_ = false;
     return Json::object();
   }
@@ -150,7 +161,7 @@ class Browser {
   pid_t process_ = 0;
   int to_ = -1, from_ = -1, last_id_ = 0;
   bool running_ = true, loaded_ = false, closing_ = false;
-  std::string buffer_, session_;
+  std::string buffer_, session_, asked_;
   Json answer_;
   std::vector<std::string> complaints_;
 };

@@ -32,7 +32,7 @@ TEST(FirstScreen, OfTheSlidingJointsTheMostLoadedIsTheWorst) {
 TEST(FirstScreen, TheWorstEdgeIsThatOfALoadedJoint) {
   JointWrenches joints;
   joints.wrenches = {joint(1000, 0.1, 0.4), joint(5, 0.1, 0.001), joint(500, 0.1, 0.3)};
-  EXPECT_EQ(worst_joints(joints).edge, 2u) << "joint 1 carries less than a hundredth of the largest force";
+  EXPECT_EQ(worst_joints(joints).edge, 2u) << "joint 1 carries less than a tenth of the largest force";
   joints.wrenches[2].patch.area = 0.25;  // 0.3 m are more than half of its side of 0.5 m
   EXPECT_EQ(worst_joints(joints).edge, 0u);
 }

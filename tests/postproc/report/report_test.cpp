@@ -73,9 +73,9 @@ std::string analysed_column(const std::string& name, const std::string& pvbatch 
 int images_in_browser(const std::string& page, int width) {
   Browser browser(width);
   browser.open(page);
-  browser.value("window.cupolaView");
+  browser.value("window.cupolaView && window.cupolaView.then(() => true)");
   EXPECT_EQ(browser.value("innerWidth"), width);
-  EXPECT_EQ(browser.value("document.documentElement.scrollWidth - innerWidth"), 0);
+  EXPECT_EQ(browser.value("document.documentElement.scrollWidth - document.documentElement.clientWidth"), 0);
   EXPECT_EQ(browser.value("[...document.images].filter((i) => !i.complete || !i.naturalWidth).length"), 0);
   EXPECT_EQ(fmt::format("{}", fmt::join(browser.complaints(), "\n")), "");
   return browser.value("document.images.length");

@@ -86,7 +86,9 @@ TEST(Viewer, DrawsTheModelWithoutComplaintInLightAndDark) {
       browser.resize(width, 900, dark);
       open_view(post, &browser);
       EXPECT_GT(browser.value(kDrawnPixels).get<double>(), 0.05) << width;
-      EXPECT_EQ(browser.value("document.documentElement.scrollWidth - innerWidth"), 0) << width;
+      EXPECT_EQ(browser.value("document.documentElement.scrollWidth - document.documentElement.clientWidth"),
+                0)
+          << width;
       const std::string paper = browser.value("getComputedStyle(document.body).backgroundColor");
       EXPECT_EQ(paper == "rgb(255, 255, 255)", !dark) << paper;
       browser.value("view.model.faces.visible = false");
