@@ -149,7 +149,7 @@ std::string worst_html(const Evaluation& e) {
                        on_edge ? "on the edge" : length_text(j.edge_distance) + " from the edge",
                        j.kern > 1.0 ? ", outside the kern, so that a part of the joint is unloaded" : "");
   }
-  return out.empty() ? "" : "<h2>Worst joints</h2>\n<ul>\n" + out + "</ul>\n";
+  return out.empty() ? "" : "<p><strong>Worst joints</strong></p>\n<ul>\n" + out + "</ul>\n";
 }
 
 }  // namespace
