@@ -24,6 +24,7 @@ int reference_ring(const Assembly& assembly, const Joint& joint) {
 void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrench* joint) {
   const auto begin = rows.begin() + joint->contact_start;
   const auto end = begin + joint->num_contacts;
+  constexpr double kNoPressure = 1e-9;  // of the force; rounding beside the shear of a cohesive joint
   CUPOLA_ASSERT(begin < end && joint->block_a < joint->block_b);
   std::vector<Vec3> points;
   Vec3 normal = Vec3::Zero();
@@ -35,14 +36,16 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
   joint->patch = planar_hull(points, normal.normalized());
 
   Vec3 weighted = Vec3::Zero();
-  double friction = 0.0, area = 0.0, open_area = 0.0;
+  double friction = 0.0, weights = 0.0, area = 0.0, open_area = 0.0;
   for (auto row = begin; row != end; ++row) {
     const double n = contacts.normal_force[*row];
     joint->normal_force += n;
     weighted += n * (contacts.point[*row] - joint->patch.centroid);
-    friction += n * contacts.friction_use[*row];
+    const double weight = contacts.strength_use.empty() ? n : contacts.area[*row];
+    friction += weight * contacts.friction_use[*row];
+    weights += weight;
     area += contacts.area[*row];
-    if (contacts.force[*row].isZero(0.0)) open_area += contacts.area[*row];
+    if (std::abs(n) <= kNoPressure * contacts.force[*row].norm()) open_area += contacts.area[*row];
     if (contacts.area[*row] > 0.0)
       joint->largest_pressure = std::max(joint->largest_pressure, n / contacts.area[*row]);
     if (!contacts.strength_use.empty())
@@ -51,10 +54,8 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
     joint->slip = std::max(joint->slip, contacts.slip[*row]);
   }
   joint->centre_of_pressure = joint->patch.centroid;
-  if (joint->normal_force > 0.0) {
-    joint->centre_of_pressure += weighted / joint->normal_force;
-    joint->friction_use = friction / joint->normal_force;
-  }
+  if (joint->normal_force > 0.0) joint->centre_of_pressure += weighted / joint->normal_force;
+  if (weights > 0.0) joint->friction_use = friction / weights;
   if (area > 0.0) joint->open_share = open_area / area;
   joint->wrench.point = joint->centre_of_pressure;
   for (auto row = begin; row != end; ++row)

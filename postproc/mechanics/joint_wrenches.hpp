@@ -25,11 +25,13 @@ struct JointWrench : Joint {
   double eccentricity = 0.0;               ///< m, distance of the centre of pressure from the patch centroid
   double edge_distance = 0.0;              ///< m, distance of the centre of pressure from the outline
   double kern = 0.0;                       ///< kern utilisation, at most 1 inside the kern
-  double friction_use = 0.0;               ///< (sum |t_i| / mu) / sum n_i; 1: every point slides
-  double opening = 0.0;                    ///< m, largest gap of its points, >= 0
-  double open_share = 0.0;                 ///< share of the area whose points carry no force
-  double slip = 0.0;                       ///< m, largest accumulated slip of its points
-  double largest_pressure = 0.0;           ///< Pa, largest normal force of a point over its area
+  /// Mean of the points, weighted by normal force: (sum |t_i| / mu) / sum n_i. In joints with strength weighted by
+  /// area. 1: every point slides.
+  double friction_use = 0.0;
+  double opening = 0.0;           ///< m, largest gap of its points, >= 0
+  double open_share = 0.0;        ///< share of the area whose points carry no normal force
+  double slip = 0.0;              ///< m, largest accumulated slip of its points
+  double largest_pressure = 0.0;  ///< Pa, largest normal force of a point over its area
   double strength_use =
       std::numeric_limits<double>::quiet_NaN();  ///< largest of its points; NaN in a dry joint
   int contact_start = 0, num_contacts = 0;       ///< into JointWrenches::contacts

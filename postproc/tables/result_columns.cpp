@@ -157,7 +157,7 @@ const Columns<JointWrench>& joint_columns() {
       {"kern_use", "", "kern utilisation; up to 1 the force lies in the kern", &J::kern},
       {"friction_use", "", "friction utilisation; 1: every point slides", &J::friction_use},
       {"opening_m", "m", "largest gap of its points", &J::opening},
-      {"open_share", "", "share of the area that carries no force", &J::open_share},
+      {"open_share", "", "share of the area that carries no normal force", &J::open_share},
       {"slip_m", "m", "largest accumulated slip of its points", &J::slip},
       {"largest_pressure_Pa", "Pa", "largest normal force of a contact point over its area",
        &J::largest_pressure},
