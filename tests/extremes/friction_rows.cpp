@@ -95,28 +95,13 @@ void add_smooth_wall(Rows* rows) {
                      carries_weight_above});
 }
 
-/// The free block between two fixed ones whose joints lean outward by `lean_deg` from the vertical.
-Assembly wedge_between_walls(double lean_deg) {
-  const double slope = std::tan(lean_deg * M_PI / 180.0);
-  Assembly assembly;
-  const double foot = 0.5, head = 0.5 + slope;  // x of the joints at the bottom and at the top
-  testing::add_voussoir({Eigen::Vector2d{-foot - 2, 0}, {-foot, 0}, {-head, 1}, {-head - 2, 1}}, 1.0, 2000.0,
-                        true, 0, &assembly);
-  testing::add_voussoir({Eigen::Vector2d{foot, 0}, {foot + 2, 0}, {head + 2, 1}, {head, 1}}, 1.0, 2000.0,
-                        true, 0, &assembly);
-  testing::add_voussoir({Eigen::Vector2d{-foot, 0}, {foot, 0}, {head, 1}, {-head, 1}}, 1.0, 2000.0, false, 0,
-                        &assembly);
-  compute_mass_properties(&assembly);
-  return assembly;
-}
-
 void add_wedges(Rows* rows) {
   rows->push_back({"friction",
                    "wedge, walls leaning by 30 degrees, rigid joints",
                    "reaction equals weight; thrust not unique",
                    {Ending::stable},
                    [] {
-                     return Scene{statics(0.4, 0.0), wedge_between_walls(30.0)};
+                     return Scene{statics(0.4, 0.0), testing::wedge_between_walls(30.0)};
                    },
                    carries_weight_above,
                    [](const Summary& summary, const Frame&) {
@@ -129,7 +114,7 @@ void add_wedges(Rows* rows) {
                      jams ? "jams: the law dilates" : "falls: nothing presses it to the walls",
                      {jams ? Ending::stable : Ending::moving},
                      [law] {
-                       Scene scene{statics(0.8, 1e-9), wedge_between_walls(0.0)};
+                       Scene scene{statics(0.8, 1e-9), testing::wedge_between_walls(0.0)};
                        scene.input.analysis.friction_law = law;
                        return scene;
                      },

@@ -104,4 +104,46 @@ inline Assembly ferris_wall(int courses, bool whole_first) {
   return make_boxes(boxes);
 }
 
+/// A free block of 1 m, width 1 m at its base, between two fixed ones whose joints lean outward by `lean_deg`
+/// from the vertical. Blocks: left wall, right wall, wedge.
+inline Assembly wedge_between_walls(double lean_deg) {
+  const double slope = std::tan(lean_deg * std::numbers::pi / 180.0);
+  Assembly assembly;
+  const double foot = 0.5, head = 0.5 + slope;  // x of the joints at the bottom and at the top
+  add_voussoir({Eigen::Vector2d{-foot - 2, 0}, {-foot, 0}, {-head, 1}, {-head - 2, 1}}, 1.0, 2000.0, true, 0,
+               &assembly);
+  add_voussoir({Eigen::Vector2d{foot, 0}, {foot + 2, 0}, {head + 2, 1}, {head, 1}}, 1.0, 2000.0, true, 0,
+               &assembly);
+  add_voussoir({Eigen::Vector2d{-foot, 0}, {foot, 0}, {head, 1}, {-head, 1}}, 1.0, 2000.0, false, 0,
+               &assembly);
+  compute_mass_properties(&assembly);
+  return assembly;
+}
+
+/// Two prisms of 1 m along y that lean against each other at `lean` from the vertical, on a fixed floor. Their
+/// feet reach from `foot` to `foot` + `width` from the axis; they touch on a vertical face. Blocks: floor, card
+/// at -x, card at +x.
+struct LeaningCards {
+  double lean;                      ///< rad
+  double foot = 0.5, width = 0.02;  ///< m
+
+  double height(double x) const { return x / std::tan(lean); }
+  Assembly assembly() const {
+    Assembly cards = make_boxes({{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true}});
+    const double a = foot, b = foot + width;
+    const Eigen::Vector2d low(0, height(a)), high(0, height(b));
+    add_voussoir({Eigen::Vector2d{-b, 0}, {-a, 0}, low, high}, 1.0, 1000.0, false, 0, &cards);
+    add_voussoir({Eigen::Vector2d{a, 0}, {b, 0}, high, low}, 1.0, 1000.0, false, 0, &cards);
+    compute_mass_properties(&cards);
+    return cards;
+  }
+  /// The thrust at the top of the common face, over the weight, that keeps a card from falling inwards: by
+  /// moments about the inner edge of its foot.
+  double critical_friction() const {
+    const double a = foot, b = foot + width;
+    const double centre = (b * b * b - a * a * a) / (3.0 * (b * b - a * a));  // x of the centre of gravity
+    return (a - centre) / height(b);
+  }
+};
+
 }  // namespace cupola::testing

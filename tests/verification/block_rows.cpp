@@ -92,13 +92,7 @@ double critical_overhang(const ReferenceRow& row) {
 }
 
 double critical_friction_of_cards(const ReferenceRow& row) {
-  const double phi = row.number("phi_deg") * kRadians, a = 0.5, w = 0.02;
-  const auto height = [phi](double x) { return x / std::tan(phi); };
-  Assembly cards = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true}});
-  const Eigen::Vector2d low(0, height(a)), high(0, height(a + w));
-  testing::add_voussoir({Eigen::Vector2d{-a - w, 0}, {-a, 0}, low, high}, 1.0, 1000.0, false, 0, &cards);
-  testing::add_voussoir({Eigen::Vector2d{a, 0}, {a + w, 0}, high, low}, 1.0, 1000.0, false, 0, &cards);
-  compute_mass_properties(&cards);
+  const Assembly cards = testing::LeaningCards{.lean = row.number("phi_deg") * kRadians}.assembly();
   return critical_value(limit_case(Parameter::friction, 0.02, 1.0, 0.5), cards);
 }
 

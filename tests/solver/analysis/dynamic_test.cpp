@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "solver/analysis/analysis.hpp"
@@ -111,6 +112,75 @@ TEST(Painleve, SlidingRodKeepsFiniteSpeedsAndGainsNoEnergy) {
           EXPECT_LE(highest, (law == FrictionLaw::coulomb ? 1e-3 : 1.3e-2) * kinetic)
               << to_string(law) << ", mu " << mu << ", speed " << speed << ", lean " << lean;
         }
+}
+
+/// A rod that leans by `lean` towards +x and slides on the edge of its foot, on which a step of length h acts:
+///
+///     w_foot = (speed, -g h) + W p,     p = (T, N) the impulse, W the inverse mass of the foot,
+///
+/// with W_xz < 0. A foot that slides towards -x has the friction T = mu N, which lowers its normal acceleration by
+/// mu |W_xz| N. From mu = W_zz / |W_xz| on no sliding solution exists: the foot jams ("impact without collision",
+/// Genot and Brogliato 1999, Eur. J. Mech. A 18:653).
+struct SlidingRod {
+  double lean;
+  Vec3 size = Vec3(0.02, 0.02, 1.0);  ///< m
+
+  /// Foot from the centre of gravity, in the plane of the motion.
+  double x() const { return 0.5 * (size.x() * std::cos(lean) - size.z() * std::sin(lean)); }
+  double z() const { return -0.5 * (size.x() * std::sin(lean) + size.z() * std::cos(lean)); }
+  double mass() const { return 1000.0 * size.prod(); }
+  double inertia() const { return mass() * (size.x() * size.x() + size.z() * size.z()) / 12.0; }
+  double W_xx() const { return 1.0 / mass() + z() * z() / inertia(); }
+  double W_zz() const { return 1.0 / mass() + x() * x() / inertia(); }
+  double W_xz() const { return -x() * z() / inertia(); }
+  double jamming_friction() const { return W_zz() / -W_xz(); }
+  Assembly assembly() const {
+    return testing::make_boxes({{.center = {0, 0, -0.5}, .size = {40, 3, 1}, .fixed = true},
+                                {.center = {0, 0, -z()},
+                                 .size = size,
+                                 .rotation = Eigen::Quaterniond(Eigen::AngleAxisd(lean, Vec3::UnitY()))}});
+  }
+};
+
+// Under Coulomb's law, 3 % below the friction at which the foot jams it slides on, slowed by the friction of the
+// weight alone; 3 % above it stops in one step of any length, and the rod loses the energy of the motion of its foot.
+// A foot that slides towards +x never jams.
+TEST(Painleve, FootJamsFromTheFrictionAtWhichNoSlidingSolutionExists) {
+  constexpr double kSpeed = 5.0, h = 1e-4;
+  for (const double lean : {0.3, 0.4636, 0.7}) {
+    const SlidingRod rod{lean};
+    const Assembly assembly = rod.assembly();
+    if (lean == 0.4636)
+      EXPECT_NEAR(rod.jamming_friction(), 4.0 / 3.0, 0.05) << "of a slender rod at its worst inclination";
+    for (const double direction : {-1.0, 1.0})
+      for (const double share : {0.97, 1.03}) {
+        const double mu = share * rod.jamming_friction(), speed = direction * kSpeed;
+        Case scene = make_case(mu, 0.0, h);
+        scene.analysis.tolerance = 1e-9;
+        scene.analysis.friction_law = FrictionLaw::coulomb;
+        Simulation simulation = simulate(scene, assembly);
+        simulation.mutable_state()->v[0] = speed;
+        const StepReport report = simulation.advance();
+        ASSERT_EQ(report.solve.ending, SolveEnding::converged) << report.solve.message;
+        const VecX& v = simulation.state().v;
+        const double foot = v[0] + v[4] * rod.z(), rise = v[2] - v[4] * rod.x();
+        const double slip = -direction * mu;  // T / N while the foot slides
+        const double N = kG * h / (rod.W_zz() + slip * rod.W_xz());
+        const bool jams = direction < 0 && share > 1.0;
+        const double expected = jams ? 0.0 : speed + (rod.W_xz() + slip * rod.W_xx()) * N;
+        const std::string what = fmt::format("lean {}, mu {}, speed {}", lean, mu, speed);
+        EXPECT_NEAR(foot, expected, 1e-6 * kSpeed) << what;
+        EXPECT_NEAR(rise, 0.0, 1e-6 * kSpeed) << what;
+        if (!jams) continue;
+        const double kept =
+            0.5 * rod.mass() * (v[0] * v[0] + v[2] * v[2]) + 0.5 * rod.inertia() * v[4] * v[4];
+        const double det = rod.W_xx() * rod.W_zz() - rod.W_xz() * rod.W_xz();
+        // The weight adds work of the order of m g h speed.
+        EXPECT_NEAR(kept, 0.5 * kSpeed * kSpeed * (rod.mass() - rod.W_zz() / det),
+                    1e-3 * rod.mass() * kSpeed * kSpeed)
+            << what;
+      }
+  }
 }
 
 /// The last frame and the summary of a dynamic case.
