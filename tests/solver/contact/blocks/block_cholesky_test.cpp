@@ -2,16 +2,16 @@
 
 #include "solver/contact/blocks/block_cholesky.hpp"
 
-#include <random>
-
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include "solver/runtime/threads.hpp"
-#include "tests/solver/contact/contact_scenes.hpp"
+#include "tests/solver/contact/dome_blocks.hpp"
 
 namespace cupola::block_cholesky_test {
 namespace {
+
+using testing::random_vector;
 
 struct Problem {
   BlockPattern pattern;
@@ -20,33 +20,14 @@ struct Problem {
 
 /// The Hessian of a dome with all contacts sticking, not whitened.
 Problem dome_hessian(int rings, int blocks_per_ring) {
-  scenes::DomeShape shape;
-  shape.rings = rings;
-  shape.blocks_per_ring = blocks_per_ring;
-  const ContactProblem p = scenes::dome(shape, 1.0, {0.4, 1e-8, 1e-8});
-  const ContactGraph graph = contact_graph(p);
-  const std::vector<Mat3> G(p.num_contacts(), 1e4 * Mat3::Identity());
-  return {graph.pattern, assemble_hessian(p, graph, G)};
+  const testing::DomeBlocks dome(rings, blocks_per_ring);
+  const std::vector<Mat3> G(dome.problem.num_contacts(), 1e4 * Mat3::Identity());
+  return {dome.graph.pattern, assemble_hessian(dome.problem, dome.graph, G)};
 }
 
 Eigen::MatrixXd dense(const Problem& p) {
-  const int nb = p.pattern.num_blocks();
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(6 * nb, 6 * nb);
-  for (int k = 0; k < nb; ++k) {
-    A.block<6, 6>(6 * k, 6 * k) = p.matrix.diagonal[k];
-    for (int q = p.pattern.column_start[k]; q < p.pattern.column_start[k + 1]; ++q) {
-      A.block<6, 6>(6 * p.pattern.row[q], 6 * k) = p.matrix.lower[q];
-      A.block<6, 6>(6 * k, 6 * p.pattern.row[q]) = p.matrix.lower[q].transpose();
-    }
-  }
-  return A;
-}
-
-VecX random_vector(Eigen::Index n) {
-  std::mt19937 random(7);
-  VecX x(n);
-  for (double& value : x) value = random() / 4294967296.0 - 0.5;
-  return x;
+  return testing::dense_matrix(p.pattern, p.matrix,
+                               [&p](int pair) -> Mat6 { return p.matrix.lower[pair].transpose(); });
 }
 
 // Ten digits, as the condition number of these matrices is 1e4.

@@ -3,53 +3,34 @@
 #include "solver/contact/blocks/block_lu.hpp"
 
 #include <limits>
-#include <random>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "tests/solver/contact/contact_scenes.hpp"
+#include "tests/solver/contact/dome_blocks.hpp"
 
 namespace cupola::block_lu_test {
 namespace {
+
+using testing::random_vector;
 
 struct Problem {
   BlockPattern pattern;
   UnsymmetricBlockMatrix matrix;
 };
 
-VecX random_vector(Eigen::Index n) {
-  std::mt19937 random(7);
-  VecX x(n);
-  for (double& value : x) value = random() / 4294967296.0 - 0.5;
-  return x;
-}
-
 /// The Jacobian of a dome whose contacts have arbitrary unsymmetric stiffnesses.
 Problem dome_jacobian(int rings, int blocks_per_ring) {
-  scenes::DomeShape shape;
-  shape.rings = rings;
-  shape.blocks_per_ring = blocks_per_ring;
-  const ContactProblem p = scenes::dome(shape, 1.0, {0.4, 1e-8, 1e-8});
-  const ContactGraph graph = contact_graph(p);
-  std::vector<Mat3> G(p.num_contacts());
-  const VecX values = random_vector(9 * p.num_contacts());
-  for (int i = 0; i < p.num_contacts(); ++i)
+  const testing::DomeBlocks dome(rings, blocks_per_ring);
+  std::vector<Mat3> G(dome.problem.num_contacts());
+  const VecX values = random_vector(9 * dome.problem.num_contacts());
+  for (int i = 0; i < dome.problem.num_contacts(); ++i)
     G[i] = 1e4 * (Mat3::Identity() + 0.3 * Eigen::Map<const Mat3>(values.data() + 9 * i));
-  return {graph.pattern, assemble_jacobian(p, graph, G)};
+  return {dome.graph.pattern, assemble_jacobian(dome.problem, dome.graph, G)};
 }
 
 Eigen::MatrixXd dense(const Problem& p) {
-  const int nb = p.pattern.num_blocks();
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(6 * nb, 6 * nb);
-  for (int k = 0; k < nb; ++k) {
-    A.block<6, 6>(6 * k, 6 * k) = p.matrix.diagonal[k];
-    for (int q = p.pattern.column_start[k]; q < p.pattern.column_start[k + 1]; ++q) {
-      A.block<6, 6>(6 * p.pattern.row[q], 6 * k) = p.matrix.lower[q];
-      A.block<6, 6>(6 * k, 6 * p.pattern.row[q]) = p.matrix.upper[q];
-    }
-  }
-  return A;
+  return testing::dense_matrix(p.pattern, p.matrix, [&p](int pair) { return p.matrix.upper[pair]; });
 }
 
 // Ten digits, as the condition number of these matrices is 1e4.
