@@ -150,8 +150,9 @@ TEST(Painleve, FootJamsFromTheFrictionAtWhichNoSlidingSolutionExists) {
   for (const double lean : {0.3, 0.4636, 0.7}) {
     const SlidingRod rod{lean};
     const Assembly assembly = rod.assembly();
-    if (lean == 0.4636)
+    if (lean == 0.4636) {
       EXPECT_NEAR(rod.jamming_friction(), 4.0 / 3.0, 0.05) << "of a slender rod at its worst inclination";
+    }
     for (const double direction : {-1.0, 1.0})
       for (const double share : {0.97, 1.03}) {
         const double mu = share * rod.jamming_friction(), speed = direction * kSpeed;
