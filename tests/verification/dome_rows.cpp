@@ -156,7 +156,8 @@ double critical_acceleration_of_model(const ReferenceRow& row) {
 }
 
 double critical_lantern_of_model(const ReferenceRow& row) {
-  const Case scene = paper_limit(row.text("case"), "lantern", 0.0, 20.0, {"joints.friction=" + row.text("mu")});
+  const Case scene =
+      paper_limit(row.text("case"), "lantern", 0.0, 20.0, {"joints.friction=" + row.text("mu")});
   return critical_value(scene, generate(scene));
 }
 
