@@ -67,10 +67,14 @@ void add_thrust_line(const Evaluation& e, std::vector<KeyNumber>* out) {
 void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
   const PostSummary s = post_summary(e);
   if (e.summary.ranges.empty() && is_vault(e) && s.thrust_over_weight)
-    out->push_back(
-        {"Outward thrust", force_text(e.rings.front().radial_thrust),
-         fmt::format("{:.3g} of the weight; one of the admissible states, a range analysis gives the limits",
-                     *s.thrust_over_weight)});
+    out->push_back({"Outward thrust", force_text(e.rings.front().radial_thrust),
+                    fmt::format("{:.3g} of the weight; one of the admissible states{}", *s.thrust_over_weight,
+                                s.largest_strength_use ? "" : ", a range analysis gives the limits")});
+  if (s.largest_strength_use)
+    out->push_back({"Largest pressure on a joint",
+                    fmt::format("{:.3g} MPa", 1e-6 * s.largest_pressure_Pa.value_or(0.0)),
+                    fmt::format("a joint uses at most {:.3g} % of its compressive or tensile strength",
+                                100.0 * *s.largest_strength_use)});
   add_thrust_line(e, out);
   const auto& joints = e.last.joints.wrenches;
   const auto sliding = std::count_if(joints.begin(), joints.end(),
