@@ -1,6 +1,7 @@
 #include "solver/analysis/mechanism.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "solver/analysis/record.hpp"
+#include "solver/contact/problem/cone.hpp"
 
 namespace cupola {
 namespace {
@@ -98,9 +100,12 @@ Mechanism find_mechanism(const Model& model, const State& start, const ContactSe
     scale += f.segment<3>(i).norm() * mechanism.v.segment<3>(i).norm();
   }
   mechanism.load_power = scale > 0.0 ? power / scale : 0.0;
-  for (int i = 0; i < problem.num_contacts(); ++i)
+  for (int i = 0; i < problem.num_contacts(); ++i) {
+    if (std::isfinite(contact_law(problem, i).strength.compression))
+      continue;  // such a joint may close: it crushes
     mechanism.violation =
         std::max(mechanism.violation, (problem.mu[i] * u.segment<2>(3 * i + 1).norm() - u[3 * i]) / fastest);
+  }
   return mechanism;
 }
 

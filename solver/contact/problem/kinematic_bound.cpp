@@ -15,17 +15,19 @@ double required_normal_force(const ContactProblem& problem, const VecX& v) {
     work += v.segment<6>(6 * k).dot(problem.M[k] * problem.v_star.segment<6>(6 * k));
   if (!(work > 0.0)) return 0.0;
   const VecX u = relative_velocity(problem, v);
-  double largest_delta = 0.0, crushing = 0.0;  // N s m/s: the most that crushing can dissipate
+  constexpr double kRounding = 1e-9;  // of the sums; equal work and dissipation prove nothing
+  // J: what cohesion and tension dissipate, and the most that crushing can
+  double largest_delta = 0.0, dissipated = 0.0, crushing = 0.0;
   for (int i = 0; i < problem.num_contacts(); ++i) {
     const ContactLaw law = contact_law(problem, i);
     const double slip = u.segment<2>(3 * i + 1).norm(), delta = law.mu * slip - u[3 * i];
-    work -= law.strength.cohesion * slip + law.tension_limit() * std::max(0.0, -delta);
+    dissipated += law.strength.cohesion * slip + law.tension_limit() * std::max(0.0, -delta);
     if (delta > 0.0) crushing += law.strength.compression * delta;
     largest_delta = std::max(largest_delta, delta);
   }
-  if (!(work > 0.0)) return 0.0;
-  if (work > crushing) return std::numeric_limits<double>::infinity();
-  return largest_delta > 0.0 ? work / (largest_delta * problem.h) : std::numeric_limits<double>::infinity();
+  if (work > (1.0 + kRounding) * (dissipated + crushing)) return std::numeric_limits<double>::infinity();
+  if (!(work > dissipated)) return 0.0;
+  return largest_delta > 0.0 ? (work - dissipated) / (largest_delta * problem.h) : 0.0;
 }
 
 double normal_force_sum(const ContactProblem& problem, const VecX& gamma) {
