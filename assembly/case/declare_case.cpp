@@ -10,8 +10,12 @@ void declare_swept_key(Section& s, SweptKey& swept) {
   s.rule(!swept.values.empty(), "values", "must hold at least one value");
 }
 
-/// What joints with strength cannot be combined with.
+/// What contact points of divided joints and joints with strength cannot be combined with.
 void declare_strength_rules(Section& s, Case& the_case) {
+  s.rule(
+      the_case.contact.subdivide == 1 || (the_case.joints.compliance.per == Compliance::Per::area &&
+                                          the_case.contact.method == ContactDetection::Method::face_clipping),
+      "contact", "subdivide requires joints.compliance: {per: area} and method: face_clipping");
   if (!the_case.joints.have_strength()) return;
   Analysis& analysis = the_case.analysis;
   LimitSearch& limit = analysis.limit;

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "assembly/files/atomic_file.hpp"
-#include "postproc/analyse.hpp"
 #include "postproc/report/ranges.hpp"
 #include "postproc/report/report.hpp"
+#include "tests/postproc/analysed_column.hpp"
 #include "tests/postproc/ranges.hpp"
 
 namespace cupola::range_report_test {
@@ -71,28 +71,9 @@ TEST(RangeSentence, ANarrowRangeIsOneCertainValue) {
   EXPECT_NE(range_sentence(range).find("choose 0.13 MN, outside the range"), std::string::npos);
 }
 
-/// Analyses a column as a range analysis and returns the folder post/.
-std::string analysed_ranges(const Summary& summary, const std::vector<Frame>& frames) {
-  const std::string folder = test::fresh_folder("range");
-  const Assembly a = test::column(3);
-  write_assembly(folder + "/assembly.vtu", a);
-  ResultsWriter writer(folder + "/results", content_hash(a));
-  for (const Frame& frame : frames) writer.write_frame(frame);
-  writer.write_text("run.yaml", "title: column\n");
-  writer.write_summary(summary);
-  EXPECT_EQ(analyse({.scene = test::column_case(),
-                     .assembly_path = folder + "/assembly.vtu",
-                     .results_folder = folder + "/results",
-                     .output_folder = folder + "/post",
-                     .pvbatch = "",
-                     .quiet = true}),
-            ExitCode::done);
-  return folder + "/post";
-}
-
 TEST(RangeReport, LeadsWithTheRangesAndSaysWhatIsCertainChosenAndAssumed) {
   const Assembly a = test::column(3);
-  const std::string post = analysed_ranges(test::range_summary(a), test::range_frames(a));
+  const std::string post = test::analysed_column("range", test::range_frames(a), test::range_summary(a));
   const std::string html = read_text(post + "/report.html");
   const size_t ranges = html.find("<h2>Ranges over all admissible states</h2>");
   ASSERT_NE(ranges, std::string::npos);
@@ -119,7 +100,8 @@ TEST(RangeReport, WithoutACompliantStateNothingIsChosen) {
   const Assembly a = test::column(3);
   Summary summary = test::range_summary(a);
   for (ForceRange& range : summary.ranges) range.chosen.reset();
-  const std::string html = read_text(analysed_ranges(summary, test::range_frames(a)) + "/report.html");
+  const std::string html =
+      read_text(test::analysed_column("range", test::range_frames(a), summary) + "/report.html");
   EXPECT_EQ(html.find("The chosen value"), std::string::npos);
   EXPECT_EQ(html.find("compliances of this case choose"), std::string::npos);
   EXPECT_NE(html.find("<h2>Findings in one admissible state</h2>"), std::string::npos);
@@ -129,7 +111,7 @@ TEST(RangeReport, WithoutACompliantStateNothingIsChosen) {
 TEST(RangeReport, ShowsTheMechanismWhereNoStateIsAdmissible) {
   const Assembly a = test::column(3);
   const auto [summary, frame] = test::moving_range_run(a);
-  const std::string post = analysed_ranges(summary, {frame});
+  const std::string post = test::analysed_column("range", {frame}, summary);
   const std::string html = read_text(post + "/report.html");
   EXPECT_NE(html.find("The structure moves: no forces balance the loads within the joint laws."),
             std::string::npos);

@@ -6,39 +6,19 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "assembly/files/assembly_file.hpp"
-#include "postproc/analyse.hpp"
 #include "postproc/tables/csv_file.hpp"
+#include "tests/postproc/analysed_column.hpp"
 #include "tests/postproc/browser.hpp"
-#include "tests/postproc/scene.hpp"
 
 namespace cupola::viewer_test {
 namespace {
 
 using test::Browser;
 
-/// Analyses frames of a column and returns the folder post/.
-std::string analysed(const std::string& name, const std::vector<Frame>& frames, const Summary& summary) {
-  const std::string folder = test::fresh_folder(name);
-  const Assembly a = test::column(3);
-  write_assembly(folder + "/assembly.vtu", a);
-  ResultsWriter writer(folder + "/results", content_hash(a));
-  for (const Frame& frame : frames) writer.write_frame(frame);
-  writer.write_text("run.yaml", "title: column\n");
-  writer.write_summary(summary);
-  EXPECT_EQ(analyse({.scene = test::column_case(),
-                     .assembly_path = folder + "/assembly.vtu",
-                     .results_folder = folder + "/results",
-                     .output_folder = folder + "/post",
-                     .pvbatch = "",
-                     .quiet = true}),
-            ExitCode::done);
-  return folder + "/post";
-}
-
 std::string column_at_rest() {
   const Assembly a = test::column(3);
-  return analysed("rest", {test::column_at_rest(a, test::kGravity, 0.0, 0.5, 0.3)}, test::column_summary(a));
+  return test::analysed_column("rest", {test::column_at_rest(a, test::kGravity, 0.0, 0.5, 0.3)},
+                               test::column_summary(a));
 }
 
 /// The upper blocks slide away by 0.4 m per frame.
@@ -57,7 +37,7 @@ std::string sliding_column(int num_frames) {
   Summary summary = test::column_summary(a);
   summary.status = Status::collapsed;
   summary.analysis = AnalysisType::dynamic;
-  return analysed("sliding", frames, summary);
+  return test::analysed_column("sliding", frames, summary);
 }
 
 /// Opens a report and waits until its view can be used. The page's variable `view` is the viewer.

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "assembly/files/assembly_file.hpp"
+#include "postproc/analyse.hpp"
+#include "tests/postproc/scene.hpp"
+
+namespace cupola::test {
+
+/// Analyses frames of a column of three blocks in a fresh folder and returns its folder post/.
+inline std::string analysed_column(const std::string& name, const std::vector<Frame>& frames,
+                                   const Summary& summary) {
+  const std::string folder = fresh_folder(name);
+  const Assembly a = column(3);
+  write_assembly(folder + "/assembly.vtu", a);
+  ResultsWriter writer(folder + "/results", content_hash(a));
+  for (const Frame& frame : frames) writer.write_frame(frame);
+  writer.write_text("run.yaml", "title: column\n");
+  writer.write_summary(summary);
+  EXPECT_EQ(analyse({.scene = column_case(),
+                     .assembly_path = folder + "/assembly.vtu",
+                     .results_folder = folder + "/results",
+                     .output_folder = folder + "/post",
+                     .pvbatch = "",
+                     .quiet = true}),
+            ExitCode::done);
+  return folder + "/post";
+}
+
+}  // namespace cupola::test
