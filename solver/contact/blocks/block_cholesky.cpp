@@ -1,53 +1,20 @@
 #include "solver/contact/blocks/block_cholesky.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <span>
 
 #include <cblas.h>
 
 #include "assembly/base/error.hpp"
-#include "solver/runtime/interruption.hpp"
+#include "solver/contact/blocks/panel_factor.hpp"
 #include "solver/runtime/threads.hpp"
 
 extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 
 namespace cupola {
 
-namespace {
-
-constexpr int kTileRows = 64;  // blocks
-
-/// c (rows x columns) = beta c + alpha a b^T
-void multiply_transposed(int rows, int columns, int depth, double alpha, const double* a, int ld_a,
-                         const double* b, int ld_b, double beta, double* c, int ld_c) {
-  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, rows, columns, depth, alpha, a, ld_a, b, ld_b, beta, c,
-              ld_c);
-}
-
-/// Size in blocks of the largest product of a tile with the columns of a panel.
-std::size_t largest_product(const FactorStructure& f) {
-  std::size_t largest = 0;
-  for (int k = 0; k < f.num_panels(); ++k)
-    largest = std::max(largest, std::size_t(std::min(f.num_rows(k), kTileRows)) * f.num_columns(k));
-  return largest;
-}
-
-bool consecutive(const int* first, const int* last) {
-  return last[-1] - *first == last - first - 1;
-}
-
-}  // namespace
-
-std::vector<BlockCholesky::Tile> BlockCholesky::tiles(int num_rows) {
-  std::vector<Tile> tiles;
-  for (int first = 0; first < num_rows; first += kTileRows)
-    tiles.push_back({first, std::min(first + kTileRows, num_rows)});
-  return tiles;
-}
-
 /// Copies the rows of the tile from the matrix into the panel.
-void BlockCholesky::fill(const BlockMatrix& matrix, int panel, const Tile& tile) {
+void BlockCholesky::fill(const BlockMatrix& matrix, int panel, const PanelTile& tile) {
   const std::span<const int> unknowns = unknowns_of_block(pattern_);
   const int first_column = structure_.first_column[panel], columns = structure_.num_columns(panel);
   const std::int64_t ld = std::int64_t{m_} * structure_.num_rows(panel);
@@ -75,49 +42,6 @@ void BlockCholesky::fill(const BlockMatrix& matrix, int panel, const Tile& tile)
   }
 }
 
-/// Subtracts the products of the earlier panels from the rows of the tile.
-void BlockCholesky::update(int panel, const Tile& tile, std::vector<double>* product) {
-  const int* rows = structure_.rows(panel);
-  const int num_rows = structure_.num_rows(panel);
-  const int ld = m_ * num_rows;
-  double* L = values(panel);
-  for (auto k = structure_.update_start[panel]; k < structure_.update_start[panel + 1]; ++k) {
-    const auto [source, first, last] = structure_.updates[k];
-    const int* source_rows = structure_.rows(source);
-    const int* end = source_rows + structure_.num_rows(source);
-    const int* a = std::lower_bound(source_rows + first, end, rows[tile.first]);
-    const int* a_end = tile.last == num_rows ? end : std::lower_bound(a, end, rows[tile.last]);
-    if (a == a_end) continue;
-    const int* b = source_rows + first;
-    const int* b_end = std::min(source_rows + last, a_end);  // nothing above the diagonal
-    const int ld_source = m_ * structure_.num_rows(source);
-    const int height = m_ * static_cast<int>(a_end - a), width = m_ * static_cast<int>(b_end - b);
-    const int depth = m_ * structure_.num_columns(source);
-    const double* A = values(source) + m_ * (a - source_rows);
-    const double* B = values(source) + m_ * (b - source_rows);
-    const int* row = std::lower_bound(rows + tile.first, rows + tile.last, *a);
-    const auto column_of = [&](const int* position) -> std::int64_t {
-      return std::int64_t{m_} * (*position - rows[0]) * ld;
-    };
-    if (row + (a_end - a) <= rows + tile.last && row[a_end - a - 1] == a_end[-1] && consecutive(b, b_end)) {
-      multiply_transposed(height, width, depth, -1.0, A, ld_source, B, ld_source, 1.0,
-                          L + column_of(b) + m_ * (row - rows), ld);
-      continue;
-    }
-    multiply_transposed(height, width, depth, 1.0, A, ld_source, B, ld_source, 0.0, product->data(), height);
-    for (const double* from = product->data(); a != a_end; ++a, from += m_) {
-      while (*row != *a) ++row;
-      for (const int* column = b; column != b_end; ++column) {
-        double* to = L + column_of(column) + m_ * (row - rows);
-        const double* block = from + std::int64_t{m_} * (column - b) * height;
-        for (int c = 0; c < m_; ++c) {
-          for (int r = 0; r < m_; ++r) to[c * ld + r] -= block[c * height + r];
-        }
-      }
-    }
-  }
-}
-
 /// Dense Cholesky factor of the panel's own rows. False if they are not positive definite.
 bool BlockCholesky::factorize_own_rows(int panel) {
   const int n = m_ * structure_.num_columns(panel), ld = m_ * structure_.num_rows(panel);
@@ -127,23 +51,13 @@ bool BlockCholesky::factorize_own_rows(int panel) {
 }
 
 /// Multiplies the rows of the tile below the panel's own rows by the inverse transpose of the own rows.
-void BlockCholesky::divide(int panel, const Tile& tile) {
+void BlockCholesky::divide(int panel, const PanelTile& tile) {
   const int columns = structure_.num_columns(panel);
   const int first = std::max(tile.first, columns);
   if (first >= tile.last) return;
   const int ld = m_ * structure_.num_rows(panel);
   cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, m_ * (tile.last - first),
               m_ * columns, 1.0, values(panel), ld, values(panel) + m_ * first, ld);
-}
-
-bool BlockCholesky::factorize_panel(const BlockMatrix& matrix, int panel, std::vector<double>* product) {
-  for (const Tile& tile : tiles(structure_.num_rows(panel))) {
-    fill(matrix, panel, tile);
-    update(panel, tile, product);
-  }
-  if (!factorize_own_rows(panel)) return false;
-  for (const Tile& tile : tiles(structure_.num_rows(panel))) divide(panel, tile);
-  return true;
 }
 
 bool BlockCholesky::factorize(const BlockPattern& pattern, const BlockMatrix& matrix) {
@@ -158,43 +72,22 @@ bool BlockCholesky::factorize(const BlockPattern& pattern, const BlockMatrix& ma
     values_.resize(m_ * m_ * structure_.value_start.back());
     products_ = {};
   }
-  products_.resize(num_threads(), std::vector<double>(m_ * m_ * largest_product(structure_)));
+  products_.resize(num_threads(), std::vector<double>(largest_product(structure_, m_)));
   // LAPACK does not detect NaN.
   const auto finite = [](const Mat6& block) { return block.allFinite(); };
-  std::atomic<bool> positive_definite = std::all_of(matrix.diagonal.begin(), matrix.diagonal.end(), finite) &&
-                                        std::all_of(matrix.lower.begin(), matrix.lower.end(), finite);
-  std::atomic<bool> abandoned = false;
-  if (positive_definite) {
-    run_team(m_ * m_ * m_ * structure_.work, [&](Team& team, int thread) {
-      std::vector<double>* product = &products_[thread];
-      team.share(static_cast<int>(structure_.subtrees.size()), [&](int i) {
-        const FactorStructure::Subtree& tree = structure_.subtrees[i];
-        for (int panel = tree.first; panel < tree.last && positive_definite && !abandoned; ++panel) {
-          if (must_abandon()) abandoned = true;
-
-          if (!factorize_panel(matrix, panel, product)) positive_definite = false;
-        }
-      });
-      for (const int panel : structure_.top) {
-        const std::vector<Tile> rows = tiles(structure_.num_rows(panel));
-        const int count = static_cast<int>(rows.size());
-        team.share(count, [&](int i) {
-          if (abandoned) return;
-          fill(matrix, panel, rows[i]);
-          update(panel, rows[i], product);
-        });
-        team.share(1, [&](int) {
-          if (must_abandon()) abandoned = true;
-          if (!abandoned && !factorize_own_rows(panel)) positive_definite = false;
-        });
-        team.share(count, [&](int i) {
-          if (!abandoned) divide(panel, rows[i]);
-        });
-      }
-    });
-  }
-  valid_ = positive_definite && !abandoned;
-  if (abandoned) throw Interrupted();
+  valid_ = false;
+  if (!std::all_of(matrix.diagonal.begin(), matrix.diagonal.end(), finite) ||
+      !std::all_of(matrix.lower.begin(), matrix.lower.end(), finite))
+    return false;
+  const PanelProducts products{structure_, m_, values_.data(), values_.data(), values_.data(), false};
+  PanelSteps steps;
+  steps.gather = [&](int panel, const PanelTile& tile, int thread) {
+    fill(matrix, panel, tile);
+    products.subtract(panel, tile, &products_[thread]);
+  };
+  steps.factorize_own_rows = [this](int panel) { return factorize_own_rows(panel); };
+  steps.divide = [this](int panel, const PanelTile& tile) { divide(panel, tile); };
+  valid_ = factorize_panels(structure_, m_, steps);
   return valid_;
 }
 

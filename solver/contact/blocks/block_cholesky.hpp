@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solver/contact/blocks/factor_structure.hpp"
+#include "solver/contact/blocks/panel_factor.hpp"
 
 namespace cupola {
 
@@ -12,10 +12,8 @@ namespace cupola {
 ///     own rows of panel p:      dense Cholesky (LAPACK)
 ///     rows below its own rows:  multiplied by the inverse transpose of the own rows
 ///
-/// The structure is kept while the pattern does not change. Runs on num_threads() threads: first on subtrees,
-/// then panel by panel on tiles of rows. The result has the same bits for any number of threads: BLAS itself
-/// is single-threaded, the tiles do not depend on the number of threads, and the sum follows the order of the
-/// panels. (CHOLMOD's own numeric phase leaves the threads to BLAS, whose sums depend on their number.)
+/// The structure is kept while the pattern does not change. Runs on num_threads() threads, with the same bits for
+/// any number of them. (CHOLMOD's own numeric phase leaves the threads to BLAS, whose sums depend on their number.)
 ///
 /// For a plane pattern only the rows x, z and rot y of each block are factorised. The other rows must be
 /// those of the identity, as they are in whitened problems.
@@ -31,18 +29,12 @@ class BlockCholesky {
   long long num_nonzeros() const;                           ///< of the factor
 
  private:
-  struct Tile {
-    int first = 0, last = 0;  ///< rows first to last - 1 of a panel
-  };
-  static std::vector<Tile> tiles(int num_rows);
   double* values(int panel) { return values_.data() + m_ * m_ * structure_.value_start[panel]; }
   const double* values(int panel) const { return values_.data() + m_ * m_ * structure_.value_start[panel]; }
 
-  void fill(const BlockMatrix& matrix, int panel, const Tile& tile);
-  void update(int panel, const Tile& tile, std::vector<double>* product);
+  void fill(const BlockMatrix& matrix, int panel, const PanelTile& tile);
   bool factorize_own_rows(int panel);
-  void divide(int panel, const Tile& tile);
-  bool factorize_panel(const BlockMatrix& matrix, int panel, std::vector<double>* product);
+  void divide(int panel, const PanelTile& tile);
 
   BlockPattern pattern_;
   FactorStructure structure_;

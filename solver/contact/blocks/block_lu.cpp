@@ -1,57 +1,22 @@
 #include "solver/contact/blocks/block_lu.hpp"
 
-#include <array>
-#include <new>
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
 
 #include <cblas.h>
-#include <umfpack.h>
 
 #include "assembly/base/error.hpp"
+#include "solver/runtime/threads.hpp"
+
+extern "C" {
+void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* pivots, int* info);
+void dgetrs_(const char* trans, const int* n, const int* nrhs, const double* a, const int* lda,
+             const int* pivots, double* b, const int* ldb, int* info);
+}
 
 namespace cupola {
-
-namespace {
-
-static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
-
-const SuiteSparse_long* indices(const std::vector<std::int64_t>& values) {
-  return reinterpret_cast<const SuiteSparse_long*>(values.data());
-}
-
-std::array<double, UMFPACK_CONTROL> controls() {
-  std::array<double, UMFPACK_CONTROL> control;
-  umfpack_dl_defaults(control.data());
-  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-  control[UMFPACK_IRSTEP] = 0;  // Newton corrects rounding errors itself
-  control[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;
-  return control;
-}
-
-/// Visits the blocks of the full matrix by columns, rows ascending: visit(row, column, block).
-template <class Visit>
-void for_each_block(const BlockPattern& pattern, const std::vector<std::vector<int>>& pairs_above,
-                    const UnsymmetricBlockMatrix* matrix, Visit visit) {
-  const Mat6 none = Mat6::Zero();
-  std::vector<int> column_of_pair(pattern.num_pairs());
-  for (int k = 0; k < pattern.num_blocks(); ++k)
-    for (int pair = pattern.column_start[k]; pair < pattern.column_start[k + 1]; ++pair)
-      column_of_pair[pair] = k;
-  for (int k = 0; k < pattern.num_blocks(); ++k) {
-    for (const int pair : pairs_above[k]) visit(column_of_pair[pair], k, matrix ? matrix->upper[pair] : none);
-    visit(k, k, matrix ? matrix->diagonal[k] : none);
-    for (int pair = pattern.column_start[k]; pair < pattern.column_start[k + 1]; ++pair)
-      visit(pattern.row[pair], k, matrix ? matrix->lower[pair] : none);
-  }
-}
-
-/// For each block, the pairs whose larger block it is, by their smaller blocks.
-std::vector<std::vector<int>> pairs_above_diagonal(const BlockPattern& pattern) {
-  std::vector<std::vector<int>> pairs(pattern.num_blocks());
-  for (int pair = 0; pair < pattern.num_pairs(); ++pair) pairs[pattern.row[pair]].push_back(pair);
-  return pairs;
-}
-
-}  // namespace
 
 UnsymmetricBlockMatrix assemble_jacobian(const ContactProblem& problem, const ContactGraph& graph,
                                          const std::vector<Mat3>& G) {
@@ -93,88 +58,143 @@ VecX multiply(const BlockPattern& pattern, const UnsymmetricBlockMatrix& matrix,
   return y;
 }
 
-void BlockLu::FreeSymbolic::operator()(void* symbolic) const {
-  umfpack_dl_free_symbolic(&symbolic);
-}
-void BlockLu::FreeNumeric::operator()(void* numeric) const {
-  umfpack_dl_free_numeric(&numeric);
-}
-
-void BlockLu::analyze(const BlockPattern& pattern) {
-  symbolic_.reset();
-  pattern_ = pattern;
-  const std::span<const int> unknowns = unknowns_of_block(pattern);
-  m_ = static_cast<int>(unknowns.size());
-  column_start_.assign(1, 0);
-  row_.clear();
-  std::vector<int> rows;  // of the current block column
-  const auto close_column = [&] {
-    for (int c = 0; c < m_; ++c) {
-      for (const int block : rows)
-        for (int r = 0; r < m_; ++r) row_.push_back(std::int64_t{m_} * block + r);
-      column_start_.push_back(std::ssize(row_));
-    }
-    rows.clear();
-  };
-  int current = 0;
-  for_each_block(pattern, pairs_above_diagonal(pattern), nullptr, [&](int row, int column, const Mat6&) {
-    if (column != current) close_column();
-    current = column;
-    rows.push_back(row);
-  });
-  if (pattern.num_blocks() > 0) close_column();
-  value_.resize(row_.size());
-  const std::int64_t n = std::int64_t{m_} * pattern.num_blocks();
-  const auto control = controls();
-  void* symbolic = nullptr;
-  const auto status = umfpack_dl_symbolic(n, n, indices(column_start_), indices(row_), nullptr, &symbolic,
-                                          control.data(), nullptr);
-  symbolic_.reset(symbolic);
-  if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
-  CUPOLA_ASSERT(status == UMFPACK_OK);
-}
-
-void BlockLu::fill(const UnsymmetricBlockMatrix& matrix) {
+/// Copies the rows of the tile from the matrix into both factors.
+void BlockLu::fill(const UnsymmetricBlockMatrix& matrix, int panel, const PanelTile& tile) {
   const std::span<const int> unknowns = unknowns_of_block(pattern_);
-  std::vector<std::int64_t> next(column_start_.begin(), column_start_.end() - 1);
-  for_each_block(pattern_, pairs_above_diagonal(pattern_), &matrix, [&](int, int column, const Mat6& block) {
-    for (int c = 0; c < m_; ++c)
-      for (int r = 0; r < m_; ++r) value_[next[m_ * column + c]++] = block(unknowns[r], unknowns[c]);
-  });
+  const int first_column = structure_.first_column[panel], columns = structure_.num_columns(panel);
+  const std::int64_t ld = std::int64_t{m_} * structure_.num_rows(panel);
+  for (std::vector<double>* values : {&lower_, &upper_}) {
+    double* panel_values = values->data() + start(panel);
+    for (int c = 0; c < m_ * columns; ++c)
+      std::fill(panel_values + c * ld + m_ * tile.first, panel_values + c * ld + m_ * tile.last, 0.0);
+  }
+  const auto put = [&](std::vector<double>* values, int row, int column, const auto& block) {
+    for (int c = 0; c < m_; ++c) {
+      double* to = values->data() + start(panel) + (m_ * column + c) * ld + m_ * row;
+      for (int r = 0; r < m_; ++r) to[r] = block(unknowns[r], unknowns[c]);
+    }
+  };
+  for (int column = 0; column < columns; ++column) {
+    const int position = first_column + column;
+    if (tile.first <= column && column < tile.last)
+      put(&lower_, column, column, matrix.diagonal[structure_.block[position]]);
+    for (auto k = structure_.entry_start[position]; k < structure_.entry_start[position + 1]; ++k) {
+      const auto& [row, pair, transposed] = structure_.entries[k];
+      if (row < tile.first || row >= tile.last) continue;
+      put(&lower_, row, column, transposed ? matrix.upper[pair] : matrix.lower[pair]);
+      const Mat6& above = transposed ? matrix.lower[pair] : matrix.upper[pair];
+      if (row < columns)
+        put(&lower_, column, row, above);
+      else
+        put(&upper_, row, column, above.transpose());
+    }
+  }
+}
+
+/// Dense LU factor of the panel's own rows. False if they are singular.
+bool BlockLu::factorize_own_rows(int panel) {
+  const int n = m_ * structure_.num_columns(panel), ld = m_ * structure_.num_rows(panel);
+  int info = 0;
+  dgetrf_(&n, &n, lower_.data() + start(panel), &ld, pivots_.data() + m_ * structure_.first_column[panel],
+          &info);
+  return info == 0;
+}
+
+/// Multiplies the rows of the tile below the panel's own rows by the inverse of the own rows: with S D = T R, the
+/// row exchanges S and the triangles T and R, X D = B has the solution X = B R^-1 T^-1 S.
+void BlockLu::divide(int panel, const PanelTile& tile) {
+  const int columns = structure_.num_columns(panel);
+  const int first = std::max(tile.first, columns);
+  if (first >= tile.last) return;
+  const int n = m_ * columns, ld = m_ * structure_.num_rows(panel), height = m_ * (tile.last - first);
+  const double* D = lower_.data() + start(panel);
+  double* B = lower_.data() + start(panel) + m_ * first;
+  cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, height, n, 1.0, D, ld, B,
+              ld);
+  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasUnit, height, n, 1.0, D, ld, B, ld);
+  const int* pivots = pivots_.data() + m_ * structure_.first_column[panel];
+  for (int k = n - 1; k >= 0; --k) {
+    const int other = pivots[k] - 1;  // LAPACK counts from 1
+    if (other != k) cblas_dswap(height, B + std::int64_t{k} * ld, 1, B + std::int64_t{other} * ld, 1);
+  }
 }
 
 bool BlockLu::factorize(const BlockPattern& pattern, const UnsymmetricBlockMatrix& matrix) {
   CUPOLA_ASSERT(std::ssize(matrix.diagonal) == pattern.num_blocks());
   CUPOLA_ASSERT(std::ssize(matrix.lower) == pattern.num_pairs());
+  CUPOLA_ASSERT(std::ssize(matrix.upper) == pattern.num_pairs());
   openblas_set_num_threads(1);
-  numeric_.reset();
-  if (!symbolic_ || pattern_ != pattern) analyze(pattern);
-  fill(matrix);
-  for (const double value : value_)
-    if (!std::isfinite(value)) return false;
-  const auto control = controls();
-  void* numeric = nullptr;
-  const auto status = umfpack_dl_numeric(indices(column_start_), indices(row_), value_.data(),
-                                         symbolic_.get(), &numeric, control.data(), nullptr);
-  numeric_.reset(numeric);
-  if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
-  if (status != UMFPACK_OK) numeric_.reset();
-  return status == UMFPACK_OK;
+  valid_ = false;
+  if (pattern_ != pattern || lower_.empty()) {
+    lower_ = upper_ = {};
+    structure_ = analyze(pattern);
+    pattern_ = pattern;
+    m_ = static_cast<int>(unknowns_of_block(pattern).size());
+    lower_.resize(start(structure_.num_panels()));
+    upper_.resize(lower_.size());
+    pivots_.resize(m_ * pattern.num_blocks());
+    products_ = {};
+  }
+  products_.resize(num_threads(), std::vector<double>(largest_product(structure_, m_)));
+  // LAPACK does not detect NaN.
+  const auto finite = [](const std::vector<Mat6>& blocks) {
+    return std::all_of(blocks.begin(), blocks.end(), [](const Mat6& block) { return block.allFinite(); });
+  };
+  if (!finite(matrix.diagonal) || !finite(matrix.lower) || !finite(matrix.upper)) return false;
+  const PanelProducts to_lower{structure_, m_, lower_.data(), upper_.data(), lower_.data(), true};
+  const PanelProducts to_upper{structure_, m_, upper_.data(), lower_.data(), upper_.data(), false};
+  PanelSteps steps;
+  steps.gather = [&](int panel, const PanelTile& tile, int thread) {
+    fill(matrix, panel, tile);
+    to_lower.subtract(panel, tile, &products_[thread]);
+    const PanelTile below{std::max(tile.first, structure_.num_columns(panel)), tile.last};
+    if (below.first < below.last) to_upper.subtract(panel, below, &products_[thread]);
+  };
+  steps.factorize_own_rows = [this](int panel) { return factorize_own_rows(panel); };
+  steps.divide = [this](int panel, const PanelTile& tile) { divide(panel, tile); };
+  valid_ = factorize_panels(structure_, m_, steps);
+  return valid_;
 }
 
 VecX BlockLu::solve(const VecX& rhs) const {
-  CUPOLA_ASSERT(numeric_ && rhs.size() == 6 * pattern_.num_blocks());
+  CUPOLA_ASSERT(valid_ && rhs.size() == 6 * pattern_.num_blocks());
   const std::span<const int> unknowns = unknowns_of_block(pattern_);
-  const int nb = pattern_.num_blocks();
-  VecX b(m_ * nb), x(m_ * nb);
-  for (int k = 0; k < nb; ++k)
-    for (int r = 0; r < m_; ++r) b[m_ * k + r] = rhs[6 * k + unknowns[r]];
-  const auto control = controls();
-  umfpack_dl_solve(UMFPACK_A, indices(column_start_), indices(row_), value_.data(), x.data(), b.data(),
-                   numeric_.get(), control.data(), nullptr);
+  const int nb = pattern_.num_blocks(), num_panels = structure_.num_panels();
+  VecX x(m_ * nb), below(m_ * nb);
+  for (int k = 0; k < nb; ++k) {
+    for (int r = 0; r < m_; ++r) x[m_ * structure_.position[k] + r] = rhs[6 * k + unknowns[r]];
+  }
+  for (int panel = 0; panel < num_panels; ++panel) {  // L y = rhs
+    const int columns = structure_.num_columns(panel), rest = structure_.num_rows(panel) - columns;
+    if (rest == 0) continue;
+    const int n = m_ * columns, ld = m_ * (columns + rest);
+    const double* own = x.data() + m_ * structure_.first_column[panel];
+    cblas_dgemv(CblasColMajor, CblasNoTrans, m_ * rest, n, 1.0, lower_.data() + start(panel) + n, ld, own, 1,
+                0.0, below.data(), 1);
+    const int* rows = structure_.rows(panel) + columns;
+    for (int i = 0; i < rest; ++i) {
+      for (int r = 0; r < m_; ++r) x[m_ * rows[i] + r] -= below[m_ * i + r];
+    }
+  }
+  for (int panel = num_panels - 1; panel >= 0; --panel) {  // D U x = y
+    const int columns = structure_.num_columns(panel), rest = structure_.num_rows(panel) - columns;
+    const int n = m_ * columns, ld = m_ * (columns + rest), one = 1;
+    double* own = x.data() + m_ * structure_.first_column[panel];
+    const int* rows = structure_.rows(panel) + columns;
+    for (int i = 0; i < rest; ++i) {
+      for (int r = 0; r < m_; ++r) below[m_ * i + r] = x[m_ * rows[i] + r];
+    }
+    if (rest > 0)
+      cblas_dgemv(CblasColMajor, CblasTrans, m_ * rest, n, -1.0, upper_.data() + start(panel) + n, ld,
+                  below.data(), 1, 1.0, own, 1);
+    int info = 0;
+    dgetrs_("N", &n, &one, lower_.data() + start(panel), &ld,
+            pivots_.data() + m_ * structure_.first_column[panel], own, &n, &info);
+  }
   VecX solution = rhs;  // rows that are no unknowns are those of the identity
-  for (int k = 0; k < nb; ++k)
-    for (int r = 0; r < m_; ++r) solution[6 * k + unknowns[r]] = x[m_ * k + r];
+  for (int k = 0; k < nb; ++k) {
+    for (int r = 0; r < m_; ++r) solution[6 * k + unknowns[r]] = x[m_ * structure_.position[k] + r];
+  }
   return solution;
 }
 
