@@ -12,6 +12,7 @@
 #include "solver/analysis/cyclic_reduction.hpp"
 #include "solver/analysis/static_step.hpp"
 #include "solver/contact/methods/newton.hpp"
+#include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/kinematic_bound.hpp"
 
 namespace cupola {
@@ -342,6 +343,16 @@ bool shows_nothing(const Model& model, const StaticSolution& solution) {
   return largest_speed(solution.step_solution.v) * solution.h < kShare * smallest_block_size(*model.assembly);
 }
 
+/// True if no compliant contact slips in the solution under the associated law, which then obeys every flow
+/// rule. Rigid contacts are left out, because their forces are not unique.
+bool slips_nowhere(const StaticSolution& solution, const FlowRule& law, double acceleration) {
+  const StepProblem& step = solution.step;
+  for (int i = 0; i < step.problem.num_contacts(); ++i)
+    if (is_rigid(contact_law(step.problem, i))) return false;
+  return compute_residuals(step.problem, solution.step_solution, solution.h * acceleration, law)
+             .contact_law <= kOutcomeTolerance;
+}
+
 }  // namespace
 
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
@@ -358,14 +369,22 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
       first.message += ", under either friction law";
       return first;
     }
-    ProximalPoint coulomb(model, start, contacts, memories, options);
-    const int iterations = first.iterations;
-    solution = coulomb.run();
-    if (first.outcome == StaticOutcome::equilibrium && shows_nothing(model, solution)) {
+    int iterations = first.iterations;
+    const bool stands = first.outcome == StaticOutcome::equilibrium;
+    const auto from_associated = [&] {
       ProximalPoint again(model, start, contacts, memories, options);
       again.start_from(first);
-      if (StaticSolution second = again.run(); second.outcome == StaticOutcome::equilibrium)
-        solution = std::move(second);
+      return again.run();
+    };
+    if (stands && slips_nowhere(first, options.solve.law, reference_acceleration(model, start)))
+      solution = from_associated();
+    if (solution.outcome != StaticOutcome::equilibrium) {
+      iterations += solution.iterations;
+      solution = ProximalPoint(model, start, contacts, memories, options).run();
+      if (stands && shows_nothing(model, solution)) {
+        if (StaticSolution second = from_associated(); second.outcome == StaticOutcome::equilibrium)
+          solution = std::move(second);
+      }
     }
     first = {};
     solution.iterations += iterations;

@@ -74,11 +74,12 @@ struct StaticSolution {
 ///
 /// Non-associated laws (dilatancy below 1, Coulomb's law at 0) have no such theory: several equilibria may exist,
 /// and a steady motion does not exclude an equilibrium. The associated problem is solved first: what it proves
-/// to move also moves under the other laws, because they admit the same forces. Otherwise the iterations
-/// follow a path from the solution with all contacts sticking, by pseudo-transient continuation (Kelley, Keyes
-/// 1998, "Convergence analysis of pseudo-transient continuation"): h grows where Newton's method converges in a
-/// few iterations and shrinks where it fails. The inertia term makes each point of the path easy, and the
-/// joints close before they slide. The path ends in one of four ways:
+/// to move also moves under the other laws, because they admit the same forces. If no compliant contact slips in
+/// its solution, this solves every flow rule. Otherwise the iterations follow a path from the solution with all
+/// contacts sticking, by pseudo-transient continuation (Kelley, Keyes 1998, "Convergence analysis of
+/// pseudo-transient continuation"): h grows where Newton's method converges in a few iterations and shrinks where
+/// it fails. The inertia term makes each point of the path easy, and the joints close before they slide. The path
+/// ends in one of four ways:
 ///
 ///   equilibrium   the residuals meet the tolerance
 ///   moving        blocks moved by 25 times the first settlement while the imbalance changed by less than a quarter
