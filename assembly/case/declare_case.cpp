@@ -17,17 +17,11 @@ void declare_strength_rules(Section& s, Case& the_case) {
                                           the_case.contact.method == ContactDetection::Method::face_clipping),
       "contact", "subdivide requires joints.compliance: {per: area} and method: face_clipping");
   if (!the_case.joints.have_strength()) return;
-  Analysis& analysis = the_case.analysis;
-  LimitSearch& limit = analysis.limit;
-  if (limit.method == LimitSearch::Method::automatic) limit.method = LimitSearch::Method::bisection;
-  const bool bisects = limit.method == LimitSearch::Method::bisection &&
-                       limit.parameter != LimitSearch::Parameter::joint_extent;
-  s.rule(analysis.type == AnalysisType::static_ || (analysis.type == AnalysisType::limit && bisects),
+  const Analysis& analysis = the_case.analysis;
+  s.rule(analysis.type == AnalysisType::static_ || analysis.type == AnalysisType::limit ||
+             analysis.type == AnalysisType::range,
          "analysis",
-         "joints with tension, cohesion or compressive_strength require type: static, or type: limit by "
-         "bisection, "
-         "so not of joint_extent");
-  s.rule(analysis.robustness == 0, "analysis", "robustness requires joints without strength");
+         "joints with tension, cohesion or compressive_strength require type: static, limit or range");
   s.rule(analysis.method != ContactMethod::interior_point, "analysis",
          "method: interior_point requires joints without strength; use newton");
   s.rule(the_case.contact.method == ContactDetection::Method::face_clipping, "contact",

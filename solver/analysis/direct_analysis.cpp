@@ -24,7 +24,7 @@ double degrees(double tangent) {
 }
 
 /// The search of a tilt in its tangent, with all loads over its cosine: weights are then linear in it, and a
-/// factor on all loads changes no limit.
+/// factor on all loads changes no limit of dry joints.
 DirectLimit limit_of_tilt(const SceneAt& scene_at, double low, double high, double width,
                           const ReportTrial& report) {
   const auto tangent = [](double angle) {
@@ -70,7 +70,8 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
   using Parameter = LimitSearch::Parameter;
   switch (limit.parameter) {
     case Parameter::tilt:
-      return limit_of_tilt(scene_at, limit.low, limit.high, width, report);
+      if (!scene.joints.have_strength()) return limit_of_tilt(scene_at, limit.low, limit.high, width, report);
+      [[fallthrough]];
     case Parameter::load:
     case Parameter::acceleration:
     case Parameter::lantern:

@@ -57,8 +57,7 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
 ///
 ///     minimise p,   D gamma + w = 0,   gamma in Y,   gamma_n,i <= p A_i
 ///
-/// One conic programme: a massless block between the two sides of every contact carries the condition on its force as
-/// one more row of equilibrium. `moving`: no state has less. Requires compliance per area (InputError), with which contact
+/// One conic programme. `moving`: no state has less. Requires compliance per area (InputError), with which contact
 /// points stand for areas.
 DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportTrial& report);
 

@@ -58,8 +58,14 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
 /// Both bounds of the multiplier. Where rounding keeps them apart, the mechanism is improved.
 ConicBounds bounds_of(const ConicProblem& problem, double enough, ConicSolution* solution) {
   ConicBounds bounds = conic_bounds(problem, *solution);
-  if (bounds.upper - bounds.lower > enough && open_contacts(problem, solution))
-    bounds = conic_bounds(problem, *solution);
+  if (ConicSolution opened = *solution;
+      bounds.upper - bounds.lower > enough && open_contacts(problem, &opened)) {
+    const ConicBounds improved = conic_bounds(problem, opened);
+    if (improved.lower > bounds.lower) {
+      bounds = improved;
+      *solution = std::move(opened);
+    }
+  }
   bounds.lower = std::min(bounds.lower, bounds.upper);
   return bounds;
 }

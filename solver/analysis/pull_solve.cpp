@@ -17,6 +17,10 @@ PullSolve solve_pull(double value, RigidScene scene, bool estimate) {
   VecX press = VecX::Zero(rigid.cost.size());
   press(Eigen::seq(0, Eigen::last, 3)).setConstant(solve.scene.model.block_weight);
   solve.problem = with_multiplier(rigid, -generalized_impulse(rigid.contacts, press), 1.0);
+  if (rigid.has_strength()) {  // gamma - alpha a may be pulled, but not pushed harder
+    const ContactStrength pressed{0.0, 0.0, solve.scene.model.block_weight};
+    solve.problem.strength_columns.assign(1, std::vector(rigid.contacts.strength.size(), pressed));
+  }
   solve.solution =
       solve_conic(solve.problem, {.target = 1e-10, .relative_target = estimate ? kEstimate : 0.0});
   // Imbalance that an admissible state may have, over the largest load of a block: rounding, or a small share

@@ -9,7 +9,7 @@ namespace cupola {
 ///
 ///     minimise alpha,   D (gamma - alpha a) + w = 0,   gamma in Y,   a = (1, 0, 0) times the mean block weight
 ///
-/// An admissible state exists where alpha <= 0.
+/// In joints with a compressive strength F, gamma_n - alpha a is limited to F instead of gamma_n. An admissible state exists where alpha <= 0.
 struct PullSolve {
   double value = 0.0;    ///< of the parameter
   double pull = 0.0;     ///< alpha; -infinity: as small as one likes, infinity: no pull holds it

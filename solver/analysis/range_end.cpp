@@ -36,6 +36,14 @@ ConicProblem problem_of(const ConicObjective& objective, double towards) {
   if (!objective.over) return problem;
   problem.load_columns = problem.load;
   problem.load.setZero();
+  if (problem.has_strength()) {
+    problem.strength_columns.assign(1, problem.contacts.strength);
+    for (ContactStrength& strength : problem.contacts.strength)
+      if (std::isfinite(strength.compression))
+        strength = {0.0, 0.0, 0.0};
+      else
+        strength.tension = strength.cohesion = 0.0;
+  }
   problem.multiplier_cost = VecX::Zero(1);
   problem.rows = *objective.over;
   problem.row_multipliers = MatX::Zero(1, 1);
@@ -46,6 +54,7 @@ ConicProblem problem_of(const ConicObjective& objective, double towards) {
 /// The same without loads: t = 0.
 ConicProblem without_loads(ConicProblem problem) {
   problem.load_columns.resize(Eigen::NoChange, 0);
+  problem.strength_columns.clear();
   problem.multiplier_cost.resize(0);
   problem.row_multipliers.resize(0, 1);
   return problem;

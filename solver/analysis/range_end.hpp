@@ -22,6 +22,8 @@ struct RangeSolution {
 /// fractional functionals": with gamma' = t gamma and t >= 0,
 ///
 ///     minimise n(gamma')   subject to   D gamma' + t w = 0,   d(gamma') = 1
+///
+/// The strength of joints is multiplied by t as well.
 RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective, double towards,
                         const SectorProblem* sector = nullptr);
 

@@ -1,11 +1,11 @@
 #include "solver/analysis/rigid_scene.hpp"
 
-#include <algorithm>
-
+#include "assembly/base/error.hpp"
 #include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/joint_geometry.hpp"
 #include "solver/analysis/record.hpp"
 #include "solver/collision/contact_detector.hpp"
+#include "solver/contact/problem/cone.hpp"
 #include "solver/dynamics/law_violation.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/time_step.hpp"
@@ -22,8 +22,19 @@ void scale_joints(const Case& scene, const Assembly& assembly, double extent, Co
       const Vec3 shift = (extent - 1.0) * (0.5 * (contact.point_a + contact.point_b) - pair.centroid);
       contact.point_a += shift;
       contact.point_b += shift;
+      contact.area *= extent * extent;
     }
   }
+}
+
+/// The shear that such a joint carries does not depend on its normal force: no cone.
+void require_friction_with_cohesion(const ContactProblem& problem) {
+  for (int i = 0; i < problem.num_contacts() && !problem.strength.empty(); ++i)
+    if (problem.strength[i].cohesion > 0.0 && problem.mu[i] == 0.0)
+      throw InputError(
+          "joints.cohesion: ranges and direct limits require friction > 0 in joints with cohesion; give "
+          "joints.friction, "
+          "or analysis.limit.method: bisection");
 }
 
 }  // namespace
@@ -44,6 +55,7 @@ RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assemb
   ConicProblem& problem = rigid.problem;
   problem.contacts =
       build_step_problem(rigid.model, rigid.start, rigid.contacts, rigid.memories, step).problem;
+  require_friction_with_cohesion(problem.contacts);
   problem.load = applied_forces(rigid.model, rigid.start, rigid.start.time);
   problem.cost = VecX::Zero(3 * problem.contacts.num_contacts());
   problem.load_columns = MatX(problem.load.size(), 0);
@@ -55,8 +67,7 @@ Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time) 
   const ContactProblem& problem = scene.problem.contacts;
   VecX outside(problem.num_contacts());
   for (int i = 0; i < problem.num_contacts(); ++i) {
-    const auto force = gamma.segment<3>(3 * i);
-    outside[i] = std::max({force.tail<2>().norm() - problem.mu[i] * force[0], -force[0], 0.0});
+    outside[i] = limit_excess(contact_law(problem, i), gamma.segment<3>(3 * i));
   }
   Frame frame =
       make_frame(scene.model, scene.start, scene.contacts, joint_forces(scene.contacts, gamma, 1.0).contacts,

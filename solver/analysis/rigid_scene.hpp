@@ -23,11 +23,12 @@ struct RigidScene {
 
 /// Contacts whose gap exceeds 1e-3 of the smallest block, the least width of a joint (joint_rule.hpp), are
 /// open and carry nothing; a tie carries only tension, a strut only compression. `joint_extent` scales the distances of
-/// the contact points from the centroid of their joint (all faces between two blocks).
+/// the contact points from the centroid of their joint (all faces between two blocks), and its square their areas.
+/// Throws InputError for a joint with cohesion but without friction.
 RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly,
                        double joint_extent = 1.0);
 
-/// The frame of the forces gamma (N) on the assembly as built. law_violation: excess over the friction cone.
+/// The frame of the forces gamma (N) on the assembly as built. law_violation: excess over the limits of the joints.
 Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time);
 
 /// Balance of the forces gamma (N), recomputed from points and world forces.

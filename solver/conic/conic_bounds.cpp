@@ -5,6 +5,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "solver/contact/problem/cone.hpp"
+
 namespace cupola {
 namespace {
 
@@ -18,7 +20,45 @@ double largest_block(const ContactProblem& p, const VecX& x) {
   return std::sqrt(largest);
 }
 
+/// What the joints dissipate in a motion.
+struct Dissipation {
+  double constant = 0.0;  ///< J/s: by the strengths that no multiplier changes
+  VecX per_multiplier;    ///< by those that each multiplier adds (nt)
+};
+
+/// Joints that never crush count as if they did at `most` (N), and none crushes at more. 0: they count nothing.
+Dissipation dissipation(const ConicProblem& problem, const ConicSolution& x, double most) {
+  const ContactProblem& p = problem.contacts;
+  const VecX s = problem.cost + relative_velocity(p, x.v) - problem.rows * x.row_velocities;
+  Dissipation sum;
+  sum.per_multiplier = VecX::Zero(problem.load_columns.cols());
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const double mu = p.mu[i];
+    const ContactStrength whole = strength_at(problem, i, VecX::Ones(sum.per_multiplier.size()));
+    const double slip = mu > 0.0 || whole.cohesion > 0.0 ? s.segment<2>(3 * i + 1).norm() : 0.0;
+    const double opening = s[3 * i] - mu * slip;
+    const auto power = [&](const ContactStrength& strength, double compression) {
+      const double tension = mu > 0.0 ? std::min(strength.tension, strength.cohesion / mu) : strength.tension;
+      return strength.cohesion * slip + tension * std::max(0.0, opening) +
+             compression * std::max(0.0, -opening);
+    };
+    const ContactStrength own = p.strength.empty() ? ContactStrength{} : p.strength[i];
+    const bool crushes = std::isfinite(whole.compression);
+    sum.constant += power(own, !crushes || (most > 0.0 && own.compression > most) ? most : own.compression);
+    for (size_t j = 0; j < problem.strength_columns.size(); ++j) {
+      const ContactStrength& column = problem.strength_columns[j][i];
+      sum.per_multiplier[static_cast<Eigen::Index>(j)] += power(column, crushes ? column.compression : 0.0);
+    }
+  }
+  return sum;
+}
+
 }  // namespace
+
+double dual_value(const ConicProblem& problem, const ConicSolution& x) {
+  return problem.load.dot(x.v) + problem.row_values.dot(x.row_velocities) -
+         dissipation(problem, x, 0.0).constant;
+}
 
 double ConicBounds::relative_gap() const {
   const double size = std::max(std::abs(upper), std::abs(lower));
@@ -38,20 +78,20 @@ ConicBounds conic_bounds(const ConicProblem& problem, const ConicSolution& x) {
         std::max(largest_load, largest_block(p, problem.load_columns.col(j)) * std::abs(x.multipliers[j]));
   if (largest_load > 0.0) bounds.imbalance = largest_block(p, imbalance) / largest_load;
 
-  const VecX s = problem.cost + relative_velocity(p, x.v) - problem.rows * x.row_velocities;
-  double largest_force = 0.0, outside = 0.0, gain = 0.0;
+  double largest_force = 0.0, outside = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {
-    const auto gamma = x.gamma.segment<3>(3 * i);
+    const Vec3 gamma = x.gamma.segment<3>(3 * i);
+    ContactLaw law = contact_law(p, i);
+    law.strength = strength_at(problem, i, x.multipliers);
     largest_force = std::max(largest_force, gamma[0]);
-    outside = std::max({outside, gamma.tail<2>().norm() - p.mu[i] * gamma[0], -gamma[0]});
-    gain += std::max(0.0, (p.mu[i] > 0.0 ? p.mu[i] * s.segment<2>(3 * i + 1).norm() : 0.0) - s[3 * i]);
+    outside = std::max(outside, limit_excess(law, gamma));
   }
   if (largest_force > 0.0) bounds.cone_violation = outside / largest_force;
-  gain *= largest_force;
+  const Dissipation lost = dissipation(problem, x, kLargestForces * largest_force);
   const VecX power = problem.multiplier_cost + problem.load_columns.transpose() * x.v -
-                     problem.row_multipliers * x.row_velocities;
-  gain += power.cwiseAbs().dot(x.multipliers.cwiseAbs());
-  bounds.lower = problem.load.dot(x.v) + problem.row_values.dot(x.row_velocities) - kLargestForces * gain;
+                     problem.row_multipliers * x.row_velocities - lost.per_multiplier;
+  bounds.lower = problem.load.dot(x.v) + problem.row_values.dot(x.row_velocities) - lost.constant -
+                 kLargestForces * power.cwiseAbs().dot(x.multipliers.cwiseAbs());
   bounds.upper = problem.cost.dot(x.gamma) + problem.multiplier_cost.dot(x.multipliers) + x.v.dot(imbalance) +
                  x.row_velocities.dot(missing_rows);
   return bounds;

@@ -10,15 +10,18 @@ struct ConicBounds {
   /// that equilibrium still lacks, and the product of q and what the further conditions lack.
   double upper = 0.0;
   /// Over all states whose forces and multipliers are at most kLargestForces times those of the solution, the value
-  /// is at least this: w . v + r . q less what the violations of s in Y* and of e + P^T v - R q = 0 could gain.
+  /// is at least this: the dual value less what the violations of its conditions could gain.
   double lower = 0.0;
   double imbalance = 0.0;       ///< largest |D gamma + P t + w| of a block over the largest load of a block
-  double cone_violation = 0.0;  ///< largest (|gamma_t| - mu gamma_n)+, over the largest gamma_n
+  double cone_violation = 0.0;  ///< largest excess of a force over its limits, over the largest gamma_n
   double relative_gap() const;  ///< |upper - lower| over the larger of their sizes
 };
 constexpr double kLargestForces = 1e3;
 
 /// Bounds on the least value from a solution that is `optimal` or `stalled`.
 ConicBounds conic_bounds(const ConicProblem& problem, const ConicSolution& solution);
+
+/// The value of the dual problem, as far as its conditions hold: w . v + r . q less what joints with strength dissipate.
+double dual_value(const ConicProblem& problem, const ConicSolution& solution);
 
 }  // namespace cupola

@@ -7,7 +7,7 @@ namespace cupola {
 
 using MatX = Eigen::MatrixXd;
 
-/// A linear objective over the forces that balance the loads within the friction cones:
+/// A linear objective over the forces that balance the loads within the limits of the joints:
 ///
 ///     minimise    c . gamma + e . t
 ///     subject to  D gamma + P t + w = 0          equilibrium of every block
@@ -21,18 +21,31 @@ using MatX = Eigen::MatrixXd;
 ///
 /// is a mechanism v under the imposed dislocations c: w . v is the work of the loads on it. (A Lagrange
 /// multiplier of the equilibrium is a velocity.) At the solution gamma . s = 0.
+///
+/// Joints with strength have |gamma_t| <= c + mu gamma_n and -T <= gamma_n <= F (contact_problem.hpp, in N), each of
+/// which may be a linear function of the multipliers. s is then free, and the dual loses what the joints dissipate,
+///
+///     sum_i c |s_t| + T max(0, d) + F max(0, -d),   d = s_n - mu |s_t|
 struct ConicProblem {
-  ContactProblem contacts;  ///< D, mu, plane; M only scales the unknowns; v_star, b, E and h are not used
-  VecX load;                ///< w: N, N m (6 nb)
-  VecX cost;                ///< c (3 nc)
-  MatX load_columns;        ///< P (6 nb, nt)
-  VecX multiplier_cost;     ///< e (nt)
-  MatX rows;                ///< Q (3 nc, nq)
-  MatX row_multipliers;     ///< R (nt, nq)
-  VecX row_values;          ///< r (nq)
+  ContactProblem
+      contacts;       ///< D, mu, plane, strength; M only scales the unknowns; v_star, b, E and h are not used
+  VecX load;          ///< w: N, N m (6 nb)
+  VecX cost;          ///< c (3 nc)
+  MatX load_columns;  ///< P (6 nb, nt)
+  VecX multiplier_cost;  ///< e (nt)
+  MatX rows;             ///< Q (3 nc, nq)
+  MatX row_multipliers;  ///< R (nt, nq)
+  VecX row_values;       ///< r (nq)
+  /// Strength of each contact per unit of each multiplier, added to that of `contacts`; empty: none (nt of nc).
+  std::vector<std::vector<ContactStrength>> strength_columns = {};
+  bool has_strength() const { return !contacts.strength.empty() || !strength_columns.empty(); }
 };
 
-/// The problem without its objective, with one multiplier of a further load and its cost.
+/// The strength of a contact at the multipliers t.
+ContactStrength strength_at(const ConicProblem& problem, int contact, const VecX& t);
+
+/// The problem without its objective, with one multiplier of a further load and its cost. The multiplier changes no
+/// strength.
 ConicProblem with_multiplier(ConicProblem problem, const VecX& load, double cost);
 
 /// How solve_conic() ended.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assembly/base/error.hpp"
+#include "solver/conic/conic_bounds.hpp"
 #include "solver/conic/normal_equations.hpp"
 #include "solver/conic/scaled_problem.hpp"
 
@@ -45,7 +46,7 @@ bool open_contacts(const ConicProblem& problem, ConicSolution* solution) {
   const double power = problem.load_columns.col(0).dot(v);
   if (power * problem.multiplier_cost[0] >= 0.0) return false;
   solution->v = v * (-problem.multiplier_cost[0] / power);
-  solution->dual = problem.load.dot(solution->v);
+  solution->dual = dual_value(problem, *solution);
   return true;
 }
 

@@ -34,10 +34,12 @@ void check_sizes(const ConicProblem& p) {
   if (nq > 0) check("a row", p.rows.rows(), 3 * nc);
   check("the row coefficients of the multipliers", p.row_multipliers.size(), nt * nq);
   check("the row values", p.row_values.size(), nq);
+  if (!p.contacts.strength.empty()) check("the strength", std::ssize(p.contacts.strength), nc);
+  if (!p.strength_columns.empty()) check("the strength per multiplier", std::ssize(p.strength_columns), nt);
+  for (const auto& column : p.strength_columns) check("a strength per multiplier", std::ssize(column), nc);
 }
 
 ScaledConicProblem scaled(const ConicProblem& p) {
-  check_sizes(p);
   ScaledConicProblem s;
   s.white = whiten(p.contacts);
   ConicProblem& q = s.problem;

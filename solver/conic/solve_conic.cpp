@@ -7,6 +7,7 @@
 
 #include "assembly/base/process.hpp"
 #include "solver/conic/conic_bounds.hpp"
+#include "solver/conic/dry_problem.hpp"
 #include "solver/conic/embedding.hpp"
 #include "solver/conic/scaled_problem.hpp"
 #include "solver/runtime/interruption.hpp"
@@ -82,10 +83,7 @@ ConicOutcome iterate(const ConicOptions& options, int num_contacts, Embedding* x
   return least <= std::max(options.tolerance, enough) ? ConicOutcome::optimal : ConicOutcome::stalled;
 }
 
-}  // namespace
-
-ConicSolution solve_conic(const ConicProblem& problem, const ConicOptions& options) {
-  const double started = wall_seconds();
+ConicSolution solve_dry(const ConicProblem& problem, const ConicOptions& options) {
   const ScaledConicProblem s = scaled(problem);
   ConicSolution solution;
   Embedding x(s.problem);
@@ -101,8 +99,26 @@ ConicSolution solve_conic(const ConicProblem& problem, const ConicOptions& optio
   solution.multipliers = length * s.multiplier.cwiseProduct(x.t());
   solution.v = s.unknown * s.objective / s.force * dual_length * s.white.to_v(mechanism.v);
   solution.row_velocities = s.objective * dual_length * mechanism.q.cwiseQuotient(s.row);
+  return solution;
+}
+
+}  // namespace
+
+ConicSolution solve_conic(const ConicProblem& problem, const ConicOptions& options) {
+  const double started = wall_seconds();
+  check_sizes(problem);
+  ConicSolution solution;
+  if (problem.has_strength()) {
+    for (const auto limits : {DryProblem::Limits::near_loads, DryProblem::Limits::all}) {
+      const DryProblem dry(problem, limits);
+      solution = dry.original(solve_dry(dry.problem(), options));
+      if (dry.solves(solution)) break;
+    }
+  } else {
+    solution = solve_dry(problem, options);
+  }
   solution.primal = problem.cost.dot(solution.gamma) + problem.multiplier_cost.dot(solution.multipliers);
-  solution.dual = problem.load.dot(solution.v) + problem.row_values.dot(solution.row_velocities);
+  solution.dual = dual_value(problem, solution);
   solution.seconds = wall_seconds() - started;
   return solution;
 }

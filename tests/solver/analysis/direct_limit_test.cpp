@@ -1,6 +1,7 @@
 // Critical values by conic programmes, against closed forms and against bisection. Published and independent
 // values are rows of the verification manual.
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -75,6 +76,50 @@ TEST(DirectLimit, AgreesWithBisection) {
     scene.analysis.limit.method = LimitSearch::Method::bisection;
     EXPECT_NEAR(direct, critical(scene, arch), 1e-3 * direct) << to_string(parameter);
   }
+}
+
+/// Joints with strength, as areas of contact points.
+Case strong_case(Parameter parameter, double low, double high, double friction,
+                 const JointStrength& strength) {
+  Case scene = limit_case(parameter, low, high, friction);
+  scene.joints.compliance.per = Compliance::Per::area;
+  scene.joints.strength = strength;
+  return scene;
+}
+
+// A block of 1 x 0.5 x 0.2 m slides at the acceleration mu + c A / W, and on the slope a at mu = tan a - c A / (W cos a).
+// Its compressive strength may be missing, far away or near, but is not reached.
+TEST(DirectLimit, CohesionAddsToFriction) {
+  const Assembly box = testing::box_on_floor({1.0, 0.5, 0.2});
+  const double weight = 1000.0 * 0.1 * testing::kG, cohesion = 0.25 * weight / 0.5;
+  for (const double compression : {std::numeric_limits<double>::infinity(), 1e9, 4.0 * weight / 0.5}) {
+    const JointStrength strength{.tension = 0.0, .cohesion = cohesion, .compression = compression};
+    EXPECT_NEAR(critical(strong_case(Parameter::acceleration, 0.0, 2.0, 0.3, strength), box), 0.55,
+                1e-6 * 0.55);
+    Case scene = strong_case(Parameter::friction, 0.01, 1.0, 0.3, strength);
+    scene.analysis.limit.relative_width = 1e-5;
+    scene.loads.gravity = testing::tilted_gravity(0.4);
+    const double exact = 0.4 - 0.25 * std::hypot(1.0, 0.4);
+    EXPECT_NEAR(critical(scene, box), exact, 1e-5 * exact) << compression;
+  }
+}
+
+TEST(DirectLimit, AgreesWithBisectionForJointsWithStrength) {
+  const Assembly arch = testing::make_arch({.voussoirs = 12, .thickness = 0.16});
+  const JointStrength strength{.tension = 500.0, .cohesion = 1000.0, .compression = 1e5};
+  for (const auto& [parameter, low, high] :
+       {std::tuple{Parameter::friction, 0.05, 0.8}, std::tuple{Parameter::acceleration, 0.0, 1.0},
+        std::tuple{Parameter::tilt, 0.0, 40.0}}) {
+    Case scene = strong_case(parameter, low, high, 0.7, strength);
+    const double direct = critical(scene, arch);
+    scene.analysis.limit.method = LimitSearch::Method::bisection;
+    EXPECT_NEAR(direct, critical(scene, arch), 1e-3 * direct) << to_string(parameter);
+  }
+}
+
+TEST(DirectLimit, RefusesCohesionWithoutFriction) {
+  const Case scene = strong_case(Parameter::acceleration, 0.0, 2.0, 0.0, {.cohesion = 1000.0});
+  EXPECT_THROW(run_limit(scene, testing::box_on_floor({1.0, 0.5, 0.2}), {}), InputError);
 }
 
 // The resultant at the base of a tilted cube lies tan(a) / 2 of its side from the middle, whose half is the extent.

@@ -118,6 +118,17 @@ TEST(Range, JammedBlockHasNoLargestForce) {
   EXPECT_EQ(frames[2].time, 2.0);
 }
 
+// With a compressive strength the same joint presses with at most its strength.
+TEST(Range, CompressiveStrengthEndsEveryRange) {
+  const Assembly jammed = testing::make_boxes(
+      {{.center = {-1, 0, 0}, .fixed = true}, {.center = {0, 0, 0}}, {.center = {1, 0, 0}, .fixed = true}});
+  const double weight = weight_of(jammed);
+  Case scene = range_case(0.5, {joint(0, 1, JointForce::Component::normal)});
+  scene.joints.compliance.per = Compliance::Per::area;
+  scene.joints.strength.compression = 7.0 * weight;  // Pa, on 1 m2
+  expect_ends(range_of(scene, jammed), weight, 7.0 * weight, weight);
+}
+
 // Two equal blocks on the floor and a third one across both: its weight may rest on either.
 TEST(Range, ShareAndRatioOfTheBase) {
   const Assembly pier = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true},
@@ -132,6 +143,38 @@ TEST(Range, ShareAndRatioOfTheBase) {
   ASSERT_EQ(summary.ranges.size(), 2u) << summary.message;
   expect_ends(summary.ranges[0], least / (least + most), most / (least + most), 1.0);
   expect_ends(summary.ranges[1], least / most, most / least, 1.0);
+}
+
+// At both ends of a ratio, whose forces are found up to a factor, the strength of the feet is used but not exceeded.
+TEST(Range, RatioOfFeetWithStrength) {
+  const Assembly pier = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true},
+                                             {.center = {-1, 0, 0.5}},
+                                             {.center = {1, 0, 0.5}},
+                                             {.center = {0, 0, 1.5}, .size = {3, 1, 1}}});
+  const double strength = 3.0 * 1000.0 * testing::kG;  // Pa; 5 m3 rest on 2 m2
+  Case scene =
+      range_case(1.0, {BaseRatio{{BaseBlocks::Group::listed, {1}}, {BaseBlocks::Group::listed, {2}}}});
+  scene.joints.compliance.per = Compliance::Per::area;
+  scene.joints.strength.compression = strength;
+  scene.analysis.range.states = true;
+  std::vector<Frame> frames;
+  AnalysisSinks sinks;
+  sinks.frame = [&](const Frame& frame) { frames.push_back(frame); };
+  const Summary summary = ranges_of(scene, pier, sinks);
+  ASSERT_EQ(summary.status, Status::stable) << summary.message;
+  const ForceRange& ratio = summary.ranges.at(0);
+  EXPECT_NEAR(*ratio.min.value * *ratio.max.value, 1.0, kRange) << "symmetry";
+  ASSERT_EQ(frames.size(), 3u);
+  for (const RangeEnd& end : {ratio.min, ratio.max}) {
+    const auto& contacts = frames[end.frame.value()].contacts;
+    double feet[2] = {0.0, 0.0}, largest = 0.0;
+    for (size_t i = 0; i < contacts.area.size(); ++i) {
+      largest = std::max(largest, contacts.normal_force[i] / contacts.area[i]);
+      if (contacts.block_a[i] == 0) feet[contacts.block_b[i] - 1] += contacts.normal_force[i];
+    }
+    EXPECT_NEAR(largest, strength, 1e-6 * strength);
+    EXPECT_NEAR(feet[0] / feet[1], *end.value, kRange);
+  }
 }
 
 TEST(Range, WithoutAdmissibleState) {

@@ -8,30 +8,35 @@
 #include <unistd.h>
 
 #include "assembly/files/number_text.hpp"
-#include "solver/conic/solve_conic.hpp"
-#include "tests/solver/contact/contact_scenes.hpp"
+#include "tests/solver/conic/conic_scenes.hpp"
 
 namespace cupola::independent_solver_test {
 namespace {
 
 const std::string kScript = CUPOLA_SOURCE_DIR "/tests/solver/conic/second_order_cone_programme.py";
 
-/// The rigid blocks of a contact problem under their weights, with a random objective that favours large forces, so
-/// that it has a least value.
+/// A random objective that favours large forces, so that it has a least value.
 ConicProblem random_problem(const ContactProblem& p, unsigned seed) {
-  ConicProblem problem;
-  problem.contacts = p;
-  problem.load = VecX::Zero(6 * p.num_blocks());
-  for (int k = 0; k < p.num_blocks(); ++k)
-    problem.load.segment<6>(6 * k) = p.M[k] * p.v_star.segment<6>(6 * k) / p.h;
+  ConicProblem problem = scenes::conic(p);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  problem.cost = VecX(3 * p.num_contacts());
   for (Eigen::Index i = 0; i < problem.cost.size(); ++i) problem.cost[i] = uniform(random);
   for (int i = 0; i < p.num_contacts(); ++i)
     problem.cost[3 * i] += 1.0 + p.mu[i] * problem.cost.segment<2>(3 * i + 1).norm();
-  problem.load_columns = MatX(problem.load.size(), 0);
-  problem.rows = MatX(problem.cost.size(), 0);
+  return problem;
+}
+
+/// The same with strength, random about the mean force of a contact; `sign` = -1 favours small forces.
+ConicProblem random_strong_problem(const ContactProblem& p, unsigned seed, double sign) {
+  ConicProblem problem = random_problem(p, seed);
+  problem.cost *= sign;
+  const double mean = problem.load.cwiseAbs().maxCoeff() / 4.0;
+  std::mt19937 random(seed + 100);
+  std::uniform_real_distribution<double> uniform(0.1, 1.0);
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const double tension = mean * uniform(random), cohesion = mean * uniform(random);
+    problem.contacts.strength.push_back({tension, cohesion, 20.0 * mean * (1.0 + uniform(random))});
+  }
   return problem;
 }
 
@@ -46,6 +51,10 @@ void write(const ConicProblem& problem, const std::string& file) {
   line(problem.load);
   line(problem.cost);
   line(p.mu);
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const ContactStrength strength = strength_at(problem, i, VecX());
+    line(std::vector{strength.tension, strength.cohesion, strength.compression});
+  }
   MatX D(problem.load.size(), problem.cost.size());
   for (Eigen::Index j = 0; j < D.cols(); ++j) D.col(j) = generalized_impulse(p, VecX::Unit(D.cols(), j));
   for (Eigen::Index k = 0; k < D.rows(); ++k) line(D.row(k));
@@ -66,21 +75,29 @@ double least_by_cvxopt(const ConicProblem& problem) {
   return value;
 }
 
+std::vector<ContactProblem> models() {
+  const scenes::Joint joint{};
+  return {scenes::stack({1000, 2000, 500}, 0.01, joint), scenes::table(1000, 0.1, 0.2, 0.01, joint),
+          scenes::arch(12, 0.2, 1.2, 0.0, 0.01, joint),
+          scenes::dome({.rings = 4, .blocks_per_ring = 8}, 0.01, joint)};
+}
+
+void expect_same_value(const ConicProblem& problem) {
+  const ConicSolution solution = solve_conic(problem);
+  ASSERT_EQ(solution.outcome, ConicOutcome::optimal);
+  EXPECT_NEAR(least_by_cvxopt(problem), solution.primal, 1e-6 * std::abs(solution.primal));
+  EXPECT_LE(conic_bounds(problem, solution).relative_gap(), 1e-6);
+}
+
 // cvxopt is asked for 1e-8; at 1e-10 it breaks down on one of the models.
 TEST(IndependentSolverSlow, FindsTheSameLeastValues) {
   if (std::system("python3 -c 'import cvxopt' 2> /dev/null") != 0)
     GTEST_SKIP() << "needs the package python3-cvxopt";
-  const scenes::Joint joint{};
-  const std::vector<ContactProblem> models{scenes::stack({1000, 2000, 500}, 0.01, joint),
-                                           scenes::table(1000, 0.1, 0.2, 0.01, joint),
-                                           scenes::arch(12, 0.2, 1.2, 0.0, 0.01, joint),
-                                           scenes::dome({.rings = 4, .blocks_per_ring = 8}, 0.01, joint)};
-  for (size_t m = 0; m < models.size(); ++m) {
+  for (const ContactProblem& model : models()) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
-      const ConicProblem problem = random_problem(models[m], seed);
-      const ConicSolution solution = solve_conic(problem);
-      ASSERT_EQ(solution.outcome, ConicOutcome::optimal) << m;
-      EXPECT_NEAR(least_by_cvxopt(problem), solution.primal, 1e-6 * std::abs(solution.primal)) << m;
+      SCOPED_TRACE(model.num_blocks());
+      expect_same_value(random_problem(model, seed));
+      for (const double sign : {1.0, -1.0}) expect_same_value(random_strong_problem(model, seed, sign));
     }
   }
 }
