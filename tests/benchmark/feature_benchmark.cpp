@@ -1,7 +1,5 @@
-// Cost of features: counts and processor time of the same scene with and without each feature, and their
-// ratio.
-//
-//   feature_benchmark             prints a table; shortest time of three runs
+// Cost of features: counts and processor time of the analysis of the same scene with and without each feature, as CSV;
+// shortest time of three runs.
 
 #include <algorithm>
 #include <functional>
@@ -48,14 +46,10 @@ Measured measure(const std::string& name, const std::vector<std::string>& settin
   return measure(input, generate(input));
 }
 
-void print_row(const char* feature, const Measured& with, const Measured& without) {
-  const auto ratio = [](double a, double b) {
-    return b > 0.0 ? fmt::format("{:.2f}", a / b) : std::string("-");
-  };
-  fmt::print("{:<34}{:>8}{:>8}{:>9}{:>9}{:>9}{:>9}{:>11}{:>11}{:>9.3f}{:>9.3f}{:>7}\n", feature,
-             with.counts.unknowns, without.counts.unknowns, with.counts.contacts, without.counts.contacts,
-             with.counts.force_rows, without.counts.force_rows, with.factor_entries, without.factor_entries,
-             with.seconds, without.seconds, ratio(with.seconds, without.seconds));
+void print_row(const char* scene, const char* feature, const Measured& with, const Measured& without) {
+  fmt::print("{},{},{} / {},{} / {},{} / {},{:.3f} / {:.3f},{:.2f}\n", scene, feature, with.counts.unknowns,
+             without.counts.unknowns, with.counts.contacts, without.counts.contacts, with.factor_entries,
+             without.factor_entries, with.seconds, without.seconds, with.seconds / without.seconds);
 }
 
 /// Time per step of a hundred stacks of ten cubes that have come to rest, with and without sleep.
@@ -83,22 +77,26 @@ double seconds_per_step(bool sleep) {
 }  // namespace
 
 int main() {
-  fmt::print("{:<34}{:>16}{:>18}{:>18}{:>22}{:>18}{:>7}\n", "feature: with, without", "unknowns", "contacts",
-             "force rows", "factor entries", "s", "ratio");
-  const std::string dome = "dome_circular", wall = "wall_small";
-  const Measured dome_plain = measure(dome, {});
-  print_row("friction", dome_plain, measure(dome, {"joints.friction=0"}));
-  print_row("Coulomb instead of associated", measure(dome, {"analysis.friction_law=coulomb"}), dome_plain);
-  print_row("compliance per area", measure(dome, {"joints.compliance.per=area"}), dome_plain);
-  print_row("zero compliance",
-            measure(dome, {"joints.compliance.normal=0", "joints.compliance.tangential=0"}), dome_plain);
-  print_row("a lantern", measure(dome, {"loads.lantern.weight_fraction=0.02"}), dome_plain);
-  print_row("perturbed GJK", measure(dome, {"contact.method=perturbed_gjk"}), dome_plain);
-  print_row("motion, 10 steps", measure(dome, {"analysis.type=dynamic", "analysis.duration=0.1"}),
-            dome_plain);
-  print_row("a plane wall in space, in the plane", measure(wall, {}), measure(wall, {"analysis.plane=true"}));
+  fmt::print("scene,feature,unknowns with / without,contacts,factor entries,CPU s,ratio\n");
+  const std::string dome = "dome_circular";
+  const Measured plain = measure(dome, {});
+  print_row("dome_circular", "friction", plain, measure(dome, {"joints.friction=0"}));
+  const auto dome_row = [&](const char* feature, const std::vector<std::string>& settings) {
+    print_row("dome_circular", feature, measure(dome, settings), plain);
+  };
+  dome_row("Coulomb's law instead of the associated one", {"analysis.friction_law=coulomb"});
+  dome_row("compliance per area", {"joints.compliance.per=area"});
+  dome_row("compressive strength of 2.5 MPa",
+           {"joints.compliance={per: area, normal: 1e-10, tangential: 2.4e-10}",
+            "joints.compressive_strength=2.5e6"});
+  dome_row("zero compliance", {"joints.compliance.normal=0", "joints.compliance.tangential=0"});
+  dome_row("a lantern", {"loads.lantern.weight_fraction=0.02"});
+  dome_row("perturbed GJK", {"contact.method=perturbed_gjk"});
+  dome_row("motion of 10 steps", {"analysis.type=dynamic", "analysis.duration=0.1"});
+  print_row("wall_small", "motion in the plane only", measure("wall_small", {"analysis.plane=true"}),
+            measure("wall_small", {}));
   const double awake = seconds_per_step(false), asleep = seconds_per_step(true);
-  fmt::print("1,000 blocks at rest, per step: {:.2e} s awake, {:.2e} s asleep, ratio {:.4f}\n", awake, asleep,
+  fmt::print("1000 blocks at rest,sleep (per step),,,,{:.2e} / {:.2e},{:.4f}\n", asleep, awake,
              asleep / awake);
   return 0;
 }
