@@ -27,6 +27,9 @@ constexpr double kSolveShare = 0.1;  // part of the tolerance for the contact so
 /// that is larger, from which a motion counts as proven.
 constexpr double kProven = 100.0;
 
+/// Displacement over the size of the smallest block from which a motion is more than a settlement.
+constexpr double kVisible = 0.01;
+
 /// A speed ratio smaller than that of any mechanism whose load exceeds the critical one by a millionth.
 constexpr double kAtRest = 1e-6;
 
@@ -105,7 +108,9 @@ class ProximalPoint {
   double settlement_ = 0.0;                                    // m, largest displacement of the first iterate
   double failed_h_ = std::numeric_limits<double>::infinity();  // s, step at which Newton failed last
   double steady_residual_ = 0.0;                               // at the start of the steady motion
-  double travel_ = 0.0;                                        // m, sum of the largest increments since then
+  double travel_ = 0.0;  // m, sum of the largest displacements since then
+  VecX moved_;           // m, rad: displacement of the last iteration (6 nb)
+  VecX flow_;            // m/s2: moved_ / h^2 while the path is far from equilibrium, else empty
 };
 
 /// Sets h and converts the last iterate: d = h v and F = gamma / h stay.
@@ -129,6 +134,7 @@ double ProximalPoint::solve_tolerance() const {
 }
 
 void ProximalPoint::iterate() {
+  constexpr double kMomentum = 0.5;  // doubles the speed of a slow slide; 0.7 overshoots
   ContactSolverOptions solve = options_.solve;
   solve.reference_speed = trial_.h * acceleration_;
   solve.tolerance = solve_tolerance();
@@ -138,18 +144,22 @@ void ProximalPoint::iterate() {
   ContactProblem& problem = step_.problem;
   const VecX rest = problem.v_star;
   const VecX before = x_.v.size() > 0 ? x_.v : VecX::Zero(rest.size());
-  problem.v_star += before;
+  const bool slides = flow_.size() > 0;
+  const VecX free = slides ? VecX(before + kMomentum * trial_.h * flow_) : before;  // without forces
+  problem.v_star += free;
   trial_.step_solution = x_;
+  if (slides) trial_.step_solution.v = free;
   trial_.solve = solve_problem(problem, options_.symmetry, solve, &solver_, &trial_.step_solution);
   trial_.iterations += trial_.solve.iterations;
   if (!trial_.solve.usable()) {
-    trial_.step_solution.v = before;
+    trial_.step_solution.v = free;
     trial_.step_solution.gamma = x_.gamma.size() > 0 ? x_.gamma : VecX::Zero(problem.b.size());
   }
   trial_.residuals = compute_residuals(problem, trial_.step_solution, solve.reference_speed, solve.law);
   problem.v_star = rest;
   CUPOLA_ASSERT(trial_.step_solution.v.allFinite() && trial_.step_solution.gamma.allFinite());
-  trial_.increment = trial_.h * (trial_.step_solution.v - before);
+  trial_.increment = trial_.h * (trial_.step_solution.v - free);
+  moved_ = trial_.h * (trial_.step_solution.v - before);
   trial_.speed_ratio = largest_speed(trial_.increment) / (trial_.h * solve.reference_speed);
   trial_.forces = joint_forces(contacts_, trial_.step_solution.gamma, trial_.h);
   trial_.balance = compute_equilibrium(model_, start_, contacts_, trial_.forces,
@@ -174,7 +184,7 @@ bool ProximalPoint::is_accurate_enough(const StaticSolution& trial) const {
 /// A shorter step makes the contact problem easier, because inertia carries a larger share. False if this was
 /// tried often enough or the user limits the iterations.
 bool ProximalPoint::shorten_step() {
-  constexpr int kMaxShortened = 4, kMaxShortenedOfPath = 40;
+  constexpr int kMaxShortened = 4, kMaxShortenedOfPath = 60;
   constexpr double kFactor = 0.1, kPathFactor = 0.4;
   constexpr double kSettling = 0.0126;  // g h^2 is then of the size of the settlement (first_static_step())
   if (options_.solve.max_iterations ||
@@ -189,7 +199,7 @@ bool ProximalPoint::shorten_step() {
 /// mode of eigenvalue lambda contracts by 1 / (1 + h^2 lambda). Rigid joints do not contract; what remains at
 /// rest is the error of the contact solve, summed over the courses.
 void ProximalPoint::speed_up(double contraction) {
-  constexpr double kBelowFailed = 0.7, kForgetting = 1.2;
+  constexpr double kBelowFailed = 0.7, kForgetting = 1.2, kNear = 1e-4;
   constexpr double kSlow = 0.1, kWanted = 1e-2, kSmallest = 2.0, kLargest = 10.0, kTightening = 0.1;
   if (contraction <= kSlow) return;
   if (trial_.speed_ratio <= kAtRest && std::isinf(largest_h_)) tightening_ *= kTightening;
@@ -199,7 +209,8 @@ void ProximalPoint::speed_up(double contraction) {
     const double factor = n <= 3 ? 2.5 : n <= 6 ? 1.6 : n <= 9 ? 1.0 : 0.7;
     // Just below a step that failed the next one fails too, until the structure has moved on.
     const double limit = std::min(largest_h_, std::max(kBelowFailed * failed_h_, trial_.h));
-    failed_h_ *= kForgetting;
+    failed_h_ *=
+        residual_ < kNear ? factor : kForgetting;  // near equilibrium few contacts change their state
     const double h = std::min(limit, factor * trial_.h);
     if (h != trial_.h) set_step(h);
     return;
@@ -227,15 +238,18 @@ bool ProximalPoint::moves_steadily(double contraction, int count) {
   return num_steady_ >= count;
 }
 
-/// True if blocks have moved by 25 times the settlement while the residual changed by less than a quarter.
+/// True if blocks have moved by 100 times the settlement while the residual changed by less than a quarter. After
+/// displacements of 1 % of a block it may rise to the fourfold, as in a collapse that speeds up.
 bool ProximalPoint::moves_far() {
-  constexpr double kChange = 0.25, kFar = 25.0;
-  if (std::abs(residual_ - steady_residual_) > kChange * steady_residual_) {
+  constexpr double kChange = 0.25, kRise = 3.0, kFar = 100.0;
+  const bool displaced = largest_speed(x_.v) * trial_.h >= kVisible * smallest_block_size(*model_.assembly);
+  const double change = residual_ - steady_residual_;
+  if (-change > kChange * steady_residual_ || change > (displaced ? kRise : kChange) * steady_residual_) {
     steady_residual_ = residual_;
     travel_ = 0.0;
     return false;
   }
-  travel_ += largest_speed(trial_.increment);
+  travel_ += largest_speed(moved_);
   return trial_.speed_ratio > kAtRest && travel_ > kFar * settlement_;
 }
 
@@ -254,6 +268,8 @@ StaticSolution ProximalPoint::finish(StaticOutcome outcome, std::string message)
 
 StaticSolution ProximalPoint::run() {
   constexpr int kMoving = 3, kUnproven = 15;  // steady iterations until the search ends
+  constexpr double kFarFromBalance = 1e-6;    // residual above which the path keeps its momentum
+  constexpr double kSlow = 0.7;               // contraction from which blocks slide slowly over a long way
   const bool associated = associated_;
   const int max_solves = follows_path_ ? kMaxSolvesOfPath : kMaxSolves;
   for (int k = 0; k < max_solves; ++k) {
@@ -275,6 +291,8 @@ StaticSolution ProximalPoint::run() {
     const double contraction = trial_.balance.residual / residual_;
     residual_ = trial_.balance.residual;
     x_ = trial_.step_solution;
+    const bool slides = follows_path_ && contraction > kSlow && residual_ > kFarFromBalance;
+    flow_ = slides ? VecX(moved_ / (trial_.h * trial_.h)) : VecX();
     if (best_.h == 0.0 || residual_ < best_.balance.residual) best_ = trial_;
     if (contraction > 0.5 && trial_.speed_ratio > kAtRest) {
       const double needed = proof(trial_);
@@ -338,9 +356,9 @@ void certify(const Model& model, const State& start, const ContactSet& contacts,
 /// True if the path showed nothing: it ended without a verdict, or called a motion steady before any block had
 /// moved by 1 % of the smallest. Stiff joints beside soft ones, or nearly rigid ones, do that.
 bool shows_nothing(const Model& model, const StaticSolution& solution) {
-  constexpr double kShare = 0.01;
   if (solution.outcome != StaticOutcome::moving) return solution.outcome == StaticOutcome::unconverged;
-  return largest_speed(solution.step_solution.v) * solution.h < kShare * smallest_block_size(*model.assembly);
+  return largest_speed(solution.step_solution.v) * solution.h <
+         kVisible * smallest_block_size(*model.assembly);
 }
 
 /// True if no compliant contact slips in the solution under the associated law, which then obeys every flow

@@ -78,11 +78,15 @@ struct StaticSolution {
 /// its solution, this solves every flow rule. Otherwise the iterations follow a path from the solution with all
 /// contacts sticking, by pseudo-transient continuation (Kelley, Keyes 1998, "Convergence analysis of
 /// pseudo-transient continuation"): h grows where Newton's method converges in a few iterations and shrinks where
-/// it fails. The inertia term makes each point of the path easy, and the joints close before they slide. The path
-/// ends in one of four ways:
+/// it fails. The inertia term makes each point of the path easy, and the joints close before they slide. Structures
+/// near collapse slide slowly over a long way: where the imbalance falls by less than 30 %, half of the last
+/// displacement, scaled by h^2, is added to v_star (momentum, Polyak 1964, "Some methods of speeding up the
+/// convergence of iteration methods"). Elsewhere momentum would carry blocks past an equilibrium. The path ends in
+/// one of four ways:
 ///
 ///   equilibrium   the residuals meet the tolerance
-///   moving        blocks moved by 25 times the first settlement while the imbalance changed by less than a quarter
+///   moving        blocks moved by 100 times the first settlement while the imbalance changed by less than a
+///                 quarter; after displacements of 1 % of a block it may rise to the fourfold
 ///   unconverged   h became too short: Newton's method fails on every step
 ///   unconverged   the imbalance is still above the tolerance after 250 steps
 ///
