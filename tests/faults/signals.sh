@@ -1,5 +1,5 @@
 #!/bin/bash
-# Sends SIGTERM or SIGINT at random moments to static, Coulomb and limit runs. Each run must end within two seconds with
+# Sends SIGTERM or SIGINT at random moments to static, Coulomb, limit and range runs. Each run must end within two seconds with
 # exit code 4, leave interrupted.json and no summary, and complete when it is started again.
 #
 #   signals.sh BIN_FOLDER SIGNALS
@@ -10,12 +10,13 @@ cd "$(dirname "$0")/../.." || exit 1
 
 fail() { cat "$work/log"; echo "$1"; exit 1; }
 
-# Three analyses of one dome; the first two take seconds because friction is far below the critical value.
+# Four analyses of one dome; the first two take seconds because friction is far below the critical value.
 "$bin/cupola-generate" cases/dome_circular.yaml --output "$work/assembly.vtu" > "$work/log" 2>&1 || fail "no assembly"
 static="--set joints.friction=0.03"
-coulomb="--set joints.friction=0.086 --set analysis.friction_law=coulomb"
+coulomb="--set joints.friction=0.085 --set analysis.friction_law=coulomb"
 limit="--set analysis.type=limit --set analysis.limit.parameter=friction --set analysis.limit.low=0.07 \
   --set analysis.limit.high=0.12"
+range="--set analysis.type=range --set analysis.range.quantities=[thrust,hoop_tension]"
 
 solve() { # NAME SETTINGS
   exec "$bin/cupola-solve" cases/dome_circular.yaml --assembly "$work/assembly.vtu" --output "$work/$1" $2
@@ -23,7 +24,7 @@ solve() { # NAME SETTINGS
 
 RANDOM=1; interrupted=0; completed=0; slowest=0
 while [ $interrupted -lt "$signals" ]; do
-  for name in static coulomb limit; do
+  for name in static coulomb limit range; do
     moment=$RANDOM; signal=TERM; [ $((RANDOM % 2)) -eq 0 ] && signal=INT
     (solve $name "${!name}") > "$work/log" 2>&1 &
     run=$!
@@ -43,7 +44,7 @@ while [ $interrupted -lt "$signals" ]; do
     else fail "$name: exit code $code after SIG$signal"; fi
   done
 done
-for name in static coulomb limit; do
+for name in static coulomb limit range; do
   (solve $name "${!name}") > "$work/log" 2>&1 || fail "$name: does not complete after interruptions"
 done
 echo "$interrupted runs interrupted, each within $slowest ms; $completed had ended; all complete when started again"
