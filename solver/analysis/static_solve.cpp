@@ -27,9 +27,6 @@ constexpr double kSolveShare = 0.1;  // part of the tolerance for the contact so
 /// that is larger, from which a motion counts as proven.
 constexpr double kProven = 100.0;
 
-/// Displacement over the size of the smallest block from which a motion is more than a settlement.
-constexpr double kVisible = 0.01;
-
 /// A speed ratio smaller than that of any mechanism whose load exceeds the critical one by a millionth.
 constexpr double kAtRest = 1e-6;
 
@@ -107,8 +104,8 @@ class ProximalPoint {
   int num_shortened_ = 0, num_steady_ = 0;
   double settlement_ = 0.0;                                    // m, largest displacement of the first iterate
   double failed_h_ = std::numeric_limits<double>::infinity();  // s, step at which Newton failed last
-  double steady_residual_ = 0.0;                               // at the start of the steady motion
-  double travel_ = 0.0;  // m, sum of the largest displacements since then
+  double lowest_residual_ = std::numeric_limits<double>::infinity();  // steps of a quarter
+  double travel_ = 0.0;  // m, sum of the largest displacements since lowest_residual_
   VecX moved_;           // m, rad: displacement of the last iteration (6 nb)
   VecX flow_;            // m/s2: moved_ / h^2 while the path is far from equilibrium, else empty
 };
@@ -238,14 +235,12 @@ bool ProximalPoint::moves_steadily(double contraction, int count) {
   return num_steady_ >= count;
 }
 
-/// True if blocks have moved by 100 times the settlement while the residual changed by less than a quarter. After
-/// displacements of 1 % of a block it may rise to the fourfold, as in a collapse that speeds up.
+/// True if blocks have moved by 100 times the settlement since the residual last fell by a quarter below its lowest
+/// value. During a collapse it fluctuates above that value.
 bool ProximalPoint::moves_far() {
-  constexpr double kChange = 0.25, kRise = 3.0, kFar = 100.0;
-  const bool displaced = largest_speed(x_.v) * trial_.h >= kVisible * smallest_block_size(*model_.assembly);
-  const double change = residual_ - steady_residual_;
-  if (-change > kChange * steady_residual_ || change > (displaced ? kRise : kChange) * steady_residual_) {
-    steady_residual_ = residual_;
+  constexpr double kFall = 0.75, kFar = 100.0;
+  if (residual_ < kFall * lowest_residual_) {
+    lowest_residual_ = residual_;
     travel_ = 0.0;
     return false;
   }
@@ -356,9 +351,9 @@ void certify(const Model& model, const State& start, const ContactSet& contacts,
 /// True if the path showed nothing: it ended without a verdict, or called a motion steady before any block had
 /// moved by 1 % of the smallest. Stiff joints beside soft ones, or nearly rigid ones, do that.
 bool shows_nothing(const Model& model, const StaticSolution& solution) {
+  constexpr double kShare = 0.01;
   if (solution.outcome != StaticOutcome::moving) return solution.outcome == StaticOutcome::unconverged;
-  return largest_speed(solution.step_solution.v) * solution.h <
-         kVisible * smallest_block_size(*model.assembly);
+  return largest_speed(solution.step_solution.v) * solution.h < kShare * smallest_block_size(*model.assembly);
 }
 
 /// True if no compliant contact slips in the solution under the associated law, which then obeys every flow

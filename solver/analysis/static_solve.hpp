@@ -85,8 +85,8 @@ struct StaticSolution {
 /// one of four ways:
 ///
 ///   equilibrium   the residuals meet the tolerance
-///   moving        blocks moved by 100 times the first settlement while the imbalance changed by less than a
-///                 quarter; after displacements of 1 % of a block it may rise to the fourfold
+///   moving        blocks moved by 100 times the first settlement, and the imbalance did not fall by a quarter below
+///                 its lowest value in that time
 ///   unconverged   h became too short: Newton's method fails on every step
 ///   unconverged   the imbalance is still above the tolerance after 250 steps
 ///
