@@ -7,6 +7,19 @@ namespace cupola {
 
 using MatX = Eigen::MatrixXd;
 
+/// A linear function of the multipliers, t -> constant + slope . t.
+struct OfMultipliers {
+  double constant = 0.0;
+  VecX slope;  ///< (nt)
+};
+
+/// sign gamma_n <= bound for one contact. sign: 1 or -1.
+struct NormalLimit {
+  int contact = 0;
+  double sign = 1.0;
+  OfMultipliers bound;  ///< N
+};
+
 /// A linear objective over the forces that balance the loads within the limits of the joints:
 ///
 ///     minimise    c . gamma + e . t
@@ -38,6 +51,7 @@ struct ConicProblem {
   VecX row_values;       ///< r (nq)
   /// Strength of each contact per unit of each multiplier, added to that of `contacts`; empty: none (nt of nc).
   std::vector<std::vector<ContactStrength>> strength_columns = {};
+  std::vector<NormalLimit> limits = {};  ///< further ones
   bool has_strength() const { return !contacts.strength.empty() || !strength_columns.empty(); }
 };
 

@@ -3,13 +3,18 @@
 #include <vector>
 
 #include "solver/conic/normal_equations.hpp"
+#include "solver/conic/normal_limits.hpp"
 #include "solver/contact/problem/conic_contact.hpp"
 
 namespace cupola {
 
-/// Residuals of the five rows of the embedding, and the values that decide when to stop.
+inline double largest_entry(const VecX& x) {
+  return x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0;
+}
+
+/// Residuals of the rows of the embedding, and the values that decide when to stop.
 struct EmbeddingResiduals {
-  VecX equilibrium, rows, dual, multipliers;
+  VecX equilibrium, rows, dual, multipliers, limits;
   double gap = 0.0;           ///< of the fifth row
   double primal = 0.0;        ///< c . gamma + e . t
   double dual_value = 0.0;    ///< w . v + r . q
@@ -23,6 +28,7 @@ struct EmbeddingStep {
   VecX v, q, t, gamma;  ///< gamma: in the contacts' own coordinates
   double tau = 0.0, kappa = 0.0;
   std::vector<Vec3> cone_gamma, cone_z;
+  VecX slack, lambda;  ///< of the limits
   double length = 10.0;
 };
 
@@ -43,6 +49,7 @@ class Embedding {
   /// The unknowns of an iterate.
   struct Point {
     std::vector<Vec3> gamma, z;  ///< cone coordinates
+    VecX slack, lambda;
     VecX v, q, t;
     double tau = 1.0, kappa = 1.0;
   };
@@ -51,7 +58,7 @@ class Embedding {
 
   /// Updates the scaling of the contacts and the factor. False if it is lost to rounding.
   [[nodiscard]] bool factorize();
-  /// Mean of gamma . s of the contacts and tau kappa. Requires factorize().
+  /// Mean of gamma . s of the contacts, slack lambda of the limits and tau kappa. Requires factorize().
   double complementarity() const;
   /// Newton step to zero complementarity.
   EmbeddingStep predictor(const EmbeddingResiduals& r) const;
@@ -63,15 +70,26 @@ class Embedding {
   void balance_forces();
 
  private:
-  EmbeddingStep direction(const EmbeddingResiduals& r, double keep, const std::vector<Vec3>& d,
-                          double d_kappa) const;
-  void refine(const EmbeddingResiduals& r, double remove, EmbeddingStep* step) const;
+  /// Scaled right-hand sides of the complementarity of contacts, limits, and tau and kappa.
+  struct Targets {
+    std::vector<Vec3> d;
+    VecX limits;
+    double kappa = 0.0;
+  };
+  EmbeddingStep direction(const EmbeddingResiduals& r, double keep, const Targets& targets) const;
+  void refine(const EmbeddingResiduals& r, double remove, const Targets& targets, EmbeddingStep* step) const;
+  void follow_limits(const EmbeddingResiduals& r, double remove, const Targets& targets,
+                     EmbeddingStep* step) const;
+  void complete(const EmbeddingResiduals& r, double remove, EmbeddingStep* step) const;
+  double mean(double sum) const;
 
   const ConicProblem& p_;
   NormalEquations equations_;
   NormalEquations::Unknowns unit_;  ///< response to d_tau = 1
   VecX unit_gamma_;
   std::vector<ConicContact> contacts_;  ///< gamma and s
+  NormalLimits limits_;
+  std::vector<Mat3> stiffened_;  ///< what the stiffness of the limits multiplies the scaling by
   VecX v_, q_, t_;
   double tau_ = 1.0, kappa_ = 1.0;
 };

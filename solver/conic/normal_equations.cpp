@@ -25,7 +25,7 @@ VecX NormalEquations::times_V_transposed(const VecX& x) const {
   return y;
 }
 
-bool NormalEquations::factorize(std::vector<Mat3> V) {
+bool NormalEquations::factorize(std::vector<Mat3> V, const MatX& coupling, const MatX& corner) {
   // Relative to the diagonal of a block, of the order of its rounding: contacts without friction, or blocks
   // that nothing holds, leave motions that change no distance.
   constexpr double kRegularisation = 1e-15;
@@ -43,18 +43,22 @@ bool NormalEquations::factorize(std::vector<Mat3> V) {
 
   const Eigen::Index nq = p_.rows.cols(), nt = p_.load_columns.cols();
   columns_.resize(p_.load.size(), nq + nt);
-  MatX corner = MatX::Zero(nq + nt, nq + nt);
-  for (Eigen::Index k = 0; k < nq; ++k) {
-    const VecX scaled = times_G(p_.rows.col(k));
+  on_contacts_.resize(p_.cost.size(), nq + nt);
+  on_contacts_.leftCols(nq) = p_.rows;
+  on_contacts_.rightCols(nt) = coupling;
+  MatX rest = MatX::Zero(nq + nt, nq + nt);
+  for (Eigen::Index k = 0; k < nq + nt; ++k) {
+    const VecX scaled = times_G(on_contacts_.col(k));
     columns_.col(k) = -generalized_impulse(p_.contacts, scaled);
-    corner.col(k).head(nq) = p_.rows.transpose() * scaled;
+    rest.col(k) = on_border(scaled);
   }
-  columns_.rightCols(nt) = -p_.load_columns;
-  corner.bottomLeftCorner(nt, nq) = p_.row_multipliers;
-  corner.topRightCorner(nq, nt) = p_.row_multipliers.transpose();
+  columns_.rightCols(nt) -= p_.load_columns;
+  rest.bottomLeftCorner(nt, nq) += p_.row_multipliers;
+  rest.topRightCorner(nq, nt) += p_.row_multipliers.transpose();
+  rest.bottomRightCorner(nt, nt) -= corner;
   solved_.resize(columns_.rows(), columns_.cols());
   for (Eigen::Index k = 0; k < columns_.cols(); ++k) solved_.col(k) = solve(VecX(columns_.col(k)));
-  schur_ = corner - columns_.transpose() * solved_;
+  schur_ = rest - columns_.transpose() * solved_;
   return solved_.allFinite();
 }
 

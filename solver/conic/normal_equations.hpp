@@ -13,6 +13,9 @@ namespace cupola {
 ///     [ -Q^T G D^T  Q^T G Q  R^T ] [ q ] = [ g ]
 ///     [ -P^T        R        0   ] [ t ]   [ h ]
 ///
+/// Limits (normal_limits.hpp) couple t with the contacts: the last column gains -D G K, Q^T G K and K^T G K - C, and the
+/// last row likewise, with their coupling K and corner C.
+///
 /// The first block has the pattern of the contact graph and a sparse Cholesky factor. The other rows and
 /// columns, a few dense ones, are eliminated by their Schur complement.
 ///
@@ -30,7 +33,11 @@ class NormalEquations {
 
   /// False if the matrix is not positive definite in double precision. V: per contact, G = V^T V (nc). V is
   /// applied twice instead of G, whose small eigenvalues have lost their digits.
-  [[nodiscard]] bool factorize(std::vector<Mat3> V);
+  [[nodiscard]] bool factorize(std::vector<Mat3> V, const MatX& coupling, const MatX& corner);
+  /// [Q, K] times the unknowns of the border (3 nc).
+  VecX times_border(const VecX& border) const { return on_contacts_ * border; }
+  /// [Q, K]^T x
+  VecX on_border(const VecX& x) const { return on_contacts_.transpose() * x; }
   Unknowns solve(const VecX& f, const VecX& border) const;
   /// V x, V^T x and G x per contact (3 nc).
   VecX times_V(const VecX& x) const;
@@ -46,7 +53,8 @@ class NormalEquations {
   ContactProblem without_mass_;  ///< for assemble_hessian()
   BlockCholesky factor_;
   std::vector<Mat3> V_;
-  MatX columns_;           ///< -[D G Q, P] (6 nb, nq + nt)
+  MatX on_contacts_;       ///< [Q, K] (3 nc, nq + nt)
+  MatX columns_;           ///< -[D G Q, P + D G K] (6 nb, nq + nt)
   MatX solved_;            ///< (D G D^T)^-1 columns_
   Eigen::MatrixXd schur_;  ///< corner - columns_^T solved_
 };

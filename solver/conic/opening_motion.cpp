@@ -25,7 +25,9 @@ VecX opening_motion(const ConicProblem& problem) {
   ScaledConicProblem s = scaled(problem);
   s.problem.load_columns.resize(Eigen::NoChange, 0);
   NormalEquations equations(s.problem);
-  if (!equations.factorize(std::vector<Mat3>(s.problem.contacts.num_contacts(), Mat3::Identity()))) return {};
+  if (!equations.factorize(std::vector<Mat3>(s.problem.contacts.num_contacts(), Mat3::Identity()),
+                           MatX(s.problem.cost.size(), 0), MatX(0, 0)))
+    return {};
   VecX open = VecX::Zero(problem.cost.size());
   open(Eigen::seq(0, Eigen::last, 3)).setOnes();
   return s.white.to_v(equations.solve(generalized_impulse(s.problem.contacts, open), VecX()).v);

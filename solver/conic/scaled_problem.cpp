@@ -82,6 +82,11 @@ ScaledConicProblem scaled(const ConicProblem& p) {
     q.row_multipliers.col(k) /= s.row[k];
   }
   q.row_values = p.row_values.cwiseQuotient(s.row);
+  q.limits = p.limits;
+  for (NormalLimit& limit : q.limits) {
+    limit.bound.constant /= s.force;
+    limit.bound.slope = limit.bound.slope.cwiseProduct(s.multiplier) / s.force;
+  }
   return s;
 }
 

@@ -45,6 +45,10 @@ double ConicContact::largest_step(const Vec3& d_gamma, const Vec3& d_z) const {
   return t;
 }
 
+Mat3 ConicContact::compliance() const {
+  return to_cone.asDiagonal() * nt.W_squared * to_cone.asDiagonal();
+}
+
 Vec3 ConicContact::force() const {
   return frictionless ? Vec3(gamma[0], 0, 0) : gamma.cwiseQuotient(to_cone);
 }
