@@ -108,6 +108,10 @@ std::string active_features(const Case& scene, const ModelCounts& counts) {
 
 std::string static_features(const Analysis& analysis) {
   std::string text;
+  if (analysis.friction_law != FrictionLaw::associated)
+    text +=
+        "    law         the associated problem is solved first; about twice its time, near collapse ten "
+        "times\n";
   if (analysis.cyclic_sectors > 1)
     text += fmt::format("    sectors     one of {} is solved\n", analysis.cyclic_sectors);
   if (analysis.accuracy.wrench_error)

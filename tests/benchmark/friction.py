@@ -1,7 +1,7 @@
 """Coulomb's law near the critical friction of the associated law, on models of the paper. Prints a CSV table.
 
-  friction.py BIN_FOLDER WORK_FOLDER verdicts [MODEL ...]   twenty frictions around both critical values: verdict and time
-  friction.py BIN_FOLDER WORK_FOLDER gaps [MODEL ...]       ten seeds of random gaps, at 1.05 and 0.95 times the value
+  friction.py BIN_FOLDER WORK_FOLDER verdicts COUNT [MODEL ...]   COUNT frictions around both critical values: verdict and time
+  friction.py BIN_FOLDER WORK_FOLDER gaps COUNT [MODEL ...]       COUNT seeds of random gaps, at 1.05 and 0.95 times the value
 
 The critical friction of the associated law comes from a direct limit analysis. Times are processor seconds of one thread.
 Finished runs in WORK_FOLDER are used again. Fails if a model stands below the associated critical friction: Coulomb's law
@@ -17,9 +17,8 @@ import sys
 
 CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
 MODELS = ["dome_circular", "octagon_circular", "octagon_planar", "brunelleschi"]
-FACTORS = [round(0.98 + 0.006 * k, 3) for k in range(20)]
+FACTORS = 0.98, 1.094  # smallest and largest friction over the associated critical value
 GAP = 2e-4  # m, largest gap of the joints
-SEEDS = range(1, 11)
 LIMIT = {"analysis.type": "limit", "analysis.limit.parameter": "friction", "analysis.limit.low": 0.03,
          "analysis.limit.high": 0.3}
 
@@ -63,14 +62,16 @@ class Model:
                           {"joints.friction": f"{friction:.6f}", "analysis.friction_law": law})
 
 
-def verdicts(bin_folder, work, models):
+def verdicts(bin_folder, work, count, models):
+    first, last = FACTORS
+    factors = [round(first + (last - first) * k / (count - 1), 3) for k in range(count)]
     columns, wrong = [], []
     for name in models:
         model = Model(bin_folder, work, name)
         limit = model.solve("limit", LIMIT)[0]
         critical, moving = limit["critical_value"], limit["bracket"][1]
         cells, stands = [f"mu {critical:.5f}"], []
-        for factor in FACTORS:
+        for factor in factors:
             summary, seconds = model.static("coulomb", factor * critical)
             stands.append(summary["status"] == "stable")
             cells.append(f"{summary['status']}; {seconds:.1f} s")
@@ -79,19 +80,19 @@ def verdicts(bin_folder, work, models):
         cells.append(str(sum(a != b for a, b in zip(stands, stands[1:]))))
         columns.append(cells)
     print("friction over the associated critical value," + ",".join(models))
-    for label, *cells in zip(["critical value (associated)", *FACTORS, "changes of the verdict"], *columns):
+    for label, *cells in zip(["critical value (associated)", *factors, "changes of the verdict"], *columns):
         print(",".join(map(str, [label, *cells])))
     return wrong
 
 
-def gaps(bin_folder, work, models):
+def gaps(bin_folder, work, count, models):
     print("model,critical friction (associated),stand at 1.05,associated at 1.05 s,Coulomb at 1.05 s,largest ratio,"
           "move at 0.95,Coulomb at 0.95 s (largest)")
     wrong = []
     for name in models:
         critical = Model(bin_folder, work, name).solve("limit", LIMIT)[0]["critical_value"]
         above, ratios, below = [], [], []
-        for seed in SEEDS:
+        for seed in range(1, count + 1):
             model = Model(bin_folder, work, name, {"imperfections.gap": GAP, "imperfections.seed": seed})
             associated = model.static("associated", 1.05 * critical)
             above.append((associated, model.static("coulomb", 1.05 * critical)))
@@ -101,15 +102,16 @@ def gaps(bin_folder, work, models):
                 wrong.append(f"{name}, seed {seed}, stands at 0.95 times the critical friction of the associated law")
         stand = sum(coulomb[0]["status"] == "stable" for _, coulomb in above)
         move = sum(summary["status"] == "moving" for summary, _ in below)
-        print(f"{name},mu {critical:.5f},{stand} of {len(SEEDS)},"
+        print(f"{name},mu {critical:.5f},{stand} of {count},"
               f"{statistics.median(a[1] for a, _ in above):.2f},{statistics.median(c[1] for _, c in above):.2f},"
-              f"{max(ratios):.1f},{move} of {len(SEEDS)},{max(seconds for _, seconds in below):.2f}")
+              f"{max(ratios):.1f},{move} of {count},{max(seconds for _, seconds in below):.2f}")
     return wrong
 
 
 def main():
-    bin_folder, work, table = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), sys.argv[3]
-    wrong = {"verdicts": verdicts, "gaps": gaps}[table](bin_folder, work, sys.argv[4:] or MODELS)
+    bin_folder, work = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    table, count = sys.argv[3], int(sys.argv[4])
+    wrong = {"verdicts": verdicts, "gaps": gaps}[table](bin_folder, work, count, sys.argv[5:] or MODELS)
     if wrong:
         sys.exit("\n".join(wrong))
 

@@ -99,6 +99,18 @@ TEST(ExplainMotion, NamesItsOptions) {
   expect_phrase(scene, "(static start, ");
 }
 
+// Coulomb's law costs the associated solve and about as many iterations again.
+TEST(ExplainStatic, SaysWhatCoulombsLawCosts) {
+  const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 2, 2);
+  Case scene = moving_wall();
+  scene.analysis.type = AnalysisType::static_;
+  const std::string phrase = "the associated problem is solved first";
+  EXPECT_EQ(explain_model(scene, wall).text.find(phrase), std::string::npos);
+  scene.analysis.friction_law = FrictionLaw::coulomb;
+  const std::string text = explain_model(scene, wall).text;
+  EXPECT_NE(text.find(phrase), std::string::npos) << text;
+}
+
 TEST(ExplainMotion, RefusesWhatTheRunRefuses) {
   const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 2, 2);
   Case varying = moving_wall();

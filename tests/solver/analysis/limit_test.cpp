@@ -67,6 +67,21 @@ TEST(Bisect, KeepsUndecidedValuesInsideTheBracket) {
   EXPECT_NE(bracket.message.find("undecided from 0.30"), std::string::npos) << bracket.message;
 }
 
+// Both laws admit the same forces, so that what the associated law proves to move moves under Coulomb's law too. The direct
+// method and the bisection share no search.
+TEST(Limit, NoArchStandsUnderCoulombsLawBelowTheAssociatedCriticalFriction) {
+  for (const double thickness : {0.14, 0.2, 0.4})
+    for (const int voussoirs : {9, 12}) {
+      const Assembly arch = make_arch({.voussoirs = voussoirs, .thickness = thickness});
+      Case scene = limit_case(LimitSearch::Parameter::friction, 0.05, 0.9, 0.7);
+      const Summary associated = run(scene, arch);
+      scene.analysis.friction_law = FrictionLaw::coulomb;
+      const Summary coulomb = run(scene, arch);
+      ASSERT_TRUE(associated.critical && coulomb.critical) << associated.message << "; " << coulomb.message;
+      EXPECT_GE(coulomb.critical->stable, associated.critical->moving) << thickness << ", " << voussoirs;
+    }
+}
+
 // At its minimum thickness the semicircle becomes a symmetric five-hinge mechanism. With an odd number of
 // voussoirs the crown hinge splits into two, one on each side of the keystone: five groups move and six
 // joints hinge.
