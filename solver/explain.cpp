@@ -103,6 +103,11 @@ std::string active_features(const Case& scene, const ModelCounts& counts) {
   if (scene.contact.method == ContactDetection::Method::perturbed_gjk)
     line("contact", fmt::format("perturbed GJK, {} per pair of parts",
                                 counted(scene.contact.perturbation.perturbations, "query", "queries")));
+  if (analysis.cyclic_sectors > 1)
+    line("sectors",
+         fmt::format(
+             "one of {} is solved{}", analysis.cyclic_sectors,
+             analysis.type == AnalysisType::range ? " for quantities that repeat around the axis" : ""));
   return text;
 }
 
@@ -112,8 +117,6 @@ std::string static_features(const Analysis& analysis) {
     text +=
         "    law         the associated problem is solved first; about twice its time, near collapse ten "
         "times\n";
-  if (analysis.cyclic_sectors > 1)
-    text += fmt::format("    sectors     one of {} is solved\n", analysis.cyclic_sectors);
   if (analysis.accuracy.wrench_error)
     text +=
         fmt::format("    accuracy    wrench error at most {:g}: several solves with decreasing tolerance\n",

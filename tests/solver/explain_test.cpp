@@ -81,7 +81,7 @@ TEST(ExplainModel, CountsThePartsOfTheBlocks) {
   EXPECT_EQ(explain_model(scene, wall).counts.parts, static_cast<int>(wall.parts.size()) - of_supports);
 }
 
-TEST(ExplainMotion, NamesItsOptions) {
+TEST(ExplainModel, NamesItsOptions) {
   const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 2, 2);
   const auto expect_phrase = [&](const Case& scene, const std::string& phrase) {
     const std::string text = explain_model(scene, wall).text;
@@ -97,6 +97,10 @@ TEST(ExplainMotion, NamesItsOptions) {
   scene.analysis.start = Analysis::Start::static_;
   expect_phrase(scene, "start       static equilibrium");
   expect_phrase(scene, "(static start, ");
+  scene = moving_wall();
+  scene.analysis.type = AnalysisType::range;
+  scene.analysis.cyclic_sectors = 2;
+  expect_phrase(scene, "sectors     one of 2 is solved for quantities that repeat around the axis");
 }
 
 // Coulomb's law costs the associated solve and about as many iterations again.
