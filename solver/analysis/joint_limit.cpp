@@ -43,11 +43,19 @@ double estimate_root(double low, double high, double relative_width, const VecX&
   // Near the root a step of relative size e leaves an error of about e^2 / 2.
   const double last_step = std::sqrt(0.2 * relative_width);
   double moves = low, stands = high;  // assumed of the ends
+  bool low_solved = false, high_solved = false;
   double x = low > 0.0 ? std::sqrt(low * high) : 0.5 * (low + high);
   for (int k = 0; k < kMostEstimates; ++k) {
     const PullSolve at = trials->solve(x, true);
     (at.pull > 0.0 ? moves : stands) = x;
     double root = x - at.pull / slope_in_friction(at, dmu_dx);
+    if (const bool lowest = root <= low, highest = root >= high;
+        (lowest && !low_solved) || (highest && !high_solved)) {
+      (lowest ? low_solved : high_solved) = true;  // perhaps the ends do not enclose the root
+      x = lowest ? low : high;
+      continue;
+    }
+    if (stands <= low || moves >= high) return x;
     if (!(root > moves && root < stands))
       root = 0.5 * (moves + stands);
     else if (std::abs(root - x) <= last_step * root)
