@@ -16,7 +16,7 @@ static="--set joints.friction=0.03"
 coulomb="--set joints.friction=0.085 --set analysis.friction_law=coulomb"
 limit="--set analysis.type=limit --set analysis.limit.parameter=friction --set analysis.limit.low=0.07 \
   --set analysis.limit.high=0.12"
-range="--set analysis.type=range --set analysis.range.quantities=[thrust,hoop_tension]"
+range="--set analysis.type=range --set analysis.range.quantities=[thrust]"
 
 solve() { # NAME SETTINGS
   exec "$bin/cupola-solve" cases/dome_circular.yaml --assembly "$work/assembly.vtu" --output "$work/$1" $2
