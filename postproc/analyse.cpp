@@ -17,6 +17,7 @@
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/figures.hpp"
 #include "postproc/pictures/paraview_views.hpp"
+#include "postproc/report/load_path.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/report/stages.hpp"
 #include "postproc/tables/csv_file.hpp"
@@ -38,8 +39,8 @@ void remove_earlier_output(const std::string& folder) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    for (const char* start :
-         {"ranges.csv", "rings.csv", "stages.csv", "shell", "thrust_", "hoop_", "section_", "cut_"})
+    for (const char* start : {"ranges.csv", "path.csv", "rings.csv", "stages.csv", "shell", "thrust_",
+                              "hoop_", "section_", "cut_"})
       if (name.starts_with(start) && name.ends_with(".csv")) std::filesystem::remove(entry.path(), ignored);
   }
   for (const auto& entry : std::filesystem::directory_iterator(in_folder(folder, "figures"), ignored))
@@ -127,16 +128,15 @@ struct Drawn {
   std::vector<Picture> pictures;
 };
 
-/// Writes meshes for ParaView, figures and pictures. Figures that cannot be drawn become warnings.
-Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const std::optional<Table>& stages,
+/// Writes meshes for ParaView, figures and pictures. `own`: the figure that only this type of analysis has. Figures that cannot be drawn become warnings.
+Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const std::optional<Figure>& own,
            const std::vector<HistoryRow>& history, Evaluation* e) {
   const std::string& folder = request.output_folder;
   Film film(*e);
   const std::vector<Shot> shots = write_frames(results, folder, e, &film);
   write_meshes(*e, folder);
   Drawn drawn{viewer_html(*e, film), result_figures(*e, history, shots), {}};
-  if (const auto figure = stages ? stage_figure(*stages) : std::nullopt)
-    drawn.figures.insert(drawn.figures.begin(), *figure);
+  if (own) drawn.figures.insert(drawn.figures.begin(), *own);
   for (std::string& problem : draw_figures(in_folder(folder, "figures"), drawn.figures))
     e->warnings.push_back(std::move(problem));
   write_views(folder);
@@ -215,16 +215,19 @@ ExitCode analyse(const AnalyseRequest& request) {
   std::filesystem::remove(in_folder(folder, "summary.json"));
   remove_earlier_output(folder);
   std::vector<Table> tables = result_tables(e);
-  std::optional<Table> stages;
+  std::optional<Figure> own;
   if (e.summary.analysis == AnalysisType::staged)
     if (const std::string text = readable_text(results, "stages.csv", &e); !text.empty())
-      stages = tables.emplace(tables.begin(), stage_table(e, parse_csv(text, "stages.csv")))[0];
+      own = stage_figure(tables.emplace(tables.begin(), stage_table(e, parse_csv(text, "stages.csv")))[0]);
+  if (e.summary.analysis == AnalysisType::path && e.summary.text_files.contains("path.csv"))
+    if (const std::string text = readable_text(results, "path.csv", &e); !text.empty())
+      own = path_figure(tables.emplace(tables.begin(), path_table(parse_csv(text, "path.csv")))[0]);
   for (const Table& table : tables)
     write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
   const std::string run_yaml = readable_text(results, "run.yaml", &e);
   const std::vector<HistoryRow> history = read_history(results, &e);
   Drawn drawn;
-  if (!request.tables_only) drawn = draw(request, results, stages, history, &e);
+  if (!request.tables_only) drawn = draw(request, results, own, history, &e);
   write_text_atomically(in_folder(folder, "summary.json"), post_summary_json(e));
   if (!request.tables_only) write_report(request, tables, drawn, history, run_yaml, e);
 

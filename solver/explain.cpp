@@ -92,8 +92,9 @@ std::string active_features(const Case& scene, const ModelCounts& counts) {
                    scene.joints.compliance.per == Compliance::Per::area ? "area (m3/N)" : "point (m/N)"));
   if (scene.joints.have_strength()) {
     const JointStrength& strength = scene.joints.strength;
-    line("strength", fmt::format("tension {:g}, cohesion {:g}, compression {:g} Pa; {} of each joint",
+    line("strength", fmt::format("tension {:g}, cohesion {:g}, compression {:g} Pa, {}; {} of each joint",
                                  strength.tension, strength.cohesion, strength.compression,
+                                 to_string(scene.joints.failure),
                                  counted(scene.contact.subdivide * scene.contact.subdivide, "piece")));
   }
   if (analysis.plane)
@@ -146,7 +147,8 @@ std::string motion_features(const Case& scene) {
   return text;
 }
 
-std::string analysis_line(const Analysis& analysis) {
+std::string analysis_line(const Case& scene) {
+  const Analysis& analysis = scene.analysis;
   const std::string method = to_string(analysis.method);
   switch (analysis.type) {
     case AnalysisType::static_:
@@ -165,6 +167,11 @@ std::string analysis_line(const Analysis& analysis) {
           analysis.time_step);
     case AnalysisType::staged:
       return fmt::format("staged, {}: one equilibrium per ring", method);
+    case AnalysisType::path:
+      return fmt::format(
+          "path, {}: {} up to the time {:g} s{}", method,
+          counted(analysis.path.steps, "equilibrium", "equilibria"), analysis.path.end,
+          scene.joints.failure == JointFailure::plastic ? "" : ", several solves where joints break");
     case AnalysisType::range:
       return fmt::format(
           "range: one equilibrium by {}, and two conic programmes over all admissible states for each of {} "
@@ -213,7 +220,7 @@ ModelExplanation explain_model(const Case& scene, const Assembly& assembly, doub
                         counted(c.joints, "joint"));
   e.text += fmt::format("  weight      {}; {} besides gravity\n", readable_force(first.model.free_weight),
                         counted(first.model.loads.points.size(), "point load"));
-  e.text += "  analysis    " + analysis_line(scene.analysis) + "\n";
+  e.text += "  analysis    " + analysis_line(scene) + "\n";
   e.text += "  active\n" + active_features(scene, c);
   if (scene.analysis.type == AnalysisType::static_) e.text += static_features(scene.analysis);
   if (scene.analysis.type == AnalysisType::dynamic) e.text += motion_features(scene);

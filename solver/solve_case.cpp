@@ -42,6 +42,8 @@ Assembly read_matching_assembly(SolveRequest* asked, std::vector<std::string>* d
   Assembly assembly = read_assembly(path);
   resolve_block_names(assembly, &request.scene.loads, &request.scene.ties, &request.scene.supports);
   resolve_block_names(assembly, &request.scene.analysis.range.quantities);
+  if (auto& control = request.scene.analysis.path.control)
+    resolve_block_name(assembly, "analysis.path.control", &control->block);
   const bool any_fixed = std::ranges::any_of(assembly.blocks, [](const Block& block) { return block.fixed; });
   if (!any_fixed && request.scene.analysis.type != AnalysisType::dynamic)
     throw InputError(FileLocation{path}, kNoBlockIsFixed);
@@ -158,7 +160,8 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
                          ProgressBar* progress, std::string* last_line) {
   AnalysisSinks sinks;
   const AnalysisType type = request.scene.analysis.type;
-  const bool has_progress = type == AnalysisType::dynamic || type == AnalysisType::staged;
+  const bool has_progress =
+      type == AnalysisType::dynamic || type == AnalysisType::staged || type == AnalysisType::path;
   const bool bar = !request.quiet && has_progress && is_terminal(stdout);
   sinks.log = [&request, bar, last_line](const std::string& line) {
     *last_line = line;

@@ -85,6 +85,19 @@ struct StagedConstruction {
   double relative_width = 1e-2;   ///< relative width of that bracket, in (0, 1)
 };
 
+/// Sequence of equilibria from the assembly as built, at the times end / steps, 2 end / steps, ..., end. Loads, friction and
+/// supports follow their functions of time; joints keep their slip, opening and damage from one equilibrium to the next.
+struct LoadPath {
+  int steps = 100;   ///< > 0
+  double end = 1.0;  ///< s, > 0
+  /// What path.csv tabulates.
+  struct Control {
+    BlockRef block;                            ///< a support that moves, or a free block
+    Eigen::Vector3d direction{1.0, 0.0, 0.0};  ///< of its displacement and force; of any length > 0
+  };
+  std::optional<Control> control;  ///< given if the analysis is a path
+};
+
 /// Accuracy requested by name, or as an error of the joint wrenches, instead of a tolerance.
 struct RequestedAccuracy {
   /// Points on the measured curve of error against time (docs/accuracy.md). `custom` uses the key
@@ -148,6 +161,7 @@ struct Analysis {
   LimitSearch limit;
   RangeSearch range;
   StagedConstruction staged;
+  LoadPath path;
 };
 constexpr auto enum_names(Analysis::Start) {
   return std::array{"automatic", "rest", "static"};

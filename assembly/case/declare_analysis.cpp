@@ -82,6 +82,21 @@ void declare_staged(Section& s, StagedConstruction& staged) {
            "relative width of the final bracket of that critical friction");
 }
 
+void declare_control(Section& s, LoadPath::Control& control) {
+  s.required_block("block", control.block, "number or name of a support that moves, or of a free block");
+  s.vector3("direction", control.direction, {}, "direction of its displacement and force");
+  s.rule(control.direction.norm() > 0.0, "direction", "must not be zero");
+}
+
+void declare_path(Section& s, LoadPath& path) {
+  s.integer("steps", path.steps, {.min = 1, .max = 1000000}, "number of equilibria");
+  s.number(
+      "end", path.end, {.unit = "s", .above = 0},
+      "time of the last equilibrium, to which loads, friction and supports follow their functions of time");
+  s.optional_section("control", path.control, "block whose displacement and force path.csv tabulates",
+                     declare_control);
+}
+
 void declare_sleep(Section& s, Sleep& sleep) {
   s.number("speed", sleep.speed, {.unit = "m/s", .above = 0}, "a block slower than this counts as at rest");
   s.number("time", sleep.time, {.unit = "s", .above = 0},
@@ -150,7 +165,7 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.choice(
       "type", analysis.type,
       "static equilibrium; motion in time; construction ring by ring; search for a critical parameter value; "
-      "ranges of forces over all admissible states");
+      "ranges of forces over all admissible states; equilibria along a path of loads or support motions");
   s.choice("method", analysis.method, "numerical method for the contact problem");
   declare_flow_rule(s, analysis);
   s.integer("cyclic_sectors", analysis.cyclic_sectors, {.min = 1, .max = 100000},
@@ -181,6 +196,9 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.section("limit", analysis.limit, "limit: parameter and bracket of the search", declare_limit);
   s.section("range", analysis.range, "range: quantities sought over all admissible states", declare_range);
   s.section("staged", analysis.staged, "staged: which stages, and the fresh mortar", declare_staged);
+  s.section("path", analysis.path, "path: steps, and the block to tabulate", declare_path);
+  s.rule(analysis.type != AnalysisType::path || analysis.path.control, "path",
+         "must name the block to tabulate: {control: {block: 3, direction: [1, 0, 0]}}");
   s.rule(analysis.type != AnalysisType::range || !analysis.range.quantities.empty(), "range",
          "must list at least one quantity: {quantities: [thrust]}");
   s.rule(analysis.type == AnalysisType::static_ || analysis.type == AnalysisType::range ||

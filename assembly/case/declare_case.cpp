@@ -18,10 +18,11 @@ void declare_strength_rules(Section& s, Case& the_case) {
       "contact", "subdivide requires joints.compliance: {per: area} and method: face_clipping");
   if (!the_case.joints.have_strength()) return;
   const Analysis& analysis = the_case.analysis;
-  s.rule(analysis.type == AnalysisType::static_ || analysis.type == AnalysisType::limit ||
-             analysis.type == AnalysisType::range,
+  s.rule(the_case.joints.failure == JointFailure::plastic || analysis.type == AnalysisType::dynamic ||
+             analysis.type == AnalysisType::path,
          "analysis",
-         "joints with tension, cohesion or compressive_strength require type: static, limit or range");
+         "joints.failure: brittle or softening requires type: dynamic or path, because what such joints "
+         "carry depends on the history of the loads");
   s.rule(analysis.method != ContactMethod::interior_point, "analysis",
          "method: interior_point requires joints without strength; use newton");
   s.rule(the_case.contact.method == ContactDetection::Method::face_clipping, "contact",

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "assembly/case/declare.hpp"
@@ -33,6 +35,13 @@ void declare_compliance(Section& s, Compliance& compliance) {
            "tangential displacement per unit force", defaults(&Compliance::tangential));
 }
 
+void declare_fracture_energy(Section& s, FractureEnergy& energy) {
+  s.required_number("tension", energy.tension, {.unit = "N/m", .above = 0},
+                    "work per area that opens a crack until it carries no tension");
+  s.required_number("shear", energy.shear, {.unit = "N/m", .above = 0},
+                    "work per area that shears a crack until it has no cohesion, without that of friction");
+}
+
 void declare_law_change(Section& s, JointLawChange& law) {
   s.optional_number("friction", law.friction, {.min = 0}, "as elsewhere",
                     "friction coefficient of these joints");
@@ -46,11 +55,30 @@ void declare_law_change(Section& s, JointLawChange& law) {
                     "cohesion of these joints");
   s.optional_number("compressive_strength", law.compressive_strength, {.unit = "Pa", .above = 0},
                     "as elsewhere", "compressive strength of these joints");
+  s.optional_section("fracture_energy", law.fracture_energy, "fracture energy of these joints",
+                     declare_fracture_energy);
 }
 
 void declare_ring_joints(Section& s, RingJoints& joints) {
   declare_joint_group(s, joints);
   declare_law_change(s, joints.law);
+}
+
+void declare_failure_rules(Section& s, const Joints& joints) {
+  const bool softens = joints.failure == JointFailure::softening;
+  const auto gives_energy = [](const std::optional<JointLawChange>& law) {
+    return law && law->fracture_energy;
+  };
+  const bool energies = joints.fracture_energy || gives_energy(joints.bed) || gives_energy(joints.head) ||
+                        gives_energy(joints.herringbone) || gives_energy(joints.base) ||
+                        std::ranges::any_of(joints.rings, [&](const RingJoints& group) {
+                          return group.law.fracture_energy.has_value();
+                        });
+  s.rule(softens || !energies, "fracture_energy", "requires joints.failure: softening");
+  s.rule(!softens || joints.fracture_energy, "failure",
+         "softening requires fracture_energy: {tension: N/m, shear: N/m}");
+  s.rule(joints.failure == JointFailure::plastic || joints.have_strength(), "failure",
+         "brittle and softening require joints with tension or cohesion");
 }
 
 }  // namespace
@@ -88,6 +116,12 @@ void declare_joints(Section& s, Joints& joints) {
   s.optional_number("compressive_strength", compression, {.unit = "Pa", .above = 0}, "none",
                     "largest pressure in a joint");
   strength.compression = compression.value_or(strength.compression);
+  s.choice("failure", joints.failure,
+           "where tension or cohesion is exceeded: plastic keeps them, brittle loses both at once, softening "
+           "loses them "
+           "gradually by fracture_energy");
+  s.optional_section("fracture_energy", joints.fracture_energy,
+                     "softening: work per area that breaks a joint", declare_fracture_energy);
   s.optional_section("bed", joints.bed, "joints between rings", declare_law_change);
   s.optional_section("head", joints.head, "joints within a ring", declare_law_change);
   s.optional_section("herringbone", joints.herringbone, "joints that touch a herringbone block",
@@ -104,6 +138,7 @@ void declare_joints(Section& s, Joints& joints) {
          "tension, cohesion and compressive_strength require compliance: {per: area}, because only then a "
          "contact "
          "point stands for an area of joint");
+  declare_failure_rules(s, joints);
 }
 
 }  // namespace cupola

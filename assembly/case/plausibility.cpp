@@ -97,7 +97,16 @@ void add_joint_checks(const Joints& joints, std::vector<PlausibleRange>* checks)
     checks->push_back({key, value, "Pa", 50.0, 1e9, "in MPa or kPa? Strengths are in Pa: 2.5 MPa is 2.5e6",
                        "too many digits? Stone carries up to 3e8 Pa"});
   };
+  const auto energy = [checks](const std::string& key, const std::optional<FractureEnergy>& energies) {
+    if (!energies) return;
+    for (const auto& [mode, value] :
+         {std::pair("tension", energies->tension), std::pair("shear", energies->shear)})
+      checks->push_back({fmt::format("{}fracture_energy.{}", key, mode), value, "N/m", 0.1, 1e5,
+                         "in N/mm? 0.02 N/mm is 20 N/m",
+                         "too many digits? Mortar joints break with 1 to 500 N/m"});
+  };
   const auto change = [&](const std::string& key, const JointLawChange& law) {
+    energy(key, law.fracture_energy);
     strength(key + "tension", law.tension.value_or(0.0));
     strength(key + "cohesion", law.cohesion.value_or(0.0));
     strength(key + "compressive_strength", law.compressive_strength.value_or(0.0));
@@ -109,6 +118,7 @@ void add_joint_checks(const Joints& joints, std::vector<PlausibleRange>* checks)
   strength("joints.tension", joints.strength.tension);
   strength("joints.cohesion", joints.strength.cohesion);
   strength("joints.compressive_strength", joints.strength.compression);
+  energy("joints.", joints.fracture_energy);
   compliance("joints.compliance.normal", joints.compliance.normal);
   compliance("joints.compliance.tangential", joints.compliance.tangential);
   for (const auto& [key, law] :

@@ -61,7 +61,8 @@ Mesh contacts_mesh(const Frame& frame, const std::string& assembly_hash) {
                 c.point.size() == n && c.normal.size() == n && c.gap.size() == n && c.force.size() == n &&
                 c.normal_force.size() == n && c.friction_use.size() == n && c.area.size() == n &&
                 c.slip.size() == n && c.law_violation.size() == n &&
-                (c.strength_use.empty() || c.strength_use.size() == n));
+                (c.strength_use.empty() || c.strength_use.size() == n) &&
+                c.damage.size() == c.strength_use.size() && c.crack_opening.size() == c.strength_use.size());
   Mesh mesh = point_mesh(c.point, frame.time, assembly_hash);
   std::vector<std::uint8_t> kinds;
   for (const JointKind kind : c.kind) kinds.push_back(static_cast<std::uint8_t>(kind));
@@ -78,7 +79,11 @@ Mesh contacts_mesh(const Frame& frame, const std::string& assembly_hash) {
                      {"area_m2", 1, c.area},
                      {"slip_m", 1, c.slip},
                      {"law_violation", 1, c.law_violation}};
-  if (!c.strength_use.empty()) mesh.point_data.push_back({"strength_use", 1, c.strength_use});
+  if (!c.strength_use.empty()) {
+    mesh.point_data.push_back({"strength_use", 1, c.strength_use});
+    mesh.point_data.push_back({"damage", 1, c.damage});
+    mesh.point_data.push_back({"crack_opening_m", 1, c.crack_opening});
+  }
   return mesh;
 }
 
@@ -137,7 +142,10 @@ ContactTable read_contacts(const Mesh& mesh) {
   c.area = doubles("area_m2");
   c.slip = doubles("slip_m");
   c.law_violation = doubles("law_violation");
-  if (mesh.has(mesh.point_data, "strength_use")) c.strength_use = doubles("strength_use");
+  if (!mesh.has(mesh.point_data, "strength_use")) return c;
+  c.strength_use = doubles("strength_use");
+  c.damage = doubles("damage");
+  c.crack_opening = doubles("crack_opening_m");
   return c;
 }
 

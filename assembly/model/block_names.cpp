@@ -90,4 +90,8 @@ void resolve_block_names(const Assembly& assembly, std::vector<ForceQuantity>* q
     for (BlockRef* block : blocks_of(&quantity)) names.resolve("analysis.range.quantities", block);
 }
 
+void resolve_block_name(const Assembly& assembly, const char* key, BlockRef* block) {
+  BlockNames(assembly).resolve(key, block);
+}
+
 }  // namespace cupola

@@ -19,6 +19,8 @@ std::string block_labels(const Assembly& assembly, const std::vector<int>& block
 /// with the nearest name.
 void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Supports* supports);
 void resolve_block_names(const Assembly& assembly, std::vector<ForceQuantity>* quantities);
+/// `key` of the case is for the message.
+void resolve_block_name(const Assembly& assembly, const char* key, BlockRef* block);
 
 /// What to do about an imported model without supports.
 inline constexpr const char* kNoBlockIsFixed =

@@ -4,9 +4,9 @@
 
 namespace cupola {
 
-enum class AnalysisType { static_, dynamic, staged, limit, range };
+enum class AnalysisType { static_, dynamic, staged, limit, range, path };
 constexpr auto enum_names(AnalysisType) {
-  return std::array{"static", "dynamic", "staged", "limit", "range"};
+  return std::array{"static", "dynamic", "staged", "limit", "range", "path"};
 }
 
 /// Methods for the frictional contact problem of one step; solver/contact/methods describes each.

@@ -35,11 +35,25 @@ struct JointStrength {
   bool operator==(const JointStrength&) const = default;
 };
 
+/// What a joint does where it has reached its tensile or shear strength. `plastic`: it keeps its strength. `brittle`: it
+/// loses tension and cohesion at once. `softening`: it loses them linearly with its opening and slip.
+enum class JointFailure { plastic, brittle, softening };
+constexpr auto enum_names(JointFailure) {
+  return std::array{"plastic", "brittle", "softening"};
+}
+
+/// Work per area that breaks a softening joint, N/m = J/m2, > 0.
+struct FractureEnergy {
+  double tension = 0.0;  ///< mode I: opening
+  double shear = 0.0;    ///< mode II: slip; without the work of friction
+};
+
 /// Values that differ for a group of joints; the others are the general ones.
 struct JointLawChange {
   std::optional<double> friction;
   std::optional<double> normal, tangential;  ///< compliance, in the unit of Joints::compliance
   std::optional<double> tension, cohesion, compressive_strength;  ///< Pa
+  std::optional<FractureEnergy> fracture_energy;
 };
 
 /// Joints of some rings with a law of their own. `base` joints touch a fixed support, `herringbone` joints a
@@ -66,6 +80,8 @@ struct Joints {
   double friction = 0.4;  ///< mu, >= 0
   Compliance compliance;
   JointStrength strength;
+  JointFailure failure = JointFailure::plastic;
+  std::optional<FractureEnergy> fracture_energy;  ///< softening only
   std::optional<JointLawChange> bed, head, herringbone, base;
   std::vector<RingJoints> rings;
   TimeFunction friction_time;  ///< factor on every friction coefficient

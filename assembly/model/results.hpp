@@ -51,6 +51,10 @@ struct ContactTable {
   std::vector<double> law_violation;
   /// Pressure over the compressive strength, or pull over the tensile strength; empty if all joints are dry.
   std::vector<double> strength_use;
+  /// Share of tension and cohesion that is lost, in [0, 1]; empty if all joints are dry.
+  std::vector<double> damage;
+  /// m, >= 0: distance of the faces beyond the elastic elongation of the joint; empty if all joints are dry.
+  std::vector<double> crack_opening;
 
   int size() const { return static_cast<int>(joint.size()); }
   void reserve(std::size_t contacts) {

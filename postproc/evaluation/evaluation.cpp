@@ -192,7 +192,8 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e) {
 }  // namespace
 
 bool at_rest(const Summary& summary) {
-  if (summary.analysis == AnalysisType::limit) return summary.equilibrium_residual.has_value();
+  if (summary.analysis == AnalysisType::limit || summary.analysis == AnalysisType::path)
+    return summary.equilibrium_residual.has_value();
   if (summary.analysis == AnalysisType::range) return !summary.ranges.empty();
   return summary.status == Status::stable;
 }
@@ -207,6 +208,7 @@ bool is_mechanism(const Summary& summary, const Frame& frame) {
     case AnalysisType::staged:
       return largest_norm(frame.blocks.velocity) > 0.0;
     case AnalysisType::dynamic:
+    case AnalysisType::path:
       return false;
   }
   return false;

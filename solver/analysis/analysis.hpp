@@ -59,4 +59,7 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
 /// has the friction of fresh mortar. On request, the critical fresh friction of each stage is searched for.
 std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
+/// Equilibria along a path of loads and support motions. Frames: every equilibrium, at its time.
+std::optional<Summary> run_path(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
+
 }  // namespace cupola

@@ -15,6 +15,7 @@ StaticOptions static_options(const Analysis& analysis) {
   switch (analysis.type) {
     case AnalysisType::static_:
     case AnalysisType::range:
+    case AnalysisType::path:
       break;
     case AnalysisType::dynamic:
       options.tolerance = std::min(analysis.tolerance, kStartTolerance);
@@ -52,6 +53,8 @@ double num_equilibria(const Analysis& analysis, int num_rings) {
       return 1.0;
     case AnalysisType::staged:
       return 0.5 * std::max(2, num_rings);
+    case AnalysisType::path:
+      return 1.0 + analysis.path.steps;
     case AnalysisType::range:  // a conic programme takes the time of about four static solves
       return 1.0 + 8.0 * static_cast<double>(analysis.range.quantities.size());
     case AnalysisType::limit: {

@@ -9,10 +9,10 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/direct_limit.hpp"
+#include "solver/analysis/equilibrium_path.hpp"
 #include "solver/analysis/limit_search.hpp"
 #include "solver/analysis/mechanism.hpp"
 #include "solver/analysis/record.hpp"
-#include "solver/analysis/support_path.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {
@@ -97,7 +97,7 @@ Bracket LimitRun::search_value() {
 Bracket LimitRun::follow_spread() {
   const LimitSearch& limit = scene.analysis.limit;
   const Model model = make_model(case_at(scene, 0.0), assembly);
-  SupportPath path(model, detection_options(scene), options);
+  EquilibriumPath path(model, detection_options(scene), options);
   return follow(
       &path, limit.low, limit.high, bracket_width(scene.analysis),
       [&](const LimitTrial& trial, const StaticSolution& solution) {

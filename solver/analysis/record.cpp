@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "assembly/base/error.hpp"
+#include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/law_violation.hpp"
 
 namespace cupola {
@@ -35,9 +36,23 @@ Accuracy force_balance_accuracy(const StaticSolution& solution, double tolerance
 }
 
 /// Share of the compressive strength that a push uses, or of the tensile strength that a pull uses.
-double strength_use(const JointLaw& law, double normal_force) {
-  if (normal_force >= 0.0) return normal_force / law.strength.compression;
-  return law.strength.tension > 0.0 ? -normal_force / law.strength.tension : 0.0;
+double strength_use(const JointStrength& strength, double normal_force) {
+  if (normal_force >= 0.0) return normal_force / strength.compression;
+  return strength.tension > 0.0 ? -normal_force / strength.tension : 0.0;
+}
+
+/// m: of the faces at a gap, beyond the elastic elongation of the joint.
+double crack_opening(double gap, const ContactMemory& memory) {
+  return std::max(0.0, gap + memory.joint.crushing - std::max(0.0, memory.elastic_gap));
+}
+
+void add_strength(const JointLaw& law, const ContactMemory& memory, double gap, double normal_force,
+                  ContactTable* table) {
+  JointStrength strength = bond_in_step(law, memory.joint).strength;
+  strength.compression = law.strength.compression;
+  table->strength_use.push_back(strength_use(strength, normal_force));
+  table->damage.push_back(memory.joint.damage);
+  table->crack_opening.push_back(crack_opening(gap, memory));
 }
 
 }  // namespace
@@ -117,7 +132,8 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
     const double normal_force = contact.normal.dot(force);
     const double tangential_force = (force - normal_force * contact.normal).norm();
     const JointLaw law = joint_law(model, contacts, contact, state.time);
-    const double limit = law.strength.cohesion + law.mu * normal_force;
+    const double cohesion = (1.0 - memories.values[i].joint.step_damage) * law.strength.cohesion;
+    const double limit = cohesion + law.mu * normal_force;
     table.block_a.push_back(contact.block_a);
     table.block_b.push_back(contact.block_b);
     table.kind.push_back(patch.kind);
@@ -130,7 +146,7 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
     table.friction_use.push_back(limit > 0.0 ? tangential_force / limit : 0.0);
     table.area.push_back(contact.area);
     table.slip.push_back(memories.values[i].plastic_slip);
-    if (model.joints.has_strength()) table.strength_use.push_back(strength_use(law, normal_force));
+    if (model.joints.has_strength()) add_strength(law, memories.values[i], contact.gap, normal_force, &table);
   }
 
   BlockTable& blocks = frame.blocks;
@@ -205,8 +221,11 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   if (!equilibrium) return frame;
   const VecX u =
       relative_velocity(solution.step.problem, solution.step_solution.v) + solution.step.support_velocity;
-  for (size_t i = 0; i < frame.contacts.gap.size(); ++i)
+  for (size_t i = 0; i < frame.contacts.gap.size(); ++i) {
     frame.contacts.gap[i] += solution.h * u[3 * static_cast<Eigen::Index>(i)];
+    if (model.joints.has_strength())
+      frame.contacts.crack_opening[i] = crack_opening(frame.contacts.gap[i], loaded.memories.values[i]);
+  }
   return frame;
 }
 

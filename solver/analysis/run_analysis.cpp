@@ -15,6 +15,8 @@ std::optional<Summary> run(const Case& scene, const Assembly& assembly, const An
       return run_limit(scene, assembly, sinks);
     case AnalysisType::range:
       return run_range(scene, assembly, sinks);
+    case AnalysisType::path:
+      return run_path(scene, assembly, sinks);
   }
   return std::nullopt;
 }

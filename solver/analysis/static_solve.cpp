@@ -159,8 +159,8 @@ void ProximalPoint::iterate() {
   moved_ = trial_.h * (trial_.step_solution.v - before);
   trial_.speed_ratio = largest_speed(trial_.increment) / (trial_.h * solve.reference_speed);
   trial_.forces = joint_forces(contacts_, trial_.step_solution.gamma, trial_.h);
-  trial_.balance = compute_equilibrium(model_, start_, contacts_, trial_.forces,
-                                       start_.time + 0.5 * options_.time_advance);
+  trial_.balance =
+      compute_equilibrium(model_, start_, contacts_, trial_.forces, start_.time + options_.time_advance);
 }
 
 /// Judged by residuals that are computed independently of the contact method.
@@ -221,7 +221,7 @@ void ProximalPoint::speed_up(double contraction) {
 /// sum found and the sum of the loads.
 double ProximalPoint::proof(const StaticSolution& trial) const {
   double loads = 0.0;
-  const VecX f = applied_forces(model_, start_, start_.time + 0.5 * options_.time_advance);
+  const VecX f = applied_forces(model_, start_, start_.time + options_.time_advance);
   for (Eigen::Index i = 0; i < f.size(); i += 6) loads += f.segment<3>(i).norm();
   return required_normal_force(step_.problem, trial.increment / trial.h) /
          std::max(loads, normal_force_sum(step_.problem, trial.step_solution.gamma));
@@ -339,7 +339,7 @@ void certify(const Model& model, const State& start, const ContactSet& contacts,
     solution->certificate.force_error.bounds = "the static problem was not solved";
     return;
   }
-  const VecX loads = applied_forces(model, start, start.time + 0.5 * options.time_advance);
+  const VecX loads = applied_forces(model, start, start.time + options.time_advance);
   solution->certificate = certify_static(contacts, loads, solution->step.problem, solution->step_solution,
                                          options.solve.law, model.loads.gravity.norm(), options.symmetry);
   if (solution->certificate.balance == Balance::unstable)
@@ -419,7 +419,7 @@ LoadedState loaded_state(const Model& model, const State& start, const ContactSe
   loaded.state.v = solution.step_solution.v;
   integrate_positions(model, solution.h, options.time_advance, &loaded.state);
   loaded.state.v.setZero();  // v was only the displacement over h
-  update_memories(solution.step, solution.step_solution, start, contacts,
+  update_memories(model, solution.step, solution.step_solution, start, contacts,
                   static_step_options(options, solution.h), &loaded.memories);
   return loaded;
 }

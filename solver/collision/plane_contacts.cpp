@@ -28,10 +28,12 @@ void merge_across_plane(double tolerance, AnchoredContacts* contacts) {
     if (partner > 0 && all[partner - 1].patch == all[i].patch) {
       Contact& first = all[partner - 1];
       ContactAnchor& anchor = anchors[partner - 1];
+      // Mean of all merged points: divided patches have more than two on a line across the plane.
+      const double before = first.multiplicity, after = before + all[i].multiplicity;
+      anchor.r_a.y() = (before * anchor.r_a.y() + all[i].multiplicity * anchors[i].r_a.y()) / after;
+      anchor.r_b.y() = (before * anchor.r_b.y() + all[i].multiplicity * anchors[i].r_b.y()) / after;
       first.area += all[i].area;
       first.multiplicity += all[i].multiplicity;
-      anchor.r_a.y() = 0.5 * (anchor.r_a.y() + anchors[i].r_a.y());
-      anchor.r_b.y() = 0.5 * (anchor.r_b.y() + anchors[i].r_b.y());
       continue;
     }
     all[kept] = all[i];

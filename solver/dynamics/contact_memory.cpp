@@ -2,24 +2,68 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "assembly/base/error.hpp"
 
 namespace cupola {
+namespace {
+
+ContactMemories first_memories(const ContactMemories& old, const std::vector<Contact>& contacts) {
+  ContactMemories first;
+  for (const Contact& contact : contacts) first.ids.push_back(contact.id);
+  first.values.resize(contacts.size());
+  first.tie_impulses = old.tie_impulses;
+  first.as_built = false;
+  return first;
+}
+
+ContactId patch_of(ContactId id) {
+  id.corner = 0;
+  return id;
+}
+
+/// Mean damage of the points of each patch.
+class PatchDamage {
+ public:
+  explicit PatchDamage(const ContactMemories& memories) {
+    for (size_t i = 0; i < memories.ids.size(); ++i) {
+      auto& [sum, count] = patches_[patch_of(memories.ids[i])];
+      sum += memories.values[i].joint.damage;
+      ++count;
+    }
+  }
+  /// 1 if the patch is new.
+  double at(const ContactId& id) const {
+    const auto found = patches_.find(patch_of(id));
+    return found == patches_.end() ? 1.0 : found->second.first / found->second.second;
+  }
+
+ private:
+  std::map<ContactId, std::pair<double, int>> patches_;
+};
+
+}  // namespace
 
 ContactMemories match_memories(const ContactMemories& old, const std::vector<Contact>& contacts) {
   CUPOLA_ASSERT(old.ids.size() == old.values.size());
+  if (old.as_built) return first_memories(old, contacts);
   const auto same_id = [](const ContactId& id, const Contact& contact) { return id == contact.id; };
   if (std::equal(old.ids.begin(), old.ids.end(), contacts.begin(), contacts.end(), same_id)) return old;
   ContactMemories matched;
   matched.ids.reserve(contacts.size());
   matched.values.resize(contacts.size());
   matched.tie_impulses = old.tie_impulses;
+  matched.as_built = false;
   std::map<ContactId, size_t> index;  // of the old contacts
   for (size_t i = 0; i < old.ids.size(); ++i) index.emplace(old.ids[i], i);
+  const PatchDamage damage(old);
   for (size_t i = 0; i < contacts.size(); ++i) {
     const auto found = index.find(contacts[i].id);
-    if (found != index.end()) matched.values[i] = old.values[found->second];
+    if (found != index.end())
+      matched.values[i] = old.values[found->second];
+    else
+      matched.values[i].joint.damage = damage.at(contacts[i].id);
     matched.ids.push_back(contacts[i].id);
   }
   return matched;

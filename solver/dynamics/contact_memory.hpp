@@ -6,12 +6,24 @@
 
 namespace cupola {
 
+/// What a contact with strength has suffered (joint_damage.hpp).
+struct JointDamage {
+  double damage = 0.0;    ///< in [0, 1]: share of tension and cohesion that is lost; never falls
+  double opening = 0.0;   ///< m, >= 0: inelastic opening under pull
+  double crushing = 0.0;  ///< m, >= 0: inelastic closing under pressure
+  // Of the present step:
+  double step_damage = 0.0;  ///< mean over the step
+  bool bears = false;        ///< an open joint that pushes when its faces meet, instead of pulling
+};
+
 /// State of a contact that is carried from step to step.
 struct ContactMemory {
   Vec3 impulse = Vec3::Zero();  ///< N s, gamma of the last step in the contact frame, for the warm start
-  double elastic_gap = 0.0;     ///< m, <= 0: penetration caused by the compliance
+  double elastic_gap =
+      0.0;  ///< m: penetration caused by the compliance (< 0), or elongation under pull (> 0)
   Vec3 elastic_slip_A = Vec3::Zero();  ///< m, elongation of the tangential spring, axes of block a
   double plastic_slip = 0.0;           ///< m, >= 0: accumulated sliding distance
+  JointDamage joint;
 };
 
 /// Memories of the contacts of one step, in the order of the contacts.
@@ -19,9 +31,11 @@ struct ContactMemories {
   std::vector<ContactId> ids;         ///< (nc)
   std::vector<ContactMemory> values;  ///< (nc)
   std::vector<double> tie_impulses;   ///< N s, of the last step (number of ties)
+  bool as_built = true;               ///< no contacts were matched yet
 };
 
-/// Transfers memories to a new set of contacts by identity. A contact without an old memory starts unloaded.
+/// Transfers memories to a new set of contacts by identity. A contact without an old memory starts unloaded. It is bonded
+/// if it exists as built; a new point of an old patch has the mean damage of the patch, other contacts have no bond.
 ContactMemories match_memories(const ContactMemories& old, const std::vector<Contact>& contacts);
 
 }  // namespace cupola

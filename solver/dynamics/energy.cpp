@@ -39,12 +39,15 @@ Energy compute_energy(const Model& model, const State& state, const ContactSet& 
   return energy;
 }
 
-double friction_dissipation(const StepProblem& step, const ContactSolution& solution) {
+double joint_dissipation(const StepProblem& step, const ContactSolution& solution) {
   const ContactProblem& problem = step.problem;
   const VecX y = relative_velocity(problem, solution.v) + problem.b + problem.E.cwiseProduct(solution.gamma);
   double work = 0.0;
   for (Eigen::Index i = 0; i < step.num_contacts; ++i)
     work -= solution.gamma.segment<2>(3 * i + 1).dot(y.segment<2>(3 * i + 1));
+  if (problem.strength.empty()) return work;
+  for (Eigen::Index i = 0; i < step.num_contacts; ++i)
+    work += std::max(0.0, -solution.gamma[3 * i] * y[3 * i]);
   return work;
 }
 

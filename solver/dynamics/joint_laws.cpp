@@ -7,14 +7,31 @@
 namespace cupola {
 namespace {
 
-JointLaw apply_change(JointLaw law, const JointLawChange& change) {
+/// The law of a class of joints while the table is made.
+struct ClassLaw {
+  JointLaw law;
+  FractureEnergy energy;  ///< N/m
+};
+
+/// Friction leaves no tension beyond cohesion / friction, so that less opening dissipates the energy.
+CrackLengths crack_lengths(const ClassLaw& joint, JointFailure failure) {
+  if (failure == JointFailure::brittle) return {0.0, 0.0};
+  if (failure == JointFailure::plastic) return {};
+  const auto& [tension, cohesion, compression] = joint.law.strength;
+  const double pull = joint.law.mu > 0.0 ? std::min(tension, cohesion / joint.law.mu) : tension;
+  return {2.0 * joint.energy.tension / pull, 2.0 * joint.energy.shear / cohesion};
+}
+
+ClassLaw apply_change(ClassLaw joint, const JointLawChange& change) {
+  JointLaw& law = joint.law;
   law.mu = change.friction.value_or(law.mu);
   law.compliance_normal = change.normal.value_or(law.compliance_normal);
   law.compliance_tangential = change.tangential.value_or(law.compliance_tangential);
   law.strength.tension = change.tension.value_or(law.strength.tension);
   law.strength.cohesion = change.cohesion.value_or(law.strength.cohesion);
   law.strength.compression = change.compressive_strength.value_or(law.strength.compression);
-  return law;
+  joint.energy = change.fracture_energy.value_or(joint.energy);
+  return joint;
 }
 
 const std::optional<JointLawChange>& change_of(const Joints& joints, JointClass kind) {
@@ -73,16 +90,21 @@ JointClass joint_class(const Assembly& assembly, const Patch& patch) {
 
 JointTable::JointTable(const Joints& joints, int num_rings)
     : per_area_(joints.compliance.per == Compliance::Per::area), has_strength_(joints.have_strength()) {
-  const JointLaw general{joints.friction, joints.compliance.normal, joints.compliance.tangential,
-                         joints.strength};
+  const ClassLaw general{
+      {joints.friction, joints.compliance.normal, joints.compliance.tangential, joints.strength},
+      joints.fracture_energy.value_or(FractureEnergy{})};
   for (int k = 0; k < kNumJointClasses; ++k) {
     const auto kind = static_cast<JointClass>(k);
     const auto& change = change_of(joints, kind);
-    laws_[k].assign(std::max(1, num_rings), change ? apply_change(general, *change) : general);
+    std::vector<ClassLaw> rings(std::max(1, num_rings), change ? apply_change(general, *change) : general);
     for (const RingJoints& group : joints.rings) {
       if (!applies_to(group.sort, kind)) continue;
       for (int ring = std::max(0, group.from); ring <= std::min(group.to, num_rings - 1); ++ring)
-        laws_[k][ring] = apply_change(laws_[k][ring], group.law);
+        rings[ring] = apply_change(rings[ring], group.law);
+    }
+    for (ClassLaw& joint : rings) {
+      joint.law.crack = crack_lengths(joint, joints.failure);
+      laws_[k].push_back(joint.law);
     }
   }
 }

@@ -1,12 +1,20 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "assembly/case/case.hpp"
 #include "solver/collision/contact_set.hpp"
 
 namespace cupola {
+
+/// Inelastic displacements of the faces of a joint after which nothing is left of its tension and cohesion, m: infinite in
+/// plastic joints, 0 in brittle ones, 2 G / f for the fracture energy G and the strength f of softening ones.
+struct CrackLengths {
+  double opening = std::numeric_limits<double>::infinity();
+  double slip = std::numeric_limits<double>::infinity();
+};
 
 /// Friction, compliance and strength of one contact point.
 struct JointLaw {
@@ -15,6 +23,7 @@ struct JointLaw {
   double compliance_tangential = 0.0;  ///< same unit
   /// Largest forces, N per point (see ContactStrength); in a JointTable stresses, Pa.
   JointStrength strength = {};
+  CrackLengths crack = {};
 };
 
 /// Classes of joints that can have different laws. A base joint lies on a support. A herringbone joint

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "assembly/base/error.hpp"
+#include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/law_violation.hpp"
 
 namespace cupola {
@@ -90,17 +91,25 @@ StepReport Simulation::advance_awake(const ContactSet& contacts, const StepOptio
 
 StepReport Simulation::solve_and_move(const Model& model, const ContactSet& contacts, StepOptions step,
                                       State* state, ContactMemories* memories) {
+  constexpr int kMostPasses = 50;     // solves of one step, until the damage of its joints is right
   constexpr double kTolerated = 4.0;  // ratio to the allowed error above which the step is repeated
   StepReport report;
   StepProblem problem;
   ContactSolution solution;
   while (true) {
     // 1. Build and solve the contact problem
-    problem = build_step_problem(model, *state, contacts, *memories, step);
-    solution = warm_start(problem, *state, *memories);
     ContactSolverOptions solve_options = options_.solve;
     solve_options.reference_speed = step.h * reference_acceleration(model, *state);
-    report.solve = solver_.solve(problem.problem, solve_options, &solution);
+    if (model.joints.has_strength()) begin_step(contacts, memories);
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      problem = build_step_problem(model, *state, contacts, *memories, step);
+      if (pass == 0) solution = warm_start(problem, *state, *memories);
+      const SolveSummary solved = solver_.solve(problem.problem, solve_options, &solution);
+      report.solve = pass == 0 ? solved : solved.after(report.solve);
+      if (!model.joints.has_strength() || !report.solve.usable() ||
+          !refine_step(model, *state, contacts, problem, solution, step, memories))
+        break;
+    }
     report.residuals =
         compute_residuals(problem.problem, solution, solve_options.reference_speed, solve_options.law);
     if (!options_.adaptive) break;
@@ -118,10 +127,10 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
                                      contact_law_errors(problem.problem, solution, options_.solve.law));
   report.balance =
       compute_equilibrium(model, *state, contacts, report.forces, state->time + 0.5 * step.advance());
-  report.friction_work = friction_dissipation(problem, solution);
+  report.friction_work = joint_dissipation(problem, solution);
 
   // 3. Update memories and integrate
-  update_memories(problem, solution, *state, contacts, step, memories);
+  update_memories(model, problem, solution, *state, contacts, step, memories);
   state->v = solution.v;
   report.problem = std::move(problem);
   report.step_solution = std::move(solution);

@@ -38,12 +38,16 @@ void visit(Archive& archive, DetectionMemory& x) {
   archive(x.boxes, x.detection, x.now, x.contacts, x.num_detections);
 }
 template <class Archive>
+void visit(Archive& archive, JointDamage& x) {
+  archive(x.damage, x.opening, x.crushing, x.step_damage, x.bears);
+}
+template <class Archive>
 void visit(Archive& archive, ContactMemory& x) {
-  archive(x.impulse, x.elastic_gap, x.elastic_slip_A, x.plastic_slip);
+  archive(x.impulse, x.elastic_gap, x.elastic_slip_A, x.plastic_slip, x.joint);
 }
 template <class Archive>
 void visit(Archive& archive, ContactMemories& x) {
-  archive(x.ids, x.values, x.tie_impulses);
+  archive(x.ids, x.values, x.tie_impulses, x.as_built);
 }
 template <class Archive>
 void visit(Archive& archive, State& x) {

@@ -54,6 +54,7 @@ Case case_of_stage(const Case& scene, const ConstructionStage& stage, double fre
   Case at = scene;
   RingJoints fresh{stage.ring, stage.ring, RingJoints::Sort::laid_bed, {}};
   fresh.law.friction = fresh_friction;
+  fresh.law.tension = fresh.law.cohesion = 0.0;
   at.joints.rings.push_back(fresh);
   if (complete) return at;
   const Vec3 gravity = scene.loads.gravity;

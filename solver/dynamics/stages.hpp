@@ -15,7 +15,7 @@ struct ConstructionStage {
 };
 ConstructionStage build_stage(const Assembly& complete, int ring);
 
-/// The case of that stage, with friction `fresh_friction` in the bed of the last ring. An incomplete stage
+/// The case of that stage, with friction `fresh_friction` and neither tension nor cohesion in the bed of the last ring. An incomplete stage
 /// carries only its own weight: loads other than gravity, and ties to blocks that are not laid yet, apply
 /// only if the model is `complete`.
 Case case_of_stage(const Case& scene, const ConstructionStage& stage, double fresh_friction, bool complete);

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include "assembly/base/error.hpp"
+#include "solver/dynamics/joint_damage.hpp"
 
 namespace cupola {
 namespace {
@@ -36,7 +37,7 @@ void resize_rows(int num_rows, StepProblem* step) {
 void set_free_velocities(const Model& model, const State& state, const StepOptions& options,
                          ContactProblem* problem) {
   const int nb = model.num_free();
-  const VecX f = applied_forces(model, state, state.time + 0.5 * options.advance());
+  const VecX f = applied_forces(model, state, state.time + options.load_advance());
   problem->M.resize(nb);
   problem->v_star = state.v;
   for (int i = 0; i < nb; ++i) {
@@ -71,14 +72,18 @@ void set_contact_rows(const Model& model, const State& state, const ContactSet& 
 
     const JointLaw law = joint_law(model, contacts, contact, end);
     problem->mu[i] = law.mu;
-    if (model.joints.has_strength())
-      problem->strength[i] = {h * law.strength.tension, h * law.strength.cohesion,
-                              h * law.strength.compression};
+    StepBond bond;
+    if (model.joints.has_strength()) {
+      bond = bond_in_step(law, memory.joint);
+      problem->strength[i] = {h * bond.strength.tension, h * bond.strength.cohesion,
+                              h * bond.strength.compression};
+    }
     problem->E.segment<3>(3 * i) << law.compliance_normal, law.compliance_tangential,
         law.compliance_tangential;
     problem->E.segment<3>(3 * i) /= h * h_alpha;
 
-    const double excess = std::max(contact.gap - memory.elastic_gap, -options.recovery_speed * h_alpha);
+    const double excess =
+        std::max(contact.gap - bond.zero_gap - memory.elastic_gap, -options.recovery_speed * h_alpha);
     problem->b[3 * i] = (memory.elastic_gap + excess) / h_alpha;
     if (options.tangential == TangentialSpring::memory) {
       const Vec3 slip_C = R_WC.transpose() * (state.poses[contact.block_a].q_WB * memory.elastic_slip_A);
@@ -159,8 +164,9 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
   return step;
 }
 
-void update_memories(const StepProblem& step, const ContactSolution& solution, const State& state,
-                     const ContactSet& contacts, const StepOptions& options, ContactMemories* memories) {
+void update_memories(const Model& model, const StepProblem& step, const ContactSolution& solution,
+                     const State& state, const ContactSet& contacts, const StepOptions& options,
+                     ContactMemories* memories) {
   const ContactProblem& problem = step.problem;
   CUPOLA_ASSERT(solution.gamma.size() == 3 * problem.num_contacts());
   CUPOLA_ASSERT(static_cast<int>(memories->values.size()) == step.num_contacts);
@@ -173,9 +179,16 @@ void update_memories(const StepProblem& step, const ContactSolution& solution, c
     const Vec3 b = problem.b.segment<3>(3 * i) - step.support_velocity.segment<3>(3 * i);
     const Vec3 u_el = -(b + problem.E.segment<3>(3 * i).cwiseProduct(gamma));
     memory.impulse = gamma;
-    memory.elastic_gap = std::min(0.0, b[0] * (h + options.damping) + h * u_el[0]);
-    if (gamma[0] <= 0.0) memory.elastic_gap = 0.0;
-    memory.plastic_slip += gamma[0] > 0.0 ? h * (u.segment<2>(3 * i + 1) - u_el.tail<2>()).norm() : 0.0;
+    const double elastic_gap = b[0] * (h + options.damping) + h * u_el[0];
+    const bool is_pulled = gamma[0] < 0.0 && !problem.strength.empty();
+    memory.elastic_gap = is_pulled         ? std::max(0.0, elastic_gap)
+                         : gamma[0] <= 0.0 ? 0.0
+                                           : std::min(0.0, elastic_gap);
+    const bool carries_shear = gamma[0] > 0.0 || (!problem.strength.empty() && !gamma.tail<2>().isZero(0.0));
+    memory.plastic_slip += carries_shear ? h * (u.segment<2>(3 * i + 1) - u_el.tail<2>()).norm() : 0.0;
+    if (!problem.strength.empty())
+      add_inelastic_displacement(joint_law(model, contacts, contact, state.time + options.advance()),
+                                 h * (u.segment<3>(3 * i) - u_el), gamma, &memory.joint);
 
     const Vec3 slip_C = Vec3(0.0, b[1], b[2]) * (h + options.damping) + h * Vec3(0.0, u_el[1], u_el[2]);
     memory.elastic_slip_A =

@@ -19,6 +19,8 @@ struct StepOptions {
   std::optional<double> time_advance;
 
   double advance() const { return time_advance.value_or(h); }
+  /// From the start of the step to the time at which loads are evaluated: its middle, or the end of a static step.
+  double load_advance() const { return time_advance.value_or(0.5 * h); }
 };
 
 /// The contact problem of one step. The rows of the contacts come first, followed by three rows per tie.
@@ -38,7 +40,8 @@ Mat3 contact_frame(const Vec3& normal);
 ///     b_t    = elastic_slip / (h + alpha) + (D_s^T v_s)_t
 ///     E      = c / (h (h + alpha))
 ///
-/// with v_s the imposed velocity of the supports and c the compliance. A tie is a frictionless contact with
+/// with v_s the imposed velocity of the supports and c the compliance; the gap phi of joints with strength is measured from
+/// their inelastic displacements (joint_damage.hpp). A tie is a frictionless contact with
 /// phi = L0 - L. Differences from the paper:
 ///
 /// - Eq. 14 limits all of phi / h by the recovery speed eps_u, which limits the force of a compliant contact
@@ -46,7 +49,7 @@ Mat3 contact_frame(const Vec3& normal);
 /// - Eq. 14 has no elastic_slip, so that a sticking contact under a tangential force T creeps at c T / h.
 ///   TangentialSpring::literal is that scheme, TangentialSpring::memory includes elastic_slip.
 /// - Loads are evaluated in the middle of the step instead of at its start (eq. 10), so that their impulse is
-///   accurate to second order. Friction is evaluated at the end of the step.
+///   accurate to second order; those of a static step at its end. Friction is evaluated at the end of the step.
 StepProblem build_step_problem(const Model& model, const State& state, const ContactSet& contacts,
                                const ContactMemories& memories, const StepOptions& options);
 
@@ -55,9 +58,11 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
 ///     u    = D^T v + D_s^T v_s             relative velocity
 ///     u_el = u - (D^T v + b + E gamma)     its elastic part, equal to u while the contact sticks
 ///
-/// The gap and the slip of the springs change by h u_el. The rest of the tangential motion is plastic slip.
-void update_memories(const StepProblem& step, const ContactSolution& solution, const State& state,
-                     const ContactSet& contacts, const StepOptions& options, ContactMemories* memories);
+/// The gap and the slip of the springs change by h u_el. The rest of the tangential motion is plastic slip, and the rest of
+/// the motion of joints with strength adds to their damage.
+void update_memories(const Model& model, const StepProblem& step, const ContactSolution& solution,
+                     const State& state, const ContactSet& contacts, const StepOptions& options,
+                     ContactMemories* memories);
 
 /// Warm start of the solve: velocities at the start of the step and impulses of the last step.
 ContactSolution warm_start(const StepProblem& step, const State& state, const ContactMemories& memories);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -42,6 +43,28 @@ inline RealVec3 dense_contact_force(Real e_n, Real e_t, Real mu, const RealVec3&
   return a * ray;
 }
 
+/// The same for a contact with strength: the projection on |t| <= c + mu n, -T <= n <= F.
+inline RealVec3 dense_strong_force(Real e_n, Real e_t, Real mu, const ContactStrength& strength,
+                                   const RealVec3& y, RealMat3* stiffness) {
+  stiffness->setZero();
+  const Real c = strength.cohesion, low = -std::min(Real(strength.tension), mu > 0 ? c / mu : INFINITY);
+  const Real high = strength.compression, slip = y.tail<2>().norm(), n = -y[0] / e_n;
+  const Real held = std::min(std::max(n, low), high);
+  if (slip / e_t <= c + mu * held) {  // on a flat end, or inside
+    stiffness->diagonal() << (held == n ? 1 / e_n : 0), 1 / e_t, 1 / e_t;
+    return {held, -y[1] / e_t, -y[2] / e_t};
+  }
+  const Eigen::Matrix<Real, 2, 1> s = y.tail<2>() / slip, turn(-s[1], s[0]);
+  const Real k = 1 / (e_n + mu * mu * e_t), side = k * (mu * (slip - e_t * c) - y[0]);
+  const Real at = std::min(std::max(side, low), high);
+  if (at == side) {
+    const RealVec3 ray(1, -mu * s[0], -mu * s[1]);
+    *stiffness = k * ray * ray.transpose();
+  }
+  stiffness->bottomRightCorner<2, 2>() += (c + mu * at) / slip * turn * turn.transpose();
+  return {at, -(c + mu * at) * s[0], -(c + mu * at) * s[1]};
+}
+
 /// Impulses that solve D gamma + impulse = 0 with the contact law of `p`, to about 1e-15. Newton's method on
 /// the energy with a proximal term that shrinks. Throws if it does not converge.
 inline VecX dense_static_impulses(const ContactProblem& p, const VecX& impulse) {
@@ -67,7 +90,9 @@ inline VecX dense_static_impulses(const ContactProblem& p, const VecX& impulse) 
       RealVec3 y = b.segment<3>(3 * i);
       for_each_side(i, [&](int k) { y += D.block<6, 3>(k, 3 * i).transpose() * at.segment<6>(k); });
       RealMat3 g;
-      const RealVec3 f = dense_contact_force(p.E[3 * i], p.E[3 * i + 1], p.mu[i], y, &g);
+      const RealVec3 f = p.strength.empty()
+                             ? dense_contact_force(p.E[3 * i], p.E[3 * i + 1], p.mu[i], y, &g)
+                             : dense_strong_force(p.E[3 * i], p.E[3 * i + 1], p.mu[i], p.strength[i], y, &g);
       forces->segment<3>(3 * i) = f;
       for_each_side(i, [&](int k) { sum.segment<6>(k) -= D.block<6, 3>(k, 3 * i) * f; });
       if (!with_stiffness) continue;

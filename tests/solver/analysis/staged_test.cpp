@@ -42,6 +42,21 @@ StagedResult run(const Case& scene, const Assembly& assembly) {
   return result;
 }
 
+// The same with hardened joints that hold by cohesion, which the fresh bed does not have yet.
+TEST(Staged, TheFreshBedHasNoCohesion) {
+  const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 3, 2);
+  for (const double fresh : {0.29, 0.31}) {
+    Case scene = staged_case(0.1, fresh);
+    scene.loads.gravity = testing::tilted_gravity(0.3);
+    scene.joints.compliance.per = Compliance::Per::area;
+    scene.joints.strength.cohesion = 1e5;
+    scene.analysis.staged.critical_friction = false;
+    const StagedResult result = run(scene, wall);
+    ASSERT_EQ(result.rows.size(), 2U);
+    for (const auto& row : result.rows) EXPECT_EQ(row[3], fresh > 0.3 ? "equilibrium" : "moving") << fresh;
+  }
+}
+
 // A wall on a slope of 0.3: each course slides if the friction of the fresh mortar is below the slope.
 // Hardened joints hold.
 TEST(Staged, CriticalFreshFrictionEqualsTheSlope) {

@@ -149,6 +149,38 @@ TEST(StaticSolve, CertifiesTheForcesOfATowerOf200Blocks) {
   }
 }
 
+// The same for 20 random walls with strength, near enough to their limits that points yield in tension, shear and
+// compression.
+TEST(StaticSolve, CertifiedErrorBoundsTheTrueErrorOfRandomWallsWithStrength) {
+  int compared = 0, pulled = 0, crushed = 0;
+  for (unsigned seed = 1; compared < 20; ++seed) {
+    ASSERT_LT(seed, 60U);
+    RandomWall wall(seed);
+    wall.scene.joints.compliance.per = Compliance::Per::area;
+    wall.scene.joints.strength = {2e3, 3e3, 6e4};
+    wall.scene.loads.gravity.x() *= 4.0;
+    const Scene scene(wall.scene, wall.assembly);
+    for (const double tolerance : {1e-2, 1e-5, 1e-10}) {
+      const StaticSolution solution = scene.solve(tolerance);
+      if (solution.outcome == StaticOutcome::moving) break;
+      ASSERT_EQ(solution.outcome, StaticOutcome::equilibrium) << seed << ": " << solution.message;
+      ASSERT_TRUE(solution.certificate.force_error.value)
+          << seed << ": " << solution.certificate.force_error.bounds;
+      const VecX exact = testing::dense_static_impulses(
+          solution.step.problem, solution.h * applied_forces(scene.model, scene.rest, 0.0));
+      const double error = largest_wrench_error(scene.contacts, solution.step_solution.gamma, exact);
+      EXPECT_LE(error, *solution.certificate.force_error.value) << seed << " at " << tolerance;
+      compared += tolerance == 1e-10;
+      for (int i = 0; i < solution.step.num_contacts; ++i) {
+        pulled += exact[3 * i] <= -0.999 * solution.step.problem.strength[i].tension;
+        crushed += exact[3 * i] >= 0.999 * solution.step.problem.strength[i].compression;
+      }
+    }
+  }
+  EXPECT_GT(pulled, 10);
+  EXPECT_GT(crushed, 10);
+}
+
 // 50 random walls at three tolerances: true error <= certified error in every one, and certified
 // <= 100 times the true error or <= 1e-12 in most.
 TEST(StaticSolve, CertifiedErrorBoundsTheTrueErrorOfRandomWalls) {

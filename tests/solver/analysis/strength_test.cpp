@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "solver/analysis/analysis.hpp"
 #include "solver/analysis/static_solve.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
@@ -25,7 +26,8 @@ Case make_strong_case(const JointStrength& strength, int subdivide) {
 }
 
 /// A force (N) at (eccentricity, 0, 0) of the bed between a fixed block and one of kWidth x kDepth x 1 m.
-StaticOutcome outcome(const Vec3& force, double eccentricity, const JointStrength& strength, int subdivide) {
+StaticOutcome outcome(const Vec3& force, double eccentricity, const JointStrength& strength, int subdivide,
+                      FrictionLaw law = FrictionLaw::associated) {
   Case scene = make_strong_case(strength, subdivide);
   scene.loads.forces.push_back({BlockRef{1}, Vec3(eccentricity, 0, 0), force, {}});
   const Assembly assembly = testing::box_on_floor({kWidth, kDepth, 1.0});
@@ -34,6 +36,7 @@ StaticOutcome outcome(const Vec3& force, double eccentricity, const JointStrengt
   const ContactSet contacts = ContactDetector(assembly, detection_options(scene)).update(rest.poses);
   StaticOptions options;
   options.tolerance = 1e-6;
+  options.solve.law = law;
   return solve_static(model, rest, contacts, match_memories({}, contacts.points), options).outcome;
 }
 
@@ -73,14 +76,71 @@ TEST(StrengthStatics, EccentricityTendsToThatOfTheCompressedZone) {
   }
 }
 
-// Shear with full normal force in the middle: V = c A + mu N (plastic, point by point).
+// In a plane scene the points that differ only in y are merged between the faces, so that forces out of the plane balance;
+// divided joints have more than two of them on a line.
+TEST(StrengthStatics, PlaneScenesWithDividedJointsBalance) {
+  for (const int subdivide : {1, 2, 5}) {
+    Case scene = make_strong_case({.cohesion = 1e5}, subdivide);
+    scene.loads.gravity = testing::tilted_gravity(0.2);
+    scene.analysis.type = AnalysisType::static_;
+    scene.analysis.plane = true;
+    const Summary summary = run_static(scene, testing::box_on_floor({kWidth, kDepth, 0.4}), {});
+    EXPECT_EQ(summary.status, Status::stable) << subdivide << ": " << summary.message;
+  }
+}
+
+// Shear with full normal force in the middle: V = c A + mu N (plastic, point by point) under every flow rule.
 TEST(StrengthStatics, ShearIsCohesionPlusFriction) {
   const JointStrength strength{.cohesion = 2e5};
-  for (const double n : {0.0, 1e5}) {
-    const double limit = strength.cohesion * kArea + kFriction * n;
-    const auto stands = [&](double v) { return outcome({v, 0, -n}, 0.0, strength, 1); };
-    EXPECT_EQ(stands(0.999 * limit), StaticOutcome::equilibrium);
-    EXPECT_EQ(stands(1.001 * limit), StaticOutcome::moving);
+  for (const FrictionLaw law : {FrictionLaw::associated, FrictionLaw::coulomb}) {
+    for (const double n : {0.0, 1e5}) {
+      const double limit = strength.cohesion * kArea + kFriction * n;
+      const auto stands = [&](double v) { return outcome({v, 0, -n}, 0.0, strength, 1, law); };
+      EXPECT_EQ(stands(0.999 * limit), StaticOutcome::equilibrium) << to_string(law) << " " << n;
+      EXPECT_EQ(stands(1.001 * limit), StaticOutcome::moving) << to_string(law) << " " << n;
+    }
+  }
+}
+
+// Interaction of N, V and M on a bed of width t: with tension f the plastic stress blocks of a pull f over t - x and a push
+// F over x carry N = F b x - f b (t - x) at M = b x (t - x) (F + f) / 2; shear c A + mu N is independent of M
+// where mu > 0 and all points are at -f or F, if each point slides: |t| <= c + mu n holds point by point. The error of M is of
+// second order in the size of a piece, as that of the eccentricity.
+TEST(StrengthStatics, BendingTendsToThatOfThePlasticStressBlocks) {
+  const JointStrength strength{.tension = 1e5, .cohesion = 1e6, .compression = 5e5};
+  for (const int subdivide : {1, 2, 4, 8}) {
+    double largest_error = 0.0;
+    for (const double x : {0.23, 0.31, 0.47}) {  // m, compressed
+      const double n = kDepth * (strength.compression * x - strength.tension * (kWidth - x));
+      const double moment = 0.5 * kDepth * x * (kWidth - x) * (strength.compression + strength.tension);
+      const double exact = moment / n;
+      const double e = largest(0.0, 2.0 * exact, [&](double at) {
+        return outcome({0, 0, -n}, at, strength, subdivide);
+      });
+      largest_error = std::max(largest_error, std::abs(e / exact - 1.0));
+    }
+    EXPECT_LE(largest_error, 0.75 / (subdivide * subdivide)) << subdivide;
+  }
+}
+
+// The horizontal acceleration of the ground that makes a block slide is mu + c A / W, by bisection under both laws.
+TEST(StrengthStatics, CriticalAccelerationOfACohesiveBlock) {
+  const Assembly assembly = testing::box_on_floor({1.0, 0.5, 0.1});
+  const double weight = assembly.blocks[1].mass * testing::kG;
+  Case scene = make_strong_case({.cohesion = 0.3 * weight / kArea}, 1);
+  scene.loads.gravity = {0, 0, -testing::kG};
+  scene.analysis.type = AnalysisType::limit;
+  scene.analysis.tolerance = 1e-6;
+  scene.analysis.limit.parameter = LimitSearch::Parameter::acceleration;
+  scene.analysis.limit.method = LimitSearch::Method::bisection;
+  scene.analysis.limit.high = 2.0;
+  for (const FrictionLaw law : {FrictionLaw::associated, FrictionLaw::coulomb}) {
+    scene.analysis.friction_law = law;
+    const Summary summary = run_limit(scene, assembly, {}).value();
+    ASSERT_TRUE(summary.critical) << summary.message;
+    EXPECT_LE(summary.critical->stable, kFriction + 0.3 + 1e-6);  // tolerance of the equilibrium
+    EXPECT_GE(summary.critical->moving, kFriction + 0.3 - 1e-6);
+    EXPECT_NEAR(summary.critical->value, kFriction + 0.3, 1e-3) << "width of the bracket";
   }
 }
 

@@ -1,4 +1,4 @@
-#include "solver/analysis/support_path.hpp"
+#include "solver/analysis/equilibrium_path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,26 +6,46 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "solver/analysis/static_step.hpp"
+#include "solver/dynamics/joint_damage.hpp"
 
 namespace cupola {
 
-SupportPath::SupportPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options)
+EquilibriumPath::EquilibriumPath(const Model& model, const DetectionOptions& detection,
+                                 const StaticOptions& options)
     : model_(model), options_(options), detector_(*model.assembly, detection) {
   loaded_.state = state_at_rest(model_);
 }
 
-StaticSolution SupportPath::advance(double value) {
+StaticSolution EquilibriumPath::advance(double value) {
+  constexpr int kMostSolves = 200;  // a joint that breaks brittly breaks its neighbours one after the other
   start_ = loaded_.state;
   const ContactSet& contacts = detector_.update(start_.poses);
   memories_ = match_memories(loaded_.memories, contacts.points);
   options_.time_advance = value - start_.time;
-  StaticSolution solution = solve_static(model_, start_, contacts, memories_, options_);
+  if (model_.joints.has_strength()) begin_step(contacts, &memories_);
+  StaticSolution solution;
+  int iterations = 0;
+  bool again = true;
+  for (solves_ = 0; again && solves_ < kMostSolves; ++solves_) {
+    solution = solve_static(model_, start_, contacts, memories_, options_);
+    iterations += solution.iterations;
+    again = model_.joints.has_strength() && solution.outcome == StaticOutcome::equilibrium &&
+            refine_step(model_, start_, contacts, solution.step, solution.step_solution,
+                        static_step_options(options_, solution.h), &memories_);
+  }
+  solution.iterations = iterations;
+  if (again) {
+    solution.outcome = StaticOutcome::unconverged;
+    solution.message =
+        fmt::format("the damage of the joints still changed after {} solves of one step", solves_);
+  }
   if (solution.outcome == StaticOutcome::equilibrium)
     loaded_ = loaded_state(model_, start_, contacts, memories_, solution, options_);
   return solution;
 }
 
-Bracket follow(SupportPath* path, double low, double high, double relative_width,
+Bracket follow(EquilibriumPath* path, double low, double high, double relative_width,
                const std::function<bool(const LimitTrial&, const StaticSolution&)>& report) {
   constexpr int kFirstSteps = 40;  // each step is accurate to second order in its length
   constexpr double kGrowth = 1.5;  // after a step that found an equilibrium

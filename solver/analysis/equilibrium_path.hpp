@@ -6,19 +6,24 @@
 
 namespace cupola {
 
-/// Sequence of equilibria of a structure whose supports move slowly. The time is the factor on the support
-/// displacements. Each step detects the contacts anew and is a static solve from the last equilibrium.
-class SupportPath {
+/// Sequence of equilibria of a structure whose loads and supports change slowly in time. Each step detects the contacts anew
+/// and is a static solve from the last equilibrium; joints keep their slip, opening and damage. A step in which joints
+/// with strength break is solved until their damage is right (joint_damage.hpp).
+class EquilibriumPath {
  public:
-  SupportPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options);
+  EquilibriumPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options);
 
-  /// Static solve at `value`. If it finds an equilibrium the path advances to it; otherwise it stays.
+  /// Static solve at the time `value`. If it finds an equilibrium the path advances to it; otherwise it stays.
   StaticSolution advance(double value);
 
   double value() const { return loaded_.state.time; }
   const Model& model() const { return model_; }
   /// State at the start of the last step tried, and its contacts.
   const State& start() const { return start_; }
+  /// The last equilibrium.
+  const State& state() const { return loaded_.state; }
+  const StaticOptions& options() const { return options_; }
+  int solves() const { return solves_; }  ///< static solves of the last step tried
   const ContactSet& contacts() const { return detector_.contacts(); }
   const ContactMemories& memories() const { return memories_; }
 
@@ -29,12 +34,13 @@ class SupportPath {
   LoadedState loaded_;
   State start_;
   ContactMemories memories_;
+  int solves_ = 0;
 };
 
 /// Follows a path from `low`, at which the structure must stand, to `high`. The step is halved where no
 /// equilibrium is found, until it is below relative_width times the value. `report` receives every trial and
 /// returns false to abandon the search.
-Bracket follow(SupportPath* path, double low, double high, double relative_width,
+Bracket follow(EquilibriumPath* path, double low, double high, double relative_width,
                const std::function<bool(const LimitTrial&, const StaticSolution&)>& report);
 
 }  // namespace cupola

@@ -1,0 +1,66 @@
+#include "postproc/report/load_path.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "postproc/figures/plot_style.hpp"
+
+namespace cupola {
+
+Table path_table(const CsvFile& csv) {
+  Table t{"path", "Equilibria along the path of loads and support motions", {}, {}};
+  t.columns = {
+      {"time_s", "s", "to which loads, friction and supports follow their functions of time"},
+      {"displacement_m", "m", "of the control block along its direction"},
+      {"force_N", "N",
+       "along that direction: of a support on the blocks; of all loads, if the control block is free"},
+      {"dissipated_J", "J", "in the joints since the start: friction, tension, cohesion and crushing"},
+      {"mean_damage", "", "lost share of tension and cohesion, mean over the area of all joints"}};
+  const size_t time = csv.column("time_s"), displacement = csv.column("displacement_m");
+  const size_t force = csv.column("force_N"), work = csv.column("dissipated_J"),
+               damage = csv.column("mean_damage");
+  for (size_t row = 0; row < csv.rows.size(); ++row)
+    t.rows.push_back({csv.number(row, time), csv.number(row, displacement), csv.number(row, force),
+                      csv.number(row, work), csv.number(row, damage)});
+  return t;
+}
+
+Figure path_figure(const Table& path) {
+  double largest_force = 0.0, largest_displacement = 0.0, largest_work = 0.0;
+  std::vector<std::array<double, 3>> points;
+  for (const auto& row : path.rows) {
+    const double u = std::get<double>(row[1]), force = std::get<double>(row[2]),
+                 work = std::get<double>(row[3]);
+    points.push_back({u, force, work});
+    largest_displacement = std::max(largest_displacement, std::abs(u));
+    largest_force = std::max(largest_force, std::abs(force));
+    largest_work = std::max(largest_work, work);
+  }
+  const ForceUnit unit = force_unit(largest_force);
+  const bool metres = largest_displacement >= 1.0, kilojoules = largest_work >= 1e3;
+  std::vector<std::vector<double>> rows;
+  for (const auto& [u, force, work] : points)
+    rows.push_back({(metres ? 1.0 : 1e3) * u, unit.per_newton * force, (kilojoules ? 1e-3 : 1.0) * work});
+  Figure f;
+  f.name = "path";
+  f.title = "Force against displacement";
+  f.caption =
+      "Every point is an equilibrium. Force and displacement are those of the control block of the case "
+      "along its "
+      "direction; the work is that dissipated in the joints.";
+  f.width = 900;
+  f.height = 620;
+  f.commands = plot_style() + data_block("path", rows) +
+               fmt::format(
+                   "set multiplot layout 2,1 margins 0.11,0.97,0.10,0.97 spacing 0.06\nunset key\n"
+                   "set ylabel 'force ({2})'\nplot $path using 1:2 w lp lc rgb '{0}' pt 7 ps 0.4 lw 2\n"
+                   "set ylabel 'dissipated ({4})'\nset xlabel 'displacement ({3})'\n"
+                   "plot $path using 1:3 w l lc rgb '{1}' lw 2\nunset multiplot\n",
+                   kBlue, kOrange, unit.name, metres ? "m" : "mm", kilojoules ? "kJ" : "J");
+  return f;
+}
+
+}  // namespace cupola

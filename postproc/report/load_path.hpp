@@ -1,0 +1,15 @@
+#pragma once
+
+#include "postproc/figures/gnuplot.hpp"
+#include "postproc/tables/csv_file.hpp"
+#include "postproc/tables/table.hpp"
+
+namespace cupola {
+
+/// The equilibria of a path (results/path.csv).
+Table path_table(const CsvFile& csv);
+
+/// Force against displacement of the control block, and the work dissipated in the joints.
+Figure path_figure(const Table& path);
+
+}  // namespace cupola

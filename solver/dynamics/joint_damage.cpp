@@ -1,0 +1,108 @@
+#include "solver/dynamics/joint_damage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assembly/base/error.hpp"
+
+namespace cupola {
+namespace {
+
+/// Of the fracture energy: error of a solve whose step damage is wrong by this.
+constexpr double kDamageError = 5e-4;
+
+/// m. Smaller displacements are left for the next step, whose inelastic displacement includes them.
+constexpr double kRounding = 1e-12;
+
+/// m. A brittle joint breaks beyond it: above the rounding of positions, below what matters.
+constexpr double kBreaks = 1e-9;
+
+double over_length(double displacement, double length) {
+  if (length == 0.0) return displacement > kBreaks ? std::numeric_limits<double>::infinity() : 0.0;
+  return displacement / length;
+}
+
+/// Increase of the damage, not limited to what is left.
+double added_damage(const JointLaw& law, const Vec3& displacement, const Vec3& gamma,
+                    const JointDamage& joint) {
+  if (law.strength.tension == 0.0 && law.strength.cohesion == 0.0) return 0.0;
+  const StepBond bond = bond_in_step(law, joint);
+  const bool no_tension = law.strength.tension == 0.0;  // open joints lose their cohesion if they are brittle
+  const bool opens =
+      displacement[0] > 0.0 && (bond.strength.tension > 0.0 ? gamma[0] < 0.0 : no_tension && gamma[0] <= 0.0);
+  const double opening = opens ? over_length(displacement[0], law.crack.opening) : 0.0;
+  const double slip = over_length(displacement.tail<2>().norm(), law.crack.slip);
+  return std::hypot(opening, slip);
+}
+
+/// Mean of min(1, damage + s added) over s from 0 to 1.
+double mean_damage(double damage, double added) {
+  if (damage + added <= 1.0) return damage + 0.5 * added;
+  return 1.0 - 0.5 * (1.0 - damage) * (1.0 - damage) / added;
+}
+
+}  // namespace
+
+StepBond bond_in_step(const JointLaw& law, const JointDamage& joint) {
+  // Not zero: a contact without any push would not be a contact.
+  constexpr double kNoPush = 1e-200;  // N
+  const double left = 1.0 - joint.step_damage;
+  StepBond bond{{left * law.strength.tension, left * law.strength.cohesion, law.strength.compression},
+                -joint.crushing};
+  if (joint.opening == 0.0 || bond.strength.tension == 0.0) return bond;
+  if (joint.bears) {
+    bond.strength.tension = 0.0;
+  } else {
+    bond.strength.compression = kNoPush;
+    bond.zero_gap += joint.opening;
+  }
+  return bond;
+}
+
+void begin_step(const ContactSet& contacts, ContactMemories* memories) {
+  for (size_t i = 0; i < contacts.points.size(); ++i) {
+    JointDamage& joint = memories->values[i].joint;
+    joint.step_damage = joint.damage;
+    joint.bears = contacts.points[i].gap + joint.crushing < joint.opening;
+  }
+}
+
+Vec3 inelastic_velocity(const ContactProblem& problem, int i, const ContactSolution& solution) {
+  return relative_velocity(problem, i, solution.v) + problem.b.segment<3>(3 * i) +
+         problem.E.segment<3>(3 * i).cwiseProduct(solution.gamma.segment<3>(3 * i));
+}
+
+bool refine_step(const Model& model, const State& state, const ContactSet& contacts, const StepProblem& step,
+                 const ContactSolution& solution, const StepOptions& options, ContactMemories* memories) {
+  const double end = state.time + options.advance();
+  std::vector<JointDamage> refined;
+  bool again = false;
+  for (int i = 0; i < step.num_contacts; ++i) {
+    JointDamage joint = memories->values[i].joint;
+    const Contact& contact = contacts.points[i];
+    const JointLaw law = joint_law(model, contacts, contact, end);
+    const Vec3 gamma = solution.gamma.segment<3>(3 * i);
+    const Vec3 displacement = options.h * inelastic_velocity(step.problem, i, solution);
+    const double mean = mean_damage(joint.damage, added_damage(law, displacement, gamma, joint));
+    again = again || mean > joint.step_damage + kDamageError;
+    joint.step_damage = std::max(joint.step_damage, mean);
+    const bool pulled = joint.opening > 0.0 && !joint.bears && joint.step_damage < 1.0;
+    const double u_n = relative_velocity(step.problem, i, solution.v)[0] + step.support_velocity[3 * i];
+    if (pulled && contact.gap + joint.crushing + options.h * u_n < 0.0) again = joint.bears = true;
+    refined.push_back(joint);
+  }
+  if (!again) return false;
+  for (size_t i = 0; i < refined.size(); ++i) memories->values[i].joint = refined[i];
+  return true;
+}
+
+void add_inelastic_displacement(const JointLaw& law, const Vec3& displacement, const Vec3& gamma,
+                                JointDamage* joint) {
+  const double added = added_damage(law, displacement, gamma, *joint);
+  if (gamma[0] < 0.0 && displacement[0] > kRounding) joint->opening += displacement[0];
+  if (gamma[0] > 0.0 && displacement[0] < -kRounding) joint->crushing -= displacement[0];
+  joint->damage = joint->step_damage == 1.0 ? 1.0 : std::min(1.0, joint->damage + added);
+}
+
+}  // namespace cupola

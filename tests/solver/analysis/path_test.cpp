@@ -1,0 +1,228 @@
+#include <cmath>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "tests/solver/motion_scenes.hpp"
+
+// Equilibria along a path of loads or support motions.
+
+namespace cupola::path_test {
+namespace {
+
+constexpr double kCompliance = 1e-11;             // m3/N
+constexpr FractureEnergy kEnergy{20.0, 100.0};    // N/m
+constexpr JointStrength kStrength{2.5e5, 3.5e5};  // Pa
+
+struct PathResult {
+  Summary summary;
+  std::vector<Frame> frames;
+  std::vector<std::vector<double>>
+      rows;  // of path.csv: time, displacement, force, dissipated, damage, solves
+
+  double largest_force() const {
+    double largest = 0.0;
+    for (const auto& row : rows) largest = std::max(largest, std::abs(row[2]));
+    return largest;
+  }
+};
+
+PathResult run(const Case& scene, const Assembly& assembly) {
+  PathResult result;
+  std::string table;
+  AnalysisSinks sinks;
+  sinks.frame = [&](const Frame& frame) { result.frames.push_back(frame); };
+  sinks.table = [&](const std::string& name, const std::string& text) {
+    EXPECT_EQ(name, "path.csv");
+    table = text;
+  };
+  result.summary = run_path(scene, assembly, sinks).value();
+  std::istringstream lines(table);
+  std::string line, cell;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    result.rows.emplace_back();
+    std::istringstream cells(line);
+    while (std::getline(cells, cell, ',')) result.rows.back().push_back(std::stod(cell));
+  }
+  return result;
+}
+
+/// Two blocks of 1 x 0.5 x 0.2 m, bonded so strongly to a floor and to a support above that only the bed between them
+/// breaks. Blocks: floor, lower, upper, support.
+Assembly couplet() {
+  return testing::make_boxes({{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true},
+                              {.center = {0, 0, 0.1}, .size = {1, 0.5, 0.2}, .ring = 0},
+                              {.center = {0, 0, 0.3}, .size = {1, 0.5, 0.2}, .ring = 1},
+                              {.center = {0, 0, 0.5}, .size = {1, 0.5, 0.2}, .fixed = true}});
+}
+constexpr double kArea = 0.5;                           // m2
+constexpr double kWeight = 0.1 * 1000.0 * testing::kG;  // N, of a block; the residual is relative to it
+
+Case couplet_case(int steps) {
+  Case scene = testing::make_case(0.75, 0.0, 0.01);
+  scene.joints.compliance = {kCompliance, kCompliance, Compliance::Per::area};
+  scene.joints.strength = kStrength;
+  scene.joints.failure = JointFailure::softening;
+  scene.joints.fracture_energy = kEnergy;
+  scene.joints.base.emplace();
+  scene.joints.base->tension = scene.joints.base->cohesion = 1e9;
+  scene.analysis.type = AnalysisType::path;
+  scene.analysis.friction_law = FrictionLaw::coulomb;
+  scene.analysis.tolerance = 1e-6;
+  scene.analysis.path.steps = steps;
+  scene.analysis.path.control = LoadPath::Control{BlockRef{3}, Vec3::UnitX()};
+  return scene;
+}
+
+// Double cantilever: the support turns about an axis 0.5 m beside the joint, which opens to three to one. The work
+// dissipated is the fracture energy, whatever the number of steps.
+TEST(Path, ADoubleCantileverDissipatesItsFractureEnergy) {
+  const Assembly assembly = couplet();
+  for (const int steps : {7, 20, 50}) {
+    Case scene = couplet_case(steps);
+    const double broken = 2.0 * kEnergy.tension / kStrength.tension;  // m, opening
+    scene.supports.moves.push_back({.blocks = {BlockRef{3}},
+                                    .rotation_deg = {0, -2.0 * broken / 0.5 * 180.0 / M_PI, 0},
+                                    .pivot = {-1, 0, 0.2},
+                                    .time = RampInTime{}});
+    scene.analysis.path.control->direction = Vec3::UnitZ();
+    const PathResult result = run(scene, assembly);
+    ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
+    EXPECT_NEAR(result.rows.back()[3], kEnergy.tension * kArea, 0.01 * kEnergy.tension * kArea) << steps;
+    EXPECT_NEAR(result.rows.back()[2], kWeight, 1e-3 * kWeight) << "broken";
+    double opening = 0.0, damage = 1.0;
+    for (int i = 0; i < result.frames.back().contacts.size(); ++i) {
+      if (result.frames.back().contacts.kind[i] != JointKind::bed) continue;
+      opening = std::max(opening, result.frames.back().contacts.crack_opening[i]);
+      damage = std::min(damage, result.frames.back().contacts.damage[i]);
+    }
+    EXPECT_EQ(damage, 1.0);
+    EXPECT_NEAR(opening, 3 * 2.0 * broken, 1e-3 * broken);  // joints that carry nothing have no elongation
+  }
+}
+
+// Couplet (half a triplet) in shear: the work beyond friction is the fracture energy, and the largest force c A + mu N up to
+// the softening within a step. Without normal force and with one that the support keeps.
+TEST(Path, AShearedCoupletDissipatesItsFractureEnergy) {
+  const Assembly assembly = couplet();
+  for (const double pressure : {0.0, 2e5}) {
+    for (const int steps : {7, 20, 50}) {
+      Case scene = couplet_case(steps);
+      const double broken = 2.0 * kEnergy.shear / kStrength.cohesion;  // m, slip
+      scene.supports.moves.push_back({.blocks = {BlockRef{3}},
+                                      .displacement = {0, 0, -3 * kCompliance * pressure},
+                                      .time = RampInTime{.duration = 1e-9}});
+      scene.supports.moves.push_back(
+          {.blocks = {BlockRef{3}}, .displacement = {1.5 * broken, 0, 0}, .time = RampInTime{}});
+      const PathResult result = run(scene, assembly);
+      ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
+      double friction = 0.0, friction_work = 0.0, last = 0.0;
+      for (const Frame& frame : result.frames) {
+        double slip = 0.0;
+        friction = 0.0;
+        for (int i = 0; i < frame.contacts.size(); ++i) {
+          if (frame.contacts.kind[i] != JointKind::bed) continue;
+          slip += frame.contacts.area[i] / kArea * frame.contacts.slip[i];
+          friction += 0.75 * frame.contacts.normal_force[i];
+        }
+        friction_work += friction * (slip - last);
+        last = slip;
+      }
+      EXPECT_NEAR(friction, 0.75 * pressure * kArea, 0.75 * kWeight);
+      const double energy = kEnergy.shear * kArea;
+      EXPECT_NEAR(result.rows.back()[3] - friction_work, energy, 0.01 * energy) << steps << " " << pressure;
+      EXPECT_NEAR(result.rows.back()[2], friction, 1e-3 * kStrength.cohesion * kArea);
+      EXPECT_LE(result.largest_force(), 1.001 * (kStrength.cohesion * kArea + friction));
+      if (steps == 50) {
+        EXPECT_GE(result.largest_force(), 0.97 * (kStrength.cohesion * kArea + friction));
+      }
+    }
+  }
+}
+
+// A joint opened to half of its damage, closed again and opened again: it closes without force until its faces touch,
+// pushes elastically, and pulls again from where it stopped, with half of its strength.
+TEST(Path, ACrackClosesAndOpensAgain) {
+  Case scene = couplet_case(60);
+  const double broken = 2.0 * kEnergy.tension / kStrength.tension;
+  scene.supports.moves.push_back({.blocks = {BlockRef{3}},
+                                  .displacement = {0, 0, 0.5 * broken},
+                                  .time = TableInTime{"", {0, 1, 2, 3}, {0, 1, -0.01, 1.5}}});
+  scene.analysis.path.end = 3.0;
+  scene.analysis.path.control->direction = Vec3::UnitZ();
+  const PathResult result = run(scene, couplet());
+  ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
+  const double pull = kStrength.tension * kArea;
+  double at_one = 0.0, closed = 0.0, reopened = 0.0, halfway = 0.0;
+  for (const auto& row : result.rows) {
+    if (std::abs(row[0] - 1.0) < 1e-6) at_one = row[2];
+    if (std::abs(row[0] - 1.5) < 1e-6) halfway = row[2];
+    if (std::abs(row[0] - 2.0) < 1e-6) closed = row[2];
+    if (row[0] > 2.0) reopened = std::max(reopened, row[2]);
+  }
+  // The strength is the mean over the last of 20 steps to half the opening, less the elongation of three joints.
+  const double elastic = 3 * kCompliance * kStrength.tension / broken;
+  EXPECT_NEAR(at_one, (0.5 + 0.5 * 0.5 / 20) / (1 - elastic) * pull + kWeight, 0.003 * pull);
+  EXPECT_NEAR(halfway, kWeight, 1e-3 * kWeight);
+  EXPECT_NEAR(closed, kWeight - 0.005 * broken / (3 * kCompliance) * kArea, 1e-3 * pull);
+  EXPECT_NEAR(reopened, 0.5 * pull, 0.05 * pull);
+  for (size_t k = 1; k < result.rows.size(); ++k) EXPECT_GE(result.rows[k][3], result.rows[k - 1][3] - 1e-9);
+}
+
+/// Largest shear that a bed under N at a third of its width carries, over c A, by a force that grows in `steps`.
+double shear_over_cohesion(JointFailure failure, int steps) {
+  const double cohesion = 1e5, normal = 2e4;
+  Case scene = testing::make_case(0.0, 0.0, 0.01);
+  scene.joints.compliance = {1e-10, 1e-10, Compliance::Per::area};
+  scene.joints.strength = {.cohesion = cohesion};
+  scene.joints.failure = failure;
+  scene.contact.subdivide = 8;
+  scene.loads.gravity.setZero();
+  const double middle = failure == JointFailure::plastic ? 0.0 : 0.25;  // of what bears: no torsion
+  scene.loads.forces.push_back({BlockRef{1}, Vec3(1.0 / 3, 0, 0), Vec3(0, 0, -normal), {}});
+  scene.loads.forces.push_back(
+      {BlockRef{1}, Vec3(middle, 0, 0), Vec3(0, 1.1 * cohesion * kArea, 0), RampInTime{}});
+  scene.analysis.type = AnalysisType::path;
+  scene.analysis.tolerance = 1e-6;
+  scene.analysis.path.steps = steps;
+  scene.analysis.path.control = LoadPath::Control{BlockRef{1}, Vec3::UnitY()};
+  const PathResult result = run(scene, testing::box_on_floor({1.0, 0.5, 0.2}));
+  EXPECT_EQ(result.summary.status, Status::moving) << result.summary.message;
+  return result.largest_force() / (cohesion * kArea);
+}
+
+// Without friction and under N at e = t/3, a brittle bed carries c on its compressed half, 3 (t/2 - e), while a plastic one
+// carries c everywhere. Eight pieces place the edge of the compressed zone to 1/8.
+TEST(Path, BrittleCohesionCountsOnTheCompressedAreaOnly) {
+  EXPECT_NEAR(shear_over_cohesion(JointFailure::plastic, 20), 1.0, 0.01);
+  EXPECT_NEAR(shear_over_cohesion(JointFailure::brittle, 20), 0.5, 0.0625);
+}
+
+// Under a growing load the path ends where no equilibrium exists: the block slides at mu W.
+TEST(Path, EndsWhereNoEquilibriumExists) {
+  Case scene = testing::make_case(0.4, 1e-8, 0.01);
+  const Assembly assembly = testing::box_on_floor({1.0, 1.0, 0.2});
+  const double weight = assembly.blocks[1].mass * testing::kG;
+  scene.loads.forces.push_back({BlockRef{1}, Vec3(0, 0, 0), Vec3(weight, 0, 0), RampInTime{}});
+  scene.analysis.type = AnalysisType::path;
+  scene.analysis.tolerance = 1e-8;
+  scene.analysis.path.steps = 10;
+  scene.analysis.path.control = LoadPath::Control{BlockRef{1}, Vec3::UnitX()};
+  const PathResult result = run(scene, assembly);
+  EXPECT_EQ(result.summary.status, Status::moving);
+  EXPECT_NE(result.summary.message.find("the path ends at"), std::string::npos) << result.summary.message;
+  EXPECT_NEAR(result.largest_force(), 0.4 * weight, 0.1 / 64 * weight) << "the shortest step";
+  EXPECT_EQ(result.frames.size(), result.rows.size());
+}
+
+TEST(Path, RefusesAControlBlockThatDoesNotExist) {
+  Case scene = couplet_case(5);
+  scene.analysis.path.control->block = BlockRef{7};
+  EXPECT_THROW(run(scene, couplet()), InputError);
+}
+
+}  // namespace
+}  // namespace cupola::path_test
