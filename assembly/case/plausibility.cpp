@@ -184,15 +184,36 @@ void add_analysis_checks(const Case& scene, std::vector<PlausibleRange>* checks)
                        "in mm or cm? Multiply direction by 0.001 or 0.01"});
 }
 
-/// Tension that the joints never reach, because friction is exhausted before.
-std::optional<std::string> unused_tension(const Joints& joints) {
-  const JointStrength& strength = joints.strength;
-  if (joints.friction == 0.0 || strength.tension <= strength.cohesion / joints.friction) return std::nullopt;
+/// Tension that joints never reach, because friction is exhausted before. `key` ends in a dot.
+std::optional<std::string> unused_tension(const std::string& key, double friction, double cohesion,
+                                          double tension) {
+  if (friction == 0.0 || tension <= cohesion / friction) return std::nullopt;
   return fmt::format(
-      "joints.tension = {:g} Pa exceeds cohesion / friction = {:g} Pa, at which a joint has no shear "
-      "strength left; "
-      "the smaller value applies",
-      strength.tension, strength.cohesion / joints.friction);
+      "{}tension = {:g} Pa exceeds cohesion / friction = {:g} Pa, at which a joint has no shear "
+      "strength left; the smaller value applies",
+      key, tension, cohesion / friction);
+}
+
+/// Of all joints, and of those groups whose own law causes it.
+std::vector<std::string> unused_tensions(const Joints& joints) {
+  const JointStrength& all = joints.strength;
+  std::vector<std::string> found;
+  const auto add = [&](const std::string& key, const JointLawChange& law) {
+    const bool own = law.friction || law.cohesion || law.tension;
+    const auto unused =
+        unused_tension(key, law.friction.value_or(joints.friction), law.cohesion.value_or(all.cohesion),
+                       law.tension.value_or(all.tension));
+    if (own && unused) found.push_back(*unused);
+  };
+  if (const auto unused = unused_tension("joints.", joints.friction, all.cohesion, all.tension))
+    found.push_back(*unused);
+  for (const auto& [key, law] :
+       {std::pair("bed", &joints.bed), std::pair("head", &joints.head),
+        std::pair("herringbone", &joints.herringbone), std::pair("base", &joints.base)})
+    if (*law) add(fmt::format("joints.{}.", key), **law);
+  for (size_t i = 0; i < joints.rings.size(); ++i)
+    add(fmt::format("joints.rings[{}].", i), joints.rings[i].law);
+  return found;
 }
 
 }  // namespace
@@ -205,7 +226,7 @@ std::vector<std::string> implausible_values(const Case& scene) {
   add_load_checks(scene, &checks);
   add_analysis_checks(scene, &checks);
   std::vector<std::string> warnings = sentences(checks);
-  if (const auto unused = unused_tension(scene.joints)) warnings.push_back(*unused);
+  for (std::string& unused : unused_tensions(scene.joints)) warnings.push_back(std::move(unused));
   return warnings;
 }
 

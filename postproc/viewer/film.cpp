@@ -28,6 +28,7 @@ void append_vector(const Vec3& v, std::vector<double>* numbers) {
 Film::Kind kind_of(const Evaluation& e) {
   switch (e.summary.analysis) {
     case AnalysisType::dynamic:
+    case AnalysisType::path:
       return Film::Kind::motion;
     case AnalysisType::staged:
       return Film::Kind::stages;

@@ -171,8 +171,9 @@ double fine_step(double step, double largest) {
 
 std::string frame_label(const Evaluation& e, double time) {
   if (e.summary.analysis == AnalysisType::staged) return fmt::format("course {:g} laid", time);
-  return e.summary.analysis == AnalysisType::dynamic ? fmt::format("{:.3f} s", time)
-                                                     : fmt::format("step {:g}", time);
+  const bool in_time =
+      e.summary.analysis == AnalysisType::dynamic || e.summary.analysis == AnalysisType::path;
+  return in_time ? fmt::format("{:.3f} s", time) : fmt::format("step {:g}", time);
 }
 
 Json add_film(const Evaluation& e, const Film& film, const Lattice& lattice, PackedArrays* arrays) {

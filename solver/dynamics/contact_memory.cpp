@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "assembly/base/error.hpp"
@@ -57,13 +58,15 @@ ContactMemories match_memories(const ContactMemories& old, const std::vector<Con
   matched.as_built = false;
   std::map<ContactId, size_t> index;  // of the old contacts
   for (size_t i = 0; i < old.ids.size(); ++i) index.emplace(old.ids[i], i);
-  const PatchDamage damage(old);
+  std::optional<PatchDamage> damage;
   for (size_t i = 0; i < contacts.size(); ++i) {
     const auto found = index.find(contacts[i].id);
-    if (found != index.end())
+    if (found != index.end()) {
       matched.values[i] = old.values[found->second];
-    else
-      matched.values[i].joint.damage = damage.at(contacts[i].id);
+    } else {
+      if (!damage) damage.emplace(old);
+      matched.values[i].joint.damage = damage->at(contacts[i].id);
+    }
     matched.ids.push_back(contacts[i].id);
   }
   return matched;
