@@ -33,7 +33,10 @@ Frame two_block_frame(double time) {
     c.area.push_back(1.0 / 7.0);
     c.slip.push_back(1e-12 * i);
     c.law_violation.push_back(1e-9 / 3.0 * i);
-    if (time > 0.0) c.strength_use.push_back(0.3 * i);  // frames of dry joints have none
+    if (time == 0.0) continue;  // frames of dry joints have none of what follows
+    c.strength_use.push_back(0.3 * i);
+    c.damage.push_back(i / 3.0);
+    c.crack_opening.push_back(1e-4 / 3.0 * i);
   }
   for (int b = 0; b < 3; ++b) {
     frame.blocks.position.emplace_back(b, 1.0 / 3.0, time);
@@ -81,6 +84,8 @@ void expect_equal(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.contacts.slip, b.contacts.slip);
   EXPECT_EQ(a.contacts.law_violation, b.contacts.law_violation);
   EXPECT_EQ(a.contacts.strength_use, b.contacts.strength_use);
+  EXPECT_EQ(a.contacts.damage, b.contacts.damage);
+  EXPECT_EQ(a.contacts.crack_opening, b.contacts.crack_opening);
   EXPECT_EQ(a.blocks.position, b.blocks.position);
   EXPECT_EQ(a.blocks.quaternion_wxyz, b.blocks.quaternion_wxyz);
   EXPECT_EQ(a.blocks.velocity, b.blocks.velocity);
