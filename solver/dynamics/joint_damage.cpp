@@ -101,7 +101,8 @@ void add_inelastic_displacement(const JointLaw& law, const Vec3& displacement, c
                                 JointDamage* joint) {
   const double added = added_damage(law, displacement, gamma, *joint);
   if (gamma[0] < 0.0 && displacement[0] > kRounding) joint->opening += displacement[0];
-  if (gamma[0] > 0.0 && displacement[0] < -kRounding) joint->crushing -= displacement[0];
+  const bool pushes = bond_in_step(law, *joint).strength.compression == law.strength.compression;
+  if (pushes && gamma[0] > 0.0 && displacement[0] < -kRounding) joint->crushing -= displacement[0];
   joint->damage = joint->step_damage == 1.0 ? 1.0 : std::min(1.0, joint->damage + added);
 }
 
