@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "solver/analysis/static_step.hpp"
 #include "solver/dynamics/joint_damage.hpp"
@@ -38,7 +39,7 @@ StaticSolution EquilibriumPath::advance(double value) {
   if (again) {
     solution.outcome = StaticOutcome::unconverged;
     solution.message =
-        fmt::format("the damage of the joints still changed after {} solves of one step", solves_);
+        fmt::format("the damage of the joints still changed after {} of one step", counted(solves_, "solve"));
   }
   if (solution.outcome == StaticOutcome::equilibrium)
     loaded_ = loaded_state(model_, start_, contacts, memories_, solution, options_);
