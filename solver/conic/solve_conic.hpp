@@ -19,7 +19,9 @@ namespace cupola {
 ///
 /// The error of an iterate is the largest of its equilibrium residual, its dual residual and its gap (over the
 /// larger of 1 and the objective), in scaled units: forces over the largest load of a block, the objective over
-/// its largest coefficient. Redundant contacts and dependent equilibrium rows are admitted. Throws std::invalid_argument for sizes that do not match, and Interrupted.
+/// its largest coefficient. Redundant contacts and dependent equilibrium rows are admitted.
+/// Joints with strength are cones with limits (dry_problem.hpp), which the normal equations absorb (normal_limits.hpp).
+/// Throws std::invalid_argument for sizes that do not match, and Interrupted.
 ConicSolution solve_conic(const ConicProblem& problem, const ConicOptions& options = {});
 
 }  // namespace cupola
