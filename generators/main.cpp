@@ -2,12 +2,14 @@
 //
 // Sample runs:
 //   cupola-generate cases/dome_circular.yaml --output assembly.vtu
+//   cupola-generate cases/dome_circular.yaml --output assembly.vtu --export dome.gltf
 //   cupola-generate cases/dome_circular.yaml --output thin.vtu --set geometry.surface.thickness=1.1
 
 #include <filesystem>
 
 #include <fmt/format.h>
 
+#include "assembly/export/export.hpp"
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/program/command_line.hpp"
@@ -27,17 +29,21 @@ void make_parent(const std::string& file) {
 
 ExitCode generate_assembly(int argc, char** argv) {
   // 1. Read the command line
-  std::string output, report_file, bond_map_file, contacts_file;
+  std::string output, export_file, report_file, bond_map_file, contacts_file;
   CommandLine line("cupola-generate", "Cuts the vault of a case into rigid blocks and checks them.",
                    "  cupola-generate dome.yaml --output assembly.vtu\n"
                    "  cupola-generate dome.yaml --output thin.vtu --set geometry.surface.thickness=1.1");
   line.required("--output", &output, "FILE", "assembly to write (.vtu)");
+  line.optional("--export", &export_file, "FILE",
+                std::string("the blocks for another program: ") + kExportFormats);
   line.optional("--report", &report_file, "FILE", "stereotomy report to write (.json for JSON, else text)");
   line.optional("--bond-map", &bond_map_file, "FILE", "drawing of the unrolled bond to write (.svg)");
   line.optional(
       "--contacts", &contacts_file, "FILE",
       "contact points to write from the interfaces of an imported file (.csv, for contact.method: file)");
   if (const auto ended = line.parse(argc, argv)) return *ended;
+
+  if (!export_file.empty()) check_export_path(export_file);
 
   // 2. Read the case
   const Case scene = line.read_case();
@@ -52,6 +58,7 @@ ExitCode generate_assembly(int argc, char** argv) {
   // 4. Write the files
   make_parent(output);
   write_assembly(output, assembly, scene.effective_yaml);
+  if (!export_file.empty()) write_export(export_file, {assembly, {}, {}});
   if (!report_file.empty()) {
     make_parent(report_file);
     write_text_atomically(report_file, report_file.ends_with(".json") ? report_json(assembly, report)

@@ -8,15 +8,12 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
-#include "assembly/case/plausibility.hpp"
-#include "assembly/files/assembly_file.hpp"
 #include "assembly/files/atomic_file.hpp"
-#include "assembly/files/content_hash.hpp"
-#include "assembly/model/block_names.hpp"
 #include "assembly/program/warnings.hpp"
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/figures.hpp"
-#include "postproc/pictures/paraview_views.hpp"
+#include "postproc/pictures/paraview.hpp"
+#include "postproc/pictures/pictures.hpp"
 #include "postproc/report/load_path.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/report/stages.hpp"
@@ -107,25 +104,9 @@ void write_meshes(const Evaluation& e, const std::string& folder) {
   write_mesh(in_folder(folder, "cracks.vtp"), cracks_mesh(e));
 }
 
-/// Throws InputError if the assembly or the results belong to another case, unless --force is given.
-void check_provenance(const AnalyseRequest& request, const Assembly& assembly, const Summary& summary) {
-  if (request.force) return;
-  if (assembly.geometry_hash != request.scene.geometry_hash)
-    throw InputError(FileLocation{request.assembly_path},
-                     fmt::format("was generated from another case: geometry or material differ from {}. "
-                                 "Generate it again, or pass --force to accept it",
-                                 request.scene.file));
-  if (summary.case_hash != request.scene.hash)
-    throw InputError(FileLocation{request.results_folder},
-                     fmt::format("was solved from another case: loads, joints or analysis differ from {}. "
-                                 "Solve it again, or pass --force to accept it",
-                                 request.scene.file));
-}
-
 struct Drawn {
   std::string viewer;  ///< the 3-D view, as HTML
   std::vector<Figure> figures;
-  std::vector<Picture> pictures;
 };
 
 /// Writes meshes for ParaView, figures and pictures. `own`: the figure that only this type of analysis has. Figures that cannot be drawn become warnings.
@@ -135,13 +116,19 @@ Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const st
   Film film(*e);
   const std::vector<Shot> shots = write_frames(results, folder, e, &film);
   write_meshes(*e, folder);
-  Drawn drawn{viewer_html(*e, film), result_figures(*e, history, shots), {}};
+  Drawn drawn{viewer_html(*e, film), result_figures(*e, history, shots)};
   if (own) drawn.figures.insert(drawn.figures.begin(), *own);
   for (std::string& problem : draw_figures(in_folder(folder, "figures"), drawn.figures))
     e->warnings.push_back(std::move(problem));
-  write_views(folder);
-  if (!request.pvbatch.empty())
-    drawn.pictures = draw_pictures(folder, request.pvbatch, at_rest(e->summary), &e->warnings);
+  write_paraview_script(folder);
+  if (request.pictures) {
+    std::vector<MovedBlocks> motion;
+    for (const Shot& shot : shots)
+      motion.push_back(
+          {shot.mechanism ? "Mechanism" : fmt::format("after {:.2f} s", shot.time), shot.blocks, shot.ring});
+    if (std::string problem = draw_pictures(*e, motion, in_folder(folder, "pictures")); !problem.empty())
+      e->warnings.push_back(std::move(problem));
+  }
   return drawn;
 }
 
@@ -154,7 +141,6 @@ void write_report(const AnalyseRequest& request, const std::vector<Table>& table
                                      .history = history,
                                      .viewer = drawn.viewer,
                                      .figures = drawn.figures,
-                                     .pictures = drawn.pictures,
                                      .figure_folder = in_folder(folder, "figures"),
                                      .run_yaml = run_yaml}));
 }
@@ -199,16 +185,8 @@ void throw_if_incomplete(const Evaluation& e, const std::string& output_folder) 
 }  // namespace
 
 ExitCode analyse(const AnalyseRequest& request) {
-  Assembly assembly = read_assembly(request.assembly_path);
-  const ResultsReader results(request.results_folder, content_hash(assembly), request.force);
-  check_provenance(request, assembly, results.summary());
-  Case scene = request.scene;
-  resolve_block_names(assembly, &scene.loads, &scene.ties, &scene.supports);
-  const std::vector<std::string> doubts =
-      united({results.summary().warnings, scene.warnings, implausible_for_blocks(scene, assembly)});
-  report_warnings("cupola-post", doubts, results.summary().warnings, request.strict);
-  Evaluation e = evaluate(scene, std::move(assembly), results, doubts);
-
+  EvaluatedRun run = evaluate_run(request.run);
+  Evaluation& e = run.evaluation;
   const std::string& folder = request.output_folder;
   make_folder(folder);
   // The summary marks the folder as complete: remove the old one before the first file is replaced.
@@ -217,25 +195,23 @@ ExitCode analyse(const AnalyseRequest& request) {
   std::vector<Table> tables = result_tables(e);
   std::optional<Figure> own;
   if (e.summary.analysis == AnalysisType::staged)
-    if (const std::string text = readable_text(results, "stages.csv", &e); !text.empty())
+    if (const std::string text = readable_text(run.results, "stages.csv", &e); !text.empty())
       own = stage_figure(tables.emplace(tables.begin(), stage_table(e, parse_csv(text, "stages.csv")))[0]);
   if (e.summary.analysis == AnalysisType::path && e.summary.text_files.contains("path.csv"))
-    if (const std::string text = readable_text(results, "path.csv", &e); !text.empty())
+    if (const std::string text = readable_text(run.results, "path.csv", &e); !text.empty())
       own = path_figure(tables.emplace(tables.begin(), path_table(parse_csv(text, "path.csv")))[0]);
   for (const Table& table : tables)
     write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
-  const std::string run_yaml = readable_text(results, "run.yaml", &e);
-  const std::vector<HistoryRow> history = read_history(results, &e);
+  const std::string run_yaml = readable_text(run.results, "run.yaml", &e);
+  const std::vector<HistoryRow> history = read_history(run.results, &e);
   Drawn drawn;
-  if (!request.tables_only) drawn = draw(request, results, own, history, &e);
+  if (!request.tables_only) drawn = draw(request, run.results, own, history, &e);
   write_text_atomically(in_folder(folder, "summary.json"), post_summary_json(e));
   if (!request.tables_only) write_report(request, tables, drawn, history, run_yaml, e);
 
-  report_warnings("cupola-post", e.warnings, doubts, false);
+  report_warnings("cupola-post", e.warnings, run.doubts, false);
   if (!request.quiet)
-    fmt::print("{}, {}{}; open {}\n", counted(tables.size(), "table"),
-               counted(drawn.figures.size(), "figure"),
-               drawn.pictures.empty() ? "" : ", " + counted(drawn.pictures.size(), "picture"),
+    fmt::print("{}, {}; open {}\n", counted(tables.size(), "table"), counted(drawn.figures.size(), "figure"),
                in_folder(folder, request.tables_only ? "summary.json" : "report.html"));
   throw_if_incomplete(e, folder);
   return ExitCode::done;

@@ -3,6 +3,7 @@
 //
 // Sample runs:
 //   cupola-post analyse cases/dome_circular.yaml --assembly assembly.vtu --results results/ --output post/
+//   cupola-post export cases/dome_circular.yaml --assembly assembly.vtu --results results/ --output dome.gltf
 //   cupola-post compare out/A/post out/B/post --output comparison/
 //   cupola-post claims cases/claims.yaml --runs out/ --output out/paper/
 //   cupola-post sweep cases/friction_sweep.yaml --runs out/ --output out/friction_sweep/
@@ -15,10 +16,12 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
+#include "assembly/export/export.hpp"
 #include "assembly/program/command_line.hpp"
 #include "postproc/analyse.hpp"
 #include "postproc/claims/claims_command.hpp"
 #include "postproc/compare/compare.hpp"
+#include "postproc/export_run.hpp"
 #include "postproc/studies/sweep.hpp"
 #include "postproc/studies/tradeoff_command.hpp"
 #include "postproc/tables/result_columns.hpp"
@@ -30,6 +33,7 @@ using namespace cupola;
 constexpr const char* kUsage =
     "cupola-post: evaluates the contact forces of finished runs.\n\n"
     "  cupola-post analyse CASE.yaml --assembly FILE --results FOLDER --output FOLDER\n"
+    "  cupola-post export CASE.yaml --assembly FILE --results FOLDER --output FILE\n"
     "  cupola-post compare POST POST ... --output FOLDER\n"
     "  cupola-post claims CLAIMS.yaml --runs FOLDER --output FOLDER\n"
     "  cupola-post sweep CASE.yaml --runs FOLDER --output FOLDER\n"
@@ -37,35 +41,56 @@ constexpr const char* kUsage =
     "  cupola-post columns\n\n"
     "`cupola-post COMMAND --help` lists the options.\n";
 
+/// The options that name the files of a run.
+void add_run(CommandLine* line, RunInput* run) {
+  line->required("--assembly", &run->assembly_path, "FILE", "assembly file that was solved");
+  line->required("--results", &run->results_folder, "FOLDER", "output folder of cupola-solve");
+  line->flag("--force", &run->force, "accept an assembly or results of another case");
+}
+
 ExitCode run_analyse(int argc, char** argv) {
   // 1. Command line
   AnalyseRequest request;
   CommandLine line(
       "cupola-post analyse", "Evaluates a run: wrenches, thrust lines, sections, figures, report.",
       "  cupola-post analyse dome.yaml --assembly assembly.vtu --results results/ --output post/");
-  line.required("--assembly", &request.assembly_path, "FILE", "assembly file that was solved");
-  line.required("--results", &request.results_folder, "FOLDER", "output folder of cupola-solve");
+  add_run(&line, &request.run);
   line.required("--output", &request.output_folder, "FOLDER",
                 "folder for the report, tables, figures and meshes");
   line.flag("--tables", &request.tables_only, "write only the tables and the summary");
-  line.flag("--force", &request.force, "accept an assembly or results of another case");
-  line.optional("--pvbatch", &request.pvbatch, "COMMAND",
-                "draw 3-D pictures with ParaView, e.g. 'xvfb-run -a pvbatch'");
+  line.flag("--pictures", &request.pictures,
+            "draw the standard 3-D views, as PNG in the folder pictures (needs Xvfb)");
   if (const auto ended = line.parse(argc, argv)) return *ended;
 
   // 2. Case
-  request.scene = line.read_case();
+  request.run.scene = line.read_case();
+  request.run.strict = line.strict();
   request.quiet = line.quiet();
-  request.strict = line.strict();
-  if (line.check_only()) return line.report_warnings(request.scene.warnings), ExitCode::done;
+  if (line.check_only()) return line.report_warnings(request.run.scene.warnings), ExitCode::done;
 
   // 3. Evaluation and output
   return analyse(request);
 }
 
+ExitCode run_export(int argc, char** argv) {
+  RunInput input;
+  std::string output;
+  CommandLine line(
+      "cupola-post export", "Writes the blocks and joint forces of a run for another program.",
+      "  cupola-post export dome.yaml --assembly assembly.vtu --results results/ --output dome.gltf");
+  add_run(&line, &input);
+  line.required("--output", &output, "FILE", std::string("file to write: ") + kExportFormats);
+  if (const auto ended = line.parse(argc, argv)) return *ended;
+  input.scene = line.read_case();
+  input.strict = line.strict();
+  if (line.check_only()) return line.report_warnings(input.scene.warnings), ExitCode::done;
+  return export_run(input, output, line.quiet());
+}
+
 ExitCode run(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
   if (command == "analyse") return run_analyse(argc - 1, argv + 1);
+  if (command == "export") return run_export(argc - 1, argv + 1);
   if (command == "compare") return run_compare(argc - 1, argv + 1);
   if (command == "claims") return run_claims(argc - 1, argv + 1);
   if (command == "sweep") return run_sweep(argc - 1, argv + 1);
@@ -83,9 +108,10 @@ ExitCode run(int argc, char** argv) {
     return ExitCode::done;
   }
   if (command.empty())
-    throw InputError("the command is missing; use analyse, compare, claims, sweep, tradeoff or columns");
-  throw InputError(
-      fmt::format("unknown command `{}`; use analyse, compare, claims, sweep, tradeoff or columns", command));
+    throw InputError(
+        "the command is missing; use analyse, export, compare, claims, sweep, tradeoff or columns");
+  throw InputError(fmt::format(
+      "unknown command `{}`; use analyse, export, compare, claims, sweep, tradeoff or columns", command));
 }
 
 }  // namespace

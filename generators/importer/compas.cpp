@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -116,6 +117,13 @@ Graph read_graph(const std::string& path) {
   return graph;
 }
 
+/// The name of a block: the attribute `name` of its node, else the key of the node.
+std::string name_of(const Json& node, const std::string& key) {
+  if (!node.is_object()) return key;
+  const auto name = node.find("name");
+  return name != node.end() && name->is_string() ? name->get<std::string>() : key;
+}
+
 }  // namespace
 
 std::vector<RawBlock> read_compas(const std::string& path) {
@@ -123,20 +131,26 @@ std::vector<RawBlock> read_compas(const std::string& path) {
   const Json& nodes = descend(graph, {"node"}, FileLocation{path, 1, 0}, "not a COMPAS assembly");
   if (!nodes.is_object())
     throw InputError(FileLocation{path, 1, 0}, "not a COMPAS assembly: 'node' must be an object");
-  std::vector<std::string> names;
-  for (const auto& [name, node] : nodes.items()) names.push_back(name);
-  std::ranges::sort(names, key_before);
+  std::vector<std::string> keys;
+  for (const auto& [key, node] : nodes.items()) keys.push_back(key);
+  std::ranges::sort(keys, key_before);
 
   std::vector<RawBlock> blocks;
-  for (const std::string& name : names) {
-    const Json& node = nodes[name];
-    const FileLocation here{path, line_of(text, text.find('"' + name + "\": {\"block\"")), 0};
-    const std::string what = fmt::format("block {}", name);
+  std::set<std::string> names;
+  for (const std::string& key : keys) {
+    const Json& node = nodes[key];
+    const FileLocation here{path, line_of(text, text.find('"' + key + "\": {\"block\"")), 0};
+    const std::string name = name_of(node, key), what = fmt::format("block {}", name);
+    if (!names.insert(name).second)
+      throw InputError(here, fmt::format("{}: two blocks of this file have this name", what));
     RawBlock block{name, here, {}, {}, false, {}};
     block.mesh = read_mesh_of(descend(node, {"block", "data"}, here, what), here, what);
     if (block.mesh.faces.empty()) throw InputError(here, fmt::format("{}: no faces", what));
     const auto support = node.find("is_support");
     block.fixed = support != node.end() && support->is_boolean() && support->get<bool>();
+    const auto density = node.find("density");
+    if (density != node.end() && density->is_number() && density->get<double>() > 0.0)
+      block.density = density->get<double>();
     blocks.push_back(std::move(block));
   }
   return blocks;
@@ -146,8 +160,14 @@ std::vector<RawInterface> read_compas_interfaces(const std::string& path) {
   const auto [text, graph] = read_graph(path);
   const FileLocation where{path, line_of(text, text.find("\"edge\"")), 0};
   std::vector<RawInterface> interfaces;
-  for (const auto& [block_a, others] : descend(graph, {"edge"}, where, "no interfaces").items())
-    for (const auto& [block_b, edge] : others.items()) {
+  const Json& nodes = descend(graph, {"node"}, where, "not a COMPAS assembly");
+  const auto named = [&](const std::string& key) {
+    const auto node = nodes.find(key);
+    return node == nodes.end() ? key : name_of(*node, key);
+  };
+  for (const auto& [key_a, others] : descend(graph, {"edge"}, where, "no interfaces").items())
+    for (const auto& [key_b, edge] : others.items()) {
+      const std::string block_a = named(key_a), block_b = named(key_b);
       const std::string what = fmt::format("interface of blocks {} and {}", block_a, block_b);
       if (!edge.contains("interfaces") || !edge["interfaces"].is_array()) continue;
       for (const Json& face : edge["interfaces"]) {

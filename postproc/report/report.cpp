@@ -100,8 +100,6 @@ std::string range_picture(const ReportInput& input) {
 
 std::string figures_section(const ReportInput& input) {
   std::string out;
-  for (const Picture& picture : input.pictures)
-    out += figure_html(html_picture(picture.path, picture.caption), "", picture.caption);
   for (const Figure& figure : input.figures)
     if (!shows_ranges(figure)) out += figure_html(input, figure);
   return out.empty() ? "" : "<h2>Figures</h2>\n" + out;
@@ -143,7 +141,6 @@ std::string files_section(bool equilibrium) {
   if (equilibrium) row("sections.vtp", "sections and planes with the resultants across them");
   row("cracks.vtp", "open joints as lines");
   row("open_in_paraview.py", "opens the run in ParaView: paraview --script=open_in_paraview.py");
-  row("views.py", "the standard views, for pvbatch or as a ParaView macro");
   row("summary.json", "the numbers used to compare runs");
   return out + "</dl>\n";
 }

@@ -5,7 +5,6 @@
 
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/figures.hpp"
-#include "postproc/pictures/paraview_views.hpp"
 #include "postproc/tables/table.hpp"
 
 namespace cupola {
@@ -17,12 +16,11 @@ struct ReportInput {
   std::vector<HistoryRow> history;  ///< of a dynamic run
   std::string viewer;               ///< the 3-D view, as HTML; may be empty
   std::vector<Figure> figures;
-  std::vector<Picture> pictures;  ///< drawn by ParaView
-  std::string figure_folder;      ///< folder of the figure files
-  std::string run_yaml;           ///< text of run.yaml; "" if it cannot be read
+  std::string figure_folder;  ///< folder of the figure files
+  std::string run_yaml;       ///< text of run.yaml; "" if it cannot be read
 };
 
-/// report.html as one self-contained file: first_screen(), ranges of a range analysis, findings, pictures, figures, tables,
+/// report.html as one self-contained file: first_screen(), ranges of a range analysis, findings, figures, tables,
 /// solution quality, case, files and run information, in this order. A run that found no equilibrium has the motion in place
 /// of the findings, and no certificate.
 std::string report_html(const ReportInput& input);

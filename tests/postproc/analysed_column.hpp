@@ -18,13 +18,11 @@ inline std::string analysed_column(const std::string& name, const std::vector<Fr
   for (const Frame& frame : frames) writer.write_frame(frame);
   writer.write_text("run.yaml", "title: column\n");
   writer.write_summary(summary);
-  EXPECT_EQ(analyse({.scene = column_case(),
-                     .assembly_path = folder + "/assembly.vtu",
-                     .results_folder = folder + "/results",
-                     .output_folder = folder + "/post",
-                     .pvbatch = "",
-                     .quiet = true}),
-            ExitCode::done);
+  AnalyseRequest request;
+  request.run = {column_case(), folder + "/assembly.vtu", folder + "/results"};
+  request.output_folder = folder + "/post";
+  request.quiet = true;
+  EXPECT_EQ(analyse(request), ExitCode::done);
   return folder + "/post";
 }
 

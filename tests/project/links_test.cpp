@@ -100,7 +100,7 @@ TEST(Links, BrokenLinksAreFound) {
 // Comments and pages name headers by file name or by path from the root.
 TEST(Links, EveryNamedHeaderExists) {
   static const std::regex header("[A-Za-z0-9_/]+\\.hpp");
-  std::set<std::string> existing = {"postproc/pictures/views_text.hpp",
+  std::set<std::string> existing = {"postproc/pictures/paraview_text.hpp",
                                     "postproc/viewer/viewer_text.hpp"};  // written by CMake
   for (const fs::path& file : repository_files({".hpp"})) {
     for (fs::path path = fs::relative(file, kRepository); !path.empty();) {

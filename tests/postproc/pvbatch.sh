@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs ParaView's pvbatch without a display:  postproc/pictures/pvbatch.sh views.py
+# Runs ParaView's pvbatch without a display:  tests/postproc/pvbatch.sh SCRIPT.py
 #
 # Debian's ParaView requires an X display: this script runs it on a virtual one. A lock lets only one run at a time,
 # because parallel runs crash.
@@ -8,7 +8,7 @@ lock=${XDG_CACHE_HOME:-$HOME/.cache}/cupola
 mkdir -p "$lock"
 exec 9>"$lock/lock"
 flock 9
-. "$(dirname "$0")/python_module.sh"
+. "$(dirname "$0")/../../postproc/pictures/python_module.sh"
 if [ -n "${DISPLAY:-}" ]; then exec pvbatch "$@"; fi
 
 # The display number depends on the process id, so that it is free. The server is ready when its socket

@@ -1,0 +1,67 @@
+#include "postproc/export_run.hpp"
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "assembly/export/export.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/program/warnings.hpp"
+#include "postproc/tables/mesh_parts.hpp"
+#include "postproc/tables/result_tables.hpp"
+
+namespace cupola {
+namespace {
+
+ExportedJoint exported(const JointWrench& joint, const JointWrenches& joints, const ContactTable& contacts) {
+  ExportedJoint out;
+  static_cast<Joint&>(out) = joint;
+  out.normal = joint.patch.plane.normal;
+  for (const Eigen::Vector2d& corner : joint.patch.outline)
+    out.outline.push_back(joint.patch.position(corner));
+  out.area = joint.patch.area;
+  out.centre = joint.centre_of_pressure;
+  if (!joint.negligible) out.force = joint.wrench.force;
+  for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
+    out.points.push_back(contacts.point[joints.contacts[i]]);
+    out.forces.push_back(contacts.force[joints.contacts[i]]);
+  }
+  return out;
+}
+
+std::vector<Eigen::Isometry3d> poses_of(const Evaluation& e) {
+  std::vector<Eigen::Isometry3d> poses;
+  if (e.summary.analysis != AnalysisType::dynamic) return poses;
+  const BlockTable& blocks = e.last.frame.blocks;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
+    const Eigen::Vector4d& q = blocks.quaternion_wxyz[b];
+    poses.push_back(Eigen::Translation3d(blocks.position[b]) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]) *
+                    Eigen::Translation3d(-e.assembly.blocks[b].centroid));
+  }
+  return poses;
+}
+
+}  // namespace
+
+ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) {
+  check_export_path(path);
+  const EvaluatedRun run = evaluate_run(input);
+  const Evaluation& e = run.evaluation;
+  std::vector<std::string> warnings = e.warnings;
+  ExportModel model{e.assembly, poses_of(e), {}, common_scale(e)};
+  if (at_rest(e.summary))
+    for (const JointWrench& joint : e.last.joints.wrenches)
+      model.joints.push_back(exported(joint, e.last.joints, e.last.frame.contacts));
+  else
+    warnings.emplace_back("no equilibrium was found, therefore no forces were exported");
+  if (path.ends_with(".csv"))
+    write_text_atomically(path, to_csv(joint_table(e)));
+  else
+    write_export(path, model);
+  report_warnings("cupola-post", warnings, run.doubts, false);
+  if (!quiet)
+    fmt::print("{}, {}: {}\n", counted(e.assembly.blocks.size(), "block"),
+               counted(e.last.joints.wrenches.size(), "joint"), path);
+  return ExitCode::done;
+}
+
+}  // namespace cupola

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "postproc/evaluation/evaluation.hpp"
+
+namespace cupola {
+
+/// Where the blocks are at one instant.
+struct MovedBlocks {
+  std::string caption;
+  BlockTable blocks;
+  std::optional<int> top_ring;  ///< blocks above it do not exist yet
+};
+
+/// Draws the standard views of a run into the folder `pictures`, as PNG: `overview`, `inside`, `forces`, `thrust`, `cracks` and `motion`,
+/// those for which the run has data. `motion`: mechanisms, or instants of a motion.
+/// Returns why there are none or fewer; "" if all were drawn. Requires Xvfb.
+std::string draw_pictures(const Evaluation& evaluation, const std::vector<MovedBlocks>& motion,
+                          const std::string& folder);
+
+}  // namespace cupola

@@ -1,0 +1,263 @@
+#include "postproc/pictures/views.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "assembly/export/arrows.hpp"
+#include "assembly/files/number_text.hpp"
+#include "postproc/tables/mesh_output.hpp"
+#include "postproc/tables/mesh_parts.hpp"
+
+namespace cupola {
+namespace {
+
+// The colours of the 3-D view of the report.
+constexpr Colour kFlat{0.87, 0.80, 0.70}, kCorner{0.77, 0.63, 0.45}, kUpright{0.84, 0.42, 0.16};
+constexpr Colour kSupport{0.50, 0.53, 0.55}, kImported{0.74, 0.78, 0.70}, kThrust{0.84, 0.06, 0.24};
+const std::vector<Colour> kSequential{
+    {0.99, 0.91, 0.65}, {0.96, 0.70, 0.42}, {0.87, 0.43, 0.37}, {0.63, 0.20, 0.41}, {0.27, 0.07, 0.36}};
+const std::vector<Colour> kDiverging{
+    {0.70, 0.09, 0.17}, {0.96, 0.65, 0.51}, {0.96, 0.96, 0.96}, {0.57, 0.77, 0.87}, {0.13, 0.40, 0.67}};
+
+Colour bond_colour(const Block& block) {
+  if (block.fixed) return kSupport;
+  if (block.kind == BlockKind::herringbone) return kUpright;
+  if (block.kind == BlockKind::imported) return kImported;
+  return block.rib ? kCorner : kFlat;
+}
+
+/// Towards the model, from the left and above. Walls and arches stand along x.
+Vec3 view_direction(const Evaluation& e) {
+  return is_vault(e) ? Vec3(0.35, 1.0, -0.33) : Vec3(0.45, 1.0, -0.25);
+}
+
+/// Several surfaces as one, with a colour per face.
+struct Coloured {
+  BlockSurface surface;
+  std::vector<Colour> colours;
+
+  void add(const BlockSurface& more, const Colour& colour) {
+    const int first = static_cast<int>(surface.vertices.size());
+    surface.vertices.insert(surface.vertices.end(), more.vertices.begin(), more.vertices.end());
+    for (std::vector<int> face : more.faces) {
+      for (int& v : face) v += first;
+      surface.faces.push_back(std::move(face));
+      colours.push_back(colour);
+    }
+  }
+  void paint(Painter* painter, double opacity = 1.0) const {
+    painter->add_faces(surface.vertices, surface.faces, colours, opacity);
+    if (opacity == 1.0) painter->add_edges(surface.vertices, surface.faces);
+  }
+};
+
+/// True for blocks behind the vertical plane through the axis, seen along the view.
+bool is_behind(const Pictured& run, int block) {
+  return run.e.assembly.blocks[block].centroid.dot(view_direction(run.e)) > 0.0;
+}
+
+template <class ColourOf, class Shown>
+void paint_blocks(const Pictured& run, const ColourOf& colour_of, const Shown& shown, Painter* painter) {
+  Coloured blocks;
+  for (size_t b = 0; b < run.blocks.size(); ++b)
+    if (shown(static_cast<int>(b))) blocks.add(run.blocks[b], colour_of(static_cast<int>(b)));
+  blocks.paint(painter);
+}
+
+bool every_block(int) {
+  return true;
+}
+
+/// The next round number of at least two digits: 517 becomes 600.
+double round_up(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
+    if (step * power >= value) return step * power;
+  return 10.0 * power;
+}
+
+/// Symmetric about zero if there are values of both signs, else from zero. One value in a hundred at each end is beyond.
+ColourScale scale_of(std::vector<double> values) {
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  if (values.empty()) return {kSequential, 0.0, 1.0};
+  std::sort(values.begin(), values.end());
+  const size_t rim = values.size() / 100;
+  const double low = values[rim], high = values[values.size() - 1 - rim];
+  if (low < 0.0 && high > 0.0) {
+    const double most = round_up(std::max(-low, high));
+    return {kDiverging, -most, most};
+  }
+  if (high > 0.0) return {kSequential, 0.0, round_up(high)};
+  return {kSequential, low < 0.0 ? -round_up(-low) : 0.0, low < 0.0 ? 0.0 : 1.0};
+}
+
+/// Left the bond, right the hoop force of a vault at rest.
+bool draw_overview(const Pictured& run, Painter* painter) {
+  const Evaluation& e = run.e;
+  const bool hoop = is_vault(e) && at_rest(e.summary);
+  if (hoop) painter->new_view(0.0, 0.5);
+  paint_blocks(
+      run, [&](int b) { return bond_colour(e.assembly.blocks[b]); }, every_block, painter);
+  if (hoop) painter->add_caption("Bond");
+  painter->look(view_direction(e), e.up);
+  if (!hoop) return true;
+  painter->new_view(0.5, 1.0);
+  std::vector<double> forces;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    forces.push_back(e.assembly.blocks[b].fixed ? std::numeric_limits<double>::quiet_NaN()
+                                                : e.last.fields[b].hoop_force);
+  const ColourScale scale = scale_of(forces);
+  paint_blocks(
+      run, [&](int b) { return scale.at(forces[b]); }, every_block, painter);
+  painter->add_legend("Hoop force, kN/m (tension negative)", scale, 1e3);
+  painter->look(view_direction(e), e.up);
+  return true;
+}
+
+/// The half of a vault behind its axis.
+bool draw_inside(const Pictured& run, Painter* painter) {
+  if (!is_vault(run.e)) return false;
+  paint_blocks(
+      run, [&](int b) { return bond_colour(run.e.assembly.blocks[b]); },
+      [&](int b) { return is_behind(run, b); }, painter);
+  painter->look(Vec3(0.35, 1.0, -0.12), run.e.up);
+  return true;
+}
+
+/// The force of every joint on its upper block, or on the second one.
+bool draw_forces(const Pictured& run, Painter* painter) {
+  const Evaluation& e = run.e;
+  if (!at_rest(e.summary)) return false;
+  std::vector<double> magnitudes;
+  double largest = 0.0;
+  for (const JointWrench& joint : e.last.joints.wrenches)
+    if (!joint.negligible) magnitudes.push_back(joint.wrench.force.norm());
+  if (magnitudes.empty()) return false;
+  largest = *std::max_element(magnitudes.begin(), magnitudes.end());
+  const ColourScale scale = scale_of(magnitudes);
+  const double length = common_scale(e);
+  Coloured arrows;
+  for (const JointWrench& joint : e.last.joints.wrenches) {
+    if (joint.negligible) continue;
+    BlockSurface arrow;
+    const double sign = joint.upper == joint.block_a ? -1.0 : 1.0;
+    add_arrow(joint.centre_of_pressure, sign * length * joint.wrench.force,
+              kArrowThickness * length * largest, &arrow);
+    arrows.add(arrow, scale.at(joint.wrench.force.norm()));
+  }
+  painter->add_faces(arrows.surface.vertices, arrows.surface.faces, arrows.colours);
+  Coloured supports, blocks;
+  for (size_t b = 0; b < run.blocks.size(); ++b)
+    (e.assembly.blocks[b].fixed ? supports : blocks).add(run.blocks[b], bond_colour(e.assembly.blocks[b]));
+  supports.paint(painter);
+  if (!is_vault(e)) blocks.paint(painter, 0.15);
+  painter->add_legend(
+      fmt::format("Joint force, {} (largest {})", largest >= 1e6 ? "MN" : "kN", readable_force(largest)),
+      scale, largest >= 1e6 ? 1e6 : 1e3);
+  painter->look(view_direction(e), e.up);
+  return true;
+}
+
+void add_thrust(const ThrustLine& line, double radius, Painter* painter) {
+  std::vector<std::vector<Vec3>> runs(1);  // interrupted where the position is undefined
+  for (const ThrustPoint& p : line.points) {
+    if (p.is_placed())
+      runs.back().push_back(p.point);
+    else
+      runs.emplace_back();
+  }
+  std::erase_if(runs, [](const std::vector<Vec3>& run) { return run.size() < 2; });
+  painter->add_tubes(runs, kThrust, radius, true);
+}
+
+double size_of(const Pictured& run) {
+  double size = 0.0;
+  for (const BlockSurface& block : run.blocks)
+    for (const Vec3& p : block.vertices) size = std::max(size, p.norm());
+  return size;
+}
+
+/// The thrust lines, and the half of the vault behind the plane of the first one; a whole arch.
+bool draw_thrust(const Pictured& run, Painter* painter) {
+  const Evaluation& e = run.e;
+  if (!at_rest(e.summary) || e.meridians.empty()) return false;
+  const double azimuth = e.meridians.front().thrust.azimuth_deg * EIGEN_PI / 180.0;
+  const Vec3 behind = is_vault(e) ? Vec3(-std::sin(azimuth), std::cos(azimuth), 0.0) : Vec3::UnitY();
+  for (const MeridianEvaluation& m : e.meridians) add_thrust(m.thrust, 0.005 * size_of(run), painter);
+  paint_blocks(
+      run, [&](int b) { return bond_colour(e.assembly.blocks[b]); },
+      [&](int b) { return !is_vault(e) || e.assembly.blocks[b].centroid.dot(behind) > 0.0; }, painter);
+  std::string names;
+  for (const MeridianEvaluation& m : e.meridians) names += (names.empty() ? "" : ", ") + m.thrust.name;
+  std::replace(names.begin(), names.end(), '_', ' ');
+  painter->add_caption("Thrust lines: " + names);
+  painter->look(behind - 0.1 * e.up, e.up);
+  return true;
+}
+
+bool draw_cracks(const Pictured& run, Painter* painter) {
+  const Mesh cracks = cracks_mesh(run.e);
+  if (!at_rest(run.e.summary) || cracks.num_cells() == 0) return false;
+  paint_blocks(
+      run, [&](int b) { return run.e.assembly.blocks[b].fixed ? kSupport : kFlat; }, every_block, painter);
+  double widest = 0.0;
+  for (const JointWrench& joint : run.e.last.joints.wrenches) widest = std::max(widest, joint.opening);
+  std::vector<std::vector<Vec3>> outlines;
+  for (int cell = 0; cell < cracks.num_cells(); ++cell) {
+    std::vector<Vec3> outline;
+    for (int i = cracks.cell_start[cell]; i < cracks.cell_start[cell + 1]; ++i)
+      outline.emplace_back(&cracks.points[3 * static_cast<size_t>(cracks.cell_points[i])]);
+    outlines.push_back(std::move(outline));
+  }
+  painter->add_tubes(outlines, kThrust, 0.0025 * size_of(run));
+  painter->add_caption(
+      fmt::format("{}, open by up to {:.3g} mm", counted(cracks.num_cells(), "open joint"), 1e3 * widest));
+  painter->look(view_direction(run.e), run.e.up);
+  return true;
+}
+
+/// The blocks that exist at one instant, where they are.
+Coloured moved_blocks(const Pictured& run, const MovedBlocks& moved) {
+  Coloured blocks;
+  for (size_t b = 0; b < run.blocks.size(); ++b) {
+    const Block& block = run.e.assembly.blocks[b];
+    if (moved.top_ring && block.ring > *moved.top_ring) continue;
+    const Eigen::Vector4d& q = moved.blocks.quaternion_wxyz[b];
+    const Eigen::Quaterniond turn(q[0], q[1], q[2], q[3]);
+    BlockSurface surface = run.blocks[b];
+    for (Vec3& p : surface.vertices) p = moved.blocks.position[b] + turn * (p - block.centroid);
+    blocks.add(surface, bond_colour(block));
+  }
+  return blocks;
+}
+
+/// Instants of the motion side by side, to one scale.
+bool draw_motion(const Pictured& run, Painter* painter) {
+  std::vector<Coloured> instants;
+  for (const MovedBlocks& moved : run.motion) instants.push_back(moved_blocks(run, moved));
+  const double width = 1.0 / static_cast<double>(run.motion.size());
+  for (size_t i = 0; i < instants.size(); ++i) {
+    painter->new_view(width * static_cast<double>(i), width * static_cast<double>(i + 1));
+    instants[i].paint(painter);
+    for (const Coloured& other : instants) painter->include(other.surface.vertices);
+    painter->add_caption(run.motion[i].caption);
+    painter->look(view_direction(run.e), run.e.up);
+  }
+  return !instants.empty();
+}
+
+}  // namespace
+
+const std::vector<StandardView>& standard_views() {
+  static const std::vector<StandardView> views{
+      {"overview", 2000, 1000, draw_overview}, {"inside", 1400, 1000, draw_inside},
+      {"forces", 1400, 1000, draw_forces},     {"thrust", 1400, 1000, draw_thrust},
+      {"cracks", 1400, 1000, draw_cracks},     {"motion", 2000, 700, draw_motion}};
+  return views;
+}
+
+}  // namespace cupola

@@ -1,0 +1,48 @@
+// The standard views, drawn on a private X server. CUPOLA_REQUIRE_PYTHON is set where Xvfb must be there.
+
+#include "postproc/pictures/pictures.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "assembly/files/atomic_file.hpp"
+#include "tests/postproc/scene.hpp"
+
+namespace cupola::pictures_test {
+namespace {
+
+bool has_xvfb() {
+  return std::getenv("CUPOLA_REQUIRE_PYTHON") != nullptr ||
+         std::system("command -v Xvfb >/dev/null 2>&1") == 0;
+}
+
+// A picture of 2000 x 1000 pixels without content has about 12 kB, one of 2000 x 700 pixels 8 kB.
+TEST(Pictures, ShowBlocksForcesAndMotion) {
+  if (!has_xvfb()) GTEST_SKIP() << "Xvfb is not installed";
+  const Evaluation e = test::column_evaluation(0.5, 0.3);
+  const std::string folder = test::fresh_folder("drawn");
+  EXPECT_EQ(draw_pictures(e, {{"after 1 s", e.last.frame.blocks, {}}}, folder), "");
+  for (const char* name : {"overview", "forces", "motion"}) {
+    const std::string png = read_text(folder + "/" + name + ".png");
+    EXPECT_EQ(png.substr(1, 3), "PNG") << name;
+    EXPECT_GT(png.size(), 15'000u) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder + "/inside.png")) << "a column has no inside";
+  EXPECT_FALSE(std::filesystem::exists(folder + "/pictures.log"));
+}
+
+TEST(Pictures, SaysWhatIsMissing) {
+  const std::string folder = test::fresh_folder("undrawn"), path = std::getenv("PATH");
+  ::setenv("PATH", folder.c_str(), 1);
+  const std::string problem = draw_pictures(test::column_evaluation(0.5, 0.3), {}, folder);
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(problem.find("Xvfb is not installed (Debian: apt install xvfb libgl1-mesa-dri)"),
+            std::string::npos)
+      << problem;
+  EXPECT_FALSE(std::filesystem::exists(folder + "/overview.png"));
+}
+
+}  // namespace
+}  // namespace cupola::pictures_test
