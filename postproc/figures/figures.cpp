@@ -16,41 +16,33 @@ using Rows = std::vector<std::vector<double>>;
 }  // namespace
 
 Figure ring_figure(const Evaluation& e) {
-  const ForceUnit unit = force_unit(e.rings.front().load_above.norm());
   Rows rows;
   for (const RingSum& r : e.rings)
-    rows.push_back({r.height, unit.per_newton * r.joint_force.dot(e.up),
-                    unit.per_newton * r.load_above.dot(-e.up), std::max(r.relative_difference, 1e-17),
-                    r.cv_resultant, r.cv_pressure, r.largest_friction_use, r.largest_kern});
+    rows.push_back({r.height, 100.0 * r.cv_pressure, 100.0 * r.largest_friction_use, r.largest_kern});
+  const bool vault = is_vault(e);
   Figure f;
   f.name = "rings";
-  f.title = "Ring cuts";
-  f.caption =
-      "Vertical sum of the joint forces below each ring and the load above it; their relative difference; "
-      "the coefficient of variation of the block resultants and bed pressures; and the largest friction and "
-      "kern utilisation of the bed joints. Above a kern utilisation of 1, part of the joint is unloaded.";
-  f.width = 1100;
-  f.height = 760;
+  f.title = vault ? "Rings over the height" : "Courses over the height";
+  f.caption = fmt::format(
+      "Left: how much the pressure on the beds of a {} varies from block to block (coefficient of "
+      "variation). Right: the "
+      "largest friction and kern use of a bed joint; beyond a kern use of 1, part of the joint is unloaded.",
+      vault ? "ring" : "course");
+  f.width = 1000;
+  f.height = 420;
   f.commands =
       plot_style() + data_block("rings", rows) +
       fmt::format(
-          "set multiplot layout 2,2 margins 0.10,0.97,0.09,0.96 spacing 0.12,0.11\nset xlabel 'height (m)'\n"
-          "set key at graph 0.5,1.0 center bottom horizontal\n"
-          "set ylabel 'vertical force ({4})'\nset yrange [0:*]\n"
-          "plot $rings using 1:3 w l lc rgb '{0}' lw 3 title 'load above', $rings using 1:2 w p lc rgb '{1}' "
-          "pt 7 ps 0.6 title 'joint forces'\n"
-          "set ylabel 'relative difference'\nset logscale y\nset format y '10^{{%T}}'\nset yrange [*:*]\nset "
-          "termoption enhanced\n"
-          "plot $rings using 1:4 w lp lc rgb '{0}' pt 7 ps 0.5 notitle\nset termoption noenhanced\nunset "
-          "logscale y\nset format y '%g'\n"
-          "set ylabel 'coefficient of variation'\nset yrange [0:0.001<*]\n"
-          "plot $rings using 1:5 w lp lc rgb '{0}' pt 7 ps 0.5 title 'block resultants', $rings using 1:6 w "
-          "lp lc rgb '{1}' pt 5 ps 0.5 title 'bed pressures'\n"
-          "set ylabel 'largest utilisation of a bed joint'\nset yrange [0:*]\n"
-          "plot $rings using 1:7 w lp lc rgb '{2}' pt 7 ps 0.5 title 'friction', $rings using 1:8 w lp lc "
-          "rgb '{3}' pt 5 ps 0.5 title 'kern', 1 w l lc rgb '#444444' dt 3 notitle\n"
-          "unset multiplot\n",
-          kBlue, kOrange, kGreen, kPurple, unit.name);
+          "set multiplot layout 1,2 margins 0.08,0.97,0.16,0.95 spacing 0.1\nunset key\n"
+          "set ylabel 'height (m)'\nset xrange [0:0.1<*]\nset xlabel 'variation of the bed pressure (%)'\n"
+          "plot $rings using 2:1 w lp lc rgb '{0}' pt 7 ps 0.5 lw 1.5\n"
+          "set xlabel 'largest kern use; friction use'\nset xrange [0:1.1<*]\n"
+          "set arrow from 1, graph 0 to 1, graph 1 nohead dt 3 lc rgb '#444444'\n"
+          "plot $rings using ($3/100):1 w lp lc rgb '{1}' pt 7 ps 0.5 lw 1.5, $rings using 4:1 w lp lc rgb "
+          "'{2}' pt 5 ps 0.5 lw 1.5{3}{4}\nunset multiplot\n",
+          kBlue, kGreen, kPurple,
+          curve_label("rings", rows.size() / 4, "$3/100", "$1", "friction", kGreen, "right offset -0.9,0"),
+          curve_label("rings", rows.size() / 4, "$4", "$1", "kern", kPurple, "left offset 0.9,0"));
   return f;
 }
 
@@ -63,22 +55,33 @@ Figure hoop_figure(const MeridianEvaluation& m) {
     rows.push_back({row.height, unit.per_newton * row.head_force, unit.per_newton * row.bed_force,
                     unit.per_newton * (row.head_force + row.bed_force)});
   Figure f;
+  const size_t last = rows.empty() ? 0 : rows.size() - 1;
+  const auto extreme = [&rows](size_t column, bool least) {
+    size_t best = 0;
+    for (size_t i = 0; i < rows.size(); ++i)
+      if (least ? rows[i][column + 1] < rows[best][column + 1] : rows[i][column + 1] > rows[best][column + 1])
+        best = i;
+    return best;
+  };
   f.name = "hoop_" + m.thrust.name;
   f.title = fmt::format("Hoop forces across the meridian {} ({:g} deg)", m.thrust.name, m.thrust.azimuth_deg);
   f.caption =
       "Hoop force of each ring across the meridian, compression positive. Dry head joints carry "
       "compression only; bed joints also carry tension, by friction.";
-  f.width = 900;
+  f.width = 700;
   f.height = 480;
   f.commands =
       plot_style() + data_block("hoop", rows) +
       fmt::format(
-          "set xlabel 'height (m)'\nset ylabel 'hoop force of a ring ({2})'\n"
-          "set xzeroaxis lc rgb '#444444'\nset key left top\n"
-          "plot $hoop using 1:4 w lp lc rgb 'black' lw 2 pt 7 ps 0.5 title 'sum', $hoop using 1:2 w lp lc "
-          "rgb '{0}' pt 5 ps 0.5 title 'head joints', $hoop using 1:3 w lp lc rgb '{1}' pt 9 ps 0.6 title "
-          "'bed joints'\n",
-          kBlue, kOrange, unit.name);
+          "set ylabel 'height (m)'\nset xlabel 'hoop force of a ring ({2}); tension < 0 < compression'\n"
+          "set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb '#444444'\nunset key\nset rmargin 14\n"
+          "plot $hoop using 2:1 w lp lc rgb '{0}' pt 5 ps 0.5, $hoop using 3:1 w lp lc rgb '{1}' pt 9 ps "
+          "0.6, "
+          "$hoop using 4:1 w lp lc rgb 'black' lw 2 pt 7 ps 0.5{3}{4}{5}\n",
+          kBlue, kOrange, unit.name,
+          curve_label("hoop", last, "$2", "$1", "head joints", kBlue, "left offset 0,1"),
+          curve_label("hoop", extreme(1, true), "$3", "$1", "bed joints", kOrange, "right offset -0.9,0"),
+          curve_label("hoop", extreme(2, false), "$4", "$1", "sum", "black"));
   return f;
 }
 
@@ -138,6 +141,7 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
     scales.include(map);
     figures.push_back(force_map(map, scales));
     figures.push_back(utilisation_map(map, scales));
+    if (Figure cracks = crack_map(e); !cracks.commands.empty()) figures.push_back(std::move(cracks));
   }
   return figures;
 }

@@ -31,6 +31,9 @@ Figure range_figure(const Evaluation& evaluation);
 /// of a range analysis of single joints. In gnuplot's data: $joints has one segment per joint and its value.
 Figure certainty_map(const Evaluation& evaluation);
 
+/// The open joints of the unrolled shell, coloured by their largest gap; without commands if there are none.
+Figure crack_map(const Evaluation& evaluation);
+
 /// Profile with thrust line, envelope and lines of action, and thin lines of least and greatest thrust where the
 /// meridian has them; r, v, couple length and distance to the nearer
 /// face beside it (paper, figures 7, 8, 10, 13).

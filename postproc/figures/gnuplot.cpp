@@ -25,20 +25,30 @@ struct TemporaryFile {
   }
 };
 
-std::string draw(const std::string& folder, const Figure& figure, const char* terminal, const char* ending) {
+/// Terminal and size of a file. A PDF has its size in inches of 96 pixels and its font in points.
+std::string terminal_of(const Figure& figure, const std::string& ending) {
+  if (ending == ".pdf")
+    return fmt::format("pdfcairo size {:.3f}in,{:.3f}in font 'DejaVu Sans,9'", figure.width / 96.0,
+                       figure.height / 96.0);
+  return fmt::format("{} size {},{} font 'DejaVu Sans,12'", ending == ".svg" ? "svg" : "pngcairo",
+                     figure.width, figure.height);
+}
+
+std::string draw(const std::string& folder, const Figure& figure, const char* ending) {
   const std::string out = in_folder(folder, figure.name + ending);
   const TemporaryFile script{in_folder(folder, "." + figure.name + ".run.gp")};
   const TemporaryFile log{in_folder(folder, "." + figure.name + ".log")};
   std::string problem;
   write_atomically(out, [&](const std::string& side) {
     const std::string head = fmt::format(
-        "set terminal {} size {},{} enhanced font 'DejaVu Sans,11' background '#ffffff'\n"
-        "set output '{}'\nset termoption noenhanced\n",
-        terminal, figure.width, figure.height, gnuplot_text(side));
+        "set terminal {} enhanced background '#ffffff'\nset output '{}'\nset termoption noenhanced\n",
+        terminal_of(figure, ending), gnuplot_text(side));
     write_text_atomically(script.path, head + figure.commands + "unset output\n");
     const int status = run_process({"gnuplot", script.path}, log.path);
     if (status == kNotFound) problem = "gnuplot is not installed";
     if (status != 0 && status != kNotFound) problem = "gnuplot: " + last_line(read_text(log.path));
+    if (problem.find("out of memory") != std::string::npos)
+      throw SystemError(fmt::format("{}: gnuplot ran out of memory", out));
     // Without enough memory, Cairo writes nothing and reports no error.
     if (status == 0 && (!std::filesystem::exists(side) || std::filesystem::file_size(side) == 0))
       throw SystemError(fmt::format("{}: gnuplot wrote an empty file, as it does when memory runs out", out));
@@ -58,8 +68,8 @@ std::vector<std::string> draw_figures(const std::string& folder, const std::vect
     write_text_atomically(in_folder(folder, figure.name + ".gp"),
                           fmt::format("# {}\n# gnuplot -p {}.gp\n{}", gnuplot_text(figure.title), figure.name,
                                       figure.commands));
-    std::string problem = draw(folder, figure, "pngcairo", ".png");
-    if (problem.empty() && figure.vector) problem = draw(folder, figure, "svg", ".svg");
+    std::string problem = draw(folder, figure, figure.vector ? ".svg" : ".png");
+    if (problem.empty() && figure.vector) problem = draw(folder, figure, ".pdf");
     if (!problem.empty())
       problems.push_back(fmt::format("figure {} was not drawn: {}", figure.name, problem));
   }

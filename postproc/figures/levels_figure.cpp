@@ -59,7 +59,7 @@ Figure levels_figure(const Evaluation& e) {
       left = std::min(left, from[0]);
     }
   const double sample = round_down(largest);  // N, length of the scale bar
-  const Rows measure = {{left, lowest - 0.6 * scale * largest, scale * sample, 0.0}};
+  const Rows measure = {{left, lowest - 0.8 * scale * largest, 0.0, scale * sample}};
 
   Figure f;
   f.name = "levels";
@@ -67,20 +67,22 @@ Figure levels_figure(const Evaluation& e) {
   f.caption = fmt::format(
       "Resultant of each block across the beds nearest to the sections, acting on the part above, drawn "
       "where "
-      "it acts and to one scale (bottom left). Blue: blocks laid flat. Orange: upright blocks of a "
-      "herringbone, several of which share the width of one flat block.");
+      "it acts and to one scale (bottom left){}.",
+      upright.empty()
+          ? ""
+          : ". Blue: blocks laid flat. Orange: upright blocks of a herringbone, several of which share the "
+            "width of one flat block");
   f.width = 1000;
   f.height = 760;
-  f.commands =
-      plot_style() + data_block("outlines", outlines_of(e, page)) + data_block("flat", flat) +
-      data_block("upright", upright) + data_block("measure", measure) +
-      fmt::format(
-          "set size ratio -1\nunset border\nunset tics\nunset grid\nunset key\n"
-          "set label '{:g} {}' at {},{} offset 0,0.7\n"
-          "plot $outlines w l lc rgb '#bbbbbb' lw 0.8, $measure w vectors nohead lc rgb 'black' lw 2{}{}\n",
-          unit.per_newton * sample, unit.name, measure[0][0], measure[0][1],
-          flat.empty() ? "" : fmt::format(", $flat w vectors nohead lc rgb '{}' lw 2.5", kBlue),
-          upright.empty() ? "" : fmt::format(", $upright w vectors nohead lc rgb '{}' lw 2.5", kOrange));
+  f.commands = plot_style() + data_block("outlines", outlines_of(e, page)) + data_block("flat", flat) +
+               data_block("upright", upright) + data_block("measure", measure) +
+               fmt::format(
+                   "set size ratio -1\nunset border\nunset tics\nunset grid\nunset key\n"
+                   "set label '{:g} {}' at {},{} offset 0.8,0.9\n"
+                   "plot $outlines w l lc rgb '#bbbbbb' lw 0.8, {}{}{}\n",
+                   unit.per_newton * sample, unit.name, measure[0][0], measure[0][1],
+                   arrows("measure", "black"), flat.empty() ? "" : ", " + arrows("flat", kBlue),
+                   upright.empty() ? "" : ", " + arrows("upright", kOrange));
   return f;
 }
 

@@ -152,7 +152,9 @@ Figure motion_figure(const Evaluation& e, const std::vector<Shot>& shots) {
   for (size_t i = 0; i < shots.size(); ++i) {
     f.commands += data_block(fmt::format("faces{}", i), painted(seen[i], page, grid));
     if (in_time) f.commands += fmt::format("set title 't = {:.4g} s'\n", shots[i].time);
-    if (shots[i].ring) f.commands += fmt::format("set title 'ring {} just laid'\n", *shots[i].ring);
+    if (shots[i].ring)
+      f.commands +=
+          fmt::format("set title '{} {} just laid'\n", is_vault(e) ? "ring" : "course", *shots[i].ring);
     f.commands += fmt::format(
         "plot $faces{} using 1:2:3 with filledcurves closed fc rgb variable, NaN with points palette\n", i);
   }

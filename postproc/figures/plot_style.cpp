@@ -5,12 +5,23 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "postproc/figures/gnuplot.hpp"
 
 namespace cupola {
 
 std::string plot_style() {
   return "set border 3 lc rgb '#444444'\nset tics nomirror textcolor rgb '#222222'\n"
-         "set grid lc rgb '#cccccc' lw 1\nset key opaque samplen 2 spacing 1.1\n";
+         "set grid lc rgb '#dddddd' lw 1\nset key samplen 2 spacing 1.1\n";
+}
+
+std::string curve_label(const std::string& data, size_t row, const std::string& x, const std::string& y,
+                        const std::string& text, const char* colour, const char* place) {
+  return fmt::format(", ${0} every ::{1}::{1} using ({2}):({3}):('{4}') w labels {5} tc rgb '{6}' notitle",
+                     data, row, x, y, gnuplot_text(text), place, colour);
+}
+
+std::string arrows(const std::string& data, const char* colour) {
+  return fmt::format("${} w vectors head size screen 0.009,22,60 filled lw 1.8 lc rgb '{}'", data, colour);
 }
 
 ForceUnit force_unit(double largest) {
@@ -27,6 +38,7 @@ std::string force_text(double newtons) {
 
 std::string length_text(double metres) {
   if (metres == 0.0) return "negligible";
+  if (std::abs(metres) >= 1e3) return fmt::format("{:.0f} m", metres);
   return std::abs(metres) < 1.0 ? fmt::format("{:.3g} mm", 1e3 * metres) : fmt::format("{:.3g} m", metres);
 }
 

@@ -24,24 +24,30 @@ Rows outlines_of(const SectionEvaluation& section) {
 
 /// Resultants across the bed of a section: as segments in plan, and their norms along the ring.
 struct SectionForces {
-  Rows segments, norms;
-  double scale = 0.0;  // m per N
+  Rows segments, norms, norms_upright;
+  double scale = 0.0;   // m per N
+  double sample = 0.0;  // N, of the arrow that shows the scale
   ForceUnit unit;
 };
 
 SectionForces forces_of(const Evaluation& e, const SectionEvaluation& section) {
   SectionForces out;
   if (section.ring < 0) return out;
-  double largest = 0.0;
-  for (const BedResultant& r : section.resultants) largest = std::max(largest, r.wrench.force.norm());
-  out.scale = segment_scale(e.assembly, largest);
+  double largest = 0.0, horizontal = 0.0;
+  for (const BedResultant& r : section.resultants) {
+    largest = std::max(largest, r.wrench.force.norm());
+    horizontal = std::max(horizontal, r.wrench.force.head<2>().norm());
+  }
+  out.scale = segment_scale(e.assembly, horizontal);
+  out.sample = horizontal > 0.0 ? round_down(horizontal) : 0.0;
   out.unit = force_unit(largest);
   for (const BedResultant& r : section.resultants) {
     const Vec3 &x = r.point, &f = r.wrench.force;
     out.segments.push_back({x.x(), x.y(), out.scale * f.x(), out.scale * f.y()});
-    out.norms.push_back({is_vault(e) ? azimuth(x) * kDegrees : x.x(), out.unit.per_newton * f.norm()});
+    (r.kind == BlockKind::herringbone ? out.norms_upright : out.norms)
+        .push_back({is_vault(e) ? azimuth(x) * kDegrees : x.x(), out.unit.per_newton * f.norm()});
   }
-  std::sort(out.norms.begin(), out.norms.end());
+  for (Rows* rows : {&out.norms, &out.norms_upright}) std::sort(rows->begin(), rows->end());
   return out;
 }
 
@@ -52,12 +58,24 @@ std::string caption_of(const Evaluation& e, const SectionEvaluation& section, co
   const ForceUnit sum = force_unit(ring.load_above.norm());
   return caption +
          fmt::format(
-             " Segments: horizontal part of the resultants across the bed of the nearest ring ({}), "
-             "on the part above; 1 m represents {:.3g} {}. The joints below this ring carry {:.5g} "
-             "{}, the load above is {:.5g} {}, relative difference {:.1e}.",
-             section.ring, forces.unit.per_newton / forces.scale, forces.unit.name,
+             " Arrows: horizontal part of the resultants across the bed of the nearest {} ({}), on the part "
+             "above. Bars: norm of the resultant of each block{}. The joints below carry {:.5g} {}, the load "
+             "above is {:.5g} {}, relative difference "
+             "{:.1e}.",
+             is_vault(e) ? "ring" : "course", section.ring,
+             forces.norms_upright.empty() ? "" : ", orange for upright blocks",
              sum.per_newton * ring.joint_force.dot(e.up), sum.name,
              sum.per_newton * ring.load_above.dot(-e.up), sum.name, ring.relative_difference);
+}
+
+std::string scale_arrow(const SectionForces& forces) {
+  if (forces.sample <= 0.0) return "";
+  const ForceUnit unit = force_unit(forces.sample);
+  return fmt::format(
+      "set arrow 1 from graph 0.02,graph 0.02 rto {},0 head size screen 0.009,22,60 filled lw 1.8 lc rgb "
+      "'{}'\n"
+      "set label 1 '{:g} {}' at graph 0.02,graph 0.02 offset 0,0.8 tc rgb '{}'\n",
+      forces.scale * forces.sample, kOrange, unit.per_newton * forces.sample, unit.name, kOrange);
 }
 
 }  // namespace
@@ -73,19 +91,23 @@ Figure section_figure(const Evaluation& e, const SectionEvaluation& section) {
   f.height = vault ? 560 : 760;
   f.commands =
       plot_style() + data_block("outlines", outlines_of(section)) + data_block("segments", forces.segments) +
-      data_block("norms", forces.norms) +
+      data_block("norms", forces.norms) + data_block("upright", forces.norms_upright) + scale_arrow(forces) +
       fmt::format(
           "set multiplot layout {} margins 0.08,0.97,0.11,0.95 spacing 0.11\nset size ratio -1\n"
           "set xlabel 'x (m)'\nset ylabel 'y (m)'\nunset key\nplot $outlines w l lc rgb '#999999' lw 0.8{}\n",
-          vault ? "1,2" : "2,1",
-          forces.segments.empty() ? ""
-                                  : fmt::format(", $segments w vectors nohead lc rgb '{}' lw 2", kOrange));
-  if (!forces.norms.empty())
+          vault ? "1,2" : "2,1", forces.segments.empty() ? "" : ", " + arrows("segments", kOrange));
+  std::string bars;
+  for (const auto& [name, rows, colour] :
+       {std::tuple{"norms", &forces.norms, kBlue}, {"upright", &forces.norms_upright, kOrange}})
+    if (!rows->empty())
+      bars += fmt::format("{} ${} w impulses lc rgb '{}' lw 3", bars.empty() ? "plot" : ",", name, colour);
+  if (!bars.empty())
     f.commands += fmt::format(
-        "set size noratio\nset xlabel '{0}'\nset ylabel 'resultant of a block ({1})'\nset yrange [0:*]\n{2}"
-        "plot $norms w impulses lc rgb '{3}' lw 3, $norms w p lc rgb '{3}' pt 7 ps 0.6\n",
+        "unset arrow 1\nunset label 1\nset size noratio\nset xlabel '{0}'\nset ylabel 'resultant of a block "
+        "({1})'\nset yrange [0:*]\n{2}"
+        "{3}\n",
         vault ? "azimuth (deg)" : "x (m)", forces.unit.name,
-        vault ? "set xrange [-180:180]\nset xtics 45\n" : "", kBlue);
+        vault ? "set xrange [-180:180]\nset xtics 45\n" : "", bars);
   f.commands += "unset multiplot\n";
   return f;
 }

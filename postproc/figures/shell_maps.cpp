@@ -12,7 +12,6 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-constexpr size_t kMostVectorBoxes = 3000;  // with more, browsers are slow to open the SVG
 constexpr const char* kSequential =
     "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n";
 
@@ -20,9 +19,9 @@ std::string map_axes(const ShellMap& map) {
   return (map.vault ? "set xrange [-180:180]\nset xtics 45\nset xlabel 'azimuth (deg)'\n"
                     : "set xlabel 'x (m)'\n") +
          fmt::format(
-             "set yrange [0:{}]\nset ylabel 'ring'\nunset grid\nset style fill solid 1 noborder\n"
+             "set yrange [0:{}]\nset ylabel '{}'\nunset grid\nset style fill solid 1 noborder\n"
              "set key at graph 1,1 right bottom horizontal\n",
-             map.num_rings);
+             map.num_rings, map.vault ? "ring" : "course");
 }
 
 /// One panel: the boxes whose value is a number in colour, all others in grey.
@@ -84,21 +83,25 @@ void MapScales::include(const ShellMap& map) {
 Figure force_map(const ShellMap& map, const MapScales& scales) {
   Figure f = unrolled_map(map);
   f.name = "map_forces";
-  f.title = "Meridional and hoop forces over the shell";
-  f.caption =
-      "The unrolled shell. Forces per metre from the mean stress of each block, compression positive; hoop "
-      "tension is orange. Grey: the force is negligible.";
+  const char *along = map.vault ? "meridional" : "vertical", *across = map.vault ? "hoop" : "horizontal";
+  f.title = map.vault ? "Meridional and hoop forces over the shell"
+                      : "Vertical and horizontal forces over the wall";
+  f.caption = fmt::format(
+      "{}. Forces per metre from the mean stress of each block, compression positive; {} tension is orange. "
+      "Grey: the "
+      "force is negligible.",
+      map.vault ? "The unrolled shell" : "The wall from the front", across);
   f.commands +=
       panel(
           map, [](const ShellBox& b) { return shown(b.meridional_force); }, "meridional", "negligible",
-          fmt::format("set cbrange [{}:{}]\nset cblabel 'meridional force (kN/m)'\n", -scales.tension,
-                      end_of(scales.compression))) +
+          fmt::format("set cbrange [{}:{}]\nset cblabel '{} force (kN/m)'\n", -scales.tension,
+                      end_of(scales.compression), along)) +
       panel(
           map, [](const ShellBox& b) { return shown(b.hoop_force); }, "hoop", "negligible",
           fmt::format(
               "set palette defined (-1 '{0}', 0 '#f7f7f7', 1 '{1}')\nset cbrange [{2}:{3}]\nset cblabel "
-              "'hoop force (kN/m), compression positive'\n",
-              kOrange, kBlue, -end_of(scales.hoop), end_of(scales.hoop))) +
+              "'{4} force (kN/m), compression positive'\n",
+              kOrange, kBlue, -end_of(scales.hoop), end_of(scales.hoop), across)) +
       "unset multiplot\n";
   return f;
 }

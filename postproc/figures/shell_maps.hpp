@@ -5,6 +5,8 @@
 
 namespace cupola {
 
+inline constexpr size_t kMostVectorBoxes = 3000;  ///< with more, browsers are slow to open the SVG
+
 /// Ends of the colour scales of maps: the largest values of all maps included.
 struct MapScales {
   double compression = 0.0, tension = 0.0;  ///< kN/m, meridional

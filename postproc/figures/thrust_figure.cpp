@@ -47,12 +47,14 @@ Rows line_rows(const ThrustLine& line, bool arch) {
 std::string thrust_data(const MeridianEvaluation& m, bool arch, const ForceUnit& unit) {
   const ThrustLine& line = m.thrust;
   const auto at = [&](const Vec3& p) { return std::vector{abscissa(line, arch, p), p.z()}; };
-  Rows skins[2], beds, action, envelope, graphs;
+  Rows skins[2], thirds[2], beds, action, envelope, graphs;
   double longest = 0.0;
   for (const ThrustPoint& p : line.points) longest = std::max(longest, p.r);
   for (const ThrustPoint& p : line.points) {
     skins[0].push_back(at(p.intrados));
     skins[1].push_back(at(p.extrados));
+    for (const int i : {0, 1})
+      thirds[i].push_back(at(p.intrados + (i + 1) / 3.0 * (p.extrados - p.intrados)));
     beds.insert(beds.end(), {at(p.intrados), at(p.extrados), {}});
     if (p.is_placed()) {
       const double thickness = (p.extrados - p.intrados).norm();
@@ -66,7 +68,8 @@ std::string thrust_data(const MeridianEvaluation& m, bool arch, const ForceUnit&
   std::string ends;
   if (m.least_thrust) ends += data_block("least", line_rows(*m.least_thrust, arch));
   if (m.greatest_thrust) ends += data_block("greatest", line_rows(*m.greatest_thrust, arch));
-  return data_block("intrados", skins[0]) + data_block("extrados", skins[1]) + data_block("beds", beds) +
+  return data_block("intrados", skins[0]) + data_block("extrados", skins[1]) +
+         data_block("inner", thirds[0]) + data_block("outer", thirds[1]) + data_block("beds", beds) +
          data_block("thrust", line_rows(line, arch)) + data_block("action", action) +
          data_block("envelope", envelope) + data_block("graphs", graphs) + ends;
 }
@@ -80,7 +83,9 @@ std::string profile_plot(const MeridianEvaluation& m, const Summary& summary) {
   if (m.greatest_thrust)
     ends += fmt::format(", $greatest w l lc rgb '{}' lw 1.2 title 'greatest thrust'", kPurple);
   return fmt::format(
-      "plot $beds w l lc rgb '#cccccc' lw 0.7 notitle, $intrados w l lc rgb 'black' lw 1.5 title 'intrados, "
+      "plot $beds w l lc rgb '#dddddd' lw 0.7 notitle, $inner w l lc rgb '#888888' dt 3 lw 1.2 title 'middle "
+      "third', $outer w l lc rgb '#888888' dt 3 lw 1.2 notitle, $intrados w l lc rgb 'black' lw 1.5 title "
+      "'intrados, "
       "extrados',"
       " $extrados w l lc rgb 'black' lw 1.5 notitle,"
       " $action w l lc rgb '{2}' lw 1 title 'lines of action', $envelope w l lc rgb '{1}' lw 1.5 dt 2 title "
@@ -92,6 +97,7 @@ std::string profile_plot(const MeridianEvaluation& m, const Summary& summary) {
 /// Four panels with a common height axis: profile, resultant, couple length, distance to the nearer face.
 std::string vault_panels(const MeridianEvaluation& m, int width, int height, const ForceUnit& unit,
                          const std::string& profile) {
+  const size_t rows = m.thrust.points.size();
   Range x, z;
   for (const ThrustLine* line : {&m.thrust, m.least_thrust ? &*m.least_thrust : nullptr,
                                  m.greatest_thrust ? &*m.greatest_thrust : nullptr}) {
@@ -124,9 +130,11 @@ std::string vault_panels(const MeridianEvaluation& m, int width, int height, con
          profile + margins(right + gap, right + gap + panel) +
          fmt::format(
              "set xrange [0:*]\nset xlabel 'resultant ({2})'\nunset ylabel\n"
-             "plot $graphs using 2:1 w lp lc rgb '{0}' pt 7 ps 0.4 title 'r: norm', $graphs using 3:1 w l lc "
-             "rgb '{1}' dt 2 lw 2 title 'v: vertical'\n",
-             kBlue, kOrange, unit.name) +
+             "plot $graphs using 2:1 w lp lc rgb '{0}' pt 7 ps 0.4 notitle, $graphs using 3:1 w l lc "
+             "rgb '{1}' dt 2 lw 2 notitle{3}{4}\n",
+             kBlue, kOrange, unit.name,
+             curve_label("graphs", rows / 2, "$2", "$1", "r: norm", kBlue, "left offset 1.2,0"),
+             curve_label("graphs", rows / 4, "$3", "$1", "v: vertical", kOrange, "right offset -1.2,0")) +
          margins(right + 2 * gap + panel, right + 2 * gap + 2 * panel) +
          fmt::format(
              "set xlabel 'couple length (m)'\nset xrange [0:*]\nset xtics 0,0.1\nif (couple < 0.2) {{set "
@@ -189,8 +197,8 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
   if (m.least_thrust || m.greatest_thrust)
     f.caption +=
         " The thin lines belong to the states of least and greatest thrust among all admissible ones.";
-  f.width = 1400;
-  f.height = arch ? 900 : 640;
+  f.width = 1200;
+  f.height = arch ? 900 : 560;
   const std::string profile = profile_plot(m, e.summary);
   f.commands = plot_style() + fmt::format("couple = {}\n", couple) + thrust_data(m, arch, unit) +
                (arch ? arch_panels(unit, profile) : vault_panels(m, f.width, f.height, unit, profile));

@@ -1,6 +1,7 @@
 #include <functional>
 #include <utility>
 
+#include "postproc/mechanics/cracks.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/mesh_parts.hpp"
 #include "postproc/tables/result_columns.hpp"
@@ -89,26 +90,17 @@ Mesh sections_mesh(const Evaluation& e) {
 }
 
 Mesh cracks_mesh(const Evaluation& e) {
-  const ContactTable& c = e.last.frame.contacts;
   Mesh mesh;
   MeshInts joint_id;
   std::vector<std::reference_wrapper<const JointWrench>> cracked;
-  for (size_t j = 0; j < e.last.joints.wrenches.size(); ++j) {
-    const JointWrench& joint = e.last.joints.wrenches[j];
-    std::vector<Vec3> open;
-    for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
-      const int row = e.last.joints.contacts[i];
-      if (c.normal_force[row] <= 0.0 && c.gap[row] > 0.0) open.push_back(c.point[row]);
-    }
-    if (open.size() < 2) continue;
-    const PlanarHull hull = planar_hull(open, joint.patch.plane.normal);
-    if (hull.outline.size() < 2) continue;
+  for (const Crack& crack : cracks_of(e.last.frame.contacts, e.last.joints)) {
     std::vector<int> ids;
-    for (const Eigen::Vector2d& corner : hull.outline) ids.push_back(add_point(&mesh, hull.position(corner)));
+    for (const Eigen::Vector2d& corner : crack.open.outline)
+      ids.push_back(add_point(&mesh, crack.open.position(corner)));
     if (ids.size() > 2) ids.push_back(ids.front());
     mesh.add_cell(CellType::polyline, ids);
-    joint_id.push_back(static_cast<int>(j));
-    cracked.push_back(joint);
+    joint_id.push_back(crack.joint);
+    cracked.emplace_back(e.last.joints.wrenches[crack.joint]);
   }
   mesh.cell_data = mesh_arrays(joint_columns(), cracked, kCrackKeys);
   mesh.cell_data.insert(mesh.cell_data.end() - 1, {"joint", 1, std::move(joint_id)});

@@ -18,15 +18,8 @@ using CellType = Mesh::CellType;
 
 /// The array `relative_range` of a range analysis of joints; NaN for joints without a range.
 void add_relative_ranges(const Evaluation& e, Mesh* mesh) {
-  std::map<std::pair<int, int>, double> of_joint;
-  for (const ForceRange& range : e.summary.ranges)
-    if (range.joint) of_joint.emplace(*range.joint, relative_range(range));
-  if (of_joint.empty()) return;
-  MeshDoubles values;
-  for (const JointWrench& joint : e.last.joints.wrenches) {
-    const auto found = of_joint.find(std::minmax({joint.block_a, joint.block_b}));
-    values.push_back(found == of_joint.end() ? std::nan("") : found->second);
-  }
+  MeshDoubles values = relative_ranges(e.summary.ranges, e.last.joints.wrenches);
+  if (values.empty()) return;
   mesh->point_data.push_back({"relative_range", 1, std::move(values)});
 }
 

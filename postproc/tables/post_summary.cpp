@@ -12,6 +12,7 @@
 #include "assembly/base/process.hpp"
 #include "assembly/base/variant.hpp"
 #include "assembly/files/atomic_file.hpp"
+#include "postproc/mechanics/cracks.hpp"
 #include "postproc/tables/result_columns.hpp"
 
 namespace cupola {
@@ -19,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormatVersion = 1;
+constexpr int kFormatVersion = 2;
 
 /// The keys that describe a run, in one list for writing and reading.
 template <class SummaryType, class Visit>
@@ -46,6 +47,8 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("largest_friction_use", s.largest_friction_use);
   visit("largest_pressure_Pa", s.largest_pressure_Pa);
   visit("largest_strength_use", s.largest_strength_use);
+  visit("crack_length_m", s.crack_length_m);
+  visit("widest_crack_m", s.widest_crack_m);
   visit("mean_kern_use", s.mean_kern_use);
   visit("thrust_over_weight", s.thrust_over_weight);
   visit("max_displacement_m", s.max_displacement_m);
@@ -160,6 +163,11 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
     force += joint.normal_force;
   }
   if (force > 0.0) s->mean_kern_use = above(kern / force, e.last.joints.floor.share);
+  s->crack_length_m = s->widest_crack_m = 0.0;
+  for (const Crack& crack : cracks_of(e.last.frame.contacts, e.last.joints)) {
+    *s->crack_length_m += crack.extent;
+    raise(&s->widest_crack_m, crack.widest_gap);
+  }
   for (const BlockFields& f : e.last.fields) raise(&s->largest_couple_length_m, f.couple_length);
   if (!e.rings.empty() && e.summary.weight_N > 0.0)
     s->thrust_over_weight = e.rings.front().radial_thrust / e.summary.weight_N;

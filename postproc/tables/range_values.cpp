@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -79,6 +80,20 @@ double relative_range(const ForceRange& range) {
     if (end->outcome != RangeOutcome::bounded || !end->value) return kNone;
   const double mean = 0.5 * std::abs(*range.max.value + *range.min.value);
   return mean > 0.0 ? (*range.max.value - *range.min.value) / mean : kNone;
+}
+
+std::vector<double> relative_ranges(const std::vector<ForceRange>& ranges,
+                                    const std::vector<JointWrench>& joints) {
+  std::map<std::pair<int, int>, double> of_joint;
+  for (const ForceRange& range : ranges)
+    if (range.joint) of_joint.emplace(*range.joint, relative_range(range));
+  std::vector<double> values;
+  if (of_joint.empty()) return values;
+  for (const JointWrench& joint : joints) {
+    const auto found = of_joint.find(std::minmax({joint.block_a, joint.block_b}));
+    values.push_back(found == of_joint.end() ? std::nan("") : found->second);
+  }
+  return values;
 }
 
 const ForceRange* range_named(const std::string& quantity, const std::vector<ForceRange>& ranges) {

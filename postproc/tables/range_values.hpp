@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "assembly/model/results.hpp"
+#include "postproc/mechanics/joint_wrenches.hpp"
 #include "postproc/tables/csv_file.hpp"
 #include "postproc/tables/table.hpp"
 
@@ -22,6 +23,10 @@ double size_of(const ForceRange& range);
 /// Width of a range over the magnitude of its mean: 0 for a certain value, 2 for one between 0 and a maximum. Infinite if
 /// unbounded; NaN if an end was not found or both are zero.
 double relative_range(const ForceRange& range);
+
+/// relative_range() of the normal force of each joint; NaN for joints without a range; empty if none has one.
+std::vector<double> relative_ranges(const std::vector<ForceRange>& ranges,
+                                    const std::vector<JointWrench>& joints);
 
 /// The range of a quantity; null if there is none.
 const ForceRange* range_named(const std::string& quantity, const std::vector<ForceRange>& ranges);

@@ -7,6 +7,7 @@ const kUnits = {
   "N/m": [[1e6, "MN/m"], [1e3, "kN/m"], [1, "N/m"]],
   "m": [[1, "m"], [1e-3, "mm"]],
   "m2": [[1, "m²"]],
+  "Pa": [[1e6, "MPa"], [1e3, "kPa"], [1, "Pa"]],
 };
 
 /** Factor and name of the unit in which a number of this size is shown. */
@@ -53,7 +54,8 @@ function scaleOf(values, key) {
   const least = sorted[0], most = sorted[sorted.length - 1];
   const at = (share) => sorted[Math.round(share * (sorted.length - 1))];
   let low = at(0.01), high = at(0.99);
-  if (key === "friction_use" || key === "open_share") return {stops: kSequential, low: 0, high: 1, cutLow: false, cutHigh: false};
+  const fixed = {friction_use: 1, open_share: 1, strength_use: 1, relative_range: 2}[key];
+  if (fixed) return {stops: kSequential, low: 0, high: fixed, cutLow: false, cutHigh: most > fixed};
   const signed = low < 0 && high > 0;
   if (signed) high = Math.max(-low, high), low = -high;
   else if (low >= 0) low = 0;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "postproc/tables/range_values.hpp"
 #include "postproc/tables/result_columns.hpp"
 #include "postproc/viewer/scene_shapes.hpp"
 
@@ -28,6 +29,9 @@ constexpr std::array kMovedKeys{"opening_m", "slip_m", "displacement_m", "m"};
 constexpr std::array kForceKeys{"normal_force_N", "friction_use", "kern_use", "force_N", "m"};
 constexpr std::array kJointKeysAlso{"eccentricity_m", "edge_distance_m", "couple_length_m", "area_m2",
                                     "opening_m",      "open_share",      "slip_m"};
+
+constexpr const char* kCertainty = "relative_range";
+constexpr std::array kStrengthKeys{"largest_pressure_Pa", "strength_use"};
 
 using KeyList = std::vector<const char*>;
 
@@ -130,8 +134,8 @@ void add_blocks(const Evaluation& e, const Film& film, bool rounded, PackedArray
 }
 
 /// The joints of one state: their blocks, outlines and columns.
-void add_joints(int state, const JointWrenches& joints, const KeyList& keys, bool rounded,
-                const Lattice& lattice, PackedArrays* arrays) {
+void add_joints(int state, const JointWrenches& joints, const std::vector<ForceRange>& ranges,
+                const KeyList& keys, bool rounded, const Lattice& lattice, PackedArrays* arrays) {
   const std::string prefix = fmt::format("state{}.", state);
   std::vector<int> block_a, block_b, ring;
   std::vector<std::uint8_t> kind, on_first, corners;
@@ -154,6 +158,20 @@ void add_joints(int state, const JointWrenches& joints, const KeyList& keys, boo
   arrays->add(prefix + "corners", corners);
   arrays->add_points(prefix + "outlines", outlines, lattice);
   add_columns(prefix, joint_columns(), keys, joints.wrenches, rounded, arrays);
+  if (const std::vector<double> certainty = relative_ranges(ranges, joints.wrenches); !certainty.empty())
+    arrays->add_rounded(prefix + kCertainty, certainty);
+}
+
+/// Entries of the header for the columns of the joints, with the certainty of their forces if the run has ranges of joints.
+Json joint_entries(const Evaluation& e, const KeyList& keys) {
+  Json entries = column_entries(joint_columns(), keys);
+  if (!relative_ranges(e.summary.ranges, e.last.joints.wrenches).empty())
+    entries.push_back({{"key", kCertainty},
+                       {"unit", ""},
+                       {"label", "Uncertainty of the normal force"},
+                       {"meaning", "width of the range over its mean, 0: certain, 2: from zero"},
+                       {"colour", true}});
+  return entries;
 }
 
 double largest_norm_in(const std::vector<double>& vectors) {
@@ -264,9 +282,13 @@ std::string scene_bytes(const Evaluation& e, const Film& film) {
   KeyList joint_keys;
   append_keys(kForceKeys, &joint_keys);
   if (whole_joints) append_keys(kJointKeysAlso, &joint_keys);
+  if (whole_joints && std::any_of(e.last.joints.wrenches.begin(), e.last.joints.wrenches.end(),
+                                  [](const JointWrench& j) { return std::isfinite(j.strength_use); }))
+    append_keys(kStrengthKeys, &joint_keys);
   Json states = Json::array();
   const auto add_state = [&](const std::string& name, const JointWrenches& joints) {
-    add_joints(static_cast<int>(states.size()), joints, joint_keys, !whole_joints, lattice, &arrays);
+    add_joints(static_cast<int>(states.size()), joints, e.summary.ranges, joint_keys, !whole_joints, lattice,
+               &arrays);
     states.push_back({{"name", name}});
   };
   if (at_rest(e.summary)) {
@@ -288,7 +310,7 @@ std::string scene_bytes(const Evaluation& e, const Film& film) {
                        {"colour", first_colour(e, film)},
                        {"floor_N", e.last.joints.floor.force},
                        {"block_columns", column_entries(block_columns(), block_keys(e))},
-                       {"joint_columns", column_entries(joint_columns(), joint_keys)},
+                       {"joint_columns", joint_entries(e, joint_keys)},
                        {"states", states},
                        {"joint_outlines", whole_joints},
                        {"lines", lines},

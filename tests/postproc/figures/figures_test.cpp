@@ -78,7 +78,7 @@ TEST(LevelsFigure, DrawsSegmentsAndScaleBarToOneScale) {
   const double metres_per_newton = flat[0][3] / (31.0 * kBlockWeight);
   EXPECT_NEAR(metres_per_newton, segment_scale(e.assembly, 31.0 * kBlockWeight), 1e-8 * metres_per_newton);
   // 262.8 kN are shown in MN; the scale bar is the largest round force below, 0.2 MN.
-  EXPECT_NEAR(measure[0][2], 2e5 * metres_per_newton, 1e-8);
+  EXPECT_NEAR(measure[0][3], 2e5 * metres_per_newton, 1e-8);
   EXPECT_NE(figure.commands.find("'0.2 MN'"), std::string::npos);
   // Faces of the three free blocks: five rows each, since outlines are closed.
   EXPECT_EQ(data_of(figure, "outlines").size(), 15u);
@@ -149,7 +149,7 @@ TEST(MotionFigure, OmitsTheBlocksThatAStageLacks) {
   const Evaluation e = test::column_evaluation(0.6, 0.4);
   const Figure figure = motion_figure(e, {Shot{1.0, e.last.frame.blocks, true, 1}});
   EXPECT_EQ(data_of(figure, "faces0").size(), 2u * 2u * 4u) << "rings 0 and 1, one face each, painted twice";
-  EXPECT_NE(figure.commands.find("set title 'ring 1 just laid'"), std::string::npos);
+  EXPECT_NE(figure.commands.find("set title 'course 1 just laid'"), std::string::npos);
 }
 
 TEST(SectionFigure, StatesScaleAndGlobalCheck) {

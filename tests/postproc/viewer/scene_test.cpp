@@ -142,6 +142,25 @@ TEST(Scene, HoldsTheDoublesOfTheTables) {
   }
 }
 
+// The joint of blocks 1 and 2 may carry 1 to 3 MN: a range of 2 MN about 2 MN. The others have no range.
+TEST(Scene, HoldsTheCertaintyOfTheJoints) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  ForceRange range{"normal force of joint 1-2", "N", {}, {}, {}};
+  range.min = {RangeOutcome::bounded, 1e6, {}, {}};
+  range.max = {RangeOutcome::bounded, 3e6, {}, {}};
+  range.joint = {1, 2};
+  e.summary.ranges = {range};
+  const std::string bytes = scene_bytes(e, Film(e));
+  const std::vector<double> certainty = decoded(bytes, "state0.relative_range");
+  ASSERT_EQ(certainty.size(), 3u);
+  for (size_t j = 0; j < 3; ++j) {
+    if (e.last.joints.wrenches[j].block_a == 1)
+      EXPECT_EQ(certainty[j], 1.0);
+    else
+      EXPECT_TRUE(std::isnan(certainty[j]));
+  }
+}
+
 TEST(Scene, SaysNothingOfForcesWithoutAnEquilibrium) {
   Evaluation e = test::column_evaluation(0.5, 0.3);
   e.summary.status = Status::collapsed;

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "postproc/figures/figures.hpp"
+#include "postproc/figures/joint_map.hpp"
+#include "postproc/figures/plot_style.hpp"
+#include "postproc/mechanics/cracks.hpp"
+#include "postproc/tables/range_values.hpp"
+
+namespace cupola {
+namespace {
+
+/// Continues a plot command with segments of a data block, if it has any.
+std::string segments(const JointMap::Rows& rows, const char* name, const std::string& style) {
+  return rows.empty() ? "" : fmt::format(", ${} using 1:2:3:4{}", name, style);
+}
+
+std::string outline_plot() {
+  return fmt::format("$outlines using 1:2:3:4:5:6 with boxxyerror fs empty lc rgb '{}' notitle", kGrey);
+}
+
+}  // namespace
+
+Figure certainty_map(const Evaluation& e) {
+  JointMap map(shell_map(e));
+  JointMap::Rows joints, unlimited, unknown;
+  for (const ForceRange& range : e.summary.ranges) {
+    if (!range.joint) continue;
+    const double value = relative_range(range);
+    if (std::isfinite(value))
+      map.add(*range.joint, value, &joints);
+    else
+      map.add(*range.joint, std::nullopt, std::isinf(value) ? &unlimited : &unknown);
+  }
+  Figure f;
+  f.name = "map_certainty";
+  f.title = "Certainty of the joint forces over the shell";
+  f.caption =
+      "The joints of the unrolled shell, coloured by the width of the range of their normal force over its "
+      "mean: at 0 "
+      "equilibrium and friction determine the force, at 2 it may be anything from zero to its maximum.";
+  f.width = 1100;
+  f.height = 640;
+  f.vector = map.is_small();
+  f.commands =
+      plot_style() + map.outlines() + data_block("joints", joints) + data_block("unlimited", unlimited) +
+      data_block("unknown", unknown) + map.axes() +
+      fmt::format(
+          "set palette defined (0 '{}', 1 '#DDDDDD', 2 '{}')\nset cbrange [0:2]\n"
+          "set cblabel 'width of the range over its mean'\nset key outside top right horizontal\nplot ",
+          kBlue, kOrange) +
+      outline_plot() +
+      segments(
+          unknown, "unknown",
+          fmt::format(" with vectors nohead lw 3 lc rgb '{}' title 'no force in any state, or not found'",
+                      kGrey)) +
+      segments(joints, "joints", ":5 with vectors nohead lw 5 lc palette notitle") +
+      segments(unlimited, "unlimited",
+               fmt::format(" with vectors nohead lw 5 lc rgb '{}' title 'without limit'", kPurple)) +
+      "\n";
+  return f;
+}
+
+Figure crack_map(const Evaluation& e) {
+  JointMap map(shell_map(e));
+  JointMap::Rows joints;
+  double length = 0.0, widest = 0.0;
+  const std::vector<Crack> cracks = cracks_of(e.last.frame.contacts, e.last.joints);
+  for (const Crack& crack : cracks) {
+    const JointWrench& joint = e.last.joints.wrenches[crack.joint];
+    map.add({joint.block_a, joint.block_b}, 1e3 * crack.widest_gap, &joints);
+    length += crack.extent;
+    widest = std::max(widest, crack.widest_gap);
+  }
+  Figure f;
+  f.name = "map_cracks";
+  f.title = "Open joints over the shell";
+  f.caption = fmt::format(
+      "The joints of the unrolled shell that are open, at least in part, coloured by their largest gap. The "
+      "open parts of {} extend "
+      "over {} in total; the widest gap is {}.",
+      counted(cracks.size(), "joint"), length_text(length), length_text(widest));
+  f.width = 1100;
+  f.height = 640;
+  f.vector = map.is_small();
+  if (joints.empty()) return f;
+  f.commands = plot_style() + map.outlines() + data_block("joints", joints) + map.axes() +
+               fmt::format(
+                   "set palette defined (0 '#f6b26b', 0.5 '#c0392b', 1 '#4a0d2a')\nset cbrange [0:{}]\n"
+                   "set cblabel 'gap (mm)'\nunset key\nplot ",
+                   1e3 * widest) +
+               outline_plot() + segments(joints, "joints", ":5 with vectors nohead lw 4 lc palette notitle") +
+               "\n";
+  return f;
+}
+
+}  // namespace cupola

@@ -1,0 +1,30 @@
+#include "postproc/mechanics/cracks.hpp"
+
+#include <algorithm>
+
+namespace cupola {
+
+std::vector<Crack> cracks_of(const ContactTable& c, const JointWrenches& joints) {
+  std::vector<Crack> cracks;
+  for (size_t j = 0; j < joints.wrenches.size(); ++j) {
+    const JointWrench& joint = joints.wrenches[j];
+    std::vector<Vec3> open;
+    double widest = 0.0;
+    for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
+      const int row = joints.contacts[i];
+      if (c.normal_force[row] > 0.0 || c.gap[row] <= 0.0) continue;
+      open.push_back(c.point[row]);
+      widest = std::max(widest, c.gap[row]);
+    }
+    if (open.size() < 2) continue;
+    Crack crack{static_cast<int>(j), planar_hull(open, joint.patch.plane.normal), 0.0, widest};
+    if (crack.open.outline.size() < 2) continue;
+    for (const Eigen::Vector2d& p : crack.open.outline)
+      for (const Eigen::Vector2d& q : crack.open.outline)
+        crack.extent = std::max(crack.extent, (p - q).norm());
+    cracks.push_back(std::move(crack));
+  }
+  return cracks;
+}
+
+}  // namespace cupola

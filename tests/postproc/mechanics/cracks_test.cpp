@@ -1,0 +1,46 @@
+#include "postproc/mechanics/cracks.hpp"
+
+#include <gtest/gtest.h>
+
+#include "postproc/tables/post_summary.hpp"
+#include "tests/postproc/scene.hpp"
+
+namespace cupola::cracks_test {
+namespace {
+
+/// The column with the resultant on the edge x = 0: the two corners at x = 1.2 m of every bed carry nothing.
+Frame hinged(double gap) {
+  Frame frame = test::column_at_rest(test::column(3), test::kGravity, 0.0, 0.0, 0.4);
+  for (int i = 0; i < frame.contacts.size(); ++i)
+    if (frame.contacts.normal_force[i] == 0.0) frame.contacts.gap[i] = gap;
+  return frame;
+}
+
+Evaluation evaluated_with(double gap) {
+  const Assembly a = test::column(3);
+  return test::evaluated(a, {hinged(gap)}, test::column_summary(a), test::column_case(),
+                         test::fresh_folder("results"));
+}
+
+// Each of three beds is open along its edge of 0.8 m by 2 mm.
+TEST(Cracks, RunAlongTheOpenEdgeOfEveryBed) {
+  const Evaluation e = evaluated_with(2e-3);
+  const std::vector<Crack> cracks = cracks_of(e.last.frame.contacts, e.last.joints);
+  ASSERT_EQ(cracks.size(), 3u);
+  for (const Crack& crack : cracks) {
+    EXPECT_NEAR(crack.extent, 0.8, 1e-12);
+    EXPECT_EQ(crack.widest_gap, 2e-3);
+  }
+  const PostSummary s = post_summary(e);
+  EXPECT_NEAR(s.crack_length_m.value(), 2.4, 1e-12);
+  EXPECT_EQ(s.widest_crack_m.value(), 2e-3);
+}
+
+TEST(Cracks, NeedAGap) {
+  const Evaluation e = evaluated_with(0.0);
+  EXPECT_TRUE(cracks_of(e.last.frame.contacts, e.last.joints).empty());
+  EXPECT_EQ(post_summary(e).crack_length_m.value(), 0.0);
+}
+
+}  // namespace
+}  // namespace cupola::cracks_test
