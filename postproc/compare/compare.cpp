@@ -17,18 +17,19 @@
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/html.hpp"
 #include "postproc/tables/csv_file.hpp"
+#include "postproc/tables/mesh_output.hpp"
 
 namespace cupola {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A graph with one curve per run, from a table that several runs have.
+/// A quantity over the height, from a table that several runs have.
 struct Overlay {
   std::string table;   // name of the CSV file
   std::string column;  // drawn over height_m
   double scale = 1.0;  // factor from the SI value of the column
-  std::string label;   // axis label with unit
+  std::string label;   // with unit
   std::string title;
 };
 
@@ -55,93 +56,111 @@ std::vector<std::vector<double>> curve(const CsvFile& csv, const Overlay& overla
   return rows;
 }
 
-/// The overlaid graph; a figure without commands if fewer than two runs have the table, or if the column is
-/// negligible in all of them.
-Figure overlay_figure(const Overlay& overlay, const std::vector<std::string>& folders,
-                      const std::vector<std::string>& labels) {
+/// One panel per run with its curve, over the curves of the others in grey, all on one scale. A figure without commands
+/// if fewer than two runs have the table, or if the column is negligible in all of them.
+Figure multiples_figure(const Overlay& overlay, const std::vector<std::string>& folders,
+                        const std::vector<std::string>& labels) {
   CUPOLA_ASSERT(labels.size() == folders.size());
-  constexpr const char* kColours[] = {kBlue, kOrange, kGreen, kPurple, kSky, "#000000"};
-  Figure f;
-  f.name = overlay.table + "_" + overlay.column;
-  f.title = overlay.title;
-  f.width = 760;
-  f.height = 480;
-  std::string data, plot;
-  int curves = 0;
-  bool any = false;
+  constexpr size_t kMostInARow = 5;
+  std::string data;
+  std::vector<size_t> drawn;
+  double least = 0.0, most = 0.0, highest = 0.0;
   for (size_t i = 0; i < folders.size(); ++i) {
     const std::string path = (fs::path(folders[i]) / (overlay.table + ".csv")).string();
     if (!fs::exists(path)) continue;
     const std::vector<std::vector<double>> rows = curve(read_csv(path), overlay);
-    any =
-        any || std::any_of(rows.begin(), rows.end(), [](const auto& row) { return std::abs(row[1]) > 0.0; });
+    for (const auto& row : rows) {
+      if (!std::isfinite(row[1])) continue;
+      least = std::min(least, row[1]);
+      most = std::max(most, row[1]);
+      highest = std::max(highest, row[0]);
+    }
     data += data_block(fmt::format("run{}", i), rows);
-    plot += fmt::format("{} $run{} w lp lc rgb '{}' dt {} pt {} ps 0.5 lw 1.5 title '{}'",
-                        plot.empty() ? "plot" : ",", i, kColours[i % std::size(kColours)],
-                        i / std::size(kColours) + 1, 4 + i, gnuplot_text(labels[i]));
-    ++curves;
+    drawn.push_back(i);
   }
-  if (curves < 2 || !any) return f;
+  Figure f;
+  f.name = overlay.table + "_" + overlay.column;
+  f.title = overlay.title;
+  if (drawn.size() < 2 || most <= least) return f;
+  const size_t columns = std::min(drawn.size(), kMostInARow), rows = (drawn.size() + columns - 1) / columns;
+  f.caption = fmt::format(
+      "{}, over the height in m: one panel per run, the others in grey, all on one scale.", overlay.label);
+  f.width = static_cast<int>(60 + 210 * columns);
+  f.height = static_cast<int>(40 + 320 * rows);
   f.commands = plot_style() + data +
                fmt::format(
-                   "set xlabel 'height (m)'\nset ylabel '{}'\nset yrange [0:*]\nset key outside bottom "
-                   "center vertical\n{}\n",
-                   gnuplot_text(overlay.label), plot);
+                   "set multiplot layout {},{} margins {},0.98,{},{} spacing 0.025,{}\nunset key\n"
+                   "set xrange [{}:{}]\nset yrange [0:{}]\nset xtics {}\n",
+                   rows, columns, 55.0 / f.width, 50.0 / f.height, 1.0 - 35.0 / f.height, 90.0 / f.height,
+                   1.05 * least, 1.05 * most, 1.03 * highest, round_down(0.5 * (most - least)));
+  for (size_t k = 0; k < drawn.size(); ++k) {
+    f.commands += fmt::format("set title '{}'\n{}", gnuplot_text(labels[drawn[k]]),
+                              k % columns == 0 ? "set format y '%g'\n" : "set format y ''\n");
+    std::string plot;
+    for (const size_t other : drawn)
+      if (other != drawn[k]) plot += fmt::format("$run{} using 2:1 w l lc rgb '#cccccc', ", other);
+    f.commands +=
+        fmt::format("plot {}$run{} using 2:1 w lp lc rgb '{}' pt 7 ps 0.4 lw 1.8\n", plot, drawn[k], kBlue);
+  }
+  f.commands += "unset multiplot\n";
   return f;
 }
 
 std::vector<Figure> overlay_figures(const std::vector<std::string>& folders,
                                     const std::vector<std::string>& labels) {
   std::vector<Overlay> overlays{
-      {"rings", "cv_pressure", 100.0, "variation of the bed pressure in the ring (%)",
+      {"rings", "cv_pressure", 100.0, "Variation of the bed pressure in a ring (%)",
        "Uniformity of the bed pressure"},
-      {"rings", "largest_friction_use", 100.0, "largest friction utilisation (%)",
+      {"rings", "largest_friction_use", 100.0, "Largest friction use of a bed (%)",
        "Friction utilisation of the beds"},
-      {"rings", "largest_kern_use", 1.0, "largest eccentricity relative to the kern edge",
-       "Eccentricity of the bed forces"}};
-  overlays.push_back({"stages", "critical_friction", 1.0, "friction required by the ring just laid",
+      {"rings", "largest_kern_use", 1.0, "Largest kern use of a bed", "Eccentricity of the bed forces"}};
+  overlays.push_back({"stages", "critical_friction", 1.0, "Friction required by the ring just laid",
                       "Construction, ring by ring"});
   for (const std::string& table : common_files(folders, "thrust_", ".csv")) {
     const std::string name = table.substr(7);
-    overlays.push_back({table, "r_N", 1e-6, "r: resultant (MN)", "Resultant along the meridian " + name});
+    overlays.push_back({table, "r_N", 1e-6, "Resultant (MN)", "Resultant along the meridian " + name});
     overlays.push_back(
-        {table, "couple_length_m", 1.0, "couple length (m)", "Couple length along the meridian " + name});
+        {table, "couple_length_m", 1.0, "Couple length (m)", "Couple length along the meridian " + name});
+    overlays.push_back({table, "position", 1.0, "Place of the thrust line, 0: intrados, 1: extrados",
+                        "Thrust line through the thickness, meridian " + name});
   }
+  for (const std::string& table : common_files(folders, "hoop_", ".csv"))
+    overlays.push_back({table, "hoop_force_N", 1e-6, "Hoop force of a ring (MN), compression positive",
+                        "Hoop force across the meridian " + table.substr(5)});
   std::vector<Figure> figures;
   for (const Overlay& overlay : overlays) {
-    Figure figure = overlay_figure(overlay, folders, labels);
+    Figure figure = multiples_figure(overlay, folders, labels);
     if (!figure.commands.empty()) figures.push_back(std::move(figure));
   }
   return figures;
 }
 
 std::string comparison_html(const std::vector<PostSummary>& runs, const std::vector<std::string>& folders,
-                            const std::vector<Figure>& figures, const std::vector<Figure>& maps,
-                            const std::string& figure_folder, const std::vector<std::string>& problems) {
+                            const std::string& output_folder, const std::vector<Figure>& figures,
+                            const std::vector<Figure>& maps, const std::string& figure_folder,
+                            const std::vector<std::string>& problems) {
   const std::vector<std::string> labels = run_labels(runs.size());
   std::string body = "<h1>Comparison</h1>\n<dl>\n";
   for (size_t i = 0; i < runs.size(); ++i)
     body += fmt::format("<dt>{}</dt><dd>{} <small>({}, {})</small></dd>\n", markup_text(labels[i]),
-                        markup_text(runs[i].title), markup_text(runs[i].status), markup_text(folders[i]));
+                        report_link(runs[i].title, folders[i], output_folder), markup_text(runs[i].status),
+                        markup_text(folders[i]));
   body += "</dl>\n";
   for (const std::string& problem : problems)
     body += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(problem) + "</p>\n";
   body += "<h2>Findings</h2>\n<ul>\n";
   for (const std::string& sentence : findings(runs)) body += "<li>" + markup_text(sentence) + "</li>\n";
   body += "</ul>\n<h2>Numbers</h2>\n" + html_table(plain_table(runs));
-  body += "<h2>Graphs</h2>\n<div class=\"side\">\n";
+  constexpr int kHalfPage = 500;  // px
+  body += "<h2>Over the height</h2>\n<div class=\"side\">\n";
   for (const Figure& figure : figures)
     body +=
-        fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
+        fmt::format("<figure{}>{}<figcaption><strong>{}.</strong> {}</figcaption></figure>\n",
+                    figure.width > kHalfPage ? " class=\"wide\"" : "",
                     html_picture((fs::path(figure_folder) / (figure.name + ".svg")).string(), figure.title),
-                    markup_text(figure.title));
-  body += "</div>\n<h2>Side by side</h2>\n";
-  std::vector<std::string> figure_folders;
-  for (const std::string& folder : folders) figure_folders.push_back((fs::path(folder) / "figures").string());
-  body += maps_html(maps, figure_folder);
-  for (const char* start : {"motion", "thrust_", "section_", "hoop_"})
-    for (const std::string& name : common_files(figure_folders, start, ".png"))
-      body += side_by_side(name, folders, labels);
+                    markup_text(figure.title), markup_text(figure.caption));
+  body += "</div>\n<h2>Over the shell</h2>\n" + maps_html(maps, figure_folder);
+  body += side_by_side("motion", folders, labels);
   return html_page("Comparison", body);
 }
 
@@ -166,8 +185,9 @@ ExitCode compare(const std::vector<std::string>& post_folders, const std::string
   const std::vector<std::string> problems = draw_figures(figure_folder, drawn);
   write_text_atomically((fs::path(output_folder) / "comparison.csv").string(),
                         to_csv(comparison_table(runs)));
-  write_text_atomically((fs::path(output_folder) / "comparison.html").string(),
-                        comparison_html(runs, post_folders, figures, maps, figure_folder, problems));
+  write_text_atomically(
+      (fs::path(output_folder) / "comparison.html").string(),
+      comparison_html(runs, post_folders, output_folder, figures, maps, figure_folder, problems));
   for (const std::string& problem : problems) fmt::print(stderr, "cupola-post: warning: {}\n", problem);
   if (!quiet) {
     for (size_t i = 0; i < runs.size(); ++i)

@@ -71,16 +71,14 @@ void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
                     fmt::format("{:.3g} of the weight; one of the admissible states{}", *s.thrust_over_weight,
                                 s.largest_strength_use ? "" : ", a range analysis gives the limits")});
   if (s.largest_strength_use)
-    out->push_back({"Largest pressure on a joint",
-                    fmt::format("{:.3g} MPa", 1e-6 * s.largest_pressure_Pa.value_or(0.0)),
+    out->push_back({kLargestPressure, fmt::format("{:.3g} MPa", 1e-6 * s.largest_pressure_Pa.value_or(0.0)),
                     fmt::format("a joint uses at most {:.3g} % of its compressive or tensile strength",
                                 100.0 * *s.largest_strength_use)});
   add_thrust_line(e, out);
   const auto& joints = e.last.joints.wrenches;
   const auto sliding = std::count_if(joints.begin(), joints.end(),
                                      [](const JointWrench& j) { return j.friction_use > kSlides; });
-  out->push_back({"Largest friction use of a joint",
-                  fmt::format("{:.3g} %", 100.0 * s.largest_friction_use.value_or(0.0)),
+  out->push_back({kLargestFrictionUse, fmt::format("{:.3g} %", 100.0 * s.largest_friction_use.value_or(0.0)),
                   fmt::format("{} of {} slide", sliding, counted(joints.size(), "joint"))});
   double force = 0.0;
   for (const JointWrench& joint : joints) force = std::max(force, joint.wrench.force.norm());
@@ -112,6 +110,20 @@ void add_numbers_of_motion(const Evaluation& e, const std::vector<HistoryRow>& h
     out->push_back({"Free blocks", fmt::format("{}", e.summary.free_blocks),
                     fmt::format("in {}", counted(e.summary.joints, "joint"))});
   if (out->size() < 3) out->push_back({"Weight", force_text(e.summary.weight_N), "of the free blocks"});
+}
+
+/// Whether the forces are those of the model, in words: "proven to 9 digits".
+std::string how_sure(const Summary& s) {
+  if (!s.forces_unique.value) return to_sentence(s.forces_unique);
+  const ForceCertificate& certificate = s.certified_force_error;
+  if (!certificate.value)
+    return fmt::format("No bound of the error of the forces is proven: {}.", certificate.bounds);
+  const std::string article = certificate.bounds.starts_with("the ") ? "" : "the ";
+  const int digits = static_cast<int>(std::floor(-std::log10(std::max(*certificate.value, 1e-16))));
+  const std::string lead =
+      digits > 0 ? fmt::format("The forces of this model are proven to {}", counted(digits, "digit"))
+                 : "The forces of this model are known only roughly";
+  return fmt::format("{}: {}{} is at most {:.1e}.", lead, article, certificate.bounds, *certificate.value);
 }
 
 std::string numbers_html(const std::vector<KeyNumber>& numbers) {
@@ -205,11 +217,7 @@ std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& his
   out += fmt::format("<p class=\"verdict{}\"><strong>{}</strong> <small>{}</small></p>\n",
                      s.status == Status::stable ? "" : " bad", markup_text(verdict_text(s)),
                      markup_text(with_capital(s.message) + "."));
-  if (at_rest(s))
-    out += "<p><strong>How sure is that?</strong> " +
-           markup_text(s.forces_unique.value ? to_sentence(s.certified_force_error)
-                                             : to_sentence(s.forces_unique)) +
-           "</p>\n";
+  if (at_rest(s)) out += "<p><strong>How sure is that?</strong> " + markup_text(how_sure(s)) + "</p>\n";
   out += numbers_html(key_numbers(e, history)) + viewer;
   return at_rest(s) ? out + worst_html(e) : out;
 }

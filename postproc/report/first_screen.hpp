@@ -15,6 +15,9 @@ struct KeyNumber {
   std::string detail;  ///< what it means, or between which limits it is certain
 };
 
+inline constexpr const char* kLargestPressure = "Largest pressure on a joint";
+inline constexpr const char* kLargestFrictionUse = "Largest friction use of a joint";
+
 /// At most three: of a limit analysis the critical value, of a range analysis the ranges, then thrust, thrust line and
 /// friction; of a run that is not at rest what moves, how far and when.
 std::vector<KeyNumber> key_numbers(const Evaluation& evaluation, const std::vector<HistoryRow>& history);

@@ -47,6 +47,7 @@ summary { cursor: pointer; }
 dl { display: grid; grid-template-columns: minmax(9rem, max-content) minmax(0, 1fr); gap: .1rem 1rem; margin: .5rem 0; }
 dt { color: var(--soft); } dd { margin: 0; }
 .side { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 0 1rem; }
+.side .wide { grid-column: 1 / -1; }
 @media (max-width: 600px) {
   body { padding: .5rem .75rem 2rem; } h1 { font-size: 1.3rem; }
   figure { overflow-x: auto; } figure img { max-width: none; width: 40rem; }
@@ -60,6 +61,16 @@ dt { color: var(--soft); } dd { margin: 0; }
 )css";
 
 }  // namespace
+
+std::string report_link(const std::string& text, const std::string& post_folder,
+                        const std::string& page_folder) {
+  const std::filesystem::path report = std::filesystem::absolute(post_folder) / "report.html";
+  const std::string relative =
+      report.lexically_normal()
+          .lexically_relative(std::filesystem::absolute(page_folder).lexically_normal())
+          .string();
+  return fmt::format("<a href=\"{}\">{}</a>", markup_text(relative), markup_text(text));
+}
 
 std::string html_picture(const std::string& path, const std::string& alternative) {
   if (!std::filesystem::exists(path)) return "";

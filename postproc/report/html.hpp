@@ -7,6 +7,10 @@
 
 namespace cupola {
 
+/// A link to report.html in the folder post/ of a run, from a page in another folder.
+std::string report_link(const std::string& text, const std::string& post_folder,
+                        const std::string& page_folder);
+
 /// A picture as an <img> with the file embedded; "" if the file does not exist.
 std::string html_picture(const std::string& path, const std::string& alternative);
 

@@ -8,6 +8,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "postproc/figures/plot_style.hpp"
+#include "postproc/report/first_screen.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/tables/post_summary.hpp"
 
@@ -19,9 +20,9 @@ std::string percent(double share) {
   return share == 0.0 ? "negligible" : fmt::format("{:.1f} %", 100.0 * share);
 }
 
-void add_thrust(const Evaluation& e, std::vector<std::string>* out) {
-  for (const MeridianEvaluation& m : e.meridians)
-    out->push_back(fmt::format("Meridian {}. {}", m.thrust.name, describe(m.thrust)));
+/// True if the first screen has a number of this name.
+bool leads(const std::vector<KeyNumber>& numbers, const char* name) {
+  return std::any_of(numbers.begin(), numbers.end(), [name](const KeyNumber& n) { return n.name == name; });
 }
 
 void add_rings(const Evaluation& e, const PostSummary& s, std::vector<std::string>* out) {
@@ -43,10 +44,6 @@ void add_rings(const Evaluation& e, const PostSummary& s, std::vector<std::strin
                      : fmt::format("The coefficient of variation of the bed pressure within a {0} is {1} on "
                                    "average over the {0}s and {2} at most.",
                                    ring, percent(*s.mean_cv_pressure), percent(*s.largest_cv_pressure)));
-  if (is_vault(e) && s.thrust_over_weight)
-    out->push_back(
-        fmt::format("The outward thrust at the base, summed over the blocks, is {}, {:.4g} times the weight.",
-                    force_text(e.rings.front().radial_thrust), *s.thrust_over_weight));
 }
 
 /// Couple lengths of two kinds of resultants, which differ: a strip adds parts of several blocks.
@@ -154,8 +151,8 @@ void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& hist
 std::vector<std::string> finding_sentences(const Evaluation& e) {
   const PostSummary s = post_summary(e);
   std::vector<std::string> out;
-  if (s.largest_strength_use) out.push_back(strength_text(s));
-  add_thrust(e, &out);
+  const std::vector<KeyNumber> leading = key_numbers(e, {});  // is not repeated
+  if (s.largest_strength_use && !leads(leading, kLargestPressure)) out.push_back(strength_text(s));
   for (const PlaneCut& cut : e.planes)
     out.push_back(
         fmt::format("The joints across the plane {} transmit a normal force of {} (compression positive) to "
@@ -168,7 +165,7 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
         "and {:.2f} times on a single bed (compliance per {}).",
         *s.rib_over_mid_sail, *s.rib_over_mid_sail_smallest, *s.rib_over_mid_sail_largest, s.compliance_per));
   out.push_back(couple_text(e, s));
-  out.push_back(friction_text(s));
+  if (!leads(leading, kLargestFrictionUse)) out.push_back(friction_text(s));
   if (s.mean_kern_use)
     out.push_back(
         *s.mean_kern_use == 0.0
@@ -177,9 +174,9 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
             : fmt::format("The mean eccentricity of the bed forces is {:.2f} of the distance to the edge of "
                           "the kern. Where it exceeds 1, part of the joint is unloaded.",
                           *s.mean_kern_use));
-  if (s.max_displacement_m)
-    out.push_back(
-        fmt::format("The largest displacement of a block is {:.4g} mm.", 1e3 * *s.max_displacement_m));
+  if (const double length = s.crack_length_m.value_or(0.0); length > 0.0)
+    out.push_back(fmt::format("Joints are open over {} in total, by up to {}.", length_text(length),
+                              length_text(*s.widest_crack_m)));
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "assembly/program/command_line.hpp"
 #include "postproc/report/html.hpp"
 #include "postproc/studies/sweep.hpp"
+#include "postproc/studies/sweep_figure.hpp"
 
 namespace cupola {
 namespace {
@@ -31,6 +32,43 @@ std::string aligned_text(const Table& table) {
   return out;
 }
 
+/// The table without columns in which all cells are empty.
+Table without_empty_columns(const Table& table) {
+  Table out{table.name, table.title, {}, std::vector<std::vector<Table::Cell>>(table.rows.size())};
+  for (size_t k = 0; k < table.columns.size(); ++k) {
+    if (std::all_of(table.rows.begin(), table.rows.end(),
+                    [k](const auto& row) { return to_display(row[k]).empty(); }))
+      continue;
+    out.columns.push_back(table.columns[k]);
+    for (size_t r = 0; r < table.rows.size(); ++r) out.rows[r].push_back(table.rows[r][k]);
+  }
+  return out;
+}
+
+/// The page: a figure, the table, and links to the reports of the members.
+std::string sweep_page(const Case& scene, const std::vector<SweepMember>& members, const Table& table,
+                       const std::string& verdict, const std::string& runs_folder,
+                       const std::string& output_folder) {
+  std::string body = fmt::format("<h1>{}</h1>\n<p>{}.</p>\n", markup_text(scene.title), verdict);
+  const Figure figure = sweep_figure(scene.sweep, table);
+  if (!figure.commands.empty()) {
+    const std::filesystem::path figures = std::filesystem::path(output_folder) / "figures";
+    for (const std::string& problem : draw_figures(figures.string(), {figure}))
+      body += "<p class=\"warning\">" + markup_text(problem) + "</p>\n";
+    if (const std::string picture = html_picture((figures / "sweep.svg").string(), figure.title);
+        !picture.empty())
+      body += fmt::format("<figure>\n{}\n<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n",
+                          picture, markup_text(figure.title), markup_text(figure.caption));
+  }
+  body += html_table(without_empty_columns(table)) + "<p>Reports: ";
+  std::string separator;
+  for (const SweepMember& member : members) {
+    body += separator + report_link(member.name, runs_folder + "/" + member.name + "/post", output_folder);
+    separator = ", ";
+  }
+  return html_page(scene.title, body + ".</p>\n");
+}
+
 }  // namespace
 
 ExitCode run_sweep(int argc, const char* const* argv) {
@@ -41,7 +79,8 @@ ExitCode run_sweep(int argc, const char* const* argv) {
   app.add_option("--members", members_file, "write the list of runs to this file, one per line, and exit")
       ->type_name("FILE");
   app.add_option("--runs", runs_folder, "folder with one subfolder per run")->type_name("FOLDER");
-  app.add_option("--output", output_folder, "folder for sweep.csv and sweep.html")->type_name("FOLDER");
+  app.add_option("--output", output_folder, "folder for sweep.csv, sweep.html and figures/")
+      ->type_name("FOLDER");
   if (const auto ended = parse_arguments(app, argc, argv)) return *ended;
 
   // 2. Members of the sweep
@@ -64,10 +103,8 @@ ExitCode run_sweep(int argc, const char* const* argv) {
     make_folder(output_folder);
     const std::filesystem::path folder(output_folder);
     write_text_atomically((folder / "sweep.csv").string(), to_csv(table));
-    write_text_atomically(
-        (folder / "sweep.html").string(),
-        html_page(scene.title, fmt::format("<h1>{}</h1>\n<p>{}.</p>\n{}", markup_text(scene.title), verdict,
-                                           html_table(table))));
+    write_text_atomically((folder / "sweep.html").string(),
+                          sweep_page(scene, members, table, verdict, runs_folder, output_folder));
   }
   return missing > 0 ? ExitCode::failed : ExitCode::done;
 }

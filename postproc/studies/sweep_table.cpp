@@ -68,7 +68,7 @@ std::string members_text(const std::vector<SweepMember>& members, const std::str
 Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMember>& members,
                   const std::string& runs_folder) {
   Table t{"sweep", "The members of the sweep", {{"member", "", "name of the run"}}, {}};
-  for (const SweptKey& swept : sweep) t.columns.push_back({swept.key, "", "value of the key"});
+  for (const SweptKey& swept : sweep) t.columns.push_back({swept.key, "", swept.key});
   t.columns.push_back({"status", "", "how the run ended"});
   t.columns.push_back({"remark", "", "how far a missing member got"});
   const std::vector<Table::Column> numbers = {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "postproc/studies/sweep_figure.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
 
 namespace cupola::sweep_test {
@@ -26,6 +27,42 @@ TEST(SweepTable, ReportsMissingMembersAndHowFarTheyGot) {
   EXPECT_EQ(to_display(table.rows[2][3]), "interrupted: repeat the command to resume");
   EXPECT_EQ(to_display(table.rows[3][3]), "no assembly: see the output of the run");
   EXPECT_EQ(members_text({members[0]}, "dome"), "dome_friction0.1 dome joints.friction=0.1\n");
+}
+
+/// A sweep over friction and thickness of four members with a critical value each.
+Table table_of_four() {
+  Table table{"sweep", "", {}, {}};
+  for (const char* key : {"member", "joints.friction", "geometry.thickness", "status", "remark",
+                          "cpu_time_seconds", "critical_value"})
+    table.columns.push_back({key, "", ""});
+  for (const char* friction : {"0.2", "0.4"})
+    for (const char* thickness : {"1", "2"})
+      table.rows.push_back({std::string("m"), std::string(friction), std::string(thickness),
+                            std::string(friction[2] == '2' ? "moving" : "stable"), std::string(),
+                            3.0 * static_cast<double>(table.rows.size()),
+                            10.0 + static_cast<double>(table.rows.size())});
+  return table;
+}
+
+// One curve per thickness, named by it; times are no results; stable members have filled points (7), others open ones (6).
+TEST(SweepFigure, DrawsResultsOverTheFirstKey) {
+  const Figure f = sweep_figure({{"joints.friction", {"0.2", "0.4"}}, {"geometry.thickness", {"1", "2"}}},
+                                table_of_four());
+  EXPECT_NE(f.commands.find("$column6_0 << EOD\n0.2 10 6 \n0.4 12 7 \nEOD"), std::string::npos) << f.commands;
+  EXPECT_NE(f.commands.find("$column6_1 << EOD\n0.2 11 6 \n0.4 13 7 \nEOD"), std::string::npos) << f.commands;
+  EXPECT_NE(f.commands.find("'thickness 2'"), std::string::npos);
+  EXPECT_EQ(f.commands.find("cpu_time"), std::string::npos);
+}
+
+TEST(SweepFigure, NeedsNumbersThatVary) {
+  Table table = table_of_four();
+  EXPECT_EQ(sweep_figure({{"joints.friction", {"low", "high"}}, {"geometry.thickness", {"1", "2"}}}, table)
+                .commands,
+            "");
+  for (auto& row : table.rows) row.back() = 1.0;
+  EXPECT_EQ(
+      sweep_figure({{"joints.friction", {"0.2", "0.4"}}, {"geometry.thickness", {"1", "2"}}}, table).commands,
+      "");
 }
 
 }  // namespace

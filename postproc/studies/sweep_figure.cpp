@@ -1,0 +1,139 @@
+#include "postproc/studies/sweep_figure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/files/number_text.hpp"
+#include "postproc/figures/plot_style.hpp"
+
+namespace cupola {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+
+constexpr size_t kMostPanels = 4;
+constexpr std::array kColours{kBlue, kOrange, kGreen, kPurple, kSky};
+
+double number_of(const Table::Cell& cell) {
+  const double* value = std::get_if<double>(&cell);
+  return value ? *value : std::numeric_limits<double>::quiet_NaN();
+}
+
+size_t column_of(const Table& table, const std::string& key) {
+  const auto found = std::find_if(table.columns.begin(), table.columns.end(),
+                                  [&](const Table::Column& column) { return column.key == key; });
+  CUPOLA_ASSERT(found != table.columns.end());
+  return static_cast<size_t>(found - table.columns.begin());
+}
+
+/// Columns with results that differ between members; errors and times are no results.
+std::vector<size_t> varying_columns(const Table& table, size_t first) {
+  static const std::set<std::string> kNoResults{"equilibrium_residual", "cpu_time_seconds"};
+  std::vector<size_t> columns;
+  for (size_t k = first; k < table.columns.size(); ++k) {
+    std::set<double> values;
+    for (const auto& row : table.rows)
+      if (const double v = number_of(row[k]); std::isfinite(v)) values.insert(v);
+    if (values.size() > 1 && !kNoResults.contains(table.columns[k].key)) columns.push_back(k);
+  }
+  if (columns.size() > kMostPanels) columns.resize(kMostPanels);
+  return columns;
+}
+
+std::string text_of(const Table::Cell& cell) {
+  const std::string* text = std::get_if<std::string>(&cell);
+  return text ? *text : "";
+}
+
+/// Rows of the table by the values of all keys but the first, as the name of the curve.
+std::map<std::string, std::vector<size_t>> curves_of(const Table& table, size_t keys) {
+  std::map<std::string, std::vector<size_t>> curves;
+  for (size_t r = 0; r < table.rows.size(); ++r) {
+    std::string name;
+    for (size_t k = 2; k <= keys; ++k) {
+      const std::string& key = table.columns[k].key;
+      name += fmt::format("{}{} {}", name.empty() ? "" : ", ", key.substr(key.rfind('.') + 1),
+                          text_of(table.rows[r][k]));
+    }
+    curves[name].push_back(r);
+  }
+  return curves;
+}
+
+/// Members that have not ended stable, on the lower edge of the panels.
+Rows without_equilibrium(const Table& table, size_t status) {
+  Rows rows;
+  for (const auto& row : table.rows) {
+    double x = 0.0;
+    if (text_of(row[status]) != "stable" && text_of(row[status]) != "missing" &&
+        read_number(text_of(row[1]), &x).empty())
+      rows.push_back({x, 0.03});
+  }
+  return rows;
+}
+
+}  // namespace
+
+Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
+  Figure f;
+  f.name = "sweep";
+  f.title = "Results over " + sweep.front().key;
+  f.caption = "Filled points: stable. Open points and crosses: any other status, as the table gives it.";
+  for (const std::string& value : sweep.front().values)
+    if (double x = 0.0; !read_number(value, &x).empty()) return f;
+  const size_t status = column_of(table, "status");
+  const std::vector<size_t> columns = varying_columns(table, status + 2);
+  if (columns.empty()) return f;
+  const auto curves = curves_of(table, sweep.size());
+  const Rows fallen = without_equilibrium(table, status);
+  std::string data = data_block("fallen", fallen), plots;
+  for (const size_t k : columns) {
+    const Table::Column& column = table.columns[k];
+    plots += fmt::format("set ylabel '{}{}'\n", gnuplot_text(column.meaning),
+                         column.unit.empty() ? "" : " (" + gnuplot_text(column.unit) + ")");
+    std::string plot;
+    size_t n = 0;
+    for (const auto& [name, members] : curves) {
+      Rows rows;
+      for (const size_t r : members) {
+        double x = 0.0;
+        read_number(text_of(table.rows[r][1]), &x);
+        rows.push_back(
+            {x, number_of(table.rows[r][k]), text_of(table.rows[r][status]) == "stable" ? 7.0 : 6.0});
+      }
+      std::sort(rows.begin(), rows.end());
+      const std::string block = fmt::format("column{}_{}", k, n);
+      const char* colour = kColours[n % kColours.size()];
+      data += data_block(block, rows);
+      plot += fmt::format(
+          "{} ${} using 1:2 w l lc rgb '{}' lw 1.5, ${} using 1:2:3 w p pt variable ps 0.9 lc rgb '{}'",
+          plot.empty() ? "plot" : ",", block, colour, block, colour);
+      if (!name.empty()) plot += curve_label(block, rows.size() - 1, "$1", "$2", name, colour);
+      ++n;
+    }
+    plots +=
+        plot +
+        (fallen.empty() ? ""
+                        : fmt::format(", $fallen using 1:2 axes x1y2 w p pt 2 ps 1.2 lc rgb '{}'", kOrange)) +
+        "\n";
+  }
+  f.width = 900;
+  f.height = 60 + 260 * static_cast<int>(columns.size());
+  f.commands = plot_style() + data +
+               fmt::format(
+                   "set multiplot layout {},1\nunset key\nset y2range [0:1]\nset lmargin 12\nset rmargin "
+                   "{}\nset offsets graph "
+                   "0.03, graph 0.03, graph 0.08, graph 0.08\nset xlabel '{}'\n",
+                   columns.size(), curves.size() > 1 ? 24 : 4, gnuplot_text(sweep.front().key)) +
+               plots + "unset multiplot\n";
+  return f;
+}
+
+}  // namespace cupola
