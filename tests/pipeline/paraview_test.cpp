@@ -52,8 +52,9 @@ TEST(ParaViewScripts, NameTheFilesAndArraysOfARun) {
             "array resultant_N of wrenches.vtp\nfile blocks.pvd\nfile cracks.vtp\nfile joint_forces.vtp\n"
             "file sections.vtp\nfile thrust_lines.vtp\nfile wrenches.vtp\n");
   // The stand-in refuses what a run does not have.
-  for (const std::string wrong : {"s/force_magnitude_N/force_magnitude/ post/open_in_paraview.py",
-                                  "s/hoop_force_N_per_m/hoop_force/ post/open_in_paraview.py"}) {
+  for (const std::string wrong :
+       {"s/force_magnitude_N/force_magnitude/ post/open_in_paraview.py",
+        "s/left, .hoop_force_N_per_m./left, \"hoop_force\"/ post/open_in_paraview.py"}) {
     EXPECT_EQ(
         folder
             .run("sed '" + wrong.substr(0, wrong.find(" post")) + "' " + wrong.substr(wrong.find("post/")) +
