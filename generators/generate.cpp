@@ -8,7 +8,6 @@
 #include "assembly/base/error.hpp"
 #include "assembly/case/plausibility.hpp"
 #include "assembly/model/block_names.hpp"
-#include "generators/bond/make_bond.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
 #include "generators/surface/make_surface.hpp"
 
@@ -20,8 +19,6 @@ CutOptions cut_options(const Case& input) {
   options.density = input.material.density();
   options.support_width = input.geometry.support_width;
   options.imperfections = input.geometry.imperfections;
-  if (input.geometry.stage)
-    options.stage_rings = input.geometry.stage->rings * refinement_of(input.geometry.bond);
   return options;
 }
 
@@ -38,9 +35,7 @@ Assembly with_report(Assembly assembly, const GenerateReport& report, const Case
 }  // namespace
 
 Assembly cut_assembly(const Case& input) {
-  const SurfaceMap surface = make_surface(input.geometry.surface, rings_of(input.geometry.bond));
-  const BondPattern bond = make_bond(input.geometry.bond, bond_grid(surface));
-  Assembly assembly = cut_blocks(surface, bond, cut_options(input));
+  Assembly assembly = cut_blocks(make_shell(input.geometry), cut_options(input));
   assembly.title = input.title;
   assembly.geometry_hash = input.geometry_hash;
   return assembly;
@@ -76,8 +71,9 @@ Assembly generate(const Case& input, GenerateReport* report) {
   }
   report->model = check_model(assembly, tolerances);
   if (!geometry.stage) {
-    report->model.shell_volume = make_surface(geometry.surface, 2).shell_volume;
-    if (!report->model.shell_volume) report->model.shell_volume = extrapolated_shell_volume(geometry.surface);
+    const SurfaceMap surface = make_shell(geometry).surface;
+    report->model.shell_volume =
+        surface.shell_volume ? surface.shell_volume : extrapolated_shell_volume(surface);
   }
   return with_report(std::move(assembly), *report, input);
 }

@@ -117,7 +117,16 @@ void declare_herringbone_bond(Section& s, HerringboneBond& bond) {
   s.integer("verticals_per_block", bond.verticals_per_block, {.min = 1, .max = 1000},
             "width of a whole block over the width of an upright block");
   s.choice("path", bond.path, "upright blocks climb in spirals or straight up the meridians");
-  s.choice("chirality", bond.chirality, "right: spirals climb counter-clockwise, seen from above");
+  s.choice(
+      "chirality", bond.chirality,
+      "right: spirals climb counter-clockwise, seen from above; both: spirals of either hand, which cross");
+  s.integer(
+      "embedment", bond.embedment, {.min = -1},
+      "courses by which the uprights in the last course built stand in the courses below, one upright per "
+      "spiral and course; -1: a new one in each course, so that uprights of every embedment stand side by "
+      "side");
+  s.rule(bond.embedment < bond.rings_per_vertical, "embedment", "must be < rings_per_vertical");
+  s.rule(bond.embedment < 0 || bond.refine == 1, "embedment", "requires refine: 1");
   s.choice("beside", bond.beside,
            "head joints of the flat blocks: step with the spirals, keep a half bond, or lie on meridians");
   s.optional_number("phase", bond.phase, {.min = 0, .below = 1}, kNoPhase, kPhase);
@@ -152,6 +161,21 @@ void declare_bond(Section& s, Bond& bond) {
        alternative<Bond>("fill", "blocks of unequal width whose head joints avoid those of the ring below",
                          declare_fill_bond)},
       "how the shell is cut into blocks");
+}
+
+void declare_window(Section& s, Window& window) {
+  s.required_number(
+      "height", window.height, {.unit = "m", .above = 0},
+      "height above the springing of the bed under the last course built, on the intrados at a corner");
+  s.number("course", window.course, {.unit = "m", .above = 0},
+           "height of the courses, measured along the intrados at a corner");
+  s.number("from_deg", window.from_deg, {.unit = "deg", .min = -360, .max = 360}, "azimuth of one end");
+  s.number("to_deg", window.to_deg, {.unit = "deg", .min = -360, .max = 720},
+           "azimuth of the other end, counter-clockwise seen from above");
+  s.choice("ends", window.ends, "free, or held by fixed masonry as if the rest of the ring were built");
+  const double sector = window.to_deg - window.from_deg;
+  s.rule(sector > 0 && sector <= 360, "to_deg", "must be above from_deg, by at most 360");
+  s.rule(window.ends == Window::Ends::free || sector < 360, "ends", "held requires a sector below 360 deg");
 }
 
 void declare_stage(Section& s, Stage& stage) {
@@ -197,6 +221,11 @@ void declare_geometry(Section& s, Geometry& geometry) {
   if (geometry.imported) return;
   s.section("surface", geometry.surface, "shape of the masonry shell", declare_surface);
   s.section("bond", geometry.bond, "pattern in which the shell is cut into blocks", declare_bond);
+  s.optional_section(
+      "window", geometry.window,
+      "cut only some courses over a sector of the shell; bond.rings and bond.blocks_per_ring are "
+      "counted in it",
+      declare_window);
   s.optional_section("stage", geometry.stage, "build only the lower rings", declare_stage);
   s.number("support_width", geometry.support_width, {.unit = "m", .above = 0},
            "distance by which the fixed base extends beyond the shell");
@@ -204,7 +233,9 @@ void declare_geometry(Section& s, Geometry& geometry) {
   const auto [rings, blocks_per_ring] =
       std::visit([](const auto& bond) { return std::pair(bond.rings, bond.blocks_per_ring); }, geometry.bond);
   s.rule(!geometry.stage || geometry.stage->rings <= rings, "stage", "stage.rings must be <= bond.rings");
-  s.rule(!traits_of(geometry.surface).closed || blocks_per_ring >= 3, "bond",
+  s.rule(!geometry.window || traits_of(geometry.surface).closed, "window",
+         "requires a dome or an octagonal vault");
+  s.rule(geometry.window || !traits_of(geometry.surface).closed || blocks_per_ring >= 3, "bond",
          "bond.blocks_per_ring must be >= 3 on a closed ring");
 }
 

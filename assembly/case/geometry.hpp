@@ -128,18 +128,23 @@ struct StackBond {
 /// form spirals that advance by the width of one vertical per ring; on a wall, one diagonal from corner to
 /// corner.
 struct HerringboneBond {
-  enum class Chirality : std::uint8_t { right, left };
+  enum class Chirality : std::uint8_t { right, left, both };
   enum class Path : std::uint8_t { spiral, meridian };
   /// Head joints of the flat blocks: step with the spirals, keep a half bond, or lie on meridians.
   enum class Beside : std::uint8_t { stepped, half, aligned };
 
   int rings = 40;
-  int blocks_per_ring = 32;                ///< whole blocks that would fill a ring
-  int spirals = 8;                         ///< also the number of meridian strips
-  int rings_per_vertical = 3;              ///< height of a vertical
-  int verticals_per_block = 3;             ///< width of a whole block over the width of a vertical
-  Path path = Path::spiral;                ///< `meridian`: strips that climb straight up
-  Chirality chirality = Chirality::right;  ///< right: climbs counter-clockwise seen from above
+  int blocks_per_ring = 32;     ///< whole blocks that would fill a ring
+  int spirals = 8;              ///< also the number of meridian strips
+  int rings_per_vertical = 3;   ///< height of a vertical
+  int verticals_per_block = 3;  ///< width of a whole block over the width of a vertical
+  Path path = Path::spiral;     ///< `meridian`: strips that climb straight up
+  Chirality chirality =
+      Chirality::right;  ///< right: climbs counter-clockwise seen from above; both: they cross
+  /// Courses by which the upright of a spiral in the last course stands in the courses below, from 0 to
+  /// rings_per_vertical - 1. Each course then crosses one upright of each spiral. -1: one new upright per
+  /// spiral and course, so that each course crosses uprights of every embedment.
+  int embedment = -1;
   Beside beside = Beside::stepped;
   std::optional<double> phase = {};  ///< block widths from the first corner to the first spiral's start;
                                      ///< none: 1/6 on a vault with corners, else 0
@@ -147,7 +152,7 @@ struct HerringboneBond {
   int refine = 1;                    ///< >= 1; each spiral becomes that many spirals side by side in its band
 };
 constexpr auto enum_names(HerringboneBond::Chirality) {
-  return std::array{"right", "left"};
+  return std::array{"right", "left", "both"};
 }
 constexpr auto enum_names(HerringboneBond::Path) {
   return std::array{"spiral", "meridian"};
@@ -168,6 +173,21 @@ struct FillBond {
 };
 
 using Bond = std::variant<RunningBond, StackBond, HerringboneBond, FillBond>;
+
+/// A part of a dome or vault, of which only some courses over a sector are cut: masonry at the scale of bricks.
+struct Window {
+  /// `held`: fixed masonry stands beyond the two ends, as if the rest of the ring were built.
+  enum class Ends : std::uint8_t { free, held };
+
+  double height = 0.0;    ///< m, > 0, on the intrados at a corner: of the bed under the last course built
+  double course = 0.06;   ///< m, > 0: height of the courses, along the intrados at a corner
+  double from_deg = 0.0;  ///< azimuth of the right end, seen from outside
+  double to_deg = 45.0;   ///< azimuth of the other end, above from_deg and at most from_deg + 360
+  Ends ends = Ends::free;
+};
+constexpr auto enum_names(Window::Ends) {
+  return std::array{"free", "held"};
+}
 
 struct Stage {
   int rings = 0;  ///< rings built so far, >= 1
@@ -221,6 +241,7 @@ struct Geometry {
   std::optional<ImportedBlocks> imported;  ///< if set, surface, bond and stage are ignored
   Surface surface = DomeSurface{};
   Bond bond = RunningBond{};
+  std::optional<Window> window;
   std::optional<Stage> stage;
   std::optional<Imperfections> imperfections;  ///< from the section `imperfections` of the case
   double support_width = 1.0;  ///< m, > 0, distance by which the fixed base extends beyond the shell

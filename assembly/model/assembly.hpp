@@ -32,7 +32,7 @@ struct Block {
   BlockKind kind = BlockKind::standard;
   bool fixed = false;            ///< has no unknowns
   bool rib = false;              ///< spans a corner of an octagonal vault
-  bool truncated = false;        ///< herringbone vertical cut short by the base or the crown
+  bool truncated = false;        ///< cut: a shorter upright, or a flat block not as wide as a whole one
   int ring = 0;                  ///< first ring it occupies; -1 for a support
   int num_rings = 1;             ///< rings it spans
   int slot = 0;                  ///< position within the ring, counted along the azimuth

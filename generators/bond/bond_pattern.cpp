@@ -4,6 +4,28 @@
 #include <cmath>
 
 namespace cupola {
+namespace {
+
+/// Gives the left part of every block that lies on both sides of the seam a number of its own.
+void cut_at_seam(BondPattern* pattern) {
+  const int last = pattern->num_slices() - 1;
+  std::vector<int> left_part(pattern->blocks.size(), -1);
+  for (int ring = 0; ring < pattern->num_rings; ++ring) {
+    const int block = pattern->at(ring, 0);
+    if (pattern->at(ring, last) != block) continue;
+    int end = 0;
+    while (end <= last && pattern->at(ring, end) == block) ++end;
+    if (end > last) continue;  // the whole ring is one block
+    pattern->blocks[block].truncated = true;
+    if (left_part[block] < 0) {
+      left_part[block] = static_cast<int>(pattern->blocks.size());
+      pattern->blocks.push_back(pattern->blocks[block]);
+    }
+    for (int s = 0; s < end; ++s) pattern->at(ring, s) = left_part[block];
+  }
+}
+
+}  // namespace
 
 std::vector<double> equal_cuts(double extent, double start, int count) {
   std::vector<double> cuts;
@@ -33,6 +55,33 @@ void split_at_corners(const BondGrid& grid, BondPattern* pattern) {
   for (int ring = 0; ring < pattern->num_rings; ++ring)
     for (int s : old_slice) split.block_of.push_back(pattern->at(ring, s));
   *pattern = std::move(split);
+}
+
+void open_ring(double extent, double shift, BondPattern* pattern) {
+  const double rounding = 1e-9 * extent;
+  const int num_slices = pattern->num_slices();
+  const double turns = std::floor((pattern->cuts.front() + shift + rounding) / extent);
+  for (double& cut : pattern->cuts) cut += shift - turns * extent;
+  // Slices from `first` onwards lie beyond the extent and come to the front; the one before may be split.
+  int first = 1;
+  while (pattern->cuts[first] < extent - rounding) ++first;
+  BondPattern open = *pattern;
+  open.cuts = {0.0};
+  std::vector<int> old_slice;
+  const auto append = [&](int slice, double end) {
+    if (end <= open.cuts.back() + rounding) return;
+    open.cuts.push_back(end);
+    old_slice.push_back(slice);
+  };
+  append(first - 1, pattern->cuts[first] - extent);
+  for (int s = first; s < num_slices; ++s) append(s, pattern->cuts[s + 1] - extent);
+  for (int s = 0; s < first; ++s) append(s, std::min(pattern->cuts[s + 1], extent));
+  open.cuts.back() = extent;
+  open.block_of.clear();
+  for (int ring = 0; ring < pattern->num_rings; ++ring)
+    for (int s : old_slice) open.block_of.push_back(pattern->at(ring, s));
+  *pattern = std::move(open);
+  cut_at_seam(pattern);
 }
 
 void mirror(double extent, BondPattern* pattern) {

@@ -11,8 +11,8 @@
 namespace cupola {
 namespace {
 
-// Block widths. With three verticals per block no joint then lies on a corner.
-constexpr double kHerringboneCornerPhase = 1.0 / 6.0;
+// Widths of a vertical. No joint beside a spiral then lies on a corner.
+constexpr double kHerringboneCornerPhase = 0.5;
 
 /// The bond while it is being laid. All lengths are in slices; a vertical is `slices_per_vertical` slices
 /// wide. A band is one spiral or meridian strip of the case: `refine` strips side by side, each with
@@ -22,11 +22,20 @@ struct Layout {
   bool closed;
   int num_rings;
   int num_slices;         // per ring
+  int built;              // rings of the stage
   int offset;             // from abscissa 0 to the first band
+  bool bricks = false;    // of a window
+  int mirrored = -1;      // slice s and slice mirrored - s lie at opposite sides of abscissa 0
   BondPattern pattern{};  // only its blocks and block_of
 
   int whole() const { return bond.verticals_per_block * bond.slices_per_vertical; }
-  int strip_width() const { return bond.rings_per_vertical * bond.slices_per_vertical; }
+  /// Rings from the start of a vertical to that of the next one.
+  int rise() const { return bond.embedment < 0 ? 1 : bond.rings_per_vertical; }
+  int strip_width() const { return bond.rings_per_vertical / rise() * bond.slices_per_vertical; }
+  /// First ring of vertical 0. With an embedment, that of a vertical lies so many rings below the last one built.
+  int first_ring() const {
+    return bond.embedment < 0 ? 0 : (built - 1 - bond.embedment) % bond.rings_per_vertical;
+  }
   int band_width() const { return bond.refine * strip_width(); }
   /// First slice of a band in ring rings_per_vertical - 1 (in any ring on a meridian path). A refined band is
   /// moved back, so that it starts where the unrefined band does in the first course of each unrefined ring.
@@ -39,7 +48,7 @@ struct Layout {
   /// Widths of a vertical from the start of its strip.
   int column(int vertical) const {
     if (bond.path == HerringboneBond::Path::spiral) return vertical;
-    const int n = bond.rings_per_vertical;
+    const int n = bond.rings_per_vertical / rise();
     return (vertical % n + n) % n;
   }
   int new_block(BlockKind kind, bool truncated, int strip) {
@@ -53,19 +62,36 @@ struct Layout {
   }
 };
 
-void lay_verticals(Layout* layout) {
+/// Lays a vertical over rings [bottom, top) from slice `left`, where no other lies. A vertical that crosses
+/// one of the other hand is cut, into two if it reaches beyond it on both sides.
+void lay_vertical(Layout* layout, int left, int bottom, int top, int band) {
+  const int width = layout->bond.slices_per_vertical, height = layout->bond.rings_per_vertical;
+  for (int ring = bottom; ring < top; ++ring) {
+    if (layout->at(ring, left) >= 0) continue;
+    int end = ring + 1;
+    while (end < top && layout->at(end, left) < 0) ++end;
+    const int block = layout->new_block(BlockKind::herringbone, end - ring < height, band);
+    for (; ring < end; ++ring)
+      for (int slice = left; slice < left + width; ++slice) layout->at(ring, slice) = block;
+  }
+}
+
+void lay_verticals(Layout* layout, bool mirrored) {
   const HerringboneBond& bond = layout->bond;
   const int height = bond.rings_per_vertical, width = bond.slices_per_vertical;
   for (int strip = 0; strip < bond.spirals * bond.refine; ++strip) {
     const int band = strip / bond.refine;
     const int start = layout->band_start(band) + strip % bond.refine * layout->strip_width();
-    for (int j = 1 - height; j < layout->num_rings; ++j) {
+    for (int j = 1 - height;; ++j) {
+      const int first = layout->first_ring() + j * layout->rise();
+      if (first >= layout->num_rings) break;
       const int left = start + layout->column(j) * width;
-      if (!layout->contains(left)) continue;
-      const int bottom = std::max(j, 0), top = std::min(j + height, layout->num_rings);
-      const int block = layout->new_block(BlockKind::herringbone, top - bottom < height, band);
-      for (int ring = bottom; ring < top; ++ring)
-        for (int slice = left; slice < left + width; ++slice) layout->at(ring, slice) = block;
+      const int bottom = std::max(first, 0), top = std::min(first + height, layout->num_rings);
+      if (top <= bottom || !layout->contains(left)) continue;
+      if (mirrored)
+        lay_vertical(layout, layout->mirrored - left - width + 1, bottom, top, bond.spirals + band);
+      else
+        lay_vertical(layout, left, bottom, top, band);
     }
   }
 }
@@ -82,48 +108,57 @@ int first_width(const Layout& layout, int ring, int edge, int step) {
 }
 
 /// Lays blocks over `count` slices from slice `from` in the direction `step` = +1 or -1. The strips may cut
-/// the first and the last block; a remainder narrower than half a block is added to its neighbour.
+/// the first and the last block; a remainder narrower than half a block is added to its neighbour. Bricks, of
+/// windows, are never wider than a whole one: there the two share their width.
 void lay_run(Layout* layout, int ring, int from, int count, int step) {
   if (count <= 0) return;
   const int whole = layout->whole();
+  int laid = 0;
+  const auto lay = [&](int end) {
+    const int block = layout->new_block(BlockKind::standard, end - laid != whole, -1);
+    for (; laid < end; ++laid) layout->at(ring, from + step * laid) = block;
+  };
   int end = first_width(*layout, ring, step > 0 ? from : from + 1, step);
   if (2 * end < whole) end += whole;
-  for (int laid = 0; laid < count; end += whole) {
+  for (; laid < count; end += whole) {
     if (2 * (count - end) < whole) end = count;
-    const int block = layout->new_block(BlockKind::standard, false, -1);
-    for (; laid < end; ++laid) layout->at(ring, from + step * laid) = block;
+    if (layout->bricks && end - laid > whole) lay(laid + (end - laid + 1) / 2);
+    lay(end);
   }
 }
 
+/// Lays the slices between the verticals of each ring from left to right. On an open surface the run before
+/// the first vertical is laid from there to the left, as is a ring that lies above the strip.
 void lay_whole_blocks(Layout* layout) {
-  const HerringboneBond& bond = layout->bond;
-  const bool spiral = bond.path == HerringboneBond::Path::spiral;
+  const int num_slices = layout->num_slices;
   for (int ring = 0; ring < layout->num_rings; ++ring) {
-    const int climb = spiral ? (ring - bond.rings_per_vertical + 1) * bond.slices_per_vertical : 0;
-    for (int band = 0; band < bond.spirals; ++band) {
-      const int left = layout->band_start(band) + climb;  // first slice of the band in this ring
-      const int right = left + layout->band_width();
-      if (layout->closed) {
-        const int next = band + 1 < bond.spirals ? layout->band_start(band + 1)
-                                                 : layout->band_start(0) + layout->num_slices;
-        lay_run(layout, ring, right, next + climb - right, +1);
-      } else {
-        const int from = std::clamp(right, 0, layout->num_slices),
-                  to = std::clamp(left, 0, layout->num_slices);
-        lay_run(layout, ring, from, layout->num_slices - from, +1);
-        lay_run(layout, ring, to - 1, to, -1);
-      }
+    int first = 0;  // the runs of a closed ring start behind a vertical
+    if (layout->closed)
+      while (layout->at(ring, first - 1) < 0) ++first;
+    for (int from = first; from < first + num_slices; ++from) {
+      if (layout->at(ring, from) >= 0) continue;
+      int end = from + 1;
+      while (end < first + num_slices && layout->at(ring, end) < 0) ++end;
+      if (!layout->closed && from == 0)
+        lay_run(layout, ring, end - 1, end - from, -1);
+      else
+        lay_run(layout, ring, from, end - from, +1);
+      from = end;
     }
   }
 }
 
 void check_fit(const HerringboneBond& bond, const BondGrid& grid, double phase_in_verticals) {
   const int num_verticals = bond.blocks_per_ring * bond.verticals_per_block;
-  if (grid.closed && num_verticals / bond.spirals < bond.rings_per_vertical)
+  const bool both = bond.chirality == HerringboneBond::Chirality::both;
+  const int width = (both ? 2 : 1) * (bond.embedment < 0 ? bond.rings_per_vertical : 1);
+  if (grid.closed && num_verticals / bond.spirals < width)
     throw InputError(
         fmt::format("geometry.bond.spirals = {}: spirals of {} do not fit into a ring that is {} "
                     "verticals wide",
-                    bond.spirals, counted(bond.rings_per_vertical, "vertical"), num_verticals));
+                    bond.spirals, counted(width, "vertical"), num_verticals));
+  if (!grid.closed && both)
+    throw InputError("geometry.bond.chirality = both: requires a closed surface or a window");
   if (!grid.closed && bond.spirals != 1)
     throw InputError(fmt::format("geometry.bond.spirals = {}: must be 1 on an open surface", bond.spirals));
   if (!grid.closed && phase_in_verticals != std::round(phase_in_verticals))
@@ -139,7 +174,7 @@ double first_band_phase(const HerringboneBond& bond, const BondGrid& grid) {
   if (bond.phase) return *bond.phase * bond.verticals_per_block * bond.refine;
   if (grid.corners.empty()) return 0.0;
   const int half_refined = (bond.refine - 1) / 2;  // rounded down to whole verticals
-  return bond.verticals_per_block * kHerringboneCornerPhase + half_refined;
+  return kHerringboneCornerPhase + half_refined;
 }
 
 }  // namespace
@@ -150,9 +185,17 @@ BondPattern herringbone_bond(const HerringboneBond& bond, const BondGrid& grid) 
   const double phase = first_band_phase(bond, grid);
   check_fit(bond, grid, phase);
   const int whole = static_cast<int>(std::floor(phase));
-  Layout layout{bond, grid.closed, grid.num_rings, num_slices, whole * bond.slices_per_vertical, {}};
+  Layout layout{bond,
+                grid.closed,
+                grid.num_rings,
+                num_slices,
+                grid.built > 0 ? grid.built : grid.num_rings,
+                whole * bond.slices_per_vertical};
+  layout.bricks = grid.window;
+  layout.mirrored = -1 - bond.slices_per_vertical * static_cast<int>(std::lround(2.0 * (phase - whole)));
   layout.pattern.block_of.assign(static_cast<size_t>(grid.num_rings) * num_slices, -1);
-  lay_verticals(&layout);
+  lay_verticals(&layout, false);
+  if (bond.chirality == HerringboneBond::Chirality::both) lay_verticals(&layout, true);
   lay_whole_blocks(&layout);
 
   BondPattern pattern = std::move(layout.pattern);

@@ -19,15 +19,29 @@ namespace {
          std::ranges::all_of(pattern.block_of, [&](int block) { return block >= 0 && block < num_blocks; });
 }
 
+BondPattern lay(const Bond& bond, const BondGrid& grid) {
+  return std::visit(Overloaded{[&](const RunningBond& b) { return running_bond(b, grid); },
+                               [&](const StackBond& b) { return stack_bond(b, grid); },
+                               [&](const HerringboneBond& b) { return herringbone_bond(b, grid); },
+                               [&](const FillBond& b) { return fill_bond(b, grid); }},
+                    bond);
+}
+
+/// Phases count from the first corner of the window.
+BondPattern lay_window(const Bond& bond, const BondGrid& grid) {
+  BondGrid ring = grid;
+  ring.closed = true;
+  const double shift = grid.corners.empty() ? 0.0 : grid.corners.front();
+  for (double& corner : ring.corners) corner -= shift;
+  BondPattern pattern = lay(bond, ring);
+  open_ring(grid.extent, shift, &pattern);
+  return pattern;
+}
+
 }  // namespace
 
 BondPattern make_bond(const Bond& bond, const BondGrid& grid) {
-  BondPattern pattern =
-      std::visit(Overloaded{[&](const RunningBond& b) { return running_bond(b, grid); },
-                            [&](const StackBond& b) { return stack_bond(b, grid); },
-                            [&](const HerringboneBond& b) { return herringbone_bond(b, grid); },
-                            [&](const FillBond& b) { return fill_bond(b, grid); }},
-                 bond);
+  BondPattern pattern = grid.window ? lay_window(bond, grid) : lay(bond, grid);
   CUPOLA_ASSERT(is_complete(pattern, grid));
   return pattern;
 }

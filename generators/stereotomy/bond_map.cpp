@@ -5,10 +5,8 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
-#include "generators/bond/make_bond.hpp"
 #include "generators/stereotomy/cell_grid.hpp"
-#include "generators/stereotomy/cut_blocks.hpp"
-#include "generators/surface/make_surface.hpp"
+#include "generators/stereotomy/shell.hpp"
 
 namespace cupola {
 namespace {
@@ -18,11 +16,12 @@ constexpr double kMargin = 30.0;   // px
 
 const char* colour(const CellGrid& grid, int block) {
   const BondBlock& label = grid.bond.blocks[block];
+  if (grid.is_support(block)) return "#b5b5b5";
   if (label.kind == BlockKind::herringbone) return label.truncated ? "#8c4a2f" : "#d9784b";
   const auto [start, end] = slices_in_row(grid, block, grid.first_row(block));
   for (int cut = start + 1; cut < end; ++cut)
     if (grid.is_corner(cut)) return "#7fa3c7";
-  return "#e8dcc8";
+  return label.truncated ? "#cdb891" : "#e8dcc8";
 }
 
 struct Scale {
@@ -53,10 +52,9 @@ void draw_block(const CellGrid& grid, int block, const Scale& scale, std::string
 std::string bond_map_svg(const Geometry& geometry) {
   if (geometry.imported)
     throw InputError("--bond-map: not available for imported blocks, which have no bond");
-  const SurfaceMap surface = make_surface(geometry.surface, rings_of(geometry.bond));
-  const BondPattern bond = make_bond(geometry.bond, bond_grid(surface));
-  const CellGrid grid = make_cell_grid(
-      surface, bond, geometry.stage ? geometry.stage->rings * refinement_of(geometry.bond) : 0);
+  const Shell shell = make_shell(geometry);
+  const SurfaceMap& surface = shell.surface;
+  const CellGrid grid = make_cell_grid(surface, shell.bond, shell.stage_rings);
 
   const double row_height = std::clamp(800.0 / grid.num_rows, 2.0, 60.0);
   const double height = row_height * grid.num_rows + 2.0 * kMargin;

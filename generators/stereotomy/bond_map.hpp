@@ -7,7 +7,7 @@
 namespace cupola {
 
 /// SVG drawing of the unrolled bond: courses upwards, abscissa to the right, corners as dashed lines. Colours
-/// show the kind of block: flat, upright, truncated upright, across a corner. Blocks above the stage are left
+/// show the kind of block: flat, upright, cut, across a corner, support. Blocks above the stage are left
 /// out. Throws InputError for imported blocks.
 std::string bond_map_svg(const Geometry& geometry);
 

@@ -14,7 +14,8 @@ void mark_corners(CellGrid* grid) {
   const double extent = grid->surface.extent;
   for (int cut = 0; cut <= grid->num_slices; ++cut)
     for (double corner : grid->surface.corners)
-      if (std::abs(std::remainder(grid->bond.cuts[cut] - corner, extent)) < 1e-9 * extent)
+      if (std::abs(grid->surface.closed ? std::remainder(grid->bond.cuts[cut] - corner, extent)
+                                        : grid->bond.cuts[cut] - corner) < 1e-9 * extent)
         grid->corner[cut] = 1;
 }
 
@@ -51,7 +52,7 @@ std::pair<int, int> slices_in_row(const CellGrid& grid, int block, int row) {
 }
 
 CellGrid make_cell_grid(const SurfaceMap& surface, const BondPattern& bond, int stage_rings) {
-  CUPOLA_ASSERT(bond.num_rings == surface.num_rings());
+  CUPOLA_ASSERT(bond.num_rings * surface.rows_per_ring == surface.num_rows);
   CellGrid grid{surface, bond, surface.num_rows, bond.num_slices(), {}, {}, {}, {}};
   mark_corners(&grid);
   const int num_blocks = static_cast<int>(bond.blocks.size());
@@ -65,7 +66,7 @@ CellGrid make_cell_grid(const SurfaceMap& surface, const BondPattern& bond, int 
   for (int b = 0; b < num_blocks; ++b) {
     CUPOLA_ASSERT(!grid.cells[b].empty());
     start[b] = {grid.first_row(b), slices_in_row(grid, b, grid.first_row(b)).first};
-    if (stage_rings > 0 && start[b].first / surface.rows_per_ring >= stage_rings) continue;
+    if (stage_rings > 0 && grid.ring_of(start[b].first) >= stage_rings) continue;
     grid.built[b] = 1;
     grid.order.push_back(b);
   }
@@ -91,10 +92,11 @@ std::vector<CellRange> convex_ranges(const CellGrid& grid, int block) {
 
 FaceKind bed_kind(const CellGrid& grid, const CellRange& range, bool upper) {
   const int beyond = upper ? range.row_end : range.row_start - 1;
+  const int self = grid.owner(range.row_start, range.slice_start);
+  if (grid.is_support(self) && (beyond < 0 || beyond == grid.num_rows)) return FaceKind::free;
   if (beyond < 0) return FaceKind::bed;
   if (beyond == grid.num_rows)
     return grid.surface.footing == Footing::both_springings ? FaceKind::bed : FaceKind::top;
-  const int self = grid.owner(range.row_start, range.slice_start);
   if (grid.owner(beyond, range.slice_start) == self) return FaceKind::internal;
   for (int s = range.slice_start; s < range.slice_end; ++s)
     if (grid.built[grid.owner(beyond, s)]) return FaceKind::bed;

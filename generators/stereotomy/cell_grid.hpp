@@ -30,6 +30,8 @@ struct CellGrid {
   int wrap(int slice) const { return surface.closed ? (slice + num_slices) % num_slices : slice; }
   int owner(int row, int slice) const { return bond.at(row / surface.rows_per_ring, wrap(slice)); }
   bool is_corner(int cut) const { return corner[wrap(cut)]; }
+  int ring_of(int row) const { return row / surface.rows_per_ring + surface.first_ring(); }
+  bool is_support(int block) const { return bond.blocks[block].kind == BlockKind::support; }
   int first_row(int block) const { return cells[block].front() / num_slices; }
   int last_row(int block) const { return cells[block].back() / num_slices; }
   double abscissa(int cut) const;  ///< continues beyond the seam

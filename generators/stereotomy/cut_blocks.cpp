@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -34,7 +35,7 @@ void add_part(const CellGrid& grid, int block, const CellRange& cells, GridPoint
               Assembly* assembly) {
   Part part;
   part.block = block;
-  part.ring = cells.row_start / grid.surface.rows_per_ring;
+  part.ring = assembly->blocks[block].fixed ? -1 : grid.ring_of(cells.row_start);
   part.slice = grid.wrap(cells.slice_start);
   part.face_start = assembly->num_faces();
   assembly->parts.push_back(part);
@@ -61,29 +62,30 @@ void add_part(const CellGrid& grid, int block, const CellRange& cells, GridPoint
 /// Sets the sail of the block's middle, the position in it, and whether a corner of the surface lies inside
 /// the block.
 void set_sail(const CellGrid& grid, std::pair<int, int> slices, Block* block) {
-  const auto& corners = grid.surface.corners;
-  if (corners.empty()) return;
+  const SurfaceMap& surface = grid.surface;
+  if (surface.sail_width == 0.0) return;
   const auto [start, end] = slices;
   for (int cut = start + 1; cut < end; ++cut) block->rib = block->rib || grid.is_corner(cut);
-  const int num_sails = static_cast<int>(corners.size());
-  const double sail_width = grid.surface.extent / num_sails;
-  const double middle = (0.5 * (grid.abscissa(start) + grid.abscissa(end)) - corners.front()) / sail_width;
+  const int num_sails = static_cast<int>(std::lround(2.0 * std::numbers::pi / surface.sail_width));
+  const double middle =
+      (0.5 * (grid.abscissa(start) + grid.abscissa(end)) - surface.first_corner) / surface.sail_width;
   const double sail =
       std::floor(middle + 1e-9);  // a middle on a corner belongs to the sail that begins there
-  block->sail = (static_cast<int>(sail) + num_sails) % num_sails;
+  block->sail = (static_cast<int>(sail) % num_sails + num_sails) % num_sails;
   block->sail_position = 2.0 * (middle - sail) - 1.0;
 }
 
 Block make_block(const CellGrid& grid, int bond_block, double density) {
   const BondBlock& label = grid.bond.blocks[bond_block];
-  const int rows_per_ring = grid.surface.rows_per_ring;
   Block block;
   block.kind = label.kind;
   block.truncated = label.truncated;
   block.spiral = label.spiral;
   block.density = density;
-  block.ring = grid.first_row(bond_block) / rows_per_ring;
-  block.num_rings = grid.last_row(bond_block) / rows_per_ring - block.ring + 1;
+  block.fixed = label.kind == BlockKind::support;
+  block.ring = grid.ring_of(grid.first_row(bond_block));
+  if (block.fixed) return block;
+  block.num_rings = grid.ring_of(grid.last_row(bond_block)) - block.ring + 1;
   set_sail(grid, slices_in_row(grid, bond_block, grid.first_row(bond_block)), &block);
   return block;
 }
@@ -104,32 +106,31 @@ void drop_unused_vertices(Assembly* assembly) {
 
 }  // namespace
 
-Assembly cut_blocks(const SurfaceMap& surface, const BondPattern& bond, const CutOptions& options) {
-  const CellGrid grid = make_cell_grid(surface, bond, options.stage_rings);
+Assembly cut_blocks(const Shell& shell, const CutOptions& options) {
+  const SurfaceMap& surface = shell.surface;
+  const std::vector<double>& cuts = shell.bond.cuts;
+  const CellGrid grid = make_cell_grid(surface, shell.bond, shell.stage_rings);
   GridPoints points(grid, options.imperfections);
   Assembly assembly;
-  add_base_support(surface, bond.cuts, options.support_width, options.density, &assembly);
+  if (surface.footing != Footing::masonry)
+    add_base_support(surface, cuts, options.support_width, options.density, &assembly);
   points.make_shared(&assembly.vertices);
   for (int bond_block : grid.order) {
     Block block = make_block(grid, bond_block, options.density);
-    const Block& previous = assembly.blocks.back();
-    block.slot = previous.ring == block.ring ? previous.slot + 1 : 0;
+    const bool follows = !assembly.blocks.empty() && assembly.blocks.back().ring == block.ring;
+    block.slot = follows ? assembly.blocks.back().slot + 1 : 0;
     assembly.blocks.push_back(block);
     points.start_block(bond_block);
     for (const CellRange& range : convex_ranges(grid, bond_block))
       add_part(grid, static_cast<int>(assembly.blocks.size()) - 1, range, &points, &assembly);
   }
   if (surface.footing == Footing::both_springings)
-    add_far_support(surface, bond.cuts, options.support_width, options.density, &assembly);
+    add_far_support(surface, cuts, options.support_width, options.density, &assembly);
   drop_unused_vertices(&assembly);
   CUPOLA_ASSERT(std::ranges::all_of(assembly.vertices, [](const Vec3& v) { return v.allFinite(); }));
   assembly.num_rings = surface.num_rings();
   compute_mass_properties(&assembly);
   return assembly;
-}
-
-BondGrid bond_grid(const SurfaceMap& surface) {
-  return {surface.num_rings(), surface.closed, surface.extent, surface.corners};
 }
 
 }  // namespace cupola

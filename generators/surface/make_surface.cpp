@@ -16,13 +16,12 @@
 namespace cupola {
 namespace {
 
-/// Volume of the hexahedron between beds k, k + 1 and abscissae a, b, m3.
-double cell_volume(const SurfaceMap& surface, int k, double a, double b) {
-  const auto corner = [&](int bed, double abscissa, Skin skin) { return surface.point(bed, abscissa, skin); };
+/// Volume of the hexahedron between beds k, l and abscissae a, b, m3.
+double cell_volume(const SurfaceMap& surface, double k, double l, double a, double b) {
+  const auto& corner = surface.point;
   const auto [in, out] = std::pair(Skin::intrados, Skin::extrados);
-  const std::array<Vec3, 8> p{corner(k, a, in),      corner(k, a, out),    corner(k, b, out),
-                              corner(k, b, in),      corner(k + 1, a, in), corner(k + 1, a, out),
-                              corner(k + 1, b, out), corner(k + 1, b, in)};
+  const std::array<Vec3, 8> p{corner(k, a, in), corner(k, a, out), corner(k, b, out), corner(k, b, in),
+                              corner(l, a, in), corner(l, a, out), corner(l, b, out), corner(l, b, in)};
   constexpr std::array<std::array<int, 4>, 6> quads{
       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 4, 7, 3}, {1, 2, 6, 5}}};
   double six_volumes = 0.0;
@@ -34,15 +33,22 @@ double cell_volume(const SurfaceMap& surface, int k, double a, double b) {
   return six_volumes / 6.0;
 }
 
-double faceted_volume(const Surface& shape, int n) {
-  const SurfaceMap surface = make_surface(shape, n);
-  const int facets = surface.corners.empty() ? 8 : static_cast<int>(surface.corners.size());
-  const int num_slices = surface.closed ? facets * n : 1;
+/// Volume with n cells in every ring or over the height, and n in each facet.
+double faceted_volume(const SurfaceMap& surface, int n) {
+  std::vector<double> ends{0.0};  // of facets
+  if (surface.corners.empty() && surface.closed)
+    for (int i = 1; i < 8; ++i) ends.push_back(surface.extent * i / 8);
+  for (double corner : surface.corners)
+    if (corner > 0.0) ends.push_back(corner);
+  ends.push_back(surface.extent);
+  const double first_bed = -surface.first_ring(), step = (surface.num_rows - first_bed) / n;
   double volume = 0.0;
-  for (int k = 0; k < surface.num_rows; ++k)
-    for (int s = 0; s < num_slices; ++s)
-      volume +=
-          cell_volume(surface, k, surface.extent * s / num_slices, surface.extent * (s + 1) / num_slices);
+  for (int k = 0; k < n; ++k)
+    for (size_t facet = 0; facet + 1 < ends.size(); ++facet)
+      for (int i = 0; i < n; ++i) {
+        const double width = (ends[facet + 1] - ends[facet]) / n, a = ends[facet] + i * width;
+        volume += cell_volume(surface, first_bed + k * step, first_bed + (k + 1) * step, a, a + width);
+      }
   return volume;
 }
 
@@ -65,7 +71,7 @@ SurfaceMap make_surface(const Surface& surface, int rings) {
   return map;
 }
 
-double extrapolated_shell_volume(const Surface& surface) {
+double extrapolated_shell_volume(const SurfaceMap& surface) {
   constexpr int n = 16;
   const double coarse = faceted_volume(surface, n);
   const double middle = faceted_volume(surface, 2 * n);

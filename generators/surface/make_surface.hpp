@@ -11,6 +11,6 @@ SurfaceMap make_surface(const Surface& surface, int rings);
 /// Volume of the smooth shell, m3, with a relative error of 1e-8: the reference for shells without a closed
 /// form. Richardson extrapolation of faceted shells with n, 2n and 4n cells in each direction removes the
 /// errors O(1/n^2) and O(1/n^4).
-double extrapolated_shell_volume(const Surface& surface);
+double extrapolated_shell_volume(const SurfaceMap& surface);
 
 }  // namespace cupola

@@ -41,6 +41,7 @@ SurfaceMap vault_without_points(const OctagonalVault& vault, int rings) {
   surface.num_rows = rings;
   surface.extent = 2.0 * pi;
   surface.footing = Footing::ring;
+  surface.sail_width = 2.0 * pi / vault.sails;
   for (int i = 0; i < vault.sails; ++i) surface.corners.push_back(2.0 * pi * i / vault.sails);
   return surface;
 }

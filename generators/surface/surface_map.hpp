@@ -16,6 +16,7 @@ enum class Footing {
   ring,             ///< horizontal ring below z = 0, for closed surfaces
   plate,            ///< one box below z = 0, for walls
   both_springings,  ///< one box behind the first bed and one behind the last, for arches
+  masonry,          ///< the first row of cells, and with `held_end` slices beyond both ends, for windows
 };
 
 /// A masonry surface as a map from (bed, abscissa, skin) to a point. It knows nothing about blocks.
@@ -30,13 +31,18 @@ struct SurfaceMap {
   bool closed = false;    ///< the last slice meets the first; make_surface copies it from the traits
   double extent = 0.0;    ///< range of the abscissa: 2 pi, or the length in m
   std::vector<double> corners;  ///< ascending abscissae where facets meet, in [0, extent)
+  double sail_width = 0.0;      ///< range of the abscissa over a sail; 0: the surface has no sails
+  double first_corner = 0.0;    ///< abscissa where sail 0 begins
+  double held_end = 0.0;        ///< range of the abscissa of the fixed masonry beyond each end; 0: none
   bool flat_slices = false;     ///< the cells of one ring and one facet form an exactly convex solid
   bool flat_rings = false;      ///< so do the cells of one facet in successive rings
   bool flat_skins = true;       ///< the four corners of a cell on one skin are coplanar
   Footing footing = Footing::ring;
   std::optional<double> shell_volume;  ///< m3, of the smooth shell, if a closed form is known
 
-  int num_rings() const { return num_rows / rows_per_ring; }
+  /// Ring of the first row: -1 if the first row is a support.
+  int first_ring() const { return footing == Footing::masonry ? -1 : 0; }
+  int num_rings() const { return num_rows / rows_per_ring + first_ring(); }
 };
 
 }  // namespace cupola

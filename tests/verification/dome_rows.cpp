@@ -70,11 +70,11 @@ double vault_volume(const ReferenceRow& row) {
 }
 
 double smooth_volume(const ReferenceRow& row) {
-  if (row.text("surface") == "dome") return extrapolated_shell_volume(DomeSurface{});
+  if (row.text("surface") == "dome") return extrapolated_shell_volume(make_surface(DomeSurface{}, 1));
   OctagonalVault vault;
   vault.construction = OctagonalVault::Construction::planar_radial;
   vault.extrados = extrados_named(row.text("extrados"));
-  return extrapolated_shell_volume(vault);
+  return extrapolated_shell_volume(make_surface(vault, 1));
 }
 
 Case dome_with_lantern() {

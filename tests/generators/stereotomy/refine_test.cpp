@@ -10,8 +10,7 @@
 
 #include "generators/bond/make_bond.hpp"
 #include "generators/generate.hpp"
-#include "generators/stereotomy/cut_blocks.hpp"
-#include "generators/surface/make_surface.hpp"
+#include "generators/stereotomy/shell.hpp"
 #include "tests/generators/models.hpp"
 
 namespace cupola::refine_test {
@@ -106,8 +105,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// Smallest distance of a head joint from a corner, over the width of a refined block.
 double nearest_joint_to_a_corner(const Bond& bond) {
-  const SurfaceMap surface = make_surface(vault(OctagonalVault::Construction::circular), rings_of(bond));
-  const BondPattern pattern = make_bond(bond, bond_grid(surface));
+  Geometry geometry;
+  geometry.surface = vault(OctagonalVault::Construction::circular);
+  geometry.bond = bond;
+  const auto [surface, pattern, stage] = make_shell(geometry);
   double nearest = surface.extent;
   for (int ring = 0; ring < pattern.num_rings; ++ring)
     for (int s = 0; s < pattern.num_slices(); ++s) {
@@ -136,8 +137,9 @@ TEST(Refinement, KeepsTheBandsOfUprightBlocksInPlace) {
   const auto bands = [](int n) {
     HerringboneBond bond = herringbone(8, 16, 4);
     bond.refine = n;
-    const SurfaceMap surface = make_surface(DomeSurface{}, rings_of(bond));
-    const BondPattern pattern = make_bond(bond, bond_grid(surface));
+    Geometry geometry;
+    geometry.bond = bond;
+    const BondPattern pattern = make_shell(geometry).bond;
     std::map<int, std::vector<double>> edges;  // per unrefined ring: where bands begin and end
     for (int ring = 0; ring < pattern.num_rings; ++ring) {
       const auto upright = [&](int s) {
