@@ -14,6 +14,7 @@
 #include "solver/contact/methods/method_table.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/whitening.hpp"
+#include "solver/dynamics/laying_order.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/runtime/interruption.hpp"
 
@@ -98,9 +99,25 @@ bool add_time(const std::string& what, const std::function<void()>& work, CostEs
   return ended;
 }
 
+/// Solves of a construction by stages, each counted with its share of the courses of the complete model.
+double num_stage_solves(const StagedConstruction& staged, const Assembly& assembly) {
+  constexpr double kSolvesPerSearch = 4.0;  // most stages confirm the bracket of the stage before
+  const int rings = std::max(1, assembly.num_rings);
+  const int last = staged.last_ring < 0 ? rings - 1 : std::min(staged.last_ring, rings - 1);
+  double solves = 0.0;
+  for (const LaidBlocks& stage : laying_order(assembly, staged, staged.first_ring, last)) {
+    const int courses = staged.hold_below < 0 ? stage.ring + 1 : std::min(stage.ring, staged.hold_below) + 1;
+    solves += static_cast<double>(courses) / rings;
+  }
+  return staged.least == StagedConstruction::Least::none ? solves : (1.0 + kSolvesPerSearch) * solves;
+}
+
 void estimate_static(const Case& scene, const Assembly& assembly, const ContactProblem& problem,
                      CostEstimate* cost) {
-  const double solves = num_equilibria(scene.analysis, assembly.num_rings) * num_passes(scene);
+  const StagedConstruction& staged = scene.analysis.staged;
+  const bool by_stages = scene.analysis.type == AnalysisType::staged && !staged.independent_rings();
+  const double solves = num_passes(scene) * (by_stages ? num_stage_solves(staged, assembly)
+                                                       : num_equilibria(scene.analysis, assembly.num_rings));
   if (method_traits(scene.analysis.method).uses_multigrid && has_many_blocks(problem)) {
     std::optional<double> once;
     if (!add_time(

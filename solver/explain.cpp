@@ -166,7 +166,13 @@ std::string analysis_line(const Case& scene) {
           counted(static_cast<long long>(std::ceil(analysis.duration / analysis.time_step)), "step"),
           analysis.time_step);
     case AnalysisType::staged:
-      return fmt::format("staged, {}: one equilibrium per ring", method);
+      return fmt::format(
+          "staged, {}: one equilibrium per {}{}", method,
+          analysis.staged.unit == StagedConstruction::Unit::ring ? "ring" : "block of every team",
+          analysis.staged.least == StagedConstruction::Least::none
+              ? ""
+              : fmt::format(", and a search for the least fresh {} of each",
+                            to_string(analysis.staged.least)));
     case AnalysisType::path:
       return fmt::format(
           "path, {}: {} up to the time {:g} s{}", method,

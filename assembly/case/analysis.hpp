@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -76,14 +77,60 @@ struct RangeSearch {
   bool states = false;  ///< write a frame for each end
 };
 
-/// Construction ring by ring. The bed under the ring just laid has the friction of fresh mortar.
-struct StagedConstruction {
-  int first_ring = 0;             ///< index of the last ring laid in the first stage
-  int last_ring = -1;             ///< index of the last ring laid in the last stage; -1: the complete model
-  double fresh_friction = 0.1;    ///< mu of the bed under the ring just laid, >= 0
-  bool critical_friction = true;  ///< also find the fresh friction below which each stage does not stand
-  double relative_width = 1e-2;   ///< relative width of that bracket, in (0, 1)
+/// Mortar of the joints that were laid last.
+struct FreshMortar {
+  int courses = 1;        ///< >= 1: courses laid last whose beds are fresh
+  bool heads = false;     ///< their head joints are fresh too
+  double friction = 0.1;  ///< mu, >= 0
+  double cohesion = 0.0;  ///< Pa, >= 0
+  double tension = 0.0;   ///< Pa, >= 0
+  std::optional<double> normal,
+      tangential;  ///< compliance, in the unit of Joints::compliance; none: hardened
+  JointLawChange law() const { return {friction, normal, tangential, tension, cohesion, {}, {}}; }
 };
+
+/// Mortar of a given age, instead of FreshMortar. Properties between two rows are interpolated linearly.
+struct CuringMortar {
+  double age = 0.0;  ///< courses laid since, or days; >= 0
+  JointLawChange law;
+};
+
+/// Construction course by course or block by block.
+struct StagedConstruction {
+  enum class Unit { ring, block };
+  enum class Order { counterclockwise, clockwise, alternating, given };
+  enum class Least { none, friction, cohesion };
+  Unit unit = Unit::ring;                 ///< what each stage lays; by block: one of every team
+  int teams = 1;                          ///< >= 1: equal arcs of a course that are laid at the same time
+  Order order = Order::counterclockwise;  ///< seen from above, along the course
+  std::vector<int> sequence;              ///< order `given`: numbers of blocks; the others of a course follow
+  bool carry = false;  ///< stages start from the state of the last one instead of unloaded joints
+  int first_ring = 0;  ///< index of the last ring laid in the first stage
+  int last_ring = -1;  ///< index of the last ring laid in the last stage; -1: the complete model
+  FreshMortar fresh;
+  std::vector<CuringMortar> curing;       ///< in the order of age; replaces the values of `fresh`
+  std::optional<double> days_per_course;  ///< ages are in days; none: in courses
+  int hold_below =
+      -1;  ///< courses below the one laid that are solved, lower ones are supports; -1: all are solved
+  bool allow_associated = false;  ///< accept a dilatant friction law for open courses
+  bool critical_friction = true;  ///< also find the fresh friction below which each stage does not stand
+  Least least = Least::none;      ///< property of the fresh mortar whose least value is found for every stage
+  double relative_width = 1e-2;   ///< relative width of the bracket of either, in (0, 1)
+
+  /// Whole courses from unloaded joints: what version 0.1 computes.
+  bool independent_rings() const {
+    return unit == Unit::ring && !carry && least == Least::none && curing.empty() && hold_below < 0;
+  }
+};
+constexpr auto enum_names(StagedConstruction::Unit) {
+  return std::array{"ring", "block"};
+}
+constexpr auto enum_names(StagedConstruction::Order) {
+  return std::array{"counterclockwise", "clockwise", "alternating", "given"};
+}
+constexpr auto enum_names(StagedConstruction::Least) {
+  return std::array{"none", "friction", "cohesion"};
+}
 
 /// Sequence of equilibria from the assembly as built, at the times end / steps, 2 end / steps, ..., end. Loads, friction and
 /// supports follow their functions of time; joints keep their slip, opening and damage from one equilibrium to the next.

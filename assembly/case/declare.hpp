@@ -21,6 +21,7 @@ void declare_ties(Section& s, Ties& ties);
 void declare_supports(Section& s, Supports& supports);
 void declare_analysis(Section& s, Analysis& analysis);
 void declare_range(Section& s, RangeSearch& range);
+void declare_staged(Section& s, StagedConstruction& staged);
 void declare_output(Section& s, Output& output);
 void declare_postproc(Section& s, Postproc& postproc);
 

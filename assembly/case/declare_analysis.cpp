@@ -70,18 +70,6 @@ void declare_limit(Section& s, LimitSearch& limit) {
          "direct");
 }
 
-void declare_staged(Section& s, StagedConstruction& staged) {
-  s.integer("first_ring", staged.first_ring, {.min = 0}, "last ring laid in the first stage computed");
-  s.integer("last_ring", staged.last_ring, {.min = -1},
-            "last ring laid in the last stage computed; -1: the complete model");
-  s.number("fresh_friction", staged.fresh_friction, {.min = 0},
-           "friction coefficient of the bed joint under the ring just laid (fresh mortar)");
-  s.flag("critical_friction", staged.critical_friction,
-         "also find the fresh_friction below which each stage does not stand");
-  s.number("relative_width", staged.relative_width, {.above = 0, .below = 1},
-           "relative width of the final bracket of that critical friction");
-}
-
 void declare_control(Section& s, LoadPath::Control& control) {
   s.required_block("block", control.block, "number or name of a support that moves, or of a free block");
   s.vector3("direction", control.direction, {}, "direction of its displacement and force");
@@ -164,7 +152,8 @@ void declare_accuracy(Section& s, Analysis& analysis) {
 void declare_analysis(Section& s, Analysis& analysis) {
   s.choice(
       "type", analysis.type,
-      "static equilibrium; motion in time; construction ring by ring; search for a critical parameter value; "
+      "static equilibrium; motion in time; construction by courses or blocks; search for a critical "
+      "parameter value; "
       "ranges of forces over all admissible states; equilibria along a path of loads or support motions");
   s.choice("method", analysis.method, "numerical method for the contact problem");
   declare_flow_rule(s, analysis);
@@ -195,7 +184,13 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.section("stop", analysis.stop, "dynamic: conditions that end the run before its duration", declare_stop);
   s.section("limit", analysis.limit, "limit: parameter and bracket of the search", declare_limit);
   s.section("range", analysis.range, "range: quantities sought over all admissible states", declare_range);
-  s.section("staged", analysis.staged, "staged: which stages, and the fresh mortar", declare_staged);
+  s.section("staged", analysis.staged, "staged: order of the stages, and the fresh mortar", declare_staged);
+  s.rule(
+      analysis.type != AnalysisType::staged || analysis.staged.unit == StagedConstruction::Unit::ring ||
+          analysis.staged.allow_associated || analysis.friction_law == FrictionLaw::coulomb,
+      "staged.unit",
+      "block requires friction_law: coulomb. Under the other laws a joint that slides opens, which jams an "
+      "open course between uprights at any friction; staged.allow_associated: true admits them");
   s.section("path", analysis.path, "path: steps, and the block to tabulate", declare_path);
   s.rule(analysis.type != AnalysisType::path || analysis.path.control, "path",
          "must name the block to tabulate: {control: {block: 3, direction: [1, 0, 0]}}");

@@ -16,13 +16,20 @@ void declare_strength_rules(Section& s, Case& the_case) {
       the_case.contact.subdivide == 1 || (the_case.joints.compliance.per == Compliance::Per::area &&
                                           the_case.contact.method == ContactDetection::Method::face_clipping),
       "contact", "subdivide requires joints.compliance: {per: area} and method: face_clipping");
-  if (!the_case.joints.have_strength()) return;
   const Analysis& analysis = the_case.analysis;
-  s.rule(the_case.joints.failure == JointFailure::plastic || analysis.type == AnalysisType::dynamic ||
-             analysis.type == AnalysisType::path,
-         "analysis",
-         "joints.failure: brittle or softening requires type: dynamic or path, because what such joints "
-         "carry depends on the history of the loads");
+  const StagedConstruction& staged = analysis.staged;
+  const bool fresh_strength = analysis.type == AnalysisType::staged &&
+                              (staged.fresh.cohesion > 0.0 || staged.fresh.tension > 0.0 ||
+                               staged.least == StagedConstruction::Least::cohesion || !staged.curing.empty());
+  s.rule(!fresh_strength || the_case.joints.compliance.per == Compliance::Per::area, "analysis",
+         "staged: cohesion and tension of fresh mortar require joints.compliance: {per: area}");
+  if (!the_case.joints.have_strength() && !fresh_strength) return;
+  s.rule(
+      the_case.joints.failure == JointFailure::plastic || analysis.type == AnalysisType::dynamic ||
+          analysis.type == AnalysisType::path || (analysis.type == AnalysisType::staged && staged.carry),
+      "analysis",
+      "joints.failure: brittle or softening requires type: dynamic, path, or staged with carry, because what "
+      "such joints carry depends on the history of the loads");
   s.rule(analysis.method != ContactMethod::interior_point, "analysis",
          "method: interior_point requires joints without strength; use newton");
   s.rule(the_case.contact.method == ContactDetection::Method::face_clipping, "contact",

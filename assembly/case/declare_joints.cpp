@@ -90,7 +90,7 @@ void declare_joint_group(Section& s, RingJoints& joints) {
   s.integer("to", joints.to, {.min = 0}, "highest ring; default: the same as from");
   s.choice("kind", joints.sort,
            "which joints of these rings; laid_bed: every bed, including those on supports and of herringbone "
-           "blocks");
+           "blocks; laid_head: every head, including those of herringbone blocks");
   s.rule(joints.from <= joints.to, "to", "must be >= from");
 }
 

@@ -65,14 +65,15 @@ struct RingJoints {
     head,
     herringbone,
     base,
-    laid_bed  ///< every bed, including those on supports and of herringbone blocks
+    laid_bed,  ///< every bed, including those on supports and of herringbone blocks
+    laid_head  ///< every head, including those of herringbone blocks
   };
   int from = 0, to = 0;  ///< rings, inclusive, of the upper block of the joint; the lowest is 0
   Sort sort = Sort::all;
   JointLawChange law;
 };
 constexpr auto enum_names(RingJoints::Sort) {
-  return std::array{"all", "bed", "head", "herringbone", "base", "laid_bed"};
+  return std::array{"all", "bed", "head", "herringbone", "base", "laid_bed", "laid_head"};
 }
 
 /// Joint laws. Values for rings override values for a kind of joint, which override the general values.

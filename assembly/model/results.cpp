@@ -21,7 +21,7 @@ std::string limit_unit(const std::string& parameter) {
   if (parameter == "tilt") return "degrees";
   if (parameter == "acceleration") return "g";
   if (parameter == "lantern") return "times the weight";
-  if (parameter == "peak_stress") return "Pa";
+  if (parameter == "peak_stress" || parameter.ends_with("cohesion")) return "Pa";
   return parameter.ends_with("friction") ? "" : "factor";  // load, thickness, spread, joint_extent
 }
 

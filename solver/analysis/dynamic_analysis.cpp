@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -12,6 +11,7 @@
 #include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/dynamic_history.hpp"
 #include "solver/analysis/record.hpp"
+#include "solver/analysis/record_archive.hpp"
 #include "solver/analysis/static_start.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
@@ -29,39 +29,6 @@ struct RunProgress {
   double friction_work = 0.0;  // J
   double calm_since = 0.0;     // s, time since which no block has been faster than the settled speed
 };
-
-template <class Archive>
-void visit(Archive& archive, ForceCertificate& x) {
-  double value = x.value.value_or(std::numeric_limits<double>::quiet_NaN());
-  archive(value, x.bounds);
-  if (std::isnan(value))
-    x.value.reset();
-  else
-    x.value = value;
-}
-
-template <class Archive>
-void visit(Archive& archive, LawViolation& x) {
-  archive(x.value, x.joint, x.block_a, x.block_b, x.time);
-}
-
-template <class Archive, class T>
-void visit(Archive& archive, std::optional<T>& x) {
-  bool set = x.has_value();
-  T value = x.value_or(T{});
-  archive(set, value);
-  if (set)
-    x = value;
-  else
-    x.reset();
-}
-
-template <class Archive>
-void visit(Archive& archive, WorstOfRun& x) {
-  Residuals& r = x.residuals;
-  archive(r.momentum, r.contact_law, r.rigid_contact_speed, r.contact_law_rounding, r.cone_violation);
-  archive(x.certificate, x.unique.value, x.unique.reason, x.violation);
-}
 
 template <class Archive>
 void visit(Archive& archive, RunProgress& x) {

@@ -18,29 +18,35 @@ EquilibriumPath::EquilibriumPath(const Model& model, const DetectionOptions& det
   loaded_.state = state_at_rest(model_);
 }
 
-StaticSolution EquilibriumPath::advance(double value) {
+StaticSolution solve_breaking(const Model& model, const State& start, const ContactSet& contacts,
+                              const StaticOptions& options, ContactMemories* memories, int* solves) {
   constexpr int kMostSolves = 200;  // a joint that breaks brittly breaks its neighbours one after the other
-  start_ = loaded_.state;
-  const ContactSet& contacts = detector_.update(start_.poses);
-  memories_ = match_memories(loaded_.memories, contacts.points);
-  options_.time_advance = value - start_.time;
-  if (model_.joints.has_strength()) begin_step(contacts, &memories_);
+  if (model.joints.has_strength()) begin_step(contacts, memories);
   StaticSolution solution;
   int iterations = 0;
   bool again = true;
-  for (solves_ = 0; again && solves_ < kMostSolves; ++solves_) {
-    solution = solve_static(model_, start_, contacts, memories_, options_);
+  for (*solves = 0; again && *solves < kMostSolves; ++*solves) {
+    solution = solve_static(model, start, contacts, *memories, options);
     iterations += solution.iterations;
-    again = model_.joints.has_strength() && solution.outcome == StaticOutcome::equilibrium &&
-            refine_step(model_, start_, contacts, solution.step, solution.step_solution,
-                        static_step_options(options_, solution.h), &memories_);
+    again = model.joints.has_strength() && solution.outcome == StaticOutcome::equilibrium &&
+            refine_step(model, start, contacts, solution.step, solution.step_solution,
+                        static_step_options(options, solution.h), memories);
   }
   solution.iterations = iterations;
   if (again) {
     solution.outcome = StaticOutcome::unconverged;
     solution.message =
-        fmt::format("the damage of the joints still changed after {} of one step", counted(solves_, "solve"));
+        fmt::format("the damage of the joints still changed after {} of one step", counted(*solves, "solve"));
   }
+  return solution;
+}
+
+StaticSolution EquilibriumPath::advance(double value) {
+  start_ = loaded_.state;
+  const ContactSet& contacts = detector_.update(start_.poses);
+  memories_ = match_memories(loaded_.memories, contacts.points);
+  options_.time_advance = value - start_.time;
+  StaticSolution solution = solve_breaking(model_, start_, contacts, options_, &memories_, &solves_);
   if (solution.outcome == StaticOutcome::equilibrium)
     loaded_ = loaded_state(model_, start_, contacts, memories_, solution, options_);
   return solution;

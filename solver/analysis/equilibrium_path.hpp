@@ -6,9 +6,13 @@
 
 namespace cupola {
 
+/// A static solve from `start`, repeated where joints with strength break until their damage is right (joint_damage.hpp).
+/// `memories` has that damage. Sets the number of solves.
+StaticSolution solve_breaking(const Model& model, const State& start, const ContactSet& contacts,
+                              const StaticOptions& options, ContactMemories* memories, int* solves);
+
 /// Sequence of equilibria of a structure whose loads and supports change slowly in time. Each step detects the contacts anew
-/// and is a static solve from the last equilibrium; joints keep their slip, opening and damage. A step in which joints
-/// with strength break is solved until their damage is right (joint_damage.hpp).
+/// and is a static solve from the last equilibrium; joints keep their slip, opening and damage.
 class EquilibriumPath {
  public:
   EquilibriumPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options);

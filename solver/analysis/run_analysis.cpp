@@ -10,7 +10,8 @@ std::optional<Summary> run(const Case& scene, const Assembly& assembly, const An
     case AnalysisType::dynamic:
       return run_dynamic(scene, assembly, sinks);
     case AnalysisType::staged:
-      return run_staged(scene, assembly, sinks);
+      return scene.analysis.staged.independent_rings() ? run_staged(scene, assembly, sinks)
+                                                       : run_construction(scene, assembly, sinks);
     case AnalysisType::limit:
       return run_limit(scene, assembly, sinks);
     case AnalysisType::range:

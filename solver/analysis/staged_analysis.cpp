@@ -170,7 +170,7 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
   for (int ring = staged.first_ring; ring <= last; ++ring) {
     StageRun run(scene, assembly, ring, sinks.log);
     StageResult stage;
-    const StaticSolution solution = run.solve(staged.fresh_friction);
+    const StaticSolution solution = run.solve(staged.fresh.friction);
     stage.ring = ring;
     stage.blocks = run.model().num_free();
     stage.weight = run.model().free_weight;
@@ -197,7 +197,7 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
   summary.solve_time_seconds = wall_seconds() - started;
   worst.summarize(&summary);
   summary.accuracy.worst_over_run = worst_balance;
-  judge(results, staged.fresh_friction, &summary);
+  judge(results, staged.fresh.friction, &summary);
   return summary;
 }
 

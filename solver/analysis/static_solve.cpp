@@ -239,13 +239,18 @@ bool ProximalPoint::moves_steadily(double contraction, int count) {
 /// value. During a collapse it fluctuates above that value.
 bool ProximalPoint::moves_far() {
   constexpr double kFall = 0.75, kFar = 100.0;
+  // Heads softer than the bed engage after a slip that is long compared with the settlement on the bed.
+  constexpr double kShareOfBlock = 0.05;
   if (residual_ < kFall * lowest_residual_) {
     lowest_residual_ = residual_;
     travel_ = 0.0;
     return false;
   }
   travel_ += largest_speed(moved_);
-  return trial_.speed_ratio > kAtRest && travel_ > kFar * settlement_;
+  const double far = options_.follow_from_start
+                         ? std::max(kFar * settlement_, kShareOfBlock * smallest_block_size(*model_.assembly))
+                         : kFar * settlement_;
+  return trial_.speed_ratio > kAtRest && travel_ > far;
 }
 
 StaticSolution ProximalPoint::finish(StaticOutcome outcome, std::string message) {
@@ -394,7 +399,7 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
     if (solution.outcome != StaticOutcome::equilibrium) {
       iterations += solution.iterations;
       solution = ProximalPoint(model, start, contacts, memories, options).run();
-      if (stands && shows_nothing(model, solution)) {
+      if (stands && !options.follow_from_start && shows_nothing(model, solution)) {
         if (StaticSolution second = from_associated(); second.outcome == StaticOutcome::equilibrium)
           solution = std::move(second);
       }

@@ -22,6 +22,9 @@ struct StaticOptions {
   ContactSolverOptions solve = {};
   const CyclicSymmetry* symmetry = nullptr;  ///< if set, only one sector of the model is solved
   double time_advance = 0.0;                 ///< time by which loads and supports advance, s
+  /// Non-associated laws: only the path from the start counts, not an equilibrium found from the associated solution, whose
+  /// dilatancy may have jammed joints. Motions must reach 5 % of the smallest block.
+  bool follow_from_start = false;
   std::function<void(const std::string&)> log = [](const std::string&) {};
 };
 

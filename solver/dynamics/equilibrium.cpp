@@ -65,13 +65,14 @@ Equilibrium compute_equilibrium(const Model& model, const State& state, const Co
   BlockForces sum = applied_loads(model, state, time);
   for (int block : model.free_blocks) balance.applied_load += sum.force[block];
 
+  const auto is_fixed = [&](int block) { return model.free_index[block] == ContactProblem::kFixed; };
   const auto add = [&](int a, int b, const Vec3& point_a, const Vec3& point_b, const Vec3& on_b) {
     sum.force[b] += on_b;
     sum.moment[b] += (point_b - state.poses[b].p_WB).cross(on_b);
     sum.force[a] -= on_b;
     sum.moment[a] -= (point_a - state.poses[a].p_WB).cross(on_b);
-    if (blocks[a].fixed && !blocks[b].fixed) balance.support_reaction += on_b;
-    if (blocks[b].fixed && !blocks[a].fixed) balance.support_reaction -= on_b;
+    if (is_fixed(a) && !is_fixed(b)) balance.support_reaction += on_b;
+    if (is_fixed(b) && !is_fixed(a)) balance.support_reaction -= on_b;
   };
   for (size_t i = 0; i < forces.contacts.size(); ++i) {
     const Contact& contact = contacts.points[i];

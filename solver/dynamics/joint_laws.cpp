@@ -70,6 +70,8 @@ bool applies_to(RingJoints::Sort group, JointClass kind) {
       return kind == JointClass::base;
     case RingJoints::Sort::laid_bed:
       return kind == JointClass::bed || kind == JointClass::herringbone_bed || kind == JointClass::base;
+    case RingJoints::Sort::laid_head:
+      return kind == JointClass::head || kind == JointClass::herringbone_other;
   }
   return false;
 }

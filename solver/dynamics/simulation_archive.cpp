@@ -1,4 +1,5 @@
 #include "assembly/files/byte_archive.hpp"
+#include "solver/dynamics/memory_archive.hpp"
 #include "solver/dynamics/simulation.hpp"
 
 namespace cupola {
@@ -36,14 +37,6 @@ void visit(Archive& archive, Reach& x) {
 template <class Archive>
 void visit(Archive& archive, DetectionMemory& x) {
   archive(x.boxes, x.detection, x.now, x.contacts, x.num_detections);
-}
-template <class Archive>
-void visit(Archive& archive, JointDamage& x) {
-  archive(x.damage, x.opening, x.crushing, x.step_damage, x.bears);
-}
-template <class Archive>
-void visit(Archive& archive, ContactMemory& x) {
-  archive(x.impulse, x.elastic_gap, x.elastic_slip_A, x.plastic_slip, x.joint);
 }
 template <class Archive>
 void visit(Archive& archive, ContactMemories& x) {

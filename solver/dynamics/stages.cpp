@@ -15,7 +15,42 @@ std::vector<int> stage_block(const ConstructionStage& stage, size_t num_complete
   return index;
 }
 
+std::optional<double> between(const std::optional<double>& a, const std::optional<double>& b, double share) {
+  if (!a || !b) return std::nullopt;
+  return *a + share * (*b - *a);
+}
+
+/// The law of mortar of an age; none if it has hardened.
+std::optional<JointLawChange> law_at_age(const StagedConstruction& staged, int courses) {
+  if (staged.curing.empty())
+    return courses < staged.fresh.courses ? std::optional(staged.fresh.law()) : std::nullopt;
+  const double age = courses * staged.days_per_course.value_or(1.0);
+  const auto after =
+      std::ranges::find_if(staged.curing, [&](const CuringMortar& row) { return row.age >= age; });
+  if (after == staged.curing.end()) return std::nullopt;
+  if (after == staged.curing.begin()) return after->law;
+  const CuringMortar &a = *(after - 1), &b = *after;
+  const double share = (age - a.age) / (b.age - a.age);
+  return JointLawChange{between(a.law.friction, b.law.friction, share),
+                        between(a.law.normal, b.law.normal, share),
+                        between(a.law.tangential, b.law.tangential, share),
+                        between(a.law.tension, b.law.tension, share),
+                        between(a.law.cohesion, b.law.cohesion, share),
+                        {},
+                        {}};
+}
+
 }  // namespace
+
+void add_fresh_joints(const StagedConstruction& staged, int ring, int top, Joints* joints) {
+  for (int age = ring; age >= 0; --age) {  // the youngest last
+    const std::optional<JointLawChange> law = law_at_age(staged, age);
+    if (!law) continue;
+    const int from = ring - age, to = age == 0 ? std::max(ring, top) : from;
+    joints->rings.push_back({from, to, RingJoints::Sort::laid_bed, *law});
+    if (staged.fresh.heads) joints->rings.push_back({from, to, RingJoints::Sort::laid_head, *law});
+  }
+}
 
 ConstructionStage build_stage(const Assembly& complete, int ring) {
   ConstructionStage stage;
@@ -52,10 +87,9 @@ ConstructionStage build_stage(const Assembly& complete, int ring) {
 
 Case case_of_stage(const Case& scene, const ConstructionStage& stage, double fresh_friction, bool complete) {
   Case at = scene;
-  RingJoints fresh{stage.ring, stage.ring, RingJoints::Sort::laid_bed, {}};
-  fresh.law.friction = fresh_friction;
-  fresh.law.tension = fresh.law.cohesion = 0.0;
-  at.joints.rings.push_back(fresh);
+  StagedConstruction staged = scene.analysis.staged;
+  staged.fresh.friction = fresh_friction;
+  add_fresh_joints(staged, stage.ring, stage.ring, &at.joints);
   if (complete) return at;
   const Vec3 gravity = scene.loads.gravity;
   at.loads = Loads{};

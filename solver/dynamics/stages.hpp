@@ -15,7 +15,11 @@ struct ConstructionStage {
 };
 ConstructionStage build_stage(const Assembly& complete, int ring);
 
-/// The case of that stage, with friction `fresh_friction` and neither tension nor cohesion in the bed of the last ring. An incomplete stage
+/// Adds the laws of fresh and curing mortar while course `ring` is being laid. Joints of the courses up to `top` are as young as
+/// its own.
+void add_fresh_joints(const StagedConstruction& staged, int ring, int top, Joints* joints);
+
+/// The case of that stage, with the friction `fresh_friction` in its fresh joints. An incomplete stage
 /// carries only its own weight: loads other than gravity, and ties to blocks that are not laid yet, apply
 /// only if the model is `complete`.
 Case case_of_stage(const Case& scene, const ConstructionStage& stage, double fresh_friction, bool complete);

@@ -14,7 +14,7 @@ namespace {
 Case staged_case(double friction, double fresh) {
   Case scene = testing::make_case(friction, 1e-8, 0.01);
   scene.analysis.type = AnalysisType::staged;
-  scene.analysis.staged.fresh_friction = fresh;
+  scene.analysis.staged.fresh.friction = fresh;
   return scene;
 }
 
@@ -79,7 +79,7 @@ TEST(Staged, CriticalFreshFrictionEqualsTheSlope) {
   ASSERT_TRUE(built.summary.critical);
   EXPECT_NEAR(built.summary.critical->value, 0.3, 3e-3);
 
-  scene.analysis.staged.fresh_friction = 0.29;
+  scene.analysis.staged.fresh.friction = 0.29;
   scene.analysis.staged.critical_friction = false;
   const StagedResult slides = run(scene, wall);
   EXPECT_EQ(slides.summary.status, Status::moving);

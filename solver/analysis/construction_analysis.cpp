@@ -1,0 +1,305 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "assembly/base/error.hpp"
+#include "assembly/base/process.hpp"
+#include "assembly/files/byte_archive.hpp"
+#include "assembly/model/block_names.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "solver/analysis/construction.hpp"
+#include "solver/analysis/falling_blocks.hpp"
+#include "solver/analysis/least_search.hpp"
+#include "solver/analysis/record.hpp"
+#include "solver/analysis/record_archive.hpp"
+#include "solver/dynamics/memory_archive.hpp"
+
+namespace cupola {
+
+/// What the stages so far have shown.
+struct ConstructionProgress {
+  int next = 0;  // stage
+  int ring = 0;  // youngest course
+  int solved = 0, standing = 0, need_none = 0, undecided = 0, iterations = 0;
+  double worst_balance = 0.0;
+  WorstOfRun worst;
+  double least_stands = -1.0, least_moves = 0.0;  // of the most demanding stage; < 0: none found
+  int least_stage = 0;
+  std::optional<std::pair<double, double>> last_bracket;  // of the search
+  std::string first_failure;  // stage and message of the first one that does not stand
+  bool unconverged = false, ended = false;
+  std::string stages_csv, failures_csv;
+};
+
+template <class Archive>
+void visit(Archive& archive, ConstructionProgress& x) {
+  archive(x.next, x.ring, x.solved, x.standing, x.need_none, x.undecided, x.iterations, x.worst_balance,
+          x.worst, x.least_stands, x.least_moves, x.least_stage, x.last_bracket, x.first_failure,
+          x.unconverged, x.ended, x.stages_csv, x.failures_csv);
+}
+template <class Archive>
+void visit(Archive& archive, BuiltContact& x) {
+  archive(x.memory, x.gap, x.hardened);
+}
+template <class Archive>
+void visit(Archive& archive, BuiltState& x) {
+  archive(x.laid, x.displacement, x.rotation, x.joints);
+}
+
+namespace {
+
+/// Largest values and narrowest brackets of the search for the least property.
+constexpr double kMostCohesion = 1e6, kNarrowestCohesion = 0.1;  // Pa
+constexpr double kMostFriction = 10.0, kNarrowestFriction = 1e-4;
+constexpr double kFirstCohesion = 1000.0, kFirstFriction = 0.5;  // tried first
+
+LeastSearch search_of(const StagedConstruction& staged) {
+  if (staged.least == StagedConstruction::Least::friction)
+    return {kFirstFriction, kMostFriction, {staged.relative_width, kNarrowestFriction}};
+  return {kFirstCohesion, kMostCohesion, {staged.relative_width, kNarrowestCohesion}};
+}
+
+class ConstructionRun {
+ public:
+  ConstructionRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
+  std::optional<Summary> run();
+
+ private:
+  bool lay_foundation();
+  bool advance();
+  LeastSearch::Result find_least();
+  void record(const LaidBlocks& stage, const StaticSolution& solution, const LeastSearch::Result& least,
+              double seconds);
+  void record_failure(const LaidBlocks& stage, const std::vector<FallingBlock>& falling);
+  std::string checkpoint() const;
+  void judge();
+
+  const Case& scene_;
+  const StagedConstruction& staged_;
+  const Assembly& assembly_;
+  const AnalysisSinks& sinks_;
+  Construction building_;
+  std::vector<LaidBlocks> stages_;
+  LeastSearch search_;
+  ConstructionProgress progress_;
+  std::vector<FallingBlock> falling_;  // in the failing trial of the search nearest to the least value
+  Summary summary_;
+};
+
+ConstructionRun::ConstructionRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks)
+    : scene_(scene),
+      staged_(scene.analysis.staged),
+      assembly_(assembly),
+      sinks_(sinks),
+      building_(scene, assembly, sinks.log),
+      search_(search_of(staged_)) {
+  int top = 0;
+  for (const Block& block : assembly.blocks) top = std::max(top, block.ring);
+  const int last = staged_.last_ring < 0 ? top : std::min(staged_.last_ring, top);
+  if (staged_.first_ring > last)
+    throw InputError(fmt::format("analysis.staged.first_ring = {}: must not exceed the last ring, {}",
+                                 staged_.first_ring, last));
+  stages_ = laying_order(assembly, staged_, staged_.first_ring, last);
+  progress_.stages_csv =
+      "stage,ring,laid,blocks,verdict,speed_ratio,least_stands,least_moves,head_squeeze_m,displacement_m,"
+      "solve_time_s,note\n";
+  progress_.failures_csv = "stage,ring,block,course,how,relative_speed\n";
+}
+
+/// The courses below the first stage, as if built at once, with the mortar that they have in that stage. False if they do not
+/// stand.
+bool ConstructionRun::lay_foundation() {
+  std::vector<int> below;
+  for (size_t block = 0; block < assembly_.blocks.size(); ++block)
+    if (!assembly_.blocks[block].fixed && assembly_.blocks[block].ring < staged_.first_ring)
+      below.push_back(static_cast<int>(block));
+  if (below.empty()) return true;
+  building_.lay(below, staged_.first_ring);
+  if (!staged_.carry || !building_.any_free()) return true;
+  const StaticSolution solution = building_.solve();
+  const Frame frame = building_.frame(solution);
+  summarize_static(solution, frame, building_.problem().model, building_.options().tolerance, &summary_);
+  if (solution.outcome == StaticOutcome::equilibrium) {
+    building_.accept(solution);
+    return true;
+  }
+  sinks_.frame(frame);
+  summary_.message = "the courses below analysis.staged.first_ring do not stand: " + summary_.message;
+  return false;
+}
+
+LeastSearch::Result ConstructionRun::find_least() {
+  falling_.clear();
+  double nearest = -1.0;
+  return search_.find([&](double value) -> std::optional<LimitTrial> {
+    const StaticSolution solution = building_.solve(value);
+    progress_.iterations += solution.iterations;
+    if (solution.outcome == StaticOutcome::moving && value > nearest) {
+      nearest = value;
+      falling_ = falling_blocks(building_.problem().model, solution.step_solution.v);
+    }
+    return LimitTrial{value, solution.outcome, solution.speed_ratio};
+  });
+}
+
+/// One stage. False if the construction ends there.
+bool ConstructionRun::advance() {
+  const double started = wall_seconds();
+  const LaidBlocks& stage = stages_[progress_.next];
+  building_.lay(stage.blocks, stage.ring);
+  LeastSearch::Result least;
+  const bool seeks = staged_.least != StagedConstruction::Least::none;
+  if (seeks) least = find_least();
+  StaticSolution solution = building_.solve();
+  progress_.iterations += solution.iterations;
+  if (solution.outcome == StaticOutcome::moving)
+    falling_ = falling_blocks(building_.problem().model, solution.step_solution.v);
+  record(stage, solution, least, wall_seconds() - started);
+  if (!falling_.empty()) record_failure(stage, falling_);
+  falling_.clear();
+  ++progress_.next;
+  progress_.ring = stage.ring;
+  // A stage that fails is built with the least mortar with which it stands, if that is known.
+  if (solution.outcome != StaticOutcome::equilibrium && least.bracket.found)
+    solution = building_.solve(least.bracket.stable.value);
+  if (solution.outcome == StaticOutcome::equilibrium) {
+    building_.accept(solution);
+    return true;
+  }
+  progress_.ended = staged_.carry;
+  return !progress_.ended;
+}
+
+std::string least_note(const LeastSearch::Result& least, StagedConstruction::Least property) {
+  if (property == StagedConstruction::Least::none) return "";
+  return least.needs_none ? fmt::format("stands without {}", to_string(property)) : least.bracket.message;
+}
+
+void ConstructionRun::record(const LaidBlocks& stage, const StaticSolution& solution,
+                             const LeastSearch::Result& least, double seconds) {
+  const int number = progress_.next;
+  Frame frame = building_.frame(solution);
+  frame.time = stage.ring - 1 + stage.share;
+  sinks_.frame(frame);
+  summarize_static(solution, frame, building_.problem().model, building_.options().tolerance, &summary_);
+  progress_.worst.include(solution.residuals, summary_.certified_force_error, summary_.forces_unique,
+                          largest_violation(frame));
+  if (!(summary_.accuracy.reached <= progress_.worst_balance))
+    progress_.worst_balance = summary_.accuracy.reached;
+
+  const bool stands = solution.outcome == StaticOutcome::equilibrium;
+  ++progress_.solved;
+  progress_.standing += stands;
+  progress_.need_none += least.needs_none;
+  progress_.unconverged = progress_.unconverged || solution.outcome == StaticOutcome::unconverged;
+  if (!stands && progress_.first_failure.empty())
+    progress_.first_failure = fmt::format("stage {} in course {} (block {}): {}", number, stage.ring,
+                                          block_label(assembly_, stage.blocks.front()), solution.message);
+  const bool seeks = staged_.least != StagedConstruction::Least::none;
+  progress_.undecided += seeks && !least.needs_none && !least.bracket.narrow;
+  if (least.bracket.found && least.bracket.stable.value > progress_.least_stands) {
+    progress_.least_stands = least.bracket.stable.value;
+    progress_.least_moves = least.bracket.moving.value;
+    progress_.least_stage = number;
+  }
+  const std::string bracket = least.bracket.found ? fmt::format("{:.9g},{:.9g}", least.bracket.stable.value,
+                                                                least.bracket.moving.value)
+                              : least.needs_none  ? "0,"
+                                                  : ",";
+  const std::string note = least_note(least, staged_.least);
+  progress_.stages_csv +=
+      fmt::format("{},{},{},{},{},{:.6e},{},{},{},{:.3f},\"{}\"\n", number, stage.ring, stage.blocks.size(),
+                  building_.problem().model.num_free(), to_string(solution.outcome), solution.speed_ratio,
+                  bracket, stands ? fmt::format("{:.6e}", building_.head_squeeze(solution)) : "",
+                  stands ? fmt::format("{:.6e}", largest_displacement(frame)) : "", seconds, note);
+  sinks_.table("construction.csv", progress_.stages_csv);
+  const std::string line = fmt::format("stage {:5d}  ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}",
+                                       number, stage.ring, building_.problem().model.num_free(),
+                                       to_string(solution.outcome), solution.speed_ratio, note);
+  sinks_.log(line);
+  sinks_.progress(static_cast<double>(number + 1) / static_cast<double>(stages_.size()), line);
+}
+
+void ConstructionRun::record_failure(const LaidBlocks& stage, const std::vector<FallingBlock>& falling) {
+  for (const FallingBlock& block : falling)
+    progress_.failures_csv += fmt::format(
+        "{},{},{},{},{},{:.4f}\n", progress_.next, stage.ring, block_label(assembly_, block.block),
+        assembly_.blocks[block.block].ring, to_string(block.mode), block.speed);
+  sinks_.table("failures.csv", progress_.failures_csv);
+}
+
+void ConstructionRun::judge() {
+  const ConstructionProgress& p = progress_;
+  const auto total = static_cast<int>(stages_.size());
+  summary_.status = p.unconverged         ? Status::unconverged
+                    : p.standing == total ? Status::stable
+                                          : Status::moving;
+  summary_.message =
+      fmt::format("stages that stand with the mortar of the case: {} of {}", p.standing, p.solved);
+  if (!p.first_failure.empty()) summary_.message += "; the first that does not is " + p.first_failure;
+  if (p.ended)
+    summary_.message +=
+        fmt::format("; the construction ends there, {} were not reached", counted(total - p.solved, "stage"));
+  if (staged_.least == StagedConstruction::Least::none) return;
+  const std::string property = to_string(staged_.least);
+  summary_.message +=
+      fmt::format("; {} without fresh {}", counted(p.need_none, "stage stands", "stages stand"), property);
+  if (p.undecided > 0)
+    summary_.message += fmt::format("; the least fresh {} of {} is not known to the width asked for",
+                                    property, counted(p.undecided, "stage"));
+  if (p.least_stands < 0.0) return;
+  const std::string parameter = "fresh " + property;
+  summary_.critical =
+      CriticalValue{parameter, 0.5 * (p.least_stands + p.least_moves), p.least_stands, p.least_moves};
+  const LaidBlocks& stage = stages_[p.least_stage];
+  summary_.message +=
+      fmt::format("; the most demanding is stage {} in course {} (block {}), which needs {:.4g}{}",
+                  p.least_stage, stage.ring, block_label(assembly_, stage.blocks.front()), p.least_stands,
+                  staged_.least == StagedConstruction::Least::cohesion ? " Pa" : "");
+}
+
+std::string ConstructionRun::checkpoint() const {
+  ConstructionProgress progress = progress_;
+  progress.last_bracket = search_.last();
+  BuiltState state = building_.state();
+  ByteWriter archive;
+  archive(progress, state);
+  return archive.bytes();
+}
+
+std::optional<Summary> ConstructionRun::run() {
+  const double started = wall_seconds();
+  if (!sinks_.resume_from.empty()) {
+    BuiltState state;
+    ByteReader archive(sinks_.resume_from);
+    archive(progress_, state);
+    search_.start_from(progress_.last_bracket);
+    building_.restore(std::move(state), progress_.ring);
+  } else if (!lay_foundation()) {
+    return summary_;
+  }
+  while (progress_.next < static_cast<int>(stages_.size()) && !progress_.ended) {
+    if (progress_.next > 0) {
+      sinks_.checkpoint(checkpoint());
+      if (sinks_.interrupted()) return std::nullopt;
+    }
+    if (!advance()) break;
+  }
+  summary_.steps = progress_.solved;
+  summary_.iterations = progress_.iterations;
+  summary_.solve_time_seconds = wall_seconds() - started;
+  progress_.worst.summarize(&summary_);
+  summary_.accuracy.worst_over_run = progress_.worst_balance;
+  judge();
+  return summary_;
+}
+
+}  // namespace
+
+std::optional<Summary> run_construction(const Case& scene, const Assembly& assembly,
+                                        const AnalysisSinks& sinks) {
+  return ConstructionRun(scene, assembly, sinks).run();
+}
+
+}  // namespace cupola
