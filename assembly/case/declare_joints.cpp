@@ -66,14 +66,12 @@ void declare_ring_joints(Section& s, RingJoints& joints) {
 
 void declare_failure_rules(Section& s, const Joints& joints) {
   const bool softens = joints.failure == JointFailure::softening;
-  const auto gives_energy = [](const std::optional<JointLawChange>& law) {
-    return law && law->fracture_energy;
-  };
-  const bool energies = joints.fracture_energy || gives_energy(joints.bed) || gives_energy(joints.head) ||
-                        gives_energy(joints.herringbone) || gives_energy(joints.base) ||
-                        std::ranges::any_of(joints.rings, [&](const RingJoints& group) {
-                          return group.law.fracture_energy.has_value();
-                        });
+  const bool energies =
+      joints.fracture_energy ||
+      std::ranges::any_of(joints.kinds(),
+                          [](const auto& kind) { return kind.second->fracture_energy.has_value(); }) ||
+      std::ranges::any_of(joints.rings,
+                          [](const RingJoints& group) { return group.law.fracture_energy.has_value(); });
   s.rule(softens || !energies, "fracture_energy", "requires joints.failure: softening");
   s.rule(!softens || joints.fracture_energy, "failure",
          "softening requires fracture_energy: {tension: N/m, shear: N/m}");
@@ -127,6 +125,10 @@ void declare_joints(Section& s, Joints& joints) {
   s.optional_section("herringbone", joints.herringbone, "joints that touch a herringbone block",
                      declare_law_change);
   s.optional_section("base", joints.base, "joints with a fixed support", declare_law_change);
+  s.optional_section(
+      "pieces", joints.pieces,
+      "joints between pieces of one imported block, named NAME#1, NAME#2, ...: where it can crack",
+      declare_law_change);
   s.list("rings", joints.rings, "joint laws of particular rings; the last entry that matches a joint applies",
          declare_ring_joints);
   declare_time(s, "friction_time", joints.friction_time, "factor on every friction coefficient");

@@ -121,10 +121,7 @@ void add_joint_checks(const Joints& joints, std::vector<PlausibleRange>* checks)
   energy("joints.", joints.fracture_energy);
   compliance("joints.compliance.normal", joints.compliance.normal);
   compliance("joints.compliance.tangential", joints.compliance.tangential);
-  for (const auto& [key, law] :
-       {std::pair("bed", &joints.bed), std::pair("head", &joints.head),
-        std::pair("herringbone", &joints.herringbone), std::pair("base", &joints.base)})
-    if (*law) change(fmt::format("joints.{}.", key), **law);
+  for (const auto& [key, law] : joints.kinds()) change(fmt::format("joints.{}.", key), *law);
   for (size_t i = 0; i < joints.rings.size(); ++i)
     change(fmt::format("joints.rings[{}].", i), joints.rings[i].law);
 }
@@ -207,10 +204,7 @@ std::vector<std::string> unused_tensions(const Joints& joints) {
   };
   if (const auto unused = unused_tension("joints.", joints.friction, all.cohesion, all.tension))
     found.push_back(*unused);
-  for (const auto& [key, law] :
-       {std::pair("bed", &joints.bed), std::pair("head", &joints.head),
-        std::pair("herringbone", &joints.herringbone), std::pair("base", &joints.base)})
-    if (*law) add(fmt::format("joints.{}.", key), **law);
+  for (const auto& [key, law] : joints.kinds()) add(fmt::format("joints.{}.", key), *law);
   for (size_t i = 0; i < joints.rings.size(); ++i)
     add(fmt::format("joints.rings[{}].", i), joints.rings[i].law);
   return found;

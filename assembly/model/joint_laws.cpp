@@ -8,9 +8,22 @@ bool Joints::have_strength() const {
   const auto has = [](const JointLawChange& law) {
     return law.tension.value_or(0.0) > 0.0 || law.cohesion.value_or(0.0) > 0.0 || law.compressive_strength;
   };
-  const auto has_own = [&](const std::optional<JointLawChange>& law) { return law && has(*law); };
-  return strength != JointStrength{} || has_own(bed) || has_own(head) || has_own(herringbone) ||
-         has_own(base) || std::ranges::any_of(rings, [&](const RingJoints& group) { return has(group.law); });
+  return strength != JointStrength{} ||
+         std::ranges::any_of(kinds(), [&](const auto& kind) { return has(*kind.second); }) ||
+         std::ranges::any_of(rings, [&](const RingJoints& group) { return has(group.law); });
+}
+
+std::vector<std::pair<const char*, const JointLawChange*>> Joints::kinds() const {
+  std::vector<std::pair<const char*, const JointLawChange*>> own;
+  const auto add = [&](const char* key, const std::optional<JointLawChange>& law) {
+    if (law) own.emplace_back(key, &*law);
+  };
+  add("bed", bed);
+  add("head", head);
+  add("herringbone", herringbone);
+  add("base", base);
+  add("pieces", pieces);
+  return own;
 }
 
 }  // namespace cupola

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "assembly/base/named_enum.hpp"
@@ -84,8 +86,12 @@ struct Joints {
   JointFailure failure = JointFailure::plastic;
   std::optional<FractureEnergy> fracture_energy;  ///< softening only
   std::optional<JointLawChange> bed, head, herringbone, base;
+  std::optional<JointLawChange> pieces;  ///< between imported blocks whose names differ only after a '#'
   std::vector<RingJoints> rings;
   TimeFunction friction_time;  ///< factor on every friction coefficient
+
+  /// The kinds of joints with a law of their own, each with its key.
+  std::vector<std::pair<const char*, const JointLawChange*>> kinds() const;
 
   /// True if some joints have a tension, a cohesion or a compressive strength.
   bool have_strength() const;

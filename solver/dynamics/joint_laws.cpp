@@ -1,6 +1,7 @@
 #include "solver/dynamics/joint_laws.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include "assembly/base/error.hpp"
 
@@ -46,6 +47,8 @@ const std::optional<JointLawChange>& change_of(const Joints& joints, JointClass 
       return joints.herringbone;
     case JointClass::base:
       return joints.base;
+    case JointClass::pieces:
+      return joints.pieces;
     case JointClass::other:
       break;
   }
@@ -76,10 +79,17 @@ bool applies_to(RingJoints::Sort group, JointClass kind) {
   return false;
 }
 
+bool are_pieces_of_one_block(const std::string& a, const std::string& b) {
+  const size_t end = a.rfind('#');
+  return end != std::string::npos && end == b.rfind('#') && a.compare(0, end, b, 0, end) == 0;
+}
+
 }  // namespace
 
 JointClass joint_class(const Assembly& assembly, const Patch& patch) {
   if (patch.kind == JointKind::base) return JointClass::base;
+  if (are_pieces_of_one_block(assembly.blocks[patch.block_a].name, assembly.blocks[patch.block_b].name))
+    return JointClass::pieces;
   const auto is_herringbone = [&](int block) {
     return assembly.blocks[block].kind == BlockKind::herringbone;
   };

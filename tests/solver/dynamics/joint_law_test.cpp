@@ -80,6 +80,29 @@ TEST(JointLaws, JointsOfHerringboneBlocksAreHerringboneExceptOnSupports) {
   EXPECT_EQ(joint_class(stack, patch), JointClass::base);
 }
 
+TEST(JointLaws, PiecesOfOneImportedBlockHaveTheirOwnLaw) {
+  Assembly stack = testing::stack_of_cubes(1.0, {1000.0, 1000.0});
+  Patch patch;
+  patch.block_a = 1;
+  patch.block_b = 2;
+  patch.kind = JointKind::other;
+  const auto class_of = [&](const char* a, const char* b) {
+    stack.blocks[1].name = a;
+    stack.blocks[2].name = b;
+    return joint_class(stack, patch);
+  };
+  EXPECT_EQ(class_of("brick 7#1", "brick 7#2"), JointClass::pieces);
+  EXPECT_EQ(class_of("brick 7#1", "brick 8#1"), JointClass::other);
+  EXPECT_EQ(class_of("brick 7#1", "brick 77#1"), JointClass::other);
+  EXPECT_EQ(class_of("brick 7", "brick 7#1"), JointClass::other);
+  EXPECT_EQ(class_of("", ""), JointClass::other);
+  Joints joints;
+  joints.pieces.emplace();
+  joints.pieces->friction = 0.9;
+  class_of("a#1", "a#2");
+  EXPECT_EQ(JointTable(joints, 1).law(stack, patch, 1.0).mu, 0.9);
+}
+
 // A block on an incline with slope tan a = 0.3 while friction falls from 0.4 to 0.2 in 1 s. It starts to
 // slide when mu = 0.3, at t = 0.5 s, and then accelerates by g (sin a - mu(t) cos a).
 TEST(FrictionInTime, BlockSlidesWhenFrictionFallsBelowTheSlope) {
