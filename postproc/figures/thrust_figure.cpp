@@ -47,7 +47,7 @@ Rows line_rows(const ThrustLine& line, bool arch) {
 std::string thrust_data(const MeridianEvaluation& m, bool arch, const ForceUnit& unit) {
   const ThrustLine& line = m.thrust;
   const auto at = [&](const Vec3& p) { return std::vector{abscissa(line, arch, p), p.z()}; };
-  Rows skins[2], thirds[2], beds, action, envelope, graphs;
+  Rows skins[2], thirds[2], beds, action, envelope, graphs, pressed;
   double longest = 0.0;
   for (const ThrustPoint& p : line.points) longest = std::max(longest, p.r);
   for (const ThrustPoint& p : line.points) {
@@ -56,6 +56,12 @@ std::string thrust_data(const MeridianEvaluation& m, bool arch, const ForceUnit&
     for (const int i : {0, 1})
       thirds[i].push_back(at(p.intrados + (i + 1) / 3.0 * (p.extrados - p.intrados)));
     beds.insert(beds.end(), {at(p.intrados), at(p.extrados), {}});
+    if (std::isfinite(p.pressure))
+      for (const double position : {p.compressed_from, p.compressed_to}) {
+        pressed.push_back(at(p.intrados + position * (p.extrados - p.intrados)));
+        pressed.back().push_back(1e-6 * p.pressure);
+        if (position == p.compressed_to) pressed.emplace_back();
+      }
     if (p.is_placed()) {
       const double thickness = (p.extrados - p.intrados).norm();
       const Vec3 reach = longest > 0.0 ? Vec3(1.5 * thickness / longest * p.force) : Vec3(Vec3::Zero());
@@ -71,10 +77,18 @@ std::string thrust_data(const MeridianEvaluation& m, bool arch, const ForceUnit&
   return data_block("intrados", skins[0]) + data_block("extrados", skins[1]) +
          data_block("inner", thirds[0]) + data_block("outer", thirds[1]) + data_block("beds", beds) +
          data_block("thrust", line_rows(line, arch)) + data_block("action", action) +
-         data_block("envelope", envelope) + data_block("graphs", graphs) + ends;
+         data_block("envelope", envelope) + data_block("graphs", graphs) + data_block("pressed", pressed) +
+         ends;
 }
 
-std::string profile_plot(const MeridianEvaluation& m, const Summary& summary) {
+/// Largest mean pressure of a compressed zone, Pa; 0 without any.
+double largest_zone_pressure(const ThrustLine& line) {
+  double largest = 0.0;
+  for (const ThrustPoint& p : line.points) largest = std::fmax(largest, p.pressure);  // skips NaN
+  return largest;
+}
+
+std::string profile_plot(const MeridianEvaluation& m, const Summary& summary, bool zones) {
   std::string title = "thrust line";
   if (summary.analysis == AnalysisType::range)
     title += has_chosen(summary.ranges) ? " (chosen)" : " (one state)";
@@ -82,8 +96,13 @@ std::string profile_plot(const MeridianEvaluation& m, const Summary& summary) {
   if (m.least_thrust) ends += fmt::format(", $least w l lc rgb '{}' lw 1.2 title 'least thrust'", kBlue);
   if (m.greatest_thrust)
     ends += fmt::format(", $greatest w l lc rgb '{}' lw 1.2 title 'greatest thrust'", kPurple);
+  // From light to dark by pressure.
+  const std::string pressed =
+      zones ? "$pressed w l lc palette lw 5 title 'compressed part of the bed', " : "";
   return fmt::format(
-      "plot $beds w l lc rgb '#dddddd' lw 0.7 notitle, $inner w l lc rgb '#888888' dt 3 lw 1.2 title 'middle "
+      "set palette defined (0 '#fde0c5', 1 '#a03060')\nset cbrange [0:*]\nunset colorbox\n"
+      "plot $beds w l lc rgb '#dddddd' lw 0.7 notitle, {5}$inner w l lc rgb '#888888' dt 3 lw 1.2 title "
+      "'middle "
       "third', $outer w l lc rgb '#888888' dt 3 lw 1.2 notitle, $intrados w l lc rgb 'black' lw 1.5 title "
       "'intrados, "
       "extrados',"
@@ -91,7 +110,7 @@ std::string profile_plot(const MeridianEvaluation& m, const Summary& summary) {
       " $action w l lc rgb '{2}' lw 1 title 'lines of action', $envelope w l lc rgb '{1}' lw 1.5 dt 2 title "
       "'envelope',"
       " $thrust w lp lc rgb '{0}' lw 2 pt 7 ps 0.5 title '{3}'{4}\n",
-      kOrange, kGreen, kSky, title, ends);
+      kOrange, kGreen, kSky, title, ends, pressed);
 }
 
 /// Four panels with a common height axis: profile, resultant, couple length, distance to the nearer face.
@@ -197,9 +216,16 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
   if (m.least_thrust || m.greatest_thrust)
     f.caption +=
         " The thin lines belong to the states of least and greatest thrust among all admissible ones.";
+  const double pressure = largest_zone_pressure(line);
+  const bool zones = e.scene.joints.have_strength() && pressure > 0.0;
+  if (zones)
+    f.caption += fmt::format(
+        " The thick parts of the beds push, darker where the mean pressure of these parts is higher, at most "
+        "{:.3g} MPa.",
+        1e-6 * pressure);
   f.width = 1200;
   f.height = arch ? 900 : 560;
-  const std::string profile = profile_plot(m, e.summary);
+  const std::string profile = profile_plot(m, e.summary, zones);
   f.commands = plot_style() + fmt::format("couple = {}\n", couple) + thrust_data(m, arch, unit) +
                (arch ? arch_panels(unit, profile) : vault_panels(m, f.width, f.height, unit, profile));
   return f;

@@ -182,6 +182,33 @@ bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, T
   return true;
 }
 
+/// Finds the part of the bed that pushes. A point that carries less than kLeastShare of the mean of its joint's does not.
+void find_compressed_zone(const ThrustInput& in, int bed, std::optional<double> meridian,
+                          ThrustPoint* point) {
+  constexpr double kLeastShare = 1e-6;
+  const bool last = bed == in.shell->num_rings();
+  const ContactTable& c = *in.contacts;
+  double force = 0.0, area = 0.0;
+  for (const auto& [id, block] : blocks_on(in.shell->beds[bed])) {
+    if (meridian && overlap(block, *meridian, in.shell->block_width_rad) <= 0.0) continue;
+    if (!last && in.assembly->blocks[id].ring != bed) continue;
+    for (const JointWrench& joint : in.joints->wrenches) {
+      if ((last ? joint.lower : joint.upper) != id || joint.negligible) continue;
+      const double least = kLeastShare * std::max(0.0, joint.normal_force) / joint.num_contacts;
+      for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
+        const int row = in.joints->contacts[i];
+        if (c.normal_force[row] <= least) continue;
+        const double position = position_in(block, c.point[row]);
+        point->compressed_from = std::fmin(point->compressed_from, position);  // skips NaN
+        point->compressed_to = std::fmax(point->compressed_to, position);
+        force += c.normal_force[row];
+        area += c.area[row];
+      }
+    }
+  }
+  if (area > 0.0) point->pressure = force / area;
+}
+
 /// Fills in point, distance and safety from the position; all become NaN if the position is undefined.
 void measure(const Floor& floor, ThrustPoint* point) {
   if (floor.hides(point->force)) point->position = std::numeric_limits<double>::quiet_NaN();
@@ -231,7 +258,9 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
     ThrustPoint point;
     point.bed = bed;
     if (!find_skins(input.shell->beds[bed], meridian, &point)) continue;
-    if (sum_strip(input, bed, meridian, &point)) line.points.push_back(point);
+    if (!sum_strip(input, bed, meridian, &point)) continue;
+    find_compressed_zone(input, bed, meridian, &point);
+    line.points.push_back(point);
   }
   for (ThrustPoint& point : line.points) measure(input.joints->floor, &point);
   line.undefined = static_cast<int>(std::count_if(line.points.begin(), line.points.end(),

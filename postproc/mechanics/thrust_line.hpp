@@ -28,6 +28,11 @@ struct ThrustPoint {
   double couple_length = 0.0;     ///< m
   double face_distance = 0.0;     ///< m, to the nearer skin along the bed, negative outside
   double geometric_safety = 0.0;  ///< half the thickness over the eccentricity; infinite when centred
+  /// The outermost contact points of the strip's blocks that push on the bed, as `position`, and the normal force of those
+  /// that push over their area. NaN if none does, as where the bed runs through the blocks.
+  double compressed_from = std::numeric_limits<double>::quiet_NaN();
+  double compressed_to = std::numeric_limits<double>::quiet_NaN();
+  double pressure = std::numeric_limits<double>::quiet_NaN();  ///< Pa
   double height() const { return 0.5 * (intrados.z() + extrados.z()); }
   bool is_placed() const { return std::isfinite(position); }
 };

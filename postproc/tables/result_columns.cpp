@@ -228,6 +228,10 @@ const Columns<ThrustPoint>& thrust_columns() {
       {"couple_length_m", "m", "couple over force on the central axis", &P::couple_length},
       {"face_distance_m", "m", "distance to the nearer face, negative outside", &P::face_distance},
       {"geometric_safety", "", "half the thickness over the eccentricity", &P::geometric_safety},
+      {"compressed_from", "", "innermost contact point that pushes on the bed, as position; empty: none does",
+       &P::compressed_from},
+      {"compressed_to", "", "outermost contact point that pushes on the bed, as position", &P::compressed_to},
+      {"pressure_Pa", "Pa", "normal force of the contact points that push over their area", &P::pressure},
   };
   return columns;
 }

@@ -144,5 +144,28 @@ TEST(ThrustLine, BedInsideABlockCarriesThePieceAbove) {
   }
 }
 
+// Beds of 1.2 x 0.8 m, whose four corners stand for 0.24 m2 each. A force in the middle presses on the whole bed, one on a face
+// on half of it, at the face.
+TEST(ThrustLine, TheCompressedZoneIsWherePointsPush) {
+  const Assembly a = test::column(3);
+  const Shell shell = shell_of(a, Vec3::UnitZ());
+  const double weight = 0.48 * 1800.0 * 9.81;  // of a block
+  for (const double y : {0.4, 0.8}) {
+    const Frame frame = test::column_at_rest(a, 9.81, 0.0, 0.6, y);
+    const JointWrenches joints = joint_wrenches(a, frame.contacts, shell);
+    const ThrustInput input{&a,           &shell, &frame.contacts, &joints, wrenches_from_below(a, joints),
+                            {0, 0, -9.81}};
+    const ThrustLine line = thrust_line(input, "m", std::nullopt);
+    ASSERT_EQ(line.points.size(), 3u);
+    for (const ThrustPoint& p : line.points) {
+      const bool whole = y == 0.4;
+      EXPECT_NEAR(p.compressed_to - p.compressed_from, whole ? 1.0 : 0.0, 1e-12);
+      EXPECT_NEAR(0.5 * (p.compressed_to + p.compressed_from), p.position, 1e-12);
+      const double normal = (3 - p.bed) * weight;
+      EXPECT_NEAR(p.pressure, normal / (whole ? 0.96 : 0.48), 1e-9 * normal);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cupola::thrust_line_test
