@@ -31,6 +31,7 @@ const Computations& computations() {
     add_invariance_rows(&map);
     add_convergence_rows(&map);
     add_range_rows(&map);
+    add_strength_rows(&map);
     return map;
   }();
   return all;
