@@ -70,12 +70,16 @@ void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
     out->push_back({"Outward thrust", force_text(e.rings.front().radial_thrust),
                     fmt::format("{:.3g} of the weight; one of the admissible states{}", *s.thrust_over_weight,
                                 s.largest_strength_use ? "" : ", a range analysis gives the limits")});
-  if (s.largest_strength_use)
-    out->push_back({kLargestPressure, fmt::format("{:.3g} MPa", 1e-6 * s.largest_pressure_Pa.value_or(0.0)),
-                    fmt::format("a joint uses at most {:.3g} % of its compressive or tensile strength",
-                                100.0 * *s.largest_strength_use)});
-  add_thrust_line(e, out);
   const auto& joints = e.last.joints.wrenches;
+  if (s.largest_strength_use) {
+    const auto outside =
+        std::count_if(joints.begin(), joints.end(), [](const JointWrench& j) { return j.kern > 1.0; });
+    out->push_back({kLargestPressure, fmt::format("{:.3g} MPa", 1e-6 * s.largest_pressure_Pa.value_or(0.0)),
+                    fmt::format("a joint uses at most {:.3g} % of its compressive or tensile strength; the "
+                                "forces of {} of {} lie outside the kern",
+                                100.0 * *s.largest_strength_use, outside, counted(joints.size(), "joint"))});
+  }
+  add_thrust_line(e, out);
   const auto sliding = std::count_if(joints.begin(), joints.end(),
                                      [](const JointWrench& j) { return j.friction_use > kSlides; });
   out->push_back({kLargestFrictionUse, fmt::format("{:.3g} %", 100.0 * s.largest_friction_use.value_or(0.0)),

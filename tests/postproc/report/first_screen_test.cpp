@@ -95,5 +95,28 @@ TEST(FirstScreen, StandsBeforeTheFirstHeadingAndEndsWithTheWorstJoints) {
   EXPECT_NE(html.find("data-joint="), std::string::npos);
 }
 
+// Beds of joints with strength, pressed at an edge: pressure and kern come before thrust line and friction.
+TEST(FirstScreen, LeadsWithThePressureOverTheStrength) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 1.2, 0.4);
+  const double strength = 1e5;  // Pa
+  for (int i = 0; i < frame.contacts.size(); ++i)
+    frame.contacts.strength_use.push_back(frame.contacts.normal_force[i] / frame.contacts.area[i] / strength);
+  frame.contacts.damage.assign(frame.contacts.strength_use.size(), 0.0);
+  frame.contacts.crack_opening.assign(frame.contacts.strength_use.size(), 0.0);
+  const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
+                                       test::fresh_folder("pressed"));
+  const std::vector<KeyNumber> numbers = key_numbers(e, {});
+  ASSERT_FALSE(numbers.empty());
+  EXPECT_EQ(numbers.front().name, kLargestPressure);
+  const double pressure = 3 * 0.48 * 1800.0 * test::kGravity / 0.48;  // half of the lowest bed
+  EXPECT_EQ(numbers.front().value, fmt::format("{:.3g} MPa", 1e-6 * pressure));
+  EXPECT_NE(numbers.front().detail.find(fmt::format("{:.3g} %", 100 * pressure / strength)),
+            std::string::npos)
+      << numbers.front().detail;
+  EXPECT_NE(numbers.front().detail.find("3 of 3 joints lie outside the kern"), std::string::npos)
+      << numbers.front().detail;
+}
+
 }  // namespace
 }  // namespace cupola::first_screen_test
