@@ -89,6 +89,9 @@ int main() {
   dome_row("compressive strength of 2.5 MPa",
            {"joints.compliance={per: area, normal: 1e-10, tangential: 2.4e-10}",
             "joints.compressive_strength=2.5e6"});
+  dome_row("tension, cohesion and compressive strength",
+           {"joints.compliance={per: area, normal: 1e-10, tangential: 2.4e-10}", "joints.tension=1e5",
+            "joints.cohesion=1.5e5", "joints.compressive_strength=2.5e6"});
   dome_row("zero compliance", {"joints.compliance.normal=0", "joints.compliance.tangential=0"});
   dome_row("a lantern", {"loads.lantern.weight_fraction=0.02"});
   dome_row("perturbed GJK", {"contact.method=perturbed_gjk"});
