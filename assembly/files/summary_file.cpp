@@ -44,6 +44,7 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("momentum_residual", s.momentum_residual);
   visit("equilibrium_residual", s.equilibrium_residual);
   visit("inertia_share", s.inertia_share);
+  visit("energy_error", s.energy_error);
   visit("contact_law_residual", s.contact_law_residual);
   visit("largest_law_violation", s.largest_law_violation);
   visit("certified_force_error", s.certified_force_error);

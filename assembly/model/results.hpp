@@ -176,6 +176,8 @@ struct Summary {
   std::optional<double>
       equilibrium_residual;             ///< of the last frame, or of the stable end of a limit analysis
   std::optional<double> inertia_share;  ///< 1 - reaction / load along gravity
+  /// Motions: largest error of the account of energy, over what was dissipated or the largest kinetic energy.
+  std::optional<double> energy_error;
   ForceCertificate certified_force_error;
   ForcesUnique forces_unique;
   double max_penetration_m = 0.0;

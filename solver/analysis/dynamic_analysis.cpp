@@ -26,14 +26,24 @@ struct RunProgress {
   double worst_error = 0.0;  // of the solves in their measure; of the missed steps if there are any
   ErrorMeasure measure = ErrorMeasure::momentum;  // of the worst error
   WorstOfRun worst;
-  double friction_work = 0.0;  // J
-  double calm_since = 0.0;     // s, time since which no block has been faster than the settled speed
+  RunEnergy energy;
+  double calm_since = 0.0;  // s, time since which no block has been faster than the settled speed
 };
 
 template <class Archive>
+void visit(Archive& archive, StepWork& x) {
+  archive(x.loads, x.supports, x.dilatancy, x.friction, x.damping, x.impact, x.scheme);
+}
+
+template <class Archive>
+void visit(Archive& archive, RunEnergy& x) {
+  archive(x.start, x.work, x.error, x.worst_error, x.peak_kinetic);
+}
+
+template <class Archive>
 void visit(Archive& archive, RunProgress& x) {
-  archive(x.steps, x.iterations, x.missed_steps, x.rounded_steps, x.worst_error, x.measure, x.worst,
-          x.friction_work, x.calm_since);
+  archive(x.steps, x.iterations, x.missed_steps, x.rounded_steps, x.worst_error, x.measure, x.worst, x.energy,
+          x.calm_since);
 }
 
 namespace {
@@ -107,16 +117,17 @@ std::string DynamicRun::checkpoint() const {
 }
 
 void DynamicRun::step() {
+  if (progress_.steps == 0) progress_.energy.start = simulation_.energy().total();
   report_ = simulation_.advance(step_limit(scene_, simulation_.state().time));
   CUPOLA_ASSERT(!report_.solve.usable() || simulation_.state().v.allFinite());
   now_ = take_snapshot(simulation_);
   ++progress_.steps;
   progress_.iterations += report_.solve.iterations;
-  progress_.friction_work += report_.friction_work;
+  progress_.energy.include(report_);
   const double time = simulation_.state().time;
   include_accuracy(time);
   if (now_.speed > analysis_.stop.settled_speed) progress_.calm_since = time;
-  sinks_.history(history_row(time, report_, now_, progress_.friction_work));
+  sinks_.history(history_row(time, report_, now_, progress_.energy));
   sinks_.log(log_line(progress_.steps, time, report_, now_));
   sinks_.progress(std::min(1.0, time / analysis_.duration),
                   fmt::format("{:.2f} of {:g} s, largest displacement {:.3g} m", time, analysis_.duration,
@@ -271,6 +282,7 @@ Summary DynamicRun::summarize(Stop stop, double seconds) const {
   summary.support_reaction_N = report_.balance.support_reaction;
   summary.equilibrium_residual = report_.balance.residual;
   summary.inertia_share = report_.balance.inertia_share;
+  summary.energy_error = progress_.energy.relative_error();
   summary.max_displacement_m = largest_displacement(last);
   summary.max_speed_m_per_s = largest_speed(last);
   progress_.worst.summarize(&summary);

@@ -1,6 +1,7 @@
 #include "solver/analysis/dynamic_history.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -12,7 +13,7 @@ struct HistoryStep {
   double time;
   const StepReport& report;
   const Snapshot& now;
-  double friction_work;
+  const RunEnergy& energy;
 };
 
 struct HistoryColumn {
@@ -38,10 +39,17 @@ constexpr HistoryColumn kHistoryColumns[] = {
      [](const HistoryStep& s) { return fmt::format("{:.6e}", s.report.residuals.momentum); }},
     {"contact_law_residual",
      [](const HistoryStep& s) { return fmt::format("{:.6e}", s.report.residuals.contact_law); }},
-    {"kinetic_energy_J", [](const HistoryStep& s) { return exact(s.now.energy.kinetic); }},
-    {"potential_energy_J", [](const HistoryStep& s) { return exact(s.now.energy.potential); }},
-    {"elastic_energy_J", [](const HistoryStep& s) { return exact(s.now.energy.elastic); }},
-    {"friction_work_J", [](const HistoryStep& s) { return exact(s.friction_work); }},
+    {"kinetic_energy_J", [](const HistoryStep& s) { return exact(s.report.energy.kinetic); }},
+    {"potential_energy_J", [](const HistoryStep& s) { return exact(s.report.energy.potential); }},
+    {"elastic_energy_J", [](const HistoryStep& s) { return exact(s.report.energy.elastic); }},
+    {"load_variation_work_J", [](const HistoryStep& s) { return exact(s.energy.work.loads); }},
+    {"support_work_J", [](const HistoryStep& s) { return exact(s.energy.work.supports); }},
+    {"friction_work_J", [](const HistoryStep& s) { return exact(s.energy.work.friction); }},
+    {"dilatancy_work_J", [](const HistoryStep& s) { return exact(s.energy.work.dilatancy); }},
+    {"damping_work_J", [](const HistoryStep& s) { return exact(s.energy.work.damping); }},
+    {"impact_loss_J", [](const HistoryStep& s) { return exact(s.energy.work.impact); }},
+    {"scheme_loss_J", [](const HistoryStep& s) { return exact(s.energy.work.scheme); }},
+    {"energy_error_J", [](const HistoryStep& s) { return exact(s.energy.error); }},
     {"support_reaction_x_N",
      [](const HistoryStep& s) { return exact(s.report.balance.support_reaction.x()); }},
     {"support_reaction_y_N",
@@ -61,7 +69,6 @@ constexpr HistoryColumn kHistoryColumns[] = {
 
 Snapshot take_snapshot(const Simulation& simulation) {
   Snapshot snapshot;
-  snapshot.energy = simulation.energy();
   snapshot.momentum = simulation.linear_momentum();
   snapshot.speed = largest_speed(simulation.state().v);
   const Model& model = simulation.model();
@@ -70,6 +77,19 @@ Snapshot take_snapshot(const Simulation& simulation) {
     snapshot.displacement = std::max(snapshot.displacement, moved.norm());
   }
   return snapshot;
+}
+
+void RunEnergy::include(const StepReport& report) {
+  work += report.work;
+  error = report.energy.total() - start - work.change();
+  worst_error = std::max(worst_error, std::abs(error));
+  peak_kinetic = std::max(peak_kinetic, report.energy.kinetic);
+}
+
+std::optional<double> RunEnergy::relative_error() const {
+  const double scale = std::max(work.dissipated(), peak_kinetic);
+  if (!(scale > 0.0)) return std::nullopt;
+  return worst_error / scale;
 }
 
 std::string history_header() {
@@ -81,11 +101,11 @@ std::string history_header() {
   return header;
 }
 
-std::string history_row(double time, const StepReport& report, const Snapshot& now, double friction_work) {
+std::string history_row(double time, const StepReport& report, const Snapshot& now, const RunEnergy& energy) {
   std::string row;
   for (const HistoryColumn& column : kHistoryColumns) {
     if (!row.empty()) row += ',';
-    row += column.cell({time, report, now, friction_work});
+    row += column.cell({time, report, now, energy});
   }
   return row;
 }
@@ -95,7 +115,7 @@ std::string log_line(int step, double time, const StepReport& report, const Snap
       "step {:6d}  t {:9.4f} s  contacts {:7d}  iterations {:3d}  momentum {:9.2e}  "
       "kinetic {:10.3e} J  |v| {:9.2e} m/s",
       step, time, report.forces.contacts.size(), report.solve.iterations, report.residuals.momentum,
-      now.energy.kinetic, now.speed);
+      report.energy.kinetic, now.speed);
 }
 
 }  // namespace cupola

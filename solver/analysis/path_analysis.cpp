@@ -10,7 +10,7 @@
 #include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/equilibrium_path.hpp"
 #include "solver/analysis/record.hpp"
-#include "solver/dynamics/energy.hpp"
+#include "solver/dynamics/energy_account.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {

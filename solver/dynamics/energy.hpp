@@ -16,12 +16,10 @@ struct Energy {
 Energy compute_energy(const Model& model, const State& state, const ContactSet& contacts,
                       const ContactMemories& memories);
 
-/// Work dissipated in the joints in one step, J, >= 0 in exact arithmetic. Of friction:
-///
-///     - sum gamma_t . z_t,   z = D^T v + b + E gamma
-///
-/// Joints with strength add the work of tension and crushing, sum (- gamma_n z_n)+. A dilating joint stores the work
-/// gamma_n z_n > 0 as potential energy.
-double joint_dissipation(const StepProblem& step, const ContactSolution& solution);
+/// J, of gravity and applied loads with their values at `time`.
+double potential_energy(const Model& model, const std::vector<Pose>& poses, double time);
+
+/// J, stored in the ties.
+double tie_energy(const Model& model, const std::vector<Pose>& poses);
 
 }  // namespace cupola

@@ -40,6 +40,7 @@ Simulation::Simulation(Model model, const SimulationOptions& options)
       detector_(*model_.assembly, options.detection),
       next_h_(options.step.h) {
   memories_.tie_impulses.assign(model_.ties.size(), 0.0);
+  energy_ = energy();
   for (const int block : model_.free_blocks) radius_.push_back(detector_.block_radius(block));
 }
 
@@ -47,12 +48,24 @@ StepReport Simulation::advance(double h_max) {
   StepOptions step = options_.step;
   step.h = std::min(next_h_, h_max);
   const ContactSet& contacts = detector_.update(state_.poses, travel(step.h));
-  if (detections_followed_ != detector_.num_detections()) follow_detection(contacts);
-  if (options_.sleep) {
-    if (update_sleep(*options_.sleep, islands_, radius_, &state_, &sleep_state_)) reduced_.reset();
-    if (sleep_state_.num_asleep() > 0) return advance_awake(contacts, step);
+  bool changed = detections_followed_ != detector_.num_detections();
+  if (changed) follow_detection(contacts);
+  if (options_.sleep && update_sleep(*options_.sleep, islands_, radius_, &state_, &sleep_state_)) {
+    reduced_.reset();
+    changed = true;
   }
-  return solve_and_move(model_, contacts, step, &state_, &memories_);
+  const double lost = changed && energy_ ? energy_->total() - energy().total() : 0.0;
+  StepReport report = advance_detected(contacts, step);
+  report.work.scheme += lost;
+  return report;
+}
+
+StepReport Simulation::advance_detected(const ContactSet& contacts, const StepOptions& step) {
+  StepReport report = sleep_state_.num_asleep() > 0
+                          ? advance_awake(contacts, step)
+                          : solve_and_move(model_, contacts, step, &state_, &memories_);
+  energy_ = report.energy = energy();
+  return report;
 }
 
 void Simulation::follow_detection(const ContactSet& contacts) {
@@ -127,14 +140,15 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
                                      contact_law_errors(problem.problem, solution, options_.solve.law));
   report.balance =
       compute_equilibrium(model, *state, contacts, report.forces, state->time + 0.5 * step.advance());
-  report.friction_work = joint_dissipation(problem, solution);
 
   // 3. Update memories and integrate
+  const StepStart start = begin_account(*state, problem, *memories, step);
   update_memories(model, problem, solution, *state, contacts, step, memories);
   state->v = solution.v;
+  integrate_positions(model, step.h, step.advance(), state);
+  report.work = work_of_step(model, start, problem, solution, *state, *memories, step);
   report.problem = std::move(problem);
   report.step_solution = std::move(solution);
-  integrate_positions(model, step.h, step.advance(), state);
   CUPOLA_ASSERT(!report.solve.usable() || is_finite(*state));
   return report;
 }
@@ -157,6 +171,7 @@ void Simulation::start_from(const LoadedState& loaded) {
   // The same forces act during the first step.
   for (ContactMemory& memory : memories_.values) memory.impulse = memory.impulse / loaded.h * next_h_;
   for (double& impulse : memories_.tie_impulses) impulse = impulse / loaded.h * next_h_;
+  energy_ = energy();
 }
 
 std::vector<double> Simulation::travel(double h) const {

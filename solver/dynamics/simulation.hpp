@@ -8,6 +8,7 @@
 #include "solver/contact/methods/solve_contact.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/dynamics/energy.hpp"
+#include "solver/dynamics/energy_account.hpp"
 #include "solver/dynamics/equilibrium.hpp"
 #include "solver/dynamics/islands.hpp"
 #include "solver/dynamics/time_step.hpp"
@@ -24,10 +25,11 @@ struct StepReport {
   JointForces forces;             ///< of all blocks
   /// law_violations() of all contacts; NaN where both blocks sleep
   std::vector<double> violations;
-  Equilibrium balance;         ///< of all blocks under those forces, at the start of the step
-  double friction_work = 0.0;  ///< J, dissipated in this step, >= 0
-  int num_rejected = 0;        ///< larger steps that the step control rejected
-  int num_asleep = 0;          ///< free blocks that slept
+  Equilibrium balance;  ///< of all blocks under those forces, at the start of the step
+  StepWork work;
+  Energy energy;         ///< at the end of the step
+  int num_rejected = 0;  ///< larger steps that the step control rejected
+  int num_asleep = 0;    ///< free blocks that slept
 };
 
 /// Options of a simulation; simulation_options() builds them from a case.
@@ -76,6 +78,7 @@ class Simulation {
   const State& state() const { return state_; }
   State* mutable_state() {
     reduced_.reset();
+    energy_.reset();
     return &state_;
   }
   const ContactSet& contacts() const { return detector_.contacts(); }
@@ -88,6 +91,8 @@ class Simulation {
   /// All of the step after contact detection, for the whole scene or the part that is awake.
   StepReport solve_and_move(const Model& model, const ContactSet& contacts, StepOptions step, State* state,
                             ContactMemories* memories);
+  /// One step without its account of energy across detection and sleep.
+  StepReport advance_detected(const ContactSet& contacts, const StepOptions& step);
   StepReport advance_awake(const ContactSet& contacts, const StepOptions& step);
   /// Updates memories and islands after contacts were detected again.
   void follow_detection(const ContactSet& contacts);
@@ -106,6 +111,7 @@ class Simulation {
   SleepState sleep_state_;
   std::optional<ReducedScene> reduced_;  ///< set when first needed while blocks sleep
   double next_h_;
+  std::optional<Energy> energy_;  ///< at the end of the last step; unknown at first
 };
 
 }  // namespace cupola

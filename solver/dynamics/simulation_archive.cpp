@@ -48,6 +48,11 @@ void visit(Archive& archive, State& x) {
 }
 
 template <class Archive>
+void visit(Archive& archive, Energy& x) {
+  archive(x.kinetic, x.potential, x.elastic);
+}
+
+template <class Archive>
 void visit(Archive& archive, SleepState& x) {
   archive(x.calm_since, x.asleep);
 }
@@ -58,22 +63,25 @@ std::string Simulation::save() const {
   ContactMemories memories = memories_;
   SleepState sleep_state = sleep_state_;
   double next_h = next_h_;
+  Energy last_energy = energy_.value_or(energy());
   ByteWriter archive;
-  archive(state, detection, memories, sleep_state, next_h);
+  archive(state, detection, memories, sleep_state, next_h, last_energy);
   return archive.bytes();
 }
 
 void Simulation::restore(const std::string& bytes) {
   DetectionMemory detection;
   State state;
+  Energy last_energy;
   ByteReader archive(bytes);
-  archive(state, detection, memories_, sleep_state_, next_h_);
+  archive(state, detection, memories_, sleep_state_, next_h_, last_energy);
   if (!archive.at_end() || state.poses.size() != state_.poses.size() || state.v.size() != state_.v.size())
     throw std::runtime_error("belongs to another scene");
   state_ = std::move(state);
   detector_.restore(std::move(detection));
   detections_followed_ = 0;  // the islands are not stored: compute them again
   reduced_.reset();
+  energy_ = last_energy;
 }
 
 }  // namespace cupola

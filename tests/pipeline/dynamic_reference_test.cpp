@@ -86,7 +86,7 @@ Settled settle(double friction) {
   double friction_work = 0.0;
   for (int step = 0; step < 400; ++step) {
     report = simulation.advance();
-    friction_work += report.friction_work;
+    friction_work += report.work.friction;
   }
   return {report.balance.residual,
           rms_difference(static_forces(scene, assembly), step_forces(simulation, report)), friction_work,

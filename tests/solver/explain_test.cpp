@@ -36,7 +36,7 @@ Steps run_steps(const Case& scene, const Assembly& assembly) {
     std::vector<std::string> cells;
     std::istringstream in(row);
     for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-    steps.emplace_back(std::stod(cells.at(17)), std::stoi(cells.at(2)));
+    steps.emplace_back(std::stod(cells.at(24)), std::stoi(cells.at(2)));
   };
   run_analysis(scene, assembly, sinks);
   return steps;

@@ -49,7 +49,7 @@ double sliding_energy_error(double h) {
   Simulation& simulation = motion.simulation;
   double work = 0.0;
   const double start = simulation.energy().total();
-  while (simulation.state().time < 0.5) work += simulation.advance().friction_work;
+  while (simulation.state().time < 0.5) work += simulation.advance().work.friction;
   return (start - simulation.energy().total() - work) / work;
 }
 

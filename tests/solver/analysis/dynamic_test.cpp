@@ -33,7 +33,7 @@ TEST(EnergyBalance, SlidingBlockLosesTheFrictionWorkToFirstOrder) {
     Simulation simulation = simulate(scene, assembly);
     double work = 0.0;
     const double start = simulation.energy().total();
-    while (simulation.state().time < 0.5) work += simulation.advance().friction_work;
+    while (simulation.state().time < 0.5) work += simulation.advance().work.friction;
     const double lost = start - simulation.energy().total();
     worst[i] = std::abs(lost - work) / work;
   }

@@ -70,7 +70,7 @@ TEST(JointsInMotion, ABlockFallsThatIsTooHeavyForItsTension) {
   const Assembly assembly = hung_block();
   Simulation simulation = testing::simulate(scene, assembly);
   double dissipated = 0.0;
-  for (int k = 0; k < 60; ++k) dissipated += simulation.advance().friction_work;
+  for (int k = 0; k < 60; ++k) dissipated += simulation.advance().work.friction;
   const double fall = -simulation.displacements()[1].z();
   EXPECT_NEAR(simulation.linear_momentum().z(), -0.05 * kMass * kG * 0.06, 1e-9 * kMass);
   const double elongation = 0.95 * kCompliance * kMass * kG / kArea;
@@ -92,7 +92,7 @@ TEST(JointsInMotion, AnOpenJointDoesNotPullItsBlockBack) {
   simulation.mutable_state()->v[2] = kV;
   double dissipated = 0.0, height = 0.0, speed = 0.0;
   while (simulation.state().v[2] > 0.0) {
-    dissipated += simulation.advance().friction_work;
+    dissipated += simulation.advance().work.friction;
     height = std::max(height, simulation.displacements()[1].z());
   }
   const double expected = 0.5 * kV * kV / (5 * kG);
@@ -104,7 +104,7 @@ TEST(JointsInMotion, AnOpenJointDoesNotPullItsBlockBack) {
   }
   EXPECT_NEAR(speed, std::sqrt(2 * kG * height), 0.02 * kV);
   const double before = simulation.energy().total() - 1e-9;
-  for (int k = 0; k < 1000; ++k) dissipated += simulation.advance().friction_work;
+  for (int k = 0; k < 1000; ++k) dissipated += simulation.advance().work.friction;
   EXPECT_LE(simulation.energy().total(), before) << "it bounces on its compliance, without gaining energy";
 }
 
@@ -125,7 +125,7 @@ TEST(JointsInMotion, CohesionHoldsABlockOnAnIncline) {
       for (int k = 0; k < 60; ++k) simulation.advance();
       const double before = simulation.linear_momentum().x();
       double work = 0.0;
-      for (int k = 0; k < 50; ++k) work += simulation.advance().friction_work;
+      for (int k = 0; k < 50; ++k) work += simulation.advance().work.friction;
       const double impulse = 0.05 * std::max(0.0, 1.0 - share) * driving;
       EXPECT_NEAR(simulation.linear_momentum().x() - before, impulse, 1e-6 * driving)
           << to_string(law) << share;
@@ -164,7 +164,7 @@ Broken break_joint(const Vec3& force, double h) {
       broken.shear += shear;
       broken.mixed += std::hypot(opening / energy.tension, shear / energy.shear) / kArea;
     }
-    broken.total += report.friction_work;
+    broken.total += report.work.friction;
   }
   return broken;
 }

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/dynamics/time_step.hpp"
+
+namespace cupola {
+
+/// What changes the energy of a scene in one step, J:
+///
+///     energy at the end - energy at the start = loads + supports + dilatancy - dissipated() + error
+///
+/// Each term is computed by its own formula from the solution of the step. The error that remains is that of the contact
+/// solve and of rounding.
+struct StepWork {
+  double loads = 0.0;     ///< increase of the potential energy by loads that change in time
+  double supports = 0.0;  ///< work of moving supports
+  /// work of the opening that accompanies slip, sum (gamma_n z_n)+. The associated law returns in it what friction takes.
+  double dilatancy = 0.0;
+  double friction =
+      0.0;  ///< joint_dissipation(): friction, and the tension and crushing of joints with strength
+  double damping = 0.0;  ///< alpha h norm(u_el)^2 / c of compliant joints
+  /// kinetic energy of the approach of contacts that close: their springs are compressed by less than they approach in
+  /// the step
+  double impact = 0.0;
+  /// What the integrator adds or takes: (v+ - v)^T M (v+ - v) / 2 of implicit Euler, the springs' work beyond the energy
+  /// that they store, finite rotations, contacts that are detected anew, and blocks that fall asleep.
+  double scheme = 0.0;
+
+  double dissipated() const { return friction + damping + impact + scheme; }
+  double change() const { return loads + supports + dilatancy - dissipated(); }
+  StepWork& operator+=(const StepWork& other);
+};
+
+/// What the account of a step needs from its start.
+struct StepStart {
+  State state;
+  std::vector<double> springs;      ///< J, energy of the springs of each contact (nc)
+  std::vector<double> elastic_gap;  ///< m, of each contact (nc)
+};
+StepStart begin_account(const State& state, const StepProblem& step, const ContactMemories& memories,
+                        const StepOptions& options);
+
+/// The work of a step that moved the scene from `start` to `state` and `memories`.
+StepWork work_of_step(const Model& model, const StepStart& start, const StepProblem& step,
+                      const ContactSolution& solution, const State& state, const ContactMemories& memories,
+                      const StepOptions& options);
+
+/// Work dissipated in the joints in one step, J, >= 0 in exact arithmetic. Of friction:
+///
+///     - sum gamma_t . z_t,   z = D^T v + b + E gamma
+///
+/// Joints with strength add the work of tension and crushing, sum (- gamma_n z_n)+.
+double joint_dissipation(const StepProblem& step, const ContactSolution& solution);
+
+}  // namespace cupola
