@@ -10,41 +10,12 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/analysis_options.hpp"
 #include "solver/analysis/dynamic_history.hpp"
+#include "solver/analysis/motion_verdict.hpp"
 #include "solver/analysis/record.hpp"
-#include "solver/analysis/record_archive.hpp"
 #include "solver/analysis/static_start.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {
-
-/// Progress of a run, apart from the simulation itself.
-struct RunProgress {
-  int steps = 0;
-  int iterations = 0;
-  int missed_steps = 0;      // steps whose solve missed the tolerance
-  int rounded_steps = 0;     // steps accepted above the tolerance because of rounding
-  double worst_error = 0.0;  // of the solves in their measure; of the missed steps if there are any
-  ErrorMeasure measure = ErrorMeasure::momentum;  // of the worst error
-  WorstOfRun worst;
-  RunEnergy energy;
-  double calm_since = 0.0;  // s, time since which no block has been faster than the settled speed
-};
-
-template <class Archive>
-void visit(Archive& archive, StepWork& x) {
-  archive(x.loads, x.supports, x.dilatancy, x.friction, x.damping, x.impact, x.scheme);
-}
-
-template <class Archive>
-void visit(Archive& archive, RunEnergy& x) {
-  archive(x.start, x.work, x.error, x.worst_error, x.peak_kinetic);
-}
-
-template <class Archive>
-void visit(Archive& archive, RunProgress& x) {
-  archive(x.steps, x.iterations, x.missed_steps, x.rounded_steps, x.worst_error, x.measure, x.worst, x.energy,
-          x.calm_since);
-}
 
 namespace {
 
@@ -124,6 +95,7 @@ void DynamicRun::step() {
   ++progress_.steps;
   progress_.iterations += report_.solve.iterations;
   progress_.energy.include(report_);
+  progress_.rest.include(simulation_.model(), simulation_.state(), analysis_.thresholds);
   const double time = simulation_.state().time;
   include_accuracy(time);
   if (now_.speed > analysis_.stop.settled_speed) progress_.calm_since = time;
@@ -221,53 +193,6 @@ std::string stop_note(Stop stop, const Analysis& analysis) {
   return "";
 }
 
-/// Why the run is unconverged: the measure that was missed, and where the contact law is violated most.
-std::string missed_text(const Analysis& analysis, const RunProgress& progress, const SolveSummary& last) {
-  if (!last.usable()) return fmt::format("step {} failed: {}", progress.steps, last.message);
-  std::string text = fmt::format("{} of {} missed the tolerance {:.1e} of the {}; the worst reached {:.2e}",
-                                 progress.missed_steps, counted(progress.steps, "step"), analysis.tolerance,
-                                 to_string(progress.measure), progress.worst_error);
-  if (const auto& violation = progress.worst.violation; violation && violation->value > analysis.tolerance)
-    text += fmt::format(
-        "; at {:.4g} s a force between blocks {} and {} violates the contact law by {:.2g} times the force "
-        "of "
-        "its joint (or 1 % of the mean joint force, if larger)",
-        violation->time, violation->block_a, violation->block_b, violation->value);
-  text += ". Try a shorter `analysis.time_step` or a larger `analysis.tolerance`";
-  return analysis.max_iterations > 0 ? text + ", or raise `analysis.max_iterations`" : text;
-}
-
-void judge(const Analysis& analysis, const RunProgress& progress, const SolveSummary& last,
-           Summary* summary) {
-  summary->accuracy = accuracy_in(progress.measure);
-  summary->accuracy.asked = analysis.tolerance;
-  summary->accuracy.reached = last.reached;
-  summary->accuracy.worst_over_run = progress.worst_error;
-  const double speed = *summary->max_speed_m_per_s;
-  const double displacement = *summary->max_displacement_m;
-  if (progress.missed_steps > 0) {
-    summary->status = Status::unconverged;
-    summary->message = missed_text(analysis, progress, last);
-  } else if (displacement > analysis.thresholds.displacement) {
-    summary->status = Status::collapsed;
-    summary->message = fmt::format("largest displacement {:.3g} m > threshold {:.3g} m", displacement,
-                                   analysis.thresholds.displacement);
-  } else if (speed > analysis.thresholds.speed) {
-    summary->status = Status::moving;
-    summary->message = fmt::format("largest speed {:.3g} m/s > threshold {:.3g} m/s at the end", speed,
-                                   analysis.thresholds.speed);
-  } else {
-    summary->status = Status::stable;
-    summary->message = fmt::format(
-        "largest speed {:.3g} m/s <= threshold {:.3g} m/s, displacement {:.3g} m <= threshold {:.3g} m",
-        speed, analysis.thresholds.speed, displacement, analysis.thresholds.displacement);
-  }
-  if (progress.rounded_steps > 0)
-    summary->message += fmt::format(
-        "; in {} rounding of the velocities kept the contact-law residual above the tolerance {:.1e}",
-        counted(progress.rounded_steps, "step"), analysis.tolerance);
-}
-
 Summary DynamicRun::summarize(Stop stop, double seconds) const {
   Summary summary;
   const Frame last =
@@ -286,7 +211,7 @@ Summary DynamicRun::summarize(Stop stop, double seconds) const {
   summary.max_displacement_m = largest_displacement(last);
   summary.max_speed_m_per_s = largest_speed(last);
   progress_.worst.summarize(&summary);
-  judge(analysis_, progress_, report_.solve, &summary);
+  judge_motion(analysis_, progress_, report_.solve, &summary);
   summary.message += stop_note(stop, analysis_);
   return summary;
 }

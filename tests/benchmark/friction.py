@@ -1,7 +1,9 @@
 """Coulomb's law near the critical friction of the associated law, on models of the paper. Prints a CSV table.
 
+  friction.py BIN_FOLDER WORK_FOLDER brackets WIDTH [MODEL ...]   brackets of both laws to a relative WIDTH: value and time
   friction.py BIN_FOLDER WORK_FOLDER verdicts COUNT [MODEL ...]   COUNT frictions around both critical values: verdict and time
   friction.py BIN_FOLDER WORK_FOLDER gaps COUNT [MODEL ...]       COUNT seeds of random gaps, at 1.05 and 0.95 times the value
+  friction.py BIN_FOLDER WORK_FOLDER steps COUNT [MODEL ...]      times of COUNT steps of a motion and of all stages, friction 0.4
 
 The critical friction of the associated law comes from a direct limit analysis. Times are processor seconds of one thread.
 Finished runs in WORK_FOLDER are used again. Fails if a model stands below the associated critical friction: Coulomb's law
@@ -62,6 +64,41 @@ class Model:
                           {"joints.friction": f"{friction:.6f}", "analysis.friction_law": law})
 
 
+def bracket(model, law, width):
+    """The bracket of the critical friction as text, its two values, and the processor time in seconds."""
+    summary, seconds = model.solve(f"bracket_{law}_{width}", {**LIMIT, "analysis.friction_law": law,
+                                                              "analysis.limit.method": "bisection",
+                                                              "analysis.limit.relative_width": width})
+    low, high = sorted(summary["bracket"])
+    return f"{low:.4f} ... {high:.4f}", low, high, seconds
+
+
+def brackets(bin_folder, work, width, models):
+    print("model,associated,time s,Coulomb,time s")
+    wrong = []
+    for name in models:
+        model = Model(bin_folder, work, name)
+        associated, coulomb = (bracket(model, law, width) for law in ("associated", "coulomb"))
+        print(f"{name},{associated[0]},{associated[3]:.0f},{coulomb[0]},{coulomb[3]:.0f}")
+        if coulomb[2] < associated[1]:
+            wrong.append(f"{name}: the critical friction of Coulomb's law lies below the associated one")
+    return wrong
+
+
+def steps(bin_folder, work, count, models):
+    motion = {"analysis.type": "dynamic", "analysis.tolerance": 1e-6, "analysis.time_step": 0.02,
+              "analysis.duration": 0.02 * count, "joints.friction": 0.4}
+    stages = {"analysis.type": "staged", "analysis.staged.critical_friction": "false", "joints.friction": 0.4}
+    print("model,analysis,associated s,Coulomb s,ratio")
+    for name in models:
+        model = Model(bin_folder, work, name)
+        for label, settings in ((f"{count} steps of a motion", motion), ("stages by ring", stages)):
+            times = [model.solve(f"{label}_{law}".replace(" ", "_"), {**settings, "analysis.friction_law": law})[1]
+                     for law in ("associated", "coulomb")]
+            print(f"{name},{label},{times[0]:.1f},{times[1]:.1f},{times[1] / times[0]:.2f}")
+    return []
+
+
 def verdicts(bin_folder, work, count, models):
     first, last = FACTORS
     factors = [round(first + (last - first) * k / (count - 1), 3) for k in range(count)]
@@ -110,8 +147,9 @@ def gaps(bin_folder, work, count, models):
 
 def main():
     bin_folder, work = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
-    table, count = sys.argv[3], int(sys.argv[4])
-    wrong = {"verdicts": verdicts, "gaps": gaps}[table](bin_folder, work, count, sys.argv[5:] or MODELS)
+    tables = {"brackets": (brackets, float), "verdicts": (verdicts, int), "gaps": (gaps, int), "steps": (steps, int)}
+    table, number = tables[sys.argv[3]]
+    wrong = table(bin_folder, work, number(sys.argv[4]), sys.argv[5:] or MODELS)
     if wrong:
         sys.exit("\n".join(wrong))
 

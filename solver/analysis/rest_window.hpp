@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "assembly/case/analysis.hpp"
+#include "solver/dynamics/model.hpp"
+
+namespace cupola {
+
+/// Decides whether a motion has come to rest: over the last `thresholds.window` seconds, so that a turning point is not taken
+/// for rest, and without a trend, so that slow creep is not.
+class RestWindow {
+ public:
+  /// After each step.
+  void include(const Model& model, const State& state, const Analysis::Thresholds& thresholds);
+
+  /// No block has been faster than thresholds.speed in the window, or since the start of a shorter run.
+  bool is_slow(const Analysis::Thresholds& thresholds) const;
+  /// Mean velocity of the block that moved farthest over the window, m/s; 0 in a shorter run.
+  double drift() const { return drift_; }
+  /// A drift above this counts as a trend: a tenth of thresholds.speed.
+  static double largest_drift(const Analysis::Thresholds& thresholds) { return 0.1 * thresholds.speed; }
+  /// Largest speed in the last step in which a block was faster than thresholds.speed, m/s, and its time, s.
+  double last_fast_speed() const { return last_fast_speed_; }
+  double last_fast_time() const { return last_fast_time_; }
+
+  template <class Archive>
+  friend void visit(Archive& archive, RestWindow& x) {
+    archive(x.time_, x.last_fast_time_, x.last_fast_speed_, x.drift_, x.samples_);
+  }
+
+ private:
+  /// Centroids of the free blocks at one time.
+  struct Sample {
+    double time = 0.0;
+    std::vector<Vec3> centroids;
+    template <class Archive>
+    friend void visit(Archive& archive, Sample& x) {
+      archive(x.time, x.centroids);
+    }
+  };
+
+  double time_ = 0.0;
+  double last_fast_time_ = -1.0;  // s; negative: never
+  double last_fast_speed_ = 0.0;
+  double drift_ = 0.0;
+  std::vector<Sample> samples_;  // the first is the latest that is older than the window, or the start
+};
+
+}  // namespace cupola
