@@ -74,7 +74,7 @@ def bracket(model, law, width):
 
 
 def brackets(bin_folder, work, width, models):
-    print("model,associated,time s,Coulomb,time s")
+    print("model,associated,associated s,Coulomb,Coulomb s")
     wrong = []
     for name in models:
         model = Model(bin_folder, work, name)
