@@ -11,12 +11,11 @@
 
 namespace cupola {
 
-/// Time step adapted to the motion. The error of implicit Euler in one step is estimated as h |v_new - v| / 2
-/// of the fastest block.
+/// Time step adapted to the motion: the longest whose estimated error of a displacement stays below a bound.
 struct AdaptiveStep {
   double smallest = 1e-5;            ///< s, > 0
   double largest = 0.05;             ///< s, >= smallest
-  double displacement_error = 1e-4;  ///< m per step, > 0
+  double displacement_error = 1e-4;  ///< m per step, > 0: Analysis::time_error
 };
 
 /// Conditions that end a dynamic analysis before its duration.
@@ -189,7 +188,9 @@ struct Analysis {
   std::optional<int> iteration_limit() const {
     return max_iterations > 0 ? std::optional(max_iterations) : std::nullopt;
   }
-  double time_step = 0.01;  ///< h, s, dynamic only
+  TimeIntegrator integrator = TimeIntegrator::euler;  ///< dynamic only
+  double time_step = 0.01;                            ///< h, s, dynamic only
+  std::optional<double> time_error;                   ///< m per step, > 0; none: every step lasts time_step
   std::optional<AdaptiveStep> adaptive;
   double duration = 4.0;  ///< s, dynamic only
   double damping = 0.0;   ///< alpha, s, >= 0: contact damping over contact stiffness

@@ -20,8 +20,6 @@ void declare_thresholds(Section& s, Analysis::Thresholds& thresholds) {
 void declare_adaptive(Section& s, AdaptiveStep& adaptive) {
   s.number("smallest", adaptive.smallest, {.unit = "s", .above = 0}, "shortest time step");
   s.number("largest", adaptive.largest, {.unit = "s", .above = 0}, "longest time step");
-  s.number("displacement_error", adaptive.displacement_error, {.unit = "m", .above = 0},
-           "error accepted per step, estimated as h |change of velocity| / 2 of the fastest block");
   s.rule(adaptive.smallest <= adaptive.largest, "largest", "must be >= smallest");
 }
 
@@ -171,9 +169,24 @@ void declare_analysis(Section& s, Analysis& analysis) {
   declare_accuracy(s, analysis);
   s.integer("max_iterations", analysis.max_iterations, {.min = 0, .max = 1000000},
             "iterations of the method per contact problem; 0: the method's own limit");
+  s.choice("integrator", analysis.integrator,
+           "dynamic: implicit Euler, first order, or the generalized alpha method, second order while "
+           "contacts stay closed");
+  s.rule(analysis.integrator == TimeIntegrator::euler || analysis.type == AnalysisType::dynamic, "integrator",
+         "generalized_alpha applies to dynamic analyses only");
   s.number("time_step", analysis.time_step, {.unit = "s", .above = 0}, "dynamic: time step h");
-  s.optional_section("adaptive", analysis.adaptive,
-                     "dynamic: adapt the time step to the motion, starting from time_step", declare_adaptive);
+  s.optional_number("time_error", analysis.time_error, {.unit = "m", .above = 0}, "none: fixed steps",
+                    "dynamic: adapt the time step, starting from time_step, so that the estimated error of a "
+                    "displacement in one "
+                    "step stays below this");
+  s.optional_section("adaptive", analysis.adaptive, "dynamic: bounds of the steps that time_error chooses",
+                     declare_adaptive);
+  s.rule(!analysis.adaptive || analysis.time_error, "adaptive",
+         "requires time_error, the error accepted per step");
+  if (analysis.time_error) {
+    if (!analysis.adaptive) analysis.adaptive.emplace();
+    analysis.adaptive->displacement_error = *analysis.time_error;
+  }
   s.number("duration", analysis.duration, {.unit = "s", .above = 0}, "dynamic: simulated time");
   s.number("damping", analysis.damping, {.unit = "s", .min = 0},
            "contact damping coefficient over contact stiffness, alpha");
@@ -181,6 +194,8 @@ void declare_analysis(Section& s, Analysis& analysis) {
            "largest speed at which penetration beyond that due to compliance is corrected");
   s.choice("tangential", analysis.tangential,
            "dynamic: tangential spring with memory of its slip, or the paper's scheme, which creeps");
+  s.rule(analysis.integrator == TimeIntegrator::euler || analysis.tangential == TangentialSpring::memory,
+         "tangential", "literal is a scheme of implicit Euler; use integrator: euler");
   s.section("thresholds", analysis.thresholds, "limits that decide the status", declare_thresholds);
   s.choice("start", analysis.start,
            "dynamic: start unloaded (rest) or in static equilibrium; automatic: static under base motion or "

@@ -22,6 +22,13 @@ constexpr auto enum_names(FrictionLaw) {
   return std::array{"associated", "coulomb", "dilatant"};
 }
 
+/// Time integration of motions. `euler`: implicit, first order, the paper's. `generalized_alpha`: second order while contacts
+/// stay closed.
+enum class TimeIntegrator { euler, generalized_alpha };
+constexpr auto enum_names(TimeIntegrator) {
+  return std::array{"euler", "generalized_alpha"};
+}
+
 /// Tangential contact force of a dynamic analysis. `memory`: a spring that remembers its elastic slip.
 /// `literal`: the paper's scheme, which has no memory and creeps.
 enum class TangentialSpring { memory, literal };

@@ -62,6 +62,7 @@ constexpr HistoryColumn kHistoryColumns[] = {
     {"max_speed_m_per_s", [](const HistoryStep& s) { return exact(s.now.speed); }},
     {"max_displacement_m", [](const HistoryStep& s) { return exact(s.now.displacement); }},
     {"time_step_s", [](const HistoryStep& s) { return exact(s.report.h); }},
+    {"time_error_m", [](const HistoryStep& s) { return fmt::format("{:.6e}", s.report.time_error); }},
     {"largest_tie_force_N", [](const HistoryStep& s) { return exact(largest_tie_force(s.report)); }},
 };
 

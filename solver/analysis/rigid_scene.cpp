@@ -69,17 +69,17 @@ Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time) 
   for (int i = 0; i < problem.num_contacts(); ++i) {
     outside[i] = limit_excess(contact_law(problem, i), gamma.segment<3>(3 * i));
   }
-  Frame frame =
-      make_frame(scene.model, scene.start, scene.contacts, joint_forces(scene.contacts, gamma, 1.0).contacts,
-                 law_violations(scene.contacts, gamma, outside), scene.memories,
-                 std::vector<Vec3>(scene.start.poses.size(), Vec3::Zero()));
+  Frame frame = make_frame(scene.model, scene.start, scene.contacts,
+                           joint_forces(scene.contacts, gamma, VecX::Ones(gamma.size())).contacts,
+                           law_violations(scene.contacts, gamma, outside), scene.memories,
+                           std::vector<Vec3>(scene.start.poses.size(), Vec3::Zero()));
   frame.time = time;
   return frame;
 }
 
 Equilibrium balance_of(const RigidScene& scene, const VecX& gamma) {
   return compute_equilibrium(scene.model, scene.start, scene.contacts,
-                             joint_forces(scene.contacts, gamma, 1.0), scene.start.time);
+                             joint_forces(scene.contacts, gamma, VecX::Ones(gamma.size())), scene.start.time);
 }
 
 }  // namespace cupola

@@ -158,7 +158,7 @@ void ProximalPoint::iterate() {
   trial_.increment = trial_.h * (trial_.step_solution.v - free);
   moved_ = trial_.h * (trial_.step_solution.v - before);
   trial_.speed_ratio = largest_speed(trial_.increment) / (trial_.h * solve.reference_speed);
-  trial_.forces = joint_forces(contacts_, trial_.step_solution.gamma, trial_.h);
+  trial_.forces = joint_forces(contacts_, trial_.step_solution.gamma, step_.impulse_time);
   trial_.balance =
       compute_equilibrium(model_, start_, contacts_, trial_.forces, start_.time + options_.time_advance);
 }
@@ -422,7 +422,7 @@ LoadedState loaded_state(const Model& model, const State& start, const ContactSe
                          const StaticOptions& options) {
   LoadedState loaded{start, memories, solution.h};
   loaded.state.v = solution.step_solution.v;
-  integrate_positions(model, solution.h, options.time_advance, &loaded.state);
+  integrate_positions(model, solution.h, options.time_advance, loaded.state.v, &loaded.state);
   loaded.state.v.setZero();  // v was only the displacement over h
   update_memories(model, solution.step, solution.step_solution, start, contacts,
                   static_step_options(options, solution.h), &loaded.memories);

@@ -23,6 +23,11 @@ struct ContactMemory {
       0.0;  ///< m: penetration caused by the compliance (< 0), or elongation under pull (> 0)
   Vec3 elastic_slip_A = Vec3::Zero();  ///< m, elongation of the tangential spring, axes of block a
   double plastic_slip = 0.0;           ///< m, >= 0: accumulated sliding distance
+  // Of the generalized alpha method (integrator.hpp), axes of block a:
+  Vec3 force_A = Vec3::Zero();     ///< N, r at the end of the last step
+  Vec3 filtered_A = Vec3::Zero();  ///< N, s
+  int loaded_steps = 0;            ///< steps in succession at whose end the contact was loaded
+  double overlap = 0.0;  ///< m, <= 0: penetration that an impact has left, from which the gap is measured
   JointDamage joint;
 };
 

@@ -8,29 +8,39 @@
 namespace cupola {
 namespace {
 
-/// h u_el has the compliance c = E h (h + alpha) of the step problem.
-double spring_energy(const Vec3& E, const ContactMemory& memory, double h_h_alpha) {
-  double energy = 0.0;
-  if (E[0] > 0.0) energy += 0.5 * memory.elastic_gap * memory.elastic_gap / (E[0] * h_h_alpha);
-  if (E[1] > 0.0) energy += 0.5 * memory.elastic_slip_A.squaredNorm() / (E[1] * h_h_alpha);
-  return energy;
+/// m/N of a row: E = c / (impulse_time (reach + alpha)).
+double compliance(const StepProblem& step, Eigen::Index row, const StepOptions& options) {
+  return step.problem.E[row] * step.impulse_time[row] * options.damped_reach();
 }
 
 std::vector<double> spring_energies(const StepProblem& step, const ContactMemories& memories,
                                     const StepOptions& options) {
-  std::vector<double> energies(memories.values.size());
-  const double h_h_alpha = options.h * (options.h + options.damping);
-  for (size_t i = 0; i < energies.size(); ++i)
-    energies[i] = spring_energy(step.problem.E.segment<3>(3 * static_cast<Eigen::Index>(i)),
-                                memories.values[i], h_h_alpha);
+  std::vector<double> energies(memories.values.size(), 0.0);
+  for (size_t i = 0; i < energies.size(); ++i) {
+    const auto row = 3 * static_cast<Eigen::Index>(i);
+    const ContactMemory& memory = memories.values[i];
+    const double normal = compliance(step, row, options), tangential = compliance(step, row + 1, options);
+    if (normal > 0.0) energies[i] += 0.5 * memory.elastic_gap * memory.elastic_gap / normal;
+    if (tangential > 0.0) energies[i] += 0.5 * memory.elastic_slip_A.squaredNorm() / tangential;
+  }
   return energies;
 }
 
-/// J, of the viscous part of compliant rows: their compliance is c = E h (h + alpha).
-double damping_work(const Vec3& E, const Vec3& u_el, const StepOptions& options) {
-  double work = 0.0;
-  for (int k = 0; k < 3; ++k)
-    if (E[k] > 0.0) work += options.damping * u_el[k] * u_el[k] / (E[k] * (options.h + options.damping));
+/// J, of the viscous part of a row that carries a force and whose spring is stretched at the speed u_el.
+double damping_work(const StepProblem& step, Eigen::Index row, double u_el, const StepOptions& options) {
+  const double c = compliance(step, row, options);
+  return c > 0.0 ? options.damping * options.reach() * u_el * u_el / c : 0.0;
+}
+
+/// J: negative of the work of gamma on the inelastic displacements reach z of one contact, friction and dilatancy.
+struct JointWork {
+  double friction = 0.0, dilatancy = 0.0;
+};
+JointWork joint_work(const StepProblem& step, int i, const Vec3& gamma, const Vec3& z) {
+  const double scale = step.reach / step.impulse_time[3 * i];
+  const double normal = scale * gamma[0] * z[0];
+  JointWork work{-scale * gamma.tail<2>().dot(z.tail<2>()), std::max(0.0, normal)};
+  if (!step.problem.strength.empty()) work.friction += std::max(0.0, -normal);
   return work;
 }
 
@@ -40,34 +50,34 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
                     const StepOptions& options, StepWork* work) {
   const ContactProblem& problem = step.problem;
   const VecX u = relative_velocity(problem, solution.v), u_start = relative_velocity(problem, start.state.v);
-  const VecX b = problem.b - step.support_velocity;
-  const VecX u_el = -(b + problem.E.cwiseProduct(solution.gamma));
+  const VecX mean = 0.5 * (u + u_start) + step.support_velocity;
+  const VecX z = u + problem.b + problem.E.cwiseProduct(solution.gamma);
+  const VecX u_el = u + step.support_velocity - z;
+  const VecX p = step.past_impulse.size() > 0 ? VecX(solution.gamma + step.past_impulse) : solution.gamma;
   const std::vector<double> springs = spring_energies(step, memories, options);
-  work->supports = -solution.gamma.dot(step.support_velocity);
-  work->friction = joint_dissipation(step, solution);
+  work->supports = -p.dot(step.support_velocity);
   for (int i = 0; i < step.num_contacts; ++i) {
-    const Vec3 gamma = solution.gamma.segment<3>(3 * i), E = problem.E.segment<3>(3 * i);
-    const Vec3 elastic = u_el.segment<3>(3 * i), support = step.support_velocity.segment<3>(3 * i);
-    const double opening = u[3 * i] + support[0] - elastic[0];
-    work->dilatancy += std::max(0.0, gamma[0] * opening);
-    const double damping = gamma.isZero(0.0) ? 0.0 : damping_work(E, elastic, options);
+    const Eigen::Index row = 3 * i;
+    const Vec3 gamma = solution.gamma.segment<3>(row);
+    const JointWork joint = joint_work(step, i, gamma, z.segment<3>(row));
+    double damping = 0.0;
+    for (int k = 0; k < 3 && !gamma.isZero(0.0); ++k)
+      damping += damping_work(step, row + k, u_el[row + k], options);
+    const double taken = -p.segment<3>(row).dot(mean.segment<3>(row));
+    const double lost = taken - joint.friction + joint.dilatancy - damping - (springs[i] - start.springs[i]);
+    work->friction += joint.friction;
+    work->dilatancy += joint.dilatancy;
     work->damping += damping;
-    double lost = -gamma.dot(elastic) - (springs[i] - start.springs[i]) - damping;
-    const double approach_per_step = options.h * (u_start[3 * i] + support[0]);
-    if (gamma[0] > 0.0 && approach_per_step < start.elastic_gap[i]) {
-      const double approach = 0.5 * gamma.dot(u.segment<3>(3 * i) - u_start.segment<3>(3 * i));
-      work->impact += lost + approach;
-      work->scheme -= approach;
-    } else {
-      work->scheme += lost;
-    }
+    const double approach_per_step = options.h * (u_start[row] + step.support_velocity[row]);
+    const bool closes = gamma[0] > 0.0 && approach_per_step < start.elastic_gap[i];
+    (closes ? work->impact : work->scheme) += lost;
   }
-  for (int row = step.num_contacts; row < problem.num_contacts(); ++row) {
-    const double gamma = solution.gamma[3 * row], u_tie = u[3 * row] + step.support_velocity[3 * row];
-    const double damping =
-        gamma == 0.0 ? 0.0 : damping_work({problem.E[3 * row], 0.0, 0.0}, {u_tie, 0.0, 0.0}, options);
+  for (int tie = step.num_contacts; tie < problem.num_contacts(); ++tie) {
+    const Eigen::Index row = 3 * tie;
+    const double speed = u[row] + step.support_velocity[row];
+    const double damping = solution.gamma[row] == 0.0 ? 0.0 : damping_work(step, row, speed, options);
     work->damping += damping;
-    work->scheme -= gamma * u_tie + damping;
+    work->scheme -= p[row] * mean[row] + damping;
   }
   work->scheme -= tie_energy(model, state.poses) - tie_energy(model, start.state.poses);
 }
@@ -83,18 +93,23 @@ void add_motion_work(const Model& model, const StepStart& start, const StepProbl
   const double rise_before = potential(start.state, middle) - potential(start.state, first);
   const double rise_after = potential(state, last) - potential(state, middle);
   work->loads = rise_before + rise_after;
-  // With loads that do the work of the step's forces, and inertia that does not turn, this is zero.
-  double turning = potential(state, middle) - potential(start.state, middle);
+
+  // What the loads h f give to the mean velocity beyond the potential energy, and the inertia that turns.
+  double gained = potential(state, middle) - potential(start.state, middle);
+  const VecX mean = 0.5 * (start.state.v + solution.v);
   for (int i = 0; i < model.num_free(); ++i) {
     const int block = model.free_blocks[i];
     const Mat6& M = step.problem.M[i];
-    const auto before = start.state.v.segment<6>(6 * i), after = solution.v.segment<6>(6 * i);
-    work->scheme += 0.5 * (after - before).dot(M * (after - before));
-    turning += after.dot(M * (step.problem.v_star.segment<6>(6 * i) - before));
-    const Mat6 turned = mass_matrix(model.assembly->blocks[block], state.poses[block].q_WB);
-    turning += 0.5 * after.dot((turned - M) * after);
+    const auto turned = [&](const State& at, const VecX& v) {
+      const Mat6 now = mass_matrix(model.assembly->blocks[block], at.poses[block].q_WB);
+      return 0.5 * v.segment<6>(6 * i).dot((now - M) * v.segment<6>(6 * i));
+    };
+    gained += mean.segment<6>(6 * i).dot(
+        M * (step.problem.v_star.segment<6>(6 * i) - start.state.v.segment<6>(6 * i)));
+    gained += turned(state, solution.v) - turned(start.state, start.state.v);
   }
-  work->scheme -= turning;
+  if (step.past_impulse.size() > 0) gained -= step.past_impulse.dot(relative_velocity(step.problem, mean));
+  work->scheme -= gained;
 }
 
 }  // namespace
@@ -129,13 +144,10 @@ StepWork work_of_step(const Model& model, const StepStart& start, const StepProb
 
 double joint_dissipation(const StepProblem& step, const ContactSolution& solution) {
   const ContactProblem& problem = step.problem;
-  const VecX y = relative_velocity(problem, solution.v) + problem.b + problem.E.cwiseProduct(solution.gamma);
+  const VecX z = relative_velocity(problem, solution.v) + problem.b + problem.E.cwiseProduct(solution.gamma);
   double work = 0.0;
-  for (Eigen::Index i = 0; i < step.num_contacts; ++i)
-    work -= solution.gamma.segment<2>(3 * i + 1).dot(y.segment<2>(3 * i + 1));
-  if (problem.strength.empty()) return work;
-  for (Eigen::Index i = 0; i < step.num_contacts; ++i)
-    work += std::max(0.0, -solution.gamma[3 * i] * y[3 * i]);
+  for (int i = 0; i < step.num_contacts; ++i)
+    work += joint_work(step, i, solution.gamma.segment<3>(3 * i), z.segment<3>(3 * i)).friction;
   return work;
 }
 

@@ -23,8 +23,9 @@ struct StepWork {
   /// kinetic energy of the approach of contacts that close: their springs are compressed by less than they approach in
   /// the step
   double impact = 0.0;
-  /// What the integrator adds or takes: (v+ - v)^T M (v+ - v) / 2 of implicit Euler, the springs' work beyond the energy
-  /// that they store, finite rotations, contacts that are detected anew, and blocks that fall asleep.
+  /// What the integrator takes, or gives if negative: work of the joints on the mean velocity that is neither stored nor dissipated
+  /// above, the same of the loads, finite rotations, contacts that are detected anew, and blocks that fall asleep. The kinetic
+  /// energy changes by the impulses times the mean velocity (v + v+) / 2, whatever the integrator.
   double scheme = 0.0;
 
   double dissipated() const { return friction + damping + impact + scheme; }
@@ -46,11 +47,12 @@ StepWork work_of_step(const Model& model, const StepStart& start, const StepProb
                       const ContactSolution& solution, const State& state, const ContactMemories& memories,
                       const StepOptions& options);
 
-/// Work dissipated in the joints in one step, J, >= 0 in exact arithmetic. Of friction:
+/// Work dissipated in the joints in one step, J, >= 0 in exact arithmetic, with the inelastic displacement reach z and the force
+/// r+ at the end of the step. Of friction:
 ///
-///     - sum gamma_t . z_t,   z = D^T v + b + E gamma
+///     - sum r_t . reach z_t,   z = D^T v + b + E gamma
 ///
-/// Joints with strength add the work of tension and crushing, sum (- gamma_n z_n)+.
+/// Joints with strength add the work of tension and crushing, sum (- r_n reach z_n)+.
 double joint_dissipation(const StepProblem& step, const ContactSolution& solution);
 
 }  // namespace cupola

@@ -44,14 +44,16 @@ Equilibrium combine(const Equilibrium& a, const Equilibrium& b) {
   return both;
 }
 
-JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, double h) {
+JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, const VecX& impulse_time) {
   JointForces forces;
   const auto nc = static_cast<Eigen::Index>(contacts.points.size());
-  CUPOLA_ASSERT(h > 0.0 && gamma.size() >= 3 * nc && gamma.size() % 3 == 0);
+  CUPOLA_ASSERT(gamma.size() >= 3 * nc && gamma.size() % 3 == 0 && impulse_time.size() == gamma.size());
   forces.contacts.resize(contacts.points.size());
   for (Eigen::Index i = 0; i < nc; ++i)
-    forces.contacts[i] = contact_frame(contacts.points[i].normal) * gamma.segment<3>(3 * i) / h;
-  for (Eigen::Index row = 3 * nc; row < gamma.size(); row += 3) forces.ties.push_back(gamma[row] / h);
+    forces.contacts[i] =
+        contact_frame(contacts.points[i].normal) * gamma.segment<3>(3 * i) / impulse_time[3 * i];
+  for (Eigen::Index row = 3 * nc; row < gamma.size(); row += 3)
+    forces.ties.push_back(gamma[row] / impulse_time[row]);
   return forces;
 }
 

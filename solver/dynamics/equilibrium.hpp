@@ -10,8 +10,8 @@ struct JointForces {
   std::vector<double> ties;    ///< N, >= 0: tension of a tie, thrust of a strut (number of ties)
 };
 
-/// Forces of a step from its impulses `gamma` (N s): gamma / h in world axes.
-JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, double h);
+/// Forces of a step from its impulses `gamma` (N s): gamma / impulse_time (s, the same size) in world axes.
+JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, const VecX& impulse_time);
 
 /// Balance of forces and moments, computed from contact points and world forces independently of the matrices
 /// of the contact problem.

@@ -83,12 +83,12 @@ double reference_acceleration(const Model& model, const State& state) {
   return acceleration > 0.0 ? acceleration : 1.0;
 }
 
-void integrate_positions(const Model& model, double h, double time_advance, State* state) {
-  CUPOLA_ASSERT(state->v.size() == 6 * model.num_free());
+void integrate_positions(const Model& model, double h, double time_advance, const VecX& v, State* state) {
+  CUPOLA_ASSERT(v.size() == 6 * model.num_free());
   for (int i = 0; i < model.num_free(); ++i) {
     Pose& pose = state->poses[model.free_blocks[i]];
-    pose.p_WB += h * state->v.segment<3>(6 * i);
-    const Vec3 turn = h * state->v.segment<3>(6 * i + 3);
+    pose.p_WB += h * v.segment<3>(6 * i);
+    const Vec3 turn = h * v.segment<3>(6 * i + 3);
     const double angle = turn.norm();
     // A zero rotation has no axis.
     if (angle > 0.0)

@@ -57,12 +57,12 @@ VecX applied_forces(const Model& model, const State& state, double time);
 double reference_acceleration(const Model& model, const State& state);
 
 /// Advances the time by `time_advance` (s), moves the supports to their imposed positions at the new time,
-/// and moves the free blocks by their velocities:
+/// and moves the free blocks by the velocities v (6 nb):
 ///
 ///     p += h v,   q = exp(h omega) q
 ///
-/// This is paper eq. 11 with the velocity at the end of the step and the exponential map of the rotation.
-void integrate_positions(const Model& model, double h, double time_advance, State* state);
+/// This is paper eq. 11 with the exponential map of the rotation.
+void integrate_positions(const Model& model, double h, double time_advance, const VecX& v, State* state);
 
 /// Friction at `time` (s) and compliance of one contact point.
 JointLaw joint_law(const Model& model, const ContactSet& contacts, const Contact& contact, double time);

@@ -1,5 +1,6 @@
 #include "solver/dynamics/scene_options.hpp"
 
+#include <string>
 #include <utility>
 
 #include "assembly/base/error.hpp"
@@ -12,6 +13,17 @@ bool starts_static(const Case& scene) {
   if (scene.analysis.start != Analysis::Start::automatic)
     return scene.analysis.start == Analysis::Start::static_;
   return scene.supports.base_motion || !std::holds_alternative<ConstantInTime>(scene.joints.friction_time);
+}
+
+void require_second_order(const Case& scene, const Model& model) {
+  const auto refuse = [&scene](const std::string& what) {
+    throw InputError(FileLocation{scene.file},
+                     "analysis.integrator: generalized_alpha is not available with " + what + "; use euler");
+  };
+  if (!model.ties.empty()) refuse("ties");
+  if (scene.supports.moving()) refuse("moving supports");
+  if (model.joints.has_strength()) refuse("joints of strength");
+  if (scene.analysis.sleep) refuse("analysis.sleep");
 }
 
 }  // namespace
@@ -51,6 +63,7 @@ SimulationOptions simulation_options(const Case& scene) {
   const Analysis& analysis = scene.analysis;
   SimulationOptions options;
   options.step.h = analysis.time_step;
+  options.step.integrator = Integrator::of(analysis.integrator);
   options.step.damping = analysis.damping;
   options.step.recovery_speed = analysis.recovery_speed;
   options.step.tangential = analysis.tangential;
@@ -66,6 +79,7 @@ SimulationOptions simulation_options(const Case& scene) {
 Simulation make_simulation(const Case& scene, const Assembly& assembly) {
   Model model = make_model(scene, assembly);
   if (scene.analysis.sleep) require_sleepable(scene, model);
+  if (scene.analysis.integrator == TimeIntegrator::generalized_alpha) require_second_order(scene, model);
   return {std::move(model), simulation_options(scene)};
 }
 

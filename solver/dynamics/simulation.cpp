@@ -11,16 +11,21 @@
 namespace cupola {
 namespace {
 
-/// Position error of implicit Euler in one step, m: largest h |v_new - v| / 2 of a block.
-double step_error(const VecX& before, const VecX& after, double h) {
-  return 0.5 * h * largest_speed(after - before);
+/// Estimated error of the position in one step, m, of the block where it is largest: h |v+ - v| / 2 of implicit Euler; of the generalized alpha
+/// method h^2 |beta - 1/6| |(v+ - v) / h - a|, O. C. Zienkiewicz and Y. M. Xie (1991), Earthq. Eng. Struct. Dyn. 20, 871.
+double step_error(const StepProblem& step, const VecX& before, const VecX& after, double h) {
+  constexpr double kBeta = 4.0 / 9.0;
+  if (step.acceleration.size() == 0) return 0.5 * h * largest_speed(after - before);
+  return h * (kBeta - 1.0 / 6.0) * largest_speed(after - before - h * step.acceleration);
 }
 
-/// Next step size, s. The error is proportional to h^2 in smooth motion. The change per step is limited, so
-/// that a single impact does not make the step size oscillate.
-double next_step(const AdaptiveStep& adaptive, double h, double error) {
-  const double proposed =
-      error > 0.0 ? 0.9 * h * std::sqrt(adaptive.displacement_error / error) : adaptive.largest;
+/// Next step size, s. The error is proportional to h^2 in smooth motion, or h^3 of the generalized alpha method. The change per step
+/// is limited, so that a single impact does not make the step size oscillate.
+double next_step(const AdaptiveStep& adaptive, const Integrator& integrator, double h, double error) {
+  const double ratio = adaptive.displacement_error / error;
+  const double proposed = !(error > 0.0)
+                              ? adaptive.largest
+                              : 0.9 * h * (integrator.is_euler() ? std::sqrt(ratio) : std::cbrt(ratio));
   return std::clamp(std::clamp(proposed, 0.2 * h, 2.0 * h), adaptive.smallest, adaptive.largest);
 }
 
@@ -47,7 +52,7 @@ Simulation::Simulation(Model model, const SimulationOptions& options)
 StepReport Simulation::advance(double h_max) {
   StepOptions step = options_.step;
   step.h = std::min(next_h_, h_max);
-  const ContactSet& contacts = detector_.update(state_.poses, travel(step.h));
+  const ContactSet& contacts = detector_.update(middle_of_step(model_, state_, step).poses, travel(step.h));
   bool changed = detections_followed_ != detector_.num_detections();
   if (changed) follow_detection(contacts);
   if (options_.sleep && update_sleep(*options_.sleep, islands_, radius_, &state_, &sleep_state_)) {
@@ -109,14 +114,16 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
   StepReport report;
   StepProblem problem;
   ContactSolution solution;
+  State middle;
   while (true) {
+    middle = middle_of_step(model, *state, step);
     // 1. Build and solve the contact problem
     ContactSolverOptions solve_options = options_.solve;
     solve_options.reference_speed = step.h * reference_acceleration(model, *state);
     if (model.joints.has_strength()) begin_step(contacts, memories);
     for (int pass = 0; pass < kMostPasses; ++pass) {
-      problem = build_step_problem(model, *state, contacts, *memories, step);
-      if (pass == 0) solution = warm_start(problem, *state, *memories);
+      problem = build_step_problem(model, middle, contacts, *memories, step);
+      if (pass == 0) solution = warm_start(problem, middle, *memories);
       const SolveSummary solved = solver_.solve(problem.problem, solve_options, &solution);
       report.solve = pass == 0 ? solved : solved.after(report.solve);
       if (!model.joints.has_strength() || !report.solve.usable() ||
@@ -125,27 +132,32 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
     }
     report.residuals =
         compute_residuals(problem.problem, solution, solve_options.reference_speed, solve_options.law);
+    report.time_error = step_error(problem, state->v, solution.v, step.h);
     if (!options_.adaptive) break;
 
     // 2. Control the step size
-    const double error = step_error(state->v, solution.v, step.h);
-    next_h_ = next_step(*options_.adaptive, step.h, error);
-    if (error <= kTolerated * options_.adaptive->displacement_error || next_h_ >= step.h) break;
+    next_h_ = next_step(*options_.adaptive, step.integrator, step.h, report.time_error);
+    if (report.time_error <= kTolerated * options_.adaptive->displacement_error || next_h_ >= step.h) break;
     step.h = next_h_;
     ++report.num_rejected;
+    // The contacts are those of the middle of the step, which moves.
+    if (!step.integrator.is_euler()) {
+      detector_.update(middle_of_step(model, *state, step).poses, travel(step.h));
+      if (detections_followed_ != detector_.num_detections()) follow_detection(contacts);
+    }
   }
   report.h = step.h;
-  report.forces = joint_forces(contacts, solution.gamma, step.h);
+  report.forces = joint_forces(contacts, solution.gamma, problem.impulse_time);
   report.violations = law_violations(contacts, solution.gamma,
                                      contact_law_errors(problem.problem, solution, options_.solve.law));
   report.balance =
-      compute_equilibrium(model, *state, contacts, report.forces, state->time + 0.5 * step.advance());
+      compute_equilibrium(model, middle, contacts, report.forces, state->time + 0.5 * step.advance());
 
   // 3. Update memories and integrate
   const StepStart start = begin_account(*state, problem, *memories, step);
-  update_memories(model, problem, solution, *state, contacts, step, memories);
+  update_memories(model, problem, solution, middle, contacts, step, memories);
+  integrate_positions(model, step.h, step.advance(), mean_velocity(problem, *state, solution, step), state);
   state->v = solution.v;
-  integrate_positions(model, step.h, step.advance(), state);
   report.work = work_of_step(model, start, problem, solution, *state, *memories, step);
   report.problem = std::move(problem);
   report.step_solution = std::move(solution);
@@ -169,7 +181,13 @@ void Simulation::start_from(const LoadedState& loaded) {
   }
   detector_.set_gaps(gaps);
   // The same forces act during the first step.
-  for (ContactMemory& memory : memories_.values) memory.impulse = memory.impulse / loaded.h * next_h_;
+  for (size_t i = 0; i < contacts.points.size(); ++i) {
+    ContactMemory& memory = memories_.values[i];
+    const Contact& contact = contacts.points[i];
+    continue_from_rest(contact_frame(contact.normal) * (memory.impulse / loaded.h),
+                       state_.poses[contact.block_a], &memory);
+    memory.impulse = memory.impulse / loaded.h * next_h_;
+  }
   for (double& impulse : memories_.tie_impulses) impulse = impulse / loaded.h * next_h_;
   energy_ = energy();
 }

@@ -27,7 +27,9 @@ struct StepReport {
   std::vector<double> violations;
   Equilibrium balance;  ///< of all blocks under those forces, at the start of the step
   StepWork work;
-  Energy energy;         ///< at the end of the step
+  double time_error =
+      0.0;        ///< m, estimated error of a displacement in this step, of the block where it is largest
+  Energy energy;  ///< at the end of the step
   int num_rejected = 0;  ///< larger steps that the step control rejected
   int num_asleep = 0;    ///< free blocks that slept
 };

@@ -7,6 +7,7 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/dynamics/joint_damage.hpp"
+#include "solver/dynamics/known_motion.hpp"
 
 namespace cupola {
 namespace {
@@ -34,19 +35,6 @@ void resize_rows(int num_rows, StepProblem* step) {
   step->support_velocity = VecX::Zero(3 * num_rows);
 }
 
-void set_free_velocities(const Model& model, const State& state, const StepOptions& options,
-                         ContactProblem* problem) {
-  const int nb = model.num_free();
-  const VecX f = applied_forces(model, state, state.time + options.load_advance());
-  problem->M.resize(nb);
-  problem->v_star = state.v;
-  for (int i = 0; i < nb; ++i) {
-    const int block = model.free_blocks[i];
-    problem->M[i] = mass_matrix(model.assembly->blocks[block], state.poses[block].q_WB);
-    problem->v_star.segment<6>(6 * i) += options.h * problem->M[i].llt().solve(f.segment<6>(6 * i));
-  }
-}
-
 /// The three rows of a contact or tie between two blocks. The force on each block acts at its own point.
 void set_row(const Model& model, const State& state, int row, int block_a, int block_b, const Vec3& point_a,
              const Vec3& point_b, const Mat3& R_WC, ContactProblem* problem) {
@@ -56,19 +44,82 @@ void set_row(const Model& model, const State& state, int row, int block_a, int b
   problem->D_b[row] = contact_columns(point_b - state.poses[block_b].p_WB, R_WC);
 }
 
-void set_contact_rows(const Model& model, const State& state, const ContactSet& contacts,
-                      const ContactMemories& memories, const StepOptions& options, ContactProblem* problem) {
-  const double h = options.h;
-  const double h_alpha = h + options.damping;
-  const double end = state.time + options.advance();
+void set_rows(const Model& model, const State& state, const ContactSet& contacts, StepProblem* step) {
   for (int i = 0; i < static_cast<int>(contacts.points.size()); ++i) {
     const Contact& contact = contacts.points[i];
-    const ContactMemory& memory = memories.values[i];
     CUPOLA_ASSERT(contact.block_a < contact.block_b);
-    const Mat3 R_WC = contact_frame(contact.normal);
     // One point for both bodies, so that action and reaction have no net moment across a gap.
     const Vec3 point = 0.5 * (contact.point_a + contact.point_b);
-    set_row(model, state, i, contact.block_a, contact.block_b, point, point, R_WC, problem);
+    set_row(model, state, i, contact.block_a, contact.block_b, point, point, contact_frame(contact.normal),
+            &step->problem);
+  }
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    const Tie& tie = model.ties[k];
+    const TieGeometry now = tie_geometry(tie, state.poses);
+    set_row(model, state, step->num_contacts + static_cast<int>(k), tie.block_a, tie.block_b, now.point_a,
+            now.point_b, contact_frame(now.normal), &step->problem);
+  }
+}
+
+/// M^-1 f of every block.
+VecX accelerations(const ContactProblem& problem, const VecX& f) {
+  VecX a(f.size());
+  for (int i = 0; i < problem.num_blocks(); ++i)
+    a.segment<6>(6 * i) = problem.M[i].llt().solve(f.segment<6>(6 * i));
+  return a;
+}
+
+/// The part of the impulses that follows from the forces at the start of the step, and the filtered accelerations.
+void set_past(const Model& model, const State& state, const ContactSet& contacts,
+              const ContactMemories& memories, const StepOptions& options, StepProblem* step) {
+  if (options.integrator.is_euler()) return;
+  const Integrator& scheme = options.integrator;
+  step->past_impulse = VecX::Zero(step->problem.b.size());
+  VecX filtered = step->past_impulse;
+  for (int i = 0; i < step->num_contacts; ++i) {
+    const ContactMemory& memory = memories.values[i];
+    if (!has_past(memory, options)) continue;
+    const Contact& contact = contacts.points[i];
+    const Mat3 R_CA =
+        (state.poses[contact.block_a].q_WB.conjugate() * contact_frame(contact.normal)).transpose();
+    const Vec3 force = R_CA * memory.force_A;
+    filtered.segment<3>(3 * i) = R_CA * memory.filtered_A;
+    step->past_impulse.segment<3>(3 * i) =
+        options.h * (scheme.filtered * filtered.segment<3>(3 * i) + scheme.start * force);
+    step->impulse_time.segment<3>(3 * i).setConstant(options.h * scheme.end);
+  }
+  const VecX f = applied_forces(model, state, state.time + options.load_advance());
+  step->acceleration = accelerations(step->problem, f + generalized_impulse(step->problem, filtered));
+}
+
+/// v + M^-1 (h f + D (p - gamma)), with the gyroscopic moment in the middle of the step if it has one.
+void set_free_velocities(const Model& model, const State& state, const StepOptions& options,
+                         StepProblem* step) {
+  ContactProblem& problem = step->problem;
+  const double time = state.time + options.load_advance();
+  problem.v_star = state.v;
+  if (options.integrator.is_euler()) {
+    const VecX f = applied_forces(model, state, time);
+    for (int i = 0; i < problem.num_blocks(); ++i)
+      problem.v_star.segment<6>(6 * i) += options.h * problem.M[i].llt().solve(f.segment<6>(6 * i));
+    return;
+  }
+  State middle = state;
+  middle.v += options.integrator.middle * options.h * step->acceleration;
+  const VecX f = applied_forces(model, middle, time);
+  problem.v_star += accelerations(problem, options.h * f + generalized_impulse(problem, step->past_impulse));
+}
+
+void set_contact_laws(const Model& model, const State& state, const ContactSet& contacts,
+                      const ContactMemories& memories, const StepOptions& options, StepProblem* step) {
+  const double h = options.h;
+  const double h_alpha = options.damped_reach();
+  const double end = state.time + options.advance();
+  ContactProblem* problem = &step->problem;
+  for (int i = 0; i < step->num_contacts; ++i) {
+    const Contact& contact = contacts.points[i];
+    const ContactMemory& memory = memories.values[i];
+    const Mat3 R_WC = contact_frame(contact.normal);
 
     const JointLaw law = joint_law(model, contacts, contact, end);
     problem->mu[i] = law.mu;
@@ -80,29 +131,33 @@ void set_contact_rows(const Model& model, const State& state, const ContactSet& 
     }
     problem->E.segment<3>(3 * i) << law.compliance_normal, law.compliance_tangential,
         law.compliance_tangential;
-    problem->E.segment<3>(3 * i) /= h * h_alpha;
+    problem->E.segment<3>(3 * i) /= step->impulse_time[3 * i] * h_alpha;
 
-    const double excess =
-        std::max(contact.gap - bond.zero_gap - memory.elastic_gap, -options.recovery_speed * h_alpha);
-    problem->b[3 * i] = (memory.elastic_gap + excess) / h_alpha;
+    const KnownMotion known = known_motion(*step, i, state.v, options);
+    const bool smooth = options.integrator.is_euler() || has_past(memory, options);
+    const double elastic_gap = memory.elastic_gap + known.to_middle[0];
+    const double excess = std::max(contact.gap - bond.zero_gap - memory.overlap - elastic_gap,
+                                   -options.recovery_speed * h_alpha);
+    double gap = elastic_gap + excess + known.rest[0];
+    // A contact that closes stops there. In the rest of the step it would be pushed back to where it closed.
+    if (!smooth) gap = std::max(gap, memory.elastic_gap);
+    problem->b[3 * i] = gap / h_alpha;
     if (options.tangential == TangentialSpring::memory) {
-      const Vec3 slip_C = R_WC.transpose() * (state.poses[contact.block_a].q_WB * memory.elastic_slip_A);
+      Vec3 slip_C = R_WC.transpose() * (state.poses[contact.block_a].q_WB * memory.elastic_slip_A);
+      if (smooth) slip_C += known.to_middle + known.rest;
       problem->b.segment<2>(3 * i + 1) = slip_C.tail<2>() / h_alpha;
     }
   }
 }
 
-void set_tie_rows(const Model& model, const State& state, const StepOptions& options, int first_row,
+void set_tie_laws(const Model& model, const State& state, const StepOptions& options, int first_row,
                   ContactProblem* problem) {
-  const double h_alpha = options.h + options.damping;
+  const double h_alpha = options.damped_reach();
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const Tie& tie = model.ties[k];
     const int row = first_row + static_cast<int>(k);
-    const TieGeometry now = tie_geometry(tie, state.poses);
-    set_row(model, state, row, tie.block_a, tie.block_b, now.point_a, now.point_b, contact_frame(now.normal),
-            problem);
     problem->E.segment<3>(3 * row).setConstant(tie.compliance / (options.h * h_alpha));
-    problem->b[3 * row] = now.gap / h_alpha;
+    problem->b[3 * row] = tie_geometry(tie, state.poses).gap / h_alpha;
   }
 }
 
@@ -155,60 +210,22 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
   step.num_contacts = static_cast<int>(contacts.points.size());
   step.problem.h = options.h;
   resize_rows(step.num_contacts + static_cast<int>(model.ties.size()), &step);
+  step.reach = options.reach();
+  step.impulse_time = VecX::Constant(step.problem.b.size(), options.h);
   if (model.joints.has_strength()) step.problem.strength.resize(step.problem.block_a.size());
-  set_free_velocities(model, state, options, &step.problem);
-  set_contact_rows(model, state, contacts, memories, options, &step.problem);
-  set_tie_rows(model, state, options, step.num_contacts, &step.problem);
+  step.problem.M.resize(model.num_free());
+  for (int i = 0; i < model.num_free(); ++i) {
+    const int block = model.free_blocks[i];
+    step.problem.M[i] = mass_matrix(model.assembly->blocks[block], state.poses[block].q_WB);
+  }
+  set_rows(model, state, contacts, &step);
   if (model.plane) drop_rows_out_of_plane(&step.problem);
+  set_past(model, state, contacts, memories, options, &step);
+  set_free_velocities(model, state, options, &step);
+  set_contact_laws(model, state, contacts, memories, options, &step);
+  set_tie_laws(model, state, options, step.num_contacts, &step.problem);
   if (!model.support_motions.empty()) add_support_velocities(model, state, contacts, options, &step);
   return step;
-}
-
-void update_memories(const Model& model, const StepProblem& step, const ContactSolution& solution,
-                     const State& state, const ContactSet& contacts, const StepOptions& options,
-                     ContactMemories* memories) {
-  const ContactProblem& problem = step.problem;
-  CUPOLA_ASSERT(solution.gamma.size() == 3 * problem.num_contacts());
-  CUPOLA_ASSERT(static_cast<int>(memories->values.size()) == step.num_contacts);
-  const VecX u = relative_velocity(problem, solution.v) + step.support_velocity;
-  const double h = options.h;
-  for (int i = 0; i < step.num_contacts; ++i) {
-    const Contact& contact = contacts.points[i];
-    ContactMemory& memory = memories->values[i];
-    const Vec3 gamma = solution.gamma.segment<3>(3 * i);
-    const Vec3 b = problem.b.segment<3>(3 * i) - step.support_velocity.segment<3>(3 * i);
-    const Vec3 u_el = -(b + problem.E.segment<3>(3 * i).cwiseProduct(gamma));
-    memory.impulse = gamma;
-    const double elastic_gap = b[0] * (h + options.damping) + h * u_el[0];
-    const bool is_pulled = gamma[0] < 0.0 && !problem.strength.empty();
-    memory.elastic_gap = is_pulled         ? std::max(0.0, elastic_gap)
-                         : gamma[0] <= 0.0 ? 0.0
-                                           : std::min(0.0, elastic_gap);
-    const bool carries_shear = gamma[0] > 0.0 || (!problem.strength.empty() && !gamma.tail<2>().isZero(0.0));
-    memory.plastic_slip += carries_shear ? h * (u.segment<2>(3 * i + 1) - u_el.tail<2>()).norm() : 0.0;
-    if (!problem.strength.empty())
-      add_inelastic_displacement(joint_law(model, contacts, contact, state.time + options.advance()),
-                                 h * (u.segment<3>(3 * i) - u_el), gamma, &memory.joint);
-
-    const Vec3 slip_C = Vec3(0.0, b[1], b[2]) * (h + options.damping) + h * Vec3(0.0, u_el[1], u_el[2]);
-    memory.elastic_slip_A =
-        state.poses[contact.block_a].q_WB.conjugate() * (contact_frame(contact.normal) * slip_C);
-    if (options.tangential == TangentialSpring::literal) memory.elastic_slip_A.setZero();
-  }
-  const int num_ties = problem.num_contacts() - step.num_contacts;
-  memories->tie_impulses.resize(num_ties);
-  for (int k = 0; k < num_ties; ++k) memories->tie_impulses[k] = solution.gamma[3 * (step.num_contacts + k)];
-}
-
-ContactSolution warm_start(const StepProblem& step, const State& state, const ContactMemories& memories) {
-  CUPOLA_ASSERT(static_cast<int>(memories.values.size()) == step.num_contacts);
-  ContactSolution guess;
-  guess.v = state.v;
-  guess.gamma = VecX::Zero(step.problem.b.size());
-  for (int i = 0; i < step.num_contacts; ++i) guess.gamma.segment<3>(3 * i) = memories.values[i].impulse;
-  for (size_t k = 0; k < memories.tie_impulses.size(); ++k)
-    guess.gamma[3 * (step.num_contacts + static_cast<int>(k))] = memories.tie_impulses[k];
-  return guess;
 }
 
 }  // namespace cupola

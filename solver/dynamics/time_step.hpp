@@ -4,13 +4,15 @@
 
 #include "solver/contact/problem/contact_problem.hpp"
 #include "solver/dynamics/contact_memory.hpp"
+#include "solver/dynamics/integrator.hpp"
 #include "solver/dynamics/model.hpp"
 
 namespace cupola {
 
 /// Parameters of the time-stepping scheme (paper eq. 8-15).
 struct StepOptions {
-  double h = 0.01;              ///< s, > 0
+  double h = 0.01;  ///< s, > 0
+  Integrator integrator = Integrator::euler();
   double damping = 0.0;         ///< alpha, s, >= 0
   double recovery_speed = 0.6;  ///< eps_u, m/s, > 0
   TangentialSpring tangential = TangentialSpring::memory;
@@ -21,12 +23,19 @@ struct StepOptions {
   double advance() const { return time_advance.value_or(h); }
   /// From the start of the step to the time at which loads are evaluated: its middle, or the end of a static step.
   double load_advance() const { return time_advance.value_or(0.5 * h); }
+  /// Weight of the velocity at the end in the displacement, s, and the same with damping.
+  double reach() const { return integrator.v_end * h; }
+  double damped_reach() const { return reach() + damping; }
 };
 
 /// The contact problem of one step. The rows of the contacts come first, followed by three rows per tie.
 struct StepProblem {
   ContactProblem problem;
   VecX support_velocity;  ///< D_s^T v_s, m/s, included in problem.b (3 (nc + number of ties))
+  double reach = 0.0;     ///< s, StepOptions::reach()
+  VecX impulse_time;      ///< s: gamma over it is the force at the end of the step (3 (nc + number of ties))
+  VecX past_impulse;      ///< N s, p - gamma, included in problem.v_star (the same size; empty: none)
+  VecX acceleration;      ///< m/s2, (f + D s) / M (6 nb; empty: none)
   int num_contacts = 0;   ///< nc, without the ties
 };
 
@@ -50,19 +59,33 @@ Mat3 contact_frame(const Vec3& normal);
 ///   TangentialSpring::literal is that scheme, TangentialSpring::memory includes elastic_slip.
 /// - Loads are evaluated in the middle of the step instead of at its start (eq. 10), so that their impulse is
 ///   accurate to second order; those of a static step at its end. Friction is evaluated at the end of the step.
+///
+/// The generalized alpha method (integrator.hpp) has the same form, with the impulse h end r+ for gamma, the displacement
+/// v_end h v+ for h v, and what is known of both in v_star and b. `state` has the configuration at which contacts and
+/// loads are evaluated (middle_of_step()), the velocities and the time of the start.
 StepProblem build_step_problem(const Model& model, const State& state, const ContactSet& contacts,
                                const ContactMemories& memories, const StepOptions& options);
+
+/// The configuration at which a step evaluates contacts and loads; the state itself for implicit Euler.
+State middle_of_step(const Model& model, const State& state, const StepOptions& options);
+
+/// Mean velocity of the step, by which the blocks move (6 nb).
+VecX mean_velocity(const StepProblem& step, const State& state, const ContactSolution& solution,
+                   const StepOptions& options);
 
 /// Updates the memories from the solution of the step problem:
 ///
 ///     u    = D^T v + D_s^T v_s             relative velocity
 ///     u_el = u - (D^T v + b + E gamma)     its elastic part, equal to u while the contact sticks
 ///
-/// The gap and the slip of the springs change by h u_el. The rest of the tangential motion is plastic slip, and the rest of
+/// The gap and the slip of the springs change by reach() u_el. The rest of the tangential motion is plastic slip, and the rest of
 /// the motion of joints with strength adds to their damage.
 void update_memories(const Model& model, const StepProblem& step, const ContactSolution& solution,
                      const State& state, const ContactSet& contacts, const StepOptions& options,
                      ContactMemories* memories);
+
+/// What the generalized alpha method keeps of a contact that carries the force (N, world axes) in a structure at rest.
+void continue_from_rest(const Vec3& force, const Pose& pose_a, ContactMemory* memory);
 
 /// Warm start of the solve: velocities at the start of the step and impulses of the last step.
 ContactSolution warm_start(const StepProblem& step, const State& state, const ContactMemories& memories);

@@ -25,7 +25,7 @@ struct Shaking {
 };
 
 // Columns of history.csv.
-constexpr size_t kTime = 0, kFrictionWork = 10, kReaction = 16, kMomentum = 19, kStep = 24, kTieForce = 25;
+constexpr size_t kTime = 0, kFrictionWork = 10, kReaction = 16, kMomentum = 19, kStep = 24, kTieForce = 26;
 
 Shaking shake(const Case& scene, const Assembly& assembly) {
   Shaking result;

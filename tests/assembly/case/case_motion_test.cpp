@@ -49,7 +49,7 @@ ties:
 supports:
   base_motion: {file: shake.csv, direction: [0, 1, 0]}
   moves: [{blocks: [0], displacement: [0.1, 0, 0], time: {type: table, times: [0, 2], values: [0, 1]}}]
-analysis: {type: dynamic, start: static, adaptive: {largest: 0.02}, stop: {settled_time: 0.5}}
+analysis: {type: dynamic, start: static, time_error: 1e-5, adaptive: {largest: 0.02}, stop: {settled_time: 0.5}}
 )"));
   EXPECT_DOUBLE_EQ(factor_at(c.loads.dead_load_time, 1.0), 0.5);
   EXPECT_EQ(*c.loads.forces[0].point, Vec3(1, 2, 3));
@@ -61,6 +61,7 @@ analysis: {type: dynamic, start: static, adaptive: {largest: 0.02}, stop: {settl
   EXPECT_DOUBLE_EQ(factor_at(c.supports.moves[0].time, 1.0), 0.5);
   EXPECT_EQ(c.analysis.start, Analysis::Start::static_);
   EXPECT_EQ(c.analysis.adaptive->largest, 0.02);
+  EXPECT_EQ(c.analysis.adaptive->displacement_error, 1e-5);
   EXPECT_EQ(c.analysis.stop.settled_time, 0.5);
 }
 
@@ -94,7 +95,11 @@ TEST(ReadMotion, ErrorsNameTheBrokenRule) {
            {"loads: {forces: [{force: [0, 0, 1]}]}", "loads.forces[0].block is missing"},
            {"ties: {pairs: [{block_a: 1, block_b: 2, stiffness: 0}]}",
             "ties.pairs[0].stiffness = 0: must be > 0"},
-           {"analysis: {adaptive: {smallest: 1, largest: 0.1}}", "must be >= smallest"}}) {
+           {"analysis: {time_error: 1e-4, adaptive: {smallest: 1, largest: 0.1}}", "must be >= smallest"},
+           {"analysis: {adaptive: {smallest: 1e-4}}", "requires time_error"},
+           {"analysis: {integrator: generalized_alpha}", "applies to dynamic analyses only"},
+           {"analysis: {type: dynamic, integrator: generalized_alpha, tangential: literal}",
+            "literal is a scheme of implicit Euler"}}) {
     try {
       read_case(
           scratch.write("a.yaml", std::string(kWall) + "joints: {compliance: {per: point}}\n" + bad.text));

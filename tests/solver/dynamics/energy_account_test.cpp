@@ -104,6 +104,12 @@ Motion breaking_joint() {
   return motion;
 }
 
+Motion second_order(Motion motion) {
+  motion.name += "OfSecondOrder";
+  motion.scene.analysis.integrator = TimeIntegrator::generalized_alpha;
+  return motion;
+}
+
 class EnergyAccount : public ::testing::TestWithParam<Motion> {};
 
 // The contact solves are converged to 1e-12, and the velocities are of the order of 1 m/s.
@@ -114,12 +120,15 @@ TEST_P(EnergyAccount, Closes) {
   EXPECT_LT(account.worst_error, 1e-8 * scale);
 }
 
-INSTANTIATE_TEST_SUITE_P(Motions, EnergyAccount,
-                         ::testing::Values(spinning_fall(), tumbling_box(1e-7), tumbling_box(0.0),
-                                           sliding_box(FrictionLaw::associated),
-                                           sliding_box(FrictionLaw::coulomb), loaded_arch(), shaken_stack(),
-                                           adaptive_sleepers(), breaking_joint()),
-                         [](const auto& motion) { return motion.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Motions, EnergyAccount,
+    ::testing::Values(spinning_fall(), tumbling_box(1e-7), tumbling_box(0.0),
+                      sliding_box(FrictionLaw::associated), sliding_box(FrictionLaw::coulomb), loaded_arch(),
+                      shaken_stack(), adaptive_sleepers(), breaking_joint(), second_order(spinning_fall()),
+                      second_order(tumbling_box(1e-7)), second_order(tumbling_box(0.0)),
+                      second_order(sliding_box(FrictionLaw::associated)),
+                      second_order(sliding_box(FrictionLaw::coulomb)), second_order(loaded_arch())),
+    [](const auto& motion) { return motion.param.name; });
 
 // A box that falls from 0.3 m loses its kinetic energy in the impact. The step in which it touches is not known better
 // than to h, and with it the speed.

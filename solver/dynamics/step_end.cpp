@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/base/error.hpp"
+#include "solver/dynamics/joint_damage.hpp"
+#include "solver/dynamics/known_motion.hpp"
+
+namespace cupola {
+
+KnownMotion known_motion(const StepProblem& step, int i, const VecX& v, const StepOptions& options) {
+  const Integrator& scheme = options.integrator;
+  KnownMotion known;
+  if (scheme.is_euler()) return known;
+  const double h = options.h;
+  const Vec3 u = relative_velocity(step.problem, i, v);
+  known.to_middle = scheme.middle * h * u;
+  known.rest = (scheme.v_start - scheme.middle) * h * u +
+               scheme.a * h * h * relative_velocity(step.problem, i, step.acceleration);
+  return known;
+}
+
+State middle_of_step(const Model& model, const State& state, const StepOptions& options) {
+  if (options.integrator.is_euler()) return state;
+  State middle = state;
+  integrate_positions(model, options.integrator.middle * options.h, 0.0, state.v, &middle);
+  return middle;
+}
+
+VecX mean_velocity(const StepProblem& step, const State& state, const ContactSolution& solution,
+                   const StepOptions& options) {
+  if (options.integrator.is_euler()) return solution.v;
+  const Integrator& scheme = options.integrator;
+  return scheme.v_start * state.v + scheme.v_end * solution.v + scheme.a * options.h * step.acceleration;
+}
+
+namespace {
+
+/// What the generalized alpha method keeps of a contact, and the penetration that an impact leaves. `gap`: m, at the end of the step.
+void update_past(const Vec3& force_A, double gap, const StepOptions& options, ContactMemory* memory) {
+  const Integrator& scheme = options.integrator;
+  const bool smooth = has_past(*memory, options);
+  memory->filtered_A =
+      smooth ? Vec3((scheme.end * force_A + scheme.start * memory->force_A) / (scheme.end + scheme.start))
+             : force_A;
+  memory->force_A = force_A;
+  const bool loaded = memory->impulse[0] > 0.0;
+  if (!loaded)
+    memory->overlap = std::min(0.0, std::max(memory->overlap, gap));
+  else if (!smooth)
+    memory->overlap = std::min(0.0, gap - memory->elastic_gap);
+  memory->loaded_steps = loaded ? memory->loaded_steps + 1 : 0;
+}
+
+}  // namespace
+
+void update_memories(const Model& model, const StepProblem& step, const ContactSolution& solution,
+                     const State& state, const ContactSet& contacts, const StepOptions& options,
+                     ContactMemories* memories) {
+  const ContactProblem& problem = step.problem;
+  CUPOLA_ASSERT(solution.gamma.size() == 3 * problem.num_contacts());
+  CUPOLA_ASSERT(static_cast<int>(memories->values.size()) == step.num_contacts);
+  const VecX u = relative_velocity(problem, solution.v) + step.support_velocity;
+  const double h = options.reach();
+  for (int i = 0; i < step.num_contacts; ++i) {
+    const Contact& contact = contacts.points[i];
+    ContactMemory& memory = memories->values[i];
+    const double rest = known_motion(step, i, state.v, options).rest[0];
+    const Vec3 gamma = solution.gamma.segment<3>(3 * i);
+    const Vec3 b = problem.b.segment<3>(3 * i) - step.support_velocity.segment<3>(3 * i);
+    const Vec3 u_el = -(b + problem.E.segment<3>(3 * i).cwiseProduct(gamma));
+    memory.impulse = gamma;
+    const double elastic_gap = b[0] * (h + options.damping) + h * u_el[0];
+    const bool is_pulled = gamma[0] < 0.0 && !problem.strength.empty();
+    memory.elastic_gap = is_pulled         ? std::max(0.0, elastic_gap)
+                         : gamma[0] <= 0.0 ? 0.0
+                                           : std::min(0.0, elastic_gap);
+    const bool carries_shear = gamma[0] > 0.0 || (!problem.strength.empty() && !gamma.tail<2>().isZero(0.0));
+    memory.plastic_slip += carries_shear ? h * (u.segment<2>(3 * i + 1) - u_el.tail<2>()).norm() : 0.0;
+    if (!problem.strength.empty())
+      add_inelastic_displacement(joint_law(model, contacts, contact, state.time + options.advance()),
+                                 h * (u.segment<3>(3 * i) - u_el), gamma, &memory.joint);
+
+    const Vec3 slip_C = Vec3(0.0, b[1], b[2]) * (h + options.damping) + h * Vec3(0.0, u_el[1], u_el[2]);
+    memory.elastic_slip_A =
+        state.poses[contact.block_a].q_WB.conjugate() * (contact_frame(contact.normal) * slip_C);
+    if (options.tangential == TangentialSpring::literal) memory.elastic_slip_A.setZero();
+    if (options.integrator.is_euler()) continue;
+    const Vec3 force_C = gamma / step.impulse_time[3 * i];
+    update_past(state.poses[contact.block_a].q_WB.conjugate() * (contact_frame(contact.normal) * force_C),
+                contact.gap + rest + h * u[3 * i], options, &memory);
+  }
+  const int num_ties = problem.num_contacts() - step.num_contacts;
+  memories->tie_impulses.resize(num_ties);
+  for (int k = 0; k < num_ties; ++k) memories->tie_impulses[k] = solution.gamma[3 * (step.num_contacts + k)];
+}
+
+void continue_from_rest(const Vec3& force, const Pose& pose_a, ContactMemory* memory) {
+  memory->force_A = memory->filtered_A = pose_a.q_WB.conjugate() * force;
+  memory->loaded_steps = memory->impulse[0] > 0.0 ? kSmooth : 0;
+}
+
+ContactSolution warm_start(const StepProblem& step, const State& state, const ContactMemories& memories) {
+  CUPOLA_ASSERT(static_cast<int>(memories.values.size()) == step.num_contacts);
+  ContactSolution guess;
+  guess.v = state.v;
+  guess.gamma = VecX::Zero(step.problem.b.size());
+  for (int i = 0; i < step.num_contacts; ++i) guess.gamma.segment<3>(3 * i) = memories.values[i].impulse;
+  for (size_t k = 0; k < memories.tie_impulses.size(); ++k)
+    guess.gamma[3 * (step.num_contacts + static_cast<int>(k))] = memories.tie_impulses[k];
+  return guess;
+}
+
+}  // namespace cupola
