@@ -97,8 +97,7 @@ std::string profile_plot(const MeridianEvaluation& m, const Summary& summary, bo
   if (m.greatest_thrust)
     ends += fmt::format(", $greatest w l lc rgb '{}' lw 1.2 title 'greatest thrust'", kPurple);
   // From light to dark by pressure.
-  const std::string pressed =
-      zones ? "$pressed w l lc palette lw 5 title 'compressed part of the bed', " : "";
+  const std::string pressed = zones ? "$pressed w l lc palette lw 5 title 'compressed', " : "";
   return fmt::format(
       "set palette defined (0 '#fde0c5', 1 '#a03060')\nset cbrange [0:*]\nunset colorbox\n"
       "plot $beds w l lc rgb '#dddddd' lw 0.7 notitle, {5}$inner w l lc rgb '#888888' dt 3 lw 1.2 title "

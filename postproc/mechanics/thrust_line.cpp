@@ -198,8 +198,8 @@ void find_compressed_zone(const ThrustInput& in, int bed, std::optional<double> 
       for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
         const int row = in.joints->contacts[i];
         if (c.normal_force[row] <= least) continue;
-        const double position = position_in(block, c.point[row]);
-        point->compressed_from = std::fmin(point->compressed_from, position);  // skips NaN
+        const double position = std::clamp(position_in(block, c.point[row]), 0.0, 1.0);  // rounding
+        point->compressed_from = std::fmin(point->compressed_from, position);            // skips NaN
         point->compressed_to = std::fmax(point->compressed_to, position);
         force += c.normal_force[row];
         area += c.area[row];
