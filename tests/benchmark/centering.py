@@ -85,12 +85,15 @@ class Course:
         text = stage["least_stands"]
         return float(text) if text else None
 
-    def laying(self, kind):
-        """Pa: largest least cohesion of the stages that lay blocks of a kind: 0 flat, 1 upright; none if one was not found."""
+    def laid(self):
+        """Kinds of the blocks that the stages lay: 0 flat, 1 upright."""
         course = int(self.stages[0]["ring"])
         arrays = zip(vtu_integers(self.assembly, "block_ring"), vtu_integers(self.assembly, "block_kind"))
-        laid = [block_kind for ring, block_kind in arrays if ring == course]
-        values = [self.least(stage) for stage, block_kind in zip(self.stages, laid, strict=True) if block_kind == kind]
+        return [kind for ring, kind in arrays if ring == course]
+
+    def laying(self, kind):
+        """Pa: largest least cohesion of the stages that lay blocks of a kind; none if one was not found."""
+        values = [self.least(stage) for stage, laid in zip(self.stages, self.laid(), strict=True) if laid == kind]
         return None if None in values else max(values, default=0.0)
 
     @property
@@ -152,16 +155,16 @@ def kpa(value):
 RESULTS = ["free end by hand", "laying a flat brick", "laying an upright", "closed", "bricks that go at once"]
 
 
-def results(course, friction, bond="herringbone"):
-    return [kpa(course.free_end(friction, 1)), kpa(course.laying(0)), kpa(course.laying(1)) if bond != "none" else "",
-            kpa(course.closed), course.falling()]
+def results(course, friction):
+    upright = kpa(course.laying(1)) if 1 in course.laid() else ""
+    return [kpa(course.free_end(friction, 1)), kpa(course.laying(0)), upright, kpa(course.closed), course.falling()]
 
 
 def write_map(study):
     out = csv.writer(sys.stdout)
     out.writerow(["height, m", "bond", "bed friction", *RESULTS])
     for height, bond, friction, course in study.map():
-        out.writerow([f"{height:g}", bond, friction, *results(course, friction, bond)])
+        out.writerow([f"{height:g}", bond, friction, *results(course, friction)])
 
 
 def write_mortar(study):
@@ -170,7 +173,7 @@ def write_mortar(study):
     for bond in BONDS:
         for courses, heads, below in ((1, False, 0), (1, False, 2), (3, False, 2), (1, True, 0), (3, True, 2)):
             course = study.course("h22", bond, 0.2, courses, heads, below)
-            out.writerow([bond, courses, "mortar" if heads else "dry", below, *results(course, 0.2, bond)])
+            out.writerow([bond, courses, "mortar" if heads else "dry", below, *results(course, 0.2)])
 
 
 def write_spirals(study):
