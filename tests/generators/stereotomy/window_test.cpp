@@ -240,6 +240,24 @@ TEST(Window, CrossingPairCoversTheCellsOfBothHands) {
   EXPECT_GT(crossings, 0);
 }
 
+// The bond is that of a ring, cut where the window ends. On a sail every course has a block across the corner, a
+// quarter and three quarters of which remain; on the dome odd courses have one.
+TEST(Window, CutsAndMarksTheBlocksAcrossItsEnds) {
+  for (const bool is_octagon : {false, true}) {
+    const Assembly bricks =
+        cut_assembly(window_case(is_octagon ? octagon() : dome(), RunningBond{4, kBricks, 4}));
+    std::map<int, std::vector<const Block*>> courses;
+    for (const Block& block : bricks.blocks)
+      if (!block.fixed) courses[block.ring].push_back(&block);
+    for (const auto& [ring, course] : courses) {
+      const bool across = is_octagon || ring % 2 == 1;
+      ASSERT_EQ(course.size(), across ? kBricks + 1u : kBricks + 0u);
+      for (const Block* block : course)
+        EXPECT_EQ(block->truncated, across && (block == course.front() || block == course.back()));
+    }
+  }
+}
+
 TEST(Window, WithoutHeldEndsHasFreeHeadsThere) {
   Case c = window_case(dome(), RunningBond{4, kBricks, 2});
   c.geometry.window->ends = Window::Ends::free;
