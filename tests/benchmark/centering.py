@@ -178,12 +178,13 @@ def write_mortar(study):
 
 def write_spirals(study):
     out = csv.writer(sys.stdout)
-    out.writerow(["spirals", "uprights of a spiral in a course", *RESULTS])
-    for spirals in (5, 10):
-        for embedment in (-1, 0, 1, 2):
-            course = study.course("h22", "herringbone", 0.2, spirals=spirals, embedment=embedment, beside="half")
-            name = "three: 0, 6 and 12 cm deep" if embedment < 0 else f"one, {6 * embedment} cm deep"
-            out.writerow([spirals, name, *results(course, 0.2)])
+    out.writerow(["spirals", "hand", "uprights of a spiral in a course", *RESULTS])
+    rows = [(spirals, "right", embedment) for spirals in (5, 10) for embedment in (-1, 0, 1, 2)]
+    for spirals, hand, embedment in rows + [(10, "left", -1), (5, "both", -1)]:
+        more = {} if hand == "right" else {"chirality": hand}
+        course = study.course("h22", "herringbone", 0.2, spirals=spirals, embedment=embedment, beside="half", **more)
+        name = "three: 0, 6 and 12 cm deep" if embedment < 0 else f"one, {6 * embedment} cm deep"
+        out.writerow([spirals, hand, name, *results(course, 0.2)])
 
 
 def write_nubian(study):
