@@ -12,7 +12,7 @@ std::vector<Crack> cracks_of(const ContactTable& c, const JointWrenches& joints)
     double widest = 0.0;
     for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
       const int row = joints.contacts[i];
-      if (c.normal_force[row] > 0.0 || c.gap[row] <= 0.0) continue;
+      if (c.normal_force[row] > 0.0 || c.gap[row] <= joints.floor.length) continue;
       open.push_back(c.point[row]);
       widest = std::max(widest, c.gap[row]);
     }

@@ -11,9 +11,10 @@ namespace cupola {
 ///
 ///     force = max(kNegligibleShare * largest joint force, unbalanced force of a block)
 struct Floor {
-  double force = 0.0;   ///< N
-  double share = 0.0;   ///< force over the largest joint force: floor of ratios of forces
-  double length = 0.0;  ///< m, share times the size of a block: floor of couple lengths and eccentricities
+  double force = 0.0;  ///< N
+  double share = 0.0;  ///< force over the largest joint force: floor of ratios of forces
+  double length =
+      0.0;  ///< m, share times the size of a block: floor of couple lengths, eccentricities and gaps
 
   bool hides(const Vec3& f) const { return f.norm() <= force; }
 };

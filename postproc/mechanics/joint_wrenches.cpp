@@ -36,7 +36,7 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
   joint->patch = planar_hull(points, normal.normalized());
 
   Vec3 weighted = Vec3::Zero();
-  double friction = 0.0, weights = 0.0, area = 0.0, open_area = 0.0;
+  double friction = 0.0, weights = 0.0, area = 0.0, open_area = 0.0, damaged_area = 0.0;
   for (auto row = begin; row != end; ++row) {
     const double n = contacts.normal_force[*row];
     joint->normal_force += n;
@@ -50,6 +50,7 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
       joint->largest_pressure = std::max(joint->largest_pressure, n / contacts.area[*row]);
     if (!contacts.strength_use.empty())
       joint->strength_use = std::fmax(joint->strength_use, contacts.strength_use[*row]);  // NaN at first
+    if (!contacts.damage.empty()) damaged_area += contacts.area[*row] * contacts.damage[*row];
     joint->opening = std::max(joint->opening, contacts.gap[*row]);
     joint->slip = std::max(joint->slip, contacts.slip[*row]);
   }
@@ -57,6 +58,7 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
   if (joint->normal_force > 0.0) joint->centre_of_pressure += weighted / joint->normal_force;
   if (weights > 0.0) joint->friction_use = friction / weights;
   if (area > 0.0) joint->open_share = open_area / area;
+  if (area > 0.0 && !contacts.damage.empty()) joint->damage = damaged_area / area;
   joint->wrench.point = joint->centre_of_pressure;
   for (auto row = begin; row != end; ++row)
     joint->wrench.add_force(contacts.point[*row], contacts.force[*row]);
@@ -66,6 +68,7 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
 /// Fills in what follows from the direction and place of the joint's force, if it is not negligible.
 void measure(const Floor& floor, JointWrench* joint) {
   joint->negligible = floor.hides(joint->wrench.force);
+  joint->opening = above(joint->opening, floor.length);
   if (joint->negligible) {
     joint->wrench = moved_to(joint->wrench, joint->patch.centroid);
     joint->centre_of_pressure = joint->axis.point = joint->patch.centroid;

@@ -33,8 +33,9 @@ struct JointWrench : Joint {
   double slip = 0.0;              ///< m, largest accumulated slip of its points
   double largest_pressure = 0.0;  ///< Pa, largest normal force of a point over its area
   double strength_use =
-      std::numeric_limits<double>::quiet_NaN();  ///< largest of its points; NaN in a dry joint
-  int contact_start = 0, num_contacts = 0;       ///< into JointWrenches::contacts
+      std::numeric_limits<double>::quiet_NaN();              ///< largest of its points; NaN in a dry joint
+  double damage = std::numeric_limits<double>::quiet_NaN();  ///< mean over the area; NaN in a dry joint
+  int contact_start = 0, num_contacts = 0;                   ///< into JointWrenches::contacts
 };
 
 struct JointWrenches {

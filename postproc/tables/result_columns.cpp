@@ -164,6 +164,7 @@ const Columns<JointWrench>& joint_columns() {
       {"strength_use", "",
        "largest share of the compressive or tensile strength that a contact point uses; empty: dry joint",
        &J::strength_use},
+      {"damage", "", "lost share of tension and cohesion, mean over the area; empty: dry joint", &J::damage},
       {"force_magnitude_N", "N", "norm of the resultant", [](const J& j) { return j.wrench.force.norm(); },
        false},
       {"normal", "", "unit normal, from the first block to the second",

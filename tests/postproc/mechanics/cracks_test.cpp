@@ -36,6 +36,14 @@ TEST(Cracks, RunAlongTheOpenEdgeOfEveryBed) {
   EXPECT_EQ(s.widest_crack_m.value(), 2e-3);
 }
 
+// Rounding errors of the contact points open no joint: the floor is 1e-6 of the size of a block.
+TEST(Cracks, AreWiderThanTheFloorOfLengths) {
+  const Evaluation e = evaluated_with(1e-12);
+  EXPECT_GT(e.last.joints.floor.length, 1e-8);
+  EXPECT_TRUE(cracks_of(e.last.frame.contacts, e.last.joints).empty());
+  for (const JointWrench& joint : e.last.joints.wrenches) EXPECT_EQ(joint.opening, 0.0);
+}
+
 TEST(Cracks, NeedAGap) {
   const Evaluation e = evaluated_with(0.0);
   EXPECT_TRUE(cracks_of(e.last.frame.contacts, e.last.joints).empty());
