@@ -18,6 +18,7 @@
 #include "postproc/report/html.hpp"
 #include "postproc/tables/csv_file.hpp"
 #include "postproc/tables/mesh_output.hpp"
+#include "postproc/viewer/viewer.hpp"
 
 namespace cupola {
 namespace {
@@ -135,6 +136,30 @@ std::vector<Figure> overlay_figures(const std::vector<std::string>& folders,
   return figures;
 }
 
+/// The 3-D views of the reports of the runs, as many as fit into a page that browsers open quickly.
+std::string views_html(const std::vector<std::string>& labels, const std::vector<std::string>& folders) {
+  constexpr size_t kMostBytes = 40'000'000;
+  std::vector<LabelledScene> scenes;
+  std::string without;
+  size_t bytes = 0;
+  for (size_t i = 0; i < folders.size(); ++i) {
+    const std::string report = (fs::path(folders[i]) / "report.html").string();
+    std::string scene = fs::exists(report) ? scene_of_report(read_text(report)) : "";
+    bytes += scene.size();
+    if (scene.empty() || bytes > kMostBytes)
+      without += (without.empty() ? "" : ", ") + labels[i];
+    else
+      scenes.push_back({labels[i], std::move(scene)});
+  }
+  if (scenes.empty()) return "";
+  return linked_views_html(scenes) +
+         (without.empty()
+              ? ""
+              : fmt::format("<p>Without a view, because the report has none or the page would exceed {} "
+                            "MB: {}.</p>\n",
+                            kMostBytes / 1'000'000, without));
+}
+
 std::string comparison_html(const std::vector<PostSummary>& runs, const std::vector<std::string>& folders,
                             const std::string& output_folder, const std::vector<Figure>& figures,
                             const std::vector<Figure>& maps, const std::string& figure_folder,
@@ -148,6 +173,7 @@ std::string comparison_html(const std::vector<PostSummary>& runs, const std::vec
   body += "</dl>\n";
   for (const std::string& problem : problems)
     body += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(problem) + "</p>\n";
+  body += views_html(labels, folders);
   body += "<h2>Findings</h2>\n<ul>\n";
   for (const std::string& sentence : findings(runs)) body += "<li>" + markup_text(sentence) + "</li>\n";
   body += "</ul>\n<h2>Numbers</h2>\n" + html_table(plain_table(runs));
@@ -160,7 +186,6 @@ std::string comparison_html(const std::vector<PostSummary>& runs, const std::vec
                     html_picture((fs::path(figure_folder) / (figure.name + ".svg")).string(), figure.title),
                     markup_text(figure.title), markup_text(figure.caption));
   body += "</div>\n<h2>Over the shell</h2>\n" + maps_html(maps, figure_folder);
-  body += side_by_side("motion", folders, labels);
   return html_page("Comparison", body);
 }
 

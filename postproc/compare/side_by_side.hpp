@@ -14,8 +14,4 @@ std::vector<Figure> common_maps(const std::vector<std::string>& post_folders,
 /// The maps, drawn in a folder, side by side under their titles.
 std::string maps_html(const std::vector<Figure>& maps, const std::string& figure_folder);
 
-/// The figures of one name from all runs, side by side under their title.
-std::string side_by_side(const std::string& name, const std::vector<std::string>& post_folders,
-                         const std::vector<std::string>& labels);
-
 }  // namespace cupola

@@ -4,6 +4,7 @@ class Colouring {
   constructor(scene, model) {
     this.scene = scene, this.model = model, this.header = scene.header;
     this.key = "bond";
+    this.peers = [this];  // views with one scale
   }
 
   /** The choices: groups of [value, label]. */
@@ -41,17 +42,28 @@ class Colouring {
   byNumber() {
     if (this.ofJoints) return this.byJointColumn(this.key.slice(6));
     const moved = this.key === "displacement", name = this.key.replace("block.", ""), {pose} = this.model;
-    const values = moved ? Float64Array.from({length: pose.blocks}, (_, b) => pose.displacement(b)) : this.scene.get(this.key);
-    const column = moved ? {label: "Displacement", unit: "m"} : this.header.block_columns.find((c) => c.key === name);
-    const scale = moved ? {stops: kSequential, low: 0, high: this.header.film.largest_shift_m} : scaleOf(values, name);
+    const mechanism = this.header.film.kind === "mechanism";  // has no amplitude
+    const unit = moved && mechanism ? this.header.film.largest_shift_m : 1;
+    const values = moved ? Float64Array.from({length: pose.blocks}, (_, b) => pose.displacement(b) / unit) : this.scene.get(this.key);
+    const farthest = mechanism ? 1 : Math.max(...this.peers.map((peer) => peer.header.film.largest_shift_m));
+    const all = this.fromPeers((peer) => peer.scene.has(this.key) ? [peer.scene.get(this.key)] : []);
+    const column = moved ? {label: mechanism ? "Displacement over the largest" : "Displacement", unit: mechanism ? "" : "m"} : this.header.block_columns.find((c) => c.key === name);
+    const scale = moved ? {stops: kSequential, low: 0, high: farthest} : scaleOf(all, name);
     const fixed = this.scene.get("block.fixed");
     this.model.paintBlocks((b) => fixed[b] ? kUndefined : colourAt(scale, values[b]));
     return bar(column, scale, values.some((v) => Number.isNaN(v)));
   }
 
+  /** The arrays of all views in one. */
+  fromPeers(arraysOf) {
+    const arrays = [].concat(...this.peers.map(arraysOf));
+    return arrays.length === 1 ? arrays[0] : [].concat(...arrays.map((array) => Array.from(array)));
+  }
+
   /** Two states side by side have one scale. */
   byJointColumn(name) {
-    const {sets} = this.model, all = [].concat(...sets.map((set) => Array.from(set.get(name)))), scale = scaleOf(all, name);
+    const {sets} = this.model, has = (peer) => peer.header.joint_columns.some((column) => column.key === name);
+    const all = this.fromPeers((peer) => has(peer) ? peer.model.sets.map((set) => set.get(name)) : []), scale = scaleOf(all, name);
     for (const set of sets) {
       const values = set.get(name);
       this.model.paintJoints(set, (j) => colourAt(scale, values[j]));

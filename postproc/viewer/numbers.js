@@ -54,7 +54,7 @@ function scaleOf(values, key) {
   const least = sorted[0], most = sorted[sorted.length - 1];
   const at = (share) => sorted[Math.round(share * (sorted.length - 1))];
   let low = at(0.01), high = at(0.99);
-  const fixed = {friction_use: 1, open_share: 1, strength_use: 1, relative_range: 2}[key];
+  const fixed = {friction_use: 1, open_share: 1, strength_use: 1, damage: 1, relative_range: 2}[key];
   if (fixed) return {stops: kSequential, low: 0, high: fixed, cutLow: false, cutHigh: most > fixed};
   const signed = low < 0 && high > 0;
   if (signed) high = Math.max(-low, high), low = -high;

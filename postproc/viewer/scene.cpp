@@ -31,7 +31,7 @@ constexpr std::array kJointKeysAlso{"eccentricity_m", "edge_distance_m", "couple
                                     "opening_m",      "open_share",      "slip_m"};
 
 constexpr const char* kCertainty = "relative_range";
-constexpr std::array kStrengthKeys{"largest_pressure_Pa", "strength_use"};
+constexpr std::array kStrengthKeys{"largest_pressure_Pa", "strength_use", "damage"};
 
 using KeyList = std::vector<const char*>;
 
@@ -249,9 +249,11 @@ int largest_body(const Film& film) {
   return film.bodies().empty() ? 0 : *std::max_element(film.bodies().begin(), film.bodies().end());
 }
 
-/// The first colours: of the motion if there is one.
+/// The first colours: of the motion if there is one; of its bodies if they are few enough to differ in colour.
 std::string first_colour(const Evaluation& e, const Film& film) {
-  if (film.kind() == Film::Kind::mechanism && largest_body(film) > 0) return "body";
+  constexpr int kMostBodies = 7;
+  if (film.kind() == Film::Kind::mechanism && largest_body(film) > 0)
+    return largest_body(film) <= kMostBodies ? "body" : "displacement";
   return film.kind() == Film::Kind::motion && !at_rest(e.summary) ? "displacement" : "bond";
 }
 

@@ -122,12 +122,24 @@ class Stage {
       const wide = Math.max(Math.abs(p.x) / (slope * camera.aspect), Math.abs(p.y) / slope);
       distance = Math.max(distance, wide + p.z + 1);
     }
-    camera.position.copy(middle).addScaledVector(direction, 1.08 * distance);
+    this.reach = 1.08 * distance;
+    camera.position.copy(middle).addScaledVector(direction, this.reach);
     camera.near = size / 200, camera.far = 50 * size;
     camera.updateProjectionMatrix();
     this.controls.target.copy(middle);
-    this.controls.update();
     this.standard = name, this.moved = false;
+    this.controls.update();
+    this.invalidate();
+  }
+
+  /** Takes the view of another stage, in proportion to the sizes of the two models. */
+  follow(other) {
+    const from = other.middle(), to = this.middle(), ratio = this.reach / other.reach;
+    const moved = (point) => point.clone().sub(from).multiplyScalar(ratio).add(to);
+    this.controls.target.copy(moved(other.controls.target));
+    this.camera.position.copy(moved(other.camera.position));
+    this.moved = other.moved;
+    this.controls.update();
     this.invalidate();
   }
 

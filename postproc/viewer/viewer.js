@@ -2,7 +2,7 @@
 
 const kMarkup = `
   <div class="picture"><canvas tabindex="0" aria-label="Model in three dimensions: drag to turn it, click a block or joint for its numbers"></canvas>
-    <div class="legend"></div><div class="part-names" hidden></div><div class="forces-legend"></div>
+    <canvas class="printed" aria-hidden="true"></canvas><div class="legend"></div><div class="part-names" hidden></div><div class="forces-legend"></div>
     <div class="film" hidden><button class="play" type="button">Play</button><input class="frame" type="range" min="0" step="1" value="0" aria-label="Frame"><output></output></div>
   </div>
   <div class="side-panel">
@@ -35,6 +35,7 @@ class Viewer {
     this.addControls();
     this.addFilm();
     this.addPointer();
+    this.addPrinting();
     this.model.filter();
     if (this.film.isFilm) this.film.show(this.film.count - 1);
     this.setColour(this.header.colour);
@@ -238,6 +239,21 @@ class Viewer {
     this.find(".numbers").innerHTML = choice ? this.numbers.html(choice) : "<p class=\"hint\">Click a block, an arrow or a coloured joint for its numbers.</p>";
   }
 
+  /** What is printed is the picture on the screen, dark on white. */
+  addPrinting() {
+    const paper = {"--picture": "#ffffff", "--ink": "#1a1a1a"}, {style} = this.host, printed = this.find(".printed");
+    addEventListener("beforeprint", () => {
+      for (const [name, colour] of Object.entries(paper)) style.setProperty(name, colour);
+      this.stage.theme();
+      this.stage.draw();
+      const gl = this.stage.canvas;
+      printed.width = gl.width, printed.height = gl.height;
+      printed.getContext("2d").drawImage(gl, 0, 0);
+      for (const name of Object.keys(paper)) style.removeProperty(name);
+      this.stage.theme();
+    });
+  }
+
   /** The picture as a PNG with title and legend. */
   savePicture() {
     this.stage.draw();
@@ -259,17 +275,20 @@ class Viewer {
   }
 }
 
-async function startViewer() {
-  const host = document.getElementById("view");
+async function startViewers() {
+  const hosts = Array.from(document.querySelectorAll(".view"));
   try {
-    const [library, scene] = await Promise.all([inflated("three"), inflated("scene")]);
+    const [library, ...scenes] = await Promise.all(["three", ...hosts.map((host) => host.dataset.scene)].map(inflated));
     const script = document.createElement("script");
     script.textContent = new TextDecoder().decode(library);
     document.head.append(script);
-    return new Viewer(host, new Scene(scene));
+    const viewers = hosts.map((host, i) => new Viewer(host, new Scene(scenes[i])));
+    if (viewers.length > 1) linkViewers(viewers);
+    return viewers;
   } catch (error) {
-    host.innerHTML = `<p class="no-view">The 3-D view needs a browser with WebGL 2 and DecompressionStream (Firefox 113, Chrome 80, Safari 16.4 or later): ${escaped(error.message)}.</p>`;
+    hosts[0].innerHTML = `<p class="no-view">The 3-D view needs a browser with WebGL 2 and DecompressionStream (Firefox 113, Chrome 80, Safari 16.4 or later): ${escaped(error.message)}.</p>`;
     throw error;
   }
 }
-window.cupolaView = startViewer();
+window.cupolaViews = startViewers();
+window.cupolaView = window.cupolaViews.then((viewers) => viewers[0]);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "postproc/compare/compare.hpp"
 #include "postproc/tables/csv_file.hpp"
 #include "tests/postproc/analysed_column.hpp"
 #include "tests/postproc/browser.hpp"
@@ -170,6 +171,51 @@ TEST(Viewer, AClickOnAnArrowShowsItsJoint) {
   })())js");
   browser.click(place[0], place[1]);
   EXPECT_EQ(browser.value("document.querySelector('#view .numbers h3').textContent"), "Joint 1");
+}
+
+// What is printed is the picture on the screen, dark on white also where the screen is dark.
+TEST(Viewer, PrintsThePictureOnWhite) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  Browser browser;
+  browser.resize(1280, 900, true);
+  open_view(column_at_rest(), &browser);
+  const auto counts = browser.value(R"js((() => {
+    window.dispatchEvent(new Event("beforeprint"));
+    const c = view.find(".printed"), p = c.getContext("2d").getImageData(0, 0, c.width, c.height).data;
+    let white = 0, other = 0;
+    for (let i = 0; i < p.length; i += 4) p[i] === 255 && p[i + 1] === 255 && p[i + 2] === 255 ? ++white : ++other;
+    return [white / (white + other), other / (white + other)];
+  })())js");
+  EXPECT_GT(counts[0].get<double>(), 0.5) << "paper";
+  EXPECT_GT(counts[1].get<double>(), 0.05) << "blocks";
+  EXPECT_EQ(browser.value("getComputedStyle(view.host).getPropertyValue('--picture').trim()"), "#1c1f22")
+      << "the screen stays dark";
+}
+
+// A comparison has one camera, one scale of colours and one of forces.
+TEST(Viewer, LinksTheViewsOfAComparison) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  const std::string post = column_at_rest(), folder = test::fresh_folder("linked");
+  ASSERT_EQ(compare({post, post}, folder, true), ExitCode::done);
+  Browser browser;
+  browser.open(folder + "/comparison.html");
+  EXPECT_EQ(browser.value("window.cupolaViews.then((v) => { window.views = v; return v.length; })"), 2);
+  const auto direction = [&browser](const char* view) {
+    return browser.value(std::string("((s) => s.camera.position.clone().sub(s.controls.target).normalize()") +
+                         ".toArray())(views[" + view + "].stage)");
+  };
+  browser.value("views[1].stage.turn(0.5, 0.2)");
+  const auto first = direction("0");
+  const auto second = direction("1");
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(first[k].get<double>(), second[k].get<double>(), 1e-9);
+  browser.value(
+      "(() => { const s = views[0].find('.colour'); s.value = 'joint.normal_force_N'; s.dispatchEvent(new "
+      "Event('change', {bubbles: true})); views[0].find('[name=forces]').click(); })()");
+  EXPECT_EQ(browser.value("views[1].colouring.key"), "joint.normal_force_N");
+  EXPECT_EQ(browser.value("views[1].forces"), true);
+  EXPECT_EQ(browser.value("views[0].find('.legend').innerText === views[1].find('.legend').innerText"), true);
+  EXPECT_EQ(browser.value("views[0].model.forceScale === views[1].model.forceScale"), true);
+  EXPECT_EQ(fmt::format("{}", fmt::join(browser.complaints(), "\n")), "");
 }
 
 TEST(Viewer, EveryControlWorksWithoutComplaint) {
