@@ -40,9 +40,10 @@ void remove_earlier_output(const std::string& folder) {
                               "hoop_", "section_", "cut_"})
       if (name.starts_with(start) && name.ends_with(".csv")) std::filesystem::remove(entry.path(), ignored);
   }
-  for (const auto& entry : std::filesystem::directory_iterator(in_folder(folder, "figures"), ignored))
-    for (const char* ending : {".gp", ".png", ".svg"})
-      if (entry.path().extension() == ending) std::filesystem::remove(entry.path(), ignored);
+  for (const char* subfolder : {"figures", "pictures"})
+    for (const auto& entry : std::filesystem::directory_iterator(in_folder(folder, subfolder), ignored))
+      for (const char* ending : {".gp", ".png", ".svg", ".pdf"})
+        if (entry.path().extension() == ending) std::filesystem::remove(entry.path(), ignored);
 }
 
 /// The evaluation of a frame; none if it cannot be read, which is recorded.
@@ -56,26 +57,35 @@ std::optional<FrameEvaluation> frame_at(size_t index, const ResultsReader& resul
   }
 }
 
+/// What the picture of a moment says about it.
+std::string moment_text(const Evaluation& e, const Frame& frame) {
+  if (e.summary.analysis == AnalysisType::staged)
+    return fmt::format("{} {} just laid", is_vault(e) ? "ring" : "course", std::lround(frame.time));
+  return is_mechanism(e.summary, frame) ? "mechanism" : fmt::format("after {:.2f} s", frame.time);
+}
+
 /// The frames that show the motion: mechanisms, or instants of a motion in time; at most four, evenly spaced, with the
 /// last. `moving`: all that could be shown.
-std::vector<Shot> shots_of(const std::vector<size_t>& moving, const ResultsReader& results, Evaluation* e) {
+std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const ResultsReader& results,
+                                    Evaluation* e) {
   constexpr size_t kMost = 4;
-  std::vector<Shot> shots;
+  std::vector<MovedBlocks> moments;
   const size_t count = std::min(moving.size(), kMost);
   for (size_t i = 1; i <= count; ++i) {
     const std::optional<FrameEvaluation> frame = frame_at(moving[moving.size() * i / count - 1], results, e);
     if (!frame) continue;
-    Shot shot{frame->frame.time, frame->frame.blocks, is_mechanism(e->summary, frame->frame), {}};
-    if (e->summary.analysis == AnalysisType::staged) shot.ring = static_cast<int>(std::lround(shot.time));
-    shots.push_back(std::move(shot));
+    MovedBlocks moment{moment_text(*e, frame->frame), frame->frame.blocks, {}};
+    if (e->summary.analysis == AnalysisType::staged)
+      moment.top_ring = static_cast<int>(std::lround(frame->frame.time));
+    moments.push_back(std::move(moment));
   }
-  return shots;
+  return moments;
 }
 
-/// Writes the displaced blocks of every readable frame, adds them to the film, and returns those that the figure of the
+/// Writes the displaced blocks of every readable frame, adds them to the film, and returns those that the picture of the
 /// motion shows.
-std::vector<Shot> write_frames(const ResultsReader& results, const std::string& folder, Evaluation* e,
-                               Film* film) {
+std::vector<MovedBlocks> write_frames(const ResultsReader& results, const std::string& folder, Evaluation* e,
+                                      Film* film) {
   const DisplacedBlocks blocks(*e);
   const bool in_time = e->summary.analysis == AnalysisType::dynamic && !at_rest(e->summary);
   std::vector<PvdEntry> entries;
@@ -92,7 +102,7 @@ std::vector<Shot> write_frames(const ResultsReader& results, const std::string& 
     if (is_mechanism(e->summary, frame->frame) || (in_time && i > 0)) moving.push_back(i);
   }
   write_pvd(in_folder(folder, "blocks.pvd"), entries);
-  return shots_of(moving, results, e);
+  return moments_of(moving, results, e);
 }
 
 void write_meshes(const Evaluation& e, const std::string& folder) {
@@ -107,6 +117,7 @@ void write_meshes(const Evaluation& e, const std::string& folder) {
 struct Drawn {
   std::string viewer;  ///< the 3-D view, as HTML
   std::vector<Figure> figures;
+  std::string picture_folder;  ///< "" without pictures
 };
 
 /// Writes meshes for ParaView, figures and pictures. `own`: the figure that only this type of analysis has. Figures that cannot be drawn become warnings.
@@ -114,19 +125,16 @@ Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const st
            const std::vector<HistoryRow>& history, Evaluation* e) {
   const std::string& folder = request.output_folder;
   Film film(*e);
-  const std::vector<Shot> shots = write_frames(results, folder, e, &film);
+  const std::vector<MovedBlocks> motion = write_frames(results, folder, e, &film);
   write_meshes(*e, folder);
-  Drawn drawn{viewer_html(*e, film), result_figures(*e, history, shots)};
+  Drawn drawn{viewer_html(*e, film), result_figures(*e, history), {}};
   if (own) drawn.figures.insert(drawn.figures.begin(), *own);
   for (std::string& problem : draw_figures(in_folder(folder, "figures"), drawn.figures))
     e->warnings.push_back(std::move(problem));
   write_paraview_script(folder);
   if (request.pictures) {
-    std::vector<MovedBlocks> motion;
-    for (const Shot& shot : shots)
-      motion.push_back(
-          {shot.mechanism ? "Mechanism" : fmt::format("after {:.2f} s", shot.time), shot.blocks, shot.ring});
-    if (std::string problem = draw_pictures(*e, motion, in_folder(folder, "pictures")); !problem.empty())
+    drawn.picture_folder = in_folder(folder, "pictures");
+    if (std::string problem = draw_pictures(*e, motion, drawn.picture_folder); !problem.empty())
       e->warnings.push_back(std::move(problem));
   }
   return drawn;
@@ -142,6 +150,7 @@ void write_report(const AnalyseRequest& request, const std::vector<Table>& table
                                      .viewer = drawn.viewer,
                                      .figures = drawn.figures,
                                      .figure_folder = in_folder(folder, "figures"),
+                                     .picture_folder = drawn.picture_folder,
                                      .run_yaml = run_yaml}));
 }
 

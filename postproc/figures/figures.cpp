@@ -13,6 +13,11 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
+/// True if the ring's figure shows anything but zeros.
+bool varies(const RingSum& ring) {
+  return ring.cv_pressure > 0.0 || ring.largest_friction_use > 0.0 || ring.largest_kern > 0.0;
+}
+
 }  // namespace
 
 Figure ring_figure(const Evaluation& e) {
@@ -113,20 +118,18 @@ Figure history_figure(const Evaluation& e, const std::vector<HistoryRow>& histor
   return f;
 }
 
-std::vector<Figure> result_figures(const Evaluation& e, const std::vector<HistoryRow>& history,
-                                   const std::vector<Shot>& shots) {
+std::vector<Figure> result_figures(const Evaluation& e, const std::vector<HistoryRow>& history) {
   std::vector<Figure> figures;
   const std::vector<ForceRange>& ranges = e.summary.ranges;
   if (!ranges.empty()) figures.push_back(range_figure(e));
   if (e.shell.num_rings() > 0 &&
       std::any_of(ranges.begin(), ranges.end(), [](const ForceRange& r) { return r.joint.has_value(); }))
     figures.push_back(certainty_map(e));
-  if (!shots.empty()) figures.push_back(motion_figure(e, shots));
   if (history.size() > 1) figures.push_back(history_figure(e, history));
   if (!at_rest(e.summary)) return figures;
   for (const MeridianEvaluation& m : e.meridians)
     if (m.thrust.points.size() > 1) figures.push_back(thrust_figure(e, m));
-  if (!e.rings.empty()) figures.push_back(ring_figure(e));
+  if (std::any_of(e.rings.begin(), e.rings.end(), varies)) figures.push_back(ring_figure(e));
   if (std::any_of(e.sections.begin(), e.sections.end(), [](const auto& s) { return !s.resultants.empty(); }))
     figures.push_back(levels_figure(e));
   for (const SectionEvaluation& section : e.sections)
@@ -139,8 +142,8 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
     const ShellMap map = shell_map(e);
     MapScales scales;
     scales.include(map);
-    figures.push_back(force_map(map, scales));
-    figures.push_back(utilisation_map(map, scales));
+    for (Figure (*draw)(const ShellMap&, const MapScales&) : {force_map, utilisation_map})
+      if (Figure figure = draw(map, scales); !figure.commands.empty()) figures.push_back(std::move(figure));
     if (Figure cracks = crack_map(e); !cracks.commands.empty()) figures.push_back(std::move(cracks));
   }
   return figures;

@@ -15,14 +15,6 @@ struct HistoryRow {
   double reaction = 0.0;          ///< N, upward component of the support forces on the free blocks
 };
 
-/// The blocks at one instant of a motion, or displaced along a mechanism.
-struct Shot {
-  double time = 0.0;  ///< s
-  BlockTable blocks;
-  bool mechanism = false;   ///< without amplitude
-  std::optional<int> ring;  ///< the ring just laid, in a staged analysis; those above do not exist yet
-};
-
 /// Ranges of a range analysis as bars from minimum to maximum, with a mark at the chosen value. Forces, lengths and
 /// ratios have axes of their own, forces one for each of N, kN and MN.
 Figure range_figure(const Evaluation& evaluation);
@@ -56,14 +48,10 @@ Figure plane_figure(const Evaluation& evaluation, const PlaneCut& cut);
 /// Hoop force across a meridian over the height, through head and bed joints.
 Figure hoop_figure(const MeridianEvaluation& meridian);
 
-/// The displaced blocks, one panel per shot; at least one shot.
-Figure motion_figure(const Evaluation& evaluation, const std::vector<Shot>& shots);
-
 /// Displacement, speed and support reaction over time.
 Figure history_figure(const Evaluation& evaluation, const std::vector<HistoryRow>& history);
 
-/// All figures for which the evaluation has data. `shots`: of the motion, or of the mechanism; may be empty.
-std::vector<Figure> result_figures(const Evaluation& evaluation, const std::vector<HistoryRow>& history,
-                                   const std::vector<Shot>& shots);
+/// All figures for which the evaluation has data.
+std::vector<Figure> result_figures(const Evaluation& evaluation, const std::vector<HistoryRow>& history);
 
 }  // namespace cupola

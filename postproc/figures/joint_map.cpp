@@ -74,11 +74,18 @@ std::string JointMap::outlines() const {
 }
 
 std::string JointMap::axes() const {
-  const double margin = 0.03 * (high_ - low_) + 1e-3;
+  double low = low_, high = high_;
+  if (!map_.vault)  // the whole wall
+    for (const ShellBox& box : map_.boxes) {
+      low = std::min(low, box.from);
+      high = std::max(high, box.to);
+    }
+  const double margin = 0.03 * (high - low) + 1e-3;
   return fmt::format(
-      "set xrange [{}:{}]\nset yrange [-0.3:{}]\nset xlabel '{}'\nset ylabel '{}'\nunset grid\n",
-      low_ - margin, high_ + margin, map_.num_rings + 0.3, map_.vault ? "azimuth (deg)" : "x (m)",
-      map_.vault ? "ring" : "course");
+      "set xrange [{}:{}]\nset yrange [-0.3:{}]\nset ytics {}\nset xlabel '{}'\nset ylabel '{}'\nunset "
+      "grid\n",
+      low - margin, high + margin, map_.num_rings + 0.3, std::max(1, (map_.num_rings + 7) / 8),
+      map_.vault ? "azimuth (deg)" : "x (m)", map_.vault ? "ring" : "course");
 }
 
 }  // namespace cupola

@@ -37,10 +37,9 @@ Figure certainty_map(const Evaluation& e) {
   }
   Figure f;
   f.name = "map_certainty";
-  f.title = "Certainty of the joint forces over the shell";
+  f.title = std::string("Certainty of the joint forces over the ") + (is_vault(e) ? "shell" : "wall");
   f.caption =
-      "The joints of the unrolled shell, coloured by the width of the range of their normal force over its "
-      "mean: at 0 "
+      "The joints, coloured by the width of the range of their normal force over its mean: at 0 "
       "equilibrium and friction determine the force, at 2 it may be anything from zero to its maximum.";
   f.width = 1100;
   f.height = 640;
@@ -77,9 +76,9 @@ Figure crack_map(const Evaluation& e) {
   }
   Figure f;
   f.name = "map_cracks";
-  f.title = "Open joints over the shell";
+  f.title = std::string("Open joints over the ") + (is_vault(e) ? "shell" : "wall");
   f.caption = fmt::format(
-      "The joints of the unrolled shell that are open, at least in part, coloured by their largest gap. The "
+      "The joints that are open, at least in part, coloured by their largest gap. The "
       "open parts of {} extend "
       "over {} in total; the widest gap is {}.",
       counted(cracks.size(), "joint"), length_text(length), length_text(widest));

@@ -32,13 +32,15 @@ ForceUnit force_unit(double largest) {
 
 std::string force_text(double newtons) {
   if (newtons == 0.0) return "negligible";
-  const ForceUnit unit = force_unit(std::abs(newtons));
+  const double size = std::abs(newtons);  // an axis ends in MN from 0.1 MN on, a single number from 1 MN on
+  const ForceUnit unit = size >= 1e5 && size < 1e6 ? ForceUnit{1e-3, "kN"} : force_unit(size);
   return fmt::format("{:.4g} {}", unit.per_newton * newtons, unit.name);
 }
 
 std::string length_text(double metres) {
   if (metres == 0.0) return "negligible";
   if (std::abs(metres) >= 1e3) return fmt::format("{:.0f} m", metres);
+  if (std::abs(metres) < 1e-6) return fmt::format("{:.2g} µm", 1e6 * metres);
   return std::abs(metres) < 1.0 ? fmt::format("{:.3g} mm", 1e3 * metres) : fmt::format("{:.3g} m", metres);
 }
 

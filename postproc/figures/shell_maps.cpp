@@ -19,9 +19,9 @@ std::string map_axes(const ShellMap& map) {
   return (map.vault ? "set xrange [-180:180]\nset xtics 45\nset xlabel 'azimuth (deg)'\n"
                     : "set xlabel 'x (m)'\n") +
          fmt::format(
-             "set yrange [0:{}]\nset ylabel '{}'\nunset grid\nset style fill solid 1 noborder\n"
+             "set yrange [0:{}]\nset ytics {}\nset ylabel '{}'\nunset grid\nset style fill solid 1 noborder\n"
              "set key at graph 1,1 right bottom horizontal\n",
-             map.num_rings, map.vault ? "ring" : "course");
+             map.num_rings, std::max(1, (map.num_rings + 7) / 8), map.vault ? "ring" : "course");
 }
 
 /// One panel: the boxes whose value is a number in colour, all others in grey.
@@ -54,14 +54,19 @@ double shown(double newtons_per_metre) {
   return newtons_per_metre == 0.0 ? BlockFields::kNone : 1e-3 * newtons_per_metre;
 }
 
-Figure unrolled_map(const ShellMap& map) {
-  Figure f;
-  f.width = 1100;
-  f.height = 820;
-  f.vector = map.boxes.size() <= kMostVectorBoxes;
-  f.commands = plot_style() + map_axes(map) +
-               "set multiplot layout 2,1 margins 0.07,0.88,0.08,0.96 spacing 0.13\n" + kSequential;
-  return f;
+/// One panel above the other; without commands if there is none.
+void draw_panels(const ShellMap& map, const std::vector<std::string>& panels, Figure* f) {
+  const int count = static_cast<int>(panels.size());
+  f->width = 1100;
+  f->height = 20 + 400 * count;
+  f->vector = map.boxes.size() <= kMostVectorBoxes;
+  if (count == 0) return;
+  f->commands = plot_style() + map_axes(map) +
+                fmt::format("set multiplot layout {},1 margins 0.07,0.88,{},{} spacing 0.13\n", count,
+                            65.0 / f->height, 1.0 - 33.0 / f->height) +
+                kSequential;
+  for (const std::string& panel : panels) f->commands += panel;
+  f->commands += "unset multiplot\n";
 }
 
 /// The end of a colour scale, which must be positive.
@@ -77,52 +82,58 @@ void MapScales::include(const ShellMap& map) {
     tension = std::max(tension, -1e-3 * box.meridional_force);
     hoop = std::max(hoop, 1e-3 * std::abs(box.hoop_force));
     kern = std::fmax(kern, box.kern);  // skips NaN
+    friction = std::fmax(friction, box.friction_use);
   }
 }
 
 Figure force_map(const ShellMap& map, const MapScales& scales) {
-  Figure f = unrolled_map(map);
+  Figure f;
   f.name = "map_forces";
   const char *along = map.vault ? "meridional" : "vertical", *across = map.vault ? "hoop" : "horizontal";
-  f.title = map.vault ? "Meridional and hoop forces over the shell"
-                      : "Vertical and horizontal forces over the wall";
+  f.title = map.vault           ? "Meridional and hoop forces over the shell"
+            : scales.hoop > 0.0 ? "Vertical and horizontal forces over the wall"
+                                : "Vertical forces over the wall";
   f.caption = fmt::format(
-      "{}. Forces per metre from the mean stress of each block, compression positive; {} tension is orange. "
-      "Grey: the "
-      "force is negligible.",
-      map.vault ? "The unrolled shell" : "The wall from the front", across);
-  f.commands +=
-      panel(
-          map, [](const ShellBox& b) { return shown(b.meridional_force); }, "meridional", "negligible",
-          fmt::format("set cbrange [{}:{}]\nset cblabel '{} force (kN/m)'\n", -scales.tension,
-                      end_of(scales.compression), along)) +
-      panel(
-          map, [](const ShellBox& b) { return shown(b.hoop_force); }, "hoop", "negligible",
-          fmt::format(
-              "set palette defined (-1 '{0}', 0 '#f7f7f7', 1 '{1}')\nset cbrange [{2}:{3}]\nset cblabel "
-              "'{4} force (kN/m), compression positive'\n",
-              kOrange, kBlue, -end_of(scales.hoop), end_of(scales.hoop), across)) +
-      "unset multiplot\n";
+      "{}. Forces per metre from the mean stress of each block, compression positive{}. Grey: the force is "
+      "negligible.",
+      map.vault ? "The unrolled shell" : "The wall from the front",
+      scales.hoop > 0.0 ? fmt::format("; {} tension is orange", across) : "");
+  std::vector<std::string> panels;
+  if (scales.compression > 0.0 || scales.tension > 0.0)
+    panels.push_back(panel(
+        map, [](const ShellBox& b) { return shown(b.meridional_force); }, "meridional", "negligible",
+        fmt::format("set cbrange [{}:{}]\nset cblabel '{} force (kN/m)'\n", -scales.tension,
+                    end_of(scales.compression), along)));
+  if (scales.hoop > 0.0)
+    panels.push_back(panel(
+        map, [](const ShellBox& b) { return shown(b.hoop_force); }, "hoop", "negligible",
+        fmt::format(
+            "set palette defined (-1 '{0}', 0 '#f7f7f7', 1 '{1}')\nset cbrange [{2}:{3}]\nset cblabel "
+            "'{4} force (kN/m), compression positive'\n",
+            kOrange, kBlue, -end_of(scales.hoop), end_of(scales.hoop), across)));
+  draw_panels(map, panels, &f);
   return f;
 }
 
 Figure utilisation_map(const ShellMap& map, const MapScales& scales) {
-  Figure f = unrolled_map(map);
+  Figure f;
   f.name = "map_utilisation";
-  f.title = "Utilisation of the joints over the shell";
+  f.title = fmt::format("Utilisation of the joints over the {}", map.vault ? "shell" : "wall");
   f.caption =
       "Largest friction utilisation of the joints of each block (1: every point slides), and largest kern "
       "utilisation of its bed joints (above 1: part of the joint is unloaded). Grey: no such joint carries "
       "more "
       "than a negligible force.";
-  f.commands +=
-      panel(
-          map, [](const ShellBox& b) { return b.friction_use; }, "friction", "no loaded joint",
-          "set cbrange [0:1]\nset cblabel 'friction utilisation'\n") +
-      panel(
-          map, [](const ShellBox& b) { return b.kern; }, "kern", "no loaded bed joint",
-          fmt::format("set cbrange [0:{}]\nset cblabel 'kern utilisation'\n", end_of(scales.kern))) +
-      "unset multiplot\n";
+  std::vector<std::string> panels;
+  if (scales.friction > 0.0)
+    panels.push_back(panel(
+        map, [](const ShellBox& b) { return b.friction_use; }, "friction", "no loaded joint",
+        "set cbrange [0:1]\nset cblabel 'friction utilisation'\n"));
+  if (scales.kern > 0.0)
+    panels.push_back(panel(
+        map, [](const ShellBox& b) { return b.kern; }, "kern", "no loaded bed joint",
+        fmt::format("set cbrange [0:{}]\nset cblabel 'kern utilisation'\n", end_of(scales.kern))));
+  draw_panels(map, panels, &f);
   return f;
 }
 

@@ -11,11 +11,12 @@ inline constexpr size_t kMostVectorBoxes = 3000;  ///< with more, browsers are s
 struct MapScales {
   double compression = 0.0, tension = 0.0;  ///< kN/m, meridional
   double hoop = 0.0;                        ///< kN/m, magnitude
-  double kern = 0.0;
+  double kern = 0.0, friction = 0.0;
   void include(const ShellMap& map);
 };
 
-/// The unrolled shell, coloured by meridional and hoop force. Blocks of negligible force are grey.
+/// The unrolled shell, coloured by meridional and hoop force. Blocks of negligible force are grey. A quantity that is
+/// negligible in all maps of the scales has no panel; without any the figure has no commands.
 Figure force_map(const ShellMap& map, const MapScales& scales);
 
 /// The same, coloured by friction and kern utilisation. Blocks without a loaded joint are grey.

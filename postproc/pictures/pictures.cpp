@@ -27,7 +27,7 @@ namespace {
     ::setenv("DISPLAY", display.c_str(), 1);
     ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
     for (const StandardView& view : standard_views()) {
-      Painter painter(view.width, view.height);
+      Painter painter(view.per_moment && run.motion.size() > 1 ? 2 * view.width : view.width, view.height);
       if (view.draw(run, &painter)) painter.save(fmt::format("{}/{}.png", folder, view.name));
     }
   } catch (const std::exception& error) {

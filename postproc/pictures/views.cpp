@@ -8,7 +8,6 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/export/arrows.hpp"
-#include "assembly/files/number_text.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/mesh_parts.hpp"
 
@@ -95,6 +94,17 @@ ColourScale scale_of(std::vector<double> values) {
   return {kSequential, low < 0.0 ? -round_up(-low) : 0.0, low < 0.0 ? 0.0 : 1.0};
 }
 
+/// What the colours of the bond mean, as far as the model has them.
+std::string bond_text(const Evaluation& e) {
+  const auto has = [&e](const auto& is) {
+    return std::any_of(e.assembly.blocks.begin(), e.assembly.blocks.end(), is);
+  };
+  const bool upright = has([](const Block& b) { return b.kind == BlockKind::herringbone; });
+  const bool corner = has([](const Block& b) { return b.rib && !b.fixed; });
+  return fmt::format("Bond{}{}", upright ? "; orange: upright blocks" : "",
+                     corner ? "; brown: blocks across a corner" : "");
+}
+
 /// Left the bond, right the hoop force of a vault at rest.
 bool draw_overview(const Pictured& run, Painter* painter) {
   const Evaluation& e = run.e;
@@ -102,7 +112,7 @@ bool draw_overview(const Pictured& run, Painter* painter) {
   if (hoop) painter->new_view(0.0, 0.5);
   paint_blocks(
       run, [&](int b) { return bond_colour(e.assembly.blocks[b]); }, every_block, painter);
-  if (hoop) painter->add_caption("Bond");
+  if (hoop) painter->add_caption(bond_text(e));
   painter->look(view_direction(e), e.up);
   if (!hoop) return true;
   painter->new_view(0.5, 1.0);
@@ -155,9 +165,10 @@ bool draw_forces(const Pictured& run, Painter* painter) {
     (e.assembly.blocks[b].fixed ? supports : blocks).add(run.blocks[b], bond_colour(e.assembly.blocks[b]));
   supports.paint(painter);
   if (!is_vault(e)) blocks.paint(painter, 0.15);
+  const double unit = largest >= 1e6 ? 1e6 : 1e3;
   painter->add_legend(
-      fmt::format("Joint force, {} (largest {})", largest >= 1e6 ? "MN" : "kN", readable_force(largest)),
-      scale, largest >= 1e6 ? 1e6 : 1e3);
+      fmt::format("Joint force, {} (largest {:.4g})", largest >= 1e6 ? "MN" : "kN", largest / unit), scale,
+      unit);
   painter->look(view_direction(e), e.up);
   return true;
 }
@@ -256,7 +267,7 @@ const std::vector<StandardView>& standard_views() {
   static const std::vector<StandardView> views{
       {"overview", 2000, 1000, draw_overview}, {"inside", 1400, 1000, draw_inside},
       {"forces", 1400, 1000, draw_forces},     {"thrust", 1400, 1000, draw_thrust},
-      {"cracks", 1400, 1000, draw_cracks},     {"motion", 2000, 700, draw_motion}};
+      {"cracks", 1400, 1000, draw_cracks},     {"motion", 1000, 700, draw_motion, true}};
   return views;
 }
 

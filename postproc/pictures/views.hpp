@@ -20,6 +20,7 @@ struct StandardView {
   const char* name;
   int width, height;  ///< pixels
   bool (*draw)(const Pictured&, Painter*);
+  bool per_moment = false;  ///< twice as wide if the motion has several moments
 };
 const std::vector<StandardView>& standard_views();
 

@@ -29,7 +29,10 @@ KeyNumber critical_number(const CriticalValue& critical) {
   const std::string unit = limit_unit(critical.parameter);
   return {"Critical " + critical.parameter,
           fmt::format("{:.4g}{}", critical.value, unit.empty() ? "" : " " + unit),
-          fmt::format("stands at {:.5g}, moves at {:.5g}", critical.stable, critical.moving)};
+          shows_bracket(critical) || critical.value == 0.0
+              ? fmt::format("stands at {:.5g}, moves at {:.5g}", critical.stable, critical.moving)
+              : fmt::format("known to a relative error of {:.1e}",
+                            0.5 * std::abs(critical.stable - critical.moving) / std::abs(critical.value))};
 }
 
 /// "0.2202 to 32.62 MN": what the search proves, with ∞ where there is no limit and ? where it did not end.
@@ -118,6 +121,16 @@ void add_numbers_of_motion(const Evaluation& e, const std::vector<HistoryRow>& h
 
 /// Whether the forces are those of the model, in words: "proven to 9 digits".
 std::string how_sure(const Summary& s) {
+  if (s.analysis == AnalysisType::limit && s.critical && s.critical->parameter != "peak_stress")
+    return fmt::format(
+        "The structure stands at one end of a bracket of relative width {:.1e} and moves at the other. {}",
+        std::abs(s.critical->stable - s.critical->moving) / std::max(std::abs(s.critical->value), 1e-300),
+        to_sentence(s.forces_unique));
+  const auto ended = [](const ForceRange& r) {
+    return r.min.outcome != RangeOutcome::unconverged && r.max.outcome != RangeOutcome::unconverged;
+  };
+  if (!s.ranges.empty() && std::all_of(s.ranges.begin(), s.ranges.end(), ended))
+    return "The ranges hold for every admissible state. The forces shown are those of one of them.";
   if (!s.forces_unique.value) return to_sentence(s.forces_unique);
   const ForceCertificate& certificate = s.certified_force_error;
   if (!certificate.value)
@@ -154,14 +167,14 @@ std::string joint_link(const Evaluation& e, size_t index) {
 std::string worst_html(const Evaluation& e) {
   const WorstJoints worst = worst_joints(e.last.joints);
   std::string out;
-  if (worst.sliding) {
+  if (worst.sliding && e.last.joints.wrenches[*worst.sliding].friction_use > 0.0) {
     const JointWrench& j = e.last.joints.wrenches[*worst.sliding];
     out += fmt::format("<li>{} {}: it uses {:.3g} % of its friction under a normal force of {}.</li>\n",
                        joint_link(e, *worst.sliding),
                        j.friction_use > kSlides ? "slides" : "is the nearest to sliding",
                        100.0 * j.friction_use, markup_text(force_text(j.normal_force)));
   }
-  if (worst.edge) {
+  if (worst.edge && e.last.joints.wrenches[*worst.edge].kern > 0.0) {
     const JointWrench& j = e.last.joints.wrenches[*worst.edge];
     const bool on_edge = j.edge_distance < 1e-3 * std::sqrt(j.patch.area);
     out += fmt::format("<li>{} is the nearest to opening as a hinge: its force of {} acts {}{}.</li>\n",
@@ -169,6 +182,11 @@ std::string worst_html(const Evaluation& e) {
                        on_edge ? "on the edge" : length_text(j.edge_distance) + " from the edge",
                        j.kern > 1.0 ? ", outside the kern, so that a part of the joint is unloaded" : "");
   }
+  const bool ideal = std::all_of(
+      e.last.joints.wrenches.begin(), e.last.joints.wrenches.end(),
+      [](const JointWrench& j) { return j.negligible || (j.kern == 0.0 && j.friction_use == 0.0); });
+  if (worst.edge && ideal)
+    out = "<li>No joint is near sliding or opening: every force is normal to its joint and central.</li>\n";
   return out.empty() ? "" : "<p><strong>Worst joints</strong></p>\n<ul>\n" + out + "</ul>\n";
 }
 

@@ -46,6 +46,8 @@ pre { overflow-x: auto; background: var(--code); padding: .75rem; font-size: .8r
 summary { cursor: pointer; }
 dl { display: grid; grid-template-columns: minmax(9rem, max-content) minmax(0, 1fr); gap: .1rem 1rem; margin: .5rem 0; }
 dt { color: var(--soft); } dd { margin: 0; }
+@media (min-width: 800px) { .figures { display: grid; grid-template-columns: 1fr 1fr; gap: 0 1rem; align-items: start; }
+  .figures > :not(.half) { grid-column: 1 / -1; } }
 .side { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 0 1rem; }
 .side .wide { grid-column: 1 / -1; }
 @media (max-width: 600px) {

@@ -20,12 +20,10 @@ namespace {
 /// What counts as zero in this run.
 std::string floor_text(const Evaluation& e) {
   const Floor& floor = e.last.joints.floor;
-  if (floor.force == 0.0) return "";
   return fmt::format(
       "Forces up to {}, {:.0e} of the largest joint force, are negligible: they count as zero, and no "
-      "utilisation, "
-      "direction or length is computed from them.",
-      force_text(floor.force), floor.share);
+      "utilisation, direction or length is computed from them. Gaps up to {} count as closed.",
+      force_text(floor.force), floor.share, length_text(floor.length));
 }
 
 std::string paragraph(const std::string& text) {
@@ -76,16 +74,18 @@ std::string case_section(const Evaluation& e) {
          "</pre></details>\n";
 }
 
-std::string figure_html(const std::string& picture, const std::string& title, const std::string& caption) {
+std::string figure_html(const std::string& picture, const std::string& title, const std::string& caption,
+                        bool half = false) {
   if (picture.empty()) return "";
-  return fmt::format("<figure>\n{}\n<figcaption><strong>{}</strong> {}</figcaption>\n</figure>\n", picture,
-                     markup_text(title), markup_text(caption));
+  return fmt::format("<figure{}>\n{}\n<figcaption><strong>{}</strong> {}</figcaption>\n</figure>\n",
+                     half ? " class=\"half\"" : "", picture, markup_text(title), markup_text(caption));
 }
 
 std::string figure_html(const ReportInput& input, const Figure& figure) {
+  constexpr int kHalfWidth = 720;  // pixels; narrower figures stand two in a row
   const std::string file = figure.name + (figure.vector ? ".svg" : ".png");
   return figure_html(html_picture((std::filesystem::path(input.figure_folder) / file).string(), figure.title),
-                     figure.title + ".", figure.caption);
+                     figure.title + ".", figure.caption, figure.width <= kHalfWidth);
 }
 
 bool shows_ranges(const Figure& figure) {
@@ -98,11 +98,23 @@ std::string range_picture(const ReportInput& input) {
   return figure == input.figures.end() ? "" : figure_html(input, *figure);
 }
 
+std::string motion_picture(const ReportInput& input) {
+  const std::string file = (std::filesystem::path(input.picture_folder) / "motion.png").string();
+  if (input.picture_folder.empty() || !std::filesystem::exists(file)) return "";
+  const bool mechanism = is_mechanism(input.evaluation->summary, input.evaluation->last.frame) ||
+                         at_rest(input.evaluation->summary);
+  return mechanism ? figure_html(html_picture(file, "Mechanism"), "Mechanism.",
+                                 "How the blocks begin to move. A mechanism has directions but no amplitude: "
+                                 "the displacements are drawn large enough to be seen.")
+                   : figure_html(html_picture(file, "Displaced shape"), "Displaced shape.",
+                                 "The blocks where the motion has carried them, to scale.");
+}
+
 std::string figures_section(const ReportInput& input) {
-  std::string out;
+  std::string out = motion_picture(input);
   for (const Figure& figure : input.figures)
     if (!shows_ranges(figure)) out += figure_html(input, figure);
-  return out.empty() ? "" : "<h2>Figures</h2>\n" + out;
+  return out.empty() ? "" : "<h2>Figures</h2>\n<div class=\"figures\">\n" + out + "</div>\n";
 }
 
 /// True for a table that reads like the result of an equilibrium: rings, thrust lines, cuts.
@@ -128,7 +140,7 @@ std::string tables_section(const std::vector<Table>& tables, bool equilibrium) {
   return out;
 }
 
-std::string files_section(bool equilibrium) {
+std::string files_section(bool equilibrium, bool pictures) {
   std::string out = "<h2>Files</h2>\n<dl>\n";
   const auto row = [&out](const char* file, const char* what) {
     out += fmt::format("<dt><a href=\"{0}\">{0}</a></dt><dd>{1}</dd>\n", file, what);
@@ -142,6 +154,7 @@ std::string files_section(bool equilibrium) {
   row("cracks.vtp", "open joints as lines");
   row("open_in_paraview.py", "opens the run in ParaView: paraview --script=open_in_paraview.py");
   row("summary.json", "the numbers used to compare runs");
+  if (pictures) row("pictures", "standard views as PNG");
   return out + "</dl>\n";
 }
 
@@ -170,9 +183,11 @@ std::string report_html(const ReportInput& input) {
                              : list_section("Motion", motion_sentences(e, input.history));
   body += figures_section(input);
   body += tables_section(input.tables, at_rest(e.summary));
-  body += "<h2>How good the answer is</h2>\n" + paragraph(quality_text(e.summary) + " " + floor_text(e));
+  std::vector<std::string> quality = quality_sentences(e.summary);
+  if (e.last.joints.floor.force > 0.0) quality.push_back(floor_text(e));
+  body += list_section("How good the answer is", quality);
   body += case_section(e);
-  body += files_section(at_rest(e.summary));
+  body += files_section(at_rest(e.summary), !input.picture_folder.empty());
   body += run_section(input);
   return html_page(e.scene.title, body);
 }

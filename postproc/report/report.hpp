@@ -16,8 +16,9 @@ struct ReportInput {
   std::vector<HistoryRow> history;  ///< of a dynamic run
   std::string viewer;               ///< the 3-D view, as HTML; may be empty
   std::vector<Figure> figures;
-  std::string figure_folder;  ///< folder of the figure files
-  std::string run_yaml;       ///< text of run.yaml; "" if it cannot be read
+  std::string figure_folder;   ///< folder of the figure files
+  std::string picture_folder;  ///< of the standard views; "" if none were drawn
+  std::string run_yaml;        ///< text of run.yaml; "" if it cannot be read
 };
 
 /// report.html as one self-contained file: first_screen(), ranges of a range analysis, findings, figures, tables,
@@ -34,6 +35,9 @@ std::vector<std::string> finding_sentences(const Evaluation& evaluation);
 
 /// The verdict and the solution quality in words, each with its numbers.
 std::string verdict_text(const Summary& summary);
-std::string quality_text(const Summary& summary);
+std::vector<std::string> quality_sentences(const Summary& summary);
+
+/// True if the two ends of the bracket of a critical value differ in the digits that the report prints.
+bool shows_bracket(const CriticalValue& critical);
 
 }  // namespace cupola

@@ -115,8 +115,7 @@ void add_mechanism(const Evaluation& e, std::vector<std::string>* out) {
   out->push_back(
       fmt::format("The blocks begin to move as {}. {} of {} exceed a tenth of the largest speed, which is "
                   "that of {}. A mechanism has directions but no amplitude; the "
-                  "figure shows the "
-                  "directions.",
+                  "3-D view shows the directions.",
                   counted(bodies, "body", "bodies"), count_moving(e, kMuch * farthest.displacement),
                   counted(e.summary.free_blocks, "free block"), block_text(e, farthest.block)));
 }
@@ -164,7 +163,7 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
         "The resultant in the rib is on average {:.3f} times that at mid-sail, and between {:.2f} "
         "and {:.2f} times on a single bed (compliance per {}).",
         *s.rib_over_mid_sail, *s.rib_over_mid_sail_smallest, *s.rib_over_mid_sail_largest, s.compliance_per));
-  out.push_back(couple_text(e, s));
+  if (!e.rings.empty()) out.push_back(couple_text(e, s));
   if (!leads(leading, kLargestFrictionUse)) out.push_back(friction_text(s));
   if (s.mean_kern_use)
     out.push_back(
@@ -185,18 +184,21 @@ std::vector<std::string> motion_sentences(const Evaluation& e, const std::vector
   if (e.summary.status == Status::unconverged)
     out.push_back(history.empty()
                       ? "Neither forces nor motion are known: the requested accuracy was not reached."
-                      : "The error of the motion in the figures is unknown: the requested accuracy was "
+                      : "The error of the motion is unknown: the requested accuracy was "
                         "not reached.");
   else if (e.summary.analysis == AnalysisType::staged)
     out.push_back(
-        "The table of stages shows with which rings the vault does not stand, the figure how its blocks "
-        "begin "
-        "to move.");
+        "The table of stages shows with which rings the vault does not stand, the 3-D view how its blocks "
+        "begin to move.");
   else if (is_mechanism(e.summary, e.last.frame))
     add_mechanism(e, &out);
   else
     add_motion_in_time(e, history, &out);
   return out;
+}
+
+bool shows_bracket(const CriticalValue& critical) {
+  return fmt::format("{:.5g}", critical.stable) != fmt::format("{:.5g}", critical.moving);
 }
 
 std::string verdict_text(const Summary& s) {
@@ -206,6 +208,12 @@ std::string verdict_text(const Summary& s) {
         "{:.5g} Pa "
         "somewhere. The forces below are those of the state found.",
         s.critical->stable, s.critical->moving);
+  if (s.analysis == AnalysisType::limit && s.critical && !shows_bracket(*s.critical))
+    return fmt::format(
+        "The structure stands {} {} and moves {} it. The forces below are those at this value.",
+        s.critical->stable < s.critical->moving ? "up to" : "down to",
+        phrase(s.critical->parameter, s.critical->stable),
+        s.critical->stable < s.critical->moving ? "beyond" : "below");
   if (s.analysis == AnalysisType::limit && s.critical)
     return fmt::format(
         "The structure stands at {} and moves at {:.5g}. The forces below are those at {:.5g}.",
@@ -219,7 +227,8 @@ std::string verdict_text(const Summary& s) {
     return "The structure moves: no forces balance the loads within the joint laws.";
   switch (s.status) {
     case Status::stable:
-      return "The structure is at rest.";
+      return s.analysis == AnalysisType::staged ? "Every stage of the construction stands."
+                                                : "The structure is at rest.";
     case Status::moving:
       return "The structure is moving: no equilibrium was found.";
     case Status::collapsed:
@@ -230,7 +239,7 @@ std::string verdict_text(const Summary& s) {
   return "";
 }
 
-std::string quality_text(const Summary& s) {
+std::vector<std::string> quality_sentences(const Summary& s) {
   const bool equilibrium = at_rest(s), in_time = s.max_speed_m_per_s.has_value();
   std::vector<std::string> out{to_sentence(s.accuracy)};
   const auto add = [&out](std::string text) { out.push_back(std::move(text)); };
@@ -269,7 +278,7 @@ std::string quality_text(const Summary& s) {
   }
   if (equilibrium || in_time)
     add(fmt::format("The largest penetration at a contact is {:.3g} mm.", 1e3 * s.max_penetration_m));
-  return fmt::format("{}", fmt::join(out, " "));
+  return out;
 }
 
 }  // namespace cupola

@@ -34,8 +34,8 @@ Table stage_table(const Evaluation& e, const CsvFile& csv) {
 std::optional<Figure> stage_figure(const Table& stages) {
   std::vector<std::vector<double>> rows;
   for (const auto& row : stages.rows) rows.push_back({std::get<double>(row[1]), std::get<double>(row[4])});
-  if (std::none_of(rows.begin(), rows.end(), [](const auto& row) { return std::isfinite(row[1]); }))
-    return std::nullopt;
+  if (std::none_of(rows.begin(), rows.end(), [](const auto& row) { return row[1] > 0.0; }))
+    return std::nullopt;  // no stage needs friction, or none was searched
   Figure f;
   f.name = "stages";
   f.title = "Construction: friction required of the fresh mortar, ring by ring";

@@ -128,28 +128,24 @@ TEST(ShellMaps, ReadBackUnchangedFromTheTable) {
   EXPECT_FALSE(read_shell_map("/nowhere/at/all"));
 }
 
-// The nearest face is painted last; a mechanism has no unit of length.
-TEST(MotionFigure, PaintsTheFacesOfTheDisplacedBlocksFromBackToFront) {
-  const Evaluation e = test::column_evaluation(0.6, 0.4);
-  Shot shot{2.0, e.last.frame.blocks, false, {}};
-  shot.blocks.displacement[3] = Vec3(0.3, -0.1, 0.0);
-  shot.blocks.position[3] += Vec3(0.3, -0.1, 0.0);
-  const Figure figure = motion_figure(e, {shot});
-  const auto rows = data_of(figure, "faces0");
-  ASSERT_EQ(rows.size(), 3u * 2u * 4u) << "seen along y, each of three blocks shows one face, painted twice";
-  double right = -1.0;
-  for (size_t i = 16; i < 24; ++i) right = std::max(right, rows[i][0]);
-  EXPECT_NEAR(right, 1.5, 1e-8) << "block 3, 1.2 m wide, has moved by 0.3 m and is nearest";
-  EXPECT_NE(figure.commands.find("displacement (m)"), std::string::npos);
-  shot.mechanism = true;
-  EXPECT_EQ(motion_figure(e, {shot}).commands.find("displacement (m)"), std::string::npos);
-}
-
-TEST(MotionFigure, OmitsTheBlocksThatAStageLacks) {
-  const Evaluation e = test::column_evaluation(0.6, 0.4);
-  const Figure figure = motion_figure(e, {Shot{1.0, e.last.frame.blocks, true, 1}});
-  EXPECT_EQ(data_of(figure, "faces0").size(), 2u * 2u * 4u) << "rings 0 and 1, one face each, painted twice";
-  EXPECT_NE(figure.commands.find("set title 'course 1 just laid'"), std::string::npos);
+// A chart of zeros has no message.
+TEST(Figures, AreLeftOutWhereEverythingIsNegligible) {
+  const auto names = [](const Evaluation& e) {
+    std::string all;
+    for (const Figure& figure : result_figures(e, {})) all += figure.name + " ";
+    return all;
+  };
+  EXPECT_EQ(names(test::column_evaluation(0.6, 0.4)).find("rings"), std::string::npos)
+      << "central and without friction";
+  EXPECT_NE(names(test::column_evaluation(0.9, 0.4)).find("rings"), std::string::npos);
+  ShellMap map{false, 2, {}};
+  map.boxes.resize(1);
+  map.boxes[0].meridional_force = 1e3;
+  MapScales scales;
+  scales.include(map);
+  EXPECT_EQ(utilisation_map(map, scales).commands, "");
+  EXPECT_EQ(force_map(map, scales).commands.find("horizontal force"), std::string::npos);
+  EXPECT_NE(force_map(map, scales).commands.find("vertical force"), std::string::npos);
 }
 
 TEST(SectionFigure, StatesScaleAndGlobalCheck) {
