@@ -34,6 +34,15 @@ std::string terminal_of(const Figure& figure, const std::string& ending) {
                      figure.width, figure.height);
 }
 
+/// Replaces the date of a PDF, so that the same run writes the same bytes. Cairo 1.16 ignores SOURCE_DATE_EPOCH.
+void remove_date(const std::string& path) {
+  const std::string key = "/CreationDate (D:", epoch = "19700101000000";
+  std::string text = read_text(path);
+  const size_t at = text.find(key);
+  if (at == std::string::npos || at + key.size() + epoch.size() > text.size()) return;
+  write_text_atomically(path, text.replace(at + key.size(), epoch.size(), epoch));
+}
+
 std::string draw(const std::string& folder, const Figure& figure, const char* ending) {
   const std::string out = in_folder(folder, figure.name + ending);
   const TemporaryFile script{in_folder(folder, "." + figure.name + ".run.gp")};
@@ -53,6 +62,7 @@ std::string draw(const std::string& folder, const Figure& figure, const char* en
     if (status == 0 && (!std::filesystem::exists(side) || std::filesystem::file_size(side) == 0))
       throw SystemError(fmt::format("{}: gnuplot wrote an empty file, as it does when memory runs out", out));
     if (!problem.empty()) write_text_atomically(side, "");
+    if (problem.empty() && ending == std::string(".pdf")) remove_date(side);
     return true;
   });
   if (!problem.empty()) std::filesystem::remove(out);

@@ -128,6 +128,16 @@ TEST(ShellMaps, ReadBackUnchangedFromTheTable) {
   EXPECT_FALSE(read_shell_map("/nowhere/at/all"));
 }
 
+// The same run writes the same bytes.
+TEST(Figures, HaveNoDate) {
+  Figure figure;
+  figure.name = "line";
+  figure.commands = "plot x\n";
+  const std::string folder = test::fresh_folder("figures");
+  ASSERT_TRUE(draw_figures(folder, {figure}).empty());
+  EXPECT_NE(read_text(folder + "/line.pdf").find("/CreationDate (D:19700101000000"), std::string::npos);
+}
+
 // A chart of zeros has no message.
 TEST(Figures, AreLeftOutWhereEverythingIsNegligible) {
   const auto names = [](const Evaluation& e) {
