@@ -76,7 +76,7 @@ std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const Res
     if (!frame) continue;
     MovedBlocks moment{moment_text(*e, frame->frame), frame->frame.blocks, {}};
     if (e->summary.analysis == AnalysisType::staged)
-      moment.top_ring = static_cast<int>(std::lround(frame->frame.time));
+      moment.top_ring = static_cast<int>(std::ceil(frame->frame.time));
     moments.push_back(std::move(moment));
   }
   return moments;
@@ -203,7 +203,7 @@ ExitCode analyse(const AnalyseRequest& request) {
   remove_earlier_output(folder);
   std::vector<Table> tables = result_tables(e);
   std::optional<Figure> own;
-  if (e.summary.analysis == AnalysisType::staged)
+  if (e.summary.analysis == AnalysisType::staged && e.summary.text_files.contains("stages.csv"))
     if (const std::string text = readable_text(run.results, "stages.csv", &e); !text.empty())
       own = stage_figure(tables.emplace(tables.begin(), stage_table(e, parse_csv(text, "stages.csv")))[0]);
   if (e.summary.analysis == AnalysisType::path && e.summary.text_files.contains("path.csv"))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -59,6 +60,7 @@ void Film::add(size_t index, const FrameEvaluation& frame) {
       return;
     }
     if (is_evaluated) bodies_ = frame.groups, evaluated_ = num_frames();
+    if (kind_ == Kind::stages) add_births(frame.frame);
     add_poses(frame.frame.blocks, frame.frame.time);
   } else if (kind_ == Kind::mechanism) {
     if (!is_mechanism(evaluation_.summary, frame.frame)) return;
@@ -72,6 +74,21 @@ void Film::add(size_t index, const FrameEvaluation& frame) {
       add_poses(frame.frame.blocks, frame.frame.time);
     }
     add_range_state(frame);
+  }
+}
+
+/// The time of a stage is its course, or a fraction less while the course is open. Of an open course the blocks that have contacts
+/// are laid.
+void Film::add_births(const Frame& frame) {
+  const std::vector<Block>& blocks = evaluation_.assembly.blocks;
+  const int unborn = std::numeric_limits<int>::max(), course = static_cast<int>(std::ceil(frame.time));
+  born_.resize(blocks.size(), unborn);
+  const auto lay = [&](int block) { born_[block] = std::min(born_[block], num_frames()); };
+  for (int block = 0; block < static_cast<int>(blocks.size()); ++block)
+    if (blocks[block].ring < course || (blocks[block].ring == course && frame.time == course)) lay(block);
+  for (int i = 0; i < frame.contacts.size(); ++i) {
+    lay(frame.contacts.block_a[i]);
+    lay(frame.contacts.block_b[i]);
   }
 }
 

@@ -13,7 +13,7 @@ namespace cupola {
 class Film {
  public:
   /// `displacement`: one state, whose displacement can be magnified. `motion`: instants or steps. `mechanism`: directions of motion, from rest to the
-  /// size at which they are drawn. `stages`: of construction, course by course.
+  /// size at which they are drawn. `stages`: of construction, in the order of laying.
   enum class Kind { displacement, motion, mechanism, stages };
 
   /// Joints and forces of one frame.
@@ -36,12 +36,15 @@ class Film {
   const std::vector<double>& shifts() const { return shifts_; }  ///< m, (num_frames x blocks x 3)
   const std::vector<double>& turns() const { return turns_; }    ///< rad, rotation vectors, likewise
   const std::vector<int>& bodies() const { return bodies_; }     ///< per block, body with which it moves
+  /// Of stages: per block, frame in which it is first laid; beyond the last one if in none.
+  const std::vector<int>& born() const { return born_; }
   const std::vector<State>& range_states() const { return states_; }
   /// The frame to which the forces of the evaluation belong; of a mechanism its start; -1: none.
   int evaluated() const { return evaluated_; }
 
  private:
   void add_poses(const BlockTable& blocks, double time);
+  void add_births(const Frame& frame);
   void add_range_state(const FrameEvaluation& frame);
 
   const Evaluation& evaluation_;
@@ -50,7 +53,7 @@ class Film {
   int evaluated_ = -1;
   int skipped_ = 0, skipped_states_ = 0;
   std::vector<double> times_, shifts_, turns_;
-  std::vector<int> bodies_;
+  std::vector<int> bodies_, born_;
   std::vector<State> states_;
 };
 

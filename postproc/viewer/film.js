@@ -25,7 +25,7 @@ class Film {
     const pose = this.model.pose;
     if (this.film.kind === "mechanism") pose.factor = this.frame / kMechanismSteps;
     else pose.frame = this.frame;
-    if (this.film.kind === "stages") this.model.laid = this.film.laid[this.frame];
+    if (this.film.kind === "stages") this.model.born = this.film.born, this.model.laid = this.frame;
     this.model.update();
     this.onFrame();
   }

@@ -8,7 +8,7 @@ class Model {
     this.scene = scene, this.stage = stage, this.header = scene.header;
     this.pose = new Pose(scene);
     this.ring = scene.get("block.ring");
-    this.course = Infinity, this.laid = Infinity;
+    this.course = Infinity, this.laid = Infinity, this.born = null;  // stages: frame shown, and per block the one in which it is laid
     this.sets = [];  // the state shown, and the one beside it
     this.addBlocks();
     this.addLines();
@@ -88,7 +88,7 @@ class Model {
     this.stage.resize();
   }
 
-  isShown(b) { return this.ring[b] <= this.course && this.ring[b] < this.laid; }
+  isShown(b) { return this.ring[b] <= this.course && !(this.born && this.born[b] > this.laid); }
 
   /** Moves everything to the pose and hides what is not shown. */
   update() {

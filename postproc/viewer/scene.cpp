@@ -188,7 +188,10 @@ double fine_step(double step, double largest) {
 }
 
 std::string frame_label(const Evaluation& e, double time) {
-  if (e.summary.analysis == AnalysisType::staged) return fmt::format("course {:g} laid", time);
+  if (e.summary.analysis == AnalysisType::staged)
+    return time == std::ceil(time) ? fmt::format("course {:g} laid", time)
+                                   : fmt::format("course {:g}, {:.0f} % laid", std::ceil(time),
+                                                 100.0 * (1.0 - std::ceil(time) + time));
   const bool in_time =
       e.summary.analysis == AnalysisType::dynamic || e.summary.analysis == AnalysisType::path;
   return in_time ? fmt::format("{:.3f} s", time) : fmt::format("step {:g}", time);
@@ -196,11 +199,8 @@ std::string frame_label(const Evaluation& e, double time) {
 
 Json add_film(const Evaluation& e, const Film& film, const Lattice& lattice, PackedArrays* arrays) {
   constexpr std::array kNames{"displacement", "motion", "mechanism", "stages"};
-  Json labels = Json::array(), laid = Json::array();
-  for (const double time : film.times()) {
-    labels.push_back(frame_label(e, time));
-    laid.push_back(std::lround(time) + 1);  // courses below this number have been laid
-  }
+  Json labels = Json::array();
+  for (const double time : film.times()) labels.push_back(frame_label(e, time));
   std::vector<double> shifts = film.shifts(), turns = film.turns();
   if (film.num_frames() == 0) {  // no frame could be read: the blocks as built
     shifts.assign(3 * e.assembly.blocks.size(), 0.0);
@@ -217,7 +217,7 @@ Json add_film(const Evaluation& e, const Film& film, const Lattice& lattice, Pac
           {"evaluated", film.evaluated()},
           {"largest_shift_m", farthest},
           {"labels", labels},
-          {"laid", laid}};
+          {"born", film.born()}};
 }
 
 std::vector<std::string> notes_of(const Evaluation& e, const Film& film, bool inner_faces,

@@ -186,5 +186,34 @@ TEST(Film, LeavesOutFramesOfLongRunsAndSaysSo) {
   EXPECT_NE(scene_bytes(e, film).find("The film shows 4 of 10 frames."), std::string::npos);
 }
 
+// Of an open course (time 0.5: half of course 1) those blocks are laid that have contacts.
+TEST(Film, ShowsTheBlocksOfAnOpenCourseFromTheFrameInWhichTheyAreLaid) {
+  Evaluation e = test::column_evaluation(0.5, 0.3);
+  e.summary.analysis = AnalysisType::staged;
+  e.times = {0.0, 0.5, 1.0, 2.0};
+  ContactTable& contacts = e.last.frame.contacts;
+  contacts = {};
+  Film film(e);
+  for (size_t i = 0; i < e.times.size(); ++i) {
+    FrameEvaluation frame = e.last;
+    frame.frame.time = e.times[i];
+    film.add(i, frame);
+  }
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
+    const int ring = e.assembly.blocks[b].ring;
+    EXPECT_EQ(film.born()[b], ring <= 0 ? 0 : ring == 1 ? 2 : 3) << "without contacts, block " << b;
+  }
+  Film open(e);
+  FrameEvaluation frame = e.last;
+  frame.frame.time = 0.5;
+  frame.frame.contacts.block_a = {1};
+  frame.frame.contacts.block_b = {2};
+  frame.frame.contacts.joint = {0};
+  open.add(0, frame);
+  EXPECT_EQ(e.assembly.blocks[2].ring, 1);
+  EXPECT_EQ(open.born()[2], 0);
+  EXPECT_GT(open.born()[3], 0);
+}
+
 }  // namespace
 }  // namespace cupola::scene_test
