@@ -51,6 +51,10 @@ Construction::Construction(const Case& scene, const Assembly& assembly,
   options_.log = log;
   options_.follow_from_start = true;
   complete_ = ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly));
+  // A joint with a support is as old as its free block.
+  for (Patch& patch : complete_.patches)
+    if (patch.kind == JointKind::base)
+      patch.ring = std::max(assembly.blocks[patch.block_a].ring, assembly.blocks[patch.block_b].ring);
   state_.laid.assign(assembly.blocks.size(), 0);
   for (size_t block = 0; block < assembly.blocks.size(); ++block)
     state_.laid[block] = assembly.blocks[block].fixed ? 1 : 0;
@@ -213,6 +217,8 @@ Frame Construction::frame(const StaticSolution& solution) const {
         Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * turned_by(state_.rotation[block]);
     frame.blocks.quaternion_wxyz[block] = {total.w(), total.x(), total.y(), total.z()};
   }
+  for (int i = 0; i < frame.contacts.size(); ++i)
+    if (frame.contacts.kind[i] == JointKind::base) frame.contacts.ring[i] = 0;  // as the file format says
   return frame;
 }
 

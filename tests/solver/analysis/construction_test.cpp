@@ -208,6 +208,29 @@ TEST(Construction, WedgeSlipsByTheSqueezeOfItsHeads) {
   EXPECT_NEAR(slips[1] / slips[0], 20.0, 0.5);
 }
 
+// With friction mu_h in its heads the same block needs N = W sin theta / (2 [sin(pi / n) cos theta + mu_h cos alpha]), where
+// alpha is the angle of the heads to the steepest slope: q / (kappa + 2 mu_h / L) for short blocks. It slides into that state, because
+// its heads are soft.
+TEST(Construction, WedgeBetweenUprightsNeedsLessThrustWithFrictionInItsHeads) {
+  const RingSpec ring{.n = 24, .theta = 45.0 * kDeg, .uprights = true};
+  const Assembly assembly = testing::make_ring(ring);
+  const int block = 25;
+  const double half = std::numbers::pi / ring.n, weight = assembly.blocks[block].mass * testing::kG;
+  const double alpha = std::atan(std::cos(ring.theta) * std::tan(half));
+  for (const double friction : {0.0, 0.3, 0.6}) {
+    Case scene = ring_case(0.0);
+    scene.joints.head->friction = friction;
+    scene.joints.head->normal = 2e-8;
+    scene.analysis.staged.unit = StagedConstruction::Unit::ring;
+    const Built built = build(scene, assembly);
+    ASSERT_EQ(built.summary.status, Status::stable) << built.summary.message;
+    const double needed = weight * std::sin(ring.theta) /
+                          (2.0 * (std::sin(half) * std::cos(ring.theta) + friction * std::cos(alpha)));
+    // The slip is not quite along the heads, because the block sinks into its bed and tilts.
+    EXPECT_NEAR(normal_force(built.frames.back(), 24, block) / needed, 1.0, 0.01) << "mu_h " << friction;
+  }
+}
+
 // A course with parallel heads between uprights slides as a whole under Coulomb's law: nothing presses its heads, even where an arch
 // could stand (mu_h > 4 d / L, tests/solver/analysis/coulomb_scenes_test.cpp). Dilatancy jams it at any friction. In stiff joints
 // the jammed state must not be taken for one of Coulomb's law.
@@ -393,6 +416,25 @@ TEST(Construction, ResumesWithTheSameBits) {
   ASSERT_EQ(rest.stages.size(), whole.stages.size());
   for (size_t i = 0; i < rest.stages.size(); ++i)
     EXPECT_EQ(rest.stages[i].at("least_stands"), whole.stages[i].at("least_stands"));
+}
+
+// A joint with a support is fresh while the course of its block is laid, and no longer.
+TEST(Construction, JointsWithSupportsHaveTheAgeOfTheirBlocks) {
+  const double theta = 38.7 * kDeg;
+  Assembly assembly = testing::make_boxes(
+      {{.center = {0, 0, -0.05}, .size = {1, 3, 0.1}, .fixed = true},
+       {.center = {0, 0, 0.025}, .size = {0.34, 0.34, 0.05}, .density = kGamma / testing::kG, .ring = 3},
+       {.center = {0, 1, 0.025}, .size = {0.34, 0.34, 0.05}, .density = kGamma / testing::kG, .ring = 4}});
+  assembly.num_rings = 5;
+  Case scene = course_case(theta, 0.0);
+  scene.analysis.staged.first_ring = 3;
+  scene.analysis.staged.least = StagedConstruction::Least::cohesion;
+  const Built built = build(scene, assembly);
+  ASSERT_EQ(built.stages.size(), 2u) << built.summary.message;
+  const double needed = kGamma * 0.05 * std::sin(theta);
+  for (size_t k = 0; k < 2; ++k) EXPECT_NEAR(built.least_stands(k) / needed, 1.0, 0.01);
+  EXPECT_EQ(built.failures.front().at("block"), "1");
+  EXPECT_EQ(built.failures.back().at("block"), "2") << "block 1 has hardened";
 }
 
 // Without `least` there is no mortar with which to go on.
