@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "assembly/case/declare.hpp"
 
 namespace cupola {
@@ -20,7 +22,10 @@ void declare_strength_rules(Section& s, Case& the_case) {
   const StagedConstruction& staged = analysis.staged;
   const bool fresh_strength = analysis.type == AnalysisType::staged &&
                               (staged.fresh.cohesion > 0.0 || staged.fresh.tension > 0.0 ||
-                               staged.least == StagedConstruction::Least::cohesion || !staged.curing.empty());
+                               staged.least == StagedConstruction::Least::cohesion ||
+                               std::ranges::any_of(staged.curing, [](const CuringMortar& mortar) {
+                                 return mortar.law.cohesion || mortar.law.tension;
+                               }));
   s.rule(!fresh_strength || the_case.joints.compliance.per == Compliance::Per::area, "analysis",
          "staged: cohesion and tension of fresh mortar require joints.compliance: {per: area}");
   if (!the_case.joints.have_strength() && !fresh_strength) return;
