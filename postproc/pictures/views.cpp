@@ -130,7 +130,8 @@ bool draw_overview(const Pictured& run, Painter* painter) {
 
 /// The half of a vault behind its axis.
 bool draw_inside(const Pictured& run, Painter* painter) {
-  if (!is_vault(run.e) || run.e.scene.geometry.window) return false;  // the overview shows a window from inside
+  if (!is_vault(run.e) || run.e.scene.geometry.window)
+    return false;  // the overview shows a window from inside
   paint_blocks(
       run, [&](int b) { return bond_colour(run.e.assembly.blocks[b]); },
       [&](int b) { return is_behind(run, b); }, painter);
