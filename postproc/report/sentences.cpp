@@ -230,7 +230,8 @@ std::string verdict_text(const Summary& s) {
       return s.analysis == AnalysisType::staged ? "Every stage of the construction stands."
                                                 : "The structure is at rest.";
     case Status::moving:
-      return "The structure is moving: no equilibrium was found.";
+      return s.analysis == AnalysisType::staged ? "Not every stage of the construction stands."
+                                                : "The structure is moving: no equilibrium was found.";
     case Status::collapsed:
       return "The structure has collapsed.";
     case Status::unconverged:

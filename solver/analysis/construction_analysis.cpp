@@ -75,7 +75,6 @@ class ConstructionRun {
   std::string checkpoint() const;
   void judge();
 
-  const Case& scene_;
   const StagedConstruction& staged_;
   const Assembly& assembly_;
   const AnalysisSinks& sinks_;
@@ -88,8 +87,7 @@ class ConstructionRun {
 };
 
 ConstructionRun::ConstructionRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks)
-    : scene_(scene),
-      staged_(scene.analysis.staged),
+    : staged_(scene.analysis.staged),
       assembly_(assembly),
       sinks_(sinks),
       building_(scene, assembly, sinks.log),

@@ -245,6 +245,8 @@ TEST(Report, ShowsTheMotionOfARunThatFoundNoEquilibrium) {
     const std::string html = text_of(read_text(post + "/report.html"));
     EXPECT_NE(html.find("<h2>Motion</h2>"), std::string::npos);
     EXPECT_NE(html.find(says), std::string::npos) << says;
+    EXPECT_EQ(html.find("Not every stage of the construction stands.") != std::string::npos,
+              analysis == AnalysisType::staged);
     for (const char* wrong :
          {"safety", "Certified", "certified", "thrust line", "balance the load", "unbalanced force",
           "Findings", "largest displacement of a block", "Map", "may not be unique"})
