@@ -28,6 +28,9 @@ CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
 HEIGHTS = ["h7", "h14", "h17", "h22", "h28", "h32"]
 FRICTIONS = [0.0, 0.2, 0.4]
 BONDS = {"none": "", "herringbone": "_herringbone"}
+REVOLUTION = "none, dome of revolution"
+DOME = {"geometry.surface.type": "dome", "geometry.surface.thickness": 0.34, "geometry.surface.crown_angle_deg": 66}
+MODELS = {"none": ("none", {}), REVOLUTION: ("none", DOME), "herringbone": ("herringbone", {})}
 
 
 def run(program, arguments):
@@ -135,17 +138,18 @@ class Study:
     def __init__(self, bin_folder, work):
         self.bin, self.work = bin_folder, work
 
-    def course(self, height, bond, *mortar, **more):
+    def course(self, height, model, *mortar, **more):
+        bond, shape = MODELS[model]
         return Course(self.bin, self.work, f"centering_{height}{BONDS[bond]}",
-                      {**settings(*mortar), **{f"geometry.bond.{key}": value for key, value in more.items()}})
+                      {**settings(*mortar), **shape, **{f"geometry.bond.{key}": value for key, value in more.items()}})
 
     def map(self):
-        """(height, bond, friction, course) of every run of the map."""
+        """(height, model, friction, course) of every run of the map."""
         for height in HEIGHTS:
-            for bond in BONDS:
+            for model in MODELS:
                 for friction in FRICTIONS:
-                    course = self.course(height, bond, friction)
-                    yield course.options("height"), bond, friction, course
+                    course = self.course(height, model, friction)
+                    yield course.options("height"), model, friction, course
 
 
 def kpa(value):
@@ -162,9 +166,9 @@ def results(course, friction):
 
 def write_map(study):
     out = csv.writer(sys.stdout)
-    out.writerow(["height, m", "bond", "bed friction", *RESULTS])
-    for height, bond, friction, course in study.map():
-        out.writerow([f"{height:g}", bond, friction, *results(course, friction)])
+    out.writerow(["height, m", "herringbone", "bed friction", *RESULTS])
+    for height, model, friction, course in study.map():
+        out.writerow([f"{height:g}", model.replace("herringbone", "ten spirals"), friction, *results(course, friction)])
 
 
 def write_mortar(study):
@@ -199,12 +203,12 @@ def write_nubian(study):
             out.writerow([angle, friction, kpa(expected), kpa(found), f"{100 * (found / expected - 1):.2f}"])
 
 
-def shares(runs, bond, value):
-    """Per height: largest ratio of a cohesion to the one that the open course without herringbones needs, over the frictions."""
-    without = {(height, friction): course.open for height, other, friction, course in runs if other == "none"}
+def shares(runs, model, without, value):
+    """Per height: largest ratio of a cohesion to the one that the open course of the model `without` needs, over the frictions."""
+    without = {(height, friction): course.open for height, other, friction, course in runs if other == without}
     found = {}
     for height, other, friction, course in runs:
-        if other == bond and without[height, friction]:
+        if other == model and without[height, friction]:
             need = value(course)
             share = math.inf if need is None else need / without[height, friction]
             found[height] = max(found.get(height, 0.0), share)
@@ -238,12 +242,13 @@ def write_verdicts(study):
     out = csv.writer(sys.stdout)
     out.writerow(["sentence of the paper", "verdict", "share, a brick being laid: smallest and largest over the heights",
                   "share, closed, by height"])
-    for sentence, bond, held in (
+    for sentence, model, without, held in (
             ("certainly the herringbone will play the decisive role in preventing the sliding of the bricks", "herringbone",
-             "of a run are held until it is closed"),
+             "none", "of a run are held until it is closed"),
             ("Building without falsework was possible for a dome of revolution; constructed by layering one ring on the other",
-             "none", "are held until the ring is closed")):
-        opened, closed = (shares(runs, bond, value) for value in (lambda course: course.open, lambda course: course.closed))
+             REVOLUTION, REVOLUTION, "are held until the ring is closed")):
+        opened, closed = (shares(runs, model, without, value)
+                          for value in (lambda course: course.open, lambda course: course.closed))
         out.writerow([sentence, verdict(opened, closed, held), f"{min(opened.values()):.2f} to {max(opened.values()):.2f}",
                       "; ".join(f"{height:g} m: {share:.2f}" for height, share in sorted(closed.items()))])
 
@@ -267,7 +272,7 @@ def write_heights(study):
         for friction in FRICTIONS:
             cells = []
             for wanted, need in needs:
-                points = [(height, need(course)) for height, bond, mu, course in runs if (bond, mu) == (wanted, friction)]
+                points = [(height, need(course)) for height, model, mu, course in runs if (model, mu) == (wanted, friction)]
                 cells.append("not found" if None in (p[1] for p in points) else height_reached(points, cohesion))
             out.writerow([cohesion / 1000, friction, *cells])
 
@@ -345,12 +350,12 @@ def plot(picture, size, commands, data):
 
 
 def draw_map(study, picture):
-    runs = [(height, bond, course) for height, bond, friction, course in study.map() if friction == 0.2]
+    runs = [(height, model, course) for height, model, friction, course in study.map() if friction == 0.2]
     missing = lambda value: "NaN" if value is None else value / 1000
-    data = {"none": [(height, missing(course.open), course.free_end(0.2, 1) / 1000) for height, bond, course in runs
-                     if bond == "none"],
+    data = {"none": [(height, missing(course.open), course.free_end(0.2, 1) / 1000) for height, model, course in runs
+                     if model == "none"],
             "spirals": [(height, missing(course.laying(0)), missing(course.laying(1)), missing(course.closed))
-                        for height, bond, course in runs if bond != "none"]}
+                        for height, model, course in runs if model == "herringbone"]}
     plot(picture, "900,560", """
 set xlabel 'height above the springing, m'
 set ylabel 'least cohesion of the fresh mortar, kPa'
@@ -401,8 +406,8 @@ def write_figures(study):
     draw_arch(study, pictures / "centering_arch.png")
 
 
-TABLES = {"map": write_map, "mortar": write_mortar, "spirals": write_spirals, "arch": write_arch, "figures": write_figures, "nubian": write_nubian, "verdicts": write_verdicts,
-          "heights": write_heights}
+TABLES = {"map": write_map, "mortar": write_mortar, "spirals": write_spirals, "arch": write_arch, "figures": write_figures,
+          "nubian": write_nubian, "verdicts": write_verdicts, "heights": write_heights}
 
 if __name__ == "__main__":
     if len(sys.argv) != 4 or sys.argv[3] not in TABLES:
