@@ -168,7 +168,7 @@ def write_map(study):
     out = csv.writer(sys.stdout)
     out.writerow(["height, m", "herringbone", "bed friction", *RESULTS])
     for height, model, friction, course in study.map():
-        out.writerow([f"{height:g}", model.replace("herringbone", "ten spirals"), friction, *results(course, friction)])
+        out.writerow([f"{height:g}", model.replace("herringbone", "spirals"), friction, *results(course, friction)])
 
 
 def write_mortar(study):
