@@ -201,6 +201,10 @@ void declare_analysis(Section& s, Analysis& analysis) {
            "dynamic: start unloaded (rest) or in static equilibrium; automatic: static under base motion or "
            "varying friction, else rest");
   s.section("stop", analysis.stop, "dynamic: conditions that end the run before its duration", declare_stop);
+  s.rule(analysis.stop.settled_time == 0.0 || analysis.stop.settled_time >= analysis.thresholds.window,
+         "stop.settled_time",
+         fmt::format("{} s: must be 0 or >= thresholds.window, {} s, over which rest is judged",
+                     analysis.stop.settled_time, analysis.thresholds.window));
   s.section("limit", analysis.limit, "limit: parameter and bracket of the search", declare_limit);
   s.section("range", analysis.range, "range: quantities sought over all admissible states", declare_range);
   s.section("staged", analysis.staged, "staged: order of the stages, and the fresh mortar", declare_staged);
