@@ -8,8 +8,8 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/process.hpp"
-#include "solver/analysis/analysis_options.hpp"
-#include "solver/analysis/static_start.hpp"
+#include "solver/analysis/statics/analysis_options.hpp"
+#include "solver/analysis/statics/static_start.hpp"
 #include "solver/contact/blocks/block_cholesky.hpp"
 #include "solver/contact/methods/method_table.hpp"
 #include "solver/contact/problem/cone.hpp"

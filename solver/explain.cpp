@@ -8,9 +8,9 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/files/number_text.hpp"
-#include "solver/analysis/analysis_options.hpp"
-#include "solver/analysis/cyclic_reduction.hpp"
-#include "solver/analysis/record.hpp"
+#include "solver/analysis/record/record.hpp"
+#include "solver/analysis/statics/analysis_options.hpp"
+#include "solver/analysis/statics/cyclic_reduction.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {

@@ -18,7 +18,7 @@
 #include "assembly/program/terminal.hpp"
 #include "assembly/program/warnings.hpp"
 #include "solver/analysis/analysis.hpp"
-#include "solver/analysis/record.hpp"
+#include "solver/analysis/record/record.hpp"
 #include "solver/collision/geometry_warnings.hpp"
 #include "solver/collision/patch_file.hpp"
 #include "solver/dynamics/scene_options.hpp"

@@ -8,11 +8,12 @@
 #include "assembly/files/byte_archive.hpp"
 #include "assembly/model/block_names.hpp"
 #include "solver/analysis/analysis.hpp"
-#include "solver/analysis/construction.hpp"
-#include "solver/analysis/falling_blocks.hpp"
-#include "solver/analysis/least_search.hpp"
-#include "solver/analysis/record.hpp"
-#include "solver/analysis/record_archive.hpp"
+#include "solver/analysis/construction/construction.hpp"
+#include "solver/analysis/construction/falling_blocks.hpp"
+#include "solver/analysis/construction/least_search.hpp"
+#include "solver/analysis/record/record.hpp"
+#include "solver/analysis/record/record_archive.hpp"
+#include "solver/analysis/statics/static_record.hpp"
 #include "solver/dynamics/memory_archive.hpp"
 
 namespace cupola {

@@ -8,11 +8,11 @@
 #include "assembly/base/process.hpp"
 #include "assembly/case/limit_parameter.hpp"
 #include "assembly/model/thickness.hpp"
-#include "solver/analysis/analysis_options.hpp"
-#include "solver/analysis/direct_limit.hpp"
-#include "solver/analysis/mechanism.hpp"
-#include "solver/analysis/record.hpp"
-#include "solver/analysis/static_solve.hpp"
+#include "solver/analysis/admissible/direct_limit.hpp"
+#include "solver/analysis/record/mechanism.hpp"
+#include "solver/analysis/record/record.hpp"
+#include "solver/analysis/statics/analysis_options.hpp"
+#include "solver/analysis/statics/static_solve.hpp"
 
 namespace cupola {
 namespace {

@@ -8,11 +8,12 @@
 #include "assembly/base/process.hpp"
 #include "assembly/files/byte_archive.hpp"
 #include "solver/analysis/analysis.hpp"
-#include "solver/analysis/analysis_options.hpp"
-#include "solver/analysis/dynamic_history.hpp"
-#include "solver/analysis/motion_verdict.hpp"
-#include "solver/analysis/record.hpp"
-#include "solver/analysis/static_start.hpp"
+#include "solver/analysis/motion/dynamic_history.hpp"
+#include "solver/analysis/motion/motion_verdict.hpp"
+#include "solver/analysis/record/record.hpp"
+#include "solver/analysis/statics/analysis_options.hpp"
+#include "solver/analysis/statics/static_record.hpp"
+#include "solver/analysis/statics/static_start.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {

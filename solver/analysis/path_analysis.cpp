@@ -7,9 +7,10 @@
 #include "assembly/base/process.hpp"
 #include "assembly/model/block_names.hpp"
 #include "solver/analysis/analysis.hpp"
-#include "solver/analysis/analysis_options.hpp"
-#include "solver/analysis/equilibrium_path.hpp"
-#include "solver/analysis/record.hpp"
+#include "solver/analysis/record/record.hpp"
+#include "solver/analysis/statics/analysis_options.hpp"
+#include "solver/analysis/statics/equilibrium_path.hpp"
+#include "solver/analysis/statics/static_record.hpp"
 #include "solver/dynamics/energy_account.hpp"
 #include "solver/dynamics/scene_options.hpp"
 

@@ -6,9 +6,10 @@
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "solver/analysis/analysis.hpp"
-#include "solver/analysis/analysis_options.hpp"
-#include "solver/analysis/limit_search.hpp"
-#include "solver/analysis/record.hpp"
+#include "solver/analysis/record/record.hpp"
+#include "solver/analysis/statics/analysis_options.hpp"
+#include "solver/analysis/statics/limit_search.hpp"
+#include "solver/analysis/statics/static_record.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/stages.hpp"
 

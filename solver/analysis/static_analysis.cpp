@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "assembly/base/process.hpp"
+#include "solver/analysis/admissible/robustness.hpp"
 #include "solver/analysis/analysis.hpp"
-#include "solver/analysis/analysis_options.hpp"
-#include "solver/analysis/record.hpp"
-#include "solver/analysis/robustness.hpp"
-#include "solver/analysis/static_solve.hpp"
+#include "solver/analysis/statics/analysis_options.hpp"
+#include "solver/analysis/statics/static_record.hpp"
+#include "solver/analysis/statics/static_solve.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/runtime/threads.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "generators/importer/import.hpp"
 #include "solver/analysis/analysis.hpp"
-#include "solver/analysis/static_solve.hpp"
+#include "solver/analysis/statics/static_solve.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "tests/generators/shared_data.hpp"
 

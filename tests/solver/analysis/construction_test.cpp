@@ -7,7 +7,7 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/analysis/analysis.hpp"
-#include "solver/analysis/least_search.hpp"
+#include "solver/analysis/construction/least_search.hpp"
 #include "solver/dynamics/laying_order.hpp"
 #include "solver/dynamics/stages.hpp"
 #include "tests/solver/course_scenes.hpp"

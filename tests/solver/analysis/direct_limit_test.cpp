@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/analysis/analysis.hpp"
-#include "solver/analysis/analysis_options.hpp"
+#include "solver/analysis/statics/analysis_options.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::direct_limit_test {

@@ -3,8 +3,8 @@
 #include "assembly/base/error.hpp"
 #include "assembly/model/thickness.hpp"
 #include "solver/analysis/analysis.hpp"
-#include "solver/analysis/limit_search.hpp"
-#include "solver/analysis/mechanism.hpp"
+#include "solver/analysis/record/mechanism.hpp"
+#include "solver/analysis/statics/limit_search.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 // The search for critical values. The values themselves are rows of the verification manual.

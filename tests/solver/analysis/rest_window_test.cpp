@@ -1,4 +1,4 @@
-#include "solver/analysis/rest_window.hpp"
+#include "solver/analysis/motion/rest_window.hpp"
 
 #include <cmath>
 #include <functional>

@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "solver/analysis/record.hpp"
-#include "solver/analysis/static_solve.hpp"
+#include "solver/analysis/record/record.hpp"
+#include "solver/analysis/statics/static_record.hpp"
+#include "solver/analysis/statics/static_solve.hpp"
 #include "tests/solver/analysis/dense_statics.hpp"
 #include "tests/solver/motion_scenes.hpp"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/analysis/analysis.hpp"
-#include "solver/analysis/static_solve.hpp"
+#include "solver/analysis/statics/static_solve.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 // Rectangular bed joints with strength, against the plastic limits of their resultants.

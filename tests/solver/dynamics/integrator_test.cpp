@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
-#include "solver/analysis/static_start.hpp"
+#include "solver/analysis/statics/static_start.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::integrator_test {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/analysis/static_start.hpp"
+#include "solver/analysis/statics/static_start.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 // Blocks with one joint that has strength, in motion.

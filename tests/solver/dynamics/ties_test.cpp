@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
-#include "solver/analysis/static_solve.hpp"
+#include "solver/analysis/statics/static_solve.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::ties_test {

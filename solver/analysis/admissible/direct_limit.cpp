@@ -1,0 +1,25 @@
+#include "solver/analysis/admissible/direct_limit.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace cupola {
+
+double DirectLimit::relative_width() const {
+  const double size = std::abs(middle());
+  return size > 0.0 ? std::abs(admissible - moving) / size : std::abs(admissible - moving);
+}
+
+DirectLimit not_found(std::string message) {
+  DirectLimit limit;
+  limit.message = std::move(message);
+  return limit;
+}
+
+std::string at_both_ends(bool admissible, double low, double high) {
+  return fmt::format("the structure {} at both ends of the bracket, {:g} and {:g}; widen the bracket",
+                     admissible ? "stands" : "moves", low, high);
+}
+
+}  // namespace cupola

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "assembly/case/case.hpp"
+#include "solver/analysis/admissible/rigid_scene.hpp"
+
+namespace cupola {
+
+/// One solve of a direct limit analysis.
+struct DirectTrial {
+  double value = 0.0;
+  bool admissible = false;  ///< forces in equilibrium and within the cones exist
+  std::optional<double>
+      pull;  ///< that the contacts need (pull_solve.hpp); infinite: none helps, or any pressure is possible
+  int iterations = 0;
+};
+
+/// The critical value between a value with an admissible state and one for which a mechanism proves that there
+/// is none.
+struct DirectLimit {
+  bool found = false;
+  bool unlimited = false;  ///< not found because the structure stands at every value in one direction
+  bool no_state = false;   ///< not found because a mechanism moves at every value
+  double admissible = 0.0, moving = 0.0;
+  RigidScene at_admissible, at_moving;
+  VecX gamma;      ///< N: the admissible state, or one without limit (3 nc)
+  VecX mechanism;  ///< its velocities prove the motion (6 nb); empty for a stress
+  int trials = 0, iterations = 0;
+  std::string message;  ///< how the search ended
+  double middle() const { return 0.5 * (admissible + moving); }
+  double relative_width() const;
+};
+
+/// The scene at one value of the parameter.
+using SceneAt = std::function<RigidScene(double value)>;
+using ReportTrial = std::function<void(const DirectTrial&)>;
+
+/// Critical value of a parameter on which the loads depend smoothly. Each iteration maximises (or minimises)
+/// the multiplier t of the loads w(x) + t w'(x), linear in x, and moves x by t: one solve where the loads are
+/// linear in the parameter, a few for a tilt. `low` and `high`: an admissible state exists at one of them. If one exists
+/// at both, and the loads that grow with the parameter have one by themselves, there is no limit.
+DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, double relative_width,
+                           const ReportTrial& report);
+
+/// Critical value of a parameter of the joints: the root of the pull alpha that the contacts need (pull_solve.hpp). Friction:
+/// Newton's method with the derivative that the mechanism gives, on rough solves, until its next step would not leave the
+/// width required; then a solve on either side of the root. Thickness and extent of the joints: the secant method. A bracket
+/// that always contains the root safeguards both.
+DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, double relative_width,
+                            bool friction, const ReportTrial& report);
+
+/// The least peak stress, Pa: the smallest p for which an admissible state exists whose normal forces are at most p times
+/// the areas of their contact points,
+///
+///     minimise p,   D gamma + w = 0,   gamma in Y,   gamma_n,i <= p A_i
+///
+/// One conic programme. `moving`: no state has less. Requires compliance per area (InputError), with which contact
+/// points stand for areas.
+DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportTrial& report);
+
+/// A limit that was not found, and why.
+DirectLimit not_found(std::string message);
+/// Why: the structure stands, or moves, at both ends of the bracket.
+std::string at_both_ends(bool admissible, double low, double high);
+
+}  // namespace cupola

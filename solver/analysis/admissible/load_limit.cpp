@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/analysis/admissible/direct_limit.hpp"
+#include "solver/conic/conic_bounds.hpp"
+#include "solver/conic/opening_motion.hpp"
+#include "solver/conic/solve_conic.hpp"
+
+namespace cupola {
+namespace {
+
+/// Whether an admissible state exists at a value; none if the solve did not decide.
+std::optional<bool> has_state(const SceneAt& scene_at, double value, DirectLimit* limit,
+                              const ReportTrial& report) {
+  const ConicSolution any = solve_conic(scene_at(value).problem);
+  ++limit->trials;
+  limit->iterations += any.iterations;
+  const bool admissible = any.outcome == ConicOutcome::optimal;
+  report({value, admissible, {}, any.iterations});
+  if (any.outcome == ConicOutcome::stalled) return std::nullopt;
+  return admissible;
+}
+
+/// w'(x) by central differences: exact for loads that are linear in x, to 1e-9 for a tilt in degrees.
+VecX derivative_of_loads(const SceneAt& scene_at, double x) {
+  constexpr double kStep = 1e-3;
+  return (scene_at(x + kStep).problem.load - scene_at(x - kStep).problem.load) / (2.0 * kStep);
+}
+
+/// The largest multiplier of the loads that grow with the parameter, towards higher (1) or lower (-1) values.
+ConicProblem largest_multiplier(const SceneAt& scene_at, double x, double towards, RigidScene* scene) {
+  *scene = scene_at(x);
+  return with_multiplier(scene->problem, derivative_of_loads(scene_at, x), -towards);
+}
+
+/// The structure stands at both ends of the bracket: perhaps it does at all values.
+DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high) {
+  RigidScene scene;
+  for (const double towards : {1.0, -1.0}) {
+    const double end = towards > 0.0 ? high : low;
+    if (solve_conic(largest_multiplier(scene_at, end, towards, &scene)).outcome != ConicOutcome::unbounded)
+      continue;
+    const ConicSolution any = solve_conic(scene.problem);
+    DirectLimit limit = not_found(fmt::format(
+        "no limit: the structure stands at {:g} and at every {} value, because the loads that grow "
+        "with it have an admissible state by themselves",
+        towards > 0.0 ? low : high, towards > 0.0 ? "higher" : "lower"));
+    limit.unlimited = true;
+    limit.gamma = any.gamma;
+    limit.at_admissible = std::move(scene);
+    return limit;
+  }
+  return not_found(at_both_ends(true, low, high));
+}
+
+/// Both bounds of the multiplier. Where rounding keeps them apart, the mechanism is improved.
+ConicBounds bounds_of(const ConicProblem& problem, double enough, ConicSolution* solution) {
+  ConicBounds bounds = conic_bounds(problem, *solution);
+  if (ConicSolution opened = *solution;
+      bounds.upper - bounds.lower > enough && open_contacts(problem, &opened)) {
+    const ConicBounds improved = conic_bounds(problem, opened);
+    if (improved.lower > bounds.lower) {
+      bounds = improved;
+      *solution = std::move(opened);
+    }
+  }
+  bounds.lower = std::min(bounds.lower, bounds.upper);
+  return bounds;
+}
+
+}  // namespace
+
+DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, double relative_width,
+                           const ReportTrial& report) {
+  constexpr int kMaxIterations = 30;
+  DirectLimit limit;
+  const std::optional<bool> at_low = has_state(scene_at, low, &limit, report);
+  const std::optional<bool> at_high = has_state(scene_at, high, &limit, report);
+  if (!at_low || !at_high)
+    return not_found(fmt::format("the solve at {:g}, one end of the bracket, did not converge; move that end",
+                                 at_low ? high : low));
+  if (*at_low && *at_high) return stands_at_both_ends(scene_at, low, high);
+  if (!*at_low && !*at_high) return not_found(at_both_ends(false, low, high));
+  const double towards = *at_low ? 1.0 : -1.0;
+  double x = *at_low ? low : high;
+  for (int k = 0; k < kMaxIterations; ++k) {
+    const ConicProblem problem = largest_multiplier(scene_at, x, towards, &limit.at_admissible);
+    ConicSolution solution = solve_conic(problem);
+    ++limit.trials;
+    limit.iterations += solution.iterations;
+    const double step = solution.multipliers[0];
+    const ConicBounds bounds = bounds_of(problem, 0.1 * relative_width * std::abs(x + step), &solution);
+    if (solution.outcome == ConicOutcome::infeasible || solution.outcome == ConicOutcome::unbounded ||
+        !std::isfinite(bounds.upper) || !std::isfinite(bounds.lower))
+      return not_found(fmt::format("the linearised problem at {:.8g} is {}", x, to_string(solution.outcome)));
+    limit.admissible = x - towards * bounds.upper;
+    limit.moving = x - towards * bounds.lower;
+    limit.gamma = solution.gamma;
+    limit.mechanism = solution.v;
+    report({limit.admissible, true, {}, solution.iterations});
+    const double next = std::clamp(x + step, low, high);
+    // Done where the step is negligible, or exact because the loads are linear.
+    const VecX missed = scene_at(x + step).problem.load - (problem.load + step * problem.load_columns);
+    const bool exact = missed.norm() <= 1e-12 * problem.load.norm();
+    x = next;
+    if (exact || std::abs(step) <= 0.1 * relative_width * std::abs(x)) {
+      limit.found = true;
+      break;
+    }
+  }
+  if (!limit.found) return not_found(fmt::format("no convergence after {} linearisations", kMaxIterations));
+  limit.at_admissible = scene_at(limit.admissible);
+  limit.at_moving = scene_at(limit.moving);
+  return limit;
+}
+
+}  // namespace cupola

@@ -1,0 +1,53 @@
+#include <algorithm>
+
+#include "assembly/base/error.hpp"
+#include "solver/analysis/admissible/direct_limit.hpp"
+#include "solver/conic/conic_bounds.hpp"
+#include "solver/conic/solve_conic.hpp"
+
+namespace cupola {
+namespace {
+
+/// gamma_n,i <= p A_i with the multiplier p; the joints' own compressive strength does not count.
+ConicProblem stress_problem(const RigidScene& rigid) {
+  ConicProblem problem = with_multiplier(rigid.problem, VecX::Zero(rigid.problem.load.size()), 1.0);
+  auto& strength = problem.contacts.strength;
+  strength.resize(static_cast<size_t>(problem.contacts.num_contacts()));
+  std::vector<ContactStrength> per_stress(strength.size(), {0.0, 0.0, 0.0});
+  for (size_t i = 0; i < rigid.contacts.points.size(); ++i) {
+    strength[i].compression = 0.0;
+    per_stress[i].compression = rigid.contacts.points[i].area;
+  }
+  problem.strength_columns.push_back(std::move(per_stress));
+  return problem;
+}
+
+}  // namespace
+
+DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportTrial& report) {
+  if (scene.joints.compliance.per != Compliance::Per::area)
+    throw InputError(
+        "analysis.limit.parameter: peak_stress requires joints.compliance.per: area, with which contact "
+        "points "
+        "stand for areas");
+  const ConicProblem problem = stress_problem(rigid);
+  const ConicSolution solution = solve_conic(problem);
+  DirectLimit limit;
+  limit.trials = 1;
+  limit.iterations = solution.iterations;
+  if (solution.outcome == ConicOutcome::infeasible) {
+    limit.no_state = true;
+    limit.message = "no admissible state exists, whatever the stress";
+    return limit;
+  }
+  const ConicBounds bounds = conic_bounds(problem, solution);
+  report({bounds.upper, true, {}, solution.iterations});
+  limit.found = true;
+  limit.admissible = bounds.upper;
+  limit.moving = std::min(bounds.lower, bounds.upper);
+  limit.gamma = solution.gamma;
+  limit.at_admissible = std::move(rigid);
+  return limit;
+}
+
+}  // namespace cupola

@@ -1,0 +1,68 @@
+#include "solver/analysis/admissible/pull_solve.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "solver/conic/conic_bounds.hpp"
+#include "solver/conic/solve_conic.hpp"
+
+namespace cupola {
+
+PullSolve solve_pull(double value, RigidScene scene, bool estimate) {
+  constexpr double kEstimate = 1e-2;
+  PullSolve solve;
+  solve.value = value;
+  solve.scene = std::move(scene);
+  const ConicProblem& rigid = solve.scene.problem;
+  VecX press = VecX::Zero(rigid.cost.size());
+  press(Eigen::seq(0, Eigen::last, 3)).setConstant(solve.scene.model.block_weight);
+  solve.problem = with_multiplier(rigid, -generalized_impulse(rigid.contacts, press), 1.0);
+  if (rigid.has_strength()) {  // gamma - alpha a may be pulled, but not pushed harder
+    const ContactStrength pressed{0.0, 0.0, solve.scene.model.block_weight};
+    solve.problem.strength_columns.assign(1, std::vector(rigid.contacts.strength.size(), pressed));
+  }
+  solve.solution =
+      solve_conic(solve.problem, {.target = 1e-10, .relative_target = estimate ? kEstimate : 0.0});
+  // Imbalance that an admissible state may have, over the largest load of a block: rounding, or a small share
+  // of what every contact has to spare.
+  constexpr double kRounding = 1e-9, kShare = 1e-3;
+  const double infinity = std::numeric_limits<double>::infinity();
+  const ConicBounds bounds = conic_bounds(solve.problem, solve.solution);
+  solve.pull = solve.solution.primal;
+  switch (solve.solution.outcome) {
+    case ConicOutcome::unbounded:
+      solve.pull = -infinity;
+      solve.decided = true;
+      break;
+    case ConicOutcome::infeasible:  // not even contacts that can pull hold it
+      solve.pull = infinity;
+      solve.decided = true;
+      break;
+    case ConicOutcome::optimal:
+    case ConicOutcome::stalled:
+      solve.decided = bounds.lower > 0.0 ||
+                      (solve.pull <= 0.0 && bounds.imbalance <= std::max(kRounding, -kShare * solve.pull));
+      break;
+  }
+  return solve;
+}
+
+double slope_in_friction(const PullSolve& at, const VecX& dmu_dx) {
+  const VecX s = relative_velocity(at.problem.contacts, at.solution.v);
+  double slope = 0.0;
+  for (int i = 0; i < at.problem.contacts.num_contacts(); ++i)
+    slope -= s.segment<2>(3 * i + 1).norm() * at.solution.gamma[3 * i] * dmu_dx[i];
+  return slope;
+}
+
+VecX admissible_state(const PullSolve& solve) {
+  if (solve.solution.outcome != ConicOutcome::unbounded) {
+    VecX gamma = solve.solution.gamma;
+    gamma(Eigen::seq(0, Eigen::last, 3)).array() -=
+        solve.solution.multipliers[0] * solve.scene.model.block_weight;
+    return gamma;
+  }
+  return solve_conic(solve.scene.problem).gamma;
+}
+
+}  // namespace cupola

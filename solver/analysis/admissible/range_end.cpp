@@ -1,0 +1,121 @@
+#include "solver/analysis/admissible/range_end.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/conic/conic_bounds.hpp"
+#include "solver/conic/solve_conic.hpp"
+
+namespace cupola {
+namespace {
+
+/// An objective in the unknowns of a conic problem that has no other objective.
+struct ConicObjective {
+  const ConicProblem* problem = nullptr;
+  VecX value;
+  std::optional<VecX> over;
+  bool of_sector = false;
+};
+
+/// In the forces of a sector where one is given and the objective repeats, else in those of the whole model.
+ConicObjective objective_in(const RigidScene& scene, const RangeObjective& objective,
+                            const SectorProblem* sector) {
+  ConicObjective whole{&scene.problem, objective.value.coefficients(scene.contacts), {}};
+  if (objective.over) whole.over = objective.over->coefficients(scene.contacts);
+  if (sector == nullptr) return whole;
+  const std::optional<VecX> value = sector->coefficients(whole.value, objective.mean_of_images);
+  const std::optional<VecX> over = whole.over ? sector->coefficients(*whole.over, false) : std::nullopt;
+  if (!value || over.has_value() != whole.over.has_value()) return whole;
+  return {&sector->problem(), *value, over, true};
+}
+
+/// The conic problem whose least value is `towards` times the end.
+ConicProblem problem_of(const ConicObjective& objective, double towards) {
+  ConicProblem problem = *objective.problem;
+  problem.cost = towards * objective.value;
+  if (!objective.over) return problem;
+  problem.load_columns = problem.load;
+  problem.load.setZero();
+  if (problem.has_strength()) {
+    problem.strength_columns.assign(1, problem.contacts.strength);
+    for (ContactStrength& strength : problem.contacts.strength)
+      if (std::isfinite(strength.compression))
+        strength = {0.0, 0.0, 0.0};
+      else
+        strength.tension = strength.cohesion = 0.0;
+  }
+  problem.multiplier_cost = VecX::Zero(1);
+  problem.rows = *objective.over;
+  problem.row_multipliers = MatX::Zero(1, 1);
+  problem.row_values = VecX::Ones(1);
+  return problem;
+}
+
+/// The same without loads: t = 0.
+ConicProblem without_loads(ConicProblem problem) {
+  problem.load_columns.resize(Eigen::NoChange, 0);
+  problem.strength_columns.clear();
+  problem.multiplier_cost.resize(0);
+  problem.row_multipliers.resize(0, 1);
+  return problem;
+}
+
+double largest_normal_force(const VecX& gamma) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < gamma.size(); i += 3) largest = std::max(largest, gamma[i]);
+  return largest;
+}
+
+}  // namespace
+
+RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective, double towards,
+                        const SectorProblem* sector) {
+  RangeSolution found;
+  const ConicObjective linear = objective_in(scene, objective, sector);
+  found.of_sector = linear.of_sector;
+  ConicProblem problem = problem_of(linear, towards);
+  ConicSolution solution = solve_conic(problem);
+  found.iterations = solution.iterations;
+  // The multiplier of the loads is free in the conic problem. Where it turns out negative, loads only hinder.
+  if (objective.over && solution.multipliers[0] < 0.0) {
+    problem = without_loads(problem);
+    solution = solve_conic(problem);
+    found.iterations += solution.iterations;
+  }
+  constexpr double kProven =
+      1e-6;  // relative: what a range promises, of a solution that rounding kept from its tolerance
+  bool bounded = solution.outcome == ConicOutcome::optimal;
+  if (bounded || solution.outcome == ConicOutcome::stalled) {
+    const ConicBounds bounds = conic_bounds(problem, solution);
+    bounded = bounded || (bounds.imbalance <= kProven && bounds.relative_gap() <= kProven);
+    found.end.value = towards * bounds.upper + objective.value.constant;
+    found.end.bound = towards * std::min(bounds.lower, bounds.upper) + objective.value.constant;
+  }
+  if (bounded) {
+    found.end.outcome = RangeOutcome::bounded;
+    // What its own bound does not tell from zero is zero.
+    if (std::abs(*found.end.value) <= std::abs(*found.end.value - *found.end.bound)) found.end.value = 0.0;
+  }
+  found.gamma = linear.of_sector ? sector->whole_forces(solution.gamma) : std::move(solution.gamma);
+  // Infeasible: a ratio whose denominator is zero in every state.
+  if (solution.outcome == ConicOutcome::unbounded) {
+    found.end.outcome = RangeOutcome::unbounded;
+    found.gamma *= scene.model.block_weight / largest_normal_force(found.gamma);
+  } else if (solution.outcome != ConicOutcome::infeasible && objective.over &&
+             solution.multipliers.size() > 0 && solution.multipliers[0] > 0.0) {
+    found.gamma /= solution.multipliers[0];
+  }
+  return found;
+}
+
+double relative_gap(const ForceRange& range, double small) {
+  double size = small, gap = 0.0;
+  for (const RangeEnd* end : {&range.min, &range.max}) {
+    if (!end->value || !end->bound) continue;
+    size = std::max(size, std::abs(*end->value));
+    gap = std::max(gap, std::abs(*end->value - *end->bound));
+  }
+  return gap > 0.0 ? gap / size : 0.0;
+}
+
+}  // namespace cupola

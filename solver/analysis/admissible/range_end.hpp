@@ -1,0 +1,33 @@
+#pragma once
+
+#include "solver/analysis/admissible/force_functional.hpp"
+#include "solver/analysis/admissible/rigid_scene.hpp"
+#include "solver/analysis/admissible/sector_problem.hpp"
+
+namespace cupola {
+
+/// The smallest value of an objective over all admissible states, or the largest.
+struct RangeSolution {
+  RangeEnd end;  ///< without frame
+  VecX
+      gamma;  ///< N: the state; of an unbounded end the self-stress, its largest contact force one block weight
+  int iterations = 0;
+  bool of_sector = false;  ///< one sector was solved
+};
+
+/// `towards`: 1 for the smallest value, -1 for the largest. The scene must have an admissible state. With `sector`, if the
+/// objective repeats around the axis, one sector is solved and its forces are repeated.
+///
+/// A ratio n(gamma) / d(gamma), d >= 0, is made linear as Charnes and Cooper (1962), "Programming with linear
+/// fractional functionals": with gamma' = t gamma and t >= 0,
+///
+///     minimise n(gamma')   subject to   D gamma' + t w = 0,   d(gamma') = 1
+///
+/// The strength of joints is multiplied by t as well.
+RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective, double towards,
+                        const SectorProblem* sector = nullptr);
+
+/// |value - bound| of the worse end over the larger of the ends' sizes and `small`. 0 if no end is bounded.
+double relative_gap(const ForceRange& range, double small);
+
+}  // namespace cupola

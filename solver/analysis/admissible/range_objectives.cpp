@@ -1,0 +1,137 @@
+#include "solver/analysis/admissible/range_objectives.hpp"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "solver/analysis/admissible/base_blocks.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr const char* kSupportsKey = "analysis.range.quantities";
+
+/// Builds the objectives of a quantity.
+class Objectives {
+ public:
+  explicit Objectives(const ForceScene& scene) : scene_(scene) {}
+
+  std::vector<RangeObjective> operator()(const BaseThrust&) const;
+  std::vector<RangeObjective> operator()(const BlockReaction& reaction) const;
+  std::vector<RangeObjective> operator()(const JointForce& joint) const {
+    return {objective_of(joint, scene_)};
+  }
+  std::vector<RangeObjective> operator()(const HoopForce& hoop) const { return {objective_of(hoop, scene_)}; }
+  std::vector<RangeObjective> operator()(const BaseShare& share) const;
+  std::vector<RangeObjective> operator()(const BaseRatio& ratio) const;
+  std::vector<RangeObjective> operator()(const TieForce& tie) const;
+  std::vector<RangeObjective> operator()(const AllJoints& all) const { return objectives_of(all, scene_); }
+
+ private:
+  std::set<int> base_blocks() const { return blocks_on_supports(scene_.assembly, scene_.joints); }
+  std::set<int> base_blocks(const BaseBlocks& group) const {
+    return blocks_on_supports(scene_.assembly, scene_.joints, group);
+  }
+  /// Force of the blocks on their supports along a direction that depends on the joint.
+  template <class Direction>
+  ForceFunctional on_supports(const std::set<int>& blocks, const Direction& direction) const;
+  ForceFunctional weight_of(const std::set<int>& blocks, double factor) const;
+
+  const ForceScene& scene_;
+};
+
+/// A group of base blocks in words.
+std::string name_of(const BaseBlocks& blocks) {
+  switch (blocks.group) {
+    case BaseBlocks::Group::mid_sails:
+      return "mid-sails";
+    case BaseBlocks::Group::listed:
+      return "listed blocks";
+    case BaseBlocks::Group::herringbone:
+      return "herringbone blocks";
+    case BaseBlocks::Group::ribs:
+      break;
+  }
+  return "ribs";
+}
+
+const Vec3 kDown = -Vec3::UnitZ();
+
+template <class Direction>
+ForceFunctional Objectives::on_supports(const std::set<int>& blocks, const Direction& direction) const {
+  ForceFunctional f = scene_.zero();
+  for (const auto& [key, pair] : scene_.joints.pairs()) {
+    const auto [a, b] = key;
+    if (scene_.fixed(a) == scene_.fixed(b)) continue;
+    if (blocks.contains(a) || blocks.contains(b))
+      scene_.add(pair, scene_.fixed(a) ? a : b, direction(pair.centroid), &f);
+  }
+  return f;
+}
+
+ForceFunctional Objectives::weight_of(const std::set<int>& blocks, double factor) const {
+  return on_supports(blocks, [factor](const Vec3&) { return Vec3(factor * kDown); });
+}
+
+std::vector<RangeObjective> Objectives::operator()(const BaseThrust&) const {
+  const auto direction = [this](const Vec3& point) -> Vec3 {
+    const Vec3 outward = scene_.joints.outward(point);
+    return scene_.joints.is_arch() && outward.x() < 0.0 ? Vec3::Zero() : outward;  // one springing
+  };
+  return {{"thrust", "N", on_supports(base_blocks(), direction), {}, {}}};
+}
+
+std::vector<RangeObjective> Objectives::operator()(const BlockReaction& reaction) const {
+  check_block(scene_.assembly, reaction.block);
+  const bool vertical = reaction.component == BlockReaction::Component::vertical;
+  const auto direction = [&](const Vec3& point) {
+    if (reaction.direction) return *reaction.direction;
+    return vertical ? kDown : scene_.joints.outward(point);
+  };
+  if (!scene_.fixed(reaction.block)) base_blocks({BaseBlocks::Group::listed, {reaction.block}});
+  const std::string name =
+      reaction.direction
+          ? fmt::format("reaction of block {} along ({:g}, {:g}, {:g})", scene_.label(reaction.block),
+                        reaction.direction->x(), reaction.direction->y(), reaction.direction->z())
+          : fmt::format("{} reaction of block {}", to_string(reaction.component),
+                        scene_.label(reaction.block));
+  return {{name, "N", on_supports({reaction.block}, direction), {}}};
+}
+
+std::vector<RangeObjective> Objectives::operator()(const BaseShare& share) const {
+  const std::set<int> blocks = base_blocks(share.of);
+  RangeObjective objective{fmt::format("share of the {}", name_of(share.of)), "", weight_of(blocks, 1.0),
+                           weight_of(base_blocks(), 1.0)};
+  return {objective};
+}
+
+std::vector<RangeObjective> Objectives::operator()(const BaseRatio& ratio) const {
+  const auto mean = [this](const BaseBlocks& group) {
+    const std::set<int> blocks = base_blocks(group);
+    return weight_of(blocks, 1.0 / static_cast<double>(blocks.size()));
+  };
+  return {{fmt::format("ratio of the {} to the {}", name_of(ratio.of), name_of(ratio.over)), "",
+           mean(ratio.of), mean(ratio.over)}};
+}
+
+std::vector<RangeObjective> Objectives::operator()(const TieForce& tie) const {
+  const int count = static_cast<int>(scene_.model.ties.size());
+  if (tie.tie >= count)
+    throw InputError(count == 0 ? fmt::format("{}: the model has no ties", kSupportsKey)
+                                : fmt::format("{}: tie {} does not exist: the model has ties 0 to {}",
+                                              kSupportsKey, tie.tie, count - 1));
+  ForceFunctional f = scene_.zero();
+  f.ties[tie.tie] = 1.0;
+  return {{fmt::format("force of tie {}", tie.tie), "N", f, {}}};
+}
+
+}  // namespace
+
+std::vector<RangeObjective> range_objectives(const ForceQuantity& quantity, const Case& scene,
+                                             const Model& model, const ContactSet& contacts) {
+  const ForceScene forces(scene, model, contacts);
+  return std::visit(Objectives(forces), quantity);
+}
+
+}  // namespace cupola

@@ -1,0 +1,85 @@
+#include "solver/analysis/admissible/rigid_scene.hpp"
+
+#include "assembly/base/error.hpp"
+#include "assembly/model/joint_rule.hpp"
+#include "solver/analysis/admissible/joint_geometry.hpp"
+#include "solver/analysis/record/record.hpp"
+#include "solver/collision/contact_detector.hpp"
+#include "solver/contact/problem/cone.hpp"
+#include "solver/dynamics/law_violation.hpp"
+#include "solver/dynamics/scene_options.hpp"
+#include "solver/dynamics/time_step.hpp"
+
+namespace cupola {
+
+namespace {
+
+void scale_joints(const Case& scene, const Assembly& assembly, double extent, ContactSet* contacts) {
+  const JointGeometry joints(scene, assembly, *contacts);
+  for (const auto& [key, pair] : joints.pairs()) {
+    for (const int i : pair.contacts) {
+      Contact& contact = contacts->points[i];
+      const Vec3 shift = (extent - 1.0) * (0.5 * (contact.point_a + contact.point_b) - pair.centroid);
+      contact.point_a += shift;
+      contact.point_b += shift;
+      contact.area *= extent * extent;
+    }
+  }
+}
+
+/// The shear that such a joint carries does not depend on its normal force: no cone.
+void require_friction_with_cohesion(const ContactProblem& problem) {
+  for (int i = 0; i < problem.num_contacts() && !problem.strength.empty(); ++i)
+    if (problem.strength[i].cohesion > 0.0 && problem.mu[i] == 0.0)
+      throw InputError(
+          "joints.cohesion: ranges and direct limits require friction > 0 in joints with cohesion; give "
+          "joints.friction, "
+          "or analysis.limit.method: bisection");
+}
+
+}  // namespace
+
+RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly, double joint_extent) {
+  RigidScene rigid;
+  rigid.assembly = std::move(assembly);
+  rigid.model = make_model(scene, *rigid.assembly);
+  rigid.start = state_at_rest(rigid.model);
+  ContactDetector detector(*rigid.assembly, detection_options(scene));
+  rigid.contacts = detector.update(rigid.start.poses);
+  const double open = joint_rule(smallest_block_size(*rigid.assembly), scene.contact.margin).min_width;
+  std::erase_if(rigid.contacts.points, [&](const Contact& contact) { return contact.gap > open; });
+  if (joint_extent != 1.0) scale_joints(scene, *rigid.assembly, joint_extent, &rigid.contacts);
+  rigid.memories = match_memories({}, rigid.contacts.points);
+
+  const StepOptions step{.h = 1.0, .time_advance = 0.0};
+  ConicProblem& problem = rigid.problem;
+  problem.contacts =
+      build_step_problem(rigid.model, rigid.start, rigid.contacts, rigid.memories, step).problem;
+  require_friction_with_cohesion(problem.contacts);
+  problem.load = applied_forces(rigid.model, rigid.start, rigid.start.time);
+  problem.cost = VecX::Zero(3 * problem.contacts.num_contacts());
+  problem.load_columns = MatX(problem.load.size(), 0);
+  problem.rows = MatX(problem.cost.size(), 0);
+  return rigid;
+}
+
+Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time) {
+  const ContactProblem& problem = scene.problem.contacts;
+  VecX outside(problem.num_contacts());
+  for (int i = 0; i < problem.num_contacts(); ++i) {
+    outside[i] = limit_excess(contact_law(problem, i), gamma.segment<3>(3 * i));
+  }
+  Frame frame = make_frame(scene.model, scene.start, scene.contacts,
+                           joint_forces(scene.contacts, gamma, VecX::Ones(gamma.size())).contacts,
+                           law_violations(scene.contacts, gamma, outside), scene.memories,
+                           std::vector<Vec3>(scene.start.poses.size(), Vec3::Zero()));
+  frame.time = time;
+  return frame;
+}
+
+Equilibrium balance_of(const RigidScene& scene, const VecX& gamma) {
+  return compute_equilibrium(scene.model, scene.start, scene.contacts,
+                             joint_forces(scene.contacts, gamma, VecX::Ones(gamma.size())), scene.start.time);
+}
+
+}  // namespace cupola

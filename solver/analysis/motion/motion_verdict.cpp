@@ -1,0 +1,79 @@
+#include "solver/analysis/motion/motion_verdict.hpp"
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+
+namespace cupola {
+namespace {
+
+/// Why the run is unconverged: the measure that was missed, and where the contact law is violated most.
+std::string missed_text(const Analysis& analysis, const RunProgress& progress, const SolveSummary& last) {
+  if (!last.usable()) return fmt::format("step {} failed: {}", progress.steps, last.message);
+  std::string text = fmt::format("{} of {} missed the tolerance {:.1e} of the {}; the worst reached {:.2e}",
+                                 progress.missed_steps, counted(progress.steps, "step"), analysis.tolerance,
+                                 to_string(progress.measure), progress.worst_error);
+  if (const auto& violation = progress.worst.violation; violation && violation->value > analysis.tolerance)
+    text += fmt::format(
+        "; at {:.4g} s a force between blocks {} and {} violates the contact law by {:.2g} times the force "
+        "of "
+        "its joint (or 1 % of the mean joint force, if larger)",
+        violation->time, violation->block_a, violation->block_b, violation->value);
+  text += ". Try a shorter `analysis.time_step` or a larger `analysis.tolerance`";
+  return analysis.max_iterations > 0 ? text + ", or raise `analysis.max_iterations`" : text;
+}
+
+/// `speed`: m/s, largest at the end; `displacement`: m, largest, below its threshold.
+void judge_rest(const Analysis::Thresholds& thresholds, const RestWindow& rest, double displacement,
+                double speed, Summary* summary) {
+  summary->status = Status::moving;
+  if (speed > thresholds.speed) {
+    summary->message =
+        fmt::format("largest speed {:.3g} m/s > threshold {:.3g} m/s at the end", speed, thresholds.speed);
+  } else if (!rest.is_slow(thresholds)) {
+    summary->message =
+        fmt::format("largest speed {:.3g} m/s > threshold {:.3g} m/s at {:.4g} s, within the last {:.3g} s",
+                    rest.last_fast_speed(), thresholds.speed, rest.last_fast_time(), thresholds.window);
+  } else if (rest.drift() > RestWindow::largest_drift(thresholds)) {
+    summary->message = fmt::format(
+        "a block moves slowly in one direction: {:.3g} m/s on average over the last {:.3g} s, more than a "
+        "tenth of "
+        "the threshold {:.3g} m/s",
+        rest.drift(), thresholds.window, thresholds.speed);
+  } else {
+    summary->status = Status::stable;
+    summary->message = fmt::format(
+        "largest speed {:.3g} m/s <= threshold {:.3g} m/s, displacement {:.3g} m <= threshold {:.3g} m",
+        speed, thresholds.speed, displacement, thresholds.displacement);
+  }
+}
+
+}  // namespace
+
+void judge_motion(const Analysis& analysis, const RunProgress& progress, const SolveSummary& last,
+                  Summary* summary) {
+  summary->accuracy = accuracy_in(progress.measure);
+  summary->accuracy.asked = analysis.tolerance;
+  summary->accuracy.reached = last.reached;
+  summary->accuracy.worst_over_run = progress.worst_error;
+  const double speed = *summary->max_speed_m_per_s;
+  const double displacement = *summary->max_displacement_m;
+  if (progress.missed_steps > 0) {
+    summary->status = Status::unconverged;
+    summary->message = missed_text(analysis, progress, last);
+  } else if (displacement > analysis.thresholds.displacement) {
+    summary->status = Status::collapsed;
+    summary->message = fmt::format("largest displacement {:.3g} m > threshold {:.3g} m", displacement,
+                                   analysis.thresholds.displacement);
+  } else {
+    judge_rest(analysis.thresholds, progress.rest, displacement, speed, summary);
+  }
+  if (progress.rounded_steps > 0)
+    summary->message += fmt::format(
+        "; in {} rounding of the velocities kept the contact-law residual above the tolerance {:.1e}",
+        counted(progress.rounded_steps, "step"), analysis.tolerance);
+}
+
+}  // namespace cupola

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "solver/analysis/motion/dynamic_history.hpp"
+#include "solver/analysis/motion/rest_window.hpp"
+#include "solver/analysis/record/record_archive.hpp"
+
+namespace cupola {
+
+/// Progress of a run, apart from the simulation itself.
+struct RunProgress {
+  int steps = 0;
+  int iterations = 0;
+  int missed_steps = 0;      // steps whose solve missed the tolerance
+  int rounded_steps = 0;     // steps accepted above the tolerance because of rounding
+  double worst_error = 0.0;  // of the solves in their measure; of the missed steps if there are any
+  ErrorMeasure measure = ErrorMeasure::momentum;  // of the worst error
+  WorstOfRun worst;
+  RunEnergy energy;
+  RestWindow rest;
+  double calm_since = 0.0;  // s, time since which no block has been faster than the settled speed
+};
+
+template <class Archive>
+void visit(Archive& archive, StepWork& x) {
+  archive(x.loads, x.supports, x.dilatancy, x.friction, x.damping, x.impact, x.scheme);
+}
+
+template <class Archive>
+void visit(Archive& archive, RunEnergy& x) {
+  archive(x.start, x.work, x.error, x.worst_error, x.peak_kinetic);
+}
+
+template <class Archive>
+void visit(Archive& archive, RunProgress& x) {
+  archive(x.steps, x.iterations, x.missed_steps, x.rounded_steps, x.worst_error, x.measure, x.worst, x.energy,
+          x.rest, x.calm_since);
+}
+
+/// Sets status, accuracy and message. `last`: the solve of the last step.
+void judge_motion(const Analysis& analysis, const RunProgress& progress, const SolveSummary& last,
+                  Summary* summary);
+
+}  // namespace cupola

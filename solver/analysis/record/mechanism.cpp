@@ -1,0 +1,158 @@
+#include "solver/analysis/record/mechanism.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "assembly/base/error.hpp"
+#include "solver/analysis/record/record.hpp"
+#include "solver/contact/problem/cone.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kStopped = 1e-3;  // speed relative to the fastest block below which a block is at rest
+
+int root_of(std::vector<int>& parent, int block) {
+  while (parent[block] != block) block = parent[block] = parent[parent[block]];
+  return block;
+}
+
+/// Motion of each joint. The contacts of one joint need not be consecutive in the set.
+std::vector<MovingJoint> joint_motions(const ContactSet& contacts, const VecX& u, double fastest) {
+  const JointNumbers numbers = number_joints(contacts);
+  std::vector<MovingJoint> joints(numbers.count);
+  std::vector<bool> any_closed(numbers.count, false);
+  for (size_t i = 0; i < contacts.points.size(); ++i) {
+    const Contact& contact = contacts.points[i];
+    const int j = numbers.of_contact[i];
+    MovingJoint& joint = joints[j];
+    joint.block_a = contact.block_a;
+    joint.block_b = contact.block_b;
+    joint.kind = contacts.patches[contact.patch].kind;
+    joint.ring = contacts.patches[contact.patch].ring;
+    const Vec3 at_point = u.segment<3>(3 * static_cast<Eigen::Index>(i)) / fastest;
+    joint.opening = std::max(joint.opening, at_point[0]);
+    // Under the associated law a sliding point opens at mu |u_t|; it counts as closed.
+    if (at_point[0] <= std::max(kStopped, at_point.tail<2>().norm())) {
+      any_closed[j] = true;
+      joint.sliding = std::max(joint.sliding, at_point.tail<2>().norm());
+    }
+  }
+  for (size_t j = 0; j < joints.size(); ++j) {
+    MovingJoint& joint = joints[j];
+    const bool slides = joint.sliding > kStopped;
+    const bool opens = joint.opening > kStopped;
+    if (slides && any_closed[j] && joint.sliding >= joint.opening)
+      joint.motion = JointMotion::sliding;
+    else if (opens)
+      joint.motion = any_closed[j] ? JointMotion::hinging : JointMotion::opening;
+  }
+  return joints;
+}
+
+/// Blocks connected by closed joints form a group. Blocks at rest are group 0; moving groups count from 1.
+void find_groups(const Model& model, Mechanism* mechanism) {
+  const int num_blocks = static_cast<int>(model.assembly->blocks.size());
+  std::vector<int> parent(num_blocks);
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const MovingJoint& joint : mechanism->joints)
+    if (joint.motion == JointMotion::closed)
+      parent[root_of(parent, joint.block_a)] = root_of(parent, joint.block_b);
+  const auto moves = [&](int block) {
+    const int i = model.free_index[block];
+    return i != ContactProblem::kFixed && mechanism->v.segment<3>(6 * i).norm() > kStopped;
+  };
+  std::vector<bool> group_moves(num_blocks, false);
+  for (int block = 0; block < num_blocks; ++block)
+    if (moves(block)) group_moves[root_of(parent, block)] = true;
+  std::vector<int> number(num_blocks, 0);
+  mechanism->group.assign(num_blocks, 0);
+  for (int block = 0; block < num_blocks; ++block) {
+    const int root = root_of(parent, block);
+    if (!group_moves[root]) continue;
+    if (number[root] == 0) number[root] = ++mechanism->num_groups;
+    mechanism->group[block] = number[root];
+  }
+}
+
+}  // namespace
+
+Mechanism find_mechanism(const Model& model, const State& start, const ContactSet& contacts,
+                         const ContactProblem& problem, const VecX& v) {
+  CUPOLA_ASSERT(v.size() == 6 * static_cast<Eigen::Index>(model.num_free()));
+  CUPOLA_ASSERT(problem.num_contacts() >= static_cast<int>(contacts.points.size()));
+  const double fastest = std::max(largest_speed(v), 1e-300);
+  const VecX u = relative_velocity(problem, v);
+
+  Mechanism mechanism;
+  mechanism.v = v / fastest;
+  mechanism.joints = joint_motions(contacts, u, fastest);
+  find_groups(model, &mechanism);
+
+  const VecX f = applied_forces(model, start, start.time);
+  double power = 0.0, scale = 0.0;
+  for (Eigen::Index i = 0; i < f.size(); i += 6) {
+    power += f.segment<6>(i).dot(mechanism.v.segment<6>(i));
+    scale += f.segment<3>(i).norm() * mechanism.v.segment<3>(i).norm();
+  }
+  mechanism.load_power = scale > 0.0 ? power / scale : 0.0;
+  for (int i = 0; i < problem.num_contacts(); ++i) {
+    if (std::isfinite(contact_law(problem, i).strength.compression))
+      continue;  // such a joint may close: it crushes
+    mechanism.violation =
+        std::max(mechanism.violation, (problem.mu[i] * u.segment<2>(3 * i + 1).norm() - u[3 * i]) / fastest);
+  }
+  return mechanism;
+}
+
+void write_mechanism(const Model& model, const State& start, const ContactSet& contacts,
+                     const ContactMemories& memories, const Mechanism& mechanism,
+                     const std::vector<Vec3>& forces, const std::vector<double>& violations,
+                     const AnalysisSinks& sinks) {
+  State moving = start;
+  moving.v = mechanism.v;
+  moving.time = 1.0;
+  sinks.frame(make_frame(model, moving, contacts, forces, violations, memories,
+                         std::vector<Vec3>(moving.poses.size(), Vec3::Zero())));
+  sinks.table("mechanism_blocks.csv", mechanism_blocks_csv(model, mechanism));
+  sinks.table("mechanism_joints.csv", mechanism_joints_csv(mechanism));
+}
+
+std::string mechanism_blocks_csv(const Model& model, const Mechanism& mechanism) {
+  std::string text = "block,ring,slot,group,v_x,v_y,v_z,omega_x,omega_y,omega_z\n";
+  for (int i = 0; i < model.num_free(); ++i) {
+    const int block = model.free_blocks[i];
+    const auto v = mechanism.v.segment<6>(6 * i);
+    text += fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", block,
+                        model.assembly->blocks[block].ring, model.assembly->blocks[block].slot,
+                        mechanism.group[block], v[0], v[1], v[2], v[3], v[4], v[5]);
+  }
+  return text;
+}
+
+std::string mechanism_joints_csv(const Mechanism& mechanism) {
+  std::string text = "block_a,block_b,kind,ring,motion,opening,sliding\n";
+  for (const MovingJoint& joint : mechanism.joints)
+    text += fmt::format("{},{},{},{},{},{:.9g},{:.9g}\n", joint.block_a, joint.block_b, to_string(joint.kind),
+                        joint.ring, to_string(joint.motion), joint.opening, joint.sliding);
+  return text;
+}
+
+std::string describe(const Mechanism& mechanism) {
+  const auto count = [&](JointMotion motion) {
+    return std::count_if(mechanism.joints.begin(), mechanism.joints.end(),
+                         [motion](const MovingJoint& joint) { return joint.motion == motion; });
+  };
+  const bool one = mechanism.num_groups == 1;
+  return fmt::format(
+      "{} of blocks {}; joints that slide: {}, open: {}, hinge: {}; relative power of the loads "
+      "{:.3g}, largest violation of the friction cones {:.1e}",
+      counted(mechanism.num_groups, "group"), one ? "moves" : "move", count(JointMotion::sliding),
+      count(JointMotion::opening), count(JointMotion::hinging), mechanism.load_power, mechanism.violation);
+}
+
+}  // namespace cupola

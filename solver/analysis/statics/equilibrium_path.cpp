@@ -1,0 +1,94 @@
+#include "solver/analysis/statics/equilibrium_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "assembly/base/error.hpp"
+#include "solver/analysis/statics/static_step.hpp"
+#include "solver/dynamics/joint_damage.hpp"
+
+namespace cupola {
+
+EquilibriumPath::EquilibriumPath(const Model& model, const DetectionOptions& detection,
+                                 const StaticOptions& options)
+    : model_(model), options_(options), detector_(*model.assembly, detection) {
+  loaded_.state = state_at_rest(model_);
+}
+
+StaticSolution solve_breaking(const Model& model, const State& start, const ContactSet& contacts,
+                              const StaticOptions& options, ContactMemories* memories, int* solves) {
+  constexpr int kMostSolves = 200;  // a joint that breaks brittly breaks its neighbours one after the other
+  if (model.joints.has_strength()) begin_step(contacts, memories);
+  StaticSolution solution;
+  int iterations = 0;
+  bool again = true;
+  for (*solves = 0; again && *solves < kMostSolves; ++*solves) {
+    solution = solve_static(model, start, contacts, *memories, options);
+    iterations += solution.iterations;
+    again = model.joints.has_strength() && solution.outcome == StaticOutcome::equilibrium &&
+            refine_step(model, start, contacts, solution.step, solution.step_solution,
+                        static_step_options(options, solution.h), memories);
+  }
+  solution.iterations = iterations;
+  if (again) {
+    solution.outcome = StaticOutcome::unconverged;
+    solution.message =
+        fmt::format("the damage of the joints still changed after {} of one step", counted(*solves, "solve"));
+  }
+  return solution;
+}
+
+StaticSolution EquilibriumPath::advance(double value) {
+  start_ = loaded_.state;
+  const ContactSet& contacts = detector_.update(start_.poses);
+  memories_ = match_memories(loaded_.memories, contacts.points);
+  options_.time_advance = value - start_.time;
+  StaticSolution solution = solve_breaking(model_, start_, contacts, options_, &memories_, &solves_);
+  if (solution.outcome == StaticOutcome::equilibrium)
+    loaded_ = loaded_state(model_, start_, contacts, memories_, solution, options_);
+  return solution;
+}
+
+Bracket follow(EquilibriumPath* path, double low, double high, double relative_width,
+               const std::function<bool(const LimitTrial&, const StaticSolution&)>& report) {
+  constexpr int kFirstSteps = 40;  // each step is accurate to second order in its length
+  constexpr double kGrowth = 1.5;  // after a step that found an equilibrium
+  CUPOLA_ASSERT(low < high && relative_width > 0.0);
+  Bracket bracket;
+  const double longest = (high - low) / kFirstSteps;
+  double step = longest;
+  double next = low;
+  while (true) {
+    const StaticSolution solution = path->advance(next);
+    const LimitTrial trial{next, solution.outcome, solution.speed_ratio};
+    ++bracket.trials;
+    if (!report(trial, solution)) return bracket;
+    if (trial.outcome == StaticOutcome::equilibrium) {
+      bracket.stable = trial;
+      if (next >= high) {
+        bracket.message =
+            fmt::format("the structure stands up to the end of the bracket, {:g}; widen the bracket", high);
+        return bracket;
+      }
+      step = std::min(longest, kGrowth * step);
+    } else if (next == low) {
+      bracket.message = fmt::format("{} at the start of the bracket, {:g}, where the structure must stand",
+                                    to_string(trial.outcome), low);
+      return bracket;
+    } else {
+      bracket.moving = trial;
+      step = 0.5 * (next - path->value());
+      if (step < 0.5 * relative_width * std::abs(next)) break;
+    }
+    next = std::min(high, path->value() + step);
+  }
+  bracket.found = bracket.narrow = bracket.moving.outcome == StaticOutcome::moving;
+  bracket.message = fmt::format("stands up to {:.6g}, {} at {:.6g}", bracket.stable.value,
+                                to_string(bracket.moving.outcome), bracket.moving.value);
+  return bracket;
+}
+
+}  // namespace cupola

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+
+#include "solver/analysis/statics/limit_search.hpp"
+
+namespace cupola {
+
+/// A static solve from `start`, repeated where joints with strength break until their damage is right (joint_damage.hpp).
+/// `memories` has that damage. Sets the number of solves.
+StaticSolution solve_breaking(const Model& model, const State& start, const ContactSet& contacts,
+                              const StaticOptions& options, ContactMemories* memories, int* solves);
+
+/// Sequence of equilibria of a structure whose loads and supports change slowly in time. Each step detects the contacts anew
+/// and is a static solve from the last equilibrium; joints keep their slip, opening and damage.
+class EquilibriumPath {
+ public:
+  EquilibriumPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options);
+
+  /// Static solve at the time `value`. If it finds an equilibrium the path advances to it; otherwise it stays.
+  StaticSolution advance(double value);
+
+  double value() const { return loaded_.state.time; }
+  const Model& model() const { return model_; }
+  /// State at the start of the last step tried, and its contacts.
+  const State& start() const { return start_; }
+  /// The last equilibrium.
+  const State& state() const { return loaded_.state; }
+  const StaticOptions& options() const { return options_; }
+  int solves() const { return solves_; }  ///< static solves of the last step tried
+  const ContactSet& contacts() const { return detector_.contacts(); }
+  const ContactMemories& memories() const { return memories_; }
+
+ private:
+  const Model& model_;
+  StaticOptions options_;
+  ContactDetector detector_;
+  LoadedState loaded_;
+  State start_;
+  ContactMemories memories_;
+  int solves_ = 0;
+};
+
+/// Follows a path from `low`, at which the structure must stand, to `high`. The step is halved where no
+/// equilibrium is found, until it is below relative_width times the value. `report` receives every trial and
+/// returns false to abandon the search.
+Bracket follow(EquilibriumPath* path, double low, double high, double relative_width,
+               const std::function<bool(const LimitTrial&, const StaticSolution&)>& report);
+
+}  // namespace cupola

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "solver/analysis/statics/static_solve.hpp"
+
+namespace cupola {
+
+/// Result of the static solve at one value of the parameter.
+struct LimitTrial {
+  double value = 0.0;
+  StaticOutcome outcome = StaticOutcome::unconverged;
+  double speed_ratio = 0.0;  ///< |v| / (g h)
+};
+
+/// Bracket of the critical value, and how the search for it ended.
+struct Bracket {
+  LimitTrial stable, moving;  ///< the two ends
+  int trials = 0;
+  bool found = false;   ///< one end stands, the other moves
+  bool narrow = false;  ///< found, and of the required width
+  std::string message;  ///< how the search ended
+  double middle() const { return 0.5 * (stable.value + moving.value); }
+};
+
+/// Required width of a bracket; the larger of the two counts.
+struct BracketWidth {
+  double relative = 1e-3;  ///< of the middle of the bracket
+  double absolute = 0.0;
+};
+
+/// Result at a value; none if the search is to be abandoned.
+using TryValue = std::function<std::optional<LimitTrial>(double value)>;
+
+/// Bisects between a value at which the structure stands and one at which it moves, until the bracket has the
+/// required width. A trial that does not converge decides nothing: the bracket then closes in on that value
+/// from both sides and stays wider than required, and the message gives the undecided interval. No bracket is
+/// found if the structure stands at both ends, moves at both ends, or if the solve at one end does not
+/// converge.
+Bracket bisect(double low, double high, const BracketWidth& required, const TryValue& try_value);
+
+}  // namespace cupola

@@ -1,0 +1,91 @@
+#include "solver/analysis/statics/static_record.hpp"
+
+#include "solver/analysis/record/record.hpp"
+#include "solver/dynamics/law_violation.hpp"
+
+namespace cupola {
+namespace {
+
+Status status_of(StaticOutcome outcome) {
+  switch (outcome) {
+    case StaticOutcome::equilibrium:
+      return Status::stable;
+    case StaticOutcome::moving:
+      return Status::moving;
+    case StaticOutcome::unconverged:
+      break;
+  }
+  return Status::unconverged;
+}
+
+/// Of a static solve. Without an equilibrium, inertia balances the loads.
+Accuracy force_balance_accuracy(const StaticSolution& solution, double tolerance) {
+  const bool moving = solution.outcome == StaticOutcome::moving;
+  const double reached = moving ? solution.residuals.momentum : solution.balance.residual;
+  return {moving ? "force balance of the blocks, inertia included" : "force balance of the blocks",
+          "largest unbalanced force of a block, relative to the mean block weight", tolerance, reached,
+          reached};
+}
+
+}  // namespace
+
+std::vector<double> static_violations(const ContactSet& contacts, const StaticSolution& solution,
+                                      const FlowRule& law) {
+  return law_violations(contacts, solution.step_solution.gamma,
+                        contact_law_errors(solution.step.problem, solution.step_solution, law));
+}
+
+Frame static_frame(const Model& model, const State& start, const ContactSet& contacts,
+                   const ContactMemories& memories, const StaticSolution& solution,
+                   const StaticOptions& options) {
+  // A motion has directions but no amplitude, and of an unconverged solve nothing is known: the blocks stay
+  // where they started.
+  const bool equilibrium = solution.outcome == StaticOutcome::equilibrium;
+  LoadedState loaded = equilibrium ? loaded_state(model, start, contacts, memories, solution, options)
+                                   : LoadedState{start, memories, solution.h};
+  const double speed = largest_speed(solution.step_solution.v);
+  if (solution.outcome == StaticOutcome::moving && speed > 0.0)
+    loaded.state.v = solution.step_solution.v / speed;
+  std::vector<Vec3> displacement(loaded.state.poses.size());
+  for (size_t block = 0; block < displacement.size(); ++block)
+    displacement[block] = loaded.state.poses[block].p_WB - model.assembly->blocks[block].centroid;
+  Frame frame =
+      make_frame(model, loaded.state, contacts, solution.forces.contacts,
+                 static_violations(contacts, solution, options.solve.law), loaded.memories, displacement);
+  if (!equilibrium) return frame;
+  const VecX u =
+      relative_velocity(solution.step.problem, solution.step_solution.v) + solution.step.support_velocity;
+  for (size_t i = 0; i < frame.contacts.gap.size(); ++i) {
+    frame.contacts.gap[i] += solution.h * u[3 * static_cast<Eigen::Index>(i)];
+    if (model.joints.has_strength())
+      frame.contacts.crack_opening[i] = crack_opening(frame.contacts.gap[i], loaded.memories.values[i]);
+  }
+  return frame;
+}
+
+void summarize_static(const StaticSolution& solution, const Frame& frame, const Model& model,
+                      double tolerance, Summary* summary) {
+  summarize_frame(frame, model, summary);
+  summary->status = status_of(solution.outcome);
+  summary->message = solution.message;
+  summary->accuracy = force_balance_accuracy(solution, tolerance);
+  summary->iterations = solution.iterations;
+  summary->steps = 1;
+  summary->time_step_s = solution.h;
+  summarize_balance(solution.balance, summary);
+  summary->momentum_residual = solution.residuals.momentum;
+  summary->contact_law_residual = solution.residuals.contact_law;
+  summary->friction_cone_violation = solution.residuals.cone_violation;
+  summary->certified_force_error = solution.certificate.force_error;
+  summary->forces_unique = solution.certificate.forces_unique;
+  if (summary->certified_force_error.bounds.empty())
+    summary->certified_force_error.bounds = "no equilibrium was found";
+  if (summary->forces_unique.reason.empty()) summary->forces_unique = {false, "no equilibrium was found"};
+  summary->largest_law_violation = largest_violation(frame);
+  // A motion has no amplitude, and of an unconverged solve nothing is known.
+  summary->max_displacement_m.reset();
+  if (solution.outcome == StaticOutcome::equilibrium)
+    summary->max_displacement_m = largest_displacement(frame);
+}
+
+}  // namespace cupola

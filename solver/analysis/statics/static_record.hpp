@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "assembly/model/results.hpp"
+#include "solver/analysis/statics/static_solve.hpp"
+
+namespace cupola {
+
+/// law_violations() of a static solve.
+std::vector<double> static_violations(const ContactSet& contacts, const StaticSolution& solution,
+                                      const FlowRule& law);
+
+/// The frame of a static solve. Equilibrium: displacements h v, gaps after the displacement, velocities zero. Motion:
+/// no displacements, velocities scaled so that the fastest block moves at 1 m/s. Unconverged: neither.
+Frame static_frame(const Model& model, const State& start, const ContactSet& contacts,
+                   const ContactMemories& memories, const StaticSolution& solution,
+                   const StaticOptions& options);
+
+/// Sets the fields of the summary that follow from a static solve and its frame.
+void summarize_static(const StaticSolution& solution, const Frame& frame, const Model& model,
+                      double tolerance, Summary* summary);
+
+}  // namespace cupola

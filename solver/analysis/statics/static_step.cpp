@@ -1,0 +1,69 @@
+#include "solver/analysis/statics/static_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cupola {
+namespace {
+
+/// Largest displacement of a support in the step, m.
+double imposed_displacement(const Model& model, const State& start, const StaticOptions& options) {
+  std::vector<Pose> moved = start.poses;
+  place_supports(*model.assembly, model.support_motions, start.time + options.time_advance, &moved);
+  double largest = 0.0;
+  for (size_t i = 0; i < moved.size(); ++i)
+    largest = std::max(largest, (moved[i].p_WB - start.poses[i].p_WB).norm());
+  return largest;
+}
+
+double largest_compliance(const Model& model, const State& start, const ContactSet& contacts) {
+  double compliance = 0.0;
+  for (const Contact& contact : contacts.points)
+    compliance = std::max(compliance, joint_law(model, contacts, contact, start.time).compliance_normal);
+  return compliance;
+}
+
+}  // namespace
+
+StepOptions static_step_options(const StaticOptions& options, double h) {
+  StepOptions step;
+  step.h = h;
+  step.recovery_speed = std::numeric_limits<double>::infinity();
+  step.time_advance = options.time_advance;
+  return step;
+}
+
+double first_static_step(const Model& model, const State& start, const ContactSet& contacts,
+                         double acceleration, const StaticOptions& options) {
+  constexpr double kContraction = 1e-3;
+  // Shells sink further than their columns shorten. A margin of 2.5 covers most; h grows where it does not.
+  constexpr double kMargin = 2.5;
+  int at_supports = 0;
+  for (const Contact& contact : contacts.points)
+    at_supports += model.free_index[contact.block_a] == ContactProblem::kFixed ||
+                   model.free_index[contact.block_b] == ContactProblem::kFixed;
+  double load = 0.0;
+  const VecX f = applied_forces(model, start, start.time);
+  for (Eigen::Index i = 0; i < f.size(); i += 6) load += f.segment<3>(i).norm();
+  const double courses =
+      model.assembly->num_rings > 0 ? model.assembly->num_rings : std::cbrt(model.num_free());
+  double gap = 0.0;
+  for (const Contact& contact : contacts.points) gap = std::max(gap, contact.gap);
+  const double displacement =
+      courses * gap + courses * largest_compliance(model, start, contacts) * load / std::max(1, at_supports) +
+      imposed_displacement(model, start, options);
+  if (displacement == 0.0) return 1.0;
+  return kMargin * std::sqrt(displacement / (acceleration * kContraction));
+}
+
+double largest_static_step(const Model& model, const State& start, const ContactSet& contacts) {
+  constexpr double kNegligible = 1e-12;
+  const double compliance = largest_compliance(model, start, contacts);
+  if (compliance == 0.0) return std::numeric_limits<double>::infinity();
+  double mass = 0.0;
+  for (const int block : model.free_blocks) mass += model.assembly->blocks[block].mass;
+  return std::sqrt(compliance * mass / std::max(1, model.num_free()) / kNegligible);
+}
+
+}  // namespace cupola
