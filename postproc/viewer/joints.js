@@ -17,8 +17,9 @@ class JointSet {
   addPatches() {
     const g = this.shape = jointGeometry(this.get("outlines"), this.get("corners"));
     this.triangles = startsOf(this.get("corners").map((n) => n < 3 ? 0 : 3 * (n - 2)));
-    const geometry = bufferGeometry([["position", g.rest.slice(), 3], ["edge", new Uint8Array(g.rest.length).fill(255), 3, true],
-                                     ["colour", new Uint8Array(g.rest.length), 3, true]], g.triangles.slice());
+    const bytes = kBytes * g.rest.length / 3;
+    const geometry = bufferGeometry([["position", g.rest.slice(), 3], ["edge", new Uint8Array(bytes).fill(255), kBytes, true],
+                                     ["colour", new Uint8Array(bytes), kBytes, true]], g.triangles.slice());
     geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1e9);
     this.patches = this.model.add(new THREE.Mesh(geometry, faceMaterial(this.model.stage.shared, 1, 0, {side: THREE.DoubleSide})), false);
   }

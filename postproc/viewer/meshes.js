@@ -1,6 +1,7 @@
 // Geometry: all blocks as one mesh, joints as one mesh, arrows and lines as rods.
 // Every vertex belongs to a block or joint, whose vertices are consecutive.
 
+const kBytes = 4;  // per vertex of a colour or an edge, of which three are used: browsers copy unaligned attributes at every draw
 const kSharp = Math.cos(25 * Math.PI / 180);  // edges between flatter faces are seams of a block and are not drawn
 
 /** Newell's normal of a polygon given by indices into flat coordinates. */
@@ -63,7 +64,7 @@ class BlockFaces {
   triangles() {
     let count = 0;
     for (let f = 0; f + 1 < this.corner.length; ++f) count += Math.max(this.corner[f + 1] - this.corner[f] - 2, 0);
-    const out = {rest: new Float32Array(9 * count), edge: new Uint8Array(9 * count), blockOf: new Int32Array(count), used: 0,
+    const out = {rest: new Float32Array(9 * count), edge: new Uint8Array(3 * kBytes * count), blockOf: new Int32Array(count), used: 0,
                  start: new Int32Array(this.blocks + 1), outerEnd: new Int32Array(this.blocks)};
     for (let b = 0; b < this.blocks; ++b) {
       const edges = this.edgesOf(b);
@@ -87,7 +88,7 @@ class BlockFaces {
       for (let i = 0; i < 3; ++i)
         for (let k = 0; k < 3; ++k) {
           out.rest[9 * t + 3 * i + k] = this.points[3 * corners[i] + k];
-          out.edge[9 * t + 3 * i + k] = i === k || !drawn[k] ? 255 : 0;
+          out.edge[kBytes * (3 * t + i) + k] = i === k || !drawn[k] ? 255 : 0;
         }
     }
   }
@@ -127,13 +128,13 @@ function rodGeometry(roots, spans, colours, arrow) {
   const {shape, triangles} = rodShape(arrow);
   const rods = roots.length / 3, per = shape.length;
   const root = new Float32Array(3 * rods * per), span = new Float32Array(3 * rods * per);
-  const form = new Float32Array(4 * rods * per), colour = new Uint8Array(3 * rods * per);
+  const form = new Float32Array(4 * rods * per), colour = new Uint8Array(kBytes * rods * per);
   const index = new Uint32Array(rods * triangles.length);
   for (let r = 0, v = 0; r < rods; ++r) {
     triangles.forEach((t, i) => { index[r * triangles.length + i] = r * per + t; });
     for (const corner of shape) {
       for (let k = 0; k < 3; ++k)
-        root[3 * v + k] = roots[3 * r + k], span[3 * v + k] = spans[3 * r + k], colour[3 * v + k] = colours[3 * r + k];
+        root[3 * v + k] = roots[3 * r + k], span[3 * v + k] = spans[3 * r + k], colour[kBytes * v + k] = colours[3 * r + k];
       form.set(corner, 4 * v++);
     }
   }

@@ -29,8 +29,8 @@ class Model {
     this.shape = new BlockFaces(this.scene);
     const b = this.blocks = this.shape.triangles(), shared = this.stage.shared;
     this.allVertices = Uint32Array.from({length: b.rest.length / 3}, (_, i) => i);
-    const geometry = bufferGeometry([["position", b.rest.slice(), 3], ["edge", b.edge, 3, true],
-                                     ["colour", new Uint8Array(b.rest.length), 3, true]], this.allVertices.slice());
+    const geometry = bufferGeometry([["position", b.rest.slice(), 3], ["edge", b.edge, kBytes, true],
+                                     ["colour", new Uint8Array(kBytes * b.rest.length / 3), kBytes, true]], this.allVertices.slice());
     geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1e9);
     this.materials = {
       solid: faceMaterial(shared, 1, 0.7, {}),
@@ -175,14 +175,14 @@ function segments(ends, colour) {
 }
 
 function rodBuffers({root, span, form, colour, index}) {
-  return bufferGeometry([["position", root, 3], ["span", span, 3], ["form", form, 4], ["colour", colour, 3, true]], index);
+  return bufferGeometry([["position", root, 3], ["span", span, 3], ["form", form, 4], ["colour", colour, kBytes, true]], index);
 }
 
 function paint(geometry, start, colourOf, stage) {
   const {colour} = geometry.attributes;
   for (let o = 0; o + 1 < start.length; ++o) {
     const rgb = colourOf(o);
-    for (let v = start[o]; v < start[o + 1]; ++v) for (let k = 0; k < 3; ++k) colour.array[3 * v + k] = rgb[k];
+    for (let v = start[o]; v < start[o + 1]; ++v) for (let k = 0; k < 3; ++k) colour.array[kBytes * v + k] = rgb[k];
   }
   colour.needsUpdate = true;
   stage.invalidate();
