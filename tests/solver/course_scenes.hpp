@@ -57,24 +57,16 @@ inline void add_sector(const std::array<Eigen::Vector2d, 4>& meridian, int k, in
                        Assembly* assembly) {
   add_block({.density = kGamma / kG, .fixed = fixed, .ring = ring}, assembly);
   assembly->blocks.back().slot = k;
-  const int first = static_cast<int>(assembly->vertices.size());
   const double half = std::numbers::pi / n, azimuth = 2.0 * half * k;
-  const Eigen::Vector3d radial(std::cos(azimuth), std::sin(azimuth), 0), along(-radial.y(), radial.x(), 0);
-  for (const double side : {-1.0, 1.0})
-    for (const Eigen::Vector2d& p : meridian)
-      assembly->vertices.push_back(p.x() * (radial + side * std::tan(half) * along) + p.y() * Vec3::UnitZ());
-  Part part;
-  part.block = static_cast<int>(assembly->blocks.size()) - 1;
-  part.ring = fixed ? -1 : ring;
-  part.face_start = assembly->num_faces();
-  assembly->parts.push_back(part);
-  const std::array<FaceKind, 4> kinds{FaceKind::bed, FaceKind::extrados, FaceKind::bed, FaceKind::intrados};
-  for (int i = 0; i < 4; ++i) {
-    const int j = (i + 1) % 4;
-    assembly->add_face(std::array{first + i, first + 4 + i, first + 4 + j, first + j}, kinds[i]);
+  const Vec3 radial(std::cos(azimuth), std::sin(azimuth), 0), along(-radial.y(), radial.x(), 0);
+  std::array<Vec3, 4> start, end;
+  for (size_t i = 0; i < 4; ++i) {
+    const Vec3 middle = meridian[i].x() * radial + meridian[i].y() * Vec3::UnitZ();
+    const Vec3 width = meridian[i].x() * std::tan(half) * along;
+    start[i] = middle - width;
+    end[i] = middle + width;
   }
-  assembly->add_face(std::array{first, first + 1, first + 2, first + 3}, FaceKind::head);
-  assembly->add_face(std::array{first + 7, first + 6, first + 5, first + 4}, FaceKind::head);
+  add_prism_part(start, end, FaceKind::head, assembly);
 }
 
 /// One course on a bed that falls towards the axis at theta, with radial heads. Ring 0: the n blocks of the bed and, on request, every
@@ -128,6 +120,15 @@ inline Assembly make_sphere(double radius, double thickness, double step, int ri
   assembly.num_rings = rings;
   compute_mass_properties(&assembly);
   return assembly;
+}
+
+/// Joints without tension, with friction and, if given, cohesion (Pa).
+inline JointLawChange joint_law(double friction, double cohesion = 0.0) {
+  JointLawChange law;
+  law.friction = friction;
+  law.cohesion = cohesion;
+  law.tension = 0.0;
+  return law;
 }
 
 /// Staged construction of such courses, block by block with carried state, under Coulomb's law. Hardened joints are glued.

@@ -33,17 +33,16 @@ inline Vec3 tilted_gravity(double tan_a) {
   return kG * Vec3(std::sin(a), 0.0, -std::cos(a));
 }
 
-/// Adds a prism along y, from 0 to `width`, over a quadrilateral in the x-z plane that is counter-clockwise
-/// seen from -y. Its sides 0-1, 1-2, 2-3, 3-0 are bed, extrados, bed, intrados.
-inline void add_voussoir(const std::array<Eigen::Vector2d, 4>& quad, double width, double density, bool fixed,
-                         int ring, Assembly* assembly) {
-  add_block({.density = density, .fixed = fixed, .ring = ring}, assembly);
+/// Adds to the last block a convex part between two quadrilaterals, corner by corner; the first is counter-clockwise seen from
+/// outside. The sides 0-1, 1-2, 2-3, 3-0 are bed, extrados, bed, intrados.
+inline void add_prism_part(const std::array<Vec3, 4>& front, const std::array<Vec3, 4>& back, FaceKind ends,
+                           Assembly* assembly) {
   const int first = static_cast<int>(assembly->vertices.size());
-  for (const double y : {0.0, width})
-    for (const Eigen::Vector2d& p : quad) assembly->vertices.emplace_back(p.x(), y, p.y());
+  for (const auto& quad : {front, back})
+    assembly->vertices.insert(assembly->vertices.end(), quad.begin(), quad.end());
   Part part;
   part.block = static_cast<int>(assembly->blocks.size()) - 1;
-  part.ring = fixed ? -1 : ring;
+  part.ring = assembly->blocks.back().ring;
   part.face_start = assembly->num_faces();
   assembly->parts.push_back(part);
   const std::array<FaceKind, 4> kinds{FaceKind::bed, FaceKind::extrados, FaceKind::bed, FaceKind::intrados};
@@ -51,8 +50,21 @@ inline void add_voussoir(const std::array<Eigen::Vector2d, 4>& quad, double widt
     const int j = (i + 1) % 4;
     assembly->add_face(std::array{first + i, first + 4 + i, first + 4 + j, first + j}, kinds[i]);
   }
-  assembly->add_face(std::array{first, first + 1, first + 2, first + 3}, FaceKind::free);
-  assembly->add_face(std::array{first + 7, first + 6, first + 5, first + 4}, FaceKind::free);
+  assembly->add_face(std::array{first, first + 1, first + 2, first + 3}, ends);
+  assembly->add_face(std::array{first + 7, first + 6, first + 5, first + 4}, ends);
+}
+
+/// Adds a prism along y, from 0 to `width`, over a quadrilateral in the x-z plane that is counter-clockwise
+/// seen from -y (add_prism_part()).
+inline void add_voussoir(const std::array<Eigen::Vector2d, 4>& quad, double width, double density, bool fixed,
+                         int ring, Assembly* assembly) {
+  add_block({.density = density, .fixed = fixed, .ring = ring}, assembly);
+  std::array<Vec3, 4> front, back;
+  for (size_t i = 0; i < 4; ++i) {
+    front[i] = {quad[i].x(), 0.0, quad[i].y()};
+    back[i] = {quad[i].x(), width, quad[i].y()};
+  }
+  add_prism_part(front, back, FaceKind::free, assembly);
 }
 
 /// Arch of voussoirs with plane faces: centreline radius 1 m, angle of embrace 2 beta about the crown, radial

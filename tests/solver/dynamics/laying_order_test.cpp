@@ -1,0 +1,42 @@
+#include "solver/dynamics/laying_order.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/solver/course_scenes.hpp"
+
+// The order in which teams lay the blocks of a course.
+
+namespace cupola::laying_order_test {
+namespace {
+
+using testing::make_course;
+
+TEST(LayingOrder, TeamsLayEqualArcsInTheOrderOfTheCase) {
+  const Assembly course = make_course({.bricks = 7});  // blocks 2 to 8
+  StagedConstruction staged;
+  staged.unit = StagedConstruction::Unit::block;
+  staged.teams = 2;
+  std::vector<LaidBlocks> stages = laying_order(course, staged, testing::kFirstCourse, testing::kFirstCourse);
+  ASSERT_EQ(stages.size(), 4u);
+  EXPECT_EQ(stages[0].blocks, (std::vector<int>{2, 5}));
+  EXPECT_EQ(stages[2].blocks, (std::vector<int>{4, 7}));
+  EXPECT_EQ(stages[3].blocks, (std::vector<int>{8}));
+  EXPECT_DOUBLE_EQ(stages[1].share, 0.5);
+  staged.teams = 1;
+  staged.order = StagedConstruction::Order::alternating;  // it is odd
+  EXPECT_EQ(laying_order(course, staged, testing::kFirstCourse, testing::kFirstCourse)[0].blocks,
+            (std::vector<int>{8}));
+  staged.order = StagedConstruction::Order::given;
+  staged.sequence = {5, 3};
+  stages = laying_order(course, staged, testing::kFirstCourse, testing::kFirstCourse);
+  EXPECT_EQ(stages[0].blocks, (std::vector<int>{5}));
+  EXPECT_EQ(stages[1].blocks, (std::vector<int>{3}));
+  EXPECT_EQ(stages[2].blocks, (std::vector<int>{2}));
+  EXPECT_EQ(stages.size(), 7u);
+}
+
+}  // namespace
+}  // namespace cupola::laying_order_test
