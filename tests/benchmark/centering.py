@@ -1,194 +1,171 @@
 """One course laid without centering, brick by brick. Prints a CSV table.
 
+  centering.py BIN_FOLDER WORK_FOLDER runs       makes the runs of the tables, as many at once as there are processors
   centering.py BIN_FOLDER WORK_FOLDER map        least fresh cohesion over height, bond and bed friction
-  centering.py BIN_FOLDER WORK_FOLDER mortar     the same with three fresh courses, and with mortar in the heads
-  centering.py BIN_FOLDER WORK_FOLDER spirals    the same over the distance and the embedment of the uprights, at one height
+  centering.py BIN_FOLDER WORK_FOLDER fresh      the same with three fresh courses, and with rougher heads
+  centering.py BIN_FOLDER WORK_FOLDER spirals    the same over the distance and the embedment of the uprights
+  centering.py BIN_FOLDER WORK_FOLDER hands      the same over the hand of the spirals, at one height
+  centering.py BIN_FOLDER WORK_FOLDER mortar     the same with mortar in the heads, at one height
+  centering.py BIN_FOLDER WORK_FOLDER curing     the same with mortar that hardens from course to course, at one height
   centering.py BIN_FOLDER WORK_FOLDER arch       the force along a course between uprights, laid without cohesion
   centering.py BIN_FOLDER WORK_FOLDER figures    draws the map and a flat arch into docs/pictures, by gnuplot
   centering.py BIN_FOLDER WORK_FOLDER nubian     a Nubian course against the closed form
   centering.py BIN_FOLDER WORK_FOLDER verdicts   the conjectures of the paper, judged by the runs of map
   centering.py BIN_FOLDER WORK_FOLDER heights    height up to which a course can be laid, over the cohesion of fresh mortar
 
-Finished runs in WORK_FOLDER are used again. Least cohesions in kPa: of the most demanding stage that lays a flat brick or a
-new upright, and `closed` of the last stage, in which every run of bricks abuts on uprights or on the sails beyond the corners.
+Finished runs in WORK_FOLDER are used again. Least cohesions in kPa are brackets, from the value with which the course moves to that with
+which it stands: of the most demanding stage that lays a flat brick or a new upright, and `closed` of the last stage, in which
+every run of bricks abuts on uprights or on the sails beyond the corners.
 """
 
-import base64
+import concurrent.futures
 import csv
-import json
 import math
+import os
 import pathlib
-import re
-import struct
 import subprocess
 import sys
-import zlib
 
-CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
-HEIGHTS = ["h7", "h14", "h17", "h22", "h28", "h32"]
-FRICTIONS = [0.0, 0.2, 0.4]
-BONDS = {"none": "", "herringbone": "_herringbone"}
-REVOLUTION = "none, dome of revolution"
-DOME = {"geometry.surface.type": "dome", "geometry.surface.thickness": 0.34, "geometry.surface.crown_angle_deg": 66}
-MODELS = {"none": ("none", {}), REVOLUTION: ("none", DOME), "herringbone": ("herringbone", {})}
-
-
-def run(program, arguments):
-    code = subprocess.run([program, *map(str, arguments)], stdout=subprocess.DEVNULL, check=False).returncode
-    if code not in (0, 3):
-        sys.exit(f"{program} {' '.join(map(str, arguments))}: exit code {code}")
-
-
-def vtu_integers(path, name):
-    """An integer array of a VTK XML file with appended, compressed data."""
-    text = path.read_bytes()
-    header, data = text.split(b"<AppendedData", 1)
-    data = data[data.index(b"_") + 1:]
-    attributes = next(m[1] for m in re.finditer(rb"<DataArray([^>]*)>", header) if b'Name="' + name.encode() + b'"' in m[1])
-    size, code = (8, "q") if b"Int64" in attributes else (4, "i") if b"Int32" in attributes else (1, "b")
-    data = data[int(re.search(rb'offset="(\d+)"', attributes)[1]):]
-    word = 8 if b'header_type="UInt64"' in header else 4
-    encoded = lambda count: -(-count // 3) * 4
-    kind = "Q" if word == 8 else "I"
-    blocks = struct.unpack_from("<" + kind, base64.b64decode(data[:encoded(word)]))[0]
-    head = base64.b64decode(data[:encoded((3 + blocks) * word)])
-    sizes = struct.unpack_from(f"<{blocks}{kind}", head, 3 * word)
-    start = encoded((3 + blocks) * word)
-    raw, content = base64.b64decode(data[start:start + encoded(sum(sizes))]), b""
-    for length in sizes:
-        content += zlib.decompress(raw[:length])
-        raw = raw[length:]
-    return struct.unpack(f"<{len(content) // size}{code}", content)
-
-
-class Course:
-    """The stages of the last course of a case with some settings."""
-
-    def __init__(self, bin_folder, work, case, settings=None):
-        self.case, self.settings = case, settings or {}
-        settings = self.settings
-        words = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
-        folder = work / re.sub(r"[^\w.-]+", "", "_".join([case, *(f"{k.split('.')[-1]}{v}" for k, v in settings.items())]))
-        if not (folder / "results" / "summary.json").exists():
-            folder.mkdir(parents=True, exist_ok=True)
-            path = CASES / f"{case}.yaml"
-            run(bin_folder / "cupola-generate", [path, "--output", folder / "assembly.vtu", *words])
-            run(bin_folder / "cupola-solve", [path, "--assembly", folder / "assembly.vtu", "--output", folder / "results",
-                                              "--threads", 1, *words])
-        self.folder, self.assembly = folder, folder / "assembly.vtu"
-        self.summary = json.loads((folder / "results" / "summary.json").read_text())
-        options = (folder / "results" / "run.yaml").read_text()
-        self.options = lambda key: float(re.search(rf"^ *{key}: *([-0-9.e]+)", options, re.M)[1])
-        self.stages = list(csv.DictReader((folder / "results" / "construction.csv").open()))
-        failures = folder / "results" / "failures.csv"
-        self.failures = list(csv.DictReader(failures.open())) if failures.exists() else []
-
-    def least(self, stage):
-        """Pa; none if the search found no value."""
-        text = stage["least_stands"]
-        return float(text) if text else None
-
-    def laid(self):
-        """Kinds of the blocks that the stages lay: 0 flat, 1 upright."""
-        course = int(self.stages[0]["ring"])
-        arrays = zip(vtu_integers(self.assembly, "block_ring"), vtu_integers(self.assembly, "block_kind"))
-        return [kind for ring, kind in arrays if ring == course]
-
-    def laying(self, kind):
-        """Pa: largest least cohesion of the stages that lay blocks of a kind; none if one was not found."""
-        values = [self.least(stage) for stage, laid in zip(self.stages, self.laid(), strict=True) if laid == kind]
-        return None if None in values else max(values, default=0.0)
-
-    @property
-    def open(self):
-        values = [self.laying(0), self.laying(1)]
-        return None if None in values else max(values)
-
-    @property
-    def closed(self):
-        return self.least(self.stages[-1])
-
-    def falling(self):
-        """Largest number of bricks of the last course that go at once, of all stages, a little below the least cohesion."""
-        count = {}
-        for row in self.failures:
-            count[row["stage"]] = count.get(row["stage"], 0) + 1
-        return max(count.values(), default=0)
-
-    def bed_angle(self):
-        radius = self.options("radius_ratio") * self.options("span")
-        return math.asin(self.options("height") / radius)
-
-    def free_end(self, friction, courses):
-        """Pa: gamma h (sin theta - mu cos theta), for each fresh course."""
-        theta = self.bed_angle()
-        load = self.options("unit_weight") * self.options("course")
-        return max(0.0, courses * load * (math.sin(theta) - friction * math.cos(theta)))
-
-
-def settings(friction, courses=1, heads=False, below=None):
-    """Dry heads of the fresh courses, or heads with the mortar of the beds; `below`: courses solved with the one laid."""
-    dry = f"[{{from: {21 - courses}, to: 22, kind: laid_head, friction: 0.3, cohesion: 0, tension: 0}}]"
-    staged = {"fresh.friction": friction, "fresh.courses": courses, "fresh.heads": str(heads).lower(),
-              "hold_below": courses - 1 if below is None else below}
-    return {**{f"analysis.staged.{key}": value for key, value in staged.items()}, "joints.rings": dry}
-
-
-class Study:
-    def __init__(self, bin_folder, work):
-        self.bin, self.work = bin_folder, work
-
-    def course(self, height, model, *mortar, **more):
-        bond, shape = MODELS[model]
-        return Course(self.bin, self.work, f"centering_{height}{BONDS[bond]}",
-                      {**settings(*mortar), **shape, **{f"geometry.bond.{key}": value for key, value in more.items()}})
-
-    def map(self):
-        """(height, model, friction, course) of every run of the map."""
-        for height in HEIGHTS:
-            for model in MODELS:
-                for friction in FRICTIONS:
-                    course = self.course(height, model, friction)
-                    yield course.options("height"), model, friction, course
+from centering_runs import BONDS, CASES, Course, FRICTIONS, HEIGHTS, MODELS, REVOLUTION, Study, run, settings, vtu_integers
 
 
 def kpa(value):
-    return "not found" if value is None else f"{value / 1000:.3f}"
+    return "not found" if value is None else "0" if value == 0 else f"{value / 1000:.3f}"
 
 
-RESULTS = ["free end by hand", "laying a flat brick", "laying an upright", "closed", "bricks that go at once"]
+def stands(least):
+    """Pa: upper end of a bracket"""
+    return None if least is None else least[1]
+
+
+def bracket(least):
+    """kPa"""
+    if least is None:
+        return "not found"
+    return "0" if stands(least) == 0 else f"{least[0] / 1000:.3f} to {least[1] / 1000:.3f}"
+
+
+def needs(course):
+    """Brackets of laying a flat brick, laying an upright, and the closed course."""
+    return [bracket(course.laying(0)), bracket(course.laying(1)) if 1 in course.laid() else "", bracket(course.closed)]
+
+
+NEEDS = ["laying a flat brick", "laying an upright", "closed"]
+RESULTS = ["free end by hand", *NEEDS, "bricks that go at once"]
 
 
 def results(course, friction):
-    upright = kpa(course.laying(1)) if 1 in course.laid() else ""
-    return [kpa(course.free_end(friction, 1)), kpa(course.laying(0)), upright, kpa(course.closed), course.falling()]
+    return [kpa(course.free_end(friction, 1)), *needs(course), course.falling()]
+
+
+def name_of(model):
+    return model.replace("herringbone", "spirals")
+
+
+# The runs of each table: positional and named arguments of Study.course().
+def request(*arguments, **more):
+    return arguments, more
+
+
+MAP = [request(height, model, friction) for height in HEIGHTS for model in MODELS for friction in FRICTIONS]
+OTHER_MORTAR = [{"courses": 3}, {"head_friction": 0.6}]
+FRESH = [request(height, model, friction, **mortar) for height in HEIGHTS for model in BONDS for friction in FRICTIONS
+         for mortar in OTHER_MORTAR]
+MORTAR = [request("h22", model, 0.2, courses=courses, heads=heads, below=below) for model in BONDS
+          for courses, heads, below in ((1, False, 0), (1, False, 2), (3, False, 2), (1, True, 0), (3, True, 2))]
+
+
+def bond_of(spirals, embedment, hand=None):
+    return {"spirals": spirals, "embedment": embedment, "beside": "half", **({"chirality": hand} if hand else {})}
+
+
+BONDS_OF_SPIRALS = [(height, bond_of(spirals, embedment)) for height in HEIGHTS
+                    for spirals in ((2, 3) if height == "h32" else (5, 10)) for embedment in (-1, 0, 1, 2)]
+HANDS = [("right", bond_of(10, -1)), ("left", bond_of(10, -1, "left")), ("both", bond_of(5, -1, "both"))]
+
+
+CURING = {15: "15 minutes", 30: "30 minutes", 60: "60 minutes", 4 * 1440: "4 days"}  # a course
+
+
+def spiral_requests(height, bond):
+    """One fresh course laid brick by brick; the same course closed, three fresh ones; on beds of friction 0.2."""
+    return [request(height, "herringbone", 0.2, bond=bond), request(height, "herringbone", 0.2, bond=bond, at_once=True, courses=3)]
+
+
+def make_runs(study):
+    spirals = [one for height, bond in BONDS_OF_SPIRALS for one in spiral_requests(height, bond)]
+    hands = [request("h22", "herringbone", 0.2, bond=bond) for _, bond in HANDS]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        done = [pool.submit(study.course, *arguments, **more) for arguments, more in [*MAP, *FRESH, *MORTAR, *spirals, *hands]]
+        done += [pool.submit(curing_course, study, minutes) for minutes in CURING]
+        for run_of in done:
+            run_of.result()
+
+
+def map_runs(study, requests=MAP):
+    """(height, model, friction, course) of every run of the map, or of other runs."""
+    for arguments, mortar in requests:
+        course = study.course(*arguments, **mortar)
+        yield course.options("height"), arguments[1], arguments[2], course
 
 
 def write_map(study):
     out = csv.writer(sys.stdout)
     out.writerow(["height, m", "herringbone", "bed friction", *RESULTS])
-    for height, model, friction, course in study.map():
-        out.writerow([f"{height:g}", model.replace("herringbone", "spirals"), friction, *results(course, friction)])
+    for height, model, friction, course in map_runs(study):
+        out.writerow([f"{height:g}", name_of(model), friction, *results(course, friction)])
+
+
+def write_fresh(study):
+    out = csv.writer(sys.stdout)
+    out.writerow(["height, m", "herringbone", "bed friction", *(f"three fresh courses, {need}" for need in NEEDS),
+                  *(f"friction 0.6 in the heads, {need}" for need in NEEDS)])
+    for height in HEIGHTS:
+        for model in BONDS:
+            for friction in FRICTIONS:
+                courses = [study.course(height, model, friction, **mortar) for mortar in OTHER_MORTAR]
+                out.writerow([f"{courses[0].options('height'):g}", name_of(model), friction,
+                              *(need for course in courses for need in needs(course))])
 
 
 def write_mortar(study):
     out = csv.writer(sys.stdout)
-    out.writerow(["bond", "fresh courses", "heads", "courses solved below", *RESULTS])
-    for bond in BONDS:
-        for courses, heads, below in ((1, False, 0), (1, False, 2), (3, False, 2), (1, True, 0), (3, True, 2)):
-            course = study.course("h22", bond, 0.2, courses, heads, below)
-            out.writerow([bond, courses, "mortar" if heads else "dry", below, *results(course, 0.2)])
+    out.writerow(["herringbone", "fresh courses", "heads", "courses solved below", *RESULTS])
+    for arguments, mortar in MORTAR:
+        course = study.course(*arguments, **mortar)
+        out.writerow([name_of(arguments[1]), mortar["courses"], "mortar" if mortar["heads"] else "dry", mortar["below"],
+                      *results(course, 0.2)])
 
 
 def write_spirals(study):
     out = csv.writer(sys.stdout)
-    out.writerow(["spirals", "hand", "uprights of a spiral in a course", *RESULTS])
-    rows = [(spirals, "right", embedment) for spirals in (5, 10) for embedment in (-1, 0, 1, 2)]
-    for spirals, hand, embedment in rows + [(10, "left", -1), (5, "both", -1)]:
-        more = {} if hand == "right" else {"chirality": hand}
-        course = study.course("h22", "herringbone", 0.2, spirals=spirals, embedment=embedment, beside="half", **more)
-        name = "three: 0, 6 and 12 cm deep" if embedment < 0 else f"one, {6 * embedment} cm deep"
-        out.writerow([spirals, hand, name, *results(course, 0.2)])
+    out.writerow(["height, m", "spirals", "uprights of a spiral in a course", *RESULTS[:-1], "closed, three fresh courses",
+                  RESULTS[-1]])
+    for height, bond in BONDS_OF_SPIRALS:
+        laid, three = (study.course(*arguments, **more) for arguments, more in spiral_requests(height, bond))
+        embedment = bond["embedment"]
+        out.writerow([f"{laid.options('height'):g}", bond["spirals"],
+                      "three: 0, 6 and 12 cm deep" if embedment < 0 else f"one, {6 * embedment} cm deep", kpa(laid.free_end(0.2, 1)),
+                      *needs(laid), bracket(three.closed), laid.falling()])
+
+
+def write_hands(study):
+    out = csv.writer(sys.stdout)
+    out.writerow(["hand", "spirals", *RESULTS])
+    for hand, bond in HANDS:
+        out.writerow([hand, bond["spirals"], *results(study.course("h22", "herringbone", 0.2, bond=bond), 0.2)])
+
+
+def curing_course(study, minutes):
+    return Course(study.bin, study.work, "centering_h17_curing", {"analysis.staged.days_per_course": f"{minutes / 1440:.6f}"})
+
+
+def write_curing(study):
+    out = csv.writer(sys.stdout)
+    out.writerow(["a course every", *NEEDS[::2]])
+    for minutes, pace in CURING.items():
+        course = curing_course(study, minutes)
+        out.writerow([pace, bracket(course.laying(0)), bracket(course.closed)])
 
 
 def write_nubian(study):
@@ -200,7 +177,7 @@ def write_nubian(study):
                             {"geometry.window.height": f"{1.5 * math.sin(math.radians(angle)):.9f}",
                              "analysis.staged.fresh.friction": friction})
             expected, found = course.free_end(friction, 1), course.open
-            out.writerow([angle, friction, kpa(expected), kpa(found), f"{100 * (found / expected - 1):.2f}"])
+            out.writerow([angle, friction, kpa(expected), bracket(course.laying(0)), f"{100 * (found / expected - 1):.2f}"])
 
 
 def shares(runs, model, without, value):
@@ -236,20 +213,25 @@ def verdict(while_open, closed, held):
     return "not reproduced"
 
 
+HERRINGBONE = "certainly the herringbone will play the decisive role in preventing the sliding of the bricks"
+RING = "Building without falsework was possible for a dome of revolution; constructed by layering one ring on the other"
+
+
 def write_verdicts(study):
     """The herringbone is called decisive if it halves the cohesion that the course needs, at every friction of the map."""
-    runs = list(study.map())
     out = csv.writer(sys.stdout)
-    out.writerow(["sentence of the paper", "verdict", "share, a brick being laid: smallest and largest over the heights",
+    out.writerow(["sentence of the paper", "mortar", "verdict", "share, a brick being laid: smallest and largest over the heights",
                   "share, closed, by height"])
-    for sentence, model, without, held in (
-            ("certainly the herringbone will play the decisive role in preventing the sliding of the bricks", "herringbone",
-             "none", "of a run are held until it is closed"),
-            ("Building without falsework was possible for a dome of revolution; constructed by layering one ring on the other",
-             REVOLUTION, REVOLUTION, "are held until the ring is closed")):
+    one, (three, rough) = MAP, ([one for one in FRESH if one[1] == mortar] for mortar in OTHER_MORTAR)
+    for sentence, mortar, requests, model, without, held in (
+            (HERRINGBONE, "one fresh course, head friction 0.3", one, "herringbone", "none", "of a run are held until it is closed"),
+            (HERRINGBONE, "one fresh course, head friction 0.6", rough, "herringbone", "none", "of a run are held until it is closed"),
+            (HERRINGBONE, "three fresh courses, head friction 0.3", three, "herringbone", "none", "of a run are held until it is closed"),
+            (RING, "one fresh course, head friction 0.3", one, REVOLUTION, REVOLUTION, "are held until the ring is closed")):
+        runs = list(map_runs(study, requests))
         opened, closed = (shares(runs, model, without, value)
-                          for value in (lambda course: course.open, lambda course: course.closed))
-        out.writerow([sentence, verdict(opened, closed, held), f"{min(opened.values()):.2f} to {max(opened.values()):.2f}",
+                          for value in (lambda course: course.open, lambda course: stands(course.closed)))
+        out.writerow([sentence, mortar, verdict(opened, closed, held), f"{min(opened.values()):.2f} to {max(opened.values()):.2f}",
                       "; ".join(f"{height:g} m: {share:.2f}" for height, share in sorted(closed.items()))])
 
 
@@ -262,16 +244,16 @@ def height_reached(points, cohesion):
 
 
 def write_heights(study):
-    runs = list(study.map())
+    runs = list(map_runs(study))
     out = csv.writer(sys.stdout)
     out.writerow(["fresh cohesion, kPa", "bed friction", "without herringbones, m", "with, laying flat bricks, m",
                   "with, laying uprights, m", "with, every run held until it is closed, m"])
-    needs = (("none", lambda course: course.open), ("herringbone", lambda course: course.laying(0)),
-             ("herringbone", lambda course: course.laying(1)), ("herringbone", lambda course: course.closed))
+    columns = (("none", lambda course: course.open), ("herringbone", lambda course: stands(course.laying(0))),
+               ("herringbone", lambda course: stands(course.laying(1))), ("herringbone", lambda course: stands(course.closed)))
     for cohesion in (300.0, 500.0, 1000.0):
         for friction in FRICTIONS:
             cells = []
-            for wanted, need in needs:
+            for wanted, need in columns:
                 points = [(height, need(course)) for height, model, mu, course in runs if (model, mu) == (wanted, friction)]
                 cells.append("not found" if None in (p[1] for p in points) else height_reached(points, cohesion))
             out.writerow([cohesion / 1000, friction, *cells])
@@ -350,24 +332,34 @@ def plot(picture, size, commands, data):
 
 
 def draw_map(study, picture):
-    runs = [(height, model, course) for height, model, friction, course in study.map() if friction == 0.2]
+    """One panel per bed friction."""
+    runs = list(map_runs(study))
     missing = lambda value: "NaN" if value is None else value / 1000
-    data = {"none": [(height, missing(course.open), course.free_end(0.2, 1) / 1000) for height, model, course in runs
-                     if model == "none"],
-            "spirals": [(height, missing(course.laying(0)), missing(course.laying(1)), missing(course.closed))
-                        for height, model, course in runs if model == "herringbone"]}
-    plot(picture, "900,560", """
+    data, panels = {}, ""
+    for number, friction in enumerate(FRICTIONS):
+        at = [(height, model, course) for height, model, mu, course in runs if mu == friction]
+        data[f"none{number}"] = [(height, missing(course.open), course.free_end(friction, 1) / 1000, missing(stands(course.closed)))
+                                 for height, model, course in at if model == "none"]
+        data[f"spirals{number}"] = [(height, *(missing(stands(need)) for need in (course.laying(0), course.laying(1), course.closed)))
+                                    for height, model, course in at if model == "herringbone"]
+        panels += f"""
+set title 'bed friction {friction}'
+{"set key left top" if number == len(FRICTIONS) - 1 else "unset key"}
+{"set ylabel 'least cohesion of the fresh mortar, kPa'" if number == 0 else "unset ylabel"}
+plot $none{number} using 1:3 with lines lc rgb '#888888' dt 2 title 'a brick with a free end, by hand', \\
+     $none{number} using 1:2 with linespoints lc rgb '#1f3f66' pt 7 title 'no herringbones, laying', \\
+     $none{number} using 1:4 with linespoints lc rgb '#6f9fd8' pt 6 title 'no herringbones, closed', \\
+     $spirals{number} using 1:2 with linespoints lc rgb '#d9784b' pt 5 title 'spirals, laying a flat brick', \\
+     $spirals{number} using 1:3 with linespoints lc rgb '#8c4a2f' pt 9 title 'spirals, laying an upright', \\
+     $spirals{number} using 1:4 with linespoints lc rgb '#3a8a4a' pt 11 title 'spirals, closed'
+"""
+    plot(picture, "1200,480", """
 set xlabel 'height above the springing, m'
-set ylabel 'least cohesion of the fresh mortar, kPa'
-set yrange [0:*]
-set key left top
+set xrange [5:34]
+set yrange [0:3]
 set grid
-plot $none using 1:3 with lines lc rgb '#888888' dt 2 title 'a brick with a free end, by hand', \\
-     $none using 1:2 with linespoints lc rgb '#1f3f66' pt 7 title 'without herringbones, open', \\
-     $spirals using 1:2 with linespoints lc rgb '#d9784b' pt 5 title 'with, laying a flat brick', \\
-     $spirals using 1:3 with linespoints lc rgb '#8c4a2f' pt 9 title 'with, laying an upright', \\
-     $spirals using 1:4 with linespoints lc rgb '#3a8a4a' pt 11 title 'with, every run closed'
-""", data)
+set multiplot layout 1,3
+""" + panels + "unset multiplot\n", data)
 
 
 def draw_arch(study, picture):
@@ -393,10 +385,12 @@ set size ratio -1
 unset key
 set object 1 rectangle from -0.06,0 to 0,{depth} fc rgb '#d9784b'
 set object 2 rectangle from {arch.length()},0 to {arch.length() + 0.06},{depth} fc rgb '#d9784b'
+set label 1 'upright' at -0.03,{depth / 2} center rotate
+set label 2 'upright' at {arch.length() + 0.03},{depth / 2} center rotate
 plot $heads using 1:(0):(0):({depth}) with vectors nohead lc rgb '#3a3a3a', \\
      [0:{arch.length()}] 0 lc rgb '#3a3a3a', {depth} lc rgb '#3a3a3a', \\
      $heads using 1:2 with linespoints lc rgb '#1f3f66' lw 2 pt 7, \\
-     $heads using 1:($2+0.03):(sprintf('%.0f N', $3)) with labels
+     $heads using ($1+($0==0 ? 0.05 : $0=={len(points) - 1} ? -0.05 : 0)):($2+0.03):(sprintf('%.0f N', $3)) with labels
 """, {"heads": points})
 
 
@@ -406,8 +400,9 @@ def write_figures(study):
     draw_arch(study, pictures / "centering_arch.png")
 
 
-TABLES = {"map": write_map, "mortar": write_mortar, "spirals": write_spirals, "arch": write_arch, "figures": write_figures,
-          "nubian": write_nubian, "verdicts": write_verdicts, "heights": write_heights}
+TABLES = {"runs": make_runs, "map": write_map, "fresh": write_fresh, "spirals": write_spirals, "hands": write_hands,
+          "mortar": write_mortar, "curing": write_curing, "arch": write_arch, "figures": write_figures, "nubian": write_nubian,
+          "verdicts": write_verdicts, "heights": write_heights}
 
 if __name__ == "__main__":
     if len(sys.argv) != 4 or sys.argv[3] not in TABLES:
