@@ -1,5 +1,6 @@
 #include "generators/generate.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,6 +21,16 @@ CutOptions cut_options(const Case& input) {
   options.support_width = input.geometry.support_width;
   options.imperfections = input.geometry.imperfections;
   return options;
+}
+
+/// Volume of the smooth shell, m3; none if parts of the grid are empty or the thickness varies over the height, whose
+/// breaks no extrapolation follows.
+std::optional<double> smooth_volume(const Shell& shell) {
+  const SurfaceMap& surface = shell.surface;
+  if (std::ranges::count(shell.bond.block_of, kVoid) > 0 ||
+      !std::ranges::all_of(surface.wythes, &Thickness::constant))
+    return std::nullopt;
+  return surface.shell_volume ? *surface.shell_volume : extrapolated_shell_volume(surface);
 }
 
 /// The assembly with what the checks found and what is doubtful about its case.
@@ -70,11 +81,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
     tolerances.joint_angle = rule.max_angle;
   }
   report->model = check_model(assembly, tolerances);
-  if (!geometry.stage) {
-    const SurfaceMap surface = make_shell(geometry).surface;
-    report->model.shell_volume =
-        surface.shell_volume ? surface.shell_volume : extrapolated_shell_volume(surface);
-  }
+  if (!geometry.stage) report->model.shell_volume = smooth_volume(make_shell(geometry));
   return with_report(std::move(assembly), *report, input);
 }
 

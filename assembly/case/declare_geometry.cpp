@@ -10,12 +10,19 @@ namespace {
 constexpr double kMostCells = 2e7;
 constexpr int kMostRings = 100000;
 
+/// The key `thickness` of a surface, which wythes replace.
+void declare_shell_thickness(Section& s, double& thickness, const std::string& meaning) {
+  if (s.parent_gives("wythes"))
+    s.refuse("thickness", "remove this key: geometry.wythes gives the thickness of each wythe");
+  else
+    s.number("thickness", thickness, {.unit = "m", .above = 0}, meaning);
+}
+
 void declare_dome(Section& s, DomeSurface& dome) {
   s.number("span", dome.span, {.unit = "m", .above = 0}, "inner diameter at the springing");
   s.number("radius_ratio", dome.radius_ratio, {.min = 0.5, .max = 1e3},
            "radius of the intrados over span: 0.5 hemisphere, 0.8 pointed-fifth profile");
-  s.number("thickness", dome.thickness, {.unit = "m", .above = 0},
-           "thickness of the shell, measured radially");
+  declare_shell_thickness(s, dome.thickness, "thickness of the shell, measured radially");
   s.number("crown_angle_deg", dome.crown_angle_deg, {.unit = "deg", .above = 0, .below = 90},
            "angle of the uppermost bed above the springing plane");
 }
@@ -26,8 +33,7 @@ void declare_octagonal_vault(Section& s, OctagonalVault& vault) {
            "inner distance between opposite corners at the springing");
   s.number("radius_ratio", vault.radius_ratio, {.min = 0.5, .max = 1e3},
            "radius of the corner arc over span: 0.8 pointed-fifth profile");
-  s.number("thickness", vault.thickness, {.unit = "m", .above = 0},
-           "thickness of the shell, measured as the key extrados defines");
+  declare_shell_thickness(s, vault.thickness, "thickness of the shell, measured as the key extrados defines");
   s.number("crown_angle_deg", vault.crown_angle_deg, {.unit = "deg", .above = 0, .below = 90},
            "angle of the uppermost bed above the springing plane, at the corner");
   s.choice("construction", vault.construction,
@@ -41,7 +47,7 @@ void declare_arch(Section& s, ArchSurface& arch) {
   s.number("span", arch.span, {.unit = "m", .above = 0}, "inner span of the full arc at z = 0");
   s.number("radius_ratio", arch.radius_ratio, {.min = 0.5, .max = 1e3},
            "radius of the intrados over span: 0.5 semicircular, above 0.5 pointed");
-  s.number("thickness", arch.thickness, {.unit = "m", .above = 0}, "thickness, measured radially");
+  declare_shell_thickness(s, arch.thickness, "thickness, measured radially");
   s.number("width", arch.width, {.unit = "m", .above = 0}, "dimension along y");
   s.number("half_embrace_deg", arch.half_embrace_deg, {.unit = "deg", .above = 0, .below = 180},
            "angle at the centre of each arc, from the vertical down to the springing; 90: springings level "
@@ -54,7 +60,7 @@ void declare_arch(Section& s, ArchSurface& arch) {
 void declare_wall(Section& s, WallSurface& wall) {
   s.number("length", wall.length, {.unit = "m", .above = 0}, "dimension along x");
   s.number("height", wall.height, {.unit = "m", .above = 0}, "dimension along z");
-  s.number("thickness", wall.thickness, {.unit = "m", .above = 0}, "dimension along y");
+  declare_shell_thickness(s, wall.thickness, "dimension along y");
 }
 
 void declare_surface(Section& s, Surface& surface) {
@@ -150,6 +156,8 @@ void declare_fill_bond(Section& s, FillBond& bond) {
   check_cells(s, bond, bond.slices_per_block);
 }
 
+}  // namespace
+
 void declare_bond(Section& s, Bond& bond) {
   s.variant<Bond>(
       "type", bond,
@@ -162,6 +170,8 @@ void declare_bond(Section& s, Bond& bond) {
                          declare_fill_bond)},
       "how the shell is cut into blocks");
 }
+
+namespace {
 
 void declare_window(Section& s, Window& window) {
   s.required_number(
@@ -220,7 +230,11 @@ void declare_geometry(Section& s, Geometry& geometry) {
                      declare_import);
   if (geometry.imported) return;
   s.section("surface", geometry.surface, "shape of the masonry shell", declare_surface);
-  s.section("bond", geometry.bond, "pattern in which the shell is cut into blocks", declare_bond);
+  if (s.gives("wythes"))
+    s.refuse("bond", "remove this key: geometry.wythes gives the bond of each wythe");
+  else
+    s.section("bond", geometry.bond, "pattern in which the shell is cut into blocks", declare_bond);
+  declare_layers(s, geometry);
   s.optional_section(
       "window", geometry.window,
       "cut only some courses over a sector of the shell; bond.rings and bond.blocks_per_ring are "
@@ -230,13 +244,14 @@ void declare_geometry(Section& s, Geometry& geometry) {
   s.number("support_width", geometry.support_width, {.unit = "m", .above = 0},
            "distance by which the fixed base extends beyond the shell");
 
-  const auto [rings, blocks_per_ring] =
-      std::visit([](const auto& bond) { return std::pair(bond.rings, bond.blocks_per_ring); }, geometry.bond);
+  const bool closed = traits_of(geometry.surface).closed;
+  const int rings = std::visit([](const auto& bond) { return bond.rings; }, *finest_bond(geometry));
   s.rule(!geometry.stage || geometry.stage->rings <= rings, "stage", "stage.rings must be <= bond.rings");
-  s.rule(!geometry.window || traits_of(geometry.surface).closed, "window",
-         "requires a dome or an octagonal vault");
-  s.rule(geometry.window || !traits_of(geometry.surface).closed || blocks_per_ring >= 3, "bond",
-         "bond.blocks_per_ring must be >= 3 on a closed ring");
+  s.rule(!geometry.window || closed, "window", "requires a dome or an octagonal vault");
+  for (const Bond* bond : bonds_of(geometry))
+    s.rule(
+        geometry.window || !closed || std::visit([](const auto& b) { return b.blocks_per_ring; }, *bond) >= 3,
+        geometry.wythes.empty() ? "bond" : "wythes", "bond.blocks_per_ring must be >= 3 on a closed ring");
 }
 
 void declare_imperfections(Section& s, Imperfections& imperfections) {

@@ -125,6 +125,7 @@ void declare_joints(Section& s, Joints& joints) {
   s.optional_section("herringbone", joints.herringbone, "joints that touch a herringbone block",
                      declare_law_change);
   s.optional_section("base", joints.base, "joints with a fixed support", declare_law_change);
+  s.optional_section("wythe", joints.wythe, "joints between layers of the thickness", declare_law_change);
   s.optional_section(
       "pieces", joints.pieces,
       "joints between pieces of one imported block, named NAME#1, NAME#2, ...: where it can crack",

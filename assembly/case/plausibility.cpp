@@ -26,6 +26,16 @@ PlausibleRange vault_angle(const std::string& key, double value) {
   return {"geometry.surface." + key, value, "deg", 4.0, 180.0, kRadians, ""};
 }
 
+/// With wythes the thickness of the surface is not in use.
+std::vector<PlausibleRange> wythe_checks(const std::vector<Wythe>& wythes) {
+  std::vector<PlausibleRange> checks;
+  for (size_t i = 0; i < wythes.size(); ++i)
+    for (const double value : wythes[i].thickness.values)
+      checks.push_back({fmt::format("geometry.wythes[{}].thickness", i), value, "m", 0.002, 20.0,
+                        "in kilometres? Lengths are in m", kMillimetres});
+  return checks;
+}
+
 std::vector<PlausibleRange> surface_checks(const Surface& surface) {
   constexpr double kNarrowest = 0.05, kWidest = 250.0, kThinnest = 0.002, kThickest = 20.0;
   const auto shell = [&](double span, double thickness) {
@@ -215,6 +225,9 @@ std::vector<std::string> unused_tensions(const Joints& joints) {
 std::vector<std::string> implausible_values(const Case& scene) {
   std::vector<PlausibleRange> checks =
       scene.geometry.imported ? std::vector<PlausibleRange>{} : surface_checks(scene.geometry.surface);
+  if (!scene.geometry.wythes.empty())
+    std::erase_if(checks, [](const PlausibleRange& c) { return c.key == "geometry.surface.thickness"; });
+  for (PlausibleRange& check : wythe_checks(scene.geometry.wythes)) checks.push_back(std::move(check));
   for (PlausibleRange& check : material_checks(scene)) checks.push_back(std::move(check));
   add_joint_checks(scene.joints, &checks);
   add_load_checks(scene, &checks);

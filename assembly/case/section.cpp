@@ -293,8 +293,12 @@ void Section::blocks(const std::string& key, std::vector<BlockRef>& values, cons
 }
 
 void Section::retired(const std::string& key, const std::string& instead) const {
+  refuse(key, "this key no longer exists; " + instead);
+}
+
+void Section::refuse(const std::string& key, const std::string& advice) const {
   const CaseNode* node = node_ ? node_->find(key) : nullptr;
-  if (node) fail(key, *node, "this key no longer exists; " + instead);
+  if (node) fail(key, *node, advice);
 }
 
 void Section::numbers(const std::string& key, std::vector<double>& values, const NumberRule& rule,
@@ -367,6 +371,7 @@ void Section::open(const std::string& key, const std::string& meaning, const Dec
   document(key, "map", {}, "", meaning);
   const CaseNode* node = look_up(key);
   Section child(node, path_of(key), node ? node->where : where_, case_file_);
+  child.parent_ = this;
   child.schema_ = schema_;
   child.files_ = files_;
   declare(child);
@@ -411,6 +416,11 @@ void Section::describe_alternative(const std::string& key, const std::string& na
   schema_->rows.push_back({path_, schema_->condition, "map", "", "", "", meaning});
   declare(*this);
   schema_->condition.clear();
+}
+
+bool Section::gives(const std::string& key) const {
+  const CaseNode* node = node_ ? node_->find(key) : nullptr;
+  return node && (node->kind != CaseNode::Kind::list || !node->items.empty());
 }
 
 void Section::rule(bool holds, const std::string& key, const std::string& text) const {

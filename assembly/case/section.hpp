@@ -69,6 +69,8 @@ class Section {
 
   /// A key of earlier versions: an error that says what replaces it.
   void retired(const std::string& key, const std::string& instead) const;
+  /// A key that others of this case exclude: an error that says what to do.
+  void refuse(const std::string& key, const std::string& advice) const;
   void texts(const std::string& key, std::vector<std::string>& values, const std::string& meaning);
 
   /// A quantity with several names, of which the case gives at most one: value = factor * number.
@@ -96,6 +98,10 @@ class Section {
   template <NamedEnum E, class Keys>
   void choice_or_section(const std::string& key, E& value, Keys& keys, const std::string& meaning,
                          void (*declare)(Section&, Keys&));
+  /// Either a number or a map of keys. A required key: `value` on entry is ignored.
+  template <class Keys>
+  void required_number_or_section(const std::string& key, double& value, const NumberRule& rule, Keys& keys,
+                                  const std::string& meaning, void (*declare)(Section&, Keys&));
 
   template <class T>
   void section(const std::string& key, T& value, const std::string& meaning, void (*declare)(Section&, T&));
@@ -121,8 +127,10 @@ class Section {
   void variant(const std::string& key, Variant& value, const std::vector<Alternative<Variant>>& alternatives,
                const std::string& meaning);
 
-  /// True if the file gives the key.
-  bool gives(const std::string& key) const { return node_ && node_->find(key); }
+  /// True if the file gives the key, with an item if it is a list.
+  bool gives(const std::string& key) const;
+  /// True if the file gives the key in the map that contains this one.
+  bool parent_gives(const std::string& key) const { return parent_ && parent_->gives(key); }
   /// Checks a rule between several keys; the message refers to `key`.
   void rule(bool holds, const std::string& key, const std::string& text) const;
 
@@ -171,6 +179,7 @@ class Section {
   bool describing() const { return schema_ != nullptr; }
 
   const CaseNode* node_ = nullptr;
+  const Section* parent_ = nullptr;
   SchemaTable* schema_ = nullptr;
   std::string path_;
   FileLocation where_;
@@ -211,6 +220,16 @@ void Section::choice_or_section(const std::string& key, E& value, Keys& keys, co
   const bool is_map = node && node->kind == CaseNode::Kind::map;
   if (!is_map) choice(key, value, meaning);
   if (is_map || describing()) section(key, keys, "instead of a name", declare);
+}
+
+template <class Keys>
+void Section::required_number_or_section(const std::string& key, double& value, const NumberRule& rule,
+                                         Keys& keys, const std::string& meaning,
+                                         void (*declare)(Section&, Keys&)) {
+  const CaseNode* node = node_ ? node_->find(key) : nullptr;
+  const bool is_map = node && node->kind == CaseNode::Kind::map;
+  if (!is_map) required_number(key, value, rule, meaning);
+  if (is_map || describing()) section(key, keys, "instead of a number", declare);
 }
 
 template <class T>

@@ -187,6 +187,27 @@ void read_parts(const Mesh& mesh, Assembly* assembly) {
     assembly->parts[i] = {block[i], ring[i], slice[i], face_start[i], num_faces[i], volume[i]};
 }
 
+/// Arrays that only a shell with wythes has.
+void add_member_arrays(const Assembly& assembly, Mesh* mesh) {
+  if (assembly.members.empty()) return;
+  using I = std::int32_t;
+  mesh->cell_data.push_back(column<I>("wythe", assembly.parts, [](const Part& p) { return p.wythe; }));
+  mesh->cell_data.push_back(
+      column<I>("member", assembly.parts, [&](const Part& p) { return assembly.blocks[p.block].member; }));
+  mesh->field_data.push_back(
+      column<I>("block_member", assembly.blocks, [](const Block& b) { return b.member; }));
+  mesh->field_data.push_back({"member_name", 1, assembly.members});
+}
+
+void read_members(const Mesh& mesh, const Columns& fields, Assembly* assembly) {
+  if (!fields.has("member_name")) return;
+  assembly->members = fields.get_any_size<std::string>("member_name");
+  const auto& member = fields.get<std::int32_t>("block_member", assembly->blocks.size());
+  for (size_t b = 0; b < assembly->blocks.size(); ++b) assembly->blocks[b].member = member[b];
+  const auto& wythe = Columns(mesh, mesh.cell_data).get<std::int32_t>("wythe", assembly->parts.size());
+  for (size_t i = 0; i < assembly->parts.size(); ++i) assembly->parts[i].wythe = wythe[i];
+}
+
 void read_ties(const Mesh& mesh, const Columns& fields, Assembly* assembly) {
   if (!mesh.has(mesh.field_data, "tie_block_a")) return;
   const auto& block_a = fields.get_any_size<std::int32_t>("tie_block_a");
@@ -217,7 +238,7 @@ void check(const Assembly& assembly, const std::string& path) {
   // Each start is checked against the list before the next one is compared with it, so that no sum overflows.
   for (size_t f = 0; f < assembly.face_kinds.size(); ++f)
     require(start[f + 1] <= num_corners && start[f + 1] >= start[f] + 3 &&
-                assembly.face_kinds[f] <= FaceKind::free,
+                assembly.face_kinds[f] <= FaceKind::wythe,
             "face", f);
   for (const int v : assembly.face_vertices) require(v >= 0 && v < num_vertices, "face vertex id", v);
   int next_face = 0;
@@ -234,7 +255,9 @@ void check(const Assembly& assembly, const std::string& path) {
   for (size_t b = 0; b < assembly.blocks.size(); ++b) {
     const Block& block = assembly.blocks[b];
     require(block.kind <= BlockKind::imported && block.density > 0.0 && block.volume > 0.0 &&
-                block.mass > 0.0 && block.centroid.allFinite() && block.inertia.allFinite(),
+                block.mass > 0.0 && block.member >= 0 &&
+                block.member < std::max(1, static_cast<int>(assembly.members.size())) &&
+                block.centroid.allFinite() && block.inertia.allFinite(),
             "block", b);
   }
   for (size_t k = 0; k < assembly.ties.size(); ++k) {
@@ -255,6 +278,7 @@ void write_assembly(const std::string& path, const Assembly& assembly, const std
   mesh.cell_data = part_arrays(assembly);
   mesh.field_data = field_arrays(assembly);
   add_tie_arrays(assembly.ties, &mesh.field_data);
+  add_member_arrays(assembly, &mesh);
   if (std::ranges::any_of(assembly.blocks, [](const Block& b) { return !b.name.empty(); })) {
     std::vector<std::string> names;
     for (const Block& block : assembly.blocks) names.push_back(block.name);
@@ -293,6 +317,7 @@ Assembly read_assembly(const std::string& path) {
   read_parts(mesh, &assembly);
   read_blocks(fields, &assembly);
   read_ties(mesh, fields, &assembly);
+  read_members(mesh, fields, &assembly);
   check(assembly, path);
   if (content_hash(assembly) != mesh.field<std::string>("content_hash"))
     throw InputError(

@@ -15,6 +15,11 @@ std::string content_hash(const Assembly& assembly) {
     hash.add(block.kind).add(block.fixed).add(block.ring).add(block.num_rings).add(block.density);
   for (const Block& block : assembly.blocks)
     if (!block.name.empty()) hash.add(std::span<const char>(block.name));
+  for (const std::string& member : assembly.members) hash.add(std::span<const char>(member));
+  if (!assembly.members.empty()) {
+    for (const Part& part : assembly.parts) hash.add(part.wythe);
+    for (const Block& block : assembly.blocks) hash.add(block.member);
+  }
   for (const ImportedTie& tie : assembly.ties) {
     hash.add(tie.block_a).add(tie.block_b).add(tie.stiffness).add(tie.length).add(tie.pushes);
     hash.add(std::span(tie.point_a.data(), 3)).add(std::span(tie.point_b.data(), 3));

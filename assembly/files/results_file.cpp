@@ -128,7 +128,7 @@ ContactTable read_contacts(const Mesh& mesh) {
   c.block_a = ints("block_a");
   c.block_b = ints("block_b");
   for (const std::uint8_t kind : mesh.array<std::uint8_t>(mesh.point_data, "kind", 1)) {
-    if (kind > static_cast<std::uint8_t>(JointKind::other))
+    if (kind > static_cast<std::uint8_t>(JointKind::wythe))
       throw InputError(FileLocation{mesh.file}, fmt::format("joint kind {} is unknown", kind));
     c.kind.push_back(static_cast<JointKind>(kind));
   }

@@ -16,11 +16,18 @@ struct LoadedFace {
   double area;
 };
 
-/// Faces of one kind on the free blocks, for parts in a range of rings.
-std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, FaceKind kind, int from_ring, int to_ring) {
+bool is_of_member(const Assembly& assembly, const Block& block, const std::string& member) {
+  return member.empty() || (!assembly.members.empty() && assembly.members[block.member] == member);
+}
+
+/// Faces of one kind on the free blocks of a member, for parts in a range of rings.
+std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, FaceKind kind, int from_ring, int to_ring,
+                                      const std::string& member) {
   std::vector<LoadedFace> faces;
   for (const Part& part : assembly.parts) {
-    if (part.ring < from_ring || part.ring > to_ring || assembly.blocks[part.block].fixed) continue;
+    const Block& block = assembly.blocks[part.block];
+    if (part.ring < from_ring || part.ring > to_ring || block.fixed || !is_of_member(assembly, block, member))
+      continue;
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
       if (assembly.face_kinds[f] != kind) continue;
       const std::vector<Vec3> polygon = face_points(assembly, f);
@@ -36,7 +43,7 @@ std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, FaceKind kind, i
 void add_top_load(const Assembly& assembly, double weight, const Vec3& down, const char* key,
                   std::vector<PointForce>* forces) {
   CUPOLA_ASSERT(std::abs(down.norm() - 1.0) < 1e-9);
-  const std::vector<LoadedFace> faces = faces_of_kind(assembly, FaceKind::top, 0, kLastRing);
+  const std::vector<LoadedFace> faces = faces_of_kind(assembly, FaceKind::top, 0, kLastRing, "");
   if (faces.empty())
     throw InputError(fmt::format("loads.{}: the assembly has no faces of kind top to carry it", key));
   double total_area = 0.0;
@@ -59,10 +66,12 @@ PointForce block_force(const BlockForce& load, const Assembly& assembly, int tim
 
 void add_face_load(const FaceLoad& load, const Assembly& assembly, int time,
                    std::vector<PointForce>* forces) {
-  const std::vector<LoadedFace> faces = faces_of_kind(assembly, load.faces, load.from_ring, load.to_ring);
+  const std::vector<LoadedFace> faces =
+      faces_of_kind(assembly, load.faces, load.from_ring, load.to_ring, load.member);
   if (faces.empty())
-    throw InputError(fmt::format("loads.faces: no free block in rings {} to {} has faces of kind {}",
-                                 load.from_ring, load.to_ring, to_string(load.faces)));
+    throw InputError(fmt::format("loads.faces: no free block{} in rings {} to {} has faces of kind {}",
+                                 load.member.empty() ? "" : " of " + load.member, load.from_ring,
+                                 load.to_ring, to_string(load.faces)));
   for (const LoadedFace& face : faces)
     forces->push_back(
         {face.block, face.centroid, face.area * (load.traction - load.pressure * face.normal), time});

@@ -20,10 +20,11 @@ constexpr auto enum_names(BlockKind) {
 }
 
 /// Role of a face of a convex part in the masonry. `top`: free upper bed of the last ring, which carries the
-/// top load. `internal`: between two parts of one block, makes no contact. `free`: any other face.
-enum class FaceKind : std::uint8_t { bed, head, intrados, extrados, top, internal, free };
+/// top load. `internal`: between two parts of one block, makes no contact. `wythe`: a joint between layers
+/// of the thickness. `free`: any other face.
+enum class FaceKind : std::uint8_t { bed, head, intrados, extrados, top, internal, free, wythe };
 constexpr auto enum_names(FaceKind) {
-  return std::array{"bed", "head", "intrados", "extrados", "top", "internal", "free"};
+  return std::array{"bed", "head", "intrados", "extrados", "top", "internal", "free", "wythe"};
 }
 
 /// One rigid block. Its mass properties are computed from its convex parts, not from their hull.
@@ -39,6 +40,7 @@ struct Block {
   int sail = 0;                  ///< sail in which its centroid lies; 0 for surfaces without sails
   double sail_position = 0.0;    ///< u in [-1, 1] across the sail, 0 at mid-sail
   int spiral = -1;               ///< herringbone spiral it belongs to; -1 for none
+  int member = 0;                ///< index into Assembly::members
   double density = 0.0;          ///< kg/m3
   double volume = 0.0;           ///< m3
   double mass = 0.0;             ///< kg
@@ -54,6 +56,7 @@ struct Part {
   int face_start = 0;
   int num_faces = 0;
   double volume = 0.0;  ///< m3
+  int wythe = 0;        ///< innermost layer of the thickness that it occupies
 };
 
 /// A spring or rod between points of two blocks, from an imported model.
@@ -82,7 +85,9 @@ struct Assembly {
   std::string title;
   std::string geometry_hash;  ///< hash of the case sections that the generator read
   int num_rings = 0;          ///< rings of the complete model; 0 for imported blocks
-  std::string check_report;   ///< results of the generator's checks, as lines of text; may be empty
+  /// Names of the wythes and, behind them, of the groups of bonders; empty for a shell of one wythe.
+  std::vector<std::string> members;
+  std::string check_report;  ///< results of the generator's checks, as lines of text; may be empty
   std::vector<std::string> block_warnings;  ///< of the generator about the blocks, one sentence each
   std::vector<std::string> case_warnings;   ///< of the generator about the rest of its case
 

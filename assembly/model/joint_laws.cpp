@@ -22,6 +22,7 @@ std::vector<std::pair<const char*, const JointLawChange*>> Joints::kinds() const
   add("head", head);
   add("herringbone", herringbone);
   add("base", base);
+  add("wythe", wythe);
   add("pieces", pieces);
   return own;
 }

@@ -86,6 +86,7 @@ struct Joints {
   JointFailure failure = JointFailure::plastic;
   std::optional<FractureEnergy> fracture_energy;  ///< softening only
   std::optional<JointLawChange> bed, head, herringbone, base;
+  std::optional<JointLawChange> wythe;   ///< between layers of the thickness
   std::optional<JointLawChange> pieces;  ///< between imported blocks whose names differ only after a '#'
   std::vector<RingJoints> rings;
   TimeFunction friction_time;  ///< factor on every friction coefficient

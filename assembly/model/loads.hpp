@@ -31,6 +31,7 @@ struct BlockForce {
 struct FaceLoad {
   FaceKind faces = FaceKind::extrados;
   int from_ring = 0, to_ring = kLastRing;  ///< rings of the parts, inclusive
+  std::string member = {};                 ///< of the blocks, see Assembly::members; empty: all
   Vec3 traction = Vec3::Zero();            ///< N/m2, world
   double pressure = 0.0;                   ///< N/m2, positive into the block
   TimeFunction time;

@@ -14,10 +14,11 @@
 
 namespace cupola {
 
-/// Kind of a joint: `base` touches a fixed support, `bed` lies between rings, `head` within a ring.
-enum class JointKind : std::uint8_t { bed, head, base, other };
+/// Kind of a joint: `base` touches a fixed support, `bed` lies between rings, `head` within a ring, `wythe` between
+/// layers of the thickness.
+enum class JointKind : std::uint8_t { bed, head, base, other, wythe };
 constexpr auto enum_names(JointKind) {
-  return std::array{"bed", "head", "base", "other"};
+  return std::array{"bed", "head", "base", "other", "wythe"};
 }
 
 /// All contact points between one pair of blocks on one face patch. block_a < block_b; the normal points

@@ -38,6 +38,8 @@ void add_edges_across(const Assembly& assembly, const Part& part, std::map<int, 
 
 Assembly with_thickness(const Assembly& assembly, double factor) {
   CUPOLA_ASSERT(factor > 0.0);
+  if (assembly.members.size() > 1)
+    throw InputError("analysis.limit.parameter: thickness: not available for a shell with wythes");
   std::map<int, int> extrados_of;  // vertex on the intrados -> vertex across the thickness
   for (const Part& part : assembly.parts) add_edges_across(assembly, part, &extrados_of);
   if (extrados_of.empty())

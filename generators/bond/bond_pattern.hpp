@@ -17,25 +17,33 @@ struct BondGrid {
   int built = 0;  ///< rings of the stage; 0: all
 };
 
+/// Instead of a block: an empty cell.
+constexpr int kVoid = -1;
+
 /// Label that the bond gives to a block.
 struct BondBlock {
   BlockKind kind = BlockKind::standard;
   bool truncated =
       false;        ///< cut: an upright that is shorter, or a flat block that is not as wide as a whole one
   int spiral = -1;  ///< of an upright block; -1 for none
+  int member = 0;   ///< what laid it: a wythe, or behind these a group of bonders
 };
 
-/// A bond: the cuts between slices along the abscissa, and the block of each cell of the (rings x slices)
-/// grid. The cells of one block in one ring are neighbours.
+/// A bond: the cuts between slices along the abscissa, and the block of each cell of the (rings x slices x
+/// wythes) grid. The cells of one block are connected by their faces.
 struct BondPattern {
   int num_rings = 0;
+  int num_wythes = 1;
   std::vector<double> cuts;   ///< ascending; the last is the first plus the extent; (num_slices + 1)
-  std::vector<int> block_of;  ///< index into `blocks`, ring by ring; (num_rings x num_slices)
+  std::vector<int> block_of;  ///< index into `blocks`, or kVoid; (num_rings x num_slices x num_wythes)
   std::vector<BondBlock> blocks;
 
   int num_slices() const { return static_cast<int>(cuts.size()) - 1; }
-  int& at(int ring, int slice) { return block_of[static_cast<size_t>(ring) * num_slices() + slice]; }
-  int at(int ring, int slice) const { return block_of[static_cast<size_t>(ring) * num_slices() + slice]; }
+  size_t cell(int ring, int slice, int wythe = 0) const {
+    return (static_cast<size_t>(ring) * num_slices() + slice) * num_wythes + wythe;
+  }
+  int& at(int ring, int slice, int wythe = 0) { return block_of[cell(ring, slice, wythe)]; }
+  int at(int ring, int slice, int wythe = 0) const { return block_of[cell(ring, slice, wythe)]; }
 };
 
 /// Cuts of `count` equal slices, the first at `start`. (count + 1)

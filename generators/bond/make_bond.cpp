@@ -46,10 +46,6 @@ BondPattern make_bond(const Bond& bond, const BondGrid& grid) {
   return pattern;
 }
 
-int rings_of(const Bond& bond) {
-  return std::visit([](const auto& b) { return b.rings * b.refine; }, bond);
-}
-
 int refinement_of(const Bond& bond) {
   return std::visit([](const auto& b) { return b.refine; }, bond);
 }

@@ -8,8 +8,6 @@ namespace cupola {
 /// Lays the bond of a case on the grid of a surface. Throws InputError if it does not fit.
 BondPattern make_bond(const Bond& bond, const BondGrid& grid);
 
-/// Number of courses after refinement.
-int rings_of(const Bond& bond);
 /// Number of courses into which the bond divides each course of the case.
 int refinement_of(const Bond& bond);
 

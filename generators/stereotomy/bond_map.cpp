@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/files/markup.hpp"
 #include "generators/stereotomy/cell_grid.hpp"
 #include "generators/stereotomy/shell.hpp"
 
@@ -18,10 +19,15 @@ const char* colour(const CellGrid& grid, int block) {
   const BondBlock& label = grid.bond.blocks[block];
   if (grid.is_support(block)) return "#b5b5b5";
   if (label.kind == BlockKind::herringbone) return label.truncated ? "#8c4a2f" : "#d9784b";
+  if (label.member >= grid.num_wythes) return "#a9bf8c";
   const auto [start, end] = slices_in_row(grid, block, grid.first_row(block));
   for (int cut = start + 1; cut < end; ++cut)
     if (grid.is_corner(cut)) return "#7fa3c7";
   return label.truncated ? "#cdb891" : "#e8dcc8";
+}
+
+bool is_in_wythe(const CellGrid& grid, int block, int wythe) {
+  return std::ranges::any_of(grid.cells[block], [&](int cell) { return cell % grid.num_wythes == wythe; });
 }
 
 struct Scale {
@@ -57,22 +63,30 @@ std::string bond_map_svg(const Geometry& geometry) {
   const CellGrid grid = make_cell_grid(surface, shell.bond, shell.stage_rings);
 
   const double row_height = std::clamp(800.0 / grid.num_rows, 2.0, 60.0);
-  const double height = row_height * grid.num_rows + 2.0 * kMargin;
-  const Scale scale{(kWidth - 2.0 * kMargin) / surface.extent, row_height, kMargin, height - kMargin};
+  const double panel = row_height * grid.num_rows, height = grid.num_wythes * (panel + kMargin) + kMargin;
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} "
       "{1:.0f}'>\n"
       "<defs><clipPath id='shell'><rect x='{2:.2f}' y='{2:.2f}' width='{3:.2f}' "
       "height='{4:.2f}'/></clipPath></defs>\n"
-      "<rect width='100%' height='100%' fill='white'/>\n"
-      "<g stroke='#3a3a3a' stroke-width='0.6' clip-path='url(#shell)'>\n",
+      "<rect width='100%' height='100%' fill='white'/>\n",
       kWidth, height, kMargin, kWidth - 2.0 * kMargin, height - 2.0 * kMargin);
-  for (int block : grid.order) draw_block(grid, block, scale, &svg);
-  svg += "</g>\n<g stroke='#1f3f66' stroke-width='1.2' stroke-dasharray='6 4'>\n";
-  for (double corner : surface.corners)
-    svg += fmt::format("<line x1='{0:.2f}' x2='{0:.2f}' y1='{1:.2f}' y2='{2:.2f}'/>\n",
-                       scale.left + scale.x * corner, kMargin, height - kMargin);
-  return svg + "</g>\n</svg>\n";
+  for (int wythe = 0; wythe < grid.num_wythes; ++wythe) {
+    const double bottom = height - kMargin - wythe * (panel + kMargin);
+    const Scale scale{(kWidth - 2.0 * kMargin) / surface.extent, row_height, kMargin, bottom};
+    if (grid.num_wythes > 1)
+      svg += fmt::format("<text x='{:.2f}' y='{:.2f}' font-family='sans-serif' font-size='16'>{}</text>\n",
+                         kMargin, bottom - panel - 6.0, markup_text(geometry.wythes[wythe].name));
+    svg += "<g stroke='#3a3a3a' stroke-width='0.6' clip-path='url(#shell)'>\n";
+    for (int block : grid.order)
+      if (is_in_wythe(grid, block, wythe)) draw_block(grid, block, scale, &svg);
+    svg += "</g>\n<g stroke='#1f3f66' stroke-width='1.2' stroke-dasharray='6 4'>\n";
+    for (double corner : surface.corners)
+      svg += fmt::format("<line x1='{0:.2f}' x2='{0:.2f}' y1='{1:.2f}' y2='{2:.2f}'/>\n",
+                         scale.left + scale.x * corner, bottom - panel, bottom);
+    svg += "</g>\n";
+  }
+  return svg + "</svg>\n";
 }
 
 }  // namespace cupola

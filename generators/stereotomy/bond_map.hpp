@@ -6,8 +6,9 @@
 
 namespace cupola {
 
-/// SVG drawing of the unrolled bond: courses upwards, abscissa to the right, corners as dashed lines. Colours
-/// show the kind of block: flat, upright, cut, across a corner, support. Blocks above the stage are left
+/// SVG drawing of the unrolled bond: courses upwards, abscissa to the right, corners as dashed lines; one drawing per
+/// wythe, the inner one at the bottom. Colours
+/// show the kind of block: flat, upright, cut, across a corner, bonder, support. Blocks above the stage are left
 /// out. Throws InputError for imported blocks.
 std::string bond_map_svg(const Geometry& geometry);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "assembly/base/error.hpp"
@@ -19,15 +20,57 @@ void mark_corners(CellGrid* grid) {
         grid->corner[cut] = 1;
 }
 
-/// Appends the cells of one row of a block, merged up to the next corner if the surface allows it.
-void append_row(const CellGrid& grid, int block, int row, std::vector<CellRange>* ranges) {
-  const auto [start, end] = slices_in_row(grid, block, row);
-  for (int s = start; s < end; ++s) {
-    if (grid.surface.flat_slices && s > start && !grid.is_corner(s))
+/// Wythes [start, end) that a block occupies.
+std::pair<int, int> wythes_of(const CellGrid& grid, int block) {
+  int start = grid.num_wythes, end = 0;
+  for (const int cell : grid.cells[block]) {
+    start = std::min(start, cell % grid.num_wythes);
+    end = std::max(end, cell % grid.num_wythes + 1);
+  }
+  return {start, end};
+}
+
+/// True if a block occupies the same slices and wythes in all its rows.
+bool is_box(const CellGrid& grid, int block) {
+  const auto [from, to] = wythes_of(grid, block);
+  const int first = grid.first_row(block), last = grid.last_row(block);
+  const auto slices = slices_in_row(grid, block, first);
+  for (int row = first; row <= last; ++row)
+    if (slices_in_row(grid, block, row) != slices) return false;
+  const size_t cells = static_cast<size_t>(last - first + 1) * (slices.second - slices.first) * (to - from);
+  return grid.cells[block].size() == cells;
+}
+
+/// Appends the cells of one row of a box, merged up to the next corner if the surface allows it.
+void append_row(const CellGrid& grid, int row, std::pair<int, int> slices, std::pair<int, int> wythes,
+                std::vector<CellRange>* ranges) {
+  for (int s = slices.first; s < slices.second; ++s) {
+    if (grid.surface.flat_slices && s > slices.first && !grid.is_corner(s))
       ranges->back().slice_end = s + 1;
     else
-      ranges->push_back({row, row + 1, s, s + 1});
+      ranges->push_back({row, row + 1, s, s + 1, wythes.first, wythes.second});
   }
+}
+
+/// True if any cell of the range satisfies `test`. The range may lie beyond the seam, not beyond the grid.
+template <class Test>
+bool any_cell(const CellRange& range, const Test& test) {
+  for (int row = range.row_start; row < range.row_end; ++row)
+    for (int slice = range.slice_start; slice < range.slice_end; ++slice)
+      for (int wythe = range.wythe_start; wythe < range.wythe_end; ++wythe)
+        if (test(row, slice, wythe)) return true;
+  return false;
+}
+
+int owner_of(const CellGrid& grid, const CellRange& range) {
+  return grid.owner(range.row_start, range.slice_start, range.wythe_start);
+}
+
+/// Kind of the face between a range and the cells `beyond` it: `joint` if one of them is built.
+FaceKind face_kind(const CellGrid& grid, const CellRange& range, const CellRange& beyond, FaceKind joint) {
+  if (owner_of(grid, beyond) == owner_of(grid, range)) return FaceKind::internal;
+  const auto is_built = [&](int row, int slice, int wythe) { return grid.is_built(row, slice, wythe); };
+  return any_cell(beyond, is_built) ? joint : FaceKind::free;
 }
 
 }  // namespace
@@ -39,34 +82,43 @@ double CellGrid::abscissa(int cut) const {
 
 std::pair<int, int> slices_in_row(const CellGrid& grid, int block, int row) {
   const auto& cells = grid.cells[block];
-  const auto begin = std::ranges::lower_bound(cells, row * grid.num_slices);
-  const auto end = std::ranges::lower_bound(cells, (row + 1) * grid.num_slices);
-  const int count = static_cast<int>(end - begin);
-  CUPOLA_ASSERT(count > 0);
-  int start = *begin % grid.num_slices;
-  if (grid.surface.closed && count < grid.num_slices)
-    for (auto cell = begin + 1; cell < end; ++cell)
-      if (*cell != *(cell - 1) + 1)
-        start = *cell % grid.num_slices;  // the block crosses the seam and starts here
+  const auto begin = std::ranges::lower_bound(cells, grid.cell(row, 0, 0));
+  const auto end = std::ranges::lower_bound(cells, grid.cell(row + 1, 0, 0));
+  CUPOLA_ASSERT(begin < end);
+  const auto slice_of = [&](int cell) { return cell / grid.num_wythes % grid.num_slices; };
+  int start = slice_of(*begin), count = 1;
+  int seam = -1;  // the slice behind a gap, where a block across the seam starts
+  for (auto cell = begin + 1; cell < end; ++cell) {
+    const int slice = slice_of(*cell), before = slice_of(*(cell - 1));
+    if (slice == before) continue;
+    ++count;
+    if (slice != before + 1) seam = slice;
+  }
+  if (grid.surface.closed && seam >= 0) start = seam;
   return {start, start + count};
 }
 
 CellGrid make_cell_grid(const SurfaceMap& surface, const BondPattern& bond, int stage_rings) {
   CUPOLA_ASSERT(bond.num_rings * surface.rows_per_ring == surface.num_rows);
-  CellGrid grid{surface, bond, surface.num_rows, bond.num_slices(), {}, {}, {}, {}};
+  CUPOLA_ASSERT(bond.num_wythes == surface.num_wythes());
+  CellGrid grid{surface, bond, surface.num_rows, bond.num_slices(), bond.num_wythes, {}, {}, {}, {}};
   mark_corners(&grid);
   const int num_blocks = static_cast<int>(bond.blocks.size());
   grid.cells.resize(num_blocks);
   for (int row = 0; row < grid.num_rows; ++row)
     for (int slice = 0; slice < grid.num_slices; ++slice)
-      grid.cells[grid.owner(row, slice)].push_back(row * grid.num_slices + slice);
+      for (int wythe = 0; wythe < grid.num_wythes; ++wythe)
+        if (const int block = grid.owner(row, slice, wythe); block != kVoid)
+          grid.cells[block].push_back(grid.cell(row, slice, wythe));
 
-  std::vector<std::pair<int, int>> start(num_blocks);  // first row and slice, which give the order
+  // First row, slice and wythe, which give the order.
+  std::vector<std::tuple<int, int, int>> start(num_blocks);
   grid.built.assign(num_blocks, 0);
   for (int b = 0; b < num_blocks; ++b) {
     CUPOLA_ASSERT(!grid.cells[b].empty());
-    start[b] = {grid.first_row(b), slices_in_row(grid, b, grid.first_row(b)).first};
-    if (stage_rings > 0 && grid.ring_of(start[b].first) >= stage_rings) continue;
+    const int row = grid.first_row(b);
+    start[b] = {row, slices_in_row(grid, b, row).first, wythes_of(grid, b).first};
+    if (stage_rings > 0 && grid.ring_of(row) >= stage_rings) continue;
     grid.built[b] = 1;
     grid.order.push_back(b);
   }
@@ -76,9 +128,19 @@ CellGrid make_cell_grid(const SurfaceMap& surface, const BondPattern& bond, int 
 
 std::vector<CellRange> convex_ranges(const CellGrid& grid, int block) {
   std::vector<CellRange> ranges;
+  if (!is_box(grid, block)) {
+    for (const int cell : grid.cells[block]) {
+      const int wythe = cell % grid.num_wythes, slice = cell / grid.num_wythes % grid.num_slices;
+      const int row = cell / (grid.num_wythes * grid.num_slices);
+      ranges.push_back({row, row + 1, slice, slice + 1, wythe, wythe + 1});
+    }
+    return ranges;
+  }
+  const auto slices = slices_in_row(grid, block, grid.first_row(block));
+  const auto wythes = wythes_of(grid, block);
   for (int row = grid.first_row(block); row <= grid.last_row(block); ++row) {
     const size_t below = ranges.size();
-    append_row(grid, block, row, &ranges);
+    append_row(grid, row, slices, wythes, &ranges);
     const bool stacks = grid.surface.flat_rings && below > 0 && ranges.size() == below + 1 &&
                         ranges[below - 1].row_end == row &&
                         ranges[below - 1].slice_start == ranges[below].slice_start &&
@@ -91,26 +153,37 @@ std::vector<CellRange> convex_ranges(const CellGrid& grid, int block) {
 }
 
 FaceKind bed_kind(const CellGrid& grid, const CellRange& range, bool upper) {
-  const int beyond = upper ? range.row_end : range.row_start - 1;
-  const int self = grid.owner(range.row_start, range.slice_start);
-  if (grid.is_support(self) && (beyond < 0 || beyond == grid.num_rows)) return FaceKind::free;
-  if (beyond < 0) return FaceKind::bed;
-  if (beyond == grid.num_rows)
-    return grid.surface.footing == Footing::both_springings ? FaceKind::bed : FaceKind::top;
-  if (grid.owner(beyond, range.slice_start) == self) return FaceKind::internal;
-  for (int s = range.slice_start; s < range.slice_end; ++s)
-    if (grid.built[grid.owner(beyond, s)]) return FaceKind::bed;
-  return upper ? FaceKind::top : FaceKind::free;
+  CellRange beyond = range;
+  beyond.row_start = upper ? range.row_end : range.row_start - 1;
+  beyond.row_end = beyond.row_start + 1;
+  const bool below = beyond.row_start < 0, above = beyond.row_start == grid.num_rows;
+  if (grid.is_support(owner_of(grid, range)) && (below || above)) return FaceKind::free;
+  if (below) return FaceKind::bed;
+  if (above) return grid.surface.footing == Footing::both_springings ? FaceKind::bed : FaceKind::top;
+  const FaceKind kind = face_kind(grid, range, beyond, FaceKind::bed);
+  if (kind != FaceKind::free || !upper) return kind;
+  const auto is_to_be_built = [&](int row, int slice, int wythe) {
+    return grid.owner(row, slice, wythe) != kVoid;
+  };
+  return any_cell(beyond, is_to_be_built) ? FaceKind::top : FaceKind::free;
 }
 
 FaceKind head_kind(const CellGrid& grid, const CellRange& range, bool right) {
-  const int beyond = right ? range.slice_end : range.slice_start - 1;
-  if (!grid.surface.closed && (beyond < 0 || beyond == grid.num_slices)) return FaceKind::free;
-  const int self = grid.owner(range.row_start, range.slice_start);
-  if (grid.owner(range.row_start, beyond) == self) return FaceKind::internal;
-  for (int row = range.row_start; row < range.row_end; ++row)
-    if (grid.built[grid.owner(row, beyond)]) return FaceKind::head;
-  return FaceKind::free;
+  CellRange beyond = range;
+  beyond.slice_start = right ? range.slice_end : range.slice_start - 1;
+  beyond.slice_end = beyond.slice_start + 1;
+  if (!grid.surface.closed && (beyond.slice_start < 0 || beyond.slice_start == grid.num_slices))
+    return FaceKind::free;
+  return face_kind(grid, range, beyond, FaceKind::head);
+}
+
+FaceKind layer_kind(const CellGrid& grid, const CellRange& range, bool outer) {
+  CellRange beyond = range;
+  beyond.wythe_start = outer ? range.wythe_end : range.wythe_start - 1;
+  beyond.wythe_end = beyond.wythe_start + 1;
+  if (beyond.wythe_start < 0) return FaceKind::intrados;
+  if (beyond.wythe_start == grid.num_wythes) return FaceKind::extrados;
+  return face_kind(grid, range, beyond, FaceKind::wythe);
 }
 
 }  // namespace cupola

@@ -1,63 +1,18 @@
 #include "generators/stereotomy/cut_blocks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include "assembly/base/error.hpp"
 #include "generators/stereotomy/cell_grid.hpp"
+#include "generators/stereotomy/cell_parts.hpp"
 #include "generators/stereotomy/grid_points.hpp"
 #include "generators/stereotomy/support.hpp"
 
 namespace cupola {
 namespace {
-
-/// Adds a skin face: the quad if it is plane, else two triangles along the diagonal that keeps the cell
-/// convex.
-void add_skin(const std::array<int, 4>& quad, FaceKind kind, bool flat, Assembly* assembly) {
-  if (flat) {
-    assembly->add_face(quad, kind);
-    return;
-  }
-  const auto& p = assembly->vertices;
-  const Vec3 normal = (p[quad[1]] - p[quad[0]]).cross(p[quad[2]] - p[quad[0]]);
-  const int first = normal.dot(p[quad[3]] - p[quad[0]]) <= 0.0 ? 0 : 1;
-  const auto corner = [&](int i) { return quad[(first + i) % 4]; };
-  assembly->add_face(std::array{corner(0), corner(1), corner(2)}, kind);
-  assembly->add_face(std::array{corner(0), corner(2), corner(3)}, kind);
-}
-
-void add_part(const CellGrid& grid, int block, const CellRange& cells, GridPoints* points,
-              Assembly* assembly) {
-  Part part;
-  part.block = block;
-  part.ring = assembly->blocks[block].fixed ? -1 : grid.ring_of(cells.row_start);
-  part.slice = grid.wrap(cells.slice_start);
-  part.face_start = assembly->num_faces();
-  assembly->parts.push_back(part);
-
-  // Corner names: lower / upper bed, left / right head, intrados / extrados. Faces are counter-clockwise seen
-  // from outside, because (outwards, along, up) is a right-handed frame on every surface.
-  const auto corner = [&](bool upper, bool right, Skin skin) {
-    return points->vertex(upper ? cells.row_end : cells.row_start,
-                          right ? cells.slice_end : cells.slice_start, skin, &assembly->vertices);
-  };
-  const auto [in, out] = std::pair(Skin::intrados, Skin::extrados);
-  const int lli = corner(false, false, in), lri = corner(false, true, in);
-  const int lle = corner(false, false, out), lre = corner(false, true, out);
-  const int uli = corner(true, false, in), uri = corner(true, true, in);
-  const int ule = corner(true, false, out), ure = corner(true, true, out);
-  assembly->add_face(std::array{lli, lri, lre, lle}, bed_kind(grid, cells, false));
-  assembly->add_face(std::array{uli, ule, ure, uri}, bed_kind(grid, cells, true));
-  assembly->add_face(std::array{lli, lle, ule, uli}, head_kind(grid, cells, false));
-  assembly->add_face(std::array{lri, uri, ure, lre}, head_kind(grid, cells, true));
-  add_skin({lli, uli, uri, lri}, FaceKind::intrados, points->flat_skins(), assembly);
-  add_skin({lle, lre, ure, ule}, FaceKind::extrados, points->flat_skins(), assembly);
-}
 
 /// Sets the sail of the block's middle, the position in it, and whether a corner of the surface lies inside
 /// the block.
@@ -81,6 +36,7 @@ Block make_block(const CellGrid& grid, int bond_block, double density) {
   block.kind = label.kind;
   block.truncated = label.truncated;
   block.spiral = label.spiral;
+  block.member = label.member;
   block.density = density;
   block.fixed = label.kind == BlockKind::support;
   block.ring = grid.ring_of(grid.first_row(bond_block));
@@ -121,14 +77,14 @@ Assembly cut_blocks(const Shell& shell, const CutOptions& options) {
     block.slot = follows ? assembly.blocks.back().slot + 1 : 0;
     assembly.blocks.push_back(block);
     points.start_block(bond_block);
-    for (const CellRange& range : convex_ranges(grid, bond_block))
-      add_part(grid, static_cast<int>(assembly.blocks.size()) - 1, range, &points, &assembly);
+    for (const CellRange& range : convex_ranges(grid, bond_block)) add_parts(grid, range, &points, &assembly);
   }
   if (surface.footing == Footing::both_springings)
     add_far_support(surface, cuts, options.support_width, options.density, &assembly);
   drop_unused_vertices(&assembly);
   CUPOLA_ASSERT(std::ranges::all_of(assembly.vertices, [](const Vec3& v) { return v.allFinite(); }));
   assembly.num_rings = surface.num_rings();
+  assembly.members = shell.members;
   compute_mass_properties(&assembly);
   return assembly;
 }

@@ -19,10 +19,13 @@ GridPoints::GridPoints(const CellGrid& grid, const std::optional<Imperfections>&
       gap_(imperfections ? imperfections->gap : 0.0),
       noise_(imperfections ? imperfections->noise : 0.0),
       random_(imperfections ? imperfections->seed : 0),
-      num_columns_(grid.surface.closed ? grid.num_slices : grid.num_slices + 1) {
+      num_columns_(grid.surface.closed ? grid.num_slices : grid.num_slices + 1),
+      num_layers_(grid.num_wythes + 1) {
+  if (grid.num_wythes > 1 && (gap_ > 0.0 || noise_ > 0.0))
+    throw InputError("imperfections: not available for a shell with wythes; remove this section");
   bed_noise_.assign(grid.num_rows + 1, 0.0);
   cut_noise_.assign(num_columns_, 0.0);
-  skin_noise_.assign(static_cast<size_t>(grid.num_rows + 1) * num_columns_ * 2, 0.0);
+  skin_noise_.assign(static_cast<size_t>(grid.num_rows + 1) * num_columns_ * num_layers_, 0.0);
   if (noise_ == 0.0) return;
   const bool last_is_fixed = grid.surface.footing == Footing::both_springings;
   for (int bed = 1; bed <= grid.num_rows - (last_is_fixed ? 1 : 0); ++bed)
@@ -35,26 +38,33 @@ GridPoints::GridPoints(const CellGrid& grid, const std::optional<Imperfections>&
 double GridPoints::metres_per_bed(int bed, int cut) const {
   const int below = bed > 0 ? bed - 1 : 0;
   const double a = grid_.abscissa(cut);
-  return (grid_.surface.point(below + 1, a, Skin::intrados) - grid_.surface.point(below, a, Skin::intrados))
-      .norm();
+  return (grid_.surface.intrados(below + 1, a) - grid_.surface.intrados(below, a)).norm();
 }
 
 double GridPoints::metres_per_abscissa(int bed, int cut) const {
   const int left = cut + 1 < num_columns_ || grid_.surface.closed ? cut : cut - 1;
   const double a = grid_.abscissa(left), b = grid_.abscissa(left + 1);
-  return (grid_.surface.point(bed, b, Skin::intrados) - grid_.surface.point(bed, a, Skin::intrados)).norm() /
-         (b - a);
+  return (grid_.surface.intrados(bed, b) - grid_.surface.intrados(bed, a)).norm() / (b - a);
 }
 
-Vec3 GridPoints::point(double bed_shift, double cut_shift, int bed, int cut, Skin skin) const {
+Vec3 GridPoints::point(double bed_shift, double cut_shift, int bed, int cut, int layer) const {
   const int column = grid_.wrap(cut);
   const double b = bed + bed_noise_[bed] + bed_shift;
   const double a = grid_.bond.cuts[column] + cut_noise_[column] + cut_shift;
-  Vec3 p = grid_.surface.point(b, a, skin);
+  Vec3 p = grid_.surface.point(b, a, layer);
   if (noise_ == 0.0) return p;
-  const Vec3 across = grid_.surface.point(b, a, Skin::extrados) - grid_.surface.point(b, a, Skin::intrados);
-  const size_t corner = (static_cast<size_t>(bed) * num_columns_ + column) * 2 + static_cast<size_t>(skin);
+  const Vec3 across = grid_.surface.extrados(b, a) - grid_.surface.intrados(b, a);
+  const size_t corner = (static_cast<size_t>(bed) * num_columns_ + column) * num_layers_ + layer;
   return p + skin_noise_[corner] * across.normalized();
+}
+
+bool GridPoints::bulges_along_rising_diagonal(int bed, int cut) const {
+  const auto corner = [&](int b, int c) { return grid_.surface.intrados(b, grid_.abscissa(c)); };
+  const Vec3 origin = corner(bed, cut);
+  const Vec3 right = corner(bed, cut + 1) - origin, up = corner(bed + 1, cut) - origin;
+  const Vec3 opposite = corner(bed + 1, cut + 1) - origin;
+  // The height of the far corner above the plane of the other three, outwards.
+  return right.cross(up).dot(opposite) >= 0.0;
 }
 
 void GridPoints::make_shared(std::vector<Vec3>* vertices) {
@@ -62,8 +72,8 @@ void GridPoints::make_shared(std::vector<Vec3>* vertices) {
   first_vertex_ = static_cast<int>(vertices->size());
   for (int bed = 0; bed <= grid_.num_rows; ++bed)
     for (int column = 0; column < num_columns_; ++column)
-      for (Skin skin : {Skin::intrados, Skin::extrados})
-        vertices->push_back(point(0.0, 0.0, bed, column, skin));
+      for (int layer = 0; layer < num_layers_; ++layer)
+        vertices->push_back(point(0.0, 0.0, bed, column, layer));
 }
 
 void GridPoints::start_block(int bond_block) {
@@ -79,11 +89,10 @@ void GridPoints::start_block(int bond_block) {
   sides_.right_gap = opening() / metres_per_abscissa(row, right - 1);
 }
 
-int GridPoints::vertex(int bed, int cut, Skin skin, std::vector<Vec3>* vertices) {
+int GridPoints::vertex(int bed, int cut, int layer, std::vector<Vec3>* vertices) {
   CUPOLA_ASSERT(bed >= 0 && bed <= grid_.num_rows);
-  if (gap_ == 0.0) return first_vertex_ + (bed * num_columns_ + grid_.wrap(cut)) * 2 + static_cast<int>(skin);
-  const auto [it, is_new] =
-      own_.try_emplace({bed, cut, static_cast<int>(skin)}, static_cast<int>(vertices->size()));
+  if (gap_ == 0.0) return first_vertex_ + (bed * num_columns_ + grid_.wrap(cut)) * num_layers_ + layer;
+  const auto [it, is_new] = own_.try_emplace({bed, cut, layer}, static_cast<int>(vertices->size()));
   if (!is_new) return it->second;
   const double bed_shift = bed == sides_.lower   ? sides_.lower_gap
                            : bed == sides_.upper ? -sides_.upper_gap
@@ -91,7 +100,7 @@ int GridPoints::vertex(int bed, int cut, Skin skin, std::vector<Vec3>* vertices)
   const double cut_shift = cut == sides_.left    ? sides_.left_gap
                            : cut == sides_.right ? -sides_.right_gap
                                                  : 0.0;
-  vertices->push_back(point(bed_shift, cut_shift, bed, cut, skin));
+  vertices->push_back(point(bed_shift, cut_shift, bed, cut, layer));
   return it->second;
 }
 

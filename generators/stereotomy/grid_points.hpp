@@ -21,7 +21,7 @@ class Random {
 
 /// Corner points of the grid, with the imperfections of the case.
 ///
-/// - Without imperfections there is one vertex per bed, cut and skin, shared by all cells around it.
+/// - Without imperfections there is one vertex per bed, cut and layer, shared by all cells around it.
 /// - Noise moves each bed and each head plane as a whole, and each corner along the line that joins intrados
 ///   and extrados there. That line lies in the bed and in the head plane, so both stay plane and joints stay
 ///   closed. The first bed, and the last bed of an arch, stay on their supports.
@@ -32,29 +32,32 @@ class GridPoints {
   GridPoints(const CellGrid& grid, const std::optional<Imperfections>& imperfections);
 
   bool flat_skins() const { return grid_.surface.flat_skins && noise_ == 0.0; }
+  /// Where skins are not plane: true if the layers of a cell bulge outwards along the diagonal from its lower left to
+  /// its upper right corner, false if along the other.
+  bool bulges_along_rising_diagonal(int bed, int cut) const;
   /// Appends the shared vertices; call once, before the first block.
   void make_shared(std::vector<Vec3>* vertices);
   /// Call before the vertices of each block.
   void start_block(int bond_block);
   /// Index of a corner of the current block; appends it if the block has its own corners.
-  int vertex(int bed, int cut, Skin skin, std::vector<Vec3>* vertices);
+  int vertex(int bed, int cut, int layer, std::vector<Vec3>* vertices);
 
  private:
-  Vec3 point(double bed_shift, double cut_shift, int bed, int cut, Skin skin) const;
+  Vec3 point(double bed_shift, double cut_shift, int bed, int cut, int layer) const;
   double metres_per_bed(int bed, int cut) const;
   double metres_per_abscissa(int bed, int cut) const;
 
   const CellGrid& grid_;
   double gap_ = 0.0, noise_ = 0.0;  // m
   Random random_;
-  int num_columns_ = 0, first_vertex_ = 0;
+  int num_columns_ = 0, num_layers_ = 0, first_vertex_ = 0;
   std::vector<double> bed_noise_, cut_noise_, skin_noise_;  // bed units, abscissa units, m
 
   struct Sides {
     int lower, upper, left, right;                     // beds and cuts of the block
     double lower_gap, upper_gap, left_gap, right_gap;  // bed units, abscissa units
   } sides_{};
-  std::map<std::tuple<int, int, int>, int> own_;  // corners of the block: (bed, cut, skin) -> vertex
+  std::map<std::tuple<int, int, int>, int> own_;  // corners of the block: (bed, cut, layer) -> vertex
 };
 
 }  // namespace cupola

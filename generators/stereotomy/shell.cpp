@@ -1,6 +1,7 @@
 #include "generators/stereotomy/shell.hpp"
 
 #include "generators/bond/make_bond.hpp"
+#include "generators/bond/wythe_bond.hpp"
 #include "generators/surface/make_surface.hpp"
 #include "generators/surface/window.hpp"
 
@@ -12,32 +13,54 @@ BondPattern with_supports(const BondPattern& bond, double held_end) {
   const int beyond = held_end > 0.0 ? 1 : 0;  // slices
   BondPattern out;
   out.num_rings = bond.num_rings + 1;
+  out.num_wythes = bond.num_wythes;
   if (beyond > 0) out.cuts.push_back(-held_end);
   out.cuts.insert(out.cuts.end(), bond.cuts.begin(), bond.cuts.end());
   if (beyond > 0) out.cuts.push_back(bond.cuts.back() + held_end);
   out.blocks = bond.blocks;
-  const int base = static_cast<int>(out.blocks.size()), num_slices = bond.num_slices();
+  const int base = static_cast<int>(out.blocks.size()), last = out.num_slices() - 1;
   out.blocks.resize(out.blocks.size() + 1 + 2 * static_cast<size_t>(beyond), {BlockKind::support, false, -1});
-  for (int row = 0; row < out.num_rings; ++row) {
-    if (beyond > 0) out.block_of.push_back(base + 1);
-    for (int s = 0; s < num_slices; ++s) out.block_of.push_back(row == 0 ? base : bond.at(row - 1, s));
-    if (beyond > 0) out.block_of.push_back(base + 2);
-  }
+  for (int row = 0; row < out.num_rings; ++row)
+    for (int slice = 0; slice <= last; ++slice)
+      for (int wythe = 0; wythe < out.num_wythes; ++wythe) {
+        const bool at_end = beyond > 0 && (slice == 0 || slice == last);
+        out.block_of.push_back(at_end     ? base + (slice == 0 ? 1 : 2)
+                               : row == 0 ? base
+                                          : bond.at(row - 1, slice - beyond, wythe));
+      }
   return out;
+}
+
+std::vector<Thickness> thicknesses(const std::vector<Wythe>& wythes) {
+  std::vector<Thickness> out;
+  for (const Wythe& wythe : wythes) out.push_back(wythe.thickness);
+  return out;
+}
+
+/// m above the springing, of the middle of each course.
+std::vector<double> course_heights(const SurfaceMap& surface) {
+  std::vector<double> heights;
+  for (int ring = 0; ring < surface.num_rings(); ++ring)
+    heights.push_back(surface.height((ring - surface.first_ring() + 0.5) * surface.rows_per_ring));
+  return heights;
 }
 
 }  // namespace
 
 Shell make_shell(const Geometry& geometry) {
-  const int courses = rings_of(geometry.bond);
-  const int stage = geometry.stage ? geometry.stage->rings * refinement_of(geometry.bond) : 0;
-  SurfaceMap surface = geometry.window ? window_surface(geometry.surface, *geometry.window, courses,
-                                                        stage > 0 ? stage : courses, geometry.support_width)
-                                       : make_surface(geometry.surface, courses);
-  BondPattern bond = make_bond(geometry.bond, {surface.num_rings(), surface.closed, surface.extent,
-                                               surface.corners, geometry.window.has_value(), stage});
+  const Bond& bond_of_courses = *finest_bond(geometry);
+  const int courses = rings_of(bond_of_courses);
+  const int stage = geometry.stage ? geometry.stage->rings * refinement_of(bond_of_courses) : 0;
+  SurfaceMap surface = geometry.window
+                           ? window_surface(geometry.surface, thicknesses(geometry.wythes), *geometry.window,
+                                            courses, stage > 0 ? stage : courses, geometry.support_width)
+                           : make_surface(geometry.surface, courses, thicknesses(geometry.wythes));
+  const BondGrid grid{surface.num_rings(),         surface.closed, surface.extent, surface.corners,
+                      geometry.window.has_value(), stage};
+  BondPattern bond = geometry.wythes.empty() ? make_bond(geometry.bond, grid)
+                                             : make_wythe_bond(geometry, grid, course_heights(surface));
   if (geometry.window) bond = with_supports(bond, surface.held_end);
-  return {std::move(surface), std::move(bond), stage};
+  return {std::move(surface), std::move(bond), member_names(geometry), stage};
 }
 
 }  // namespace cupola

@@ -9,8 +9,9 @@ namespace cupola {
 /// The surface of a case and the bond laid on it.
 struct Shell {
   SurfaceMap surface;
-  BondPattern bond;     ///< with the support of a window as blocks of its own, below and beside the courses
-  int stage_rings = 0;  ///< of the stage; 0: the complete model
+  BondPattern bond;  ///< with the support of a window as blocks of its own, below and beside the courses
+  std::vector<std::string> members;  ///< wythes and groups of bonders; none: one wythe
+  int stage_rings = 0;               ///< of the stage; 0: the complete model
 };
 
 /// Throws InputError if surface, bond and window do not fit each other.

@@ -50,9 +50,9 @@ void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double
   const int block = static_cast<int>(assembly->blocks.size()) - 1;
   std::vector<std::array<int, 4>> corners;  // per cut: inner top, outer top, outer bottom, inner bottom
   for (int s = 0; s < num_slices; ++s) {
-    const Vec3 base = surface.point(0, cuts[s], Skin::intrados);
+    const Vec3 base = surface.intrados(0, cuts[s]);
     const double inner = base.norm();  // the base lies in the plane z = 0
-    const double outer = surface.point(0, cuts[s], Skin::extrados).norm() + width;
+    const double outer = surface.extrados(0, cuts[s]).norm() + width;
     const Vec3 radial = base / inner;
     const double inside = std::max(inner - width, inner / 2.0);
     const Vec3 down(0.0, 0.0, -width);
@@ -73,18 +73,18 @@ void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double
 /// Adds a box behind bed `bed`, on the side away from the neighbouring bed `inside`.
 void add_plate(const SurfaceMap& surface, const std::vector<double>& cuts, int bed, int inside, double width,
                Assembly* assembly) {
-  const Vec3 a = surface.point(bed, cuts.front(), Skin::intrados);
-  const Vec3 b = surface.point(bed, cuts.back(), Skin::intrados);
-  const Vec3 c = surface.point(bed, cuts.back(), Skin::extrados);
-  const Vec3 d = surface.point(bed, cuts.front(), Skin::extrados);
+  const Vec3 a = surface.intrados(bed, cuts.front());
+  const Vec3 b = surface.intrados(bed, cuts.back());
+  const Vec3 c = surface.extrados(bed, cuts.back());
+  const Vec3 d = surface.extrados(bed, cuts.front());
   const Vec3 along = (b - a).normalized();
   const Vec3 across = (d - a).normalized();
   Vec3 up = across.cross(along).normalized();
-  const bool flipped = up.dot(surface.point(inside, cuts.front(), Skin::intrados) - a) < 0.0;
+  const bool flipped = up.dot(surface.intrados(inside, cuts.front()) - a) < 0.0;
   if (flipped) up = -up;
   // Two supports that face each other leave at least half of the clear span between them.
   const int other_end = bed == 0 ? surface.num_rows : 0;
-  const double clear = (surface.point(other_end, cuts.front(), Skin::intrados) - a).norm();
+  const double clear = (surface.intrados(other_end, cuts.front()) - a).norm();
   const double inner = surface.footing == Footing::both_springings ? std::min(width, clear / 4.0) : width;
 
   std::array<Vec3, 4> corners{a - width * along - inner * across, d + width * (across - along),

@@ -56,8 +56,8 @@ SurfaceMap arch_surface(const ArchSurface& arch, int rings) {
   surface.flat_slices = true;
   surface.footing = Footing::both_springings;
   surface.shell_volume = 2.0 * arch.width * half_area(R, R + arch.thickness, e, springing);
-  surface.point = [=, num_beds = surface.num_rows](double bed, double y, Skin skin) {
-    const double r = skin == Skin::intrados ? R : R + arch.thickness;
+  surface.at = [=, num_beds = surface.num_rows](double bed, double y, double depth) {
+    const double r = R + depth;
     const bool mirrored = 2.0 * bed > num_beds;
     const double fraction = 2.0 * (mirrored ? num_beds - bed : bed) / num_beds;  // 0 springing, 1 crown
     if (fraction == 1.0) return Vec3(0.0, y, r * std::sin(crown_angle(r, e)));

@@ -34,9 +34,9 @@ SurfaceMap dome_surface(const DomeSurface& dome, int rings) {
   surface.extent = 2.0 * pi;
   surface.footing = Footing::ring;
   surface.shell_volume = smooth_volume(R, R + dome.thickness, e, crown);
-  surface.point = [=, thickness = dome.thickness](double bed, double azimuth, Skin skin) {
+  surface.at = [=](double bed, double azimuth, double depth) {
     const double t = crown * bed / rings;
-    const double r = skin == Skin::intrados ? R : R + thickness;
+    const double r = R + depth;
     const double rho = r * std::cos(t) - e;
     return Vec3(rho * std::cos(azimuth), rho * std::sin(azimuth), r * std::sin(t));
   };

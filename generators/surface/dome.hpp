@@ -6,7 +6,7 @@ namespace cupola {
 
 /// Dome of revolution,
 ///     rho = -e + r cos t,  z = r sin t,
-/// with r = R on the intrados and R + thickness on the extrados, and beds at equal steps of t from 0 to the
+/// with r = R + depth, and beds at equal steps of t from 0 to the
 /// crown angle.
 ///
 /// Bed k lies on the cone with apex (0, 0, e tan t_k). Two radial half-planes cut that cone along two of its

@@ -18,8 +18,10 @@ namespace {
 
 /// Volume of the hexahedron between beds k, l and abscissae a, b, m3.
 double cell_volume(const SurfaceMap& surface, double k, double l, double a, double b) {
-  const auto& corner = surface.point;
-  const auto [in, out] = std::pair(Skin::intrados, Skin::extrados);
+  const auto corner = [&](double bed, double abscissa, int layer) {
+    return surface.point(bed, abscissa, layer);
+  };
+  const auto [in, out] = std::pair(0, surface.num_wythes());
   const std::array<Vec3, 8> p{corner(k, a, in), corner(k, a, out), corner(k, b, out), corner(k, b, in),
                               corner(l, a, in), corner(l, a, out), corner(l, b, out), corner(l, b, in)};
   constexpr std::array<std::array<int, 4>, 6> quads{
@@ -52,10 +54,21 @@ double faceted_volume(const SurfaceMap& surface, int n) {
   return volume;
 }
 
+/// m, at a height above the springing (m).
+double total_thickness(const std::vector<Thickness>& wythes, double height) {
+  double sum = 0.0;
+  for (const Thickness& wythe : wythes) sum += wythe.at(height);
+  return sum;
+}
+
 }  // namespace
 
-SurfaceMap make_surface(const Surface& surface, int rings) {
+SurfaceMap make_surface(Surface surface, int rings, std::vector<Thickness> wythes) {
   CUPOLA_ASSERT(rings >= 1);
+  if (wythes.empty())
+    wythes = {{{}, {std::visit([](const auto& s) { return s.thickness; }, surface)}}};
+  else
+    std::visit([&](auto& s) { s.thickness = total_thickness(wythes, 0.0); }, surface);
   SurfaceMap map = std::visit(Overloaded{[&](const DomeSurface& dome) { return dome_surface(dome, rings); },
                                          [&](const OctagonalVault& vault) {
                                            return vault.construction == OctagonalVault::Construction::circular
@@ -66,7 +79,12 @@ SurfaceMap make_surface(const Surface& surface, int rings) {
                                          [&](const WallSurface& wall) { return wall_surface(wall, rings); }},
                               surface);
   map.closed = traits_of(surface).closed;
-  CUPOLA_ASSERT(map.point && map.extent > 0.0 && map.num_rows == rings * map.rows_per_ring);
+  map.wythes = std::move(wythes);
+  if (!std::ranges::all_of(map.wythes, &Thickness::constant)) {
+    map.shell_volume.reset();
+    map.flat_rings = false;
+  }
+  CUPOLA_ASSERT(map.at && map.extent > 0.0 && map.num_rows == rings * map.rows_per_ring);
   CUPOLA_ASSERT(std::ranges::is_sorted(map.corners));
   return map;
 }

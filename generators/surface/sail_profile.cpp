@@ -16,13 +16,13 @@ Eigen::Vector2d SailProfile::intrados(double tau) const {
   return {c * (-e + R * std::cos(tau)), R * std::sin(tau)};
 }
 
-Eigen::Vector2d SailProfile::extrados(double tau) const {
+Eigen::Vector2d SailProfile::parallel(double tau, double depth) const {
   const double m = std::hypot(std::cos(tau), c * std::sin(tau));
-  return intrados(tau) + thickness / m * Eigen::Vector2d(std::cos(tau), c * std::sin(tau));
+  return intrados(tau) + depth / m * Eigen::Vector2d(std::cos(tau), c * std::sin(tau));
 }
 
 SailProfile sail_profile(const OctagonalVault& vault) {
-  return {vault.radius(), vault.center_offset(), std::cos(pi / vault.sails), vault.thickness};
+  return {vault.radius(), vault.center_offset(), std::cos(pi / vault.sails)};
 }
 
 double azimuth_from_midsail(double azimuth, int sails) {

@@ -10,17 +10,16 @@ namespace cupola {
 ///     rho = -e + R cos tau,  z = R sin tau.
 /// Its mid-sail section is therefore an ellipse: c = cos(pi / sails) scales rho.
 struct SailProfile {
-  double R = 0.0;          ///< m, radius of the corner arc
-  double e = 0.0;          ///< m, distance of the arc's centre beyond the axis
-  double c = 0.0;          ///< cos(pi / sails)
-  double thickness = 0.0;  ///< m
+  double R = 0.0;  ///< m, radius of the corner arc
+  double e = 0.0;  ///< m, distance of the arc's centre beyond the axis
+  double c = 0.0;  ///< cos(pi / sails)
 
   /// (X, z) of the intrados at arc parameter tau.
   Eigen::Vector2d intrados(double tau) const;
-  /// (X_E, z_E) of the parallel curve at distance th = `thickness`:
+  /// (X_E, z_E) of the parallel curve at distance th = `depth` (m):
   ///     X_E = c (-e + R cos tau) + th cos tau / m
   ///     z_E = R sin tau + th c sin tau / m,          m = hypot(cos tau, c sin tau).
-  Eigen::Vector2d extrados(double tau) const;
+  Eigen::Vector2d parallel(double tau, double depth) const;
 };
 
 SailProfile sail_profile(const OctagonalVault& vault);
@@ -30,7 +29,7 @@ double azimuth_from_midsail(double azimuth, int sails);
 
 struct SurfaceMap;
 /// The part of the map that both constructions share: corners at azimuths i 2 pi / sails and a ring footing;
-/// `point` is left empty. Throws InputError if the crown lies beyond the axis.
+/// `at` is left empty. Throws InputError if the crown lies beyond the axis.
 SurfaceMap vault_without_points(const OctagonalVault& vault, int rings);
 
 }  // namespace cupola

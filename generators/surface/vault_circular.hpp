@@ -11,7 +11,7 @@ namespace cupola {
 ///     rho = q (-e + R cos tau),  z = R sin tau,
 /// and it meets the bed at
 ///     tau = atan(q T) + asin[ (e / R) T (1 - q) / sqrt(1 + q^2 T^2) ].
-/// The extrados is the same curve with a larger radius (`corner`: R + th, `midsail`: R + th / c), or the
+/// A layer at depth th is the same curve with a larger radius (`corner`: R + th, `midsail`: R + th / c), or the
 /// parallel surface of the sail (`normal`), which the bed meets where
 ///     (z_E - e T) cos t = (X_E / cos psi) sin t.
 /// z is always computed from the bed, z = (e + rho) T, so that bed facets are plane to rounding. The facets

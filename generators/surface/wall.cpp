@@ -10,8 +10,8 @@ SurfaceMap wall_surface(const WallSurface& wall, int rings) {
   surface.flat_rings = true;
   surface.footing = Footing::plate;
   surface.shell_volume = wall.length * wall.height * wall.thickness;
-  surface.point = [=](double bed, double x, Skin skin) {
-    return Vec3(x, skin == Skin::extrados ? 0.0 : wall.thickness, wall.height * bed / rings);
+  surface.at = [=](double bed, double x, double depth) {
+    return Vec3(x, wall.thickness - depth, wall.height * bed / rings);
   };
   return surface;
 }

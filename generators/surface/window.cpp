@@ -17,7 +17,7 @@ using std::numbers::pi;
 
 /// Bed of the whole surface, as a fraction, where the intrados at abscissa 0 has the height of the window.
 double bed_at_height(const SurfaceMap& whole, double height) {
-  const auto residual = [&](double bed) { return whole.point(bed, 0.0, Skin::intrados).z() - height; };
+  const auto residual = [&](double bed) { return whole.intrados(bed, 0.0).z() - height; };
   const double crown = residual(whole.num_rows);
   if (crown <= 0.0)
     throw InputError(
@@ -31,15 +31,15 @@ double bed_at_height(const SurfaceMap& whole, double height) {
 /// difference and of rounding below 1e-9.
 double beds_per_metre(const SurfaceMap& whole, double bed) {
   const double step = 1e-4 * whole.num_rows;
-  const auto at = [&](double b) { return whole.point(b, 0.0, Skin::intrados); };
+  const auto at = [&](double b) { return whole.intrados(b, 0.0); };
   return 2.0 * step / (at(bed + step) - at(bed - step)).norm();
 }
 
 }  // namespace
 
-SurfaceMap window_surface(const Surface& surface, const Window& window, int courses, int built,
-                          double support_depth) {
-  const SurfaceMap whole = make_surface(surface, courses);
+SurfaceMap window_surface(const Surface& surface, std::vector<Thickness> wythes, const Window& window,
+                          int courses, int built, double support_depth) {
+  const SurfaceMap whole = make_surface(surface, courses, std::move(wythes));
   CUPOLA_ASSERT(whole.closed && whole.rows_per_ring == 1 && built >= 1 && built <= courses);
   const double under_last = bed_at_height(whole, window.height);
   const double per_metre = beds_per_metre(whole, under_last);
@@ -70,13 +70,13 @@ SurfaceMap window_surface(const Surface& surface, const Window& window, int cour
       if (corner > map.extent - rounding) break;
       map.corners.push_back(std::max(corner, 0.0));
     }
-  const double radius = whole.point(under_last, 0.0, Skin::intrados).head<2>().norm();
+  const double radius = whole.intrados(under_last, 0.0).head<2>().norm();
   if (window.ends == Window::Ends::held)
     map.held_end = std::min(support_depth / radius, 0.5 * (2.0 * pi - map.extent));
   const double support = support_depth * per_metre;
-  map.point = [=, point = whole.point](double bed, double abscissa, Skin skin) {
+  map.at = [=, at = whole.at](double bed, double abscissa, double depth) {
     const double b = bed < 1.0 ? first - (1.0 - bed) * support : first + (bed - 1.0) * step;
-    return point(b, from + abscissa, skin);
+    return at(b, from + abscissa, depth);
   };
   return map;
 }

@@ -12,7 +12,7 @@ namespace cupola {
 /// that of the whole surface less its value at from_deg. One row of cells of the depth `support_depth` (m)
 /// below the first course is a support, and with held ends so are cells of the same width beyond both ends.
 /// Throws InputError if the courses reach below the springing or above the crown.
-SurfaceMap window_surface(const Surface& surface, const Window& window, int courses, int built,
-                          double support_depth);
+SurfaceMap window_surface(const Surface& surface, std::vector<Thickness> wythes, const Window& window,
+                          int courses, int built, double support_depth);
 
 }  // namespace cupola

@@ -87,6 +87,8 @@ void classify(const CollisionPart& part_a, FaceKind face_a, const CollisionPart&
     patch->kind = JointKind::bed;
   } else if (face_a == FaceKind::head && face_b == FaceKind::head) {
     patch->kind = JointKind::head;
+  } else if (face_a == FaceKind::wythe && face_b == FaceKind::wythe) {
+    patch->kind = JointKind::wythe;
   } else {
     patch->kind = JointKind::other;
   }

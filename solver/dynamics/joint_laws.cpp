@@ -49,6 +49,8 @@ const std::optional<JointLawChange>& change_of(const Joints& joints, JointClass 
       return joints.base;
     case JointClass::pieces:
       return joints.pieces;
+    case JointClass::wythe:
+      return joints.wythe;
     case JointClass::other:
       break;
   }
@@ -97,6 +99,7 @@ JointClass joint_class(const Assembly& assembly, const Patch& patch) {
   if (is_herringbone(patch.block_a) || is_herringbone(patch.block_b))
     return is_bed ? JointClass::herringbone_bed : JointClass::herringbone_other;
   if (is_bed) return JointClass::bed;
+  if (patch.kind == JointKind::wythe) return JointClass::wythe;
   return patch.kind == JointKind::head ? JointClass::head : JointClass::other;
 }
 

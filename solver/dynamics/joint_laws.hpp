@@ -27,9 +27,10 @@ struct JointLaw {
 };
 
 /// Classes of joints that can have different laws. A base joint lies on a support. A herringbone joint
-/// touches a herringbone block. Pieces belong to one imported block: their names differ only after a '#'.
-enum class JointClass { bed, head, herringbone_bed, herringbone_other, base, pieces, other };
-constexpr int kNumJointClasses = 7;
+/// touches a herringbone block. Pieces belong to one imported block: their names differ only after a '#'. A wythe joint lies between
+/// layers of the thickness.
+enum class JointClass { bed, head, herringbone_bed, herringbone_other, base, pieces, wythe, other };
+constexpr int kNumJointClasses = 8;
 JointClass joint_class(const Assembly& assembly, const Patch& patch);
 
 /// The law of every class of joint in every ring. Laws of rings override laws of classes, and these override

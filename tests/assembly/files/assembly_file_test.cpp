@@ -92,6 +92,25 @@ TEST(AssemblyFile, TiesRoundTripExactly) {
   EXPECT_NE(read_error(path).find("tie 0 is invalid"), std::string::npos) << read_error(path);
 }
 
+TEST(AssemblyFile, WythesRoundTrip) {
+  Assembly a = test::two_block_assembly();
+  const std::string without = content_hash(a);
+  a.members = {"inner", "outer", "rib"};
+  a.parts.back().wythe = 1;
+  a.blocks.back().member = 2;
+  EXPECT_NE(content_hash(a), without);
+  const std::string path = test::fresh_folder("a") + "/assembly.vtu";
+  write_assembly(path, a);
+  const Assembly b = read_assembly(path);
+  EXPECT_EQ(b.members, a.members);
+  EXPECT_EQ(b.parts.front().wythe, 0);
+  EXPECT_EQ(b.parts.back().wythe, 1);
+  EXPECT_EQ(b.blocks.back().member, 2);
+  a.blocks.back().member = 3;
+  write_assembly(path, a);
+  EXPECT_NE(read_error(path).find("block 1 is invalid"), std::string::npos) << read_error(path);
+}
+
 // A VTK hexahedron lists four points of one face, then the four points across from them. The edges 0-4, 1-5,
 // 2-6, 3-7 and a positive determinant at point 0 show that the order is right.
 TEST(AssemblyFile, BoxesBecomeHexahedraInVtkOrder) {

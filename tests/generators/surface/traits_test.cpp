@@ -19,7 +19,7 @@ std::vector<Surface> every_kind(std::index_sequence<I...>) {
 TEST(SurfaceTraits, ClosedSurfacesEndWhereTheyBegin) {
   for (const Surface& surface : every_kind(std::make_index_sequence<std::variant_size_v<Surface>>{})) {
     const SurfaceMap map = make_surface(surface, 4);
-    const Vec3 begin = map.point(1.0, 0.0, Skin::intrados), end = map.point(1.0, map.extent, Skin::intrados);
+    const Vec3 begin = map.intrados(1.0, 0.0), end = map.intrados(1.0, map.extent);
     EXPECT_EQ((end - begin).norm() < 1e-12, traits_of(surface).closed) << "kind " << surface.index();
   }
 }

@@ -1,0 +1,34 @@
+#include "assembly/case/geometry.hpp"
+
+#include <algorithm>
+
+namespace cupola {
+
+double Thickness::at(double height) const {
+  if (constant() || height <= heights.front()) return values.front();
+  const auto above = std::ranges::upper_bound(heights, height);
+  if (above == heights.end()) return values.back();
+  const auto i = static_cast<size_t>(above - heights.begin());
+  const double fraction = (height - heights[i - 1]) / (heights[i] - heights[i - 1]);
+  return values[i - 1] + fraction * (values[i] - values[i - 1]);
+}
+
+std::vector<const Bond*> bonds_of(const Geometry& geometry) {
+  if (geometry.wythes.empty()) return {&geometry.bond};
+  std::vector<const Bond*> bonds;
+  for (const Wythe& wythe : geometry.wythes)
+    if (wythe.bond) bonds.push_back(&*wythe.bond);
+  return bonds;
+}
+
+const Bond* finest_bond(const Geometry& geometry) {
+  const std::vector<const Bond*> bonds = bonds_of(geometry);
+  if (bonds.empty()) return &geometry.bond;  // of a case that is not valid, or not complete yet
+  return *std::ranges::max_element(bonds, {}, [](const Bond* bond) { return rings_of(*bond); });
+}
+
+int rings_of(const Bond& bond) {
+  return std::visit([](const auto& b) { return b.rings * b.refine; }, bond);
+}
+
+}  // namespace cupola
