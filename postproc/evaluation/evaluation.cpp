@@ -183,7 +183,8 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e) {
       nearest = std::abs(ring.height - height);
       section.ring = ring.ring;
     }
-    if (section.ring >= 0) section.resultants = bed_resultants(e, input, section.ring);
+    if (section.ring >= 0 && has_one_layer_of_rings(e))
+      section.resultants = bed_resultants(e, input, section.ring);
     sections.push_back(std::move(section));
   }
   return sections;
@@ -212,6 +213,10 @@ bool is_mechanism(const Summary& summary, const Frame& frame) {
       return false;
   }
   return false;
+}
+
+bool has_one_layer_of_rings(const Evaluation& e) {
+  return e.shell.num_rings() > 0 && e.assembly.members.empty();
 }
 
 bool is_vault(const Evaluation& e) {
@@ -284,6 +289,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
 
   e.last = evaluate_frame(e, evaluated_frame(results, &e));
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads);
+  e.members = member_sums(e.assembly, e.last.joints, e.last.gravity);
   count_lost_joints(results, &e);
   e.meridians = evaluate_meridians(e);
   add_ends_of_thrust(results, &e);
@@ -292,7 +298,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
     e.planes.push_back(plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads));
   const std::optional<double> rib = meridian_named("rib", scene),
                               mid_sail = meridian_named("mid_sail", scene);
-  if (rib && mid_sail)
+  if (rib && mid_sail && e.assembly.members.empty())  // thrust lines see no wythes
     e.rib_over_mid_sail = rib_ratio(thrust_input(e, e.last), scene.geometry, *rib, *mid_sail);
   return e;
 }

@@ -9,6 +9,7 @@
 #include "postproc/evaluation/rib_ratio.hpp"
 #include "postproc/mechanics/block_fields.hpp"
 #include "postproc/mechanics/cuts.hpp"
+#include "postproc/mechanics/member_sums.hpp"
 #include "postproc/mechanics/plane_cut.hpp"
 #include "postproc/mechanics/ring_sums.hpp"
 #include "postproc/mechanics/thrust_line.hpp"
@@ -66,6 +67,7 @@ struct Evaluation {
   std::vector<ShellAxes> axes;
   FrameEvaluation last;
   std::vector<RingSum> rings;
+  std::vector<MemberSum> members;  ///< empty without wythes
   std::vector<MeridianEvaluation> meridians;
   std::vector<SectionEvaluation> sections;
   std::vector<PlaneCut> planes;
@@ -83,6 +85,8 @@ bool at_rest(const Summary& summary);
 /// motion that the static solve of a case or of a stage of construction, or a range analysis, found.
 bool is_mechanism(const Summary& summary, const Frame& frame);
 
+/// True for a shell of rings without wythes, which can be unrolled and has beds from intrados to extrados.
+bool has_one_layer_of_rings(const Evaluation& evaluation);
 /// True for a vault about the z axis, where azimuths are meaningful.
 bool is_vault(const Evaluation& evaluation);
 

@@ -122,7 +122,7 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
   std::vector<Figure> figures;
   const std::vector<ForceRange>& ranges = e.summary.ranges;
   if (!ranges.empty()) figures.push_back(range_figure(e));
-  if (e.shell.num_rings() > 0 &&
+  if (has_one_layer_of_rings(e) &&
       std::any_of(ranges.begin(), ranges.end(), [](const ForceRange& r) { return r.joint.has_value(); }))
     figures.push_back(certainty_map(e));
   if (history.size() > 1) figures.push_back(history_figure(e, history));
@@ -138,7 +138,7 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
     if (!cut.polygons.empty()) figures.push_back(plane_figure(e, cut));
   for (const MeridianEvaluation& m : e.meridians)
     if (!m.hoop.empty()) figures.push_back(hoop_figure(m));
-  if (e.shell.num_rings() > 0) {
+  if (has_one_layer_of_rings(e)) {
     const ShellMap map = shell_map(e);
     MapScales scales;
     scales.include(map);

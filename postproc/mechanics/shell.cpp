@@ -54,7 +54,7 @@ std::optional<size_t> edge_on(const Assembly& assembly, const Part& part, std::s
   return std::nullopt;
 }
 
-/// Adds face `f` of a part to a bed if it touches both skins.
+/// Adds face `f` of a part to a bed if it touches both skins, as it does in a shell of one wythe.
 void add_facet(const Assembly& assembly, const Part& part, int f, std::vector<BedFacet>* bed) {
   const auto face = assembly.face(f);
   const auto inner = edge_on(assembly, part, face, FaceKind::intrados);
@@ -125,7 +125,7 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
   shell.progress = progress_directions(assembly, num_rings, up);
   shell.beds.resize(static_cast<size_t>(num_rings) + 1);
   for (const Part& part : assembly.parts) {
-    if (part.ring < 0) continue;
+    if (part.ring < 0 || !assembly.members.empty()) continue;  // facets reach from skin to skin
     const Block& block = assembly.blocks[part.block];
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
       const FaceKind kind = assembly.face_kinds[f];
@@ -146,6 +146,7 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
 std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell) {
   std::vector<ShellAxes> axes(assembly.blocks.size());
   std::vector<double> skin_area(axes.size(), 0.0);
+  std::vector<char> has_inner(axes.size(), 0), has_outer(axes.size(), 0);
   if (shell.num_rings() == 0) return axes;
   for (const Part& part : assembly.parts) {
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
@@ -155,6 +156,7 @@ std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell) 
       const double area = polygon_area(polygon);
       axes[part.block].n += (kind == FaceKind::extrados ? area : -area) * polygon_plane(polygon).normal;
       skin_area[part.block] += area;
+      (kind == FaceKind::extrados ? has_outer : has_inner)[part.block] = 1;
     }
   }
   for (size_t b = 0; b < axes.size(); ++b) {
@@ -167,7 +169,7 @@ std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell) 
     if (a.m.norm() == 0.0) continue;
     a.m.normalize();
     a.t = a.m.cross(a.n);
-    a.thickness = 2.0 * block.volume / skin_area[b];
+    a.thickness = (has_inner[b] + has_outer[b]) * block.volume / skin_area[b];  // a wythe may have one skin
     CUPOLA_ASSERT(std::isfinite(a.thickness) && std::abs(a.t.norm() - 1.0) < 1e-9);
     a.exists = true;
   }

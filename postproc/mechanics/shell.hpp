@@ -15,7 +15,8 @@ struct BedFacet {
 };
 
 /// An assembly seen as a shell of rings: bed k lies below ring k, counted from the springing, and bed
-/// num_rings closes the last ring. Imported blocks without rings have no beds.
+/// num_rings closes the last ring. Imported blocks without rings have no beds. The beds of a shell with wythes have no
+/// facets, so that thrust lines, sections and unrolled maps leave it out.
 struct Shell {
   std::vector<std::vector<BedFacet>> beds;  ///< (num_rings + 1), facets of each bed
   std::vector<Vec3> progress;               ///< (num_rings), unit direction from ring to ring

@@ -43,6 +43,7 @@ std::string column_reference() {
   return reference_of("ranges.csv: ranges over all admissible states", range_columns(),
                       {{"summary.json", {kRangeSummaryKeys}}}) +
          reference_of("rings.csv: ring cuts", ring_columns(), {{"summary.json", {kRingSummaryKeys}}}) +
+         reference_of("members.csv: wythes and bonders", member_columns(), {}) +
          reference_of("thrust_NAME.csv: thrust line of a meridian", thrust_columns(), {}) +
          reference_of("hoop_NAME.csv: hoop forces across a meridian", hoop_columns(), {}) +
          reference_of("section_HEIGHTm.csv: resultants across a bed", section_columns(), {}) +

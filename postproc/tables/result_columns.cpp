@@ -59,6 +59,13 @@ std::vector<BlockRow> block_rows(const Evaluation& e, const FrameEvaluation& fra
   return rows;
 }
 
+std::vector<MemberRow> member_rows(const Evaluation& e) {
+  std::vector<MemberRow> rows;
+  for (const MemberSum& sum : e.members)
+    rows.push_back({sum, e.assembly.members[sum.member], e.rings[sum.ring].height});
+  return rows;
+}
+
 std::vector<PlaneJoint> plane_joints(const Evaluation& e, const PlaneCut& cut) {
   std::vector<PlaneJoint> rows;
   for (const int j : cut.joints) {
@@ -207,6 +214,25 @@ const Columns<BlockRow>& block_columns() {
       {"mechanism_group", "", "blocks of one number move as one body", &B::mechanism_group},
       {"couple_{}_Nm", "N m", "couple of the wrench from the ring below, parallel to its force",
        [](const B& b) { return b.axis.couple; }, false},
+      {"member", "", "number of its wythe or group of bonders, see assembly.vtu; 0 without wythes",
+       [](const B& b) { return b.block.member; }, false},
+  };
+  return columns;
+}
+
+const Columns<MemberRow>& member_columns() {
+  using M = MemberRow;
+  static const Columns<M> columns{
+      {"ring", "", "the cut runs below this ring", [](const M& m) { return m.sum.ring; }},
+      {"height_m", "m", "mean height of the ring's bed joints", &M::height},
+      {"member", "", "wythe or group of bonders", &M::name},
+      {"blocks", "", "its blocks that begin in the ring", [](const M& m) { return m.sum.blocks; }},
+      {"weight_N", "N", "weight of these blocks", [](const M& m) { return m.sum.weight; }},
+      {"vertical_force_N", "N", "vertical force from below the cut on its blocks above, positive upwards",
+       [](const M& m) { return m.sum.vertical_force; }},
+      {"share", "", "this force over the sum of all members", [](const M& m) { return m.sum.share; }},
+      {"outward_force_N", "N", "sum of its horizontal outward forces on the blocks below the cut",
+       [](const M& m) { return m.sum.outward_force; }},
   };
   return columns;
 }

@@ -42,6 +42,14 @@ struct PlaneJoint {
 };
 std::vector<PlaneJoint> plane_joints(const Evaluation& evaluation, const PlaneCut& cut);
 
+/// What a member of a shell with wythes carries through a cut.
+struct MemberRow {
+  const MemberSum& sum;
+  std::string name;
+  double height = 0.0;  ///< m, of the cut, see RingSum
+};
+std::vector<MemberRow> member_rows(const Evaluation& evaluation);
+
 /// A cell of thrust_lines.vtp.
 struct LineCell {
   enum What { line_of_thrust, envelope, line_of_action, intrados, extrados };
@@ -64,6 +72,7 @@ const Columns<ForceRange>& range_columns();
 const Columns<RingRow>& ring_columns();
 const Columns<JointWrench>& joint_columns();
 const Columns<BlockRow>& block_columns();
+const Columns<MemberRow>& member_columns();
 const Columns<ThrustPoint>& thrust_columns();
 const Columns<HoopRow>& hoop_columns();
 const Columns<BedResultant>& section_columns();
@@ -83,7 +92,8 @@ inline constexpr std::array kBlockMeshKeys{"meridional_force_N_per_m",
                                            "mechanism_group",
                                            "block",
                                            "ring",
-                                           "kind"};
+                                           "kind",
+                                           "member"};
 /// wrenches.vtp: cell data and point data.
 inline constexpr std::array kWrenchCellKeys{"block", "ring", "kind", "resultant_N", "couple_length_m"};
 inline constexpr std::array kWrenchPointKeys{"force_N", "couple_Nm"};

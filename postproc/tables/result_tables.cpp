@@ -1,5 +1,7 @@
 #include "postproc/tables/result_tables.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "postproc/tables/result_columns.hpp"
@@ -18,6 +20,19 @@ Table with_block_names(const Assembly& assembly, Table table) {
     table.columns.insert(table.columns.begin() + after, {key + "_name", "", "its name in the imported file"});
     for (auto& row : table.rows)
       row.insert(row.begin() + after, assembly.blocks[static_cast<size_t>(std::get<int>(row[c]))].name);
+  }
+  return table;
+}
+
+/// Inserts the names of wythes and groups of bonders after the kinds of the blocks, in the order of the assembly.
+Table with_member_names(const Assembly& assembly, Table table) {
+  if (assembly.members.empty()) return table;
+  const auto kind = std::ranges::find(table.columns, "kind", &Table::Column::key);
+  const auto after = kind - table.columns.begin() + 1;
+  table.columns.insert(table.columns.begin() + after, {"member", "", "its wythe or group of bonders"});
+  for (size_t b = 0; b < table.rows.size(); ++b) {
+    const Block& block = assembly.blocks[b];
+    table.rows[b].insert(table.rows[b].begin() + after, block.fixed ? "" : assembly.members[block.member]);
   }
   return table;
 }
@@ -44,6 +59,11 @@ Table ring_table(const Evaluation& e) {
                     ring_columns(), rows);
 }
 
+Table member_table(const Evaluation& e) {
+  return make_table("members", "What wythes and bonders carry through the cut below each ring",
+                    member_columns(), member_rows(e));
+}
+
 Table joint_table(const Evaluation& e) {
   return with_block_names(
       e.assembly, make_table("joints", "Joints: wrench on the second block about the centre of pressure",
@@ -51,10 +71,10 @@ Table joint_table(const Evaluation& e) {
 }
 
 Table block_table(const Evaluation& e) {
-  return with_block_names(
-      e.assembly,
+  const Table table =
       make_table("blocks", "Blocks: wrench from the ring below, shell forces, joints, displacement",
-                 block_columns(), block_rows(e, e.last)));
+                 block_columns(), block_rows(e, e.last));
+  return with_block_names(e.assembly, with_member_names(e.assembly, table));
 }
 
 Table thrust_table(const ThrustLine& line) {
@@ -83,13 +103,14 @@ std::vector<Table> result_tables(const Evaluation& e) {
   std::vector<Table> tables;
   if (!e.summary.ranges.empty()) tables.push_back(range_table(e.summary.ranges));
   if (!e.rings.empty()) tables.push_back(ring_table(e));
+  if (!e.members.empty()) tables.push_back(member_table(e));
   for (const MeridianEvaluation& m : e.meridians) {
     tables.push_back(thrust_table(m.thrust));
     if (!m.hoop.empty()) tables.push_back(hoop_table(m));
   }
   for (const SectionEvaluation& section : e.sections) tables.push_back(section_table(section));
   for (const PlaneCut& cut : e.planes) tables.push_back(plane_table(e, cut));
-  if (e.shell.num_rings() > 0) tables.push_back(shell_table(shell_map(e)));
+  if (has_one_layer_of_rings(e)) tables.push_back(shell_table(shell_map(e)));
   tables.push_back(joint_table(e));
   tables.push_back(block_table(e));
   for (Table& table : tables) set_floors(e, &table);

@@ -9,6 +9,8 @@ namespace cupola {
 
 Table range_table(const std::vector<ForceRange>& ranges);
 Table ring_table(const Evaluation& evaluation);
+/// Requires a shell with wythes.
+Table member_table(const Evaluation& evaluation);
 Table joint_table(const Evaluation& evaluation);
 Table block_table(const Evaluation& evaluation);
 Table thrust_table(const ThrustLine& line);

@@ -11,6 +11,7 @@ class Colouring {
   choices() {
     const label = (column) => column.label;
     const blocks = [["bond", "Bond"]];
+    if (this.header.members.length) blocks.push(["member", "Wythe"]);
     if (this.header.film.largest_shift_m > 0) blocks.push(["displacement", "Displacement"]);
     if (this.header.bodies > 0) blocks.push(["body", "Bodies that move as one"]);
     for (const column of this.header.block_columns) if (column.colour) blocks.push(["block." + column.key, label(column)]);
@@ -23,7 +24,13 @@ class Colouring {
 
   /** Paints the model and returns the legend as HTML. */
   apply() {
-    if (this.key === "bond") return this.byName(this.scene.get("block.role"), this.header.roles, kRoles);
+    const one = !this.header.members.length;  // wythe, beside a view of a shell with several
+    if (this.key === "bond" || (this.key === "member" && one)) return this.byName(this.scene.get("block.role"), this.header.roles, kRoles);
+    if (this.key === "member") {
+      const names = this.header.members, last = names.length - 1;
+      const colours = names.map((_, i) => i === last ? kBodies[0] : kBodies[1 + i % (kBodies.length - 1)]);
+      return this.byName(this.scene.get("block.member"), names, colours);
+    }
     if (this.key === "body") {
       const body = this.scene.get("block.body");
       const colour = (n) => n === 0 ? kBodies[0] : kBodies[1 + (n - 1) % (kBodies.length - 1)];

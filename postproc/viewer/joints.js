@@ -1,6 +1,6 @@
 // The joints and forces of one state: patches and arrows.
 
-const kJointColours = [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167]];  // bed, head, base, other
+const kJointColours = [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0]];  // bed, head, base, other, wythe
 const kReach = 5;  // pixels from an arrow within which a click selects it
 
 class JointSet {

@@ -114,20 +114,29 @@ BondRole role_of(const Block& block) {
   return block.rib ? BondRole::corner : BondRole::flat;
 }
 
+/// Names of the wythes and groups of bonders, and of the supports behind them; none for a shell of one wythe.
+std::vector<std::string> members_of(const Assembly& assembly) {
+  std::vector<std::string> names = assembly.members;
+  if (!names.empty()) names.emplace_back("Support");
+  return names;
+}
+
 void add_blocks(const Evaluation& e, const Film& film, bool rounded, PackedArrays* arrays) {
   std::vector<std::uint8_t> role, fixed;
-  std::vector<int> ring, body = film.bodies();
+  std::vector<int> ring, member, body = film.bodies();
   std::vector<double> centroid;
   for (const Block& block : e.assembly.blocks) {
     role.push_back(static_cast<std::uint8_t>(role_of(block)));
     fixed.push_back(block.fixed);
     ring.push_back(block.ring);
+    member.push_back(block.fixed ? static_cast<int>(e.assembly.members.size()) : block.member);
     centroid.insert(centroid.end(), block.centroid.begin(), block.centroid.end());
   }
   body.resize(e.assembly.blocks.size(), 0);
   arrays->add("block.role", role);
   arrays->add("block.fixed", fixed);
   arrays->add("block.ring", ring, 1);
+  if (!e.assembly.members.empty()) arrays->add("block.member", member, 1);
   arrays->add("block.body", body, 1);
   arrays->add("block.centroid", centroid);
   add_columns("block.", block_columns(), block_keys(e), block_rows(e, e.last), rounded, arrays);
@@ -306,6 +315,7 @@ std::string scene_bytes(const Evaluation& e, const Film& film) {
                        {"rounding_mm", largest_rounding_mm(e)},
                        {"courses", e.assembly.num_rings},
                        {"roles", kBondRoles},
+                       {"members", members_of(e.assembly)},
                        {"kinds", names_of<JointKind>()},
                        {"names", block_names_of(e.assembly)},
                        {"bodies", largest_body(film)},

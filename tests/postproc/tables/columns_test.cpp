@@ -33,6 +33,7 @@ TEST(Columns, NamesAreUniqueAndEveryFileNamesColumnsThatExist) {
   expect_sound(thrust_columns(), {});
   expect_sound(hoop_columns(), {});
   expect_sound(section_columns(), {});
+  expect_sound(member_columns(), {});
   expect_sound(plane_columns(), {});
   expect_sound(line_cell_columns(), {kLineCellKeys});
   expect_sound(shell_columns(), {});

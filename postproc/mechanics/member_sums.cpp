@@ -1,0 +1,62 @@
+#include "postproc/mechanics/member_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace cupola {
+namespace {
+
+int ring_or_support(const Block& block) {
+  return block.fixed ? -1 : block.ring;
+}
+
+}  // namespace
+
+std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches& joints,
+                                   const Vec3& gravity) {
+  const size_t M = assembly.members.size();
+  if (M == 0) return {};
+  const double g = gravity.norm();
+  const Vec3 up = g > 0.0 ? Vec3(-gravity / g) : Vec3(Vec3::UnitZ());
+  int num_rings = 0;
+  for (const Block& block : assembly.blocks) num_rings = std::max(num_rings, ring_or_support(block) + 1);
+  std::vector<MemberSum> sums(M * static_cast<size_t>(num_rings));
+  const auto at = [&](int ring, int member) -> MemberSum& {
+    return sums[static_cast<size_t>(ring) * M + static_cast<size_t>(member)];
+  };
+  for (const Block& block : assembly.blocks) {
+    if (block.fixed) continue;
+    MemberSum& sum = at(block.ring, block.member);
+    ++sum.blocks;
+    sum.weight += block.mass * g;
+  }
+  for (const JointWrench& joint : joints.wrenches) {
+    const int ring_a = ring_or_support(assembly.blocks[joint.block_a]);
+    const int ring_b = ring_or_support(assembly.blocks[joint.block_b]);
+    if (ring_a == ring_b) continue;
+    const int upper = ring_a > ring_b ? joint.block_a : joint.block_b;
+    const Vec3 force = wrench_on(joint, upper).force;
+    const Vec3 centroid = joint.patch.centroid - joint.patch.centroid.dot(up) * up;
+    for (int k = std::min(ring_a, ring_b) + 1; k <= std::max(ring_a, ring_b); ++k) {
+      MemberSum& sum = at(k, assembly.blocks[upper].member);
+      sum.vertical_force += force.dot(up);
+      sum.outward_force -= force.dot(centroid.stableNormalized());
+    }
+  }
+  for (int k = 0; k < num_rings; ++k) {
+    double total = 0.0;
+    for (int m = 0; m < static_cast<int>(M); ++m) total += at(k, m).vertical_force;
+    for (int m = 0; m < static_cast<int>(M); ++m) {
+      MemberSum& sum = at(k, m);
+      sum.ring = k;
+      sum.member = m;
+      if (std::abs(total) > joints.floor.force) sum.share = sum.vertical_force / total;
+    }
+  }
+  std::erase_if(sums, [](const MemberSum& sum) { return sum.blocks == 0 && sum.vertical_force == 0.0; });
+  return sums;
+}
+
+}  // namespace cupola
