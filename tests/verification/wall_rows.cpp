@@ -54,6 +54,10 @@ void add_wall_rows(Computations* all) {
   rows["ferris_wall"] = [](const ReferenceRow& row) {
     return critical_load(row.integer("courses"), row.text("first_course") == "whole blocks");
   };
+  rows["two_leaf_wall"] = [](const ReferenceRow& row) {
+    const Case scene = repository_case(row.text("case"));
+    return critical_value(scene, generate(scene));
+  };
   rows["ferris_published"] = [](const ReferenceRow&) { return critical_load(6, false); };
 }
 
