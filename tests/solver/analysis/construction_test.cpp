@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "assembly/base/error.hpp"
 #include "solver/dynamics/stages.hpp"
 #include "tests/solver/construction_runs.hpp"
 
@@ -136,6 +137,33 @@ TEST(Construction, CuringInterpolatesBetweenAges) {
     EXPECT_EQ(group.from, group.to);
     EXPECT_DOUBLE_EQ(*group.law.cohesion, 1000.0 + 1000.0 * (10 - group.from));
   }
+}
+
+// Two courses of weight q per area down the slope, half a day apart, in mortar that hardens from c to 2.5 q in a day: the upper bed needs
+// c = q, the lower one (c + 2.5 q) / 2 = 2 q once it carries both.
+TEST(Construction, CuringMortarCarriesTheNextCourseByItsAge) {
+  const double theta = 22.9 * kDeg, q = kGamma * CourseSpec{}.height * std::sin(theta);
+  Case scene = course_case(theta, 0.0);
+  StagedConstruction& staged = scene.analysis.staged;
+  staged.least = StagedConstruction::Least::cohesion;
+  staged.days_per_course = 0.5;
+  staged.curing = {{0.0, testing::joint_law(0.0, 2.0 * q)}, {1.0, testing::joint_law(0.0, 2.5 * q)}};
+  const Built built = build(scene, make_course({.bricks = 1, .courses = 2}));
+  ASSERT_EQ(built.stages.size(), 2u) << built.summary.message;
+  EXPECT_EQ(built.summary.status, Status::stable) << built.summary.message;
+  EXPECT_NEAR(built.least_stands(0) / q, 1.0, 0.01);  // brackets of 1 %
+  EXPECT_NEAR(built.least_stands(1) / q, 1.5, 0.015);
+  EXPECT_NEAR(built.least_moves(1) / q, 1.5, 0.015);
+}
+
+// Neither can be carried from stage to stage.
+TEST(Construction, RefusesTiesAndMovingSupports) {
+  const Assembly assembly = make_course({.bricks = 1});
+  Case tied = course_case(0.0, 0.4), moved = tied;
+  tied.ties.chains = {ChainTie{}};
+  moved.supports.moves = {SupportMove{}};
+  EXPECT_THROW(build(tied, assembly), InputError);
+  EXPECT_THROW(build(moved, assembly), InputError);
 }
 
 }  // namespace
