@@ -22,11 +22,16 @@ namespace {
 constexpr double kCornerTolerance =
     1e-10;  // of the smallest block; a hundred times the rounding error of its corners
 
-constexpr int kChunksAtOnce = 256;
+/// The boxes of the broad phase are enlarged by this many margins, so that they stay valid for several steps.
+constexpr double kBoxMargins = 5.0;
+
+/// Multithreaded loop over pairs of blocks: its chunks, and the cost of a pair in floating-point operations.
+constexpr int kChunksAtOnce = 256, kPairsPerChunk = 256;
+constexpr double kOperationsPerPair = 2.5e4;
 
 /// Transforms coordinates from b's axes to a's. Subtracting the centroids first keeps the precision far from
 /// the origin.
-Eigen::Isometry3d relative_pose(const Pose& a, const Pose& b) {
+Eigen::Isometry3d transform_to(const Pose& a, const Pose& b) {
   const Mat3 R_AW = a.q_WB.toRotationMatrix().transpose();
   Eigen::Isometry3d X_AB = Eigen::Isometry3d::Identity();
   X_AB.linear() = R_AW * b.q_WB.toRotationMatrix();
@@ -37,6 +42,13 @@ Eigen::Isometry3d relative_pose(const Pose& a, const Pose& b) {
 /// Upper bound of the distance that a point within `radius` of the centroid has moved, m.
 double motion_bound(const Pose& from, const Pose& to, double radius) {
   return (to.p_WB - from.p_WB).norm() + radius * from.q_WB.angularDistance(to.q_WB);
+}
+
+/// Records the configuration in which the contacts of a pair are computed.
+void record(const Reach& reach, TrackedPair* pair) {
+  pair->X_AB = relative_pose(reach.poses[pair->a], reach.poses[pair->b]);
+  pair->travel = reach.travel[pair->a] + reach.travel[pair->b];
+  pair->stale = false;
 }
 
 bool same_pose(const Pose& p, const Pose& q) {
@@ -102,13 +114,12 @@ const ContactSet& ContactDetector::update(std::span<const Pose> poses, std::span
   Reach& now = memory_.now;
   now.poses.resize(poses.size());
   now.travel.resize(poses.size());
-  std::vector<char> moved(poses.size(), 0);
-  std::vector<int> changed;
+  std::vector<char> moved(poses.size(), 0), changed(poses.size(), 0);
   for (std::size_t b = 0; b < poses.size(); ++b) {
     // Detection does not guarantee to find the contacts of a block that moves by its own size in one step.
     const double bound = travel.empty() ? 0.0 : std::min(travel[b], model_.block_radius[b]);
     moved[b] = !same_pose(poses[b], now.poses[b]);
-    if (moved[b] || bound != now.travel[b]) changed.push_back(static_cast<int>(b));
+    changed[b] = moved[b] || bound != now.travel[b];
     now.poses[b] = poses[b];
     now.travel[b] = bound;
   }
@@ -127,80 +138,140 @@ void ContactDetector::carry_contacts(const std::vector<char>& moved) {
   move_contacts(memory_.now.poses, moved_contacts_, &memory_.contacts);
 }
 
-bool ContactDetector::within_reach(const Reach& reach, int block) const {
-  const double moved = motion_bound(reach.poses[block], memory_.now.poses[block], model_.block_radius[block]);
-  return moved + memory_.now.travel[block] <= reach.travel[block] + options_.moved_fraction * options_.margin;
+bool ContactDetector::needs_detection(const std::vector<char>& changed) {
+  const auto is_set = [](char flag) { return flag != 0; };
+  if (contacts_from_file_ || std::none_of(changed.begin(), changed.end(), is_set)) return false;
+  bool needed = false;
+  if (memory_.pairs.empty() || leaves_box(changed)) {
+    std::vector<TrackedPair> before = std::exchange(memory_.pairs, {});
+    if (before.empty()) before = pairs_at_first_detection();
+    update_broad_phase();
+    memory_.pairs = find_pairs();
+    take_configurations(before, memory_.pairs);
+    needed = before.size() != memory_.pairs.size();
+  }
+  for (TrackedPair& pair : memory_.pairs) {
+    if (!pair.stale && (changed[pair.a] || changed[pair.b])) pair.stale = has_moved(pair);
+    needed = needed || pair.stale;
+  }
+  return needed;
 }
 
-bool ContactDetector::needs_detection(const std::vector<int>& changed) const {
-  if (contacts_from_file_) return false;
-  for (const int b : changed) {
-    if (!within_reach(memory_.detection, b)) return true;
-    // A block that has come to rest no longer needs the distant contacts found while it was fast.
-    if (memory_.detection.travel[b] - memory_.now.travel[b] > options_.margin) return true;
-  }
+bool ContactDetector::leaves_box(const std::vector<char>& changed) const {
+  for (int block = 0; block < model_.num_blocks(); ++block)
+    if (changed[block] && !within_box(block)) return true;
   return false;
 }
 
-Box ContactDetector::padded_box(const Reach& reach, int block) const {
-  // The boxes of two blocks within the margin overlap if each is enlarged by half of it. The rest of the
-  // padding keeps the box valid while the block stays within reach.
-  const double padding = (0.5 + options_.moved_fraction) * options_.margin + reach.travel[block];
-  return bounding_box(model_.box_at(block, reach.poses[block], padding));
+bool ContactDetector::within_box(int block) const {
+  const Pose &from = memory_.boxes.poses[block], &to = memory_.now.poses[block];
+  const double moved = motion_bound(from, to, model_.block_radius[block]);
+  return moved + memory_.now.travel[block] <= memory_.boxes.travel[block] + kBoxMargins * options_.margin;
 }
 
-void ContactDetector::make_broad_phase(const Reach& reach) {
+bool ContactDetector::has_moved(const TrackedPair& pair) const {
+  const Reach& now = memory_.now;
+  const double travel = now.travel[pair.a] + now.travel[pair.b];
+  const double moved = relative_motion(pair.X_AB, relative_pose(now.poses[pair.a], now.poses[pair.b]),
+                                       model_.block_radius[pair.a], model_.block_radius[pair.b]);
+  return moved > options_.moved_fraction * options_.margin ||
+         moved + travel > pair.travel + 2.0 * options_.moved_fraction * options_.margin ||
+         // Blocks that have come to rest no longer need the distant contacts found while they were fast.
+         pair.travel - travel > options_.margin;
+}
+
+OrientedBox ContactDetector::padded_box(int block) const {
+  // The boxes of two blocks within the margin overlap if each is enlarged by half of it. The rest of the
+  // padding keeps the box valid while the block stays within reach.
+  const double padding = (0.5 + kBoxMargins) * options_.margin + memory_.boxes.travel[block];
+  return model_.box_at(block, memory_.boxes.poses[block], padding);
+}
+
+void ContactDetector::make_broad_phase() {
   std::vector<Box> boxes;
-  for (int block = 0; block < model_.num_blocks(); ++block) boxes.push_back(padded_box(reach, block));
+  for (int block = 0; block < model_.num_blocks(); ++block) boxes.push_back(bounding_box(padded_box(block)));
   broad_phase_.emplace(boxes, collision_groups(model_));
-  memory_.boxes = reach;
 }
 
 void ContactDetector::update_broad_phase() {
-  if (!broad_phase_) return make_broad_phase(memory_.now);
   std::vector<int> blocks;
   std::vector<Box> boxes;
   for (int block = 0; block < model_.num_blocks(); ++block) {
-    if (within_reach(memory_.boxes, block)) continue;
-    blocks.push_back(block);
-    boxes.push_back(padded_box(memory_.now, block));
-  }
-  broad_phase_->move(blocks, boxes);
-  for (const int block : blocks) {
+    if (within_box(block)) continue;
     memory_.boxes.poses[block] = memory_.now.poses[block];
     memory_.boxes.travel[block] = memory_.now.travel[block];
+    blocks.push_back(block);
+    boxes.push_back(bounding_box(padded_box(block)));
   }
+  broad_phase_->move(blocks, boxes);
+}
+
+std::vector<TrackedPair> ContactDetector::find_pairs() const {
+  const int num_blocks = model_.num_blocks();
+  std::vector<std::vector<TrackedPair>> chunks((num_blocks + kBlocksPerChunk - 1) / kBlocksPerChunk);
+  constexpr double kOperationsPerSearch = 1e4;
+  share_loop(kOperationsPerSearch * num_blocks, static_cast<int>(chunks.size()), [&](int i) {
+    for (int a = i * kBlocksPerChunk; a < std::min((i + 1) * kBlocksPerChunk, num_blocks); ++a) {
+      const OrientedBox box = padded_box(a);
+      for (const int b : broad_phase_->partners(a))
+        if (overlap(box, padded_box(b))) chunks[i].push_back({a, b, {}, 0.0, true});
+    }
+  });
+  std::vector<TrackedPair> pairs;
+  for (const std::vector<TrackedPair>& chunk : chunks) pairs.insert(pairs.end(), chunk.begin(), chunk.end());
+  return pairs;
+}
+
+std::vector<TrackedPair> ContactDetector::pairs_at_first_detection() const {
+  std::vector<TrackedPair> pairs = find_pairs();
+  for (TrackedPair& pair : pairs) record(memory_.boxes, &pair);
+  return pairs;
 }
 
 void ContactDetector::detect() {
-  AnchoredContacts fresh = contacts_from_file_ ? *contacts_from_file_ : find_contacts();
+  const bool is_first = memory_.num_detections == 0;
+  std::vector<TrackedPair> all;  // of the first detection, which are not kept: in statics nothing moves
+  if (is_first && !contacts_from_file_) {
+    memory_.boxes = memory_.now;
+    make_broad_phase();
+    all = find_pairs();
+  }
+  std::vector<TrackedPair>& pairs = is_first ? all : memory_.pairs;
+  AnchoredContacts fresh = contacts_from_file_ ? *contacts_from_file_ : find_contacts(pairs);
   if (options_.plane) merge_across_plane(1e3 * narrow_.tolerance, &fresh);
   std::set<ContactId> lateral = transfer_identities(memory_.contacts, &fresh);
   // Overlaps as built are left to the solver. With compliance per area the points of a small area are so
   // compliant that their force stays small.
-  if (memory_.num_detections == 0 || options_.sampling.points != PatchPoints::corners) lateral.clear();
-  memory_.contacts = std::move(fresh);
+  if (is_first || options_.sampling.points != PatchPoints::corners) lateral.clear();
+  if (is_first)
+    memory_.contacts = std::move(fresh);
+  else
+    replace_contacts(pairs, std::move(fresh), &memory_.contacts);
+  for (TrackedPair& pair : pairs)
+    if (pair.stale) record(memory_.now, &pair);
   moved_.clear();  // moved_contacts_ refers to the old contacts
   carry_contacts(std::vector<char>(memory_.now.poses.size(), 1));
   update_rest_gaps(lateral, &memory_.contacts);
-  memory_.detection = memory_.now;
   ++memory_.num_detections;
 }
 
-AnchoredContacts ContactDetector::find_contacts() {
-  update_broad_phase();
-  // Chunks of blocks. They are merged in batches, because all chunks of a large model at once would take as
+AnchoredContacts ContactDetector::find_contacts(const std::vector<TrackedPair>& pairs) const {
+  std::vector<const TrackedPair*> stale;
+  for (const TrackedPair& pair : pairs)
+    if (pair.stale) stale.push_back(&pair);
+  // Chunks of pairs. They are merged in batches, because all chunks of a large model at once would take as
   // much memory as the result.
-  const int num_blocks = model_.num_blocks();
-  const int num_chunks = (num_blocks + kBlocksPerChunk - 1) / kBlocksPerChunk;
+  const int num_pairs = static_cast<int>(stale.size());
+  const int num_chunks = (num_pairs + kPairsPerChunk - 1) / kPairsPerChunk;
   AnchoredContacts fresh;
   for (int first = 0; first < num_chunks; first += kChunksAtOnce) {
     const int count = std::min(kChunksAtOnce, num_chunks - first);
     std::vector<AnchoredContacts> chunks(count);
-    share_loop(kOperationsPerBlock * kBlocksPerChunk * count, count, [&](int i) {
+    share_loop(kOperationsPerPair * kPairsPerChunk * count, count, [&](int i) {
       throw_if_interrupted();
-      const int start = (first + i) * kBlocksPerChunk;
-      chunks[i] = find_contacts(start, std::min(start + kBlocksPerChunk, num_blocks));
+      const int start = (first + i) * kPairsPerChunk;
+      const std::span part = std::span(stale).subspan(start, std::min(kPairsPerChunk, num_pairs - start));
+      for (const TrackedPair* pair : part) append_contacts(pair->a, pair->b, &chunks[i]);
     });
     for (AnchoredContacts& chunk : chunks) append(std::move(chunk), &fresh);
     if (first > 0) continue;
@@ -212,28 +283,21 @@ AnchoredContacts ContactDetector::find_contacts() {
   return fresh;
 }
 
-AnchoredContacts ContactDetector::find_contacts(int block_start, int block_end) const {
+void ContactDetector::append_contacts(int a, int b, AnchoredContacts* contacts) const {
   const Reach& now = memory_.now;
-  const double nominal_area = model_.smallest_block * model_.smallest_block / 12.0;
-  AnchoredContacts fresh;
-  NarrowPhaseOptions narrow = narrow_;
   const auto box = [&](int block) {
     return model_.box_at(block, now.poses[block], 0.5 * options_.margin + now.travel[block]);
   };
-  for (int a = block_start; a < block_end; ++a) {
-    const OrientedBox box_a = box(a);
-    for (const int b : broad_phase_->partners(a)) {
-      if (!overlap(box_a, box(b))) continue;
-      const Eigen::Isometry3d pose_ab = relative_pose(now.poses[a], now.poses[b]);
-      const double reach = now.travel[a] + now.travel[b];
-      narrow.margin = options_.margin + reach;
-      for (const JointPatch& patch :
-           perturbed_gjk_ ? perturb_blocks(*perturbed_gjk_, model_, a, b, pose_ab, options_.margin, reach)
-                          : clip_blocks(model_, a, b, pose_ab, narrow))
-        append_patch(model_, patch, pose_ab, narrow.margin, options_.sampling, nominal_area, &fresh);
-    }
-  }
-  return fresh;
+  if (!overlap(box(a), box(b))) return;
+  const double nominal_area = model_.smallest_block * model_.smallest_block / 12.0;
+  const Eigen::Isometry3d pose_ab = transform_to(now.poses[a], now.poses[b]);
+  const double reach = now.travel[a] + now.travel[b];
+  NarrowPhaseOptions narrow = narrow_;
+  narrow.margin = options_.margin + reach;
+  for (const JointPatch& patch :
+       perturbed_gjk_ ? perturb_blocks(*perturbed_gjk_, model_, a, b, pose_ab, options_.margin, reach)
+                      : clip_blocks(model_, a, b, pose_ab, narrow))
+    append_patch(model_, patch, pose_ab, narrow.margin, options_.sampling, nominal_area, contacts);
 }
 
 void ContactDetector::set_gaps(std::span<const double> gaps) {
@@ -250,7 +314,7 @@ void ContactDetector::restore(DetectionMemory memory) {
   CUPOLA_ASSERT(memory.contacts.anchors.size() == memory.contacts.set.points.size());
   memory_ = std::move(memory);
   moved_.clear();
-  if (memory_.num_detections > 0 && !contacts_from_file_) make_broad_phase(Reach(memory_.boxes));
+  if (memory_.num_detections > 0 && !contacts_from_file_) make_broad_phase();
 }
 
 }  // namespace cupola

@@ -9,6 +9,7 @@
 #include "solver/collision/patch_contacts.hpp"
 #include "solver/collision/perturbed_gjk.hpp"
 #include "solver/collision/proximity.hpp"
+#include "solver/collision/tracked_pairs.hpp"
 
 namespace cupola {
 
@@ -18,8 +19,8 @@ struct DetectionOptions {
   /// (cube root of its volume).
   double margin = 0.0;
   PatchSampling sampling;
-  /// Contacts are detected again when a block has moved by this fraction of the margin, in (0, 0.25]. Two
-  /// blocks that approach each other undetected are then still half the margin apart.
+  /// The contacts of two blocks are computed again when the blocks have moved by this fraction of the margin relative to
+  /// each other, in (0, 0.25]. Blocks that approach each other undetected are then still half the margin apart.
   double moved_fraction = 0.25;
 
   /// Set: the narrow phase of the paper. None: face clipping, and separating axes for edges and vertices.
@@ -44,19 +45,20 @@ struct Reach {
 /// State of a detector that depends on the motion so far. A detector of the same assembly and options that
 /// restores it continues with the same bits.
 struct DetectionMemory {
-  Reach boxes;      ///< covered by the boxes in the broad phase
-  Reach detection;  ///< at the last detection
-  Reach now;        ///< at the last update
+  Reach boxes;  ///< covered by the boxes in the broad phase; at first those of the first detection
+  Reach now;    ///< at the last update
   AnchoredContacts contacts;
+  std::vector<TrackedPair> pairs;  ///< whose boxes overlap; empty until a block moves
   int num_detections = 0;
 };
 
 /// Finds the contacts of an assembly and tracks them as the blocks move.
 ///
-/// While no block has moved by more than a fraction of the margin, contacts are carried along: their two
-/// points move with their blocks, and the normal turns with the face that defines it. Otherwise contacts are
-/// detected again, and each point takes over the identity of the nearest old point on the same pair of faces.
-/// The same sequence of poses gives the same bits.
+/// While two blocks have not moved relative to each other by more than a fraction of the margin, their contacts are carried
+/// along: the two points of a contact move with their blocks, and the normal turns with the face that defines it. The
+/// polygons of joints and the contact points are therefore those of a new detection up to that distance, and gaps up to
+/// the second order in it. Otherwise the contacts of the pair are computed again, and each point takes over the identity of the nearest old
+/// point on the same pair of faces. The same sequence of poses gives the same bits.
 class ContactDetector {
  public:
   /// Throws InputError for invalid options or faces without area.
@@ -85,17 +87,20 @@ class ContactDetector {
   double block_radius(int block) const { return model_.block_radius[block]; }
 
  private:
-  Box padded_box(const Reach& reach, int block) const;
-  void make_broad_phase(const Reach& reach);
-  void update_broad_phase();
-  bool within_reach(const Reach& reach, int block) const;
-  /// Precondition: no detection was needed before these blocks changed.
-  bool needs_detection(const std::vector<int>& changed) const;
+  OrientedBox padded_box(int block) const;  ///< around the block and where it may move from memory_.boxes
+  bool within_box(int block) const;
+  bool leaves_box(const std::vector<char>& changed) const;
+  void make_broad_phase();
+  void update_broad_phase();  ///< for the blocks that have left their boxes
+  std::vector<TrackedPair> find_pairs() const;
+  std::vector<TrackedPair> pairs_at_first_detection() const;
+  bool has_moved(const TrackedPair& pair) const;  ///< so far that its contacts are computed again
+  /// Marks stale pairs; true if there are some, or if pairs have vanished. `changed`: pose or travel (num_blocks).
+  bool needs_detection(const std::vector<char>& changed);
   void carry_contacts(const std::vector<char>& moved);
   void detect();
-  AnchoredContacts find_contacts();
-  /// Contacts of the blocks [block_start, block_end) with blocks of larger index.
-  AnchoredContacts find_contacts(int block_start, int block_end) const;
+  AnchoredContacts find_contacts(const std::vector<TrackedPair>& pairs) const;  ///< of the stale pairs
+  void append_contacts(int a, int b, AnchoredContacts* contacts) const;
 
   DetectionOptions options_;
   CollisionModel model_;

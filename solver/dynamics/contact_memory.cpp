@@ -46,7 +46,7 @@ class PatchDamage {
 
 }  // namespace
 
-ContactMemories match_memories(const ContactMemories& old, const std::vector<Contact>& contacts) {
+ContactMemories match_memories(ContactMemories old, const std::vector<Contact>& contacts) {
   CUPOLA_ASSERT(old.ids.size() == old.values.size());
   if (old.as_built) return first_memories(old, contacts);
   const auto same_id = [](const ContactId& id, const Contact& contact) { return id == contact.id; };

@@ -75,7 +75,7 @@ StepReport Simulation::advance_detected(const ContactSet& contacts, const StepOp
 
 void Simulation::follow_detection(const ContactSet& contacts) {
   detections_followed_ = detector_.num_detections();
-  memories_ = match_memories(memories_, contacts.points);
+  memories_ = match_memories(std::move(memories_), contacts.points);
   if (options_.sleep) islands_ = islands_of(model_, contacts);
   reduced_.reset();
 }

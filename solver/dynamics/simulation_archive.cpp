@@ -35,8 +35,12 @@ void visit(Archive& archive, Reach& x) {
   archive(x.poses, x.travel);
 }
 template <class Archive>
+void visit(Archive& archive, TrackedPair& x) {
+  archive(x.a, x.b, x.X_AB, x.travel, x.stale);
+}
+template <class Archive>
 void visit(Archive& archive, DetectionMemory& x) {
-  archive(x.boxes, x.detection, x.now, x.contacts, x.num_detections);
+  archive(x.boxes, x.now, x.contacts, x.pairs, x.num_detections);
 }
 template <class Archive>
 void visit(Archive& archive, ContactMemories& x) {

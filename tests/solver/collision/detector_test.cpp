@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <random>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -194,6 +196,58 @@ TEST(ContactDetector, CarriesContactsAlongUntilABlockHasMoved) {
   poses[1].p_WB += Vec3(small, 0, 0);
   EXPECT_EQ(detector.update(poses).points.size(), 4u);
   EXPECT_EQ(detector.num_detections(), 2);
+}
+
+// A wall that moves and turns as one body keeps its contacts: only motion between two blocks needs a new detection.
+TEST(ContactDetector, BlocksThatMoveTogetherKeepTheirContacts) {
+  const Assembly scene = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4);
+  ContactDetector detector(scene, {});
+  auto poses = initial_poses(scene);
+  const std::vector<Contact> before = detector.update(poses).points;
+  for (int step = 1; step <= 50; ++step) {
+    const Quaterniond turn(AngleAxisd(0.02 * step, Vec3(1, 2, 3).normalized()));
+    const Vec3 shift(0.05 * step, 0, 0.01 * step);  // 0.05 m is ten margins or more
+    for (std::size_t b = 0; b < poses.size(); ++b) poses[b] = {turn * scene.blocks[b].centroid + shift, turn};
+    const std::vector<Contact>& after = detector.update(poses).points;
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      EXPECT_TRUE(after[i].id == before[i].id);
+      EXPECT_LT((after[i].point_a - turn * before[i].point_a - shift).norm(), 1e-14);
+    }
+  }
+  EXPECT_EQ(detector.num_detections(), 1);
+}
+
+// Contacts computed for some pairs only, in random motion of all blocks: the same joints as those of a new detection, with points
+// and gaps that differ by no more than the motion between two detections, a quarter of the margin.
+TEST(ContactDetector, PairsComputedAgainAgreeWithANewDetection) {
+  const Assembly scene = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4);
+  ContactDetector detector(scene, {});
+  auto poses = initial_poses(scene);
+  detector.update(poses);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const double moved = 0.25 * detector.margin();
+  for (int step = 1; step <= 60; ++step) {
+    for (std::size_t b = 1; b < poses.size(); ++b) {
+      if (uniform(random) < 0.5) continue;
+      poses[b].p_WB += 0.2 * moved * Vec3(uniform(random), uniform(random), 0.2 * uniform(random));
+    }
+    const ContactSet tracked = detector.update(poses);
+    const ContactSet fresh = ContactDetector(scene, {}).update(poses);
+    ASSERT_EQ(tracked.patches.size(), fresh.patches.size()) << step;
+    ASSERT_EQ(tracked.points.size(), fresh.points.size()) << step;
+    for (std::size_t i = 0; i < fresh.points.size(); ++i) {
+      const Contact &one = tracked.points[i], &two = fresh.points[i];
+      ASSERT_TRUE(one.block_a == two.block_a && one.block_b == two.block_b && one.patch == two.patch) << step;
+      EXPECT_NEAR(one.gap, two.gap, 1e-14);  // the faces stay parallel
+      const auto nearest = std::ranges::min(fresh.points, {}, [&](const Contact& x) {
+        return x.patch == one.patch ? (x.point_a - one.point_a).norm() : 1.0;
+      });
+      EXPECT_LT((nearest.point_a - one.point_a).norm(), std::sqrt(2.0) * moved) << step;
+    }
+  }
+  EXPECT_GT(detector.num_detections(), 5);
 }
 
 TEST(ContactDetector, IdentitiesSurviveDetection) {
