@@ -76,6 +76,7 @@ bool BlockCholesky::factorize(const BlockPattern& pattern, const BlockMatrix& ma
   // LAPACK does not detect NaN.
   const auto finite = [](const Mat6& block) { return block.allFinite(); };
   valid_ = false;
+  single_.reset();
   if (!std::all_of(matrix.diagonal.begin(), matrix.diagonal.end(), finite) ||
       !std::all_of(matrix.lower.begin(), matrix.lower.end(), finite))
     return false;
@@ -93,12 +94,7 @@ bool BlockCholesky::factorize(const BlockPattern& pattern, const BlockMatrix& ma
 
 VecX BlockCholesky::solve(const VecX& rhs) const {
   CUPOLA_ASSERT(valid_ && rhs.size() == 6 * pattern_.num_blocks());
-  const std::span<const int> unknowns = unknowns_of_block(pattern_);
-  const int nb = pattern_.num_blocks();
-  VecX x(m_ * nb), below(m_ * nb);
-  for (int k = 0; k < nb; ++k) {
-    for (int r = 0; r < m_; ++r) x[m_ * structure_.position[k] + r] = rhs[6 * k + unknowns[r]];
-  }
+  VecX x = in_order_of_elimination<double>(rhs), below(x.size());
   const int num_panels = structure_.num_panels();
   for (int panel = 0; panel < num_panels; ++panel) {  // L y = rhs
     const int columns = structure_.num_columns(panel), rest = structure_.num_rows(panel) - columns;
@@ -126,11 +122,38 @@ VecX BlockCholesky::solve(const VecX& rhs) const {
       cblas_dgemv(CblasColMajor, CblasTrans, m_ * rest, n, -1.0, L + n, ld, below.data(), 1, 1.0, own, 1);
     cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, L, ld, own, 1);
   }
+  return in_order_of_blocks(x, rhs);
+}
+
+template <class Scalar>
+Eigen::Matrix<Scalar, Eigen::Dynamic, 1> BlockCholesky::in_order_of_elimination(const VecX& rhs) const {
+  const std::span<const int> unknowns = unknowns_of_block(pattern_);
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x(m_ * pattern_.num_blocks());
+  for (int k = 0; k < pattern_.num_blocks(); ++k) {
+    for (int r = 0; r < m_; ++r)
+      x[m_ * structure_.position[k] + r] = static_cast<Scalar>(rhs[6 * k + unknowns[r]]);
+  }
+  return x;
+}
+
+template <class Scalar>
+VecX BlockCholesky::in_order_of_blocks(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& x,
+                                       const VecX& rhs) const {
+  const std::span<const int> unknowns = unknowns_of_block(pattern_);
   VecX solution = rhs;  // rows that are no unknowns are those of the identity
-  for (int k = 0; k < nb; ++k) {
+  for (int k = 0; k < pattern_.num_blocks(); ++k) {
     for (int r = 0; r < m_; ++r) solution[6 * k + unknowns[r]] = x[m_ * structure_.position[k] + r];
   }
   return solution;
+}
+
+VecX BlockCholesky::solve_approximately(const VecX& rhs) {
+  CUPOLA_ASSERT(valid_ && rhs.size() == 6 * pattern_.num_blocks());
+  if (!single_) single_ = SingleFactor(structure_, m_, values_);
+  if (!single_->is_accurate()) return solve(rhs);
+  Eigen::VectorXf x = in_order_of_elimination<float>(rhs);
+  single_->solve(structure_, m_, &x);
+  return in_order_of_blocks(x, rhs);
 }
 
 long long BlockCholesky::num_nonzeros() const {

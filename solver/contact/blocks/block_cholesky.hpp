@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/contact/blocks/panel_factor.hpp"
+#include "solver/contact/blocks/single_factor.hpp"
 
 namespace cupola {
 
@@ -26,7 +28,10 @@ class BlockCholesky {
   bool has_factor() const { return valid_; }
   const BlockPattern& pattern() const { return pattern_; }  ///< of the last factorisation
   VecX solve(const VecX& rhs) const;                        ///< requires has_factor()
-  long long num_nonzeros() const;                           ///< of the factor
+  /// An approximate solution for preconditioners; requires has_factor(). The first call after a factorisation copies the factor to single
+  /// precision, unless it is too ill-conditioned for it.
+  VecX solve_approximately(const VecX& rhs);
+  long long num_nonzeros() const;  ///< of the factor
 
  private:
   double* values(int panel) { return values_.data() + m_ * m_ * structure_.value_start[panel]; }
@@ -35,12 +40,18 @@ class BlockCholesky {
   void fill(const BlockMatrix& matrix, int panel, const PanelTile& tile);
   bool factorize_own_rows(int panel);
   void divide(int panel, const PanelTile& tile);
+  /// The unknowns of a right-hand side, and a solution from unknowns.
+  template <class Scalar>
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> in_order_of_elimination(const VecX& rhs) const;
+  template <class Scalar>
+  VecX in_order_of_blocks(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& x, const VecX& rhs) const;
 
   BlockPattern pattern_;
   FactorStructure structure_;
   int m_ = 6;                                  ///< unknowns per block
   std::vector<double> values_;                 ///< of the panels, by columns
   std::vector<std::vector<double>> products_;  ///< work array of each thread
+  std::optional<SingleFactor> single_;         ///< copy of the factor; none until it is needed
   bool valid_ = false;
 };
 

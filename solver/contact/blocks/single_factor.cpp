@@ -1,0 +1,80 @@
+#include "solver/contact/blocks/single_factor.hpp"
+
+#include <algorithm>
+
+#include <cblas.h>
+
+#include "assembly/base/error.hpp"
+
+extern "C" void dtrtri_(const char* uplo, const char* diag, const int* n, double* a, const int* lda,
+                        int* info);
+
+namespace cupola {
+
+SingleFactor::SingleFactor(const FactorStructure& structure, int unknowns,
+                           const std::vector<double>& values) {
+  // The rounding of L changes the solution by about its condition number times 6e-8. The ratio of the diagonal entries is
+  // a lower bound of the condition number, and a good one for systems M + D G D^T with M = I.
+  constexpr double kLargestRatio = 1e4;
+  const int m = unknowns;
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
+  for (int panel = 0; panel < structure.num_panels(); ++panel) {
+    const double* L = values.data() + m * m * structure.value_start[panel];
+    const std::int64_t ld = std::int64_t{m} * structure.num_rows(panel);
+    for (int i = 0; i < m * structure.num_columns(panel); ++i) {
+      smallest = std::min(smallest, L[i * ld + i]);
+      largest = std::max(largest, L[i * ld + i]);
+    }
+  }
+  accurate_ = largest <= kLargestRatio * smallest;
+  if (!accurate_) return;
+  values_.resize(values.size());
+  std::vector<double> work;
+  for (int panel = 0; panel < structure.num_panels(); ++panel) {
+    const int n = m * structure.num_columns(panel), ld = m * structure.num_rows(panel), rest = ld - n;
+    const std::int64_t start = m * m * structure.value_start[panel];
+    work.assign(values.begin() + start, values.begin() + start + std::int64_t{n} * ld);
+    for (int c = 1; c < n; ++c) std::fill_n(work.begin() + std::int64_t{c} * ld, c, 0.0);
+    int info = 0;
+    dtrtri_("L", "N", &n, work.data(), &ld, &info);
+    CUPOLA_ASSERT(info == 0);
+    if (rest > 0)
+      cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, rest, n, 1.0,
+                  work.data(), ld, work.data() + n, ld);
+    std::transform(work.begin(), work.end(), values_.begin() + start,
+                   [](double value) { return static_cast<float>(value); });
+  }
+}
+
+void SingleFactor::solve(const FactorStructure& structure, int unknowns, Eigen::VectorXf* x) const {
+  CUPOLA_ASSERT(accurate_ && !values_.empty());
+  const int m = unknowns;
+  Eigen::VectorXf product(x->size());
+  const int num_panels = structure.num_panels();
+  for (int panel = 0; panel < num_panels; ++panel) {  // L y = b
+    const int columns = structure.num_columns(panel), num_rows = structure.num_rows(panel);
+    const int n = m * columns, ld = m * num_rows;
+    float* own = x->data() + m * structure.first_column[panel];
+    cblas_sgemv(CblasColMajor, CblasNoTrans, ld, n, 1.0F,
+                values_.data() + m * m * structure.value_start[panel], ld, own, 1, 0.0F, product.data(), 1);
+    std::copy_n(product.data(), n, own);
+    const int* rows = structure.rows(panel);
+    for (int i = columns; i < num_rows; ++i) {
+      for (int r = 0; r < m; ++r) (*x)[m * rows[i] + r] -= product[m * i + r];
+    }
+  }
+  for (int panel = num_panels - 1; panel >= 0; --panel) {  // L^T x = y
+    const int columns = structure.num_columns(panel), num_rows = structure.num_rows(panel);
+    const int n = m * columns, ld = m * num_rows;
+    float* own = x->data() + m * structure.first_column[panel];
+    const int* rows = structure.rows(panel);
+    std::copy_n(own, n, product.data());
+    for (int i = columns; i < num_rows; ++i) {
+      for (int r = 0; r < m; ++r) product[m * i + r] = -(*x)[m * rows[i] + r];
+    }
+    cblas_sgemv(CblasColMajor, CblasTrans, ld, n, 1.0F, values_.data() + m * m * structure.value_start[panel],
+                ld, product.data(), 1, 0.0F, own, 1);
+  }
+}
+
+}  // namespace cupola

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/contact/blocks/factor_structure.hpp"
+
+namespace cupola {
+
+/// Copy of a Cholesky factor in single precision, for preconditioners. The own rows T of a panel are inverted, and the rows B
+/// below them multiplied by that inverse:
+///
+///     L y = b:      y = T^-1 b,            b below <- b below - (B T^-1) b
+///     L^T x = y:    x = T^-T y - (B T^-1)^T x below
+///
+/// so that each panel is one product with a matrix, of half the bytes, per direction.
+class SingleFactor {
+ public:
+  /// `values`: of the panels of the factor, with `unknowns` per block.
+  SingleFactor(const FactorStructure& structure, int unknowns, const std::vector<double>& values);
+
+  /// False if rounding to single precision may change the solution by more than a few percent.
+  bool is_accurate() const { return accurate_; }
+  /// Solves L L^T x = b in place, in the order of elimination. Requires is_accurate().
+  void solve(const FactorStructure& structure, int unknowns, Eigen::VectorXf* x) const;
+
+ private:
+  std::vector<float> values_;  ///< T^-1 and B T^-1 of the panels, by columns
+  bool accurate_ = true;
+};
+
+}  // namespace cupola
