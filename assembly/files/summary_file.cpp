@@ -48,6 +48,7 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("contact_law_residual", s.contact_law_residual);
   visit("largest_law_violation", s.largest_law_violation);
   visit("certified_force_error", s.certified_force_error);
+  visit("worst_steps", s.worst_steps);
   visit("friction_cone_violation", s.friction_cone_violation);
   visit("max_penetration_m", s.max_penetration_m);
   visit("max_displacement_m", s.max_displacement_m);
@@ -92,6 +93,16 @@ Json to_value(const LawViolation& violation) {
           {"block_a", violation.block_a},
           {"block_b", violation.block_b},
           {"time_s", violation.time}};
+}
+Json to_value(const WorstSteps& worst) {
+  Json json = Json::object();
+  const auto add = [&json](const char* key, const std::optional<RunStep>& at) {
+    if (at) json[key] = {{"step", at->step}, {"time_s", at->time}};
+  };
+  add("momentum_residual", worst.momentum_residual);
+  add("contact_law_residual", worst.contact_law_residual);
+  add("certified_force_error", worst.certified_force_error);
+  return json;
 }
 Json to_value(const Robustness& robustness) {
   return {{"directions", robustness.directions},
@@ -171,6 +182,17 @@ void from_value(const Json& json, LawViolation* violation) {
   from_value(json.at("block_a"), &violation->block_a);
   from_value(json.at("block_b"), &violation->block_b);
   from_value(json.at("time_s"), &violation->time);
+}
+void from_value(const Json& json, WorstSteps* worst) {
+  const auto read = [&json](const char* key, std::optional<RunStep>* at) {
+    if (!json.contains(key)) return;
+    at->emplace();
+    from_value(json[key].at("step"), &(*at)->step);
+    from_value(json[key].at("time_s"), &(*at)->time);
+  };
+  read("momentum_residual", &worst->momentum_residual);
+  read("contact_law_residual", &worst->contact_law_residual);
+  read("certified_force_error", &worst->certified_force_error);
 }
 void from_value(const Json& json, Robustness* robustness) {
   from_value(json.at("directions"), &robustness->directions);

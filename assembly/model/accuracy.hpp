@@ -38,6 +38,17 @@ struct LawViolation {
   double time = 0.0;  ///< s
 };
 
+/// A step of a motion: its number, from 1, and the time at its end.
+struct RunStep {
+  int step = 0;
+  double time = 0.0;  ///< s
+};
+
+/// The steps of a motion in which its accuracy was worst. A number that no step has is absent.
+struct WorstSteps {
+  std::optional<RunStep> momentum_residual, contact_law_residual, certified_force_error;
+};
+
 /// Sentences for the user, generated from the values.
 std::string to_sentence(const Accuracy& accuracy);
 std::string to_sentence(const ForceCertificate& certificate);

@@ -174,6 +174,7 @@ struct Summary {
   /// Of a dynamic or staged run: the worst over its steps. Absent if no state was found that they describe.
   std::optional<double> momentum_residual, contact_law_residual, friction_cone_violation;
   std::optional<LawViolation> largest_law_violation;
+  std::optional<WorstSteps> worst_steps;  ///< motions
   std::optional<double>
       equilibrium_residual;             ///< of the last frame, or of the stable end of a limit analysis
   std::optional<double> inertia_share;  ///< 1 - reaction / load along gravity

@@ -134,7 +134,7 @@ void DynamicRun::include_accuracy(double time) {
   std::optional<ForceCertificate> certificate;
   if (!report_.step_solution.gamma.isZero(0.0)) certificate = report_.residuals.certificate;
   progress_.worst.include(report_.residuals, certificate, forces_unique(problem, flow_rule(analysis_)),
-                          violation);
+                          violation, RunStep{progress_.steps, time});
 }
 
 Stop DynamicRun::stop_reason() const {

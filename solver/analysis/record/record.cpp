@@ -62,20 +62,26 @@ std::optional<LawViolation> largest_violation(const Frame& frame) {
 
 void WorstOfRun::include(const Residuals& of_step, const std::optional<ForceCertificate>& certificate_of_step,
                          const ForcesUnique& unique_in_step,
-                         const std::optional<LawViolation>& violation_of_step) {
+                         const std::optional<LawViolation>& violation_of_step,
+                         const std::optional<RunStep>& step) {
   const auto raise = [](double value, double* largest) {
-    if (!(value <= *largest)) *largest = value;  // NaN included
+    const bool raised = !(value <= *largest);  // NaN included
+    if (raised) *largest = value;
+    return raised;
   };
-  raise(of_step.momentum, &residuals.momentum);
-  raise(of_step.contact_law, &residuals.contact_law);
+  if (step && !steps) steps.emplace();
+  if (raise(of_step.momentum, &residuals.momentum) && step) steps->momentum_residual = step;
+  if (raise(of_step.contact_law, &residuals.contact_law) && step) steps->contact_law_residual = step;
   raise(of_step.rigid_contact_speed, &residuals.rigid_contact_speed);
   raise(of_step.contact_law_rounding, &residuals.contact_law_rounding);
   raise(of_step.cone_violation, &residuals.cone_violation);
   const auto is_worse = [](const ForceCertificate& a, const ForceCertificate& b) {
     return b.value && (!a.value || *a.value > *b.value);
   };
-  if (certificate_of_step && (!certificate || is_worse(*certificate_of_step, *certificate)))
+  if (certificate_of_step && (!certificate || is_worse(*certificate_of_step, *certificate))) {
     certificate = certificate_of_step;
+    if (step) steps->certified_force_error = step;
+  }
   if (!unique_in_step.value || unique.reason.empty()) unique = unique_in_step;
   if (violation_of_step && (!violation || violation_of_step->value > violation->value))
     violation = violation_of_step;
@@ -88,6 +94,7 @@ void WorstOfRun::summarize(Summary* summary) const {
   summary->certified_force_error = certificate.value_or(ForceCertificate{{}, "no contact is loaded"});
   summary->forces_unique = unique;
   summary->largest_law_violation = violation;
+  summary->worst_steps = steps;
 }
 
 Frame make_frame(const Model& model, const State& state, const ContactSet& contacts,

@@ -27,10 +27,12 @@ struct WorstOfRun {
   std::optional<ForceCertificate> certificate;
   ForcesUnique unique;
   std::optional<LawViolation> violation;
+  std::optional<WorstSteps> steps;  ///< of a motion
 
-  /// `certificate`: none if no contact is loaded.
+  /// `certificate`: none if no contact is loaded. `step`: of a motion.
   void include(const Residuals& of_step, const std::optional<ForceCertificate>& certificate_of_step,
-               const ForcesUnique& unique_in_step, const std::optional<LawViolation>& violation_of_step);
+               const ForcesUnique& unique_in_step, const std::optional<LawViolation>& violation_of_step,
+               const std::optional<RunStep>& step = {});
   /// Sets the fields of the summary.
   void summarize(Summary* summary) const;
 };

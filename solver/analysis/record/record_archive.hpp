@@ -37,10 +37,20 @@ void visit(Archive& archive, std::optional<T>& x) {
 }
 
 template <class Archive>
+void visit(Archive& archive, RunStep& x) {
+  archive(x.step, x.time);
+}
+
+template <class Archive>
+void visit(Archive& archive, WorstSteps& x) {
+  archive(x.momentum_residual, x.contact_law_residual, x.certified_force_error);
+}
+
+template <class Archive>
 void visit(Archive& archive, WorstOfRun& x) {
   Residuals& r = x.residuals;
   archive(r.momentum, r.contact_law, r.rigid_contact_speed, r.contact_law_rounding, r.cone_violation);
-  archive(x.certificate, x.unique.value, x.unique.reason, x.violation);
+  archive(x.certificate, x.unique.value, x.unique.reason, x.violation, x.steps);
 }
 
 }  // namespace cupola

@@ -62,6 +62,7 @@ Summary example_summary() {
   s.forces_unique = {false, "some compliance is zero"};
   s.contact_law_residual = 4.9e-324;
   s.largest_law_violation = {0.88, 3, 12, 17, 0.25};
+  s.worst_steps = {RunStep{7, 0.07}, {}, RunStep{9, 0.09}};
   s.peak_memory_bytes = 5'000'000'000;
   s.threads = 2;
   return s;
@@ -234,6 +235,11 @@ TEST(SummaryJson, RoundTripsExactly) {
   EXPECT_EQ(back.largest_law_violation->joint, 3);
   EXPECT_EQ(back.largest_law_violation->block_b, 17);
   EXPECT_EQ(back.largest_law_violation->time, 0.25);
+  ASSERT_TRUE(back.worst_steps && back.worst_steps->momentum_residual &&
+              back.worst_steps->certified_force_error);
+  EXPECT_EQ(back.worst_steps->momentum_residual->step, 7);
+  EXPECT_EQ(back.worst_steps->certified_force_error->time, 0.09);
+  EXPECT_FALSE(back.worst_steps->contact_law_residual);
   EXPECT_FALSE(back.max_speed_m_per_s);
   EXPECT_EQ(text.find("max_speed_m_per_s"), std::string::npos);
   EXPECT_EQ(back.peak_memory_bytes, s.peak_memory_bytes);

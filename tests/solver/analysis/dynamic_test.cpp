@@ -1,4 +1,7 @@
 #include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -189,13 +192,25 @@ struct RunResult {
   Summary summary;
   Frame last;
   int rows = -1;  // of history.csv without the header
+  std::vector<std::string> history;
+
+  /// Cell of history.csv in a step, from 1.
+  std::string cell(int step, int column) const {
+    std::istringstream row(history.at(static_cast<size_t>(step)));
+    std::string text;
+    for (int k = 0; k <= column; ++k) std::getline(row, text, ',');
+    return text;
+  }
 };
 
 RunResult run(const Case& scene, const Assembly& assembly) {
   RunResult result;
   AnalysisSinks sinks;
   sinks.frame = [&result](const Frame& frame) { result.last = frame; };
-  sinks.history = [&result](const std::string&) { ++result.rows; };
+  sinks.history = [&result](const std::string& row) {
+    ++result.rows;
+    result.history.push_back(row);
+  };
   result.summary = run_dynamic(scene, assembly, sinks).value();
   return result;
 }
@@ -288,6 +303,13 @@ TEST(Accuracy, IsTheWorstOfTheRun) {
   EXPECT_GT(s.largest_law_violation.value().value, 10.0 * in_last);
   EXPECT_GT(s.certified_force_error.value.value(), s.accuracy.asked);
   EXPECT_LT(s.largest_law_violation->time, 1.0) << "the worst step is an early one";
+  // The steps of the worst numbers are those in which the history has them.
+  const WorstSteps& worst = s.worst_steps.value();
+  EXPECT_EQ(run.cell(worst.momentum_residual.value().step, 3), fmt::format("{:.6e}", *s.momentum_residual));
+  EXPECT_EQ(run.cell(worst.contact_law_residual.value().step, 4),
+            fmt::format("{:.6e}", *s.contact_law_residual));
+  EXPECT_EQ(std::stod(run.cell(worst.contact_law_residual->step, 0)), worst.contact_law_residual->time);
+  EXPECT_LT(worst.certified_force_error.value().step, s.steps);
 }
 
 // A block in free flight has no contact forces: its steps do not spoil what is certified of the others.
