@@ -172,14 +172,28 @@ std::optional<double> meridian_named(const std::string& name, const Case& scene)
   return std::nullopt;
 }
 
-std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e) {
+/// Per block, true if a frame of a construction leaves it out: blocks not laid yet, and courses held as supports. Neither
+/// rests on a joint of the frame. Empty for other analyses.
+std::vector<bool> blocks_left_out(const Evaluation& e) {
+  if (e.summary.analysis != AnalysisType::staged) return {};
+  std::vector<bool> left_out(e.assembly.blocks.size(), true);
+  for (const JointWrench& joint : e.last.joints.wrenches)
+    if (joint.upper >= 0) left_out[joint.upper] = false;
+  return left_out;
+}
+
+std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e, const std::vector<bool>& left_out) {
   const ThrustInput input = thrust_input(e, e.last);
   std::vector<SectionEvaluation> sections;
   for (const double height : e.scene.postproc.sections) {
     SectionEvaluation section{height, -1, cut_by_plane(e.assembly, {Vec3::UnitZ(), height}), {}};
+    if (!left_out.empty()) {
+      std::erase_if(section.polygons, [&](const CutPolygon& p) { return left_out[p.block]; });
+      if (section.polygons.empty()) continue;
+    }
     double nearest = std::numeric_limits<double>::infinity();
     for (const RingSum& ring : e.rings) {
-      if (std::abs(ring.height - height) >= nearest) continue;
+      if (ring.blocks == 0 || std::abs(ring.height - height) >= nearest) continue;
       nearest = std::abs(ring.height - height);
       section.ring = ring.ring;
     }
@@ -288,12 +302,13 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
     e.warnings.push_back("ring sums and wrenches count joints only, not the forces in ties");
 
   e.last = evaluate_frame(e, evaluated_frame(results, &e));
-  e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads);
+  const std::vector<bool> left_out = blocks_left_out(e);
+  e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads, left_out);
   e.members = member_sums(e.assembly, e.last.joints, e.last.gravity);
   count_lost_joints(results, &e);
   e.meridians = evaluate_meridians(e);
   add_ends_of_thrust(results, &e);
-  e.sections = evaluate_sections(e);
+  e.sections = evaluate_sections(e, left_out);
   for (const CutPlane& plane : scene.postproc.planes)
     e.planes.push_back(plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads));
   const std::optional<double> rib = meridian_named("rib", scene),

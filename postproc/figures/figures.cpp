@@ -23,7 +23,8 @@ bool varies(const RingSum& ring) {
 Figure ring_figure(const Evaluation& e) {
   Rows rows;
   for (const RingSum& r : e.rings)
-    rows.push_back({r.height, 100.0 * r.cv_pressure, 100.0 * r.largest_friction_use, r.largest_kern});
+    if (r.blocks > 0)
+      rows.push_back({r.height, 100.0 * r.cv_pressure, 100.0 * r.largest_friction_use, r.largest_kern});
   const bool vault = is_vault(e);
   Figure f;
   f.name = "rings";

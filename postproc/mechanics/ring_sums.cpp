@@ -19,15 +19,18 @@ void accumulate_downwards(std::vector<RingSum>* rings) {
 }
 
 void add_loads(const Assembly& assembly, const Vec3& gravity, const std::vector<PointForce>& loads,
-               std::vector<RingSum>* rings) {
+               const std::vector<bool>& left_out, std::vector<RingSum>* rings) {
+  const auto counts = [&](size_t b) {
+    return !assembly.blocks[b].fixed && (left_out.empty() || !left_out[b]);
+  };
   for (size_t b = 0; b < assembly.blocks.size(); ++b) {
-    if (assembly.blocks[b].fixed) continue;
+    if (!counts(b)) continue;
     RingSum& ring = (*rings)[first_ring(assembly, static_cast<int>(b))];
     ring.load_above += assembly.blocks[b].mass * gravity;
     ++ring.blocks;
   }
   for (const PointForce& load : loads) {
-    if (assembly.blocks[load.block].fixed) continue;
+    if (!counts(static_cast<size_t>(load.block))) continue;
     (*rings)[first_ring(assembly, load.block)].load_above += load.force;
   }
   accumulate_downwards(rings);
@@ -105,7 +108,7 @@ double coefficient_of_variation(const std::vector<double>& values) {
 
 std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
-                               const std::vector<PointForce>& loads) {
+                               const std::vector<PointForce>& loads, const std::vector<bool>& left_out) {
   CUPOLA_ASSERT(from_below.size() == assembly.blocks.size());
   int num_rings = 0;
   if (assembly.num_rings > 0)
@@ -114,10 +117,11 @@ std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& jo
   std::vector<RingSum> rings(static_cast<size_t>(num_rings));
   if (rings.empty()) return rings;
   for (int k = 0; k < num_rings; ++k) rings[k].ring = k;
-  add_loads(assembly, gravity, loads, &rings);
+  add_loads(assembly, gravity, loads, left_out, &rings);
   add_joint_forces(assembly, joints, &rings);
   add_uniformity(assembly, joints, from_below, &rings);
   for (RingSum& ring : rings) {
+    if (ring.blocks == 0 && !left_out.empty()) ring = {.ring = ring.ring};
     const double load = ring.load_above.norm();
     if (load > 0.0) ring.relative_difference = (ring.joint_force + ring.load_above).norm() / load;
   }

@@ -12,7 +12,7 @@ namespace cupola {
 struct RingSum {
   int ring = 0;
   double height = 0.0;               ///< m, mean height of the ring's bed joints, weighted by area
-  int blocks = 0;                    ///< number of blocks whose first ring is k
+  int blocks = 0;                    ///< number of blocks whose first ring is k; 0: no cut, the sums are 0
   Vec3 joint_force = Vec3::Zero();   ///< N, on the blocks above the cut
   Vec3 load_above = Vec3::Zero();    ///< N, weight of these blocks and loads on them
   double relative_difference = 0.0;  ///< |joint_force + load_above| / |load_above|
@@ -25,10 +25,11 @@ struct RingSum {
   double largest_kern = 0.0;           ///< kern utilisation of the ring's bed joints
 };
 
-/// One cut per ring, from the base upwards; empty for blocks without rings.
+/// One cut per ring, from the base upwards; empty for blocks without rings. `left_out`: per block, true if it does not take
+/// part, as before it is laid; empty: all take part.
 std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
-                               const std::vector<PointForce>& loads);
+                               const std::vector<PointForce>& loads, const std::vector<bool>& left_out = {});
 
 /// Standard deviation over |mean|; 0 for fewer than two values or a mean of zero.
 double coefficient_of_variation(const std::vector<double>& values);

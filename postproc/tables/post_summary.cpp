@@ -90,6 +90,7 @@ Json to_json(const Value& value) {
 Json rings_json(const Evaluation& e) {
   Json rings = Json::array();
   for (const RingSum& cut : e.rings) {
+    if (cut.blocks == 0) continue;
     Json& ring = rings.emplace_back();
     for (const char* key : kRingSummaryKeys)
       ring[key] = to_json(column_named(ring_columns(), key).value({cut, e.up}));
@@ -147,10 +148,12 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
   const auto raise = [](std::optional<double>* largest, double value) {
     *largest = std::fmax(largest->value_or(0.0), value);
   };
+  const auto rings =
+      std::count_if(e.rings.begin(), e.rings.end(), [](const RingSum& r) { return r.blocks > 0; });
   for (const RingSum& r : e.rings) {
+    if (r.blocks == 0) continue;
     raise(&s->largest_ring_difference, r.relative_difference);
-    s->mean_cv_pressure =
-        s->mean_cv_pressure.value_or(0.0) + r.cv_pressure / static_cast<double>(e.rings.size());
+    s->mean_cv_pressure = s->mean_cv_pressure.value_or(0.0) + r.cv_pressure / static_cast<double>(rings);
     raise(&s->largest_cv_pressure, r.cv_pressure);
   }
   double kern = 0.0, force = 0.0;
@@ -169,7 +172,7 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
     raise(&s->widest_crack_m, crack.widest_gap);
   }
   for (const BlockFields& f : e.last.fields) raise(&s->largest_couple_length_m, f.couple_length);
-  if (!e.rings.empty() && e.summary.weight_N > 0.0)
+  if (!e.rings.empty() && e.rings.front().blocks > 0 && e.summary.weight_N > 0.0)
     s->thrust_over_weight = e.rings.front().radial_thrust / e.summary.weight_N;
   if (e.rib_over_mid_sail) {
     s->rib_over_mid_sail = e.rib_over_mid_sail->mean;
