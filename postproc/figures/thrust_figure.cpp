@@ -112,6 +112,16 @@ std::string profile_plot(const MeridianEvaluation& m, const Summary& summary, bo
       kOrange, kGreen, kSky, title, ends, pressed);
 }
 
+/// Gnuplot command for at most six tick marks from zero to `largest`: narrow panels have no room for more.
+std::string few_ticks(double largest) {
+  if (!(largest > 0.0)) return "set xtics auto\n";
+  const double least = largest / 5.0, power = std::pow(10.0, std::floor(std::log10(least)));
+  double step = power;
+  for (const double factor : {2.0, 5.0, 10.0})
+    if (step < least) step = factor * power;
+  return fmt::format("set xtics {}\n", step);
+}
+
 /// Four panels with a common height axis: profile, resultant, couple length, distance to the nearer face.
 std::string vault_panels(const MeridianEvaluation& m, int width, int height, const ForceUnit& unit,
                          const std::string& profile) {
@@ -128,6 +138,13 @@ std::string vault_panels(const MeridianEvaluation& m, int width, int height, con
   }
   z.widen();
   x.widen();
+  constexpr double kLeastCouple = 0.2;  // m, range of the panel
+  double resultant = 0.0, couple = kLeastCouple, distance = 0.0;
+  for (const ThrustPoint& p : m.thrust.points) {
+    resultant = std::fmax(resultant, unit.per_newton * p.r);
+    couple = std::fmax(couple, p.couple_length);  // skips NaN
+    distance = std::fmax(distance, std::abs(p.face_distance));
+  }
   // Both axes of the profile have the same scale: the height of the panel in pixels sets its width.
   constexpr double kBottom = 0.10, kTop = 0.93, kLeft = 0.07;
   const double pixels_per_metre = (kTop - kBottom) * height / (z.high - z.low);
@@ -147,23 +164,23 @@ std::string vault_panels(const MeridianEvaluation& m, int width, int height, con
              margins(kLeft, right), x.low, x.high, z.low, z.high) +
          profile + margins(right + gap, right + gap + panel) +
          fmt::format(
-             "set xrange [0:*]\nset xlabel 'resultant ({2})'\nunset ylabel\n"
+             "{5}set xrange [0:*]\nset xlabel 'resultant ({2})'\nunset ylabel\n"
              "plot $graphs using 2:1 w lp lc rgb '{0}' pt 7 ps 0.4 notitle, $graphs using 3:1 w l lc "
              "rgb '{1}' dt 2 lw 2 notitle{3}{4}\n",
              kBlue, kOrange, unit.name,
              curve_label("graphs", rows / 2, "$2", "$1", "r: norm", kBlue, "left offset 1.2,0"),
-             curve_label("graphs", rows / 4, "$3", "$1", "v: vertical", kOrange, "right offset -1.2,0")) +
+             curve_label("graphs", rows / 4, "$3", "$1", "v: vertical", kOrange, "right offset -1.2,0"),
+             few_ticks(resultant)) +
          margins(right + 2 * gap + panel, right + 2 * gap + 2 * panel) +
          fmt::format(
-             "set xlabel 'couple length (m)'\nset xrange [0:*]\nset xtics 0,0.1\nif (couple < 0.2) {{set "
-             "xtics auto; set xrange [0:0.2]; set xtics 0.05}}\n"
+             "{}set xlabel 'couple length (m)'\nset xrange [0:{}<*]\n"
              "plot $graphs using 4:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle\n",
-             kPurple) +
+             few_ticks(couple), kLeastCouple, kPurple) +
          margins(0.98 - panel, 0.98) +
          fmt::format(
-             "set xlabel 'distance to the nearer face (m)'\nset xrange [*<0:*]\nset xtics auto\n"
+             "{}set xlabel 'distance to the nearer face (m)'\nset xrange [*<0:*]\n"
              "plot $graphs using 5:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle\nunset multiplot\n",
-             kGreen);
+             few_ticks(distance), kGreen);
 }
 
 /// Profile on top; below it resultant, couple length and distance to the nearer face, over x.
@@ -225,7 +242,7 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
   f.width = 1200;
   f.height = arch ? 900 : 560;
   const std::string profile = profile_plot(m, e.summary, zones);
-  f.commands = plot_style() + fmt::format("couple = {}\n", couple) + thrust_data(m, arch, unit) +
+  f.commands = plot_style() + thrust_data(m, arch, unit) +
                (arch ? arch_panels(unit, profile) : vault_panels(m, f.width, f.height, unit, profile));
   return f;
 }

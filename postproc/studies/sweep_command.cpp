@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -45,11 +46,25 @@ Table without_empty_columns(const Table& table) {
   return out;
 }
 
+/// How the members ended: "6 stable, 2 moving".
+std::string endings(const Table& table) {
+  std::map<std::string, int> count;
+  for (const auto& row : table.rows)
+    for (size_t k = 0; k < row.size(); ++k)
+      if (table.columns[k].key == "status") ++count[to_display(row[k])];
+  std::string text;
+  for (const auto& [status, members] : count)
+    text = fmt::format("{} {}{}{}", members, status, text.empty() ? "" : ", ", text);  // stable before moving
+  return text;
+}
+
 /// The page: a figure, the table, and links to the reports of the members.
 std::string sweep_page(const Case& scene, const std::vector<SweepMember>& members, const Table& table,
                        const std::string& verdict, const std::string& runs_folder,
                        const std::string& output_folder) {
-  std::string body = fmt::format("<h1>{}</h1>\n<p>{}.</p>\n", markup_text(scene.title), verdict);
+  std::string body =
+      fmt::format("<h1>{}</h1>\n<p class=\"verdict\"><strong>{}.</strong> <small>{}.</small></p>\n",
+                  markup_text(scene.title), endings(table), verdict);
   const Figure figure = sweep_figure(scene.sweep, table);
   if (!figure.commands.empty()) {
     const std::filesystem::path figures = std::filesystem::path(output_folder) / "figures";

@@ -47,6 +47,21 @@ std::vector<size_t> varying_columns(const Table& table, size_t first) {
   return columns;
 }
 
+/// True if no number of the column is negative; its axis then starts at zero.
+bool is_positive(const Table& table, size_t column) {
+  return std::none_of(table.rows.begin(), table.rows.end(),
+                      [column](const auto& row) { return number_of(row[column]) < 0.0; });
+}
+
+/// The unit of a panel and its factor: lengths below one metre in mm.
+std::pair<double, std::string> readable_unit(const Table& table, size_t column) {
+  const std::string& unit = table.columns[column].unit;
+  const bool small = std::none_of(table.rows.begin(), table.rows.end(), [column](const auto& row) {
+    return std::abs(number_of(row[column])) >= 1.0;
+  });
+  return unit == "m" && small ? std::pair(1e3, std::string("mm")) : std::pair(1.0, unit);
+}
+
 std::string text_of(const Table::Cell& cell) {
   const std::string* text = std::get_if<std::string>(&cell);
   return text ? *text : "";
@@ -85,7 +100,10 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
   Figure f;
   f.name = "sweep";
   f.title = "Results over " + sweep.front().key;
-  f.caption = "Filled points: stable. Open points and crosses: any other status, as the table gives it.";
+  f.caption =
+      "Filled points: the structure stands. Open points, and crosses on the lower edge where there is no "
+      "value: it does "
+      "not, or the run reached no verdict; the table says which.";
   for (const std::string& value : sweep.front().values)
     if (double x = 0.0; !read_number(value, &x).empty()) return f;
   const size_t status = column_of(table, "status");
@@ -96,8 +114,10 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
   std::string data = data_block("fallen", fallen), plots;
   for (const size_t k : columns) {
     const Table::Column& column = table.columns[k];
-    plots += fmt::format("set ylabel '{}{}'\n", gnuplot_text(column.meaning),
-                         column.unit.empty() ? "" : " (" + gnuplot_text(column.unit) + ")");
+    const auto [factor, unit] = readable_unit(table, k);
+    plots +=
+        fmt::format("set ylabel '{}{}'\nset yrange [{}:*]\n", gnuplot_text(column.meaning),
+                    unit.empty() ? "" : " (" + gnuplot_text(unit) + ")", is_positive(table, k) ? "0" : "*");
     std::string plot;
     size_t n = 0;
     for (const auto& [name, members] : curves) {
@@ -105,8 +125,8 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
       for (const size_t r : members) {
         double x = 0.0;
         read_number(text_of(table.rows[r][1]), &x);
-        rows.push_back(
-            {x, number_of(table.rows[r][k]), text_of(table.rows[r][status]) == "stable" ? 7.0 : 6.0});
+        rows.push_back({x, factor * number_of(table.rows[r][k]),
+                        text_of(table.rows[r][status]) == "stable" ? 7.0 : 6.0});
       }
       std::sort(rows.begin(), rows.end());
       const std::string block = fmt::format("column{}_{}", k, n);
@@ -118,11 +138,8 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
       if (!name.empty()) plot += curve_label(block, rows.size() - 1, "$1", "$2", name, colour);
       ++n;
     }
-    plots +=
-        plot +
-        (fallen.empty() ? ""
-                        : fmt::format(", $fallen using 1:2 axes x1y2 w p pt 2 ps 1.2 lc rgb '{}'", kOrange)) +
-        "\n";
+    plots += plot + (fallen.empty() ? "" : ", $fallen using 1:2 axes x1y2 w p pt 2 ps 1.2 lc rgb '#444444'") +
+             "\n";
   }
   f.width = 900;
   f.height = 60 + 260 * static_cast<int>(columns.size());
