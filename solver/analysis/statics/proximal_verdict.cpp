@@ -16,9 +16,12 @@ namespace {
 /// that is larger, from which a motion counts as proven.
 constexpr double kProven = 100.0;
 
+/// A lower bound with two digits, rounded down.
 std::string times_text(double times) {
   constexpr double kReadable = 1e6;
-  return times > kReadable ? "a million" : fmt::format("{:.2g}", times);
+  if (times > kReadable) return "a million";
+  const double digit = std::pow(10.0, std::floor(std::log10(std::max(times, 1.0))) - 1.0);
+  return fmt::format("{:g}", std::floor(times / digit) * digit);
 }
 
 }  // namespace
