@@ -140,12 +140,14 @@ Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const st
   return drawn;
 }
 
-void write_report(const AnalyseRequest& request, const std::vector<Table>& tables, const Drawn& drawn,
+void write_report(const AnalyseRequest& request, const std::vector<Table>& tables,
+                  const std::optional<Construction>& construction, const Drawn& drawn,
                   const std::vector<HistoryRow>& history, const std::string& run_yaml, const Evaluation& e) {
   const std::string& folder = request.output_folder;
   write_text_atomically(in_folder(folder, "report.html"),
                         report_html({.evaluation = &e,
                                      .tables = tables,
+                                     .construction = construction,
                                      .history = history,
                                      .viewer = drawn.viewer,
                                      .figures = drawn.figures,
@@ -182,6 +184,22 @@ std::vector<HistoryRow> read_history(const ResultsReader& results, Evaluation* e
   return history;
 }
 
+/// A table of the results; none if there is none or it cannot be read, which is recorded.
+std::optional<CsvFile> readable_table(const ResultsReader& results, const std::string& name, Evaluation* e) {
+  if (!e->summary.text_files.contains(name)) return std::nullopt;
+  const std::string text = readable_text(results, name, e);
+  return text.empty() ? std::nullopt : std::optional(parse_csv(text, name));
+}
+
+/// The stages of a staged run.
+std::optional<Construction> read_construction(const ResultsReader& results, Evaluation* e) {
+  if (e->summary.analysis != AnalysisType::staged) return std::nullopt;
+  if (const auto rings = readable_table(results, "stages.csv", e)) return rings_laid(*e, *rings);
+  if (const auto stages = readable_table(results, "construction.csv", e))
+    return blocks_laid(e->scene.analysis.staged.least, *stages, readable_table(results, "failures.csv", e));
+  return std::nullopt;
+}
+
 /// Throws InputError if parts were left out, so that make does not take the output for complete.
 void throw_if_incomplete(const Evaluation& e, const std::string& output_folder) {
   if (e.unreadable.empty()) return;
@@ -203,12 +221,14 @@ ExitCode analyse(const AnalyseRequest& request) {
   remove_earlier_output(folder);
   std::vector<Table> tables = result_tables(e);
   std::optional<Figure> own;
-  if (e.summary.analysis == AnalysisType::staged && e.summary.text_files.contains("stages.csv"))
-    if (const std::string text = readable_text(run.results, "stages.csv", &e); !text.empty())
-      own = stage_figure(tables.emplace(tables.begin(), stage_table(e, parse_csv(text, "stages.csv")))[0]);
-  if (e.summary.analysis == AnalysisType::path && e.summary.text_files.contains("path.csv"))
-    if (const std::string text = readable_text(run.results, "path.csv", &e); !text.empty())
-      own = path_figure(tables.emplace(tables.begin(), path_table(parse_csv(text, "path.csv")))[0]);
+  const std::optional<Construction> construction = read_construction(run.results, &e);
+  if (construction) {
+    tables.insert(tables.begin(), construction->table);
+    own = construction->figure;
+  }
+  if (e.summary.analysis == AnalysisType::path)
+    if (const auto path = readable_table(run.results, "path.csv", &e))
+      own = path_figure(tables.emplace(tables.begin(), path_table(*path))[0]);
   for (const Table& table : tables)
     write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
   const std::string run_yaml = readable_text(run.results, "run.yaml", &e);
@@ -216,7 +236,7 @@ ExitCode analyse(const AnalyseRequest& request) {
   Drawn drawn;
   if (!request.tables_only) drawn = draw(request, run.results, own, history, &e);
   write_text_atomically(in_folder(folder, "summary.json"), post_summary_json(e));
-  if (!request.tables_only) write_report(request, tables, drawn, history, run_yaml, e);
+  if (!request.tables_only) write_report(request, tables, construction, drawn, history, run_yaml, e);
 
   report_warnings("cupola-post", e.warnings, run.doubts, false);
   if (!request.quiet)

@@ -10,15 +10,14 @@
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/figures/range_text.hpp"
 #include "postproc/report/html.hpp"
+#include "postproc/report/motion.hpp"
 #include "postproc/report/report.hpp"
+#include "postproc/report/worst_joints.hpp"
 #include "postproc/tables/post_summary.hpp"
 #include "postproc/tables/range_values.hpp"
 
 namespace cupola {
 namespace {
-
-/// From here on a joint slides: its friction use prints as 100 %.
-constexpr double kSlides = 0.999;
 
 std::string with_capital(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
@@ -26,11 +25,14 @@ std::string with_capital(std::string text) {
 }
 
 KeyNumber critical_number(const CriticalValue& critical) {
-  const std::string unit = limit_unit(critical.parameter);
+  std::string unit = limit_unit(critical.parameter);
+  double factor = 1.0;
+  if (unit == "Pa") factor = critical.value < 1e6 ? 1e-3 : 1e-6, unit = critical.value < 1e6 ? "kPa" : "MPa";
   return {"Critical " + critical.parameter,
-          fmt::format("{:.4g}{}", critical.value, unit.empty() ? "" : " " + unit),
+          fmt::format("{:.4g}{}", factor * critical.value, unit.empty() ? "" : " " + unit),
           shows_bracket(critical) || critical.value == 0.0
-              ? fmt::format("stands at {:.5g}, moves at {:.5g}", critical.stable, critical.moving)
+              ? fmt::format("stands at {:.5g}, moves at {:.5g}", factor * critical.stable,
+                            factor * critical.moving)
               : fmt::format("known to a relative error of {:.1e}",
                             0.5 * std::abs(critical.stable - critical.moving) / std::abs(critical.value))};
 }
@@ -96,29 +98,6 @@ void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
         {"Largest displacement", length_text(*s.max_displacement_m), "from the compliance of the joints"});
 }
 
-void add_numbers_of_motion(const Evaluation& e, const std::vector<HistoryRow>& history,
-                           std::vector<KeyNumber>* out) {
-  const double threshold = e.scene.analysis.thresholds.displacement;
-  double farthest = 0.0;
-  for (const Vec3& d : e.last.frame.blocks.displacement) farthest = std::max(farthest, d.norm());
-  if (!is_mechanism(e.summary, e.last.frame) && e.summary.analysis == AnalysisType::dynamic) {
-    out->push_back(
-        {"Largest displacement", length_text(farthest), fmt::format("after {:.4g} s", e.last.frame.time)});
-    const auto first = std::find_if(history.begin(), history.end(), [threshold](const HistoryRow& row) {
-      return row.max_displacement > threshold;
-    });
-    if (first != history.end())
-      out->push_back({fmt::format("Moved more than {}", length_text(threshold)),
-                      fmt::format("at {:.4g} s", first->time), "first block to do so"});
-    if (!history.empty())
-      out->push_back({"Fastest block", fmt::format("{:.3g} m/s", history.back().max_speed), "at the end"});
-  }
-  if (out->size() < 3)
-    out->push_back({"Free blocks", fmt::format("{}", e.summary.free_blocks),
-                    fmt::format("in {}", counted(e.summary.joints, "joint"))});
-  if (out->size() < 3) out->push_back({"Weight", force_text(e.summary.weight_N), "of the free blocks"});
-}
-
 /// Whether the forces are those of the model, in words: "proven to 9 digits".
 std::string how_sure(const Summary& s) {
   if (s.analysis == AnalysisType::limit && s.critical && s.critical->parameter != "peak_stress")
@@ -151,45 +130,6 @@ std::string numbers_html(const std::vector<KeyNumber>& numbers) {
   return out + "</div>\n";
 }
 
-std::string named_block(const Evaluation& e, int b) {
-  const std::string& name = e.assembly.blocks[static_cast<size_t>(b)].name;
-  return name.empty() ? fmt::format("{}", b) : fmt::format("{} ({})", b, name);
-}
-
-/// "The bed joint between blocks 12 and 45 ... ", a link that shows it in the 3-D view.
-std::string joint_link(const Evaluation& e, size_t index) {
-  const JointWrench& joint = e.last.joints.wrenches[index];
-  return fmt::format("<a href=\"#view\" data-joint=\"{}\">The {} joint between blocks {} and {}</a>", index,
-                     joint.kind == JointKind::other ? "" : to_string(joint.kind),
-                     markup_text(named_block(e, joint.block_a)), markup_text(named_block(e, joint.block_b)));
-}
-
-std::string worst_html(const Evaluation& e) {
-  const WorstJoints worst = worst_joints(e.last.joints);
-  std::string out;
-  if (worst.sliding && e.last.joints.wrenches[*worst.sliding].friction_use > 0.0) {
-    const JointWrench& j = e.last.joints.wrenches[*worst.sliding];
-    out += fmt::format("<li>{} {}: it uses {:.3g} % of its friction under a normal force of {}.</li>\n",
-                       joint_link(e, *worst.sliding),
-                       j.friction_use > kSlides ? "slides" : "is the nearest to sliding",
-                       100.0 * j.friction_use, markup_text(force_text(j.normal_force)));
-  }
-  if (worst.edge && e.last.joints.wrenches[*worst.edge].kern > 0.0) {
-    const JointWrench& j = e.last.joints.wrenches[*worst.edge];
-    const bool on_edge = j.edge_distance < 1e-3 * std::sqrt(j.patch.area);
-    out += fmt::format("<li>{} is the nearest to opening as a hinge: its force of {} acts {}{}.</li>\n",
-                       joint_link(e, *worst.edge), markup_text(force_text(j.wrench.force.norm())),
-                       on_edge ? "on the edge" : length_text(j.edge_distance) + " from the edge",
-                       j.kern > 1.0 ? ", outside the kern, so that a part of the joint is unloaded" : "");
-  }
-  const bool ideal = std::all_of(
-      e.last.joints.wrenches.begin(), e.last.joints.wrenches.end(),
-      [](const JointWrench& j) { return j.negligible || (j.kern == 0.0 && j.friction_use == 0.0); });
-  if (worst.edge && ideal)
-    out = "<li>No joint is near sliding or opening: every force is normal to its joint and central.</li>\n";
-  return out.empty() ? "" : "<p><strong>Worst joints</strong></p>\n<ul>\n" + out + "</ul>\n";
-}
-
 }  // namespace
 
 std::vector<KeyNumber> key_numbers(const Evaluation& e, const std::vector<HistoryRow>& history) {
@@ -198,40 +138,18 @@ std::vector<KeyNumber> key_numbers(const Evaluation& e, const std::vector<Histor
   if (e.summary.critical) out.push_back(critical_number(*e.summary.critical));
   for (const ForceRange& range : e.summary.ranges)
     if (out.size() + 1 < kMost) out.push_back(range_number_of(range));
-  if (at_rest(e.summary))
+  if (at_rest(e.summary)) {
     add_numbers_at_rest(e, &out);
-  else if (e.summary.status != Status::unconverged || !history.empty())
-    add_numbers_of_motion(e, history, &out);
+  } else {
+    const std::vector<KeyNumber> motion = motion_numbers(e, history);
+    out.insert(out.end(), motion.begin(), motion.end());
+  }
   if (out.size() > kMost) out.resize(kMost);
   return out;
 }
 
-WorstJoints worst_joints(const JointWrenches& joints) {
-  // Joints of small forces say little about the structure: a hinge needs force.
-  constexpr double kLoaded = 0.1;  // of the largest joint force
-  double largest = 0.0;
-  for (const JointWrench& joint : joints.wrenches) largest = std::max(largest, joint.wrench.force.norm());
-  WorstJoints worst;
-  const auto use = [&](size_t j) { return std::min(joints.wrenches[j].friction_use, kSlides); };
-  const auto edge = [&](size_t j) {
-    return joints.wrenches[j].edge_distance / std::sqrt(joints.wrenches[j].patch.area);
-  };
-  for (size_t j = 0; j < joints.wrenches.size(); ++j) {
-    const JointWrench& joint = joints.wrenches[j];
-    if (joint.negligible || joint.patch.area <= 0.0) continue;
-    if (const auto& w = worst.sliding;
-        std::isfinite(joint.friction_use) &&
-        (!w || std::pair(use(j), joint.normal_force) > std::pair(use(*w), joints.wrenches[*w].normal_force)))
-      worst.sliding = j;
-    if (joint.wrench.force.norm() >= kLoaded * largest && std::isfinite(joint.edge_distance) &&
-        (!worst.edge || edge(j) < edge(*worst.edge)))
-      worst.edge = j;
-  }
-  return worst;
-}
-
 std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& history,
-                         const std::string& viewer) {
+                         const Construction* construction, const std::string& viewer) {
   const Summary& s = e.summary;
   std::string out;
   for (const std::string& warning : notices(e))
@@ -239,9 +157,15 @@ std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& his
   out += fmt::format("<p class=\"verdict{}\"><strong>{}</strong> <small>{}</small></p>\n",
                      s.status == Status::stable ? "" : " bad", markup_text(verdict_text(s)),
                      markup_text(with_capital(s.message) + "."));
-  if (at_rest(s)) out += "<p><strong>How sure is that?</strong> " + markup_text(how_sure(s)) + "</p>\n";
-  out += numbers_html(key_numbers(e, history)) + viewer;
-  return at_rest(s) ? out + worst_html(e) : out;
+  if (const std::string sure = at_rest(s) ? how_sure(s) : how_sure_of_motion(e); !sure.empty())
+    out += "<p><strong>How sure is that?</strong> " + markup_text(sure) + "</p>\n";
+  std::vector<KeyNumber> numbers = key_numbers(e, history);
+  if (construction)
+    numbers.insert(numbers.begin(),
+                   {"Stages that stand",
+                    fmt::format("{} of {}", construction->standing, construction->table.rows.size()),
+                    construction->worst});
+  return out + numbers_html(numbers) + viewer + worst_joints_html(e);
 }
 
 }  // namespace cupola

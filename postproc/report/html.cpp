@@ -7,6 +7,7 @@
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/base64.hpp"
+#include "assembly/files/number_text.hpp"
 
 namespace cupola {
 namespace {
@@ -22,6 +23,7 @@ constexpr const char* kStyle = R"css(
 body { margin: 0 auto; padding: 1rem 1.25rem 3rem; max-width: 78rem; color: var(--text); background: var(--paper);
   font: 1rem/1.5 system-ui, "DejaVu Sans", sans-serif; overflow-wrap: break-word; }
 h1 { font-size: 1.6rem; line-height: 1.25; margin: .5rem 0; }
+.settings { margin: 0 0 .5rem; max-width: none; color: var(--soft); font-size: .9rem; }
 h2 { font-size: 1.25rem; margin: 2rem 0 .5rem; border-bottom: 1px solid #999; }
 h3 { font-size: 1.05rem; margin: 1.5rem 0 .25rem; }
 a { color: var(--link); } p, li, figcaption { max-width: 55rem; }
@@ -52,7 +54,8 @@ dt { color: var(--soft); } dd { margin: 0; }
 .side .wide { grid-column: 1 / -1; }
 @media (max-width: 600px) {
   body { padding: .5rem .75rem 2rem; } h1 { font-size: 1.3rem; }
-  figure { overflow-x: auto; } figure img { max-width: none; width: 40rem; }
+  figure { overflow-x: auto; } figure img { max-width: none; width: 58rem; } figure.half img { width: 40rem; }
+  figcaption { position: sticky; left: 0; }
   dl { grid-template-columns: minmax(0, 1fr); } dd { margin: 0 0 .4rem; }
 }
 @media print { :root { --paper: #fff; --text: #1a1a1a; --soft: #444; }
@@ -82,12 +85,19 @@ std::string html_picture(const std::string& path, const std::string& alternative
 }
 
 std::string html_table(const Table& table) {
-  const auto is_text = [](const Table::Cell& cell) { return std::holds_alternative<std::string>(cell); };
+  // Texts are aligned to the left, numbers to the right, also those that are swept as text.
+  const auto is_text = [](const Table::Cell& cell) {
+    const std::string* text = std::get_if<std::string>(&cell);
+    double number = 0.0;
+    return text && !text->empty() && !read_number(*text, &number).empty();
+  };
+  std::vector<bool> text(table.columns.size());
+  for (const auto& row : table.rows)
+    for (size_t i = 0; i < row.size(); ++i) text[i] = text[i] || is_text(row[i]);
   std::string out = "<div class=\"scroll\" tabindex=\"0\"><table>\n<thead><tr>";
   for (size_t i = 0; i < table.columns.size(); ++i) {
     const Table::Column& column = table.columns[i];
-    const bool text = !table.rows.empty() && is_text(table.rows.front()[i]);
-    out += fmt::format("<th{}>{}<small>{}</small></th>", text ? " class=\"text\"" : "",
+    out += fmt::format("<th{}>{}<small>{}</small></th>", text[i] ? " class=\"text\"" : "",
                        markup_text(column.meaning.empty() ? column.key : column.meaning),
                        markup_text(column.unit));
   }
@@ -96,7 +106,7 @@ std::string html_table(const Table& table) {
     CUPOLA_ASSERT(row.size() == table.columns.size());
     out += "<tr>";
     for (size_t i = 0; i < row.size(); ++i)
-      out += fmt::format("<td{}>{}</td>", is_text(row[i]) ? " class=\"text\"" : "",
+      out += fmt::format("<td{}>{}</td>", text[i] ? " class=\"text\"" : "",
                          markup_text(to_display(row[i], table.columns[i].floor)));
     out += "</tr>\n";
   }

@@ -11,6 +11,7 @@
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/first_screen.hpp"
 #include "postproc/report/html.hpp"
+#include "postproc/report/motion.hpp"
 #include "postproc/report/ranges.hpp"
 #include "postproc/tables/range_values.hpp"
 
@@ -34,6 +35,15 @@ std::string list_section(const std::string& heading, const std::vector<std::stri
   std::string out = "<h2>" + heading + "</h2>\n<ul>\n";
   for (const std::string& sentence : sentences) out += "<li>" + markup_text(sentence) + "</li>\n";
   return out + "</ul>\n";
+}
+
+/// The title, and below it the settings that it names: "Dome (with joints.friction=0.3)".
+std::string heading(const std::string& title) {
+  const size_t settings = title.find(" (with ");
+  std::string out = "<h1>" + markup_text(title.substr(0, settings)) + "</h1>\n";
+  if (settings != std::string::npos)
+    out += "<p class=\"settings\">" + markup_text(title.substr(settings + 1)) + "</p>\n";
+  return out;
 }
 
 /// Of a range analysis the findings belong to one state of many.
@@ -176,8 +186,8 @@ std::string run_section(const ReportInput& input) {
 
 std::string report_html(const ReportInput& input) {
   const Evaluation& e = *input.evaluation;
-  std::string body = "<h1>" + markup_text(e.scene.title) + "</h1>\n";
-  body += first_screen(e, input.history, input.viewer);
+  std::string body = heading(e.scene.title);
+  body += first_screen(e, input.history, input.construction ? &*input.construction : nullptr, input.viewer);
   body += ranges_section(e, range_picture(input));
   body += at_rest(e.summary) ? list_section(findings_heading(e.summary), finding_sentences(e))
                              : list_section("Motion", motion_sentences(e, input.history));

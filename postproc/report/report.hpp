@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/figures.hpp"
+#include "postproc/report/stages.hpp"
 #include "postproc/tables/table.hpp"
 
 namespace cupola {
@@ -13,8 +15,9 @@ namespace cupola {
 struct ReportInput {
   const Evaluation* evaluation = nullptr;
   std::vector<Table> tables;
-  std::vector<HistoryRow> history;  ///< of a dynamic run
-  std::string viewer;               ///< the 3-D view, as HTML; may be empty
+  std::optional<Construction> construction;  ///< of a staged run
+  std::vector<HistoryRow> history;           ///< of a dynamic run
+  std::string viewer;                        ///< the 3-D view, as HTML; may be empty
   std::vector<Figure> figures;
   std::string figure_folder;   ///< folder of the figure files
   std::string picture_folder;  ///< of the standard views; "" if none were drawn
@@ -25,10 +28,6 @@ struct ReportInput {
 /// solution quality, case, files and run information, in this order. A run that found no equilibrium has the motion in place
 /// of the findings, and no certificate.
 std::string report_html(const ReportInput& input);
-
-/// What moves and how, one sentence per item. Of an unconverged run: that nothing is known.
-std::vector<std::string> motion_sentences(const Evaluation& evaluation,
-                                          const std::vector<HistoryRow>& history);
 
 /// What the forces of an equilibrium show, one sentence with its number per item.
 std::vector<std::string> finding_sentences(const Evaluation& evaluation);

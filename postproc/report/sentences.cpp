@@ -1,8 +1,7 @@
-// The sentences of the report: verdict, solution quality, findings of an equilibrium, motion.
+// The sentences of the report: verdict, solution quality, findings of an equilibrium.
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -26,7 +25,7 @@ bool leads(const std::vector<KeyNumber>& numbers, const char* name) {
 }
 
 void add_rings(const Evaluation& e, const PostSummary& s, std::vector<std::string>* out) {
-  if (e.rings.empty()) return;
+  if (!s.largest_ring_difference) return;
   constexpr double kBalanced = 0.01;  // a dynamic run at rest still has small accelerations
   const char* ring = is_vault(e) ? "ring" : "course";
   out->push_back(
@@ -71,80 +70,6 @@ std::string strength_text(const PostSummary& s) {
       1e-6 * s.largest_pressure_Pa.value_or(0.0), percent(*s.largest_strength_use));
 }
 
-/// Blocks that move farther than `least`, m.
-int count_moving(const Evaluation& e, double least) {
-  int count = 0;
-  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
-    count += !e.assembly.blocks[b].fixed && e.last.frame.blocks.displacement[b].norm() > least;
-  return count;
-}
-
-/// Bodies that move: all groups but that of the supports.
-size_t count_bodies(const Evaluation& e) {
-  std::set<int> bodies(e.last.groups.begin(), e.last.groups.end());
-  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
-    if (e.assembly.blocks[b].fixed) bodies.erase(e.last.groups[b]);
-  return bodies.size();
-}
-
-struct Farthest {
-  size_t block = 0;
-  double displacement = 0.0;  // m
-};
-
-Farthest farthest_block(const Evaluation& e) {
-  Farthest farthest;
-  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
-    if (const double d = e.last.frame.blocks.displacement[b].norm(); d > farthest.displacement)
-      farthest = {b, d};
-  return farthest;
-}
-
-std::string block_text(const Evaluation& e, size_t index) {
-  const Block& block = e.assembly.blocks[index];
-  if (!block.name.empty()) return fmt::format("block {} ({})", index, block.name);
-  return e.rings.empty() ? fmt::format("block {}", index)
-                         : fmt::format("block {} in ring {}", index, block.ring);
-}
-
-void add_mechanism(const Evaluation& e, std::vector<std::string>* out) {
-  const Farthest farthest = farthest_block(e);
-  if (farthest.displacement == 0.0) return;
-  constexpr double kMuch = 0.1;
-  const size_t bodies = count_bodies(e);
-  out->push_back(
-      fmt::format("The blocks begin to move as {}. {} of {} exceed a tenth of the largest speed, which is "
-                  "that of {}. A mechanism has directions but no amplitude; the "
-                  "3-D view shows the directions.",
-                  counted(bodies, "body", "bodies"), count_moving(e, kMuch * farthest.displacement),
-                  counted(e.summary.free_blocks, "free block"), block_text(e, farthest.block)));
-}
-
-void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& history,
-                        std::vector<std::string>* out) {
-  const double threshold = e.scene.analysis.thresholds.displacement;
-  const Farthest farthest = farthest_block(e);
-  const size_t bodies = count_bodies(e);
-  out->push_back(fmt::format(
-      "At the end, {:.4g} s, the largest displacement is {:.3g} m, of {}; {} of {} moved "
-      "farther than "
-      "{:g} m. The blocks move as {}.",
-      e.last.frame.time, farthest.displacement, block_text(e, farthest.block), count_moving(e, threshold),
-      counted(e.summary.free_blocks, "free block"), threshold, counted(bodies, "body", "bodies")));
-  if (history.empty()) return;
-  const auto first = std::find_if(history.begin(), history.end(), [threshold](const HistoryRow& row) {
-    return row.max_displacement > threshold;
-  });
-  if (first != history.end())
-    out->push_back(
-        fmt::format("A block first moved farther than {:g} m at {:.4g} s.", threshold, first->time));
-  const HistoryRow& last = history.back();
-  out->push_back(fmt::format("The fastest block moves at {:.3g} m/s at the end.", last.max_speed));
-  if (e.summary.weight_N > 0.0)
-    out->push_back(fmt::format("The supports carry {:.3g} of the weight at the end.",
-                               last.reaction / e.summary.weight_N));
-}
-
 }  // namespace
 
 std::vector<std::string> finding_sentences(const Evaluation& e) {
@@ -176,24 +101,6 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
   if (const double length = s.crack_length_m.value_or(0.0); length > 0.0)
     out.push_back(fmt::format("Joints are open over {} in total, by up to {}.", length_text(length),
                               length_text(*s.widest_crack_m)));
-  return out;
-}
-
-std::vector<std::string> motion_sentences(const Evaluation& e, const std::vector<HistoryRow>& history) {
-  std::vector<std::string> out;
-  if (e.summary.status == Status::unconverged)
-    out.push_back(history.empty()
-                      ? "Neither forces nor motion are known: the requested accuracy was not reached."
-                      : "The error of the motion is unknown: the requested accuracy was "
-                        "not reached.");
-  else if (e.summary.analysis == AnalysisType::staged)
-    out.push_back(
-        "The table of stages shows with which rings the vault does not stand, the 3-D view how its blocks "
-        "begin to move.");
-  else if (is_mechanism(e.summary, e.last.frame))
-    add_mechanism(e, &out);
-  else
-    add_motion_in_time(e, history, &out);
   return out;
 }
 

@@ -2,17 +2,100 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "postproc/figures/plot_style.hpp"
 
 namespace cupola {
+namespace {
 
-Table stage_table(const Evaluation& e, const CsvFile& csv) {
+using Least = StagedConstruction::Least;
+constexpr const char* kStands = "equilibrium";  // verdict of a stage
+
+/// A curve over the stages; none if it has no value above zero.
+std::optional<Figure> curve_over_stages(const std::vector<std::vector<double>>& points, const char* x_label,
+                                        const std::string& y_label) {
+  if (std::none_of(points.begin(), points.end(), [](const auto& point) { return point[1] > 0.0; }))
+    return std::nullopt;
+  Figure f;
+  f.name = "stages";
+  f.width = 900;
+  f.height = 480;
+  f.commands = plot_style() + data_block("stages", points) +
+               fmt::format(
+                   "set xlabel '{}'\nset ylabel '{}'\nset "
+                   "yrange [0:*]\nunset key\nplot $stages w lp lc rgb '{}' pt 7 ps 0.6 lw 2\n",
+                   x_label, y_label, kBlue);
+  return f;
+}
+
+/// Rows of stages.csv or construction.csv: the first stage that does not stand, and the one that needs the most.
+struct Notable {
+  int standing = 0;
+  std::optional<size_t> failing, demanding;
+};
+
+Notable notable_stages(const CsvFile& csv, size_t verdict, size_t needs) {
+  Notable out;
+  for (size_t row = 0; row < csv.rows.size(); ++row) {
+    const bool stands = csv.rows[row][verdict] == kStands;
+    out.standing += stands;
+    if (!stands && !out.failing) out.failing = row;
+    if (csv.number(row, needs) > (out.demanding ? csv.number(*out.demanding, needs) : 0.0))
+      out.demanding = row;
+  }
+  return out;
+}
+
+/// "4 blocks of course 20 slide", of the rows of one stage in failures.csv; "" without any.
+std::string what_moves(const std::optional<CsvFile>& failures, double stage) {
+  if (!failures) return "";
+  const size_t number = failures->column("stage"), course = failures->column("course");
+  const size_t how = failures->column("how");
+  std::map<std::pair<std::string, std::string>, int> blocks;  // by course and way
+  for (size_t row = 0; row < failures->rows.size(); ++row)
+    if (failures->number(row, number) == stage)
+      ++blocks[{failures->rows[row][course], failures->rows[row][how]}];
+  std::string text;
+  for (const auto& [key, count] : blocks) {
+    const auto& [ring, way] = key;  // "slides" or "tips"
+    text += fmt::format("{}{} of course {} {}", text.empty() ? "" : ", ", counted(count, "block"), ring,
+                        count == 1 ? way : way.substr(0, way.size() - 1));
+  }
+  return text;
+}
+
+std::vector<Table::Column> construction_columns(Least least) {
+  const std::string property = to_string(least), unit = least == Least::cohesion ? "Pa" : "";
+  std::vector<Table::Column> columns{{"stage", "", "stage"},
+                                     {"ring", "", "course being laid"},
+                                     {"laid", "", "blocks laid in the stage"},
+                                     {"blocks", "", "blocks solved"},
+                                     {"verdict", "", "with the mortar of the case"}};
+  if (least != Least::none) {
+    const std::string end = unit.empty() ? "" : "_" + unit;
+    columns.push_back({"least_stands" + end, unit,
+                       "least fresh " + property + " with which the stage stands; 0: it needs none"});
+    columns.push_back({"least_moves" + end, unit, "fresh " + property + " with which it moves"});
+  }
+  columns.push_back({"moving", "", least == Least::none ? "what moves" : "what moves with less"});
+  columns.push_back(
+      {"head_squeeze_m", "m", "closing of the most compressed fresh head joint since it was laid"});
+  columns.push_back(
+      {"displacement_m", "m", "largest displacement of a block from its place in the assembly"});
+  return columns;
+}
+
+}  // namespace
+
+Construction rings_laid(const Evaluation& e, const CsvFile& csv) {
   const size_t ring = csv.column("ring"), blocks = csv.column("blocks"), verdict = csv.column("verdict");
   const size_t stands = csv.column("critical_stands"), moves = csv.column("critical_moves");
-  Table t{"stages", "Construction, ring by ring", {}, {}};
+  Construction out;
+  Table& t = out.table = {"stages", "Construction, ring by ring", {}, {}};
   t.columns = {
       {"ring", "", "the ring just laid"},
       {"height_m", "m", "mean height of its bed joints"},
@@ -21,36 +104,69 @@ Table stage_table(const Evaluation& e, const CsvFile& csv) {
       {"critical_friction", "", "fresh friction below which the stage does not stand; 0: it needs none"},
       {"critical_stands", "", "end of the bracket at which the stage stands"},
       {"critical_moves", "", "end of the bracket at which the stage moves"}};
+  std::vector<std::vector<double>> points;
   for (size_t row = 0; row < csv.rows.size(); ++row) {
     const int k = static_cast<int>(csv.number(row, ring));
     const double low = csv.number(row, moves), high = csv.number(row, stands);  // NaN without a bracket
-    const double critical = high == 0.0 ? 0.0 : 0.5 * (low + high);
-    t.rows.push_back({k, e.rings.at(static_cast<size_t>(k)).height, static_cast<int>(csv.number(row, blocks)),
-                      csv.rows[row][verdict], critical, high, low});
+    const double critical = high == 0.0 ? 0.0 : 0.5 * (low + high),
+                 height = e.rings.at(static_cast<size_t>(k)).height;
+    t.rows.push_back(
+        {k, height, static_cast<int>(csv.number(row, blocks)), csv.rows[row][verdict], critical, high, low});
+    points.push_back({height, critical});
   }
-  return t;
-}
-
-std::optional<Figure> stage_figure(const Table& stages) {
-  std::vector<std::vector<double>> rows;
-  for (const auto& row : stages.rows) rows.push_back({std::get<double>(row[1]), std::get<double>(row[4])});
-  if (std::none_of(rows.begin(), rows.end(), [](const auto& row) { return row[1] > 0.0; }))
-    return std::nullopt;  // no stage needs friction, or none was searched
-  Figure f;
-  f.name = "stages";
-  f.title = "Construction: friction required of the fresh mortar, ring by ring";
-  f.caption =
+  const Notable notable = notable_stages(csv, verdict, stands);
+  out.standing = notable.standing;
+  if (notable.failing)
+    out.worst = "the first that does not: ring " + csv.rows[*notable.failing][ring];
+  else if (notable.demanding)
+    out.worst = "the most demanding: ring " + csv.rows[*notable.demanding][ring];
+  out.figure = curve_over_stages(points, "height of the ring just laid (m)", "required friction");
+  if (!out.figure) return out;
+  out.figure->title = "Construction: friction required of the fresh mortar, ring by ring";
+  out.figure->caption =
       "The bed of the ring just laid has the friction of fresh mortar, all other joints have that of the "
       "case. The curve shows the fresh friction below which the vault built so far does not stand; 0 means "
       "that it needs none.";
-  f.width = 900;
-  f.height = 480;
-  f.commands = plot_style() + data_block("stages", rows) +
-               fmt::format(
-                   "set xlabel 'height of the ring just laid (m)'\nset ylabel 'required friction'\nset "
-                   "yrange [0:*]\nunset key\nplot $stages w lp lc rgb '{}' pt 7 ps 0.6 lw 2\n",
-                   kBlue);
-  return f;
+  return out;
+}
+
+Construction blocks_laid(Least least, const CsvFile& csv, const std::optional<CsvFile>& failures) {
+  const size_t number = csv.column("stage"), ring = csv.column("ring"), laid = csv.column("laid");
+  const size_t blocks = csv.column("blocks"), verdict = csv.column("verdict");
+  const size_t stands = csv.column("least_stands"), moves = csv.column("least_moves");
+  const size_t squeeze = csv.column("head_squeeze_m"), displacement = csv.column("displacement_m");
+  const bool cohesion = least == Least::cohesion;
+  Construction out;
+  out.table = {"stages", "Construction, stage by stage", construction_columns(least), {}};
+  std::vector<std::vector<double>> points;
+  for (size_t row = 0; row < csv.rows.size(); ++row) {
+    std::vector<Table::Cell>& cells = out.table.rows.emplace_back();
+    for (const size_t column : {number, ring, laid, blocks})
+      cells.emplace_back(static_cast<int>(csv.number(row, column)));
+    cells.emplace_back(csv.rows[row][verdict]);
+    if (least != Least::none)
+      for (const size_t column : {stands, moves}) cells.emplace_back(csv.number(row, column));
+    cells.emplace_back(what_moves(failures, csv.number(row, number)));
+    for (const size_t column : {squeeze, displacement}) cells.emplace_back(csv.number(row, column));
+    points.push_back({csv.number(row, number), (cohesion ? 1e-3 : 1.0) * csv.number(row, stands)});
+  }
+  const Notable notable = notable_stages(csv, verdict, stands);
+  out.standing = notable.standing;
+  if (const auto& row = notable.failing ? notable.failing : notable.demanding) {
+    const std::string moving = what_moves(failures, csv.number(*row, number));
+    out.worst = fmt::format("{} stage {} in course {}",
+                            notable.failing ? "the first that does not:" : "the most demanding:",
+                            csv.rows[*row][number], csv.rows[*row][ring]);
+    if (!moving.empty()) out.worst += (notable.failing ? ", where " : "; with less, ") + moving;
+  }
+  out.figure = curve_over_stages(points, "stage", cohesion ? "required cohesion (kPa)" : "required friction");
+  if (!out.figure) return out;
+  out.figure->title =
+      fmt::format("Construction: {} required of the fresh mortar, stage by stage", to_string(least));
+  out.figure->caption = fmt::format(
+      "The least {} of the joints with fresh mortar with which each stage stands (0: it needs none); {}.",
+      to_string(least), out.worst);
+  return out;
 }
 
 }  // namespace cupola

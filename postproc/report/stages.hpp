@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/gnuplot.hpp"
@@ -9,10 +10,21 @@
 
 namespace cupola {
 
-/// Result of a staged analysis ring by ring (results/stages.csv), with the heights of the rings.
-Table stage_table(const Evaluation& evaluation, const CsvFile& csv);
+/// What a staged run shows of its stages.
+struct Construction {
+  Table table;  ///< one row per stage
+  std::optional<Figure>
+      figure;         ///< what fresh mortar must provide; none if no stage needs it, or none was searched
+  int standing = 0;   ///< stages
+  std::string worst;  ///< the first stage that does not stand, else the most demanding; "" for neither
+};
 
-/// Critical fresh friction of each stage over the height of its ring; none if no stage has one.
-std::optional<Figure> stage_figure(const Table& stages);
+/// Of rings laid one by one from unloaded joints (results/stages.csv), with the heights of the rings.
+Construction rings_laid(const Evaluation& evaluation, const CsvFile& stages);
+
+/// Of any other construction (results/construction.csv), with what moves (results/failures.csv; none if nothing does).
+/// `least`: the property of the fresh mortar that was sought.
+Construction blocks_laid(StagedConstruction::Least least, const CsvFile& stages,
+                         const std::optional<CsvFile>& failures);
 
 }  // namespace cupola

@@ -11,9 +11,9 @@
 #include "assembly/files/content_hash.hpp"
 #include "assembly/model/thickness.hpp"
 #include "postproc/report/report.hpp"
-#include "postproc/report/stages.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/post_summary.hpp"
+#include "postproc/tables/result_tables.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::evaluation_test {
@@ -207,27 +207,36 @@ TEST(Evaluation, LimitAnalysisIsEvaluatedAtItsThickness) {
   EXPECT_TRUE(e.warnings.empty()) << "the results belong to the assembly as generated";
 }
 
-TEST(Evaluation, StagedRunHasATableOfRings) {
+// Stage of a construction: block 2 is laid on block 1, which is held; block 3 is not laid yet.
+TEST(Evaluation, AStageLeavesOutHeldBlocksAndBlocksNotLaidYet) {
   const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, kGravity, -a.blocks[3].mass * kGravity, 0.6, 0.4), stage = frame;
+  stage.contacts = {};
+  const ContactTable& all = frame.contacts;
+  for (int i = 0; i < all.size(); ++i) {
+    if (all.block_b[i] != 2) continue;
+    ContactTable& c = stage.contacts;
+    c.joint.push_back(0);
+    c.block_a.push_back(1), c.block_b.push_back(2);
+    c.kind.push_back(all.kind[i]), c.ring.push_back(1);
+    c.point.push_back(all.point[i]), c.normal.push_back(all.normal[i]), c.force.push_back(all.force[i]);
+    for (auto list : {&ContactTable::gap, &ContactTable::normal_force, &ContactTable::friction_use,
+                      &ContactTable::area, &ContactTable::slip, &ContactTable::law_violation})
+      (c.*list).push_back((all.*list)[i]);
+  }
+  stage.time = 1.0;
   Summary summary = column_summary(a);
   summary.analysis = AnalysisType::staged;
-  const std::string folder = test::fresh_folder("results");
-  const Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
-  const Evaluation e = evaluated(a, {frame}, summary, column_case(), folder);
-  const Table table = stage_table(
-      e, parse_csv("ring,blocks,weight_N,verdict,speed_ratio,critical_stands,critical_moves,note\n"
-                   "1,2,100,equilibrium,1e-9,0.12,0.11,narrow\n2,3,150,moving,0.3,,,no bracket\n"
-                   "0,1,50,equilibrium,1e-9,0,,stands without any\n",
-                   "stages.csv"));
-  ASSERT_EQ(table.rows.size(), 3u);
-  EXPECT_NEAR(std::get<double>(table.rows[0][1]), 0.5, 1e-12) << "the bed of ring 1";
-  EXPECT_NEAR(std::get<double>(table.rows[0][4]), 0.115, 1e-15);
-  EXPECT_TRUE(std::isnan(std::get<double>(table.rows[1][4])));
-  EXPECT_EQ(std::get<double>(table.rows[2][4]), 0.0);
-  Table without = table;
-  for (auto& row : without.rows) row[4] = std::nan("");
-  EXPECT_FALSE(stage_figure(without)) << "no critical friction was requested";
-  EXPECT_NE(stage_figure(table)->commands.find("0.5 0.115"), std::string::npos);
+  const Evaluation e = evaluated(a, {stage}, summary, column_case(), test::fresh_folder("results"));
+  EXPECT_EQ(e.rings[0].blocks, 0);
+  EXPECT_EQ(e.rings[1].blocks, 1);
+  EXPECT_EQ(e.rings[2].blocks, 0);
+  EXPECT_NEAR(e.rings[1].load_above.z(), -kBlockWeight, 1e-9 * kBlockWeight) << "block 3 weighs nothing yet";
+  for (const RingSum& ring : e.rings) EXPECT_LT(ring.relative_difference, 1e-14);
+  EXPECT_EQ(ring_table(e).rows.size(), 1u);
+  ASSERT_EQ(e.sections.size(), 1u) << "at 0.8 m, through block 2";
+  EXPECT_EQ(e.sections[0].ring, 1) << "the only bed with forces";
+  EXPECT_FALSE(post_summary(e).thrust_over_weight) << "nothing is known of the base";
 }
 
 TEST(Evaluation, CracksEncloseTheOpenPoints) {

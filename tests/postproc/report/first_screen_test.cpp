@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "postproc/report/worst_joints.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::first_screen_test {
@@ -84,9 +85,50 @@ TEST(FirstScreen, AMotionBeginsWithHowFarAndWhen) {
   EXPECT_EQ(numbers[2].value, "0.4 m/s");
 }
 
+// The upper two of three blocks slide off the lowest one and tip: the bed at 0.5 m slides at full speed and opens at x = 0.
+TEST(FirstScreen, AMechanismShowsWhichJointsGiveWay) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
+  for (const size_t b : {2u, 3u}) frame.blocks.velocity[b] = Vec3(2.0, 0, 0);
+  Summary summary = test::column_summary(a);
+  summary.status = Status::moving;
+  summary.friction_law = FrictionLaw::associated;
+  const auto evaluation = [&](const std::string& folder) {
+    return test::evaluated(a, {frame}, summary, test::column_case(), test::fresh_folder(folder));
+  };
+  Evaluation e = evaluation("slides");
+  std::vector<KeyNumber> numbers = key_numbers(e, {});
+  ASSERT_EQ(numbers.size(), 3u);
+  EXPECT_EQ(numbers[0].value, "2 of 3");
+  EXPECT_EQ(numbers[1].value, "100 %") << numbers[1].name;
+  EXPECT_EQ(numbers[2].value, "0 %") << numbers[2].name;
+  std::string html = first_screen(e, {}, nullptr, "");
+  EXPECT_NE(html.find("Where it gives way"), std::string::npos);
+  EXPECT_NE(
+      html.find("data-block=\"2\">The bed joint between blocks 1 and 2</a> slides the fastest: at 100 %"),
+      std::string::npos);
+  EXPECT_EQ(html.find("opens the fastest"), std::string::npos);
+  EXPECT_NE(html.find("holds for Coulomb&#39;s law too"), std::string::npos);
+
+  // Block 3 turns about y with 1 rad/s: about its centroid, so that its bed opens at 0.6 m/s at x = 0.
+  for (const size_t b : {2u, 3u}) frame.blocks.velocity[b] = Vec3(b == 2 ? 0.0 : 2.0, 0, 0);
+  frame.blocks.angular_velocity[3] = Vec3(0, 1.0, 0);
+  e = evaluation("tips");
+  const std::optional<MovingJoints> joints = moving_joints(e);
+  ASSERT_TRUE(joints);
+  EXPECT_NEAR(joints->opening.motion, 0.6 / 2.0, 1e-12);
+  EXPECT_NEAR(joints->sliding.motion, (2.0 - 0.25) / 2.0, 1e-12) << "the bed lies 0.25 m below the centroid";
+  EXPECT_EQ(e.last.joints.wrenches[joints->opening.index].block_b, 3);
+
+  summary.friction_law = FrictionLaw::coulomb;
+  html = first_screen(evaluation("coulomb"), {}, nullptr, "");
+  EXPECT_EQ(html.find("proven"), std::string::npos);
+  EXPECT_NE(html.find("other contact forces might balance the loads"), std::string::npos);
+}
+
 TEST(FirstScreen, StandsBeforeTheFirstHeadingAndEndsWithTheWorstJoints) {
   const Evaluation e = test::column_evaluation(0.3, 0.4);
-  const std::string html = first_screen(e, {}, "<section id=\"view\"></section>");
+  const std::string html = first_screen(e, {}, nullptr, "<section id=\"view\"></section>");
   const size_t verdict = html.find("class=\"verdict\""), numbers = html.find("key-numbers"),
                view = html.find("id=\"view\""), worst = html.find("Worst joints");
   EXPECT_LT(verdict, numbers);

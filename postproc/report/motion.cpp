@@ -1,0 +1,161 @@
+#include "postproc/report/motion.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "postproc/figures/plot_style.hpp"
+#include "postproc/report/worst_joints.hpp"
+
+namespace cupola {
+namespace {
+
+/// Blocks that move farther than `least`, m.
+int count_moving(const Evaluation& e, double least) {
+  int count = 0;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    count += !e.assembly.blocks[b].fixed && e.last.frame.blocks.displacement[b].norm() > least;
+  return count;
+}
+
+/// Bodies that move: all groups but that of the supports.
+size_t count_bodies(const Evaluation& e) {
+  std::set<int> bodies(e.last.groups.begin(), e.last.groups.end());
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    if (e.assembly.blocks[b].fixed) bodies.erase(e.last.groups[b]);
+  return bodies.size();
+}
+
+struct Farthest {
+  size_t block = 0;
+  double displacement = 0.0;  // m
+};
+
+Farthest farthest_block(const Evaluation& e) {
+  Farthest farthest;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    if (const double d = e.last.frame.blocks.displacement[b].norm(); d > farthest.displacement)
+      farthest = {b, d};
+  return farthest;
+}
+
+std::string block_text(const Evaluation& e, size_t index) {
+  const Block& block = e.assembly.blocks[index];
+  if (!block.name.empty()) return fmt::format("block {} ({})", index, block.name);
+  return e.rings.empty() ? fmt::format("block {}", index)
+                         : fmt::format("block {} in ring {}", index, block.ring);
+}
+
+void add_numbers_in_time(const Evaluation& e, const std::vector<HistoryRow>& history,
+                         std::vector<KeyNumber>* out) {
+  const double threshold = e.scene.analysis.thresholds.displacement;
+  out->push_back({"Largest displacement", length_text(farthest_block(e).displacement),
+                  fmt::format("after {:.4g} s", e.last.frame.time)});
+  const auto first = std::find_if(history.begin(), history.end(), [threshold](const HistoryRow& row) {
+    return row.max_displacement > threshold;
+  });
+  if (first != history.end())
+    out->push_back({fmt::format("Moved more than {}", length_text(threshold)),
+                    fmt::format("at {:.4g} s", first->time), "first block to do so"});
+  if (!history.empty())
+    out->push_back({"Fastest block", fmt::format("{:.3g} m/s", history.back().max_speed), "at the end"});
+}
+
+void add_numbers_of_mechanism(const Evaluation& e, std::vector<KeyNumber>* out) {
+  constexpr double kSlow = 0.1;  // of the fastest block
+  const double fastest = farthest_block(e).displacement;
+  const size_t bodies = count_bodies(e);
+  out->push_back(
+      {"Blocks that begin to move",
+       fmt::format("{} of {}", count_moving(e, kSlow * fastest), e.summary.free_blocks),
+       fmt::format("faster than a tenth of the fastest; they form {}", counted(bodies, "body", "bodies"))});
+  const std::optional<MovingJoints> joints = moving_joints(e);
+  if (!joints) return;
+  const auto add = [out](const char* name, double motion) {
+    out->push_back({name, fmt::format("{:.3g} %", 100.0 * motion), "of the speed of the fastest block"});
+  };
+  add("Fastest sliding of a joint", joints->sliding.motion);
+  add("Fastest opening of a joint", joints->opening.motion);
+}
+
+void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& history,
+                        std::vector<std::string>* out) {
+  const double threshold = e.scene.analysis.thresholds.displacement;
+  const Farthest farthest = farthest_block(e);
+  const size_t bodies = count_bodies(e);
+  out->push_back(fmt::format(
+      "At the end, {:.4g} s, the largest displacement is {:.3g} m, of {}; {} of {} moved "
+      "farther than "
+      "{:g} m. The blocks move as {}.",
+      e.last.frame.time, farthest.displacement, block_text(e, farthest.block), count_moving(e, threshold),
+      counted(e.summary.free_blocks, "free block"), threshold, counted(bodies, "body", "bodies")));
+  if (!history.empty() && e.summary.weight_N > 0.0)
+    out->push_back(fmt::format("The supports carry {:.3g} of the weight at the end.",
+                               history.back().reaction / e.summary.weight_N));
+}
+
+}  // namespace
+
+std::vector<KeyNumber> motion_numbers(const Evaluation& e, const std::vector<HistoryRow>& history) {
+  constexpr size_t kMost = 3;
+  std::vector<KeyNumber> out;
+  const bool unconverged = e.summary.status == Status::unconverged;
+  if (unconverged && history.empty()) return out;
+  if (!unconverged && is_mechanism(e.summary, e.last.frame))
+    add_numbers_of_mechanism(e, &out);
+  else if (e.summary.analysis == AnalysisType::dynamic)
+    add_numbers_in_time(e, history, &out);
+  if (out.size() < kMost)
+    out.push_back({"Free blocks", fmt::format("{}", e.summary.free_blocks),
+                   fmt::format("in {}", counted(e.summary.joints, "joint"))});
+  if (out.size() < kMost) out.push_back({"Weight", force_text(e.summary.weight_N), "of the free blocks"});
+  return out;
+}
+
+std::vector<std::string> motion_sentences(const Evaluation& e, const std::vector<HistoryRow>& history) {
+  std::vector<std::string> out;
+  if (e.summary.status == Status::unconverged)
+    out.push_back(history.empty()
+                      ? "Neither forces nor motion are known: the requested accuracy was not reached."
+                      : "The error of the motion is unknown: the requested accuracy was "
+                        "not reached.");
+  else if (e.summary.analysis == AnalysisType::staged)
+    out.push_back(
+        "The table of stages shows which stages do not stand, the 3-D view how their blocks begin to move.");
+  else if (!is_mechanism(e.summary, e.last.frame))
+    add_motion_in_time(e, history, &out);
+  else if (const Farthest farthest = farthest_block(e); farthest.displacement > 0.0)
+    out.push_back(fmt::format(
+        "The fastest is {}. A mechanism has directions but no amplitude; the 3-D view shows the directions.",
+        block_text(e, farthest.block)));
+  return out;
+}
+
+std::string how_sure_of_motion(const Evaluation& e) {
+  const Summary& s = e.summary;
+  const Analysis& analysis = e.scene.analysis;
+  if (s.status == Status::unconverged) return "";
+  if (s.analysis == AnalysisType::static_ && s.friction_law == FrictionLaw::associated &&
+      !e.scene.joints.have_strength())
+    return "It is proven, up to the forces named above, that no forces within the friction "
+           "cones "
+           "balance the loads. The proof holds for Coulomb's law too, which differs only in how joints "
+           "slide.";
+  if (s.analysis == AnalysisType::static_ && s.friction_law != FrictionLaw::associated)
+    return "A motion was found, but other contact forces might balance the loads; a range analysis "
+           "(analysis.type: range) shows whether any do.";
+  if (s.analysis == AnalysisType::dynamic && analysis.time_error)
+    return fmt::format("The motion was followed with an estimated error of at most {} per step.",
+                       length_text(*analysis.time_error));
+  if (s.analysis == AnalysisType::dynamic)
+    return fmt::format(
+        "The motion was followed in steps of {:g} s. How much a shorter step changes it is not known: "
+        "compare "
+        "two runs, or set analysis.time_error.",
+        s.time_step_s);
+  return "";
+}
+
+}  // namespace cupola

@@ -1,0 +1,132 @@
+#include "postproc/report/worst_joints.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "postproc/figures/plot_style.hpp"
+#include "postproc/mechanics/joint_motion.hpp"
+#include "postproc/report/first_screen.hpp"
+#include "postproc/report/html.hpp"
+
+namespace cupola {
+namespace {
+
+std::string named_block(const Evaluation& e, int b) {
+  const std::string& name = e.assembly.blocks[static_cast<size_t>(b)].name;
+  return name.empty() ? fmt::format("{}", b) : fmt::format("{} ({})", b, name);
+}
+
+/// "The bed joint between blocks 12 and 45", a link that shows it in the 3-D view, or its second block where the view has no
+/// joints.
+std::string joint_link(const Evaluation& e, size_t index) {
+  const JointWrench& joint = e.last.joints.wrenches[index];
+  const std::string target =
+      at_rest(e.summary) ? fmt::format("joint=\"{}\"", index) : fmt::format("block=\"{}\"", joint.block_b);
+  return fmt::format("<a href=\"#view\" data-{}>The {} joint between blocks {} and {}</a>", target,
+                     joint.kind == JointKind::other ? "" : to_string(joint.kind),
+                     markup_text(named_block(e, joint.block_a)), markup_text(named_block(e, joint.block_b)));
+}
+
+std::string list_html(const char* heading, const std::string& items) {
+  return items.empty() ? "" : fmt::format("<p><strong>{}</strong></p>\n<ul>\n{}</ul>\n", heading, items);
+}
+
+std::string at_rest_html(const Evaluation& e) {
+  const WorstJoints worst = worst_joints(e.last.joints);
+  std::string out;
+  if (worst.sliding && e.last.joints.wrenches[*worst.sliding].friction_use > 0.0) {
+    const JointWrench& j = e.last.joints.wrenches[*worst.sliding];
+    out += fmt::format("<li>{} {}: it uses {:.3g} % of its friction under a normal force of {}.</li>\n",
+                       joint_link(e, *worst.sliding),
+                       j.friction_use > kSlides ? "slides" : "is the nearest to sliding",
+                       100.0 * j.friction_use, markup_text(force_text(j.normal_force)));
+  }
+  if (worst.edge && e.last.joints.wrenches[*worst.edge].kern > 0.0) {
+    const JointWrench& j = e.last.joints.wrenches[*worst.edge];
+    const bool on_edge = j.edge_distance < 1e-3 * std::sqrt(j.patch.area);
+    out += fmt::format("<li>{} is the nearest to opening as a hinge: its force of {} acts {}{}.</li>\n",
+                       joint_link(e, *worst.edge), markup_text(force_text(j.wrench.force.norm())),
+                       on_edge ? "on the edge" : length_text(j.edge_distance) + " from the edge",
+                       j.kern > 1.0 ? ", outside the kern, so that a part of the joint is unloaded" : "");
+  }
+  const bool ideal = std::all_of(
+      e.last.joints.wrenches.begin(), e.last.joints.wrenches.end(),
+      [](const JointWrench& j) { return j.negligible || (j.kern == 0.0 && j.friction_use == 0.0); });
+  if (worst.edge && ideal)
+    out = "<li>No joint is near sliding or opening: every force is normal to its joint and central.</li>\n";
+  return list_html("Worst joints", out);
+}
+
+std::string moving_html(const Evaluation& e) {
+  constexpr double kSmall = 0.01;  // of the fastest block: not shown
+  const std::optional<MovingJoints> moving = moving_joints(e);
+  if (!moving) return "";
+  const bool mechanism = is_mechanism(e.summary, e.last.frame);
+  std::string out;
+  const auto add = [&](const MovingJoints::Joint& joint, const char* speed, const char* distance) {
+    if (mechanism && joint.motion >= kSmall)
+      out += fmt::format("<li>{} {} the fastest: at {:.3g} % of the speed of the fastest block.</li>\n",
+                         joint_link(e, joint.index), speed, 100.0 * joint.motion);
+    else if (!mechanism && joint.motion > 0.0)
+      out += fmt::format("<li>{} {}: by {}.</li>\n", joint_link(e, joint.index), distance,
+                         length_text(joint.motion));
+  };
+  add(moving->sliding, "slides", "has slid the farthest");
+  add(moving->opening, "opens", "is open the widest of those that still touch");
+  return list_html("Where it gives way", out);
+}
+
+}  // namespace
+
+WorstJoints worst_joints(const JointWrenches& joints) {
+  // Joints of small forces say little about the structure: a hinge needs force.
+  constexpr double kLoaded = 0.1;  // of the largest joint force
+  double largest = 0.0;
+  for (const JointWrench& joint : joints.wrenches) largest = std::max(largest, joint.wrench.force.norm());
+  WorstJoints worst;
+  const auto use = [&](size_t j) { return std::min(joints.wrenches[j].friction_use, kSlides); };
+  const auto edge = [&](size_t j) {
+    return joints.wrenches[j].edge_distance / std::sqrt(joints.wrenches[j].patch.area);
+  };
+  for (size_t j = 0; j < joints.wrenches.size(); ++j) {
+    const JointWrench& joint = joints.wrenches[j];
+    if (joint.negligible || joint.patch.area <= 0.0) continue;
+    if (const auto& w = worst.sliding;
+        std::isfinite(joint.friction_use) &&
+        (!w || std::pair(use(j), joint.normal_force) > std::pair(use(*w), joints.wrenches[*w].normal_force)))
+      worst.sliding = j;
+    if (joint.wrench.force.norm() >= kLoaded * largest && std::isfinite(joint.edge_distance) &&
+        (!worst.edge || edge(j) < edge(*worst.edge)))
+      worst.edge = j;
+  }
+  return worst;
+}
+
+std::optional<MovingJoints> moving_joints(const Evaluation& e) {
+  const std::vector<JointWrench>& joints = e.last.joints.wrenches;
+  const bool mechanism = is_mechanism(e.summary, e.last.frame);
+  if (at_rest(e.summary) || e.summary.status == Status::unconverged || joints.empty()) return std::nullopt;
+  if (!mechanism && e.summary.analysis != AnalysisType::dynamic) return std::nullopt;
+  double fastest = 0.0;
+  for (const Vec3& v : e.last.frame.blocks.velocity) fastest = std::max(fastest, v.norm());
+  if (mechanism && fastest == 0.0) return std::nullopt;
+  MovingJoints out;
+  for (size_t j = 0; j < joints.size(); ++j) {
+    JointMotion motion{joints[j].opening, joints[j].slip};
+    if (mechanism) {
+      motion = joint_motion(e.assembly, e.last.frame, e.last.joints, j);
+      motion.opening /= fastest, motion.sliding /= fastest;
+    }
+    if (motion.sliding > out.sliding.motion) out.sliding = {j, motion.sliding};
+    if (motion.opening > out.opening.motion) out.opening = {j, motion.opening};
+  }
+  return out;
+}
+
+std::string worst_joints_html(const Evaluation& e) {
+  return at_rest(e.summary) ? at_rest_html(e) : moving_html(e);
+}
+
+}  // namespace cupola
