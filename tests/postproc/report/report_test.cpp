@@ -247,7 +247,7 @@ TEST(Report, ShowsTheMotionOfARunThatFoundNoEquilibrium) {
     EXPECT_EQ(html.find("Not every stage of the construction stands.") != std::string::npos,
               analysis == AnalysisType::staged);
     for (const char* wrong :
-         {"safety", "Certified", "certified", "thrust line", "balance the load", "unbalanced force",
+         {"safety", "Certified", "certified", "thrust line", "balance the load above", "unbalanced force",
           "Findings", "largest displacement of a block", "Map", "may not be unique"})
       EXPECT_EQ(html.find(wrong), std::string::npos) << to_string(status) << ": " << wrong;
     EXPECT_EQ(std::filesystem::exists(post + "/figures/history.gp"), analysis == AnalysisType::dynamic);
