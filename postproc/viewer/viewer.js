@@ -202,7 +202,11 @@ class Viewer {
     this.find(".film").hidden = false;
     this.find(".frame").max = this.film.count - 1;
     this.on(".play", "click", () => this.film.play());
-    this.on(".frame", "input", (e) => { this.film.stop(); this.film.show(Number(e.target.value)); });
+    this.on(".frame", "input", (e) => {
+      const frame = Number(e.target.value);  // before stop(), which sets the slider to the frame shown
+      this.film.stop();
+      this.film.show(frame);
+    });
     this.showFrame();
   }
 

@@ -152,6 +152,10 @@ TEST(Viewer, TheFilmOfAMotionAdvances) {
       "{ clearInterval(t); done(true); } }, 50); setTimeout(() => done(false), 20000); })");
   EXPECT_EQ(browser.value("view.film.frame"), 5);
   EXPECT_EQ(browser.value("view.find('.film output').textContent"), "5.000 s");
+  browser.value(
+      "(() => { const slider = view.find('.frame'); slider.value = 2; slider.dispatchEvent(new "
+      "Event('input')); })()");
+  EXPECT_EQ(browser.value("view.film.frame"), 2) << "the slider was moved";
   EXPECT_TRUE(browser.complaints().empty());
 }
 
