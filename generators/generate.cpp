@@ -9,6 +9,8 @@
 #include "assembly/base/error.hpp"
 #include "assembly/case/plausibility.hpp"
 #include "assembly/model/block_names.hpp"
+#include "generators/bond/make_bond.hpp"
+#include "generators/chains.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
 #include "generators/surface/make_surface.hpp"
 
@@ -46,7 +48,9 @@ Assembly with_report(Assembly assembly, const GenerateReport& report, const Case
 }  // namespace
 
 Assembly cut_assembly(const Case& input) {
-  Assembly assembly = cut_blocks(make_shell(input.geometry), cut_options(input));
+  const Shell shell = make_shell(input.geometry);
+  Assembly assembly = cut_blocks(shell, cut_options(input));
+  add_chains(input.geometry.chains, refinement_of(*finest_bond(input.geometry)), shell, &assembly);
   assembly.title = input.title;
   assembly.geometry_hash = input.geometry_hash;
   return assembly;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,11 @@ struct Case {
   std::string geometry_hash;  ///< of the sections that the generator reads: geometry, material, imperfections
   std::string effective_yaml;         ///< every key with its value in force
   std::vector<std::string> warnings;  ///< implausible values (assembly/case/plausibility.hpp)
+
+  bool ties_yield() const {
+    const auto yields = [](const auto& tie) { return tie.yield_force.has_value(); };
+    return std::ranges::any_of(ties.pairs, yields) || std::ranges::any_of(geometry.chains, yields);
+  }
 };
 
 }  // namespace cupola

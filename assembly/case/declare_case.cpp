@@ -28,6 +28,8 @@ void declare_strength_rules(Section& s, Case& the_case) {
                                }));
   s.rule(!fresh_strength || the_case.joints.compliance.per == Compliance::Per::area, "analysis",
          "staged: cohesion and tension of fresh mortar require joints.compliance: {per: area}");
+  s.rule(analysis.method != ContactMethod::interior_point || !the_case.ties_yield(), "analysis",
+         "method: interior_point requires ties without yield_force; use newton");
   if (!the_case.joints.have_strength() && !fresh_strength) return;
   s.rule(
       the_case.joints.failure == JointFailure::plastic || analysis.type == AnalysisType::dynamic ||
@@ -52,7 +54,7 @@ void declare_case(Section& s, Case& the_case) {
   s.section("joints", the_case.joints, "contact laws of the joints", declare_joints);
   s.section("contact", the_case.contact, "contact detection", declare_contact);
   s.section("loads", the_case.loads, "gravity and other loads", declare_loads);
-  s.section("ties", the_case.ties, "ties between blocks, and chains", declare_ties);
+  s.section("ties", the_case.ties, "ties between two blocks", declare_ties);
   s.section("supports", the_case.supports, "motion imposed on fixed blocks", declare_supports);
   s.section("analysis", the_case.analysis, "type of analysis, method and accuracy", declare_analysis);
   s.section("output", the_case.output, "what is written during the analysis", declare_output);

@@ -1,5 +1,7 @@
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "assembly/case/declare.hpp"
 
 namespace cupola {
@@ -188,6 +190,41 @@ void declare_window(Section& s, Window& window) {
   s.rule(window.ends == Window::Ends::free || sector < 360, "ends", "held requires a sector below 360 deg");
 }
 
+void declare_chain(Section& s, Chain& chain) {
+  s.text("name", chain.name, "name in tables and figures; by default its number");
+  s.choice("type", chain.type,
+           "polygon: straight bars between anchors in the masonry; clamps: a bar across each head joint");
+  s.integer("course", chain.course, {.min = -1, .max = kMostRings},
+            "course in whose middle the chain lies; -1: at height");
+  s.optional_number("height", chain.height, {.unit = "m"}, "that of the course",
+                    "height of the chain above the springing, instead of a course");
+  s.number("place", chain.place, {.above = 0, .below = 1},
+           "place in the thickness, from 0 at the intrados to 1 at the extrados");
+  s.integer("links", chain.links, {.min = 0, .max = kMostRings},
+            "bars of a polygon, equal in azimuth, from a corner; 0: from block to block");
+  s.number("clamp_length", chain.clamp_length, {.unit = "m", .above = 0},
+           "length of a clamp, half on each side of its joint");
+  s.integer("long_blocks", chain.long_blocks, {.min = 0, .max = kMostRings},
+            "number of equal blocks that replace those of the bond in the course; 0: those of the bond");
+  s.number("axial_stiffness", chain.axial_stiffness, {.unit = "N", .above = 0},
+           "modulus times section of a bar");
+  s.optional_number("yield_force", chain.yield_force, {.unit = "N", .above = 0}, "none",
+                    "tension at which a bar elongates plastically");
+  s.number("slack", chain.slack, {.unit = "m", .min = 0}, "elongation at which each bar begins to carry");
+  s.number("prestress", chain.prestress, {.unit = "N", .min = 0}, "tension as built");
+  const bool polygon = chain.type == Chain::Type::polygon;
+  s.rule((chain.course >= 0) != chain.height.has_value(), "course",
+         "a chain has either a course or a height");
+  s.rule(polygon || chain.links == 0, "links", "requires type: polygon");
+  s.rule(polygon || chain.course >= 0, "height", "clamps require a course");
+  s.rule(!polygon || !s.gives("clamp_length"), "clamp_length", "requires type: clamps");
+  s.rule(chain.links == 0 || chain.links >= 3, "links", "must be 0 or at least 3");
+  s.rule(chain.long_blocks == 0 || (chain.long_blocks >= 3 && chain.course >= 0), "long_blocks",
+         "requires a course, and at least 3 blocks");
+  s.rule(chain.slack == 0.0 || chain.prestress == 0.0, "slack", "a chain has either slack or prestress");
+  s.rule(!chain.yield_force || chain.prestress <= *chain.yield_force, "prestress", "must be <= yield_force");
+}
+
 void declare_stage(Section& s, Stage& stage) {
   s.required_integer("rings", stage.rings, {.min = 1, .max = kMostRings}, "number of rings built so far");
 }
@@ -241,6 +278,10 @@ void declare_geometry(Section& s, Geometry& geometry) {
       "counted in it",
       declare_window);
   s.optional_section("stage", geometry.stage, "build only the lower rings", declare_stage);
+  s.list("chains", geometry.chains, "closed chains of iron, stone or timber round a dome or vault",
+         declare_chain);
+  for (size_t i = 0; i < geometry.chains.size(); ++i)
+    if (geometry.chains[i].name.empty()) geometry.chains[i].name = fmt::format("chain {}", i);
   s.number("support_width", geometry.support_width, {.unit = "m", .above = 0},
            "distance by which the fixed base extends beyond the shell");
 
@@ -252,6 +293,12 @@ void declare_geometry(Section& s, Geometry& geometry) {
     s.rule(
         geometry.window || !closed || std::visit([](const auto& b) { return b.blocks_per_ring; }, *bond) >= 3,
         geometry.wythes.empty() ? "bond" : "wythes", "bond.blocks_per_ring must be >= 3 on a closed ring");
+  const bool whole = !geometry.window && closed;
+  s.rule(geometry.chains.empty() || whole, "chains", "requires a whole dome or octagonal vault");
+  for (const Chain& chain : geometry.chains)
+    s.rule(chain.course < rings, "chains", "course must be < bond.rings");
+  for (const Chain& chain : geometry.chains)
+    s.rule(chain.long_blocks == 0 || geometry.wythes.empty(), "chains", "long_blocks requires a shell without wythes");
 }
 
 void declare_imperfections(Section& s, Imperfections& imperfections) {

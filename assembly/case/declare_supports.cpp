@@ -13,13 +13,10 @@ void declare_pair(Section& s, PairTie& tie) {
                      "anchor on block_b, in the as-built geometry");
   s.number("stiffness", tie.stiffness, {.unit = "N/m", .above = 0}, "force per unit elongation");
   s.number("prestress", tie.prestress, {.unit = "N", .min = 0}, "tension as built");
-}
-
-void declare_chain(Section& s, ChainTie& chain) {
-  s.required_integer("ring", chain.ring, {.min = 0}, "ring whose blocks the chain links");
-  s.number("stiffness", chain.stiffness, {.unit = "N/m", .above = 0},
-           "force per unit elongation of each link");
-  s.number("prestress", chain.prestress, {.unit = "N", .min = 0}, "tension as built");
+  s.number("slack", tie.slack, {.unit = "m", .min = 0}, "elongation at which the tie begins to carry");
+  s.optional_number("yield_force", tie.yield_force, {.unit = "N", .above = 0}, "none",
+                    "tension at which the tie elongates plastically");
+  s.rule(tie.slack == 0.0 || tie.prestress == 0.0, "slack", "a tie has either slack or prestress");
 }
 
 void declare_base_motion(Section& s, BaseMotion& motion) {
@@ -84,7 +81,7 @@ void declare_time(Section& s, const std::string& key, TimeFunction& time, const 
 
 void declare_ties(Section& s, Ties& ties) {
   s.list("pairs", ties.pairs, "ties between two blocks", declare_pair);
-  s.list("chains", ties.chains, "closed chains around a ring of a dome", declare_chain);
+  s.retired("chains", "give geometry.chains, whose links the generator finds by course or height");
   s.number("rod_stiffness", ties.rod_stiffness, {.unit = "N/m", .above = 0},
            "stiffness that replaces the infinite one of imported rigid rods");
 }

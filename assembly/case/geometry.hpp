@@ -229,6 +229,29 @@ constexpr auto enum_names(Window::Ends) {
   return std::array{"free", "held"};
 }
 
+/// A closed chain round a dome or vault: a level in the masonry, and the bars that go round it there.
+struct Chain {
+  /// `polygon`: straight bars between anchors in the masonry. `clamps`: a bar across each head joint, as of a course of
+  /// stone clamped with iron.
+  enum class Type : std::uint8_t { polygon, clamps };
+
+  std::string name;
+  Type type = Type::polygon;
+  int course = -1;               ///< in whose middle it lies, counted before refinement; -1: at `height`
+  std::optional<double> height;  ///< m, z of all anchors
+  double place = 0.5;            ///< in the thickness, in (0, 1): 0 intrados, 1 extrados
+  int links = 0;  ///< of a polygon, equal in azimuth, the first from a corner; 0: from block to block
+  double clamp_length = 0.3;          ///< m, > 0, half on each side of the joint
+  int long_blocks = 0;                ///< equal blocks that replace those of the bond in the course; 0: none
+  double axial_stiffness = 1e9;       ///< N, > 0, E A of a bar
+  std::optional<double> yield_force;  ///< N, > 0; none: elastic without limit
+  double slack = 0.0;                 ///< m, >= 0, of each bar; 0 with prestress
+  double prestress = 0.0;             ///< N, >= 0, tension as built
+};
+constexpr auto enum_names(Chain::Type) {
+  return std::array{"polygon", "clamps"};
+}
+
 struct Stage {
   int rings = 0;  ///< rings built so far, >= 1
 };
@@ -286,6 +309,7 @@ struct Geometry {
   std::vector<Bonders> bonders;
   std::optional<Window> window;
   std::optional<Stage> stage;
+  std::vector<Chain> chains;
   std::optional<Imperfections> imperfections;  ///< from the section `imperfections` of the case
   double support_width = 1.0;  ///< m, > 0, distance by which the fixed base extends beyond the shell
 };

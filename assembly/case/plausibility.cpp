@@ -159,10 +159,14 @@ void add_load_checks(const Case& scene, std::vector<PlausibleRange>* checks) {
     checks->push_back({fmt::format("ties.pairs[{}].stiffness", i), scene.ties.pairs[i].stiffness, "N/m", 1e3,
                        1e12, "in kN/mm? 1 kN/mm is 1e6 N/m",
                        "a modulus in N/m2? Stiffness is modulus times section over length"});
-  for (size_t i = 0; i < scene.ties.chains.size(); ++i)
-    checks->push_back({fmt::format("ties.chains[{}].stiffness", i), scene.ties.chains[i].stiffness, "N/m",
-                       1e3, 1e12, "in kN/mm? 1 kN/mm is 1e6 N/m",
-                       "a modulus in N/m2? Stiffness is modulus times section over length"});
+  for (size_t i = 0; i < scene.geometry.chains.size(); ++i) {
+    const Chain& chain = scene.geometry.chains[i];
+    checks->push_back({fmt::format("geometry.chains[{}].axial_stiffness", i), chain.axial_stiffness, "N", 1e5,
+                       1e12, "in kN? 1 kN is 1000 N", "a modulus in N/m2? It is modulus times section"});
+    if (chain.yield_force)
+      checks->push_back({fmt::format("geometry.chains[{}].yield_force", i), *chain.yield_force, "N", 1e3,
+                         1e10, "in kN? 1 kN is 1000 N", "a strength in N/m2? It is strength times section"});
+  }
 }
 
 void add_analysis_checks(const Case& scene, std::vector<PlausibleRange>* checks) {

@@ -94,18 +94,27 @@ std::vector<MeshArray> field_arrays(const Assembly& assembly) {
 }
 
 /// Arrays that only a model with ties has.
-void add_tie_arrays(const std::vector<ImportedTie>& ties, std::vector<MeshArray>* arrays) {
+void add_tie_arrays(const Assembly& assembly, std::vector<MeshArray>* arrays) {
+  const std::vector<BuiltTie>& ties = assembly.ties;
   if (ties.empty()) return;
   using I = std::int32_t;
-  arrays->push_back(column<I>("tie_block_a", ties, [](const ImportedTie& t) { return t.block_a; }));
-  arrays->push_back(column<I>("tie_block_b", ties, [](const ImportedTie& t) { return t.block_b; }));
+  arrays->push_back(column<I>("tie_block_a", ties, [](const BuiltTie& t) { return t.block_a; }));
+  arrays->push_back(column<I>("tie_block_b", ties, [](const BuiltTie& t) { return t.block_b; }));
   arrays->push_back(column<double>(
-      "tie_point_a", ties, [](const ImportedTie& t) { return t.point_a; }, 3));
+      "tie_point_a", ties, [](const BuiltTie& t) { return t.point_a; }, 3));
   arrays->push_back(column<double>(
-      "tie_point_b", ties, [](const ImportedTie& t) { return t.point_b; }, 3));
-  arrays->push_back(column<double>("tie_stiffness", ties, [](const ImportedTie& t) { return t.stiffness; }));
-  arrays->push_back(column<double>("tie_length", ties, [](const ImportedTie& t) { return t.length; }));
-  arrays->push_back(column<std::uint8_t>("tie_pushes", ties, [](const ImportedTie& t) { return t.pushes; }));
+      "tie_point_b", ties, [](const BuiltTie& t) { return t.point_b; }, 3));
+  arrays->push_back(column<double>("tie_stiffness", ties, [](const BuiltTie& t) { return t.stiffness; }));
+  arrays->push_back(column<double>("tie_length", ties, [](const BuiltTie& t) { return t.length; }));
+  arrays->push_back(column<std::uint8_t>("tie_pushes", ties, [](const BuiltTie& t) { return t.pushes; }));
+  arrays->push_back(column<double>("tie_yield_force", ties, [](const BuiltTie& t) { return t.yield_force; }));
+  arrays->push_back(column<I>("tie_chain", ties, [](const BuiltTie& t) { return t.chain; }));
+  if (assembly.chains.empty()) return;
+  std::vector<std::string> names;
+  for (const BuiltChain& chain : assembly.chains) names.push_back(chain.name);
+  arrays->push_back({"chain_name", 1, std::move(names)});
+  arrays->push_back(
+      column<double>("chain_height", assembly.chains, [](const BuiltChain& c) { return c.height; }));
 }
 
 /// The arrays of a mesh file by name, with a check of their number of rows.
@@ -218,9 +227,16 @@ void read_ties(const Mesh& mesh, const Columns& fields, Assembly* assembly) {
   const auto& stiffness = fields.get<double>("tie_stiffness", n);
   const auto& length = fields.get<double>("tie_length", n);
   const auto& pushes = fields.get<std::uint8_t>("tie_pushes", n);
+  const auto& yield_force = fields.get<double>("tie_yield_force", n);
+  const auto& chain = fields.get<std::int32_t>("tie_chain", n);
   for (size_t k = 0; k < n; ++k)
     assembly->ties.push_back({block_a[k], block_b[k], Vec3(point_a.data() + 3 * k),
-                              Vec3(point_b.data() + 3 * k), stiffness[k], length[k], pushes[k] != 0});
+                              Vec3(point_b.data() + 3 * k), stiffness[k], length[k], pushes[k] != 0,
+                              yield_force[k], chain[k]});
+  if (!fields.has("chain_name")) return;
+  const auto& name = fields.get_any_size<std::string>("chain_name");
+  const auto& height = fields.get<double>("chain_height", name.size());
+  for (size_t c = 0; c < name.size(); ++c) assembly->chains.push_back({name[c], height[c]});
 }
 
 /// Checks everything that later stages rely on.
@@ -261,9 +277,11 @@ void check(const Assembly& assembly, const std::string& path) {
             "block", b);
   }
   for (size_t k = 0; k < assembly.ties.size(); ++k) {
-    const ImportedTie& tie = assembly.ties[k];
+    const BuiltTie& tie = assembly.ties[k];
     require(tie.block_a >= 0 && tie.block_a < num_blocks && tie.block_b >= 0 && tie.block_b < num_blocks &&
-                tie.point_a.allFinite() && tie.point_b.allFinite() && tie.stiffness > 0.0 && tie.length > 0.0,
+                tie.point_a.allFinite() && tie.point_b.allFinite() && tie.stiffness > 0.0 &&
+                tie.length > 0.0 && tie.yield_force > 0.0 && tie.chain >= -1 &&
+                tie.chain < static_cast<int>(assembly.chains.size()),
             "tie", k);
   }
 }
@@ -277,7 +295,7 @@ void write_assembly(const std::string& path, const Assembly& assembly, const std
   add_part_cells(assembly, &mesh);
   mesh.cell_data = part_arrays(assembly);
   mesh.field_data = field_arrays(assembly);
-  add_tie_arrays(assembly.ties, &mesh.field_data);
+  add_tie_arrays(assembly, &mesh.field_data);
   add_member_arrays(assembly, &mesh);
   if (std::ranges::any_of(assembly.blocks, [](const Block& b) { return !b.name.empty(); })) {
     std::vector<std::string> names;

@@ -20,8 +20,9 @@ std::string content_hash(const Assembly& assembly) {
     for (const Part& part : assembly.parts) hash.add(part.wythe);
     for (const Block& block : assembly.blocks) hash.add(block.member);
   }
-  for (const ImportedTie& tie : assembly.ties) {
+  for (const BuiltTie& tie : assembly.ties) {
     hash.add(tie.block_a).add(tie.block_b).add(tie.stiffness).add(tie.length).add(tie.pushes);
+    hash.add(tie.yield_force).add(tie.chain);
     hash.add(std::span(tie.point_a.data(), 3)).add(std::span(tie.point_b.data(), 3));
   }
   return hash.hex();

@@ -1,6 +1,7 @@
 #include "assembly/files/results_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -42,15 +43,19 @@ std::vector<Vector> unflat(const std::vector<double>& values) {
   return vectors;
 }
 
+std::vector<MeshArray> frame_fields(double time, const std::string& assembly_hash) {
+  return {{"format_version", 1, std::vector<std::int32_t>{kFrameFormatVersion}},
+          {"program_version", 1, std::vector<std::string>{program_version()}},
+          {"assembly_hash", 1, std::vector<std::string>{assembly_hash}},
+          {"time_s", 1, std::vector<double>{time}}};
+}
+
 /// Adds one vertex cell per point, so that ParaView shows the points.
 Mesh point_mesh(const std::vector<Vec3>& points, double time, const std::string& assembly_hash) {
   Mesh mesh;
   mesh.points = flat(points);
   for (int i = 0; i < mesh.num_points(); ++i) mesh.add_cell(Mesh::CellType::vertex, {i});
-  mesh.field_data = {{"format_version", 1, std::vector<std::int32_t>{kFrameFormatVersion}},
-                     {"program_version", 1, std::vector<std::string>{program_version()}},
-                     {"assembly_hash", 1, std::vector<std::string>{assembly_hash}},
-                     {"time_s", 1, std::vector<double>{time}}};
+  mesh.field_data = frame_fields(time, assembly_hash);
   return mesh;
 }
 
@@ -100,6 +105,26 @@ Mesh blocks_mesh(const Frame& frame, const std::string& assembly_hash) {
                      {"velocity_m_per_s", 3, flat(b.velocity)},
                      {"angular_velocity_rad_per_s", 3, flat(b.angular_velocity)},
                      {"displacement_m", 3, flat(b.displacement)}};
+  return mesh;
+}
+
+/// One segment per tie.
+Mesh ties_mesh(const Frame& frame, const std::string& assembly_hash) {
+  const TieTable& t = frame.ties;
+  [[maybe_unused]] const std::size_t n = t.force.size();
+  CUPOLA_ASSERT(t.chain.size() == n && t.block_a.size() == n && t.block_b.size() == n &&
+                t.point_a.size() == n && t.point_b.size() == n && t.yield_force.size() == n &&
+                t.yielded.size() == n && t.strut.size() == n);
+  Mesh mesh;
+  mesh.field_data = frame_fields(frame.time, assembly_hash);
+  for (int i = 0; i < t.size(); ++i) {
+    const int a = mesh.add_point(t.point_a[i].x(), t.point_a[i].y(), t.point_a[i].z());
+    const int b = mesh.add_point(t.point_b[i].x(), t.point_b[i].y(), t.point_b[i].z());
+    mesh.add_cell(Mesh::CellType::polyline, {a, b});
+  }
+  mesh.cell_data = {{"chain", 1, t.chain},   {"block_a", 1, t.block_a},           {"block_b", 1, t.block_b},
+                    {"force_N", 1, t.force}, {"yield_force_N", 1, t.yield_force}, {"yielded_m", 1, t.yielded},
+                    {"strut", 1, t.strut}};
   return mesh;
 }
 
@@ -162,6 +187,25 @@ BlockTable read_blocks(const Mesh& mesh) {
   return b;
 }
 
+TieTable read_ties(const Mesh& mesh) {
+  TieTable t;
+  t.chain = mesh.array<std::int32_t>(mesh.cell_data, "chain", 1);
+  t.block_a = mesh.array<std::int32_t>(mesh.cell_data, "block_a", 1);
+  t.block_b = mesh.array<std::int32_t>(mesh.cell_data, "block_b", 1);
+  t.force = mesh.array<double>(mesh.cell_data, "force_N", 1);
+  t.yield_force = mesh.array<double>(mesh.cell_data, "yield_force_N", 1);
+  t.yielded = mesh.array<double>(mesh.cell_data, "yielded_m", 1);
+  t.strut = mesh.array<std::uint8_t>(mesh.cell_data, "strut", 1);
+  const std::vector<Vec3> points = unflat<Vec3>(mesh.points);
+  if (points.size() != 2 * t.force.size())
+    throw InputError(FileLocation{mesh.file}, "has other than two points per tie");
+  for (size_t i = 0; i < points.size(); i += 2) {
+    t.point_a.push_back(points[i]);
+    t.point_b.push_back(points[i + 1]);
+  }
+  return t;
+}
+
 /// Joint and block numbers are used as indices by later stages: they must be in range.
 void check_frame(const Frame& frame, const std::string& path) {
   const int num_blocks = frame.blocks.size();
@@ -176,6 +220,12 @@ void check_frame(const Frame& frame, const std::string& path) {
     if (!frame.contacts.force[i].allFinite() || !frame.contacts.point[i].allFinite())
       throw InputError(FileLocation{path}, fmt::format("contact {} is not finite", i));
   }
+  const TieTable& ties = frame.ties;
+  for (int i = 0; i < ties.size(); ++i)
+    if (ties.block_a[i] < 0 || ties.block_b[i] <= ties.block_a[i] || ties.block_b[i] >= num_blocks ||
+        ties.chain[i] < -1 || !std::isfinite(ties.force[i]) || !ties.point_a[i].allFinite() ||
+        !ties.point_b[i].allFinite())
+      throw InputError(FileLocation{path}, fmt::format("tie {} is invalid", i));
 }
 
 constexpr const char* kInterrupted = "interrupted.json";
@@ -190,16 +240,29 @@ ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std:
 
 void ResultsWriter::write_frame(const Frame& frame) {
   const int index = static_cast<int>(times_.size());
-  // A summary of an earlier run would not match the new frames.
-  if (index == 0) std::filesystem::remove(in_folder(folder_, "summary.json"));
+  // The summary and ties of an earlier run would not match the new frames.
+  if (index == 0) {
+    std::filesystem::remove(in_folder(folder_, "summary.json"));
+    std::filesystem::remove(in_folder(folder_, "ties.pvd"));
+  }
   times_.push_back(frame.time);
   write_mesh(in_folder(folder_, frame_file("contacts", index)), contacts_mesh(frame, assembly_hash_));
   write_mesh(in_folder(folder_, frame_file("blocks", index)), blocks_mesh(frame, assembly_hash_));
-  for (const char* what : {"contacts", "blocks"}) {
+  const auto write_collection = [&](const char* what) {
     std::vector<PvdEntry> entries;
-    for (int i = 0; i <= index; ++i) entries.push_back({times_[i], frame_file(what, i)});
+    for (int i = 0; i <= index; ++i)
+      if (std::filesystem::exists(in_folder(folder_, frame_file(what, i))))
+        entries.push_back({times_[i], frame_file(what, i)});
     write_pvd(in_folder(folder_, fmt::format("{}.pvd", what)), entries);
-  }
+  };
+  write_collection("contacts");
+  write_collection("blocks");
+  // A stage of construction may come before the first tie; an earlier run may have left its file.
+  const std::string ties = in_folder(folder_, frame_file("ties", index));
+  std::filesystem::remove(ties);
+  if (frame.ties.size() == 0) return;
+  write_mesh(ties, ties_mesh(frame, assembly_hash_));
+  write_collection("ties");
 }
 
 void ResultsWriter::write_text(const std::string& name, const std::string& text) {
@@ -242,6 +305,8 @@ Frame ResultsReader::read_frame(int index) const {
   frame.contacts = read_contacts(read_frame_mesh(contacts_path, assembly_hash_));
   frame.blocks =
       read_blocks(read_frame_mesh(in_folder(folder_, frame_file("blocks", index)), assembly_hash_));
+  const std::string ties_path = in_folder(folder_, frame_file("ties", index));
+  if (std::filesystem::exists(ties_path)) frame.ties = read_ties(read_frame_mesh(ties_path, assembly_hash_));
   check_frame(frame, contacts_path);
   return frame;
 }

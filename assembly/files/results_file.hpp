@@ -8,7 +8,7 @@
 
 namespace cupola {
 
-/// Writes the frames of a results folder one by one: contacts_NNNN.vtp, blocks_NNNN.vtp and the two .pvd
+/// Writes the frames of a results folder one by one: contacts_NNNN.vtp, blocks_NNNN.vtp, with ties ties_NNNN.vtp, and their .pvd
 /// collections, which are rewritten after each frame.
 class ResultsWriter {
  public:

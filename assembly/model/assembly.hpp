@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,13 +60,22 @@ struct Part {
   int wythe = 0;        ///< innermost layer of the thickness that it occupies
 };
 
-/// A spring or rod between points of two blocks, from an imported model.
-struct ImportedTie {
+/// A straight tie between points of two blocks: a link of a chain, or a spring or rod of an imported model. Elastic up to its
+/// yield force, then perfectly plastic.
+struct BuiltTie {
   int block_a = 0, block_b = 0;
-  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< m, world, as built
-  double stiffness = 0.0;                               ///< N/m; infinity for a rigid rod
-  double length = 0.0;                                  ///< m, natural length (no force)
-  bool pushes = false;                                  ///< also carries compression
+  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();           ///< m, world, as built
+  double stiffness = 0.0;                                        ///< N/m; infinity for a rigid rod
+  double length = 0.0;                                           ///< m, natural length (no force)
+  bool pushes = false;                                           ///< also carries compression
+  double yield_force = std::numeric_limits<double>::infinity();  ///< N, > 0, largest tension
+  int chain = -1;                                                ///< index into Assembly::chains; -1: none
+};
+
+/// A closed chain round a dome or vault: its ties have this index.
+struct BuiltChain {
+  std::string name;
+  double height = 0.0;  ///< m, mean z of the ends of its ties
 };
 
 /// The model that the generator writes and all programs read: convex parts on one shared vertex table.
@@ -80,7 +90,8 @@ struct Assembly {
   std::vector<FaceKind> face_kinds;    ///< (num_faces)
   std::vector<Part> parts;             ///< sorted by block
   std::vector<Block> blocks;
-  std::vector<ImportedTie> ties;
+  std::vector<BuiltTie> ties;  ///< those of one chain together, in the order of their azimuth
+  std::vector<BuiltChain> chains;
 
   std::string title;
   std::string geometry_hash;  ///< hash of the case sections that the generator read

@@ -48,25 +48,19 @@ struct Loads {
 };
 
 /// A tie between points of two blocks, as built. It carries tension when longer than its natural length, and
-/// nothing when shorter.
+/// nothing when shorter. Its tension is at most `yield_force`, where it elongates plastically.
 struct PairTie {
   BlockRef block_a, block_b;
   std::optional<Vec3> point_a, point_b;  ///< m, world; none: the centroid
   double stiffness = 1e8;                ///< N/m, > 0
   double prestress = 0.0;                ///< N, tension as built, >= 0
+  double slack = 0.0;                 ///< m, >= 0, elongation at which it begins to carry; 0 with prestress
+  std::optional<double> yield_force;  ///< N, > 0; none: elastic without limit
 };
 
-/// A closed chain around a dome: ties between the centroids of successive blocks of a ring.
-struct ChainTie {
-  int ring = 0;
-  double stiffness = 1e8;  ///< N/m of each link, > 0
-  double prestress = 0.0;  ///< N, tension as built, >= 0
-};
-
-/// Ties of the case, in addition to those of the assembly (imported springs and rods).
+/// Ties of the case, in addition to those of the assembly (chains, imported springs and rods).
 struct Ties {
   std::vector<PairTie> pairs;
-  std::vector<ChainTie> chains;
   double rod_stiffness = 1e10;  ///< N/m, > 0, replaces the infinite one of imported rigid rods
 };
 

@@ -78,11 +78,25 @@ struct BlockTable {
   int size() const { return static_cast<int>(position.size()); }
 };
 
-/// Contacts and blocks at one instant. Joint numbers are valid only within the frame.
+/// Ties at one instant, one row per tie (ties_*.vtp): those of the case, then those of the assembly. Empty without ties.
+struct TieTable {
+  std::vector<int> chain;              ///< index into Assembly::chains; -1: none
+  std::vector<int> block_a, block_b;   ///< a < b
+  std::vector<Vec3> point_a, point_b;  ///< m, ends
+  std::vector<double> force;           ///< N, >= 0, tension; of a strut thrust
+  std::vector<double> yield_force;     ///< N; infinity: elastic without limit
+  std::vector<double> yielded;         ///< m, >= 0, plastic elongation
+  std::vector<std::uint8_t> strut;     ///< 1: resists shortening
+
+  int size() const { return static_cast<int>(force.size()); }
+};
+
+/// Contacts, blocks and ties at one instant. Joint numbers are valid only within the frame.
 struct Frame {
   double time = 0.0;  ///< s
   ContactTable contacts;
   BlockTable blocks;
+  TieTable ties;
 };
 
 /// The joints of a frame, indexed by ContactTable::joint.

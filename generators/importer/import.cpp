@@ -237,14 +237,14 @@ void fix_supports(const ImportedBlocks& source, const std::vector<RawBlock>& raw
   for (Part& part : assembly->parts) part.ring = assembly->blocks[part.block].ring;
 }
 
-std::vector<ImportedTie> read_ties(const ImportedBlocks& source, const std::vector<RawBlock>& raw) {
+std::vector<BuiltTie> read_ties(const ImportedBlocks& source, const std::vector<RawBlock>& raw) {
   std::vector<RawTie> rows;
   if (!source.springs.empty()) rows = read_springs(source.springs);
   if (!source.rods.empty())
     for (RawTie& rod : read_rods(source.rods)) rows.push_back(std::move(rod));
   std::map<std::string, int> block_of;
   for (size_t b = 0; b < raw.size(); ++b) block_of[raw[b].name] = static_cast<int>(b);
-  std::vector<ImportedTie> ties;
+  std::vector<BuiltTie> ties;
   for (const RawTie& row : rows) {
     for (const std::string& name : {row.block_a, row.block_b})
       if (!block_of.contains(name)) throw InputError(row.where, fmt::format("no block is named '{}'", name));

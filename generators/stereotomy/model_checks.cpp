@@ -169,7 +169,7 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
       has_joint[a] = has_joint[b] = 1;
       islands.join(a, b);
     }
-  for (const ImportedTie& tie : assembly.ties) {
+  for (const BuiltTie& tie : assembly.ties) {
     has_joint[tie.block_a] = has_joint[tie.block_b] = 1;
     islands.join(tie.block_a, tie.block_b);
   }

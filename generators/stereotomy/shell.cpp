@@ -1,5 +1,8 @@
 #include "generators/stereotomy/shell.hpp"
 
+#include <fmt/format.h>
+
+#include "generators/bond/long_blocks.hpp"
 #include "generators/bond/make_bond.hpp"
 #include "generators/bond/wythe_bond.hpp"
 #include "generators/surface/make_surface.hpp"
@@ -59,6 +62,11 @@ Shell make_shell(const Geometry& geometry) {
                       geometry.window.has_value(), stage};
   BondPattern bond = geometry.wythes.empty() ? make_bond(geometry.bond, grid)
                                              : make_wythe_bond(geometry, grid, course_heights(surface));
+  const int refinement = refinement_of(bond_of_courses);
+  for (size_t c = 0; c < geometry.chains.size(); ++c)
+    if (const Chain& chain = geometry.chains[c]; chain.long_blocks > 0)
+      lay_long_blocks(grid, chain.course * refinement, (chain.course + 1) * refinement - 1, chain.long_blocks,
+                      fmt::format("geometry.chains[{}]", c), &bond);
   if (geometry.window) bond = with_supports(bond, surface.held_end);
   return {std::move(surface), std::move(bond), member_names(geometry), stage};
 }

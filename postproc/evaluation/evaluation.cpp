@@ -298,19 +298,22 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.loads = applied_loads(e.acting, e.assembly);
   e.shell = shell_of(e.assembly, e.up);
   e.axes = shell_axes(e.assembly, e.shell);
-  if (!e.assembly.ties.empty() || !scene.ties.pairs.empty() || !scene.ties.chains.empty())
-    e.warnings.push_back("ring sums and wrenches count joints only, not the forces in ties");
+  if (!e.assembly.ties.empty() || !scene.ties.pairs.empty())
+    e.warnings.push_back("wrenches on blocks and thrust lines count joints only, not the forces in ties");
 
   e.last = evaluate_frame(e, evaluated_frame(results, &e));
   const std::vector<bool> left_out = blocks_left_out(e);
-  e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads, left_out);
+  e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
+                      e.last.frame.ties, left_out);
+  e.chains = chain_forces(e.assembly.chains, e.last.frame.ties);
   e.members = member_sums(e.assembly, e.last.joints, e.last.gravity);
   count_lost_joints(results, &e);
   e.meridians = evaluate_meridians(e);
   add_ends_of_thrust(results, &e);
   e.sections = evaluate_sections(e, left_out);
   for (const CutPlane& plane : scene.postproc.planes)
-    e.planes.push_back(plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads));
+    e.planes.push_back(
+        plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads, e.last.frame.ties));
   const std::optional<double> rib = meridian_named("rib", scene),
                               mid_sail = meridian_named("mid_sail", scene);
   if (rib && mid_sail && e.assembly.members.empty())  // thrust lines see no wythes

@@ -8,6 +8,7 @@
 #include "assembly/files/results_file.hpp"
 #include "postproc/evaluation/rib_ratio.hpp"
 #include "postproc/mechanics/block_fields.hpp"
+#include "postproc/mechanics/chain_forces.hpp"
 #include "postproc/mechanics/cuts.hpp"
 #include "postproc/mechanics/member_sums.hpp"
 #include "postproc/mechanics/plane_cut.hpp"
@@ -68,6 +69,7 @@ struct Evaluation {
   FrameEvaluation last;
   std::vector<RingSum> rings;
   std::vector<MemberSum> members;  ///< empty without wythes
+  std::vector<ChainForces> chains;
   std::vector<MeridianEvaluation> meridians;
   std::vector<SectionEvaluation> sections;
   std::vector<PlaneCut> planes;

@@ -46,7 +46,7 @@ std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {
   for (ThrustLine& line : thrust_lines(e, e.last)) {
     const double azimuth = line.azimuth_deg;
     meridians.push_back({.thrust = std::move(line), .hoop = {}, .least_thrust = {}, .greatest_thrust = {}});
-    if (vault) meridians.back().hoop = hoop_forces(e.assembly, e.last.joints, azimuth);
+    if (vault) meridians.back().hoop = hoop_forces(e.assembly, e.last.joints, azimuth, e.last.frame.ties);
   }
   return meridians;
 }

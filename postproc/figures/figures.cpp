@@ -54,12 +54,15 @@ Figure ring_figure(const Evaluation& e) {
 
 Figure hoop_figure(const MeridianEvaluation& m) {
   double largest = 0.0;
-  for (const HoopRow& row : m.hoop) largest = std::max(largest, std::abs(row.head_force + row.bed_force));
+  for (const HoopRow& row : m.hoop) largest = std::max(largest, std::abs(row.sum()));
   const ForceUnit unit = force_unit(largest);
   Rows rows;
   for (const HoopRow& row : m.hoop)
     rows.push_back({row.height, unit.per_newton * row.head_force, unit.per_newton * row.bed_force,
-                    unit.per_newton * (row.head_force + row.bed_force)});
+                    unit.per_newton * row.sum()});
+  Rows ties;
+  for (const HoopRow& row : m.hoop)
+    if (row.tie_force != 0.0) ties.push_back({row.height, unit.per_newton * row.tie_force});
   Figure f;
   const size_t last = rows.empty() ? 0 : rows.size() - 1;
   const auto extreme = [&rows](size_t column, bool least) {
@@ -74,20 +77,24 @@ Figure hoop_figure(const MeridianEvaluation& m) {
   f.caption =
       "Hoop force of each ring across the meridian, compression positive. Dry head joints carry "
       "compression only; bed joints also carry tension, by friction.";
+  if (!ties.empty()) f.caption += " Chains carry tension; the sum includes them.";
   f.width = 700;
   f.height = 480;
   f.commands =
-      plot_style() + data_block("hoop", rows) +
+      plot_style() + data_block("hoop", rows) + (ties.empty() ? "" : data_block("ties", ties)) +
       fmt::format(
           "set ylabel 'height (m)'\nset xlabel 'hoop force of a ring ({2}); tension < 0 < compression'\n"
           "set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb '#444444'\nunset key\nset rmargin 14\n"
           "plot $hoop using 2:1 w lp lc rgb '{0}' pt 5 ps 0.5, $hoop using 3:1 w lp lc rgb '{1}' pt 9 ps "
           "0.6, "
-          "$hoop using 4:1 w lp lc rgb 'black' lw 2 pt 7 ps 0.5{3}{4}{5}\n",
+          "$hoop using 4:1 w lp lc rgb 'black' lw 2 pt 7 ps 0.5{3}{4}{5}{6}\n",
           kBlue, kOrange, unit.name,
           curve_label("hoop", last, "$2", "$1", "head joints", kBlue, "left offset 0,1"),
           curve_label("hoop", extreme(1, true), "$3", "$1", "bed joints", kOrange, "right offset -0.9,0"),
-          curve_label("hoop", extreme(2, false), "$4", "$1", "sum", "black"));
+          curve_label("hoop", extreme(2, false), "$4", "$1", "sum", "black"),
+          ties.empty() ? ""
+                       : fmt::format(", $ties using 2:1 w p lc rgb '{}' pt 13 ps 1.2", kPurple) +
+                             curve_label("ties", 0, "$2", "$1", "chains", kPurple, "right offset -0.9,0"));
   return f;
 }
 
@@ -139,6 +146,7 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
     if (!cut.polygons.empty()) figures.push_back(plane_figure(e, cut));
   for (const MeridianEvaluation& m : e.meridians)
     if (!m.hoop.empty()) figures.push_back(hoop_figure(m));
+  if (!e.chains.empty()) figures.push_back(chain_figure(e));
   if (has_one_layer_of_rings(e)) {
     const ShellMap map = shell_map(e);
     MapScales scales;

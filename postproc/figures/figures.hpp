@@ -48,6 +48,9 @@ Figure plane_figure(const Evaluation& evaluation, const PlaneCut& cut);
 /// Hoop force across a meridian over the height, through head and bed joints.
 Figure hoop_figure(const MeridianEvaluation& meridian);
 
+/// Tension of the bars of all chains over the azimuth.
+Figure chain_figure(const Evaluation& evaluation);
+
 /// Displacement, speed and support reaction over time.
 Figure history_figure(const Evaluation& evaluation, const std::vector<HistoryRow>& history);
 

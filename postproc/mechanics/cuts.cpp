@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "assembly/base/error.hpp"
+#include "postproc/mechanics/chain_forces.hpp"
 
 namespace cupola {
 
@@ -35,7 +36,8 @@ std::vector<CutPolygon> cut_by_plane(const Assembly& assembly, const Plane& plan
   return polygons;
 }
 
-std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& joints, double azimuth_deg) {
+std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& joints, double azimuth_deg,
+                                 const TieTable& ties) {
   const double angle = azimuth_deg * std::numbers::pi / 180.0;
   const Vec3 outwards(std::cos(angle), std::sin(angle), 0.0);
   const Vec3 along(-std::sin(angle), std::cos(angle), 0.0);
@@ -53,10 +55,18 @@ std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& 
     ++counts[joint.ring];
     (joint.kind == JointKind::head ? row.head_force : row.bed_force) += force;
   }
+  for (int i = 0; i < ties.size(); ++i) {
+    const int a = ties.block_a[i], b = ties.block_b[i];
+    if (positive(a) == positive(b) || outwards.dot(ties.point_a[i]) <= 0.0) continue;
+    const Vec3 on_b = tie_force_on_b(ties, i);
+    if (const auto row = rows.find(assembly.blocks[a].ring); row != rows.end())
+      row->second.tie_force += along.dot(positive(b) ? on_b : Vec3(-on_b));
+  }
   std::vector<HoopRow> out;
   for (auto& [ring, row] : rows) {
     row.height /= counts[ring];
-    for (double* force : {&row.head_force, &row.bed_force}) *force = above(*force, joints.floor.force);
+    for (double* force : {&row.head_force, &row.bed_force, &row.tie_force})
+      *force = above(*force, joints.floor.force);
     out.push_back(row);
   }
   return out;

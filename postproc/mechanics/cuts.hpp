@@ -22,9 +22,14 @@ struct HoopRow {
   double height = 0.0;      ///< m, mean height of the joints crossed
   double head_force = 0.0;  ///< N, through head joints
   double bed_force = 0.0;   ///< N, through bed joints, by friction and by their inclination
+  double tie_force = 0.0;   ///< N, of ties; negative in tension
+
+  double sum() const { return head_force + bed_force + tie_force; }
 };
 
-/// Forces across the meridian at an azimuth, one row per ring that has joints across it.
-std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& joints, double azimuth_deg);
+/// Forces across the meridian at an azimuth, one row per ring that has joints across it. A tie counts for the ring of its
+/// block a.
+std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& joints, double azimuth_deg,
+                                 const TieTable& ties = {});
 
 }  // namespace cupola

@@ -1,6 +1,7 @@
 #include "postproc/mechanics/plane_cut.hpp"
 
 #include "assembly/base/error.hpp"
+#include "postproc/mechanics/chain_forces.hpp"
 
 namespace cupola {
 
@@ -11,7 +12,7 @@ Vec3 force_beyond(const PlaneCut& cut, const Assembly& assembly, const JointWren
 }
 
 PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointWrenches& joints,
-                   const Vec3& gravity, const std::vector<PointForce>& loads) {
+                   const Vec3& gravity, const std::vector<PointForce>& loads, const TieTable& ties) {
   PlaneCut cut;
   cut.name = plane.name;
   cut.point = cut.across.point = plane.point;
@@ -39,9 +40,16 @@ PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointW
       cut.joints.push_back(static_cast<int>(j));
     }
   }
+  for (int i = 0; i < ties.size(); ++i) {
+    const int a = ties.block_a[i], b = ties.block_b[i];
+    if (beyond[a] == beyond[b]) continue;
+    const Vec3 force = beyond[b] ? tie_force_on_b(ties, i) : Vec3(-tie_force_on_b(ties, i));
+    (assembly.blocks[a].fixed || assembly.blocks[b].fixed ? cut.from_supports : cut.from_ties) += force;
+  }
   if (cut.load_beyond.norm() > 0.0)
     cut.relative_difference =
-        (cut.across.force + cut.from_supports + cut.load_beyond).norm() / cut.load_beyond.norm();
+        (cut.across.force + cut.from_ties + cut.from_supports + cut.load_beyond).norm() /
+        cut.load_beyond.norm();
   return cut;
 }
 

@@ -20,15 +20,16 @@ struct PlaneCut {
   std::vector<CutPolygon> polygons;   ///< outlines of the parts that it cuts
   std::vector<int> joints;            ///< between free blocks on either side; into JointWrenches::wrenches
   Wrench across;                      ///< of these joints on the blocks beyond, about `point`
+  Vec3 from_ties = Vec3::Zero();      ///< N, of the ties across the plane on the blocks beyond
   Vec3 from_supports = Vec3::Zero();  ///< N, of the supports on the blocks beyond
   Vec3 load_beyond = Vec3::Zero();    ///< N, weight of the blocks beyond and loads on them
-  double relative_difference = 0.0;   ///< |across + from_supports + load_beyond| / |load_beyond|
+  double relative_difference = 0.0;   ///< |across + from_ties + from_supports + load_beyond| / |load_beyond|
 
   bool is_beyond(const Vec3& x) const { return normal.dot(x - point) > 0.0; }
 };
 
 PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointWrenches& joints,
-                   const Vec3& gravity, const std::vector<PointForce>& loads);
+                   const Vec3& gravity, const std::vector<PointForce>& loads, const TieTable& ties = {});
 
 /// The force of a joint across the plane on the block beyond.
 Vec3 force_beyond(const PlaneCut& cut, const Assembly& assembly, const JointWrench& joint);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assembly/base/error.hpp"
+#include "postproc/mechanics/chain_forces.hpp"
 
 namespace cupola {
 namespace {
@@ -38,16 +39,18 @@ void add_loads(const Assembly& assembly, const Vec3& gravity, const std::vector<
 
 /// Sums the joint forces across each cut. A joint between blocks of first rings p < q crosses the cuts p + 1
 /// .. q, so its force is added at p + 1, removed at q + 1, and the changes are summed from the base upwards.
-void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, std::vector<RingSum>* rings) {
+void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, const TieTable& ties,
+                      std::vector<RingSum>* rings) {
   std::vector<Vec3> change(rings->size() + 1, Vec3::Zero());
-  for (const JointWrench& joint : joints.wrenches) {
-    const int a = first_ring(assembly, joint.block_a);
-    const int b = first_ring(assembly, joint.block_b);
-    if (a == b) continue;
-    const Vec3 on_upper = b > a ? joint.wrench.force : Vec3(-joint.wrench.force);
+  const auto add = [&](int block_a, int block_b, const Vec3& force_on_b) {
+    const int a = first_ring(assembly, block_a), b = first_ring(assembly, block_b);
+    if (a == b) return;
+    const Vec3 on_upper = b > a ? force_on_b : Vec3(-force_on_b);
     change[std::min(a, b) + 1] += on_upper;
     change[std::max(a, b) + 1] -= on_upper;
-  }
+  };
+  for (const JointWrench& joint : joints.wrenches) add(joint.block_a, joint.block_b, joint.wrench.force);
+  for (int i = 0; i < ties.size(); ++i) add(ties.block_a[i], ties.block_b[i], tie_force_on_b(ties, i));
   Vec3 force = Vec3::Zero();
   for (size_t k = 0; k < rings->size(); ++k) {
     force += change[k];
@@ -108,7 +111,8 @@ double coefficient_of_variation(const std::vector<double>& values) {
 
 std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
-                               const std::vector<PointForce>& loads, const std::vector<bool>& left_out) {
+                               const std::vector<PointForce>& loads, const TieTable& ties,
+                               const std::vector<bool>& left_out) {
   CUPOLA_ASSERT(from_below.size() == assembly.blocks.size());
   int num_rings = 0;
   if (assembly.num_rings > 0)
@@ -118,7 +122,7 @@ std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& jo
   if (rings.empty()) return rings;
   for (int k = 0; k < num_rings; ++k) rings[k].ring = k;
   add_loads(assembly, gravity, loads, left_out, &rings);
-  add_joint_forces(assembly, joints, &rings);
+  add_joint_forces(assembly, joints, ties, &rings);
   add_uniformity(assembly, joints, from_below, &rings);
   for (RingSum& ring : rings) {
     if (ring.blocks == 0 && !left_out.empty()) ring = {.ring = ring.ring};

@@ -13,7 +13,7 @@ struct RingSum {
   int ring = 0;
   double height = 0.0;               ///< m, mean height of the ring's bed joints, weighted by area
   int blocks = 0;                    ///< number of blocks whose first ring is k; 0: no cut, the sums are 0
-  Vec3 joint_force = Vec3::Zero();   ///< N, on the blocks above the cut
+  Vec3 joint_force = Vec3::Zero();   ///< N, of joints and ties on the blocks above the cut
   Vec3 load_above = Vec3::Zero();    ///< N, weight of these blocks and loads on them
   double relative_difference = 0.0;  ///< |joint_force + load_above| / |load_above|
   double mean_resultant = 0.0;       ///< N, mean force of the ring's blocks from the ring below
@@ -29,7 +29,8 @@ struct RingSum {
 /// part, as before it is laid; empty: all take part.
 std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
-                               const std::vector<PointForce>& loads, const std::vector<bool>& left_out = {});
+                               const std::vector<PointForce>& loads, const TieTable& ties = {},
+                               const std::vector<bool>& left_out = {});
 
 /// Standard deviation over |mean|; 0 for fewer than two values or a mean of zero.
 double coefficient_of_variation(const std::vector<double>& values);

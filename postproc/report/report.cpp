@@ -129,7 +129,7 @@ std::string figures_section(const ReportInput& input) {
 
 /// True for a table that reads like the result of an equilibrium: rings, thrust lines, cuts.
 bool interprets(const Table& table) {
-  static const std::set<std::string> kPlain{"joints", "blocks", "stages", "ranges", "path"};
+  static const std::set<std::string> kPlain{"joints", "blocks", "stages", "ranges", "path", "chains", "ties"};
   return !kPlain.contains(table.name);
 }
 

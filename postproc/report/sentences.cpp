@@ -70,6 +70,18 @@ std::string strength_text(const PostSummary& s) {
       1e-6 * s.largest_pressure_Pa.value_or(0.0), percent(*s.largest_strength_use));
 }
 
+std::string chain_text(const ChainForces& chain) {
+  if (chain.greatest == 0.0)
+    return fmt::format("The chain {} at {:.4g} m is slack all round.", chain.name, chain.height);
+  std::string text =
+      fmt::format("The chain {} at {:.4g} m carries a tension of {} on average, from {} to {}", chain.name,
+                  chain.height, force_text(chain.mean), force_text(chain.least), force_text(chain.greatest));
+  if (chain.yielding > 0)
+    text += fmt::format("; {} of {} yield, by {} in total", chain.yielding, counted(chain.bars, "bar"),
+                        length_text(chain.yielded));
+  return text + ".";
+}
+
 }  // namespace
 
 std::vector<std::string> finding_sentences(const Evaluation& e) {
@@ -82,6 +94,7 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
         fmt::format("The joints across the plane {} transmit a normal force of {} (compression positive) to "
                     "the part beyond.",
                     cut.name, force_text(above(cut.across.force.dot(cut.normal), s.negligible_force_N))));
+  for (const ChainForces& chain : e.chains) out.push_back(chain_text(chain));
   add_rings(e, s, &out);
   if (s.rib_over_mid_sail)
     out.push_back(fmt::format(

@@ -46,6 +46,9 @@ std::string column_reference() {
          reference_of("members.csv: wythes and bonders", member_columns(), {}) +
          reference_of("thrust_NAME.csv: thrust line of a meridian", thrust_columns(), {}) +
          reference_of("hoop_NAME.csv: hoop forces across a meridian", hoop_columns(), {}) +
+         reference_of("chains.csv: tension of chains", chain_columns(),
+                      {{"summary.json", {kChainSummaryKeys}}}) +
+         reference_of("ties.csv: bars of chains and other ties", tie_columns(), {}) +
          reference_of("section_HEIGHTm.csv: resultants across a bed", section_columns(), {}) +
          reference_of("cut_NAME.csv: joints across a plane", plane_columns(), {}) +
          reference_of("joints.csv, joints.vtp, joint_forces.vtp, cracks.vtp: joints", joint_columns(),

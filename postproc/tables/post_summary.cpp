@@ -98,6 +98,16 @@ Json rings_json(const Evaluation& e) {
   return rings;
 }
 
+Json chains_json(const Evaluation& e) {
+  Json chains = Json::array();
+  for (const ChainForces& row : e.chains) {
+    Json& chain = chains.emplace_back();
+    for (const char* key : kChainSummaryKeys)  // infinities become null
+      chain[key] = to_json(column_named(chain_columns(), key).value(row));
+  }
+  return chains;
+}
+
 Json ranges_json(const std::vector<ForceRange>& ranges) {
   Json list = Json::array();
   for (const ForceRange& range : ranges) {
@@ -234,9 +244,11 @@ std::string post_summary_json(const Evaluation& e) {
         {{"name", cut.name},
          {"through_N", cut.across.force.dot(cut.normal)},
          {"along_N", (cut.across.force - cut.across.force.dot(cut.normal) * cut.normal).norm()},
+         {"ties_N", cut.from_ties.dot(cut.normal)},
          {"relative_difference", cut.relative_difference}});
   json["ranges"] = ranges_json(s.ranges);
   json["rings"] = rings_json(e);
+  json["chains"] = chains_json(e);
   return json.dump(2) + "\n";
 }
 

@@ -77,6 +77,14 @@ std::vector<PlaneJoint> plane_joints(const Evaluation& e, const PlaneCut& cut) {
   return rows;
 }
 
+std::vector<TieRow> tie_rows(const Evaluation& e) {
+  std::vector<TieRow> rows;
+  const TieTable& ties = e.last.frame.ties;
+  for (int i = 0; i < ties.size(); ++i)
+    rows.push_back({ties, i, ties.chain[i] < 0 ? "" : e.assembly.chains.at(ties.chain[i]).name});
+  return rows;
+}
+
 // clang-format off: one line per column.
 
 const Columns<ForceRange>& range_columns() {
@@ -270,7 +278,42 @@ const Columns<HoopRow>& hoop_columns() {
       {"height_m", "m", "mean height of the joints crossed", &H::height},
       {"head_force_N", "N", "force through head joints, compression positive", &H::head_force},
       {"bed_force_N", "N", "force through bed joints, compression positive", &H::bed_force},
-      {"hoop_force_N", "N", "sum of the two", [](const H& h) { return h.head_force + h.bed_force; }},
+      {"tie_force_N", "N", "of chains and other ties; negative in tension", &H::tie_force},
+      {"hoop_force_N", "N", "sum of the three", [](const H& h) { return h.sum(); }},
+  };
+  return columns;
+}
+
+const Columns<ChainForces>& chain_columns() {
+  using C = ChainForces;
+  static const Columns<C> columns{
+      {"chain", "", "name", &C::name},
+      {"height_m", "m", "mean height of its bars", &C::height},
+      {"bars", "", "number of bars", &C::bars},
+      {"mean_force_N", "N", "tension, mean over the length of the chain", &C::mean},
+      {"least_force_N", "N", "tension of the least loaded bar", &C::least},
+      {"greatest_force_N", "N", "tension of the most loaded bar", &C::greatest},
+      {"yield_force_N", "N", "tension at which a bar yields; inf: elastic without limit", &C::yield_force},
+      {"slack_bars", "", "bars without tension", &C::slack},
+      {"yielding_bars", "", "bars that have elongated plastically", &C::yielding},
+      {"yielded_m", "m", "plastic elongation of all bars together", &C::yielded},
+  };
+  return columns;
+}
+
+const Columns<TieRow>& tie_columns() {
+  using T = TieRow;
+  static const Columns<T> columns{
+      {"chain", "", "name of its chain; empty: none", &T::chain},
+      {"block_a", "", "block at one end", [](const T& t) { return t.ties.block_a[t.index]; }},
+      {"block_b", "", "block at the other end", [](const T& t) { return t.ties.block_b[t.index]; }},
+      {"a_{}_m", "m", "end on the first block", [](const T& t) { return t.ties.point_a[t.index]; }},
+      {"b_{}_m", "m", "end on the second block", [](const T& t) { return t.ties.point_b[t.index]; }},
+      {"force_N", "N", "tension; of a strut thrust", [](const T& t) { return t.ties.force[t.index]; }},
+      {"yield_force_N", "N", "tension at which it yields; inf: elastic without limit",
+       [](const T& t) { return t.ties.yield_force[t.index]; }},
+      {"yielded_m", "m", "plastic elongation", [](const T& t) { return t.ties.yielded[t.index]; }},
+      {"strut", "", "1: resists shortening", [](const T& t) { return t.ties.strut[t.index] != 0 ? 1 : 0; }},
   };
   return columns;
 }

@@ -50,6 +50,14 @@ struct MemberRow {
 };
 std::vector<MemberRow> member_rows(const Evaluation& evaluation);
 
+/// A tie of one frame.
+struct TieRow {
+  const TieTable& ties;
+  int index = 0;
+  std::string chain;  ///< its name, or "" for none
+};
+std::vector<TieRow> tie_rows(const Evaluation& evaluation);
+
 /// A cell of thrust_lines.vtp.
 struct LineCell {
   enum What { line_of_thrust, envelope, line_of_action, intrados, extrados };
@@ -75,6 +83,8 @@ const Columns<BlockRow>& block_columns();
 const Columns<MemberRow>& member_columns();
 const Columns<ThrustPoint>& thrust_columns();
 const Columns<HoopRow>& hoop_columns();
+const Columns<ChainForces>& chain_columns();
+const Columns<TieRow>& tie_columns();
 const Columns<BedResultant>& section_columns();
 const Columns<PlaneJoint>& plane_columns();
 const Columns<LineCell>& line_cell_columns();
@@ -115,6 +125,10 @@ inline constexpr std::array kRangeSummaryKeys{"quantity",    "unit",      "min",
 inline constexpr std::array kRingSummaryKeys{
     "ring",         "height_m",   "joint_force_N", "load_above_N", "relative_difference",
     "cv_resultant", "cv_pressure"};
+
+/// summary.json: `chains`.
+inline constexpr std::array kChainSummaryKeys{
+    "chain", "height_m", "mean_force_N", "least_force_N", "greatest_force_N", "yield_force_N", "yielded_m"};
 
 /// Every list above as Markdown: name, unit and meaning of each column, and the mesh files that hold it.
 std::string column_reference();

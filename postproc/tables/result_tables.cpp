@@ -88,6 +88,15 @@ Table hoop_table(const MeridianEvaluation& m) {
                     hoop_columns(), m.hoop);
 }
 
+Table chain_table(const Evaluation& e) {
+  return make_table("chains", "Chains: tension of their bars", chain_columns(), e.chains);
+}
+
+Table tie_table(const Evaluation& e) {
+  return with_block_names(e.assembly,
+                          make_table("ties", "Bars of chains and other ties", tie_columns(), tie_rows(e)));
+}
+
 Table section_table(const SectionEvaluation& section) {
   return make_table(fmt::format("section_{:g}m", section.height),
                     fmt::format("Resultants of the blocks across the bed nearest to z = {:g} m (ring {})",
@@ -109,6 +118,8 @@ std::vector<Table> result_tables(const Evaluation& e) {
     tables.push_back(thrust_table(m.thrust));
     if (!m.hoop.empty()) tables.push_back(hoop_table(m));
   }
+  if (!e.chains.empty()) tables.push_back(chain_table(e));
+  if (e.last.frame.ties.size() > 0) tables.push_back(tie_table(e));
   for (const SectionEvaluation& section : e.sections) tables.push_back(section_table(section));
   for (const PlaneCut& cut : e.planes) tables.push_back(plane_table(e, cut));
   if (has_one_layer_of_rings(e)) tables.push_back(shell_table(shell_map(e)));

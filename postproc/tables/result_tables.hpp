@@ -15,6 +15,8 @@ Table joint_table(const Evaluation& evaluation);
 Table block_table(const Evaluation& evaluation);
 Table thrust_table(const ThrustLine& line);
 Table hoop_table(const MeridianEvaluation& meridian);
+Table chain_table(const Evaluation& evaluation);
+Table tie_table(const Evaluation& evaluation);
 Table section_table(const SectionEvaluation& section);
 Table plane_table(const Evaluation& evaluation, const PlaneCut& cut);
 

@@ -70,7 +70,8 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
   using Parameter = LimitSearch::Parameter;
   switch (limit.parameter) {
     case Parameter::tilt:
-      if (!scene.joints.have_strength()) return limit_of_tilt(scene_at, limit.low, limit.high, width, report);
+      if (!scene.joints.have_strength() && !scene.ties_yield())
+        return limit_of_tilt(scene_at, limit.low, limit.high, width, report);
       [[fallthrough]];
     case Parameter::load:
     case Parameter::acceleration:
@@ -103,7 +104,7 @@ std::string write_ends(const DirectLimit& limit, const AnalysisSinks& sinks, Sum
       find_mechanism(moving.model, moving.start, moving.contacts, moving.problem.contacts, limit.mechanism);
   if (moving.contacts.points.size() == stable.contacts.points.size())
     write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism,
-                    frame.contacts.force, frame.contacts.law_violation, sinks);
+                    {frame.contacts.force, frame.ties.force}, frame.contacts.law_violation, sinks);
   return "; " + describe(mechanism);
 }
 

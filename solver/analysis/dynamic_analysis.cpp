@@ -161,9 +161,8 @@ bool DynamicRun::frame_is_due(Stop stop) const {
 }
 
 void DynamicRun::write_frame() {
-  sinks_.frame(make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(),
-                          report_.forces.contacts, report_.violations, simulation_.memories(),
-                          simulation_.displacements()));
+  sinks_.frame(make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(), report_.forces,
+                          report_.violations, simulation_.memories(), simulation_.displacements()));
 }
 
 std::optional<Summary> DynamicRun::run() {
@@ -197,7 +196,7 @@ std::string stop_note(Stop stop, const Analysis& analysis) {
 Summary DynamicRun::summarize(Stop stop, double seconds) const {
   Summary summary;
   const Frame last =
-      make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(), report_.forces.contacts,
+      make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(), report_.forces,
                  report_.violations, simulation_.memories(), simulation_.displacements());
   summarize_frame(last, simulation_.model(), &summary);
   summary.steps = progress_.steps;

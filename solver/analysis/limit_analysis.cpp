@@ -127,8 +127,7 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
   const StaticSolution& solution = probe.solution;
   const Mechanism mechanism = find_mechanism(probe.model, probe.start, probe.contacts, solution.step.problem,
                                              solution.increment / solution.h);
-  write_mechanism(probe.model, probe.start, probe.contacts, probe.memories, mechanism,
-                  solution.forces.contacts,
+  write_mechanism(probe.model, probe.start, probe.contacts, probe.memories, mechanism, solution.forces,
                   static_violations(probe.contacts, solution, run.options.solve.law), run.sinks);
   return describe(mechanism);
 }

@@ -151,7 +151,7 @@ bool write_start(const RigidScene& rigid, const ChosenState& chosen, const Analy
         find_mechanism(rigid.model, rigid.start, rigid.contacts, rigid.problem.contacts, any.v);
     const size_t nc = rigid.contacts.points.size();
     write_mechanism(rigid.model, rigid.start, rigid.contacts, rigid.memories, mechanism,
-                    std::vector<Vec3>(nc, Vec3::Zero()), std::vector<double>(nc, 0.0), sinks);
+                    {std::vector<Vec3>(nc, Vec3::Zero()), {}}, std::vector<double>(nc, 0.0), sinks);
     summary->status = Status::moving;
     summary->message = "no admissible state exists: " + describe(mechanism);
     return false;

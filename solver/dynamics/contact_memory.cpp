@@ -14,7 +14,7 @@ ContactMemories first_memories(const ContactMemories& old, const std::vector<Con
   ContactMemories first;
   for (const Contact& contact : contacts) first.ids.push_back(contact.id);
   first.values.resize(contacts.size());
-  first.tie_impulses = old.tie_impulses;
+  first.ties = old.ties;
   first.as_built = false;
   return first;
 }
@@ -54,7 +54,7 @@ ContactMemories match_memories(ContactMemories old, const std::vector<Contact>& 
   ContactMemories matched;
   matched.ids.reserve(contacts.size());
   matched.values.resize(contacts.size());
-  matched.tie_impulses = old.tie_impulses;
+  matched.ties = old.ties;
   matched.as_built = false;
   std::map<ContactId, size_t> index;  // of the old contacts
   for (size_t i = 0; i < old.ids.size(); ++i) index.emplace(old.ids[i], i);

@@ -31,11 +31,17 @@ struct ContactMemory {
   JointDamage joint;
 };
 
+/// State of a tie that is carried from step to step.
+struct TieMemory {
+  double impulse = 0.0;  ///< N s, of the last step, for the warm start
+  double yielded = 0.0;  ///< m, >= 0, plastic elongation
+};
+
 /// Memories of the contacts of one step, in the order of the contacts.
 struct ContactMemories {
   std::vector<ContactId> ids;         ///< (nc)
   std::vector<ContactMemory> values;  ///< (nc)
-  std::vector<double> tie_impulses;   ///< N s, of the last step (number of ties)
+  std::vector<TieMemory> ties;        ///< (number of ties), or empty before the first step
   bool as_built = true;               ///< no contacts were matched yet
 };
 

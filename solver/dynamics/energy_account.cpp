@@ -44,6 +44,11 @@ JointWork joint_work(const StepProblem& step, int i, const Vec3& gamma, const Ve
   return work;
 }
 
+/// J, of the plastic elongation of a tie.
+double yield_work(const StepProblem& step, int row, const ContactSolution& solution) {
+  return solution.gamma[3 * row] / step.impulse_time[3 * row] * plastic_elongation(step, row, solution);
+}
+
 /// Work of the contacts and ties: what the joints dissipate, and the springs beyond what they store.
 void add_joint_work(const Model& model, const StepStart& start, const StepProblem& step,
                     const ContactSolution& solution, const State& state, const ContactMemories& memories,
@@ -74,12 +79,13 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
   }
   for (int tie = step.num_contacts; tie < problem.num_contacts(); ++tie) {
     const Eigen::Index row = 3 * tie;
-    const double speed = u[row] + step.support_velocity[row];
-    const double damping = solution.gamma[row] == 0.0 ? 0.0 : damping_work(step, row, speed, options);
+    const double damping = solution.gamma[row] == 0.0 ? 0.0 : damping_work(step, row, u_el[row], options);
+    const double yielding = yield_work(step, tie, solution);
     work->damping += damping;
-    work->scheme -= p[row] * mean[row] + damping;
+    work->friction += yielding;
+    work->scheme -= p[row] * mean[row] + damping + yielding;
   }
-  work->scheme -= tie_energy(model, state.poses) - tie_energy(model, start.state.poses);
+  work->scheme -= tie_energy(model, state.poses, memories) - start.ties;
 }
 
 /// Work of inertia and loads.
@@ -125,9 +131,10 @@ StepWork& StepWork::operator+=(const StepWork& other) {
   return *this;
 }
 
-StepStart begin_account(const State& state, const StepProblem& step, const ContactMemories& memories,
-                        const StepOptions& options) {
-  StepStart start{state, spring_energies(step, memories, options), {}};
+StepStart begin_account(const Model& model, const State& state, const StepProblem& step,
+                        const ContactMemories& memories, const StepOptions& options) {
+  StepStart start{
+      state, spring_energies(step, memories, options), {}, tie_energy(model, state.poses, memories)};
   for (const ContactMemory& memory : memories.values) start.elastic_gap.push_back(memory.elastic_gap);
   return start;
 }
@@ -148,6 +155,8 @@ double joint_dissipation(const StepProblem& step, const ContactSolution& solutio
   double work = 0.0;
   for (int i = 0; i < step.num_contacts; ++i)
     work += joint_work(step, i, solution.gamma.segment<3>(3 * i), z.segment<3>(3 * i)).friction;
+  for (int tie = step.num_contacts; tie < problem.num_contacts(); ++tie)
+    work += yield_work(step, tie, solution);
   return work;
 }
 

@@ -18,7 +18,7 @@ struct StepWork {
   /// work of the opening that accompanies slip, sum (gamma_n z_n)+. The associated law returns in it what friction takes.
   double dilatancy = 0.0;
   double friction =
-      0.0;  ///< joint_dissipation(): friction, and the tension and crushing of joints with strength
+      0.0;  ///< joint_dissipation(): friction, the tension and crushing of joints with strength, and ties that yield
   double damping = 0.0;  ///< alpha h norm(u_el)^2 / c of compliant joints
   /// kinetic energy of the approach of contacts that close: their springs are compressed by less than they approach in
   /// the step
@@ -38,21 +38,22 @@ struct StepStart {
   State state;
   std::vector<double> springs;      ///< J, energy of the springs of each contact (nc)
   std::vector<double> elastic_gap;  ///< m, of each contact (nc)
+  double ties = 0.0;                ///< J, stored in the ties
 };
-StepStart begin_account(const State& state, const StepProblem& step, const ContactMemories& memories,
-                        const StepOptions& options);
+StepStart begin_account(const Model& model, const State& state, const StepProblem& step,
+                        const ContactMemories& memories, const StepOptions& options);
 
 /// The work of a step that moved the scene from `start` to `state` and `memories`.
 StepWork work_of_step(const Model& model, const StepStart& start, const StepProblem& step,
                       const ContactSolution& solution, const State& state, const ContactMemories& memories,
                       const StepOptions& options);
 
-/// Work dissipated in the joints in one step, J, >= 0 in exact arithmetic, with the inelastic displacement reach z and the force
+/// Work dissipated in the joints and ties in one step, J, >= 0 in exact arithmetic, with the inelastic displacement reach z and the force
 /// r+ at the end of the step. Of friction:
 ///
 ///     - sum r_t . reach z_t,   z = D^T v + b + E gamma
 ///
-/// Joints with strength add the work of tension and crushing, sum (- r_n reach z_n)+.
+/// Joints with strength add the work of tension and crushing, sum (- r_n reach z_n)+, and ties that of yielding.
 double joint_dissipation(const StepProblem& step, const ContactSolution& solution);
 
 }  // namespace cupola

@@ -17,4 +17,9 @@ void visit(Archive& archive, ContactMemory& x) {
           x.overlap, x.joint);
 }
 
+template <class Archive>
+void visit(Archive& archive, TieMemory& x) {
+  archive(x.impulse, x.yielded);
+}
+
 }  // namespace cupola

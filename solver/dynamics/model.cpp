@@ -1,6 +1,7 @@
 #include "solver/dynamics/model.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "assembly/base/error.hpp"
 #include "solver/dynamics/plane_scene.hpp"
@@ -16,6 +17,8 @@ Model make_model(const Case& scene, const Assembly& assembly) {
   model.friction_time = scene.joints.friction_time;
   model.loads = make_loads(scene.loads, assembly);
   model.ties = make_ties(scene, assembly);
+  model.ties_yield =
+      std::ranges::any_of(model.ties, [](const Tie& tie) { return std::isfinite(tie.yield_force); });
   model.support_motions = make_support_motions(scene, assembly);
   model.free_index.assign(assembly.blocks.size(), ContactProblem::kFixed);
   for (size_t block = 0; block < assembly.blocks.size(); ++block) {

@@ -21,6 +21,7 @@ struct Model {
   TimeFunction friction_time;  ///< factor on every friction coefficient
   LoadSet loads;
   std::vector<Tie> ties;
+  bool ties_yield = false;  ///< at least one of them does
   std::vector<SupportMotion> support_motions;
   std::vector<int> free_index;   ///< block -> row block, or ContactProblem::kFixed (num_blocks)
   std::vector<int> free_blocks;  ///< row block -> block (nb)
@@ -28,6 +29,8 @@ struct Model {
   double block_weight = 0.0;     ///< N, mean weight of the free blocks
   bool plane = false;            ///< motion in x-z only: unknowns x, z, rot y (see plane_scene.hpp)
 
+  /// Joints have tension, cohesion or compressive strength, or ties yield.
+  bool has_strength() const { return joints.has_strength() || ties_yield; }
   int num_free() const { return static_cast<int>(free_blocks.size()); }
   int num_unknowns() const { return (plane ? 3 : 6) * num_free(); }
 };

@@ -44,7 +44,7 @@ Simulation::Simulation(Model model, const SimulationOptions& options)
       state_(state_at_rest(model_)),
       detector_(*model_.assembly, options.detection),
       next_h_(options.step.h) {
-  memories_.tie_impulses.assign(model_.ties.size(), 0.0);
+  memories_.ties.resize(model_.ties.size());
   energy_ = energy();
   for (const int block : model_.free_blocks) radius_.push_back(detector_.block_radius(block));
 }
@@ -154,7 +154,7 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
       compute_equilibrium(model, middle, contacts, report.forces, state->time + 0.5 * step.advance());
 
   // 3. Update memories and integrate
-  const StepStart start = begin_account(*state, problem, *memories, step);
+  const StepStart start = begin_account(model, *state, problem, *memories, step);
   update_memories(model, problem, solution, middle, contacts, step, memories);
   integrate_positions(model, step.h, step.advance(), mean_velocity(problem, *state, solution, step), state);
   state->v = solution.v;
@@ -188,7 +188,7 @@ void Simulation::start_from(const LoadedState& loaded) {
                        state_.poses[contact.block_a], &memory);
     memory.impulse = memory.impulse / loaded.h * next_h_;
   }
-  for (double& impulse : memories_.tie_impulses) impulse = impulse / loaded.h * next_h_;
+  for (TieMemory& tie : memories_.ties) tie.impulse = tie.impulse / loaded.h * next_h_;
   energy_ = energy();
 }
 

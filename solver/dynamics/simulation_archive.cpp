@@ -44,7 +44,7 @@ void visit(Archive& archive, DetectionMemory& x) {
 }
 template <class Archive>
 void visit(Archive& archive, ContactMemories& x) {
-  archive(x.ids, x.values, x.tie_impulses, x.as_built);
+  archive(x.ids, x.values, x.ties, x.as_built);
 }
 template <class Archive>
 void visit(Archive& archive, State& x) {

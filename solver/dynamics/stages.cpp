@@ -78,7 +78,8 @@ ConstructionStage build_stage(const Assembly& complete, int ring) {
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
       built.add_face(complete.face(f), complete.face_kinds[f]);
   }
-  for (ImportedTie tie : complete.ties) {
+  built.chains = complete.chains;
+  for (BuiltTie tie : complete.ties) {
     tie.block_a = index[static_cast<size_t>(tie.block_a)];
     tie.block_b = index[static_cast<size_t>(tie.block_b)];
     if (tie.block_a != kNotBuilt && tie.block_b != kNotBuilt) built.ties.push_back(tie);
@@ -111,7 +112,6 @@ Case case_of_stage(const Case& scene, const ConstructionStage& stage, double fre
     tie.block_b = index[static_cast<size_t>(tie.block_b)];
     at.ties.pairs.push_back(tie);
   }
-  std::erase_if(at.ties.chains, [&](const ChainTie& chain) { return chain.ring > stage.ring; });
   return at;
 }
 

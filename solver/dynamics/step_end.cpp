@@ -70,13 +70,14 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
     const Vec3 u_el = -(b + problem.E.segment<3>(3 * i).cwiseProduct(gamma));
     memory.impulse = gamma;
     const double elastic_gap = b[0] * (h + options.damping) + h * u_el[0];
-    const bool is_pulled = gamma[0] < 0.0 && !problem.strength.empty();
+    const bool is_pulled = gamma[0] < 0.0 && model.joints.has_strength();
     memory.elastic_gap = is_pulled         ? std::max(0.0, elastic_gap)
                          : gamma[0] <= 0.0 ? 0.0
                                            : std::min(0.0, elastic_gap);
-    const bool carries_shear = gamma[0] > 0.0 || (!problem.strength.empty() && !gamma.tail<2>().isZero(0.0));
+    const bool carries_shear =
+        gamma[0] > 0.0 || (model.joints.has_strength() && !gamma.tail<2>().isZero(0.0));
     memory.plastic_slip += carries_shear ? h * (u.segment<2>(3 * i + 1) - u_el.tail<2>()).norm() : 0.0;
-    if (!problem.strength.empty())
+    if (model.joints.has_strength())
       add_inelastic_displacement(joint_law(model, contacts, contact, state.time + options.advance()),
                                  h * (u.segment<3>(3 * i) - u_el), gamma, &memory.joint);
 
@@ -89,9 +90,21 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
     update_past(state.poses[contact.block_a].q_WB.conjugate() * (contact_frame(contact.normal) * force_C),
                 contact.gap + rest + h * u[3 * i], options, &memory);
   }
-  const int num_ties = problem.num_contacts() - step.num_contacts;
-  memories->tie_impulses.resize(num_ties);
-  for (int k = 0; k < num_ties; ++k) memories->tie_impulses[k] = solution.gamma[3 * (step.num_contacts + k)];
+  memories->ties.resize(model.ties.size());
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    const int row = step.num_contacts + static_cast<int>(k);
+    memories->ties[k].impulse = solution.gamma[3 * row];
+    memories->ties[k].yielded += plastic_elongation(step, row, solution);
+  }
+}
+
+double plastic_elongation(const StepProblem& step, int row, const ContactSolution& solution) {
+  // Below the yield force the contact law is satisfied up to the accuracy of the solve, which must not add up over the steps.
+  constexpr double kYields = 1e-6;
+  if (step.problem.strength.empty()) return 0.0;
+  const double limit = step.problem.strength[row].compression;
+  if (solution.gamma[3 * row] < (1.0 - kYields) * limit) return 0.0;
+  return std::max(0.0, -step.reach * inelastic_velocity(step.problem, row, solution)[0]);
 }
 
 void continue_from_rest(const Vec3& force, const Pose& pose_a, ContactMemory* memory) {
@@ -105,8 +118,8 @@ ContactSolution warm_start(const StepProblem& step, const State& state, const Co
   guess.v = state.v;
   guess.gamma = VecX::Zero(step.problem.b.size());
   for (int i = 0; i < step.num_contacts; ++i) guess.gamma.segment<3>(3 * i) = memories.values[i].impulse;
-  for (size_t k = 0; k < memories.tie_impulses.size(); ++k)
-    guess.gamma[3 * (step.num_contacts + static_cast<int>(k))] = memories.tie_impulses[k];
+  for (size_t k = 0; k < memories.ties.size(); ++k)
+    guess.gamma[3 * (step.num_contacts + static_cast<int>(k))] = memories.ties[k].impulse;
   return guess;
 }
 

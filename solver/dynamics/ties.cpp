@@ -1,12 +1,11 @@
 #include "solver/dynamics/ties.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 
 namespace cupola {
@@ -20,7 +19,7 @@ void check_block(const Assembly& assembly, int block, const char* key) {
 }
 
 /// The tie between two points of the assembly as generated. Its force is zero at `tie.length`.
-Tie make_tie(const Assembly& assembly, ImportedTie tie, const char* key) {
+Tie make_tie(const Assembly& assembly, BuiltTie tie, const char* key) {
   check_block(assembly, tie.block_a, key);
   check_block(assembly, tie.block_b, key);
   if (tie.block_a == tie.block_b)
@@ -38,47 +37,30 @@ Tie make_tie(const Assembly& assembly, ImportedTie tie, const char* key) {
           tie.point_b - assembly.blocks[tie.block_b].centroid,
           tie.length,
           1.0 / tie.stiffness,
-          false};
+          false,
+          tie.yield_force,
+          tie.chain};
 }
 
-/// A tie that carries `prestress` as generated: its natural length is shorter by prestress / stiffness.
-Tie prestressed_tie(const Assembly& assembly, const PairTie& pair, const char* key) {
+/// A tie that carries `prestress` as generated: its natural length is shorter by prestress / stiffness, or longer by `slack`.
+Tie pair_tie(const Assembly& assembly, const PairTie& pair) {
+  constexpr const char* key = "ties.pairs";
   check_block(assembly, pair.block_a, key);
   check_block(assembly, pair.block_b, key);
-  ImportedTie tie;
+  BuiltTie tie;
   tie.block_a = pair.block_a;
   tie.block_b = pair.block_b;
   tie.point_a = pair.point_a.value_or(assembly.blocks[pair.block_a].centroid);
   tie.point_b = pair.point_b.value_or(assembly.blocks[pair.block_b].centroid);
   tie.stiffness = pair.stiffness;
-  tie.length = (tie.point_b - tie.point_a).norm() - pair.prestress / pair.stiffness;
+  tie.length = (tie.point_b - tie.point_a).norm() + pair.slack - pair.prestress / pair.stiffness;
+  tie.yield_force = pair.yield_force.value_or(tie.yield_force);
   if (!(tie.length > 0.0))
     throw InputError(
         fmt::format("{}: the prestress {} N elongates the tie by more than its length; reduce it or "
                     "increase the stiffness",
                     key, pair.prestress));
   return make_tie(assembly, tie, key);
-}
-
-void add_chain(const Assembly& assembly, const ChainTie& chain, std::vector<Tie>* ties) {
-  std::vector<std::pair<double, int>> around;  // azimuth, block
-  for (size_t block = 0; block < assembly.blocks.size(); ++block) {
-    const Block& b = assembly.blocks[block];
-    if (!b.fixed && b.ring == chain.ring)
-      around.emplace_back(std::atan2(b.centroid.y(), b.centroid.x()), static_cast<int>(block));
-  }
-  if (around.size() < 3)
-    throw InputError(fmt::format("ties.chains: ring {} has {}; a chain requires at least three", chain.ring,
-                                 counted(around.size(), "free block")));
-  std::sort(around.begin(), around.end());
-  for (size_t i = 0; i < around.size(); ++i) {
-    PairTie link;
-    link.block_a = around[i].second;
-    link.block_b = around[(i + 1) % around.size()].second;
-    link.stiffness = chain.stiffness;
-    link.prestress = chain.prestress;
-    ties->push_back(prestressed_tie(assembly, link, "ties.chains"));
-  }
 }
 
 }  // namespace
@@ -102,14 +84,14 @@ TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses) {
 
 std::vector<Tie> make_ties(const Case& scene, const Assembly& assembly) {
   std::vector<Tie> ties;
-  for (const PairTie& pair : scene.ties.pairs) ties.push_back(prestressed_tie(assembly, pair, "ties.pairs"));
-  for (const ChainTie& chain : scene.ties.chains) add_chain(assembly, chain, &ties);
-  for (ImportedTie imported : assembly.ties) {
-    if (std::isinf(imported.stiffness)) imported.stiffness = scene.ties.rod_stiffness;
-    ties.push_back(make_tie(assembly, imported, "imported tie"));
-    if (!imported.pushes) continue;
+  for (const PairTie& pair : scene.ties.pairs) ties.push_back(pair_tie(assembly, pair));
+  for (BuiltTie built : assembly.ties) {
+    if (std::isinf(built.stiffness)) built.stiffness = scene.ties.rod_stiffness;
+    ties.push_back(make_tie(assembly, built, "tie of the assembly"));
+    if (!built.pushes) continue;
     ties.push_back(ties.back());
     ties.back().strut = true;
+    ties.back().yield_force = std::numeric_limits<double>::infinity();
   }
   return ties;
 }

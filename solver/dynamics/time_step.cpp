@@ -150,14 +150,16 @@ void set_contact_laws(const Model& model, const State& state, const ContactSet& 
   }
 }
 
-void set_tie_laws(const Model& model, const State& state, const StepOptions& options, int first_row,
-                  ContactProblem* problem) {
+void set_tie_laws(const Model& model, const State& state, const ContactMemories& memories,
+                  const StepOptions& options, int first_row, ContactProblem* problem) {
   const double h_alpha = options.damped_reach();
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const Tie& tie = model.ties[k];
     const int row = first_row + static_cast<int>(k);
     problem->E.segment<3>(3 * row).setConstant(tie.compliance / (options.h * h_alpha));
-    problem->b[3 * row] = tie_geometry(tie, state.poses).gap / h_alpha;
+    const double yielded = memories.ties.empty() ? 0.0 : memories.ties[k].yielded;
+    problem->b[3 * row] = (tie_geometry(tie, state.poses).gap + yielded) / h_alpha;
+    if (std::isfinite(tie.yield_force)) problem->strength[row].compression = options.h * tie.yield_force;
   }
 }
 
@@ -212,7 +214,7 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
   resize_rows(step.num_contacts + static_cast<int>(model.ties.size()), &step);
   step.reach = options.reach();
   step.impulse_time = VecX::Constant(step.problem.b.size(), options.h);
-  if (model.joints.has_strength()) step.problem.strength.resize(step.problem.block_a.size());
+  if (model.has_strength()) step.problem.strength.resize(step.problem.block_a.size());
   step.problem.M.resize(model.num_free());
   for (int i = 0; i < model.num_free(); ++i) {
     const int block = model.free_blocks[i];
@@ -223,7 +225,7 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
   set_past(model, state, contacts, memories, options, &step);
   set_free_velocities(model, state, options, &step);
   set_contact_laws(model, state, contacts, memories, options, &step);
-  set_tie_laws(model, state, options, step.num_contacts, &step.problem);
+  set_tie_laws(model, state, memories, options, step.num_contacts, &step.problem);
   if (!model.support_motions.empty()) add_support_velocities(model, state, contacts, options, &step);
   return step;
 }

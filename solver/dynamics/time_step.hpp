@@ -50,8 +50,8 @@ Mat3 contact_frame(const Vec3& normal);
 ///     E      = c / (h (h + alpha))
 ///
 /// with v_s the imposed velocity of the supports and c the compliance; the gap phi of joints with strength is measured from
-/// their inelastic displacements (joint_damage.hpp). A tie is a frictionless contact with
-/// phi = L0 - L. Differences from the paper:
+/// their inelastic displacements (joint_damage.hpp). A tie is a frictionless contact (ties.hpp) whose yield force is a compressive
+/// strength. Differences from the paper:
 ///
 /// - Eq. 14 limits all of phi / h by the recovery speed eps_u, which limits the force of a compliant contact
 ///   to eps_u h / c. Here the limit applies only to penetration not caused by the compliance.
@@ -83,6 +83,9 @@ VecX mean_velocity(const StepProblem& step, const State& state, const ContactSol
 void update_memories(const Model& model, const StepProblem& step, const ContactSolution& solution,
                      const State& state, const ContactSet& contacts, const StepOptions& options,
                      ContactMemories* memories);
+
+/// m, >= 0: by which a tie, whose rows are those of `row`, yields in the step.
+double plastic_elongation(const StepProblem& step, int row, const ContactSolution& solution);
 
 /// What the generalized alpha method keeps of a contact that carries the force (N, world axes) in a structure at rest.
 void continue_from_rest(const Vec3& force, const Pose& pose_a, ContactMemory* memory);

@@ -70,7 +70,7 @@ Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time) 
     outside[i] = limit_excess(contact_law(problem, i), gamma.segment<3>(3 * i));
   }
   Frame frame = make_frame(scene.model, scene.start, scene.contacts,
-                           joint_forces(scene.contacts, gamma, VecX::Ones(gamma.size())).contacts,
+                           joint_forces(scene.contacts, gamma, VecX::Ones(gamma.size())),
                            law_violations(scene.contacts, gamma, outside), scene.memories,
                            std::vector<Vec3>(scene.start.poses.size(), Vec3::Zero()));
   frame.time = time;

@@ -36,7 +36,7 @@ void set_fresh(StagedConstruction* staged, double value) {
 void require_carried(const Case& scene) {
   if (scene.supports.moving())
     throw InputError("analysis.staged: supports.moves is not part of the stages of construction; remove it");
-  if (!scene.ties.pairs.empty() || !scene.ties.chains.empty())
+  if (!scene.ties.pairs.empty() || !scene.geometry.chains.empty())
     throw InputError(
         "analysis.staged: ties and chains require unit: ring without carry, least, curing and hold_below");
 }
@@ -47,7 +47,7 @@ Construction::Construction(const Case& scene, const Assembly& assembly,
                            const std::function<void(const std::string&)>& log)
     : scene_(scene), assembly_(assembly), options_(static_options(scene.analysis)) {
   require_carried(scene);
-  if (!assembly.ties.empty()) throw InputError("analysis.staged: ties of imported models require unit: ring");
+  if (!assembly.ties.empty()) throw InputError("analysis.staged: ties of the assembly require unit: ring");
   options_.log = log;
   options_.follow_from_start = true;
   complete_ = ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly));

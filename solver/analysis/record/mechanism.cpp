@@ -110,9 +110,8 @@ Mechanism find_mechanism(const Model& model, const State& start, const ContactSe
 }
 
 void write_mechanism(const Model& model, const State& start, const ContactSet& contacts,
-                     const ContactMemories& memories, const Mechanism& mechanism,
-                     const std::vector<Vec3>& forces, const std::vector<double>& violations,
-                     const AnalysisSinks& sinks) {
+                     const ContactMemories& memories, const Mechanism& mechanism, const JointForces& forces,
+                     const std::vector<double>& violations, const AnalysisSinks& sinks) {
   State moving = start;
   moving.v = mechanism.v;
   moving.time = 1.0;

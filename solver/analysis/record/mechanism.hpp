@@ -6,6 +6,7 @@
 #include "assembly/base/named_enum.hpp"
 #include "solver/analysis/record/analysis_sinks.hpp"
 #include "solver/dynamics/contact_memory.hpp"
+#include "solver/dynamics/equilibrium.hpp"
 #include "solver/dynamics/model.hpp"
 
 namespace cupola {
@@ -44,9 +45,8 @@ Mechanism find_mechanism(const Model& model, const State& start, const ContactSe
 /// Writes the mechanism as a frame at 1 s, with its largest speed scaled to 1 m/s, and as two tables. `forces`
 /// (N, nc) and `violations` (nc) are those of the frame.
 void write_mechanism(const Model& model, const State& start, const ContactSet& contacts,
-                     const ContactMemories& memories, const Mechanism& mechanism,
-                     const std::vector<Vec3>& forces, const std::vector<double>& violations,
-                     const AnalysisSinks& sinks);
+                     const ContactMemories& memories, const Mechanism& mechanism, const JointForces& forces,
+                     const std::vector<double>& violations, const AnalysisSinks& sinks);
 
 /// Tables of the blocks and joints of a mechanism.
 std::string mechanism_blocks_csv(const Model& model, const Mechanism& mechanism);

@@ -97,10 +97,33 @@ void WorstOfRun::summarize(Summary* summary) const {
   summary->worst_steps = steps;
 }
 
+namespace {
+
+TieTable tie_table(const Model& model, const State& state, const std::vector<double>& forces,
+                   const ContactMemories& memories) {
+  TieTable table;
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    const Tie& tie = model.ties[k];
+    const TieGeometry now = tie_geometry(tie, state.poses);
+    table.chain.push_back(tie.chain);
+    table.block_a.push_back(tie.block_a);
+    table.block_b.push_back(tie.block_b);
+    table.point_a.push_back(now.point_a);
+    table.point_b.push_back(now.point_b);
+    table.force.push_back(forces.empty() ? 0.0 : forces[k]);
+    table.yield_force.push_back(tie.yield_force);
+    table.yielded.push_back(memories.ties.empty() ? 0.0 : memories.ties[k].yielded);
+    table.strut.push_back(tie.strut ? 1 : 0);
+  }
+  return table;
+}
+
+}  // namespace
+
 Frame make_frame(const Model& model, const State& state, const ContactSet& contacts,
-                 const std::vector<Vec3>& contact_forces, const std::vector<double>& violations,
+                 const JointForces& forces, const std::vector<double>& violations,
                  const ContactMemories& memories, const std::vector<Vec3>& displacement) {
-  CUPOLA_ASSERT(contact_forces.size() == contacts.points.size());
+  CUPOLA_ASSERT(forces.contacts.size() == contacts.points.size());
   CUPOLA_ASSERT(violations.size() == contacts.points.size());
   CUPOLA_ASSERT(memories.values.size() == contacts.points.size());
   CUPOLA_ASSERT(displacement.size() == state.poses.size());
@@ -113,7 +136,7 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
   for (size_t i = 0; i < contacts.points.size(); ++i) {
     const Contact& contact = contacts.points[i];
     const Patch& patch = contacts.patches[contact.patch];
-    const Vec3& force = contact_forces[i];
+    const Vec3& force = forces.contacts[i];
     const double normal_force = contact.normal.dot(force);
     const double tangential_force = (force - normal_force * contact.normal).norm();
     const JointLaw law = joint_law(model, contacts, contact, state.time);
@@ -145,6 +168,7 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
     blocks.angular_velocity.push_back(is_free ? Vec3(state.v.segment<3>(6 * i + 3)) : Vec3::Zero());
     blocks.displacement.push_back(displacement[block]);
   }
+  frame.ties = tie_table(model, state, forces.ties, memories);
   return frame;
 }
 

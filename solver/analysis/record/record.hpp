@@ -40,11 +40,11 @@ struct WorstOfRun {
 /// m: opening of the faces at a gap (m), beyond the elastic elongation of the joint.
 double crack_opening(double gap, const ContactMemory& memory);
 
-/// A frame for the results folder from the state at the end of a step, the contact forces of that step (N,
-/// nc) and their violation of the contact law (nc). `displacement`: that of each block's centroid, m
+/// A frame for the results folder from the state at the end of a step, the forces of that step
+/// and their violation of the contact law (nc). `displacement`: that of each block's centroid, m
 /// (num_blocks).
 Frame make_frame(const Model& model, const State& state, const ContactSet& contacts,
-                 const std::vector<Vec3>& contact_forces, const std::vector<double>& violations,
+                 const JointForces& forces, const std::vector<double>& violations,
                  const ContactMemories& memories, const std::vector<Vec3>& displacement);
 
 /// Sets the fields of the summary that follow from the contacts and blocks of a frame, except displacement

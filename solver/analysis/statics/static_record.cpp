@@ -50,7 +50,7 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   for (size_t block = 0; block < displacement.size(); ++block)
     displacement[block] = loaded.state.poses[block].p_WB - model.assembly->blocks[block].centroid;
   Frame frame =
-      make_frame(model, loaded.state, contacts, solution.forces.contacts,
+      make_frame(model, loaded.state, contacts, solution.forces,
                  static_violations(contacts, solution, options.solve.law), loaded.memories, displacement);
   if (!equilibrium) return frame;
   const VecX u =

@@ -16,18 +16,25 @@ double required_normal_force(const ContactProblem& problem, const VecX& v) {
   if (!(work > 0.0)) return 0.0;
   const VecX u = relative_velocity(problem, v);
   constexpr double kRounding = 1e-9;  // of the sums; equal work and dissipation prove nothing
-  // J: what cohesion and tension dissipate, and the most that crushing can
-  double largest_delta = 0.0, dissipated = 0.0, crushing = 0.0;
+  // J: what cohesion and tension dissipate, and the most that crushing can where it has a limit
+  double largest_delta = 0.0, largest_without_limit = 0.0, dissipated = 0.0, crushing = 0.0;
   for (int i = 0; i < problem.num_contacts(); ++i) {
     const ContactLaw law = contact_law(problem, i);
     const double slip = u.segment<2>(3 * i + 1).norm(), delta = law.mu * slip - u[3 * i];
     dissipated += law.strength.cohesion * slip + law.tension_limit() * std::max(0.0, -delta);
-    if (delta > 0.0) crushing += law.strength.compression * delta;
     largest_delta = std::max(largest_delta, delta);
+    if (std::isfinite(law.strength.compression))
+      crushing += law.strength.compression * std::max(0.0, delta);
+    else
+      largest_without_limit = std::max(largest_without_limit, delta);
   }
-  if (work > (1.0 + kRounding) * (dissipated + crushing)) return std::numeric_limits<double>::infinity();
-  if (!(work > dissipated)) return 0.0;
-  return largest_delta > 0.0 ? (work - dissipated) / (largest_delta * problem.h) : 0.0;
+  // Two bounds: all contacts that approach supply the missing work, or those without a limit what crushing cannot.
+  const auto required = [&](double supplied, double delta) {
+    if (!(work > (1.0 + kRounding) * supplied)) return 0.0;
+    return delta > 0.0 ? (work - supplied) / (delta * problem.h) : std::numeric_limits<double>::infinity();
+  };
+  return std::max(required(dissipated, largest_delta),
+                  required(dissipated + crushing, largest_without_limit));
 }
 
 double normal_force_sum(const ContactProblem& problem, const VecX& gamma) {

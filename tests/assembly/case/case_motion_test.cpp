@@ -44,8 +44,7 @@ loads:
   forces: [{block: 3, point: [1, 2, 3], force: [0, 0, -5], time: {type: harmonic, frequency: 0.25}}]
   faces: [{kind: extrados, from_ring: 1, pressure: 500}]
 ties:
-  pairs: [{block_a: 1, block_b: 2, stiffness: 1e6, prestress: 10}]
-  chains: [{ring: 4, stiffness: 2e6}]
+  pairs: [{block_a: 1, block_b: 2, stiffness: 1e6, prestress: 10}, {block_a: 1, block_b: 2, slack: 0.01, yield_force: 5e3}]
 supports:
   base_motion: {file: shake.csv, direction: [0, 1, 0]}
   moves: [{blocks: [0], displacement: [0.1, 0, 0], time: {type: table, times: [0, 2], values: [0, 1]}}]
@@ -56,7 +55,9 @@ analysis: {type: dynamic, start: static, time_error: 1e-5, adaptive: {largest: 0
   EXPECT_NEAR(factor_at(c.loads.forces[0].time, 1.0), 1.0, 1e-15);
   EXPECT_EQ(c.loads.faces[0].pressure, 500.0);
   EXPECT_EQ(c.ties.pairs[0].prestress, 10.0);
-  EXPECT_EQ(c.ties.chains[0].ring, 4);
+  EXPECT_FALSE(c.ties.pairs[0].yield_force.has_value());
+  EXPECT_EQ(c.ties.pairs[1].slack, 0.01);
+  EXPECT_EQ(c.ties.pairs[1].yield_force, 5e3);
   EXPECT_EQ(read_time_table(c.supports.base_motion->file).values[1], 2.0);
   EXPECT_DOUBLE_EQ(factor_at(c.supports.moves[0].time, 1.0), 0.5);
   EXPECT_EQ(c.analysis.start, Analysis::Start::static_);

@@ -71,9 +71,10 @@ TEST(AssemblyFile, TiesRoundTripExactly) {
   Assembly a = test::two_block_assembly();
   const std::string without = content_hash(a);
   const double infinity = std::numeric_limits<double>::infinity();
-  a.ties = {{0, 1, Vec3(0.1, 1.0 / 3.0, 1e-17), Vec3(1, 2, 3), 57265199.0, 1.57998, false},
+  a.ties = {{0, 1, Vec3(0.1, 1.0 / 3.0, 1e-17), Vec3(1, 2, 3), 57265199.0, 1.57998, false, 1.0 / 7.0, 1},
             {1, 0, Vec3(3, 2, 1), Vec3(0, 0, 0), infinity, 0.7625, true}};
   EXPECT_NE(content_hash(a), without);
+  a.chains = {{"timber", 7.7}, {"iron", 1.0 / 3.0}};
   const std::string path = test::fresh_folder("a") + "/assembly.vtu";
   write_assembly(path, a);
   const Assembly b = read_assembly(path);
@@ -86,7 +87,15 @@ TEST(AssemblyFile, TiesRoundTripExactly) {
     EXPECT_EQ(a.ties[k].stiffness, b.ties[k].stiffness);
     EXPECT_EQ(a.ties[k].length, b.ties[k].length);
     EXPECT_EQ(a.ties[k].pushes, b.ties[k].pushes);
+    EXPECT_EQ(a.ties[k].yield_force, b.ties[k].yield_force);
+    EXPECT_EQ(a.ties[k].chain, b.ties[k].chain);
+    EXPECT_EQ(a.chains[k].name, b.chains[k].name);
+    EXPECT_EQ(a.chains[k].height, b.chains[k].height);
   }
+  a.ties[0].chain = 2;
+  write_assembly(path, a);
+  EXPECT_NE(read_error(path).find("tie 0 is invalid"), std::string::npos) << read_error(path);
+  a.ties[0].chain = 1;
   a.ties[0].block_b = 7;
   write_assembly(path, a);
   EXPECT_NE(read_error(path).find("tie 0 is invalid"), std::string::npos) << read_error(path);

@@ -38,6 +38,18 @@ Frame two_block_frame(double time) {
     c.damage.push_back(i / 3.0);
     c.crack_opening.push_back(1e-4 / 3.0 * i);
   }
+  for (int i = 0; i < 2 && time > 0.0; ++i) {  // ties of a later stage
+    TieTable& t = frame.ties;
+    t.chain.push_back(i - 1);
+    t.block_a.push_back(i);
+    t.block_b.push_back(2);
+    t.point_a.emplace_back(0.1 * i, 1.0 / 3.0, time);
+    t.point_b.emplace_back(0.2, 1.0 / 7.0 * i, time);
+    t.force.push_back(1e5 / 3.0);
+    t.yield_force.push_back(i == 0 ? 1e5 / 7.0 : std::numeric_limits<double>::infinity());
+    t.yielded.push_back(1e-3 / 3.0 * i);
+    t.strut.push_back(static_cast<std::uint8_t>(i));
+  }
   for (int b = 0; b < 3; ++b) {
     frame.blocks.position.emplace_back(b, 1.0 / 3.0, time);
     frame.blocks.quaternion_wxyz.emplace_back(std::cos(0.1), std::sin(0.1), 0.0, 0.0);
@@ -92,6 +104,15 @@ void expect_equal(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.blocks.velocity, b.blocks.velocity);
   EXPECT_EQ(a.blocks.angular_velocity, b.blocks.angular_velocity);
   EXPECT_EQ(a.blocks.displacement, b.blocks.displacement);
+  EXPECT_EQ(a.ties.chain, b.ties.chain);
+  EXPECT_EQ(a.ties.block_a, b.ties.block_a);
+  EXPECT_EQ(a.ties.block_b, b.ties.block_b);
+  EXPECT_EQ(a.ties.point_a, b.ties.point_a);
+  EXPECT_EQ(a.ties.point_b, b.ties.point_b);
+  EXPECT_EQ(a.ties.force, b.ties.force);
+  EXPECT_EQ(a.ties.yield_force, b.ties.yield_force);
+  EXPECT_EQ(a.ties.yielded, b.ties.yielded);
+  EXPECT_EQ(a.ties.strut, b.ties.strut);
 }
 
 std::string open_error(const std::string& folder, const std::string& hash) {

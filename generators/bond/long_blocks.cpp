@@ -1,0 +1,80 @@
+#include "generators/bond/long_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+
+namespace cupola {
+namespace {
+
+/// First slices of the blocks, ascending.
+std::set<int> first_slices(const BondGrid& grid, int count, const BondPattern& pattern) {
+  const auto distance = [&](double a, double b) { return std::abs(std::remainder(a - b, grid.extent)); };
+  std::vector<int> candidates;
+  for (int slice = 0; slice < pattern.num_slices(); ++slice)
+    if (std::ranges::none_of(grid.corners, [&](double corner) {
+          return distance(corner, pattern.cuts[slice]) < 1e-9 * grid.extent;
+        }))
+      candidates.push_back(slice);
+  std::set<int> starts;
+  const double first = grid.corners.empty() ? pattern.cuts.front() : grid.corners.front();
+  const double shift = grid.corners.empty() ? 0.0 : 0.5;
+  for (int block = 0; block < count && !candidates.empty(); ++block) {
+    const double start = first + (block - shift) * grid.extent / count;
+    starts.insert(*std::ranges::min_element(candidates, {},
+                                            [&](int slice) { return distance(pattern.cuts[slice], start); }));
+  }
+  return starts;
+}
+
+/// Removes the blocks without cells.
+void drop_empty_blocks(BondPattern* pattern) {
+  std::vector<int> new_index(pattern->blocks.size(), -1);
+  std::vector<BondBlock> kept;
+  for (int& block : pattern->block_of) {
+    if (new_index[block] < 0) {
+      new_index[block] = static_cast<int>(kept.size());
+      kept.push_back(pattern->blocks[block]);
+    }
+    block = new_index[block];
+  }
+  pattern->blocks = std::move(kept);
+}
+
+}  // namespace
+
+void lay_long_blocks(const BondGrid& grid, int first_ring, int last_ring, int count, const std::string& key,
+                     BondPattern* pattern) {
+  CUPOLA_ASSERT(grid.closed && first_ring >= 0 && last_ring < pattern->num_rings && count >= 1);
+  const int num_slices = pattern->num_slices();
+  std::set<int> outside;
+  for (int ring = 0; ring < pattern->num_rings; ++ring)
+    for (int slice = 0; slice < num_slices && (ring < first_ring || ring > last_ring); ++slice)
+      outside.insert(pattern->at(ring, slice));
+  const std::set<int> starts = first_slices(grid, count, *pattern);
+  if (std::ssize(starts) < count)
+    throw InputError(
+        fmt::format("{}.long_blocks = {}: the bond has only {} cuts round the course; give fewer", key, count,
+                    num_slices));
+  const int new_block = static_cast<int>(pattern->blocks.size());
+  pattern->blocks.resize(pattern->blocks.size() + static_cast<size_t>(count));
+  for (int ring = first_ring; ring <= last_ring; ++ring) {
+    int block = new_block + count - 1;  // begins before the seam
+    for (int slice = 0; slice < num_slices; ++slice) {
+      if (outside.contains(pattern->at(ring, slice)))
+        throw InputError(
+            fmt::format("{}.long_blocks: uprights stand in the course; choose a course that the "
+                        "herringbone does not cross, or long_blocks: 0",
+                        key));
+      if (starts.contains(slice)) block = block == new_block + count - 1 ? new_block : block + 1;
+      pattern->at(ring, slice) = block;
+    }
+  }
+  drop_empty_blocks(pattern);
+}
+
+}  // namespace cupola

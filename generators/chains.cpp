@@ -1,0 +1,202 @@
+#include "generators/chains.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+
+namespace cupola {
+namespace {
+
+struct Anchor {
+  int block = 0;
+  Vec3 point = Vec3::Zero();  // m
+};
+
+/// Finds the block in which a point lies. Points slightly outside, beyond the chord of a curved skin, belong to the
+/// nearest block.
+class BlockFinder {
+ public:
+  explicit BlockFinder(const Assembly& assembly) : assembly_(assembly) {
+    for (const Part& part : assembly.parts) {
+      Eigen::AlignedBox3d box;
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+        for (const int v : assembly.face(f)) box.extend(assembly.vertices[v]);
+      boxes_.push_back(box);
+    }
+  }
+  int block_at(const Vec3& point) const {
+    double best = -std::numeric_limits<double>::infinity();
+    int block = -1;
+    for (size_t i = 0; i < boxes_.size(); ++i) {
+      const bool near = boxes_[i].contains(point) ? best <= 0.0 : -boxes_[i].exteriorDistance(point) > best;
+      if (!near) continue;
+      const double depth = depth_in(assembly_.parts[i], point);
+      if (depth <= best) continue;
+      best = depth;
+      block = assembly_.parts[i].block;
+    }
+    return block;
+  }
+
+ private:
+  /// Least distance to the planes of the faces, m, positive inside.
+  double depth_in(const Part& part, const Vec3& point) const {
+    double depth = std::numeric_limits<double>::infinity();
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const Plane plane = polygon_plane(face_points(assembly_, f));
+      depth = std::min(depth, plane.offset - plane.normal.dot(point));
+    }
+    return depth;
+  }
+
+  const Assembly& assembly_;
+  std::vector<Eigen::AlignedBox3d> boxes_;
+};
+
+/// Consecutive slices of one block at the level of a chain; `end` may lie beyond the seam.
+struct Run {
+  int block = 0;
+  double start = 0.0, end = 0.0;  // abscissae
+};
+
+/// The level of one chain on its surface.
+class Level {
+ public:
+  Level(const Chain& chain, std::string key, int refinement, const SurfaceMap& surface)
+      : chain_(chain), key_(std::move(key)), surface_(surface) {
+    if (chain.course >= 0) bed_ = (chain.course + 0.5) * refinement * surface.rows_per_ring;
+  }
+  Vec3 point(double abscissa) const { return at(bed(abscissa), abscissa); }
+  double bed(double abscissa) const {
+    if (bed_) return *bed_;
+    double low = 0.0, high = surface_.num_rows;
+    const double height = *chain_.height, bottom = at(low, abscissa).z(), top = at(high, abscissa).z();
+    if (height <= bottom || height >= top)
+      throw InputError(fmt::format("{}.height = {}: the masonry reaches from {:.6g} to {:.6g} m there", key_,
+                                   height, bottom, top));
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (at(middle, abscissa).z() < height ? low : high) = middle;
+    }
+    return low;
+  }
+
+ private:
+  Vec3 at(double bed, double abscissa) const {
+    return (1.0 - chain_.place) * surface_.intrados(bed, abscissa) +
+           chain_.place * surface_.extrados(bed, abscissa);
+  }
+
+  const Chain& chain_;
+  std::string key_;
+  const SurfaceMap& surface_;
+  std::optional<double> bed_;
+};
+
+std::vector<Run> runs_of_blocks(const Level& level, const std::vector<double>& cuts, double extent,
+                                const BlockFinder& blocks) {
+  const int num_slices = static_cast<int>(cuts.size()) - 1;
+  std::vector<int> block_of;
+  for (int s = 0; s < num_slices; ++s)
+    block_of.push_back(blocks.block_at(level.point(0.5 * (cuts[s] + cuts[s + 1]))));
+  std::vector<Run> runs;
+  for (int s = 0; s < num_slices; ++s)
+    if (runs.empty() || runs.back().block != block_of[s])
+      runs.push_back({block_of[s], cuts[s], cuts[s + 1]});
+    else
+      runs.back().end = cuts[s + 1];
+  if (runs.size() > 1 && runs.front().block == runs.back().block) {
+    runs.front().start = runs.back().start - extent;
+    runs.pop_back();
+  }
+  return runs;
+}
+
+std::vector<std::pair<Anchor, Anchor>> clamps(const Level& level, const std::vector<Run>& runs,
+                                              const Chain& chain, const std::string& key) {
+  std::vector<std::pair<Anchor, Anchor>> pairs;
+  for (size_t i = 0; i < runs.size(); ++i) {
+    const Run &left = runs[i], &right = runs[(i + 1) % runs.size()];
+    const double joint = left.end, step = 1e-4 * (left.end - left.start);
+    const double metres =
+        (level.point(joint + step) - level.point(joint - step)).norm() / (2.0 * step);  // per abscissa
+    const double half = 0.5 * chain.clamp_length / metres;
+    const double narrowest = std::min(left.end - left.start, right.end - right.start);
+    if (half >= narrowest)
+      throw InputError(
+          fmt::format("{}.clamp_length = {}: half of it must be below the length of a block, {:.3g} m", key,
+                      chain.clamp_length, narrowest * metres));
+    pairs.push_back({{left.block, level.point(joint - half)}, {right.block, level.point(joint + half)}});
+  }
+  return pairs;
+}
+
+std::vector<Anchor> polygon(const Level& level, const Chain& chain, const Shell& shell,
+                            const BlockFinder& blocks) {
+  const SurfaceMap& surface = shell.surface;
+  std::vector<Anchor> anchors;
+  if (chain.links == 0) {
+    for (const Run& run : runs_of_blocks(level, shell.bond.cuts, surface.extent, blocks))
+      anchors.push_back({run.block, level.point(0.5 * (run.start + run.end))});
+    return anchors;
+  }
+  const double first = surface.corners.empty() ? 0.0 : surface.corners.front();
+  for (int i = 0; i < chain.links; ++i) {
+    const Vec3 point = level.point(first + i * surface.extent / chain.links);
+    anchors.push_back({blocks.block_at(point), point});
+  }
+  return anchors;
+}
+
+BuiltTie built_tie(const std::pair<Anchor, Anchor>& ends, const Chain& chain, int index,
+                   const std::string& key) {
+  const auto& [a, b] = ends;
+  if (a.block == b.block)
+    throw InputError(fmt::format("{}: both ends of a bar lie in block {}; give fewer links", key, a.block));
+  const double length = (b.point - a.point).norm();
+  const double stiffness = chain.axial_stiffness / length;
+  const double natural = length + chain.slack - chain.prestress / stiffness;
+  if (!(natural > 0.0))
+    throw InputError(
+        fmt::format("{}.prestress = {}: elongates the bars by more than their length", key, chain.prestress));
+  BuiltTie tie{a.block, b.block, a.point, b.point, stiffness, natural};
+  tie.yield_force = chain.yield_force.value_or(tie.yield_force);
+  tie.chain = index;
+  return tie;
+}
+
+}  // namespace
+
+void add_chains(const std::vector<Chain>& chains, int refinement, const Shell& shell, Assembly* assembly) {
+  if (chains.empty()) return;
+  const BlockFinder blocks(*assembly);
+  for (size_t c = 0; c < chains.size(); ++c) {
+    const Chain& chain = chains[c];
+    const std::string key = fmt::format("geometry.chains[{}]", c);
+    const Level level(chain, key, refinement, shell.surface);
+    const double top = level.bed(0.0) / shell.surface.rows_per_ring;
+    if (shell.stage_rings > 0 && std::floor(top) >= shell.stage_rings) continue;
+    std::vector<std::pair<Anchor, Anchor>> bars;
+    if (chain.type == Chain::Type::clamps) {
+      bars = clamps(level, runs_of_blocks(level, shell.bond.cuts, shell.surface.extent, blocks), chain, key);
+    } else {
+      const std::vector<Anchor> anchors = polygon(level, chain, shell, blocks);
+      for (size_t i = 0; i < anchors.size(); ++i)
+        bars.emplace_back(anchors[i], anchors[(i + 1) % anchors.size()]);
+    }
+    BuiltChain built{chain.name, 0.0};
+    for (const auto& bar : bars) {
+      assembly->ties.push_back(built_tie(bar, chain, static_cast<int>(assembly->chains.size()), key));
+      built.height += 0.5 * (bar.first.point.z() + bar.second.point.z()) / static_cast<double>(bars.size());
+    }
+    assembly->chains.push_back(built);
+  }
+}
+
+}  // namespace cupola

@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "postproc/figures/figures.hpp"
+#include "postproc/figures/plot_style.hpp"
+
+namespace cupola {
+namespace {
+
+/// Azimuth (deg) and tension of the bars of a chain, by azimuth.
+std::vector<std::vector<double>> bars_by_azimuth(const TieTable& ties, int chain, double per_newton) {
+  std::vector<std::vector<double>> rows;
+  for (int i = 0; i < ties.size(); ++i) {
+    if (ties.chain[i] != chain) continue;
+    const Vec3 middle = 0.5 * (ties.point_a[i] + ties.point_b[i]);
+    const double azimuth = std::atan2(middle.y(), middle.x()) * 180.0 / std::numbers::pi;
+    rows.push_back({azimuth < 0.0 ? azimuth + 360.0 : azimuth, per_newton * ties.force[i]});
+  }
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+}  // namespace
+
+Figure chain_figure(const Evaluation& e) {
+  constexpr std::array kColours{kBlue, kOrange, kGreen, kPurple, kSky};
+  double largest = 0.0;
+  for (const ChainForces& chain : e.chains) largest = std::max(largest, chain.greatest);
+  const ForceUnit unit = force_unit(largest);
+  Figure f;
+  f.name = "chains";
+  f.title = "Tension round the chains";
+  f.caption =
+      "Tension of every bar over the azimuth of its middle. Dashed: the yield force, where it is in view.";
+  f.width = 900;
+  f.height = 480;
+  f.commands = plot_style();
+  std::string plots;
+  for (size_t c = 0; c < e.chains.size(); ++c) {
+    const ChainForces& chain = e.chains[c];
+    const char* colour = kColours[c % kColours.size()];
+    const std::string data = fmt::format("chain{}", c);
+    const auto rows = bars_by_azimuth(e.last.frame.ties, static_cast<int>(c), unit.per_newton);
+    if (rows.empty()) continue;
+    f.commands += data_block(data, rows);
+    plots += fmt::format("{}${} w lp lc rgb '{}' pt 7 ps 0.5", plots.empty() ? "plot " : ", ", data, colour);
+    plots += curve_label(data, rows.size() - 1, "$1", "$2", chain.name, colour);
+    if (std::isfinite(chain.yield_force) && chain.yield_force < 2.0 * largest)
+      f.commands += fmt::format("set arrow from 0, first {0} to 360, first {0} nohead dt 2 lc rgb '{1}'\n",
+                                unit.per_newton * chain.yield_force, colour);
+  }
+  f.commands += fmt::format(
+      "set xlabel 'azimuth (deg)'\nset ylabel 'tension ({})'\nset xrange [0:360]\nset xtics 45\nset yrange "
+      "[0:*]\nset rmargin 14\nunset key\n{}\n",
+      unit.name, plots);
+  return f;
+}
+
+}  // namespace cupola
