@@ -33,14 +33,15 @@ class BlockFinder {
   int block_at(const Vec3& point) const {
     double best = -std::numeric_limits<double>::infinity();
     int block = -1;
-    for (size_t i = 0; i < boxes_.size(); ++i) {
-      const bool near = boxes_[i].contains(point) ? best <= 0.0 : -boxes_[i].exteriorDistance(point) > best;
-      if (!near) continue;
-      const double depth = depth_in(assembly_.parts[i], point);
-      if (depth <= best) continue;
-      best = depth;
-      block = assembly_.parts[i].block;
-    }
+    for (const bool inside : {true, false})  // the second pass has to look at few boxes only
+      for (size_t i = 0; i < boxes_.size(); ++i) {
+        if (boxes_[i].contains(point) != inside) continue;
+        if (!inside && -boxes_[i].exteriorDistance(point) <= best) continue;
+        const double depth = depth_in(assembly_.parts[i], point);
+        if (depth <= best) continue;
+        best = depth;
+        block = assembly_.parts[i].block;
+      }
     return block;
   }
 

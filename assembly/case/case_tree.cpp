@@ -61,12 +61,12 @@ std::string bundled_name(const std::string& file) {
 }
 
 /// Files read so far.
-struct Chain {
+struct ExtendsChain {
   std::vector<fs::path> identities;
   std::vector<std::string> paths;
 };
 
-CaseNode load_file(const std::string& path, const std::string& root_folder, Chain* chain) {
+CaseNode load_file(const std::string& path, const std::string& root_folder, ExtendsChain* chain) {
   chain->paths.push_back(path);
   CaseNode tree = parse_yaml(read_text(path), path);
   if (tree.kind != CaseNode::Kind::map)
@@ -158,7 +158,7 @@ std::string path_inside(const std::string& root_folder, const std::string& from_
 
 CaseNode load_case_tree(const std::string& path, const std::vector<std::string>& set_options,
                         std::vector<std::string>* files) {
-  Chain chain;
+  ExtendsChain chain;
   CaseNode tree = load_file(path, fs::path(path).parent_path().string(), &chain);
   // The options are merged into one tree first, so that their order does not matter if one changes a type.
   CaseNode options;

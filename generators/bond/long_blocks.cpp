@@ -11,26 +11,6 @@
 namespace cupola {
 namespace {
 
-/// First slices of the blocks, ascending.
-std::set<int> first_slices(const BondGrid& grid, int count, const BondPattern& pattern) {
-  const auto distance = [&](double a, double b) { return std::abs(std::remainder(a - b, grid.extent)); };
-  std::vector<int> candidates;
-  for (int slice = 0; slice < pattern.num_slices(); ++slice)
-    if (std::ranges::none_of(grid.corners, [&](double corner) {
-          return distance(corner, pattern.cuts[slice]) < 1e-9 * grid.extent;
-        }))
-      candidates.push_back(slice);
-  std::set<int> starts;
-  const double first = grid.corners.empty() ? pattern.cuts.front() : grid.corners.front();
-  const double shift = grid.corners.empty() ? 0.0 : 0.5;
-  for (int block = 0; block < count && !candidates.empty(); ++block) {
-    const double start = first + (block - shift) * grid.extent / count;
-    starts.insert(*std::ranges::min_element(candidates, {},
-                                            [&](int slice) { return distance(pattern.cuts[slice], start); }));
-  }
-  return starts;
-}
-
 /// Removes the blocks without cells.
 void drop_empty_blocks(BondPattern* pattern) {
   std::vector<int> new_index(pattern->blocks.size(), -1);
@@ -47,6 +27,23 @@ void drop_empty_blocks(BondPattern* pattern) {
 
 }  // namespace
 
+std::set<int> equal_starts(const BondGrid& grid, const std::vector<double>& cuts, int count, double phase) {
+  const auto distance = [&](double a, double b) { return std::abs(std::remainder(a - b, grid.extent)); };
+  std::vector<int> candidates;
+  for (int slice = 0; slice + 1 < static_cast<int>(cuts.size()); ++slice)
+    if (std::ranges::none_of(
+            grid.corners, [&](double corner) { return distance(corner, cuts[slice]) < 1e-9 * grid.extent; }))
+      candidates.push_back(slice);
+  std::set<int> starts;
+  const double first = grid.corners.empty() ? cuts.front() : grid.corners.front();
+  for (int block = 0; block < count && !candidates.empty(); ++block) {
+    const double start = first + (block + phase) * grid.extent / count;
+    starts.insert(
+        *std::ranges::min_element(candidates, {}, [&](int slice) { return distance(cuts[slice], start); }));
+  }
+  return starts;
+}
+
 void lay_long_blocks(const BondGrid& grid, int first_ring, int last_ring, int count, const std::string& key,
                      BondPattern* pattern) {
   CUPOLA_ASSERT(grid.closed && first_ring >= 0 && last_ring < pattern->num_rings && count >= 1);
@@ -55,7 +52,7 @@ void lay_long_blocks(const BondGrid& grid, int first_ring, int last_ring, int co
   for (int ring = 0; ring < pattern->num_rings; ++ring)
     for (int slice = 0; slice < num_slices && (ring < first_ring || ring > last_ring); ++slice)
       outside.insert(pattern->at(ring, slice));
-  const std::set<int> starts = first_slices(grid, count, *pattern);
+  const std::set<int> starts = equal_starts(grid, pattern->cuts, count, grid.corners.empty() ? 0.0 : -0.5);
   if (std::ssize(starts) < count)
     throw InputError(
         fmt::format("{}.long_blocks = {}: the bond has only {} cuts round the course; give fewer", key, count,

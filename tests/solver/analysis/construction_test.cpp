@@ -160,7 +160,7 @@ TEST(Construction, CuringMortarCarriesTheNextCourseByItsAge) {
 TEST(Construction, RefusesTiesAndMovingSupports) {
   const Assembly assembly = make_course({.bricks = 1});
   Case tied = course_case(0.0, 0.4), moved = tied;
-  tied.ties.chains = {ChainTie{}};
+  tied.ties.pairs = {PairTie{}};
   moved.supports.moves = {SupportMove{}};
   EXPECT_THROW(build(tied, assembly), InputError);
   EXPECT_THROW(build(moved, assembly), InputError);

@@ -1,0 +1,99 @@
+// Chains from the case to the tables: what the generator places, the solver loads and the postprocessor sums.
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "assembly/files/content_hash.hpp"
+#include "generators/generate.hpp"
+#include "postproc/evaluation/evaluation.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "tests/pipeline/program_run.hpp"
+
+namespace cupola::chains_test {
+namespace {
+
+using std::numbers::pi;
+
+Evaluation solve_and_evaluate(const Case& scene, const ProgramFolder& folder) {
+  const Assembly assembly = generate(scene);
+  ResultsWriter writer(folder.file("results"), content_hash(assembly));
+  Summary summary = run_static(scene, assembly,
+                               {[&writer](const Frame& frame) { writer.write_frame(frame); },
+                                [](const std::string&) {}, [](const std::string&) {}});
+  summary.assembly_hash = content_hash(assembly);
+  writer.write_summary(summary);
+  return evaluate(scene, assembly, ResultsReader(folder.file("results"), content_hash(assembly)));
+}
+
+Case hemisphere(double crown_angle_deg, int rings) {
+  Case scene;
+  DomeSurface dome;
+  dome.span = 20.0;
+  dome.radius_ratio = 0.5;
+  dome.thickness = 1.5;
+  dome.crown_angle_deg = crown_angle_deg;
+  scene.geometry.surface = dome;
+  scene.geometry.bond = StackBond{rings, 16, 4};
+  scene.joints.base.emplace().friction = 0.0;
+  Chain chain;
+  chain.name = "iron";
+  chain.course = 0;
+  chain.axial_stiffness = 5e9;
+  scene.geometry.chains = {chain};
+  return scene;
+}
+
+// A ring without friction at its base, pressed outwards: H per length gives T = H r. The facets of the intrados reach from the
+// radius rho_0 to rho_1 over the height dz, so that H r = p dz (rho_0 + rho_1) / 2.
+TEST(Chain, CarriesTheThrustOfARingTimesItsRadius) {
+  const ProgramFolder folder;
+  Case scene = hemisphere(5.0, 1);
+  const double p = 2000.0, crown = 5.0 * pi / 180.0;
+  FaceLoad outward;
+  outward.faces = FaceKind::intrados;
+  outward.pressure = p;
+  scene.loads.faces = {outward};
+  const Evaluation e = solve_and_evaluate(scene, folder);
+  ASSERT_EQ(e.summary.status, Status::stable) << e.summary.message;
+  ASSERT_EQ(e.chains.size(), 1u);
+  const double T = p * 10.0 * std::sin(crown) * 10.0 * (1.0 + std::cos(crown)) / 2.0;
+  EXPECT_EQ(e.chains[0].name, "iron");
+  EXPECT_EQ(e.chains[0].bars, 16);
+  EXPECT_NEAR(e.chains[0].mean / T, 1.0, 1e-6);
+  EXPECT_NEAR(e.chains[0].least / T, 1.0, 1e-6);
+  EXPECT_NEAR(e.chains[0].greatest / T, 1.0, 1e-6);
+}
+
+// A dome whose head joints are aligned has no hoop tension but that of its chain. Without friction at the base the chain holds
+// the thrust alone, and the forces across a vertical plane through the axis cancel.
+TEST(Chain, HoldsADomeWithoutFrictionAtItsBase) {
+  const ProgramFolder folder;
+  Case scene = hemisphere(70.0, 10);
+  scene.postproc.planes = {CutPlane{"half", Vec3::Zero(), Vec3(1.0, 0.0, 0.0)}};
+  scene.postproc.meridians = {Meridian{"x", 0.0}};
+  const Evaluation e = solve_and_evaluate(scene, folder);
+  ASSERT_EQ(e.summary.status, Status::stable) << e.summary.message;
+  ASSERT_EQ(e.chains.size(), 1u);
+  EXPECT_GT(e.chains[0].least, 0.0);
+  ASSERT_EQ(e.planes.size(), 1u);
+  EXPECT_LT(e.planes[0].from_ties.x(), 0.0);  // towards the other half
+  EXPECT_NEAR(-e.planes[0].from_ties.x() / (2.0 * e.chains[0].mean), 1.0, 1e-6);
+  EXPECT_LT(e.planes[0].relative_difference, 1e-6);
+  double sum = 0.0, chain = 0.0;  // of the rings across half the plane
+  for (const HoopRow& row : e.meridians.at(0).hoop) {
+    sum += row.sum();
+    chain += row.tie_force;
+  }
+  EXPECT_NEAR(chain / -e.chains[0].mean, 1.0, 1e-6);
+  EXPECT_NEAR(sum / e.chains[0].mean, 0.0, 1e-5);
+
+  scene.geometry.chains.clear();
+  const Assembly loose = generate(scene);
+  const Summary without =
+      run_static(scene, loose, {[](const Frame&) {}, [](const std::string&) {}, [](const std::string&) {}});
+  EXPECT_EQ(without.status, Status::moving) << without.message;
+}
+
+}  // namespace
+}  // namespace cupola::chains_test
