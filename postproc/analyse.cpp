@@ -48,7 +48,7 @@ void remove_earlier_output(const std::string& folder) {
 
 /// The evaluation of a frame; none if it cannot be read, which is recorded.
 std::optional<FrameEvaluation> frame_at(size_t index, const ResultsReader& results, Evaluation* e) {
-  if (e->times[index] == e->last.frame.time) return e->last;
+  if (static_cast<int>(index) == e->last_frame) return e->last;
   try {
     return evaluate_frame(*e, results.read_frame(static_cast<int>(index)));
   } catch (const InputError& error) {

@@ -175,8 +175,12 @@ std::string analysis_line(const Case& scene) {
                             to_string(analysis.staged.least)));
     case AnalysisType::path:
       return fmt::format(
-          "path, {}: {} up to the time {:g} s{}", method,
-          counted(analysis.path.steps, "equilibrium", "equilibria"), analysis.path.end,
+          "path, {}: {} up to {}{}", method, counted(analysis.path.steps, "equilibrium", "equilibria"),
+          analysis.path.length
+              ? fmt::format("a control displacement of {:g} m, each at a time that is found by "
+                            "several solves",
+                            *analysis.path.length)
+              : fmt::format("the time {:g} s", analysis.path.end),
           scene.joints.failure == JointFailure::plastic ? "" : ", several solves where joints break");
     case AnalysisType::range:
       return fmt::format(

@@ -42,8 +42,11 @@ Assembly read_matching_assembly(SolveRequest* asked, std::vector<std::string>* d
   Assembly assembly = read_assembly(path);
   resolve_block_names(assembly, &request.scene.loads, &request.scene.ties, &request.scene.supports);
   resolve_block_names(assembly, &request.scene.analysis.range.quantities);
-  if (auto& control = request.scene.analysis.path.control)
+  if (auto& control = request.scene.analysis.path.control) {
     resolve_block_name(assembly, "analysis.path.control", &control->block);
+    if (control->relative_to)
+      resolve_block_name(assembly, "analysis.path.control.relative_to", &*control->relative_to);
+  }
   const bool any_fixed = std::ranges::any_of(assembly.blocks, [](const Block& block) { return block.fixed; });
   if (!any_fixed && request.scene.analysis.type != AnalysisType::dynamic)
     throw InputError(FileLocation{path}, kNoBlockIsFixed);

@@ -132,13 +132,16 @@ constexpr auto enum_names(StagedConstruction::Least) {
 }
 
 /// Sequence of equilibria from the assembly as built, at the times end / steps, 2 end / steps, ..., end. Loads, friction and
-/// supports follow their functions of time; joints keep their slip, opening and damage from one equilibrium to the next.
+/// supports follow their functions of time; joints keep their slip, opening and damage from one equilibrium to the next. With a
+/// length the control displacement grows by equal steps instead, and the times are unknown.
 struct LoadPath {
-  int steps = 100;   ///< > 0
-  double end = 1.0;  ///< s, > 0
+  int steps = 100;               ///< > 0
+  double end = 1.0;              ///< s, > 0; with a length: the latest time
+  std::optional<double> length;  ///< m, > 0: control displacement at the end of the path, from that at time 0
   /// What path.csv tabulates.
   struct Control {
     BlockRef block;                            ///< a support that moves, or a free block
+    std::optional<BlockRef> relative_to;       ///< block from which the displacement counts; none: the world
     Eigen::Vector3d direction{1.0, 0.0, 0.0};  ///< of its displacement and force; of any length > 0
   };
   std::optional<Control> control;  ///< given if the analysis is a path

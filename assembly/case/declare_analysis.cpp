@@ -74,6 +74,8 @@ void declare_limit(Section& s, LimitSearch& limit) {
 
 void declare_control(Section& s, LoadPath::Control& control) {
   s.required_block("block", control.block, "number or name of a support that moves, or of a free block");
+  s.optional_block("relative_to", control.relative_to, "none: the world",
+                   "block from which its displacement counts, for example on the other side of a crack");
   s.vector3("direction", control.direction, {}, "direction of its displacement and force");
   s.rule(control.direction.norm() > 0.0, "direction", "must not be zero");
 }
@@ -83,6 +85,10 @@ void declare_path(Section& s, LoadPath& path) {
   s.number(
       "end", path.end, {.unit = "s", .above = 0},
       "time of the last equilibrium, to which loads, friction and supports follow their functions of time");
+  s.optional_number(
+      "length", path.length, {.unit = "m", .above = 0}, "none: equal steps of time",
+      "displacement of the control up to which the path is followed in equal steps; the time of each "
+      "equilibrium is then found between 0 and end, and falls beyond a largest load");
   s.optional_section("control", path.control, "block whose displacement and force path.csv tabulates",
                      declare_control);
 }

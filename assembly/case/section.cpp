@@ -277,6 +277,15 @@ void Section::required_block(const std::string& key, BlockRef& value, const std:
   record(key, node->text, node->quoted);
 }
 
+void Section::optional_block(const std::string& key, std::optional<BlockRef>& value,
+                             const std::string& without, const std::string& meaning) {
+  document(key, "block", {}, without, meaning);
+  const CaseNode* node = look_up_scalar(key);
+  if (!node) return;
+  value = read_block(key, *node);
+  record(key, node->text, node->quoted);
+}
+
 void Section::blocks(const std::string& key, std::vector<BlockRef>& values, const std::string& meaning) {
   document(key, "blocks", {}, "[]", meaning);
   CaseNode list;

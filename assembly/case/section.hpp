@@ -56,6 +56,8 @@ class Section {
                         const std::string& meaning);
   /// Blocks by number, or by their names in an imported file. A quoted number is a name.
   void required_block(const std::string& key, BlockRef& value, const std::string& meaning);
+  void optional_block(const std::string& key, std::optional<BlockRef>& value, const std::string& without,
+                      const std::string& meaning);
   void blocks(const std::string& key, std::vector<BlockRef>& values, const std::string& meaning);
   void flag(const std::string& key, bool& value, const std::string& meaning);
   void vector3(const std::string& key, Eigen::Vector3d& value, const NumberRule& rule,

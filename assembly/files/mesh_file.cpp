@@ -1,5 +1,8 @@
 #include "assembly/files/mesh_file.hpp"
 
+#include <algorithm>
+#include <functional>
+
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
@@ -76,9 +79,12 @@ void write_pvd(const std::string& path, const std::vector<PvdEntry>& entries) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
       "  <Collection>\n";
-  for (const PvdEntry& entry : entries)
-    text += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", entry.time,
-                        markup_text(entry.file));
+  // ParaView sorts the files by time, and merges those of equal times.
+  const bool increasing =
+      std::ranges::adjacent_find(entries, std::greater_equal(), &PvdEntry::time) == entries.end();
+  for (size_t i = 0; i < entries.size(); ++i)
+    text += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n",
+                        increasing ? entries[i].time : static_cast<double>(i), markup_text(entries[i].file));
   text += "  </Collection>\n</VTKFile>\n";
   write_text_atomically(path, text);
 }

@@ -301,8 +301,9 @@ ResultsReader::ResultsReader(std::string folder, const std::string& assembly_has
 Frame ResultsReader::read_frame(int index) const {
   const std::string contacts_path = in_folder(folder_, frame_file("contacts", index));
   Frame frame;
-  frame.time = times_.at(static_cast<size_t>(index));
-  frame.contacts = read_contacts(read_frame_mesh(contacts_path, assembly_hash_));
+  const Mesh contacts = read_frame_mesh(contacts_path, assembly_hash_);
+  frame.time = contacts.field<double>("time_s");
+  frame.contacts = read_contacts(contacts);
   frame.blocks =
       read_blocks(read_frame_mesh(in_folder(folder_, frame_file("blocks", index)), assembly_hash_));
   const std::string ties_path = in_folder(folder_, frame_file("ties", index));

@@ -38,7 +38,8 @@ class ResultsReader {
   /// `force`: also accepts results of another assembly, provided that all files belong to the same one.
   ResultsReader(std::string folder, const std::string& assembly_hash, bool force = false);
   const Summary& summary() const { return summary_; }
-  const std::vector<double>& times() const { return times_; }  ///< s, one per frame
+  /// s, one per frame, or the numbers of the frames where their times do not increase.
+  const std::vector<double>& times() const { return times_; }
   Frame read_frame(int index) const;
   std::string read_text_file(const std::string& name) const;  ///< throws InputError if the bytes have changed
 

@@ -62,6 +62,7 @@ Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
   const bool first = type == AnalysisType::limit || type == AnalysisType::range;
   for (int i = first ? 0 : static_cast<int>(results.times().size()) - 1;; --i) {
     try {
+      e->last_frame = i;
       return results.read_frame(i);
     } catch (const InputError& error) {
       if (i == 0) throw;

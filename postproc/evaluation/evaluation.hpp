@@ -60,13 +60,14 @@ struct Evaluation {
   Case scene;
   Assembly assembly;  ///< with the thickness of the stable end, if a limit analysis varies it
   Summary summary;
-  std::vector<double> times;  ///< s, of all frames
+  std::vector<double> times;  ///< s, of all frames; their numbers where the times do not increase
   Vec3 up = Vec3::UnitZ();
   Loads acting;                   ///< of the case, at the stable end of a limit analysis
   std::vector<PointForce> loads;  ///< of `acting`, at their full values
   Shell shell;
   std::vector<ShellAxes> axes;
   FrameEvaluation last;
+  int last_frame = -1;  ///< its number
   std::vector<RingSum> rings;
   std::vector<MemberSum> members;  ///< empty without wythes
   std::vector<ChainForces> chains;

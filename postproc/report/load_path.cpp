@@ -13,8 +13,10 @@ namespace cupola {
 Table path_table(const CsvFile& csv) {
   Table t{"path", "Equilibria along the path of loads and support motions", {}, {}};
   t.columns = {
-      {"time_s", "s", "to which loads, friction and supports follow their functions of time"},
-      {"displacement_m", "m", "of the control block along its direction"},
+      {"time_s", "s",
+       "to which loads, friction and supports follow their functions of time; found if the path has a "
+       "length"},
+      {"displacement_m", "m", "of the control block along its direction, from relative_to if given"},
       {"force_N", "N",
        "along that direction: of a support on the blocks; of all loads, if the control block is free"},
       {"dissipated_J", "J", "in the joints since the start: friction, tension, cohesion and crushing"},

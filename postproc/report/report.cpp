@@ -70,12 +70,12 @@ std::string case_section(const Evaluation& e) {
   const Compliance& c = e.scene.joints.compliance;
   const char* unit = c.per == Compliance::Per::point ? "m/N per contact point" : "m³/N per joint area";
   row("Joint compliance", fmt::format("normal {:g}, tangential {:g} {}", c.normal, c.tangential, unit));
-  const auto shown = std::find(e.times.begin(), e.times.end(), e.last.frame.time) - e.times.begin() + 1;
   if (s.analysis == AnalysisType::range && at_rest(s))
     row("State shown",
         has_chosen(s.ranges) ? "the one that the compliances choose" : "one of the admissible ones");
   else
-    row("Time shown", fmt::format("{:g} s, frame {} of {}", e.last.frame.time, shown, e.times.size()));
+    row("Time shown",
+        fmt::format("{:g} s, frame {} of {}", e.last.frame.time, e.last_frame + 1, e.times.size()));
   out += "</dl>\n";
   if (!e.assembly.check_report.empty())
     out += "<details><summary>Checks of the geometry</summary><pre>" + markup_text(e.assembly.check_report) +

@@ -53,7 +53,7 @@ Film::Film(const Evaluation& evaluation) : evaluation_(evaluation), kind_(kind_o
 }
 
 void Film::add(size_t index, const FrameEvaluation& frame) {
-  const bool is_evaluated = frame.frame.time == evaluation_.last.frame.time;
+  const bool is_evaluated = static_cast<int>(index) == evaluation_.last_frame;
   if (kind_ == Kind::motion || kind_ == Kind::stages) {
     if (index % stride_ != 0 && !is_evaluated) {
       ++skipped_;

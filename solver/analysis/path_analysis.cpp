@@ -5,9 +5,12 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
+#include "assembly/files/byte_archive.hpp"
+#include "assembly/files/summary_file.hpp"
 #include "assembly/model/block_names.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record/record.hpp"
+#include "solver/analysis/record/record_archive.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/analysis/statics/equilibrium_path.hpp"
 #include "solver/analysis/statics/static_record.hpp"
@@ -15,9 +18,31 @@
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {
+
+/// What the steps of a path so far have shown.
+struct PathProgress {
+  int next = 1;                     // regular step
+  double step = 1.0;                // length of the next one, in regular steps
+  double time_step = 0.0;           // s, change of the time in the last one
+  double first_displacement = 0.0;  // m, of the control at time 0
+  int equilibria = 0, iterations = 0;
+  WorstOfRun worst;
+  double worst_balance = 0.0, dissipated = 0.0;
+  double largest_force = 0.0, time_of_largest = 0.0, displacement_of_largest = 0.0;
+  std::string table = "time_s,displacement_m,force_N,dissipated_J,mean_damage,solves\n";
+};
+
+template <class Archive>
+void visit(Archive& archive, PathProgress& x) {
+  archive(x.next, x.step, x.time_step, x.first_displacement, x.equilibria, x.iterations, x.worst,
+          x.worst_balance, x.dissipated, x.largest_force, x.time_of_largest, x.displacement_of_largest,
+          x.table);
+}
+
 namespace {
 
 constexpr double kShortestStep = 1.0 / 64;  // of a regular one
+constexpr double kRounding = 1e-12;         // of times, relative
 
 /// The force that a support exerts on the blocks, or the loads on all blocks if the control block is free.
 Vec3 control_force(const Model& model, const ContactSet& contacts, const StaticSolution& solution,
@@ -31,60 +56,96 @@ Vec3 control_force(const Model& model, const ContactSet& contacts, const StaticS
   return force;
 }
 
-/// The equilibria of a path, one after the other.
+/// The equilibria of a path, one after the other. Its parameter is the time, or the length: the displacement of the control from
+/// that at time 0.
 class PathRun {
  public:
-  PathRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks)
-      : analysis_(scene.analysis),
-        sinks_(sinks),
-        model_(make_model(scene, assembly)),
-        path_(model_, detection_options(scene), static_options(scene.analysis)) {
-    const LoadPath::Control& control = *analysis_.path.control;
-    block_ = control.block;
-    direction_ = control.direction.normalized();
-    if (block_ >= static_cast<int>(assembly.blocks.size()))
-      throw InputError(
-          fmt::format("analysis.path.control: block {} does not exist: the assembly has blocks 0 to {}",
-                      block_, assembly.blocks.size() - 1));
-  }
+  PathRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
   std::optional<Summary> run();
 
  private:
-  bool advance(double time);
+  int checked_block(int block) const;
+  double displacement() const;
+  double parameter() const {
+    return options_.length ? displacement() - progress_.first_displacement : path_.value();
+  }
+  bool at_end_of_time() const { return path_.value() > (1.0 - kRounding) * options_.end; }
+  bool advance(double parameter);
   void record(const StaticSolution& solution);
+  void tabulate(const Frame& frame, const StaticSolution& solution);
+  std::string checkpoint() const;
+  void resume();
   void judge(double started);
 
-  const Analysis& analysis_;
+  const LoadPath& options_;
   const AnalysisSinks& sinks_;
   const Model model_;
   EquilibriumPath path_;
-  int block_ = 0;
-  Vec3 direction_;
+  LengthControl control_;  // without displacement and time step
   Summary summary_;
-  WorstOfRun worst_;
-  double worst_balance_ = 0.0, dissipated_ = 0.0, largest_force_ = 0.0, time_of_largest_ = 0.0;
-  int equilibria_ = 0, iterations_ = 0;
+  PathProgress progress_;
   std::string last_failure_;
   StaticOutcome last_outcome_ = StaticOutcome::equilibrium;
-  std::string table_ = "time_s,displacement_m,force_N,dissipated_J,mean_damage,solves\n";
 };
 
-/// One static solve at `time`; true if it finds an equilibrium.
-bool PathRun::advance(double time) {
-  StaticSolution solution = path_.advance(time);
-  iterations_ += solution.iterations;
+PathRun::PathRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks)
+    : options_(scene.analysis.path),
+      sinks_(sinks),
+      model_(make_model(scene, assembly)),
+      path_(model_, detection_options(scene), static_options(scene.analysis)) {
+  const LoadPath::Control& control = *options_.control;
+  control_.block = checked_block(control.block);
+  if (control.relative_to) control_.relative_to = checked_block(*control.relative_to);
+  if (control_.relative_to == control_.block)
+    throw InputError(
+        fmt::format("analysis.path.control.relative_to = {}: must differ from block", control_.block));
+  control_.direction = control.direction.normalized();
+  control_.latest = options_.end;
+  progress_.time_step = options_.end / options_.steps;
+}
+
+int PathRun::checked_block(int block) const {
+  const size_t count = model_.assembly->blocks.size();
+  if (block < static_cast<int>(count)) return block;
+  throw InputError(fmt::format(
+      "analysis.path.control: block {} does not exist: the assembly has blocks 0 to {}", block, count - 1));
+}
+
+/// Of the control along its direction, m.
+double PathRun::displacement() const {
+  const auto along = [this](int block) {
+    return (path_.state().poses[block].p_WB - model_.assembly->blocks[block].centroid)
+        .dot(control_.direction);
+  };
+  return along(control_.block) - (control_.relative_to >= 0 ? along(control_.relative_to) : 0.0);
+}
+
+/// One step to `parameter`; true if it finds an equilibrium.
+bool PathRun::advance(double parameter) {
+  const double time = path_.value();
+  StaticSolution solution;
+  if (options_.length && progress_.equilibria > 0) {
+    control_.displacement = parameter - this->parameter();
+    control_.time_step = progress_.time_step;
+    solution = path_.advance_by(control_);
+  } else {
+    solution = path_.advance(options_.length ? 0.0 : parameter);
+  }
+  progress_.iterations += solution.iterations;
   last_outcome_ = solution.outcome;
   if (solution.outcome == StaticOutcome::equilibrium) {
+    if (path_.value() != time) progress_.time_step = std::abs(path_.value() - time);
     record(solution);
     return true;
   }
-  if (equilibria_ == 0) {
+  if (progress_.equilibria == 0) {
     const Frame frame =
         static_frame(model_, path_.start(), path_.contacts(), path_.memories(), solution, path_.options());
     sinks_.frame(frame);
     summarize_static(solution, frame, model_, path_.options().tolerance, &summary_);
   }
-  last_failure_ = fmt::format("{} at {:.6g} s: {}", to_string(solution.outcome), time, solution.message);
+  last_failure_ = fmt::format("{} at {:.6g} {}: {}", to_string(solution.outcome), parameter,
+                              options_.length ? "m" : "s", solution.message);
   sinks_.log(last_failure_);
   return false;
 }
@@ -94,18 +155,22 @@ void PathRun::record(const StaticSolution& solution) {
       static_frame(model_, path_.start(), path_.contacts(), path_.memories(), solution, path_.options());
   sinks_.frame(frame);
   summarize_static(solution, frame, model_, path_.options().tolerance, &summary_);
-  worst_.include(solution.residuals, summary_.certified_force_error, summary_.forces_unique,
-                 largest_violation(frame));
-  worst_balance_ = std::max(worst_balance_, summary_.accuracy.reached);
-  dissipated_ += joint_dissipation(solution.step, solution.step_solution);
-  ++equilibria_;
+  progress_.worst.include(solution.residuals, summary_.certified_force_error, summary_.forces_unique,
+                          largest_violation(frame));
+  progress_.worst_balance = std::max(progress_.worst_balance, summary_.accuracy.reached);
+  progress_.dissipated += joint_dissipation(solution.step, solution.step_solution);
+  if (progress_.equilibria++ == 0) progress_.first_displacement = displacement();
+  tabulate(frame, solution);
+}
 
-  const Block& block = model_.assembly->blocks[block_];
-  const double displacement = (path_.state().poses[block_].p_WB - block.centroid).dot(direction_);
-  const double force = control_force(model_, path_.contacts(), solution, block_).dot(direction_);
-  if (std::abs(force) > std::abs(largest_force_)) {
-    largest_force_ = force;
-    time_of_largest_ = path_.value();
+/// The row of path.csv.
+void PathRun::tabulate(const Frame& frame, const StaticSolution& solution) {
+  const double force =
+      control_force(model_, path_.contacts(), solution, control_.block).dot(control_.direction);
+  if (std::abs(force) > std::abs(progress_.largest_force)) {
+    progress_.largest_force = force;
+    progress_.time_of_largest = path_.value();
+    progress_.displacement_of_largest = displacement();
   }
   double damage = 0.0, area = 0.0;
   for (int i = 0; i < frame.contacts.size() && !frame.contacts.damage.empty(); ++i) {
@@ -113,50 +178,77 @@ void PathRun::record(const StaticSolution& solution) {
     area += frame.contacts.area[i];
   }
   const double mean_damage = area > 0.0 ? damage / area : 0.0;
-  table_ += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{}\n", path_.value(), displacement, force,
-                        dissipated_, mean_damage, path_.solves());
-  sinks_.table("path.csv", table_);
+  progress_.table += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{}\n", path_.value(), displacement(),
+                                 force, progress_.dissipated, mean_damage, path_.solves());
+  sinks_.table("path.csv", progress_.table);
   const std::string line =
       fmt::format("time {:9.4g} s  displacement {:11.4e} m  force {:11.4e} N  damage {:6.4f}  {}",
-                  path_.value(), displacement, force, mean_damage, counted(path_.solves(), "solve"));
+                  path_.value(), displacement(), force, mean_damage, counted(path_.solves(), "solve"));
   sinks_.log(line);
-  sinks_.progress(path_.value() / analysis_.path.end, line);
+  sinks_.progress(parameter() / options_.length.value_or(options_.end), line);
+}
+
+std::string PathRun::checkpoint() const {
+  PathProgress progress = progress_;
+  std::string path = path_.save(), summary = to_json(summary_);
+  ByteWriter archive;
+  archive(path, progress, summary);
+  return archive.bytes();
+}
+
+void PathRun::resume() {
+  std::string path, summary;
+  ByteReader archive(sinks_.resume_from);
+  archive(path, progress_, summary);
+  path_.restore(path);
+  summary_ = summary_from_json(summary, "checkpoint");
 }
 
 void PathRun::judge(double started) {
-  summary_.steps = equilibria_;
-  summary_.iterations = iterations_;
+  summary_.steps = progress_.equilibria;
+  summary_.iterations = progress_.iterations;
   summary_.solve_time_seconds = wall_seconds() - started;
-  worst_.summarize(&summary_);
-  summary_.accuracy.worst_over_run = worst_balance_;
-  const std::string largest = fmt::format("largest force {:.6g} N at {:.6g} s (block {})", largest_force_,
-                                          time_of_largest_, block_label(*model_.assembly, block_));
+  progress_.worst.summarize(&summary_);
+  summary_.accuracy.worst_over_run = progress_.worst_balance;
+  const std::string largest =
+      fmt::format("largest force {:.6g} N at {:.6g} {} (block {})", progress_.largest_force,
+                  options_.length ? progress_.displacement_of_largest : progress_.time_of_largest,
+                  options_.length ? "m" : "s", block_label(*model_.assembly, control_.block));
+  const std::string reached =
+      options_.length ? fmt::format("{:.6g} m", displacement()) : fmt::format("{:.6g} s", path_.value());
   if (last_outcome_ == StaticOutcome::equilibrium) {
-    summary_.message = fmt::format("{} up to {:.6g} s; {}", counted(equilibria_, "equilibrium", "equilibria"),
-                                   path_.value(), largest);
+    summary_.message = fmt::format(
+        "{} up to {}; {}", counted(progress_.equilibria, "equilibrium", "equilibria"), reached, largest);
+    if (options_.length && at_end_of_time())
+      summary_.message += fmt::format("; the latest time, {:g} s, came before the length of the path, {:g} m",
+                                      options_.end, *options_.length);
     return;
   }
   summary_.status = last_outcome_ == StaticOutcome::moving ? Status::moving : Status::unconverged;
-  summary_.message = fmt::format("the path ends at {:.6g} s; {}; {}", path_.value(), largest, last_failure_);
+  summary_.message = fmt::format("the path ends at {}; {}; {}", reached, largest, last_failure_);
 }
 
 std::optional<Summary> PathRun::run() {
   const double started = wall_seconds();
-  const double regular = analysis_.path.end / analysis_.path.steps;
-  if (!advance(0.0)) {
+  if (!sinks_.resume_from.empty()) {
+    resume();
+  } else if (!advance(0.0)) {
     judge(started);
     return summary_;
   }
-  double step = regular;
-  for (int next = 1; next <= analysis_.path.steps;) {
+  const double regular = options_.length.value_or(options_.end) / options_.steps;
+  while (progress_.next <= options_.steps) {
+    sinks_.checkpoint(checkpoint());
     if (sinks_.interrupted()) return std::nullopt;
-    // The times of regular steps are exact; shorter ones lead to them.
-    const double target = regular * next;
-    const bool reaches = path_.value() + 1.001 * step >= target;
-    if (advance(reaches ? target : path_.value() + step)) {
-      next += reaches ? 1 : 0;
-      step = std::min(regular, 2.0 * step);
-    } else if ((step *= 0.5) < kShortestStep * regular) {
+    // The ends of regular steps are exact; shorter ones lead to them.
+    double& step = progress_.step;
+    const double target = regular * progress_.next;
+    const bool reaches = parameter() + 1.001 * step * regular >= target;
+    if (advance(reaches ? target : parameter() + step * regular)) {
+      progress_.next += reaches ? 1 : 0;
+      step = std::min(1.0, 2.0 * step);
+      if (options_.length && at_end_of_time()) break;
+    } else if ((step *= 0.5) < kShortestStep) {
       break;
     }
   }

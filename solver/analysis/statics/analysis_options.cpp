@@ -54,7 +54,8 @@ double num_equilibria(const Analysis& analysis, int num_rings) {
     case AnalysisType::staged:
       return 0.5 * std::max(2, num_rings);
     case AnalysisType::path:
-      return 1.0 + analysis.path.steps;
+      // The search for a time takes some seven solves of each contact problem.
+      return 1.0 + (analysis.path.length ? 7.0 : 1.0) * analysis.path.steps;
     case AnalysisType::range:  // a conic programme takes the time of about four static solves
       return 1.0 + 8.0 * static_cast<double>(analysis.range.quantities.size());
     case AnalysisType::limit: {

@@ -7,8 +7,10 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
+#include "assembly/files/byte_archive.hpp"
 #include "solver/analysis/statics/static_step.hpp"
 #include "solver/dynamics/joint_damage.hpp"
+#include "solver/dynamics/state_archive.hpp"
 
 namespace cupola {
 
@@ -23,14 +25,16 @@ StaticSolution solve_breaking(const Model& model, const State& start, const Cont
   constexpr int kMostSolves = 200;  // a joint that breaks brittly breaks its neighbours one after the other
   if (model.joints.has_strength()) begin_step(contacts, memories);
   StaticSolution solution;
+  StaticOptions found = options;
   int iterations = 0;
   bool again = true;
   for (*solves = 0; again && *solves < kMostSolves; ++*solves) {
-    solution = solve_static(model, start, contacts, *memories, options);
+    solution = solve_static(model, start, contacts, *memories, found);
+    found.time_advance = solution.time_advance;
     iterations += solution.iterations;
     again = model.joints.has_strength() && solution.outcome == StaticOutcome::equilibrium &&
             refine_step(model, start, contacts, solution.step, solution.step_solution,
-                        static_step_options(options, solution.h), memories);
+                        static_step_options(found, solution.h), memories);
   }
   solution.iterations = iterations;
   if (again) {
@@ -42,14 +46,45 @@ StaticSolution solve_breaking(const Model& model, const State& start, const Cont
 }
 
 StaticSolution EquilibriumPath::advance(double value) {
+  options_.control.reset();
+  return advance_from(value);
+}
+
+StaticSolution EquilibriumPath::advance_by(const LengthControl& control) {
+  options_.control = control;
+  return advance_from(loaded_.state.time);
+}
+
+StaticSolution EquilibriumPath::advance_from(double guess) {
   start_ = loaded_.state;
   const ContactSet& contacts = detector_.update(start_.poses);
   memories_ = match_memories(loaded_.memories, contacts.points);
-  options_.time_advance = value - start_.time;
+  options_.time_advance = guess - start_.time;
   StaticSolution solution = solve_breaking(model_, start_, contacts, options_, &memories_, &solves_);
+  options_.time_advance = solution.time_advance;
   if (solution.outcome == StaticOutcome::equilibrium)
     loaded_ = loaded_state(model_, start_, contacts, memories_, solution, options_);
   return solution;
+}
+
+std::string EquilibriumPath::save() const {
+  LoadedState loaded = loaded_;
+  DetectionMemory detection = detector_.memory();
+  ByteWriter archive;
+  archive(loaded.state, loaded.memories, loaded.h, detection);
+  return archive.bytes();
+}
+
+void EquilibriumPath::restore(const std::string& bytes) {
+  LoadedState loaded;
+  DetectionMemory detection;
+  ByteReader archive(bytes);
+  archive(loaded.state, loaded.memories, loaded.h, detection);
+  if (!archive.at_end() || loaded.state.poses.size() != loaded_.state.poses.size() ||
+      loaded.state.v.size() != loaded_.state.v.size())
+    throw std::runtime_error("belongs to another scene");
+  loaded_ = std::move(loaded);
+  detector_.restore(std::move(detection));
 }
 
 Bracket follow(EquilibriumPath* path, double low, double high, double relative_width,

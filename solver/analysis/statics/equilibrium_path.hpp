@@ -19,6 +19,13 @@ class EquilibriumPath {
 
   /// Static solve at the time `value`. If it finds an equilibrium the path advances to it; otherwise it stays.
   StaticSolution advance(double value);
+  /// The same by a displacement of the control, at a time that is found.
+  StaticSolution advance_by(const LengthControl& control);
+
+  /// The last equilibrium and its contacts, as bytes from which a path of the same scene continues with the same bits.
+  /// restore() throws std::runtime_error if they do not fit.
+  std::string save() const;
+  void restore(const std::string& bytes);
 
   double value() const { return loaded_.state.time; }
   const Model& model() const { return model_; }
@@ -32,6 +39,8 @@ class EquilibriumPath {
   const ContactMemories& memories() const { return memories_; }
 
  private:
+  StaticSolution advance_from(double guess);
+
   const Model& model_;
   StaticOptions options_;
   ContactDetector detector_;

@@ -13,13 +13,6 @@ namespace {
 
 /// Newton iterations within which a point of the path converges, or h is too large.
 constexpr int kIterationsOfPath = 15;
-constexpr double kSolveShare = 0.1;  // part of the tolerance for the contact solve; inertia takes the rest
-
-/// Mean block weight over the largest load on a block. The equilibrium residual is relative to the former,
-/// the residual of a contact solve to the latter, which is far larger where small blocks carry large loads.
-double weight_over_load(const Model& model, double acceleration) {
-  return model.block_weight > 0.0 ? model.loads.gravity.norm() / acceleration : 1.0;
-}
 
 /// Solves the whole problem, or one sector of it if the model has cyclic symmetry.
 SolveSummary solve_problem(const ContactProblem& problem, const CyclicSymmetry* symmetry,
@@ -34,6 +27,10 @@ SolveSummary solve_problem(const ContactProblem& problem, const CyclicSymmetry* 
 
 }  // namespace
 
+double weight_over_load(const Model& model, double acceleration) {
+  return model.block_weight > 0.0 ? model.loads.gravity.norm() / acceleration : 1.0;
+}
+
 ProximalPoint::ProximalPoint(const Model& model, const State& start, const ContactSet& contacts,
                              const ContactMemories& memories, const StaticOptions& options)
     : model_(model),
@@ -44,7 +41,8 @@ ProximalPoint::ProximalPoint(const Model& model, const State& start, const Conta
       associated_(options.solve.law.is_associated()),
       acceleration_(reference_acceleration(model, start)),
       largest_h_(largest_static_step(model, start, contacts)) {
-  follows_path_ = !associated_ && options.solve.method == ContactMethod::newton && std::isfinite(largest_h_);
+  follows_path_ = !associated_ && !options.control && options.solve.method == ContactMethod::newton &&
+                  std::isfinite(largest_h_);
   set_step(first_static_step(model, start, contacts, acceleration_, options));
 }
 
@@ -76,14 +74,24 @@ void ProximalPoint::iterate() {
   // After the first iteration few joints change their state, and the last factor is a good preconditioner.
   solve.lag_factor = !follows_path_ && x_.v.size() > 0 && !has_many_blocks(step_.problem);
   if (follows_path_ && !solve.max_iterations) solve.max_iterations = kIterationsOfPath;
-  ContactProblem& problem = step_.problem;
-  const VecX rest = problem.v_star;
-  const VecX before = x_.v.size() > 0 ? x_.v : VecX::Zero(rest.size());
+  const VecX before = x_.v.size() > 0 ? x_.v : VecX::Zero(step_.problem.v_star.size());
   const bool slides = flow_.size() > 0;
   const VecX free = slides ? VecX(before + kMomentum * trial_.h * flow_) : before;  // without forces
-  problem.v_star += free;
   trial_.step_solution = x_;
   if (slides) trial_.step_solution.v = free;
+  if (!options_.control) return attempt(solve, before, free);
+  constexpr double kSmallest = 1e-13;  // tolerance that rounding admits
+  const double share = control_share();
+  solve.tolerance = std::max(kSmallest, std::min(solve.tolerance, kSolveShare * share));
+  seek_time(share * trial_.h * trial_.h * acceleration_, [&] { attempt(solve, before, free); });
+}
+
+/// One contact solve from the guess in trial_. `before`: velocities of the last iterate; `free`: those without forces.
+void ProximalPoint::attempt(const ContactSolverOptions& solve, const VecX& before, const VecX& free) {
+  ContactProblem& problem = step_.problem;
+  const VecX rest = problem.v_star;
+  problem.v_star += free;
+  trial_.time_advance = options_.time_advance;
   trial_.solve = solve_problem(problem, options_.symmetry, solve, &solver_, &trial_.step_solution);
   trial_.iterations += trial_.solve.iterations;
   if (!trial_.solve.usable()) {
@@ -103,8 +111,8 @@ void ProximalPoint::iterate() {
 
 /// Judged by residuals that are computed independently of the contact method.
 bool ProximalPoint::accepts(const StaticSolution& trial) const {
-  return trial.solve.usable() && trial.balance.residual <= options_.tolerance &&
-         excess(trial.residuals, options_.tolerance) <= 1.0;
+  return trial.solve.usable() && !misses_displacement(trial) &&
+         trial.balance.residual <= options_.tolerance && excess(trial.residuals, options_.tolerance) <= 1.0;
 }
 
 /// True if the error of the contact solve is small compared with the imbalance that remains, so that the next

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -10,6 +11,13 @@ namespace cupola {
 
 /// A speed ratio smaller than that of any mechanism whose load exceeds the critical one by a millionth.
 constexpr double kAtRest = 1e-6;
+
+/// Part of the tolerance for the contact solve; inertia takes the rest.
+constexpr double kSolveShare = 0.1;
+
+/// Mean block weight over the largest load on a block. The equilibrium residual is relative to the former,
+/// the residual of a contact solve to the latter, which is far larger where small blocks carry large loads.
+double weight_over_load(const Model& model, double acceleration);
 
 /// The proximal-point iteration of one scene (static_solve.hpp). A non-associated law with compliant joints follows a path by
 /// pseudo-transient continuation.
@@ -30,6 +38,10 @@ class ProximalPoint {
   void set_step(double h);
   double solve_tolerance() const;
   void iterate();
+  void attempt(const ContactSolverOptions& solve, const VecX& before, const VecX& free);
+  double control_share() const;
+  void seek_time(double tolerance, const std::function<void()>& attempt_now);
+  bool misses_displacement(const StaticSolution& trial) const;
   bool accepts(const StaticSolution& trial) const;
   bool is_accurate_enough(const StaticSolution& trial) const;
   bool shorten_step();
@@ -47,7 +59,7 @@ class ProximalPoint {
   const State& start_;
   const ContactSet& contacts_;
   const ContactMemories& memories_;
-  const StaticOptions& options_;
+  StaticOptions options_;  // under a control: at the time tried last
   const bool associated_;
   bool follows_path_ = false;  // solve_static(): non-associated law, compliant joints, Newton's method
   const double acceleration_;  // m/s2, reference
@@ -62,9 +74,11 @@ class ProximalPoint {
   double settlement_ = 0.0;                                    // m, largest displacement of the first iterate
   double failed_h_ = std::numeric_limits<double>::infinity();  // s, step at which Newton failed last
   double lowest_residual_ = std::numeric_limits<double>::infinity();  // steps of a quarter
-  double travel_ = 0.0;  // m, sum of the largest displacements since lowest_residual_
-  VecX moved_;           // m, rad: displacement of the last iteration (6 nb)
-  VecX flow_;            // m/s2: moved_ / h^2 while the path is far from equilibrium, else empty
+  double travel_ = 0.0;      // m, sum of the largest displacements since lowest_residual_
+  VecX moved_;               // m, rad: displacement of the last iteration (6 nb)
+  VecX flow_;                // m/s2: moved_ / h^2 while the path is far from equilibrium, else empty
+  double reached_ = 0.0;     // m, control: displacement beyond the one asked for
+  double time_slope_ = 0.0;  // m/s, control: change of the displacement with the time; 0: unknown
 };
 
 }  // namespace cupola

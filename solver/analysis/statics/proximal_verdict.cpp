@@ -68,7 +68,10 @@ StaticSolution ProximalPoint::finish(StaticOutcome outcome, std::string message)
   answer.outcome = outcome;
   answer.message = std::move(message);
   x_ = {};
-  if (answer.h != trial_.h) set_step(answer.h);
+  if (answer.h != trial_.h || answer.time_advance != options_.time_advance) {
+    options_.time_advance = answer.time_advance;
+    set_step(answer.h);
+  }
   answer.step = std::move(step_);
   if (answer.increment.size() > 0)
     answer.step.problem.v_star += answer.step_solution.v - answer.increment / answer.h;
@@ -155,10 +158,15 @@ StaticSolution ProximalPoint::run() {
     }
     if (accepts(trial_)) return finish_accepted();
     const double contraction = advance();
-    if (contraction > kNoProgress && trial_.speed_ratio > kAtRest)
+    if (contraction > kNoProgress && trial_.speed_ratio > kAtRest && !options_.control)
       if (std::optional<StaticSolution> answer = judge_motion(contraction)) return std::move(*answer);
     speed_up(contraction);
   }
+  if (misses_displacement(trial_))
+    return finish(
+        StaticOutcome::unconverged,
+        fmt::format("no time from {:g} to {:g} s gives the control displacement of the step, {:.3g} m",
+                    options_.control->earliest, options_.control->latest, options_.control->displacement));
   return finish(StaticOutcome::unconverged,
                 fmt::format("equilibrium residual {:.2e} > tolerance {:.2e} after {}", best_.balance.residual,
                             options_.tolerance, counted(max_solves, "solve")));

@@ -16,7 +16,7 @@ void certify(const Model& model, const State& start, const ContactSet& contacts,
     solution->certificate.force_error.bounds = "the static problem was not solved";
     return;
   }
-  const VecX loads = applied_forces(model, start, start.time + options.time_advance);
+  const VecX loads = applied_forces(model, start, start.time + solution->time_advance);
   solution->certificate = certify_static(contacts, loads, solution->step.problem, solution->step_solution,
                                          options.solve.law, model.loads.gravity.norm(), options.symmetry);
   if (solution->certificate.balance == Balance::unstable)
@@ -48,7 +48,7 @@ bool slips_nowhere(const StaticSolution& solution, const FlowRule& law, double a
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
   StaticSolution solution;
-  if (options.solve.law.is_associated()) {
+  if (options.solve.law.is_associated() || options.control) {
     solution = ProximalPoint(model, start, contacts, memories, options).run();
   } else {
     StaticOptions associated = options;

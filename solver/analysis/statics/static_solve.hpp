@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "assembly/base/named_enum.hpp"
 #include "solver/analysis/statics/cyclic_symmetry.hpp"
+#include "solver/analysis/statics/length_control.hpp"
 #include "solver/analysis/statics/static_certificate.hpp"
 #include "solver/contact/methods/solve_contact.hpp"
 #include "solver/contact/problem/residuals.hpp"
@@ -22,6 +24,8 @@ struct StaticOptions {
   ContactSolverOptions solve = {};
   const CyclicSymmetry* symmetry = nullptr;  ///< if set, only one sector of the model is solved
   double time_advance = 0.0;                 ///< time by which loads and supports advance, s
+  /// If set, that time is an unknown, and `time_advance` its first guess.
+  std::optional<LengthControl> control = {};
   /// Non-associated laws: only the path from the start counts, not an equilibrium found from the associated solution, whose
   /// dilatancy may have jammed joints. Motions must reach 5 % of the smallest block.
   bool follow_from_start = false;
@@ -46,6 +50,7 @@ struct StaticSolution {
   StaticOutcome outcome = StaticOutcome::unconverged;
   std::string message;
   double h = 0.0;                 ///< s, step of the proximal-point iteration
+  double time_advance = 0.0;      ///< s, that of the options or found by the control
   StepProblem step;               ///< contact problem of the last iteration
   ContactSolution step_solution;  ///< v: displacement from the start over h; gamma: impulses, forces times h
   VecX increment;                 ///< h times v minus that of the iteration before, m, rad (6 nb)
@@ -95,6 +100,11 @@ struct StaticSolution {
 ///
 /// Where the path shows nothing (unconverged, or a motion of less than 1 % of the smallest block), the proximal-
 /// point iteration above is tried from the associated solution; its equilibrium counts, nothing else of it.
+///
+/// Under a control of the length (length_control.hpp) each iteration also finds the time at which the control displacement
+/// is the one asked for. Under the associated law that displacement is the work-conjugate of the force on the control block, if no other
+/// load depends on time; the time is then the multiplier of a convex constraint, and the theory above holds. Under the
+/// other laws, and for other controls, the iteration is the same; `moving` is never the outcome.
 ///
 /// A path in the dilatancy, from the associated solution to Coulomb's, is shorter far from collapse. Near collapse
 /// it passes through states that exist only because joints have opened: slip grows as 1 / dilatancy there.

@@ -52,7 +52,7 @@ double first_static_step(const Model& model, const State& start, const ContactSe
   for (const Contact& contact : contacts.points) gap = std::max(gap, contact.gap);
   const double displacement =
       courses * gap + courses * largest_compliance(model, start, contacts) * load / std::max(1, at_supports) +
-      imposed_displacement(model, start, options);
+      imposed_displacement(model, start, options) + (options.control ? options.control->displacement : 0.0);
   if (displacement == 0.0) return 1.0;
   return kMargin * std::sqrt(displacement / (acceleration * kContraction));
 }

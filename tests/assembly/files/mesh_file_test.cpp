@@ -276,13 +276,25 @@ TEST(MeshFile, FailedWriteKeepsTheOldFile) {
 TEST(PvdFile, RoundTripsTimesAndNames) {
   const std::string path = test::fresh_folder("a") + "/series.pvd";
   const std::vector<PvdEntry> entries{
-      {0.0, "a_0000.vtp"}, {1.0 / 3.0, "b & <c>.vtp"}, {1e-300, "d \"e\".vtp"}};
+      {0.0, "a_0000.vtp"}, {1e-300, "b & <c>.vtp"}, {1.0 / 3.0, "d \"e\".vtp"}};
   write_pvd(path, entries);
   const auto back = read_pvd(path);
   ASSERT_EQ(back.size(), entries.size());
   for (size_t i = 0; i < entries.size(); ++i) {
     EXPECT_EQ(back[i].time, entries[i].time);
     EXPECT_EQ(back[i].file, entries[i].file);
+  }
+}
+
+// ParaView sorts the files by time and merges those of one time: a path past its largest load would be shuffled.
+TEST(PvdFile, NumbersFilesWhoseTimesDoNotIncrease) {
+  const std::string path = test::fresh_folder("a") + "/series.pvd";
+  for (const double last : {0.5, 0.25}) {
+    write_pvd(path, {{0.0, "a"}, {0.5, "b"}, {last, "c"}});
+    const auto back = read_pvd(path);
+    ASSERT_EQ(back.size(), 3U);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(back[i].time, i);
+    EXPECT_EQ(back[2].file, "c");
   }
 }
 
