@@ -14,17 +14,19 @@ namespace {
 
 constexpr double kSlipping = 1.0 - 1e-6;  // friction use from which a contact counts as slipping
 
-/// Share of the compressive strength that a push uses, or of the tensile strength that a pull uses.
-double strength_use(const JointStrength& strength, double normal_force) {
+/// Share of the compressive strength that a push uses, or of the tensile strength that a pull uses, which friction ends
+/// at cohesion / mu.
+double strength_use(const JointStrength& strength, double mu, double normal_force) {
   if (normal_force >= 0.0) return normal_force / strength.compression;
-  return strength.tension > 0.0 ? -normal_force / strength.tension : 0.0;
+  const double tension = mu > 0.0 ? std::min(strength.tension, strength.cohesion / mu) : strength.tension;
+  return tension > 0.0 ? -normal_force / tension : 0.0;
 }
 
 void add_strength(const JointLaw& law, const ContactMemory& memory, double gap, double normal_force,
                   ContactTable* table) {
   JointStrength strength = bond_in_step(law, memory.joint).strength;
   strength.compression = law.strength.compression;
-  table->strength_use.push_back(strength_use(strength, normal_force));
+  table->strength_use.push_back(strength_use(strength, law.mu, normal_force));
   table->damage.push_back(memory.joint.damage);
   table->crack_opening.push_back(crack_opening(gap, memory));
 }

@@ -157,6 +157,21 @@ TEST(StrengthStatics, TensionEndsAtTheStrengthOrTheApexOfTheCone) {
 
 // The dry block rocks about its edge at e = t/2; with tension the pull on the other edge holds it: plastic stress
 // blocks of ft over t - x and of an unlimited push on the edge give N (e - t/2) = ft b t^2 / 2.
+// Friction leaves cohesion / mu of a larger tension: the share that a pull uses is relative to what is left.
+TEST(StrengthStatics, SharesOfStrengthCountWhatFrictionLeavesOfTheTension) {
+  for (const auto& [force, share] : {std::pair{0.9 * 1e5 * kArea, 0.9}, {-0.3 * 2e6 * kArea, 0.3}}) {
+    Case scene = make_strong_case({3e5, kFriction * 1e5, 2e6}, 1);
+    scene.loads.forces.push_back({BlockRef{1}, Vec3(0, 0, 0), Vec3(0, 0, force), {}});
+    scene.analysis.type = AnalysisType::static_;
+    AnalysisSinks sinks;
+    std::vector<double> use;
+    sinks.frame = [&](const Frame& frame) { use = frame.contacts.strength_use; };
+    run_static(scene, testing::box_on_floor({kWidth, kDepth, 1.0}), sinks);
+    ASSERT_FALSE(use.empty());
+    for (const double of_point : use) EXPECT_NEAR(of_point, share, 1e-6);
+  }
+}
+
 TEST(StrengthStatics, TensionHoldsABlockBeyondItsEdge) {
   const JointStrength strength{.tension = 1e4, .cohesion = 1e6};
   const double n = 1e4;
