@@ -59,7 +59,7 @@ void DryProblem::shift_forces() {
   for (int i = 0; i < strong_.contacts.num_contacts(); ++i) {
     const OfMultipliers sigma = apex(i);
     constant[3 * i] = sigma.constant;
-    slope.row(3 * i) = sigma.slope.transpose();
+    if (nt > 0) slope.row(3 * i) = sigma.slope.transpose();
   }
   dry_.load -= generalized_impulse(strong_.contacts, constant);
   for (Eigen::Index j = 0; j < nt; ++j)

@@ -17,7 +17,7 @@ NormalLimits::NormalLimits(const ConicProblem& problem) : num_rows_(problem.cost
     contact_.push_back(limit.contact);
     sign_[k] = limit.sign;
     bound_[k] = limit.bound.constant;
-    columns_.row(k) = limit.bound.slope.transpose();
+    if (nt > 0) columns_.row(k) = limit.bound.slope.transpose();
   }
 }
 
