@@ -24,6 +24,7 @@ VecX distance_inside(const ContactProblem& p, const VecX& v) {
 VecX opening_motion(const ConicProblem& problem) {
   ScaledConicProblem s = scaled(problem);
   s.problem.load_columns.resize(Eigen::NoChange, 0);
+  s.problem.row_multipliers.resize(0, 0);
   NormalEquations equations(s.problem);
   if (!equations.factorize(std::vector<Mat3>(s.problem.contacts.num_contacts(), Mat3::Identity()),
                            MatX(s.problem.cost.size(), 0), MatX(0, 0)))
