@@ -43,6 +43,7 @@ namespace {
 
 constexpr double kShortestStep = 1.0 / 64;  // of a regular one
 constexpr double kRounding = 1e-12;         // of times, relative
+constexpr double kClose = 0.1;              // part of a step of length that may be missing
 
 /// The force that a support exerts on the blocks, or the loads on all blocks if the control block is free.
 Vec3 control_force(const Model& model, const ContactSet& contacts, const StaticSolution& solution,
@@ -240,12 +241,13 @@ std::optional<Summary> PathRun::run() {
   while (progress_.next <= options_.steps) {
     sinks_.checkpoint(checkpoint());
     if (sinks_.interrupted()) return std::nullopt;
-    // The ends of regular steps are exact; shorter ones lead to them.
+    // The times of regular steps are exact; shorter ones lead to them. A length may be missed a little.
     double& step = progress_.step;
     const double target = regular * progress_.next;
     const bool reaches = parameter() + 1.001 * step * regular >= target;
     if (advance(reaches ? target : parameter() + step * regular)) {
-      progress_.next += reaches ? 1 : 0;
+      const bool there = options_.length ? parameter() > target - kClose * step * regular : reaches;
+      progress_.next += there ? 1 : 0;
       step = std::min(1.0, 2.0 * step);
       if (options_.length && at_end_of_time()) break;
     } else if ((step *= 0.5) < kShortestStep) {
