@@ -52,6 +52,31 @@ void print_row(const char* scene, const char* feature, const Measured& with, con
              without.factor_entries, with.seconds, without.seconds, with.seconds / without.seconds);
 }
 
+/// Joints of mortar. The same dome without strength has the same contact points only with compliance per area.
+void strength_rows(const std::string& dome, const Measured& plain) {
+  const std::string compliance = "joints.compliance={per: area, normal: 1e-10, tangential: 2.4e-10}";
+  for (const int subdivide : {1, 2}) {
+    const std::vector<std::string> dry{compliance, fmt::format("contact.subdivide={}", subdivide)};
+    const auto with = [&dry](std::vector<std::string> strengths) {
+      strengths.insert(strengths.begin(), dry.begin(), dry.end());
+      return strengths;
+    };
+    const std::string points = subdivide == 1 ? "" : fmt::format("; subdivide {}", subdivide);
+    const Measured without = measure(dome, dry);
+    const Measured full = measure(
+        dome, with({"joints.tension=1e5", "joints.cohesion=1.5e5", "joints.compressive_strength=2.5e6"}));
+    const auto row = [&](const char* feature, const Measured& strong, const Measured& weak) {
+      print_row("dome_circular", (feature + points).c_str(), strong, weak);
+    };
+    row("compressive strength that is never reached",
+        measure(dome, with({"joints.compressive_strength=1e12"})), without);
+    row("compressive strength of 2.5 MPa", measure(dome, with({"joints.compressive_strength=2.5e6"})),
+        without);
+    row("tension; cohesion and compressive strength", full, without);
+    row("tension; cohesion and compressive strength; beside the dry dome of the case", full, plain);
+  }
+}
+
 /// Time per step of a hundred stacks of ten cubes that have come to rest, with and without sleep.
 double seconds_per_step(bool sleep) {
   std::vector<testing::BoxSpec> boxes{{.center = {150, 0, -0.5}, .size = {400, 3, 1}, .fixed = true}};
@@ -86,12 +111,7 @@ int main() {
   };
   dome_row("Coulomb's law instead of the associated one", {"analysis.friction_law=coulomb"});
   dome_row("compliance per area", {"joints.compliance.per=area"});
-  dome_row("compressive strength of 2.5 MPa",
-           {"joints.compliance={per: area, normal: 1e-10, tangential: 2.4e-10}",
-            "joints.compressive_strength=2.5e6"});
-  dome_row("tension, cohesion and compressive strength",
-           {"joints.compliance={per: area, normal: 1e-10, tangential: 2.4e-10}", "joints.tension=1e5",
-            "joints.cohesion=1.5e5", "joints.compressive_strength=2.5e6"});
+  strength_rows(dome, plain);
   dome_row("zero compliance", {"joints.compliance.normal=0", "joints.compliance.tangential=0"});
   dome_row("a lantern", {"loads.lantern.weight_fraction=0.02"});
   dome_row("perturbed GJK", {"contact.method=perturbed_gjk"});
