@@ -162,7 +162,7 @@ StaticSolution ProximalPoint::run() {
       if (std::optional<StaticSolution> answer = judge_motion(contraction)) return std::move(*answer);
     speed_up(contraction);
   }
-  if (misses_displacement(trial_))
+  if (options_.control && std::abs(reached_) > options_.control->displacement)
     return finish(
         StaticOutcome::unconverged,
         fmt::format("no time from {:g} to {:g} s gives the control displacement of the step, {:.3g} m",
