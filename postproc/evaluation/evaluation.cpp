@@ -307,7 +307,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
                       e.last.frame.ties, left_out);
   e.chains = chain_forces(e.assembly.chains, e.last.frame.ties);
-  e.members = member_sums(e.assembly, e.last.joints, e.last.gravity);
+  e.members = member_sums(e.assembly, e.last.joints, e.last.gravity, left_out);
   count_lost_joints(results, &e);
   e.meridians = evaluate_meridians(e);
   add_ends_of_thrust(results, &e);

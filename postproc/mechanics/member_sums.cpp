@@ -14,8 +14,8 @@ int ring_or_support(const Block& block) {
 
 }  // namespace
 
-std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches& joints,
-                                   const Vec3& gravity) {
+std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches& joints, const Vec3& gravity,
+                                   const std::vector<bool>& left_out) {
   const size_t M = assembly.members.size();
   if (M == 0) return {};
   const double g = gravity.norm();
@@ -26,8 +26,9 @@ std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches
   const auto at = [&](int ring, int member) -> MemberSum& {
     return sums[static_cast<size_t>(ring) * M + static_cast<size_t>(member)];
   };
-  for (const Block& block : assembly.blocks) {
-    if (block.fixed) continue;
+  for (size_t i = 0; i < assembly.blocks.size(); ++i) {
+    const Block& block = assembly.blocks[i];
+    if (block.fixed || (!left_out.empty() && left_out[i])) continue;
     MemberSum& sum = at(block.ring, block.member);
     ++sum.blocks;
     sum.weight += block.mass * g;

@@ -19,8 +19,9 @@ struct MemberSum {
 };
 
 /// Ring by ring from the base upwards, one row per member with blocks in the ring or forces through the cut; empty for
-/// a shell without wythes.
-std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches& joints,
-                                   const Vec3& gravity);
+/// a shell without wythes. `left_out`: per block, true if it does not take
+/// part (num_blocks); empty: all do.
+std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches& joints, const Vec3& gravity,
+                                   const std::vector<bool>& left_out = {});
 
 }  // namespace cupola

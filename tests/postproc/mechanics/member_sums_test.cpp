@@ -50,6 +50,19 @@ TEST(MemberSums, AddTheForcesFromBelowEachCut) {
   EXPECT_DOUBLE_EQ(sums[2].outward_force, 5.0);  // the header pushes the leaves outwards
 }
 
+// A stage of a construction leaves out the blocks that are not laid.
+TEST(MemberSums, LeaveOutBlocksThatTakeNoPart) {
+  Assembly assembly;
+  assembly.members = {"back"};
+  assembly.blocks = {block(-1, 0, 1.0), block(0, 0, 2.0), block(0, 0, 2.0), block(1, 0, 2.0)};
+  JointWrenches joints;
+  joints.wrenches = {joint(0, 1, {0, 0, 20}, {1, 0, 0})};
+  const std::vector<MemberSum> sums = member_sums(assembly, joints, {0, 0, -10}, {false, false, true, true});
+  ASSERT_EQ(sums.size(), 1u);
+  EXPECT_EQ(sums[0].blocks, 1);
+  EXPECT_DOUBLE_EQ(sums[0].weight, 20.0);
+}
+
 TEST(MemberSums, AreEmptyForAShellOfOneWythe) {
   Assembly assembly;
   assembly.blocks = {block(-1, 0, 1.0), block(0, 0, 1.0)};
