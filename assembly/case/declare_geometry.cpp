@@ -298,7 +298,8 @@ void declare_geometry(Section& s, Geometry& geometry) {
   for (const Chain& chain : geometry.chains)
     s.rule(chain.course < rings, "chains", "course must be < bond.rings");
   for (const Chain& chain : geometry.chains)
-    s.rule(chain.long_blocks == 0 || geometry.wythes.empty(), "chains", "long_blocks requires a shell without wythes");
+    s.rule(chain.long_blocks == 0 || geometry.wythes.empty(), "chains",
+           "long_blocks requires a shell without wythes");
 }
 
 void declare_imperfections(Section& s, Imperfections& imperfections) {
