@@ -10,24 +10,20 @@ namespace cupola {
 
 namespace {
 
-/// Norm of the residual in which conjugate gradients judge convergence. That of the preconditioner takes one product with it more.
-enum class ResidualNorm { euclidean, preconditioner };
-
-/// Preconditioned conjugate gradients from d = 0. Returns the norm of the last residual over that of the
-/// first; 1 on breakdown (infinite values, loss of positive definiteness).
+/// Preconditioned conjugate gradients from d = 0. Returns the norm of the last residual over that of the first, in the norm
+/// of the preconditioner (a small residual in stiff directions may hide a large error in soft ones); 1 on breakdown
+/// (infinite values, loss of positive definiteness).
 template <class Multiply, class Precondition>
-double conjugate_gradients(const Multiply& multiply, const Precondition& precondition, ResidualNorm norm,
-                           const VecX& rhs, double forcing, int max_iterations, VecX* d,
-                           SolveSummary* summary) {
+double conjugate_gradients(const Multiply& multiply, const Precondition& precondition, const VecX& rhs,
+                           double forcing, int max_iterations, VecX* d, SolveSummary* summary) {
   VecX r = rhs;
   VecX z = precondition(r);
   VecX p = z;
   double rz = r.dot(z);
-  const double first = norm == ResidualNorm::euclidean ? rhs.norm() : std::sqrt(rz);
-  double reached = first;
+  const double first = rz;
   d->setZero(rhs.size());
   if (first == 0.0) return 0.0;  // nothing to solve
-  for (int k = 0; k < max_iterations && reached > forcing * first; ++k) {
+  for (int k = 0; k < max_iterations && rz > forcing * forcing * first; ++k) {
     throw_if_interrupted();
     ++summary->conjugate_gradients;
     const VecX Hp = multiply(p);
@@ -35,16 +31,13 @@ double conjugate_gradients(const Multiply& multiply, const Precondition& precond
     if (!(alpha > 0.0)) return 1.0;  // not positive definite in double precision
     *d += alpha * p;
     r -= alpha * Hp;
-    reached = r.norm();
-    if (norm == ResidualNorm::euclidean && reached <= forcing * first) break;
     z = precondition(r);
     if (!z.allFinite()) return 1.0;
     const double rz_new = std::max(0.0, r.dot(z));  // rounding may make it negative
     p = z + (rz_new / rz) * p;
     rz = rz_new;
-    if (norm == ResidualNorm::preconditioner) reached = std::sqrt(rz);
   }
-  return d->allFinite() ? reached / first : 1.0;
+  return d->allFinite() ? std::sqrt(rz / first) : 1.0;
 }
 
 }  // namespace
@@ -63,8 +56,8 @@ bool NewtonDirection::solve_lagged(const BlockPattern& pattern, const BlockMatri
   constexpr int kMaxIterations = 25;  // about the cost of a factorisation at 1,000 blocks
   if (!factor_.has_factor() || factor_.pattern() != pattern) return false;
   return conjugate_gradients([&](const VecX& x) { return multiply(pattern, H, x); },
-                             [&](const VecX& r) { return factor_.solve_approximately(r); },
-                             ResidualNorm::euclidean, rhs, forcing, kMaxIterations, d, summary) <= forcing;
+                             [&](const VecX& r) { return factor_.solve_approximately(r); }, rhs, forcing,
+                             kMaxIterations, d, summary) <= forcing;
 }
 
 bool NewtonDirection::solve_by_multigrid(const BlockPattern& pattern, const BlockMatrix& H,
@@ -75,8 +68,8 @@ bool NewtonDirection::solve_by_multigrid(const BlockPattern& pattern, const Bloc
   Multigrid multigrid;
   if (!multigrid.build(pattern, H, motions)) return false;
   return conjugate_gradients([&](const VecX& x) { return multigrid.multiply(x); },
-                             [&](const VecX& r) { return multigrid.cycle(r); }, ResidualNorm::preconditioner,
-                             rhs, forcing, kMaxIterations, d, summary) <= std::max(kUsefulReduction, forcing);
+                             [&](const VecX& r) { return multigrid.cycle(r); }, rhs, forcing, kMaxIterations,
+                             d, summary) <= std::max(kUsefulReduction, forcing);
 }
 
 }  // namespace cupola

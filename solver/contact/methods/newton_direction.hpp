@@ -14,12 +14,12 @@ class NewtonDirection {
   [[nodiscard]] bool solve_directly(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
                                     VecX* d, SolveSummary* summary);
 
-  /// CG to |H d - rhs| <= forcing |rhs| with the existing factor. False if there is none for this pattern, or if CG takes
-  /// longer than a factorisation.
+  /// CG to |H d - rhs| <= forcing |rhs| (in the norm of the preconditioner) with the existing factor. False
+  /// if there is none for this pattern, or if CG takes longer than a factorisation.
   [[nodiscard]] bool solve_lagged(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
                                   double forcing, VecX* d, SolveSummary* summary);
 
-  /// The same with a multigrid preconditioner built for H, and in the norm of the preconditioner. False if it cannot be built, or if hundreds of CG
+  /// The same with a multigrid preconditioner built for H. False if it cannot be built, or if hundreds of CG
   /// iterations do not reduce the residual to a tenth.
   [[nodiscard]] bool solve_by_multigrid(const BlockPattern& pattern, const BlockMatrix& H,
                                         const RigidMotions& motions, const VecX& rhs, double forcing, VecX* d,

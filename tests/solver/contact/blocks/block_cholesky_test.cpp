@@ -49,7 +49,8 @@ TEST(BlockCholesky, SolvesApproximatelyInSinglePrecisionWhereThatIsAccurate) {
   const VecX rhs = random_vector(6 * p.pattern.num_blocks());
   double largest = 0.0;
   for (Mat6& block : p.matrix.diagonal) largest = std::max(largest, block.norm());
-  for (Mat6& block : p.matrix.diagonal) block += 0.01 * largest * Mat6::Identity();
+  for (Mat6& block : p.matrix.lower) block *= 100.0 / largest;
+  for (Mat6& block : p.matrix.diagonal) block = 100.0 / largest * block + Mat6::Identity();
   BlockCholesky factor;
   ASSERT_TRUE(factor.factorize(p.pattern, p.matrix));
   const VecX exact = factor.solve(rhs), approximate = factor.solve_approximately(rhs);
