@@ -217,7 +217,7 @@ void declare_chain(Section& s, Chain& chain) {
          "a chain has either a course or a height");
   s.rule(polygon || chain.links == 0, "links", "requires type: polygon");
   s.rule(polygon || chain.course >= 0, "height", "clamps require a course");
-  s.rule(!polygon || !s.gives("clamp_length"), "clamp_length", "requires type: clamps");
+  s.rule(!polygon || chain.clamp_length == Chain{}.clamp_length, "clamp_length", "requires type: clamps");
   s.rule(chain.links == 0 || chain.links >= 3, "links", "must be 0 or at least 3");
   s.rule(chain.long_blocks == 0 || (chain.long_blocks >= 3 && chain.course >= 0), "long_blocks",
          "requires a course, and at least 3 blocks");
