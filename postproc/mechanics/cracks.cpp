@@ -12,9 +12,11 @@ std::vector<Crack> cracks_of(const ContactTable& c, const JointWrenches& joints)
     double widest = 0.0;
     for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
       const int row = joints.contacts[i];
-      if (c.normal_force[row] > 0.0 || c.gap[row] <= joints.floor.length) continue;
+      // A joint that pulls elongates elastically before it cracks.
+      const double opening = c.crack_opening.empty() ? c.gap[row] : c.crack_opening[row];
+      if (c.normal_force[row] > 0.0 || opening <= joints.floor.length) continue;
       open.push_back(c.point[row]);
-      widest = std::max(widest, c.gap[row]);
+      widest = std::max(widest, opening);
     }
     if (open.size() < 2) continue;
     Crack crack{static_cast<int>(j), planar_hull(open, joint.patch.plane.normal), 0.0, widest};

@@ -44,6 +44,16 @@ TEST(Cracks, AreWiderThanTheFloorOfLengths) {
   for (const JointWrench& joint : e.last.joints.wrenches) EXPECT_EQ(joint.opening, 0.0);
 }
 
+// A joint with tensile strength that pulls has a gap but no crack: what counts is the opening beyond its elastic elongation.
+TEST(Cracks, AreNotTheElasticElongationOfAJoint) {
+  Evaluation e = evaluated_with(2e-3);
+  ContactTable& contacts = e.last.frame.contacts;
+  contacts.crack_opening.assign(static_cast<size_t>(contacts.size()), 0.0);
+  EXPECT_TRUE(cracks_of(contacts, e.last.joints).empty());
+  contacts.crack_opening = contacts.gap;
+  EXPECT_EQ(cracks_of(contacts, e.last.joints).size(), 3u);
+}
+
 TEST(Cracks, NeedAGap) {
   const Evaluation e = evaluated_with(0.0);
   EXPECT_TRUE(cracks_of(e.last.frame.contacts, e.last.joints).empty());
