@@ -1,26 +1,12 @@
 #include <cmath>
-#include <sstream>
-#include <vector>
 
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/mesh_file.hpp"
+#include "tests/csv_numbers.hpp"
 #include "tests/pipeline/program_run.hpp"
 
 namespace cupola::push_over_test {
 namespace {
-
-std::vector<std::vector<double>> rows_of(const std::string& csv) {
-  std::vector<std::vector<double>> rows;
-  std::istringstream lines(csv);
-  std::string line, cell;
-  std::getline(lines, line);
-  while (std::getline(lines, line)) {
-    rows.emplace_back();
-    std::istringstream cells(line);
-    while (std::getline(cells, cell, ',')) rows.back().push_back(std::stod(cell));
-  }
-  return rows;
-}
 
 // The dry portal under a force on its lintel. Its piers (0.6 x 3 m, 45 kN) rock about their toes, and carry the lintel (50 kN) on
 // their other corners: F = (W_pier + W_lintel) tan(alpha - theta) with tan alpha = 0.6 / 3, at the displacement
@@ -35,7 +21,7 @@ analysis: {type: path, tolerance: 1e-6, path: {steps: 20, length: 0.5, control: 
   ASSERT_EQ(folder.run("cupola-generate push.yaml --output a.vtu").code, 0);
   const ProgramRun solve = folder.run("cupola-solve push.yaml --assembly a.vtu --output results");
   ASSERT_EQ(solve.code, 0) << solve.err;
-  const auto rows = rows_of(slurp(folder.file("results/path.csv")));
+  const auto rows = test::csv_numbers(slurp(folder.file("results/path.csv")));
   ASSERT_EQ(rows.size(), 21U);
   for (size_t k = 1; k < rows.size(); ++k) {
     double theta = 0.0;  // by Newton's method

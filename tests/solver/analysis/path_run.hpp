@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "solver/analysis/analysis.hpp"
+#include "tests/csv_numbers.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 // Runs of path analyses, and the couplet, two blocks with one joint that breaks.
@@ -31,20 +31,6 @@ struct PathResult {
   }
 };
 
-/// Rows of path.csv.
-inline std::vector<std::vector<double>> path_rows(const std::string& table) {
-  std::vector<std::vector<double>> rows;
-  std::istringstream lines(table);
-  std::string line, cell;
-  std::getline(lines, line);
-  while (std::getline(lines, line)) {
-    rows.emplace_back();
-    std::istringstream cells(line);
-    while (std::getline(cells, cell, ',')) rows.back().push_back(std::stod(cell));
-  }
-  return rows;
-}
-
 inline PathResult run(const Case& scene, const Assembly& assembly) {
   PathResult result;
   std::string table;
@@ -55,7 +41,7 @@ inline PathResult run(const Case& scene, const Assembly& assembly) {
     table = text;
   };
   result.summary = run_path(scene, assembly, sinks).value();
-  result.rows = path_rows(table);
+  result.rows = test::csv_numbers(table);
   return result;
 }
 
