@@ -13,13 +13,16 @@
 namespace cupola {
 namespace {
 
+// Of the thickness: how far the chords of a faceted shell may leave an anchor outside its block.
+constexpr double kMostOutside = 0.1;
+
 struct Anchor {
   int block = 0;
   Vec3 point = Vec3::Zero();  // m
 };
 
-/// Finds the block in which a point lies. Points slightly outside, beyond the chord of a curved skin, belong to the
-/// nearest block.
+/// Finds the block in which a point lies. Points outside by less than `tolerance`, beyond the chord of a curved skin, belong
+/// to the nearest block.
 class BlockFinder {
  public:
   explicit BlockFinder(const Assembly& assembly) : assembly_(assembly) {
@@ -30,7 +33,8 @@ class BlockFinder {
       boxes_.push_back(box);
     }
   }
-  int block_at(const Vec3& point) const {
+  /// -1: no block is that near. `tolerance`: m.
+  int block_at(const Vec3& point, double tolerance) const {
     double best = -std::numeric_limits<double>::infinity();
     int block = -1;
     for (const bool inside : {true, false})  // the second pass has to look at few boxes only
@@ -42,7 +46,7 @@ class BlockFinder {
         best = depth;
         block = assembly_.parts[i].block;
       }
-    return block;
+    return best < -tolerance ? -1 : block;
   }
 
  private:
@@ -73,25 +77,36 @@ class Level {
       : chain_(chain), key_(std::move(key)), surface_(surface) {
     if (chain.course >= 0) bed_ = (chain.course + 0.5) * refinement * surface.rows_per_ring;
   }
-  Vec3 point(double abscissa) const { return at(bed(abscissa), abscissa); }
+  Vec3 point(double abscissa) const { return at(bed(abscissa), abscissa, chain_.place); }
+  int block(double abscissa, const BlockFinder& blocks) const {
+    const double level = bed(abscissa);
+    const double thickness = (at(level, abscissa, 1.0) - at(level, abscissa, 0.0)).norm();
+    const int found = blocks.block_at(at(level, abscissa, chain_.place), kMostOutside * thickness);
+    if (found < 0)
+      throw InputError(
+          fmt::format("{}.place = {}: a bar would end in a cavity; give a place in which all "
+                      "anchors lie in blocks, from 0 (intrados) to 1 (extrados)",
+                      key_, chain_.place));
+    return found;
+  }
   double bed(double abscissa) const {
     if (bed_) return *bed_;
     double low = 0.0, high = surface_.num_rows;
-    const double height = *chain_.height, bottom = at(low, abscissa).z(), top = at(high, abscissa).z();
+    const double height = *chain_.height, bottom = at(low, abscissa, chain_.place).z(),
+                 top = at(high, abscissa, chain_.place).z();
     if (height <= bottom || height >= top)
       throw InputError(fmt::format("{}.height = {}: the masonry reaches from {:.6g} to {:.6g} m there", key_,
                                    height, bottom, top));
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
-      (at(middle, abscissa).z() < height ? low : high) = middle;
+      (at(middle, abscissa, chain_.place).z() < height ? low : high) = middle;
     }
     return low;
   }
 
  private:
-  Vec3 at(double bed, double abscissa) const {
-    return (1.0 - chain_.place) * surface_.intrados(bed, abscissa) +
-           chain_.place * surface_.extrados(bed, abscissa);
+  Vec3 at(double bed, double abscissa, double place) const {
+    return (1.0 - place) * surface_.intrados(bed, abscissa) + place * surface_.extrados(bed, abscissa);
   }
 
   const Chain& chain_;
@@ -104,8 +119,7 @@ std::vector<Run> runs_of_blocks(const Level& level, const std::vector<double>& c
                                 const BlockFinder& blocks) {
   const int num_slices = static_cast<int>(cuts.size()) - 1;
   std::vector<int> block_of;
-  for (int s = 0; s < num_slices; ++s)
-    block_of.push_back(blocks.block_at(level.point(0.5 * (cuts[s] + cuts[s + 1]))));
+  for (int s = 0; s < num_slices; ++s) block_of.push_back(level.block(0.5 * (cuts[s] + cuts[s + 1]), blocks));
   std::vector<Run> runs;
   for (int s = 0; s < num_slices; ++s)
     if (runs.empty() || runs.back().block != block_of[s])
@@ -149,8 +163,8 @@ std::vector<Anchor> polygon(const Level& level, const Chain& chain, const Shell&
   }
   const double first = surface.corners.empty() ? 0.0 : surface.corners.front();
   for (int i = 0; i < chain.links; ++i) {
-    const Vec3 point = level.point(first + i * surface.extent / chain.links);
-    anchors.push_back({blocks.block_at(point), point});
+    const double abscissa = first + i * surface.extent / chain.links;
+    anchors.push_back({level.block(abscissa, blocks), level.point(abscissa)});
   }
   return anchors;
 }

@@ -11,7 +11,7 @@ namespace cupola {
 ///
 ///     k = E A / L,    natural length = L + slack - prestress / k,    L: distance of the ends
 ///
-/// Throws InputError for a level outside the masonry, for clamps longer than blocks, and for two ends of a
+/// Throws InputError for a level outside the masonry, for anchors in a cavity, for clamps longer than blocks, and for two ends of a
 /// tie in one block.
 void add_chains(const std::vector<Chain>& chains, int refinement, const Shell& shell, Assembly* assembly);
 
