@@ -47,7 +47,7 @@ Measured measure(const std::string& name, const std::vector<std::string>& settin
 }
 
 void print_row(const char* scene, const char* feature, const Measured& with, const Measured& without) {
-  fmt::print("{},{},{} / {},{} / {},{} / {},{:.3f} / {:.3f},{:.2f}\n", scene, feature, with.counts.unknowns,
+  fmt::print("{},\"{}\",{} / {},{} / {},{} / {},{:.3f} / {:.3f},{:.2f}\n", scene, feature, with.counts.unknowns,
              without.counts.unknowns, with.counts.contacts, without.counts.contacts, with.factor_entries,
              without.factor_entries, with.seconds, without.seconds, with.seconds / without.seconds);
 }
@@ -61,7 +61,7 @@ void strength_rows(const std::string& dome, const Measured& plain) {
       strengths.insert(strengths.begin(), dry.begin(), dry.end());
       return strengths;
     };
-    const std::string points = subdivide == 1 ? "" : fmt::format("; subdivide {}", subdivide);
+    const std::string points = subdivide == 1 ? "" : fmt::format(", subdivide {}", subdivide);
     const Measured without = measure(dome, dry);
     const Measured full = measure(
         dome, with({"joints.tension=1e5", "joints.cohesion=1.5e5", "joints.compressive_strength=2.5e6"}));
@@ -72,8 +72,8 @@ void strength_rows(const std::string& dome, const Measured& plain) {
         measure(dome, with({"joints.compressive_strength=1e12"})), without);
     row("compressive strength of 2.5 MPa", measure(dome, with({"joints.compressive_strength=2.5e6"})),
         without);
-    row("tension; cohesion and compressive strength", full, without);
-    row("tension; cohesion and compressive strength; beside the dry dome of the case", full, plain);
+    row("all strengths", full, without);
+    row("all strengths, beside the dry dome of the case", full, plain);
   }
 }
 

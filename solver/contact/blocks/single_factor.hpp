@@ -15,7 +15,7 @@ namespace cupola {
 /// so that each panel is one product with a matrix, of half the bytes, per direction.
 class SingleFactor {
  public:
-  /// `values`: of the panels of the factor, with `unknowns` per block.
+  /// `values`: of the panels of the factor of I + D G D^T, masses scaled to one, with `unknowns` per block.
   SingleFactor(const FactorStructure& structure, int unknowns, const std::vector<double>& values);
 
   /// False if rounding to single precision may change the solution by more than a few percent.
