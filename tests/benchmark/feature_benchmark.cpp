@@ -47,9 +47,10 @@ Measured measure(const std::string& name, const std::vector<std::string>& settin
 }
 
 void print_row(const char* scene, const char* feature, const Measured& with, const Measured& without) {
-  fmt::print("{},\"{}\",{} / {},{} / {},{} / {},{:.3f} / {:.3f},{:.2f}\n", scene, feature, with.counts.unknowns,
-             without.counts.unknowns, with.counts.contacts, without.counts.contacts, with.factor_entries,
-             without.factor_entries, with.seconds, without.seconds, with.seconds / without.seconds);
+  fmt::print("{},\"{}\",{} / {},{} / {},{} / {},{:.3f} / {:.3f},{:.2f}\n", scene, feature,
+             with.counts.unknowns, without.counts.unknowns, with.counts.contacts, without.counts.contacts,
+             with.factor_entries, without.factor_entries, with.seconds, without.seconds,
+             with.seconds / without.seconds);
 }
 
 /// Joints of mortar. The same dome without strength has the same contact points only with compliance per area.
