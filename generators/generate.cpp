@@ -21,6 +21,7 @@ CutOptions cut_options(const Case& input) {
   CutOptions options;
   options.density = input.material.density();
   options.support_width = input.geometry.support_width;
+  options.base_blocks = input.geometry.base_blocks;
   options.imperfections = input.geometry.imperfections;
   return options;
 }
@@ -33,6 +34,17 @@ std::optional<double> smooth_volume(const Shell& shell) {
       !std::ranges::all_of(surface.wythes, &Thickness::constant))
     return std::nullopt;
   return surface.shell_volume ? *surface.shell_volume : extrapolated_shell_volume(surface);
+}
+
+/// m3, of all storeys; none if that of one is not known.
+std::optional<double> smooth_volume(const std::vector<Shell>& storeys) {
+  std::optional<double> sum = 0.0;
+  for (const Shell& storey : storeys) {
+    const std::optional<double> volume = smooth_volume(storey);
+    if (!volume) return std::nullopt;
+    *sum += *volume;
+  }
+  return sum;
 }
 
 /// The assembly with what the checks found and what is doubtful about its case.
@@ -48,9 +60,9 @@ Assembly with_report(Assembly assembly, const GenerateReport& report, const Case
 }  // namespace
 
 Assembly cut_assembly(const Case& input) {
-  const Shell shell = make_shell(input.geometry);
-  Assembly assembly = cut_blocks(shell, cut_options(input));
-  add_chains(input.geometry.chains, refinement_of(*finest_bond(input.geometry)), shell, &assembly);
+  const std::vector<Shell> storeys = make_storeys(input.geometry);
+  Assembly assembly = cut_blocks(storeys, cut_options(input));
+  add_chains(input.geometry.chains, refinement_of(*finest_bond(input.geometry)), storeys.back(), &assembly);
   assembly.title = input.title;
   assembly.geometry_hash = input.geometry_hash;
   return assembly;
@@ -85,7 +97,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
     tolerances.joint_angle = rule.max_angle;
   }
   report->model = check_model(assembly, tolerances);
-  if (!geometry.stage) report->model.shell_volume = smooth_volume(make_shell(geometry));
+  if (!geometry.stage) report->model.shell_volume = smooth_volume(make_storeys(geometry));
   return with_report(std::move(assembly), *report, input);
 }
 

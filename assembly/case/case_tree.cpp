@@ -24,7 +24,7 @@ fs::path identity_of(const fs::path& path) {
 
 /// Maps in which the `type` decides which other keys exist. The keys of `analysis` are common to all types.
 bool type_owns_keys(const std::string& path) {
-  return path == "geometry.surface" || path == "geometry.bond";
+  return path == "geometry.surface" || path == "geometry.bond" || path == "geometry.drum.bond";
 }
 
 /// Merges `over` into `base`: maps key by key, other nodes replace, an empty value (`null`) removes the key.

@@ -11,8 +11,9 @@ namespace cupola {
 void declare_case(Section& s, Case& the_case);
 void declare_geometry(Section& s, Geometry& geometry);
 void declare_bond(Section& s, Bond& bond);
-/// `wythes` and `bonders` of the geometry, with the rules between them.
-void declare_layers(Section& s, Geometry& geometry);
+/// `bond`, or `wythes` and `bonders`, with the rules between them.
+void declare_masonry(Section& s, Masonry& masonry);
+void declare_drum(Section& s, Drum& drum);
 void declare_imperfections(Section& s, Imperfections& imperfections);
 void declare_material(Section& s, Material& material);
 void declare_joints(Section& s, Joints& joints);

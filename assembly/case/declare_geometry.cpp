@@ -267,11 +267,8 @@ void declare_geometry(Section& s, Geometry& geometry) {
                      declare_import);
   if (geometry.imported) return;
   s.section("surface", geometry.surface, "shape of the masonry shell", declare_surface);
-  if (s.gives("wythes"))
-    s.refuse("bond", "remove this key: geometry.wythes gives the bond of each wythe");
-  else
-    s.section("bond", geometry.bond, "pattern in which the shell is cut into blocks", declare_bond);
-  declare_layers(s, geometry);
+  declare_masonry(s, geometry);
+  s.optional_section("drum", geometry.drum, "vertical wall on which a dome or vault stands", declare_drum);
   s.optional_section(
       "window", geometry.window,
       "cut only some courses over a sector of the shell; bond.rings and bond.blocks_per_ring are "
@@ -284,6 +281,10 @@ void declare_geometry(Section& s, Geometry& geometry) {
     if (geometry.chains[i].name.empty()) geometry.chains[i].name = fmt::format("chain {}", i);
   s.number("support_width", geometry.support_width, {.unit = "m", .above = 0},
            "distance by which the fixed base extends beyond the shell");
+  s.integer(
+      "base_blocks", geometry.base_blocks, {.min = 1, .max = 1000},
+      "equal fixed blocks into which the base of a dome or vault is divided, so that one may settle; the "
+      "first lies about the first corner");
 
   const bool closed = traits_of(geometry.surface).closed;
   const int rings = std::visit([](const auto& bond) { return bond.rings; }, *finest_bond(geometry));
@@ -295,6 +296,8 @@ void declare_geometry(Section& s, Geometry& geometry) {
         geometry.wythes.empty() ? "bond" : "wythes", "bond.blocks_per_ring must be >= 3 on a closed ring");
   const bool whole = !geometry.window && closed;
   s.rule(geometry.chains.empty() || whole, "chains", "requires a whole dome or octagonal vault");
+  s.rule(!geometry.drum || whole, "drum", "requires a whole dome or octagonal vault");
+  s.rule(geometry.base_blocks == 1 || whole, "base_blocks", "requires a whole dome or octagonal vault");
   for (const Chain& chain : geometry.chains)
     s.rule(chain.course < rings, "chains", "course must be < bond.rings");
   for (const Chain& chain : geometry.chains)

@@ -64,9 +64,9 @@ int index_of(const std::vector<Wythe>& wythes, const std::string& name) {
 }
 
 /// All wythes share the beds of the one with the most courses.
-void check_courses(const Section& s, const Geometry& geometry) {
-  const int most = rings_of(*finest_bond(geometry));
-  for (const Wythe& wythe : geometry.wythes)
+void check_courses(const Section& s, const Masonry& masonry) {
+  const int most = rings_of(*finest_bond(masonry));
+  for (const Wythe& wythe : masonry.wythes)
     if (wythe.bond)
       s.rule(most % rings_of(*wythe.bond) == 0, "wythes",
              fmt::format("{} has {} courses, which do not divide the {} of the wythe with the most",
@@ -75,17 +75,21 @@ void check_courses(const Section& s, const Geometry& geometry) {
 
 }  // namespace
 
-void declare_layers(Section& s, Geometry& geometry) {
-  std::vector<Wythe>& wythes = geometry.wythes;
-  std::vector<Bonders>& bonders = geometry.bonders;
-  s.list("wythes", wythes,
-         "layers through the thickness, inside first, instead of surface.thickness and bond", declare_wythe);
+void declare_masonry(Section& s, Masonry& masonry) {
+  std::vector<Wythe>& wythes = masonry.wythes;
+  std::vector<Bonders>& bonders = masonry.bonders;
+  if (s.gives("wythes"))
+    s.refuse("bond", "remove this key: `wythes` gives the bond of each wythe");
+  else
+    s.section("bond", masonry.bond, "pattern in which the shell is cut into blocks", declare_bond);
+  s.list("wythes", wythes, "layers through the thickness, inside first, instead of a thickness and a bond",
+         declare_wythe);
   s.list("bonders", bonders, "blocks through several wythes: headers, ribs, solid courses", declare_bonders);
   if (!s.gives("wythes")) {
-    s.rule(bonders.empty(), "bonders", "requires geometry.wythes");
+    s.rule(bonders.empty(), "bonders", "requires wythes");
     return;
   }
-  s.rule(!bonds_of(geometry).empty() && !wythes.empty(), "wythes", "at least one wythe must have a bond");
+  s.rule(!bonds_of(masonry).empty() && !wythes.empty(), "wythes", "at least one wythe must have a bond");
   for (size_t i = 0; i < wythes.size(); ++i)
     s.rule(index_of(wythes, wythes[i].name) == static_cast<int>(i), "wythes",
            fmt::format("two wythes are called {}", wythes[i].name));
@@ -95,7 +99,7 @@ void declare_layers(Section& s, Geometry& geometry) {
            fmt::format("{}: from `{}` to `{}` must be names of wythes, the inner one first", group.name,
                        group.from, group.to));
   }
-  check_courses(s, geometry);
+  check_courses(s, masonry);
 }
 
 }  // namespace cupola

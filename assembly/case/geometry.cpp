@@ -13,17 +13,17 @@ double Thickness::at(double height) const {
   return values[i - 1] + fraction * (values[i] - values[i - 1]);
 }
 
-std::vector<const Bond*> bonds_of(const Geometry& geometry) {
-  if (geometry.wythes.empty()) return {&geometry.bond};
+std::vector<const Bond*> bonds_of(const Masonry& masonry) {
+  if (masonry.wythes.empty()) return {&masonry.bond};
   std::vector<const Bond*> bonds;
-  for (const Wythe& wythe : geometry.wythes)
+  for (const Wythe& wythe : masonry.wythes)
     if (wythe.bond) bonds.push_back(&*wythe.bond);
   return bonds;
 }
 
-const Bond* finest_bond(const Geometry& geometry) {
-  const std::vector<const Bond*> bonds = bonds_of(geometry);
-  if (bonds.empty()) return &geometry.bond;  // of a case that is not valid, or not complete yet
+const Bond* finest_bond(const Masonry& masonry) {
+  const std::vector<const Bond*> bonds = bonds_of(masonry);
+  if (bonds.empty()) return &masonry.bond;  // of a case that is not valid, or not complete yet
   return *std::ranges::max_element(bonds, {}, [](const Bond* bond) { return rings_of(*bond); });
 }
 

@@ -214,6 +214,34 @@ struct Bonders {
   HeightRange where;
 };
 
+/// How a wall or shell is built up through its thickness.
+struct Masonry {
+  Bond bond = RunningBond{};  ///< of the whole thickness
+  /// Layers through the thickness, inside first. If there are any, `bond` and a single thickness are ignored.
+  std::vector<Wythe> wythes;
+  std::vector<Bonders> bonders;
+};
+
+/// Rectangular openings of a drum, all of one size. Their jambs are head planes of the surface, and a lintel in one block
+/// through the whole thickness covers each.
+struct Openings {
+  int per_ring = 0;             ///< of each position in `at`; 0: one on each side of the plan
+  std::vector<double> at{0.5};  ///< middles, in spacings from abscissa 0 (the first corner), in [0, 1)
+  double width = 0.0;           ///< m, > 0, on the intrados
+  double height = 0.0;          ///< m, > 0
+  double sill = 0.0;            ///< m, >= 0, height of the lower edge above the foot of the drum
+  double lintel = 0.0;          ///< m, >= 0, height of the lintel; 0: one course
+  double bearing = 0.5;         ///< m, > 0, of the lintel beyond each jamb, on the intrados
+};
+
+/// A vertical wall below the springing of a dome or vault, over the plan of its springing. Its inner faces are flush.
+/// Heights of its wythes and bonders count from its foot.
+struct Drum : Masonry {
+  double height = 0.0;     ///< m, > 0
+  double thickness = 0.0;  ///< m, > 0, measured as that of the surface
+  std::vector<Openings> openings;
+};
+
 /// A part of a dome or vault, of which only some courses over a sector are cut: masonry at the scale of bricks.
 struct Window {
   /// `held`: fixed masonry stands beyond the two ends, as if the rest of the ring were built.
@@ -300,24 +328,23 @@ constexpr auto enum_names(ImportedBlocks::UpAxis) {
   return std::array{"z", "y"};
 }
 
-struct Geometry {
+struct Geometry : Masonry {
   std::optional<ImportedBlocks> imported;  ///< if set, surface, bond and stage are ignored
   Surface surface = DomeSurface{};
-  Bond bond = RunningBond{};  ///< of the whole thickness
-  /// Layers through the thickness, inside first. If there are any, `bond` and the thickness of the surface are ignored.
-  std::vector<Wythe> wythes;
-  std::vector<Bonders> bonders;
+  std::optional<Drum> drum;
   std::optional<Window> window;
   std::optional<Stage> stage;
   std::vector<Chain> chains;
   std::optional<Imperfections> imperfections;  ///< from the section `imperfections` of the case
   double support_width = 1.0;  ///< m, > 0, distance by which the fixed base extends beyond the shell
+  int base_blocks =
+      1;  ///< >= 1: equal parts of the fixed ring, which may move separately; the first about the first corner
 };
 
-/// The bond of the shell, or those of its wythes.
-std::vector<const Bond*> bonds_of(const Geometry& geometry);
+/// The bond of the masonry, or those of its wythes.
+std::vector<const Bond*> bonds_of(const Masonry& masonry);
 /// The one with the most courses, whose beds all wythes share.
-const Bond* finest_bond(const Geometry& geometry);
+const Bond* finest_bond(const Masonry& masonry);
 
 /// Number of courses after refinement.
 int rings_of(const Bond& bond);

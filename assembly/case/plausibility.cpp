@@ -27,12 +27,23 @@ PlausibleRange vault_angle(const std::string& key, double value) {
 }
 
 /// With wythes the thickness of the surface is not in use.
-std::vector<PlausibleRange> wythe_checks(const std::vector<Wythe>& wythes) {
+std::vector<PlausibleRange> wythe_checks(const std::vector<Wythe>& wythes, const std::string& where) {
   std::vector<PlausibleRange> checks;
   for (size_t i = 0; i < wythes.size(); ++i)
     for (const double value : wythes[i].thickness.values)
-      checks.push_back({fmt::format("geometry.wythes[{}].thickness", i), value, "m", 0.002, 20.0,
+      checks.push_back({fmt::format("{}.wythes[{}].thickness", where, i), value, "m", 0.002, 20.0,
                         "in kilometres? Lengths are in m", kMillimetres});
+  return checks;
+}
+
+std::vector<PlausibleRange> drum_checks(const Drum& drum) {
+  std::vector<PlausibleRange> checks = wythe_checks(drum.wythes, "geometry.drum");
+  const auto add = [&](const std::string& key, double value, double low, double high) {
+    checks.push_back(
+        {"geometry.drum." + key, value, "m", low, high, "in kilometres? Lengths are in m", kMillimetres});
+  };
+  add("height", drum.height, 0.05, 250.0);
+  if (drum.wythes.empty()) add("thickness", drum.thickness, 0.002, 20.0);
   return checks;
 }
 
@@ -231,7 +242,10 @@ std::vector<std::string> implausible_values(const Case& scene) {
       scene.geometry.imported ? std::vector<PlausibleRange>{} : surface_checks(scene.geometry.surface);
   if (!scene.geometry.wythes.empty())
     std::erase_if(checks, [](const PlausibleRange& c) { return c.key == "geometry.surface.thickness"; });
-  for (PlausibleRange& check : wythe_checks(scene.geometry.wythes)) checks.push_back(std::move(check));
+  for (PlausibleRange& check : wythe_checks(scene.geometry.wythes, "geometry"))
+    checks.push_back(std::move(check));
+  if (scene.geometry.drum)
+    for (PlausibleRange& check : drum_checks(*scene.geometry.drum)) checks.push_back(std::move(check));
   for (PlausibleRange& check : material_checks(scene)) checks.push_back(std::move(check));
   add_joint_checks(scene.joints, &checks);
   add_load_checks(scene, &checks);

@@ -53,7 +53,9 @@ void split_at_corners(const BondGrid& grid, BondPattern* pattern) {
   }
   split.block_of.clear();
   for (int ring = 0; ring < pattern->num_rings; ++ring)
-    for (int s : old_slice) split.block_of.push_back(pattern->at(ring, s));
+    for (int s : old_slice)
+      for (int wythe = 0; wythe < pattern->num_wythes; ++wythe)
+        split.block_of.push_back(pattern->at(ring, s, wythe));
   *pattern = std::move(split);
 }
 

@@ -71,6 +71,13 @@ class Numbering {
 
 }  // namespace
 
+std::vector<int> cells_per_block(const BondPattern& pattern) {
+  std::vector<int> count(pattern.blocks.size(), 0);
+  for (const int block : pattern.block_of)
+    if (block != kVoid) ++count[block];
+  return count;
+}
+
 void separate_rests(bool closed, const std::vector<int>& laid, BondPattern* pattern) {
   Numbering numbering(*pattern, closed);
   std::vector<BondBlock> blocks;

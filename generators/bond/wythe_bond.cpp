@@ -122,39 +122,32 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<int>(std::ranges::find(names, name) - names.begin());
 }
 
-std::vector<int> cells_per_block(const BondPattern& pattern) {
-  std::vector<int> count(pattern.blocks.size(), 0);
-  for (const int block : pattern.block_of)
-    if (block != kVoid) ++count[block];
-  return count;
-}
-
-void check_members(const std::vector<std::string>& names, const Geometry& geometry,
+void check_members(const std::vector<std::string>& names, const Masonry& masonry,
                    const BondPattern& pattern) {
   std::vector<char> exists(names.size(), 0);
-  for (const Wythe& wythe : geometry.wythes)
+  for (const Wythe& wythe : masonry.wythes)
     if (!wythe.bond) exists[index_of(names, wythe.name)] = 1;
   for (const BondBlock& block : pattern.blocks) exists[block.member] = 1;
   for (size_t i = 0; i < names.size(); ++i)
     if (!exists[i])
       throw InputError(fmt::format(
           "geometry.{}: {} has no block: no course lies in its height range, or bonders replace all blocks",
-          i < geometry.wythes.size() ? "wythes" : "bonders", names[i]));
+          i < masonry.wythes.size() ? "wythes" : "bonders", names[i]));
 }
 
 }  // namespace
 
-std::vector<std::string> member_names(const Geometry& geometry) {
+std::vector<std::string> member_names(const Masonry& masonry) {
   std::vector<std::string> names;
-  for (const Wythe& wythe : geometry.wythes) names.push_back(wythe.name);
-  for (const Bonders& bonders : geometry.bonders)
+  for (const Wythe& wythe : masonry.wythes) names.push_back(wythe.name);
+  for (const Bonders& bonders : masonry.bonders)
     if (std::ranges::find(names, bonders.name) == names.end()) names.push_back(bonders.name);
   return names;
 }
 
-BondPattern make_wythe_bond(const Geometry& geometry, const BondGrid& grid,
+BondPattern make_wythe_bond(const Masonry& masonry, const BondGrid& grid,
                             const std::vector<double>& heights) {
-  const std::vector<Wythe>& wythes = geometry.wythes;
+  const std::vector<Wythe>& wythes = masonry.wythes;
   std::vector<BondPattern> own;
   for (const Wythe& wythe : wythes) {
     if (!wythe.bond) continue;
@@ -163,7 +156,7 @@ BondPattern make_wythe_bond(const Geometry& geometry, const BondGrid& grid,
     own.push_back(make_bond(*wythe.bond, courses));
   }
   std::vector<BonderPlaces> places;
-  for (const Bonders& bonders : geometry.bonders) places.push_back({bonders, grid});
+  for (const Bonders& bonders : masonry.bonders) places.push_back({bonders, grid});
 
   BondPattern pattern;
   pattern.num_rings = grid.num_rings;
@@ -174,13 +167,13 @@ BondPattern make_wythe_bond(const Geometry& geometry, const BondGrid& grid,
   for (size_t i = 0; i < wythes.size(); ++i)
     if (wythes[i].bond) lay_wythe(wythes[i], own[next++], static_cast<int>(i), grid, heights, &pattern);
   std::vector<int> laid = cells_per_block(pattern);
-  const std::vector<std::string> names = member_names(geometry);  // those of the wythes first
+  const std::vector<std::string> names = member_names(masonry);  // those of the wythes first
   for (const BonderPlaces& group : places)
     lay_bonders(group, index_of(names, group.bonders.name), index_of(names, group.bonders.from),
                 index_of(names, group.bonders.to), heights, &pattern);
   laid.resize(pattern.blocks.size(), 0);
   separate_rests(grid.closed, laid, &pattern);
-  check_members(names, geometry, pattern);
+  check_members(names, masonry, pattern);
   return pattern;
 }
 

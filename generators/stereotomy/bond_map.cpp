@@ -53,17 +53,37 @@ void draw_block(const CellGrid& grid, int block, const Scale& scale, std::string
   }
 }
 
+double panel_height(const Shell& storey) {
+  const int rows = storey.surface.num_rows;
+  return rows * std::clamp(800.0 / rows, 2.0, 60.0);
+}
+
+/// Draws a wythe in a panel whose lower edge lies at `bottom`, with its name above it unless that is empty.
+void draw_wythe(const CellGrid& grid, int wythe, const std::string& name, double bottom, double panel,
+                std::string* svg) {
+  const SurfaceMap& surface = grid.surface;
+  const Scale scale{(kWidth - 2.0 * kMargin) / surface.extent, panel / grid.num_rows, kMargin, bottom};
+  if (!name.empty())
+    *svg += fmt::format("<text x='{:.2f}' y='{:.2f}' font-family='sans-serif' font-size='16'>{}</text>\n",
+                        kMargin, bottom - panel - 6.0, markup_text(name));
+  *svg += "<g stroke='#3a3a3a' stroke-width='0.6' clip-path='url(#shell)'>\n";
+  for (int block : grid.order)
+    if (is_in_wythe(grid, block, wythe)) draw_block(grid, block, scale, svg);
+  *svg += "</g>\n<g stroke='#1f3f66' stroke-width='1.2' stroke-dasharray='6 4'>\n";
+  for (double corner : surface.corners)
+    *svg += fmt::format("<line x1='{0:.2f}' x2='{0:.2f}' y1='{1:.2f}' y2='{2:.2f}'/>\n",
+                        scale.left + scale.x * corner, bottom - panel, bottom);
+  *svg += "</g>\n";
+}
+
 }  // namespace
 
 std::string bond_map_svg(const Geometry& geometry) {
   if (geometry.imported)
     throw InputError("--bond-map: not available for imported blocks, which have no bond");
-  const Shell shell = make_shell(geometry);
-  const SurfaceMap& surface = shell.surface;
-  const CellGrid grid = make_cell_grid(surface, shell.bond, shell.stage_rings);
-
-  const double row_height = std::clamp(800.0 / grid.num_rows, 2.0, 60.0);
-  const double panel = row_height * grid.num_rows, height = grid.num_wythes * (panel + kMargin) + kMargin;
+  const std::vector<Shell> storeys = make_storeys(geometry);
+  double height = kMargin;
+  for (const Shell& storey : storeys) height += storey.bond.num_wythes * (panel_height(storey) + kMargin);
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} "
       "{1:.0f}'>\n"
@@ -71,20 +91,14 @@ std::string bond_map_svg(const Geometry& geometry) {
       "height='{4:.2f}'/></clipPath></defs>\n"
       "<rect width='100%' height='100%' fill='white'/>\n",
       kWidth, height, kMargin, kWidth - 2.0 * kMargin, height - 2.0 * kMargin);
-  for (int wythe = 0; wythe < grid.num_wythes; ++wythe) {
-    const double bottom = height - kMargin - wythe * (panel + kMargin);
-    const Scale scale{(kWidth - 2.0 * kMargin) / surface.extent, row_height, kMargin, bottom};
-    if (grid.num_wythes > 1)
-      svg += fmt::format("<text x='{:.2f}' y='{:.2f}' font-family='sans-serif' font-size='16'>{}</text>\n",
-                         kMargin, bottom - panel - 6.0, markup_text(geometry.wythes[wythe].name));
-    svg += "<g stroke='#3a3a3a' stroke-width='0.6' clip-path='url(#shell)'>\n";
-    for (int block : grid.order)
-      if (is_in_wythe(grid, block, wythe)) draw_block(grid, block, scale, &svg);
-    svg += "</g>\n<g stroke='#1f3f66' stroke-width='1.2' stroke-dasharray='6 4'>\n";
-    for (double corner : surface.corners)
-      svg += fmt::format("<line x1='{0:.2f}' x2='{0:.2f}' y1='{1:.2f}' y2='{2:.2f}'/>\n",
-                         scale.left + scale.x * corner, bottom - panel, bottom);
-    svg += "</g>\n";
+  double bottom = height - kMargin;
+  for (const Shell& storey : storeys) {
+    const CellGrid grid = make_cell_grid(storey.surface, storey.bond, storey.stage_rings);
+    for (int wythe = 0; wythe < grid.num_wythes; ++wythe) {
+      const std::string name = storeys.size() > 1 || grid.num_wythes > 1 ? storey.members[wythe] : "";
+      draw_wythe(grid, wythe, name, bottom, panel_height(storey), &svg);
+      bottom -= panel_height(storey) + kMargin;
+    }
   }
   return svg + "</svg>\n";
 }

@@ -118,7 +118,7 @@ CellGrid make_cell_grid(const SurfaceMap& surface, const BondPattern& bond, int 
     CUPOLA_ASSERT(!grid.cells[b].empty());
     const int row = grid.first_row(b);
     start[b] = {row, slices_in_row(grid, b, row).first, wythes_of(grid, b).first};
-    if (stage_rings > 0 && grid.ring_of(row) >= stage_rings) continue;
+    if (stage_rings > 0 && grid.ring_of(row) - surface.rings_below >= stage_rings) continue;
     grid.built[b] = 1;
     grid.order.push_back(b);
   }
@@ -159,7 +159,7 @@ FaceKind bed_kind(const CellGrid& grid, const CellRange& range, bool upper) {
   const bool below = beyond.row_start < 0, above = beyond.row_start == grid.num_rows;
   if (grid.is_support(owner_of(grid, range)) && (below || above)) return FaceKind::free;
   if (below) return FaceKind::bed;
-  if (above) return grid.surface.footing == Footing::both_springings ? FaceKind::bed : FaceKind::top;
+  if (above) return grid.surface.carries ? FaceKind::bed : FaceKind::top;
   const FaceKind kind = face_kind(grid, range, beyond, FaceKind::bed);
   if (kind != FaceKind::free || !upper) return kind;
   const auto is_to_be_built = [&](int row, int slice, int wythe) {

@@ -40,14 +40,16 @@ struct CellGrid {
     return block != kVoid && built[block];
   }
   bool is_corner(int cut) const { return corner[wrap(cut)]; }
-  int ring_of(int row) const { return row / surface.rows_per_ring + surface.first_ring(); }
+  int ring_of(int row) const {
+    return row / surface.rows_per_ring + surface.first_ring() + surface.rings_below;
+  }
   bool is_support(int block) const { return bond.blocks[block].kind == BlockKind::support; }
   int first_row(int block) const { return cells[block].front() / (num_slices * num_wythes); }
   int last_row(int block) const { return cells[block].back() / (num_slices * num_wythes); }
   double abscissa(int cut) const;  ///< continues beyond the seam
 };
 
-/// With `stage_rings` > 0 only the blocks that begin below that ring are built.
+/// With `stage_rings` > 0 only the blocks that begin below that ring of the surface are built.
 CellGrid make_cell_grid(const SurfaceMap& surface, const BondPattern& bond, int stage_rings);
 
 /// Slices [start, end) of a block in one of its rows; end exceeds num_slices if the block crosses the seam.

@@ -60,31 +60,38 @@ void drop_unused_vertices(Assembly* assembly) {
   for (int& v : assembly->face_vertices) v = new_id[v];
 }
 
-}  // namespace
-
-Assembly cut_blocks(const Shell& shell, const CutOptions& options) {
+/// Appends the blocks of a storey, with the supports between which it stands.
+void add_storey(const Shell& shell, const CutOptions& options, Assembly* assembly) {
   const SurfaceMap& surface = shell.surface;
   const std::vector<double>& cuts = shell.bond.cuts;
   const CellGrid grid = make_cell_grid(surface, shell.bond, shell.stage_rings);
   GridPoints points(grid, options.imperfections);
-  Assembly assembly;
-  if (surface.footing != Footing::masonry)
-    add_base_support(surface, cuts, options.support_width, options.density, &assembly);
-  points.make_shared(&assembly.vertices);
+  if (surface.footing != Footing::masonry && surface.footing != Footing::drum)
+    add_base_support(surface, cuts, options.support_width, options.base_blocks, options.density, assembly);
+  points.make_shared(&assembly->vertices);
+  const int first_member = static_cast<int>(assembly->members.size());
   for (int bond_block : grid.order) {
     Block block = make_block(grid, bond_block, options.density);
-    const bool follows = !assembly.blocks.empty() && assembly.blocks.back().ring == block.ring;
-    block.slot = follows ? assembly.blocks.back().slot + 1 : 0;
-    assembly.blocks.push_back(block);
+    block.member += first_member;
+    const bool follows = !assembly->blocks.empty() && assembly->blocks.back().ring == block.ring;
+    block.slot = follows ? assembly->blocks.back().slot + 1 : 0;
+    assembly->blocks.push_back(block);
     points.start_block(bond_block);
-    for (const CellRange& range : convex_ranges(grid, bond_block)) add_parts(grid, range, &points, &assembly);
+    for (const CellRange& range : convex_ranges(grid, bond_block)) add_parts(grid, range, &points, assembly);
   }
   if (surface.footing == Footing::both_springings)
-    add_far_support(surface, cuts, options.support_width, options.density, &assembly);
+    add_far_support(surface, cuts, options.support_width, options.density, assembly);
+  assembly->num_rings = surface.rings_below + surface.num_rings();
+  assembly->members.insert(assembly->members.end(), shell.members.begin(), shell.members.end());
+}
+
+}  // namespace
+
+Assembly cut_blocks(std::span<const Shell> storeys, const CutOptions& options) {
+  Assembly assembly;
+  for (const Shell& storey : storeys) add_storey(storey, options, &assembly);
   drop_unused_vertices(&assembly);
   CUPOLA_ASSERT(std::ranges::all_of(assembly.vertices, [](const Vec3& v) { return v.allFinite(); }));
-  assembly.num_rings = surface.num_rings();
-  assembly.members = shell.members;
   compute_mass_properties(&assembly);
   return assembly;
 }

@@ -27,8 +27,7 @@ GridPoints::GridPoints(const CellGrid& grid, const std::optional<Imperfections>&
   cut_noise_.assign(num_columns_, 0.0);
   skin_noise_.assign(static_cast<size_t>(grid.num_rows + 1) * num_columns_ * num_layers_, 0.0);
   if (noise_ == 0.0) return;
-  const bool last_is_fixed = grid.surface.footing == Footing::both_springings;
-  for (int bed = 1; bed <= grid.num_rows - (last_is_fixed ? 1 : 0); ++bed)
+  for (int bed = 1; bed <= grid.num_rows - (grid.surface.carries ? 1 : 0); ++bed)
     bed_noise_[bed] = noise_ * random_.symmetric() / metres_per_bed(bed, 0);
   for (int cut = 0; cut < num_columns_; ++cut)
     if (!grid.is_corner(cut)) cut_noise_[cut] = noise_ * random_.symmetric() / metres_per_abscissa(0, cut);

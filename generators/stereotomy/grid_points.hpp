@@ -24,7 +24,7 @@ class Random {
 /// - Without imperfections there is one vertex per bed, cut and layer, shared by all cells around it.
 /// - Noise moves each bed and each head plane as a whole, and each corner along the line that joins intrados
 ///   and extrados there. That line lies in the bed and in the head plane, so both stay plane and joints stay
-///   closed. The first bed, and the last bed of an arch, stay on their supports.
+///   closed. The first bed, and the last bed of an arch or drum, stay where they are.
 /// - Gaps give every block its own corners. Its beds and heads move inwards by random fractions of gap / 2,
 ///   measured on the intrados.
 class GridPoints {

@@ -5,6 +5,7 @@
 #include "generators/bond/long_blocks.hpp"
 #include "generators/bond/make_bond.hpp"
 #include "generators/bond/wythe_bond.hpp"
+#include "generators/stereotomy/drum.hpp"
 #include "generators/surface/make_surface.hpp"
 #include "generators/surface/window.hpp"
 
@@ -34,13 +35,7 @@ BondPattern with_supports(const BondPattern& bond, double held_end) {
   return out;
 }
 
-std::vector<Thickness> thicknesses(const std::vector<Wythe>& wythes) {
-  std::vector<Thickness> out;
-  for (const Wythe& wythe : wythes) out.push_back(wythe.thickness);
-  return out;
-}
-
-/// m above the springing, of the middle of each course.
+/// m above the datum of the surface, of the middle of each course.
 std::vector<double> course_heights(const SurfaceMap& surface) {
   std::vector<double> heights;
   for (int ring = 0; ring < surface.num_rings(); ++ring)
@@ -49,6 +44,17 @@ std::vector<double> course_heights(const SurfaceMap& surface) {
 }
 
 }  // namespace
+
+std::vector<Thickness> thicknesses(const std::vector<Wythe>& wythes) {
+  std::vector<Thickness> out;
+  for (const Wythe& wythe : wythes) out.push_back(wythe.thickness);
+  return out;
+}
+
+BondPattern lay_masonry(const Masonry& masonry, const SurfaceMap& surface, const BondGrid& grid) {
+  return masonry.wythes.empty() ? make_bond(masonry.bond, grid)
+                                : make_wythe_bond(masonry, grid, course_heights(surface));
+}
 
 Shell make_shell(const Geometry& geometry) {
   const Bond& bond_of_courses = *finest_bond(geometry);
@@ -60,15 +66,26 @@ Shell make_shell(const Geometry& geometry) {
                            : make_surface(geometry.surface, courses, thicknesses(geometry.wythes));
   const BondGrid grid{surface.num_rings(),         surface.closed, surface.extent, surface.corners,
                       geometry.window.has_value(), stage};
-  BondPattern bond = geometry.wythes.empty() ? make_bond(geometry.bond, grid)
-                                             : make_wythe_bond(geometry, grid, course_heights(surface));
+  BondPattern bond = lay_masonry(geometry, surface, grid);
   const int refinement = refinement_of(bond_of_courses);
   for (size_t c = 0; c < geometry.chains.size(); ++c)
     if (const Chain& chain = geometry.chains[c]; chain.long_blocks > 0)
       lay_long_blocks(grid, chain.course * refinement, (chain.course + 1) * refinement - 1, chain.long_blocks,
                       fmt::format("geometry.chains[{}]", c), &bond);
   if (geometry.window) bond = with_supports(bond, surface.held_end);
-  return {std::move(surface), std::move(bond), member_names(geometry), stage};
+  std::vector<std::string> members = member_names(geometry);
+  if (geometry.drum) {
+    surface.footing = Footing::drum;
+    surface.rings_below = rings_of(*finest_bond(*geometry.drum));
+    if (members.empty()) members = {"shell"};
+  }
+  return {std::move(surface), std::move(bond), std::move(members), stage};
+}
+
+std::vector<Shell> make_storeys(const Geometry& geometry) {
+  std::vector<Shell> storeys{make_shell(geometry)};
+  if (geometry.drum) storeys.insert(storeys.begin(), make_drum(*geometry.drum, storeys.front().surface));
+  return storeys;
 }
 
 }  // namespace cupola

@@ -45,28 +45,53 @@ int add_vertex(const Vec3& point, Assembly* assembly) {
   return static_cast<int>(assembly->vertices.size()) - 1;
 }
 
-void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double width, Assembly* assembly) {
+/// The cuts of a ring of several blocks: those given and the boundaries of the blocks, of which the first cut is one.
+std::vector<double> cuts_of_blocks(const SurfaceMap& surface, const std::vector<double>& cuts,
+                                   int num_blocks) {
+  const double extent = surface.extent, rounding = 1e-9 * extent;  // nearer cuts coincide
+  const double start = surface.first_corner - 0.5 * extent / num_blocks;
+  std::vector<double> all;
+  for (int b = 0; b <= num_blocks; ++b) all.push_back(start + extent * b / num_blocks);
+  for (size_t s = 0; s + 1 < cuts.size(); ++s) {
+    const double cut = cuts[s] - extent * std::floor((cuts[s] - start) / extent);
+    const double blocks = (cut - start) / extent * num_blocks;
+    if (std::abs(blocks - std::round(blocks)) * extent / num_blocks > rounding) all.push_back(cut);
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double width, int num_blocks,
+              double density, Assembly* assembly) {
   const int num_slices = static_cast<int>(cuts.size()) - 1;
-  const int block = static_cast<int>(assembly->blocks.size()) - 1;
   std::vector<std::array<int, 4>> corners;  // per cut: inner top, outer top, outer bottom, inner bottom
   for (int s = 0; s < num_slices; ++s) {
     const Vec3 base = surface.intrados(0, cuts[s]);
-    const double inner = base.norm();  // the base lies in the plane z = 0
-    const double outer = surface.extrados(0, cuts[s]).norm() + width;
-    const Vec3 radial = base / inner;
+    const double inner = base.head<2>().norm();
+    const double outer = surface.extrados(0, cuts[s]).head<2>().norm() + width;
+    const Vec3 radial(base.x() / inner, base.y() / inner, 0.0);
     const double inside = std::max(inner - width, inner / 2.0);
-    const Vec3 down(0.0, 0.0, -width);
-    corners.push_back({add_vertex(inside * radial, assembly), add_vertex(outer * radial, assembly),
-                       add_vertex(outer * radial + down, assembly),
-                       add_vertex(inside * radial + down, assembly)});
+    const Vec3 top(0.0, 0.0, base.z()), bottom(0.0, 0.0, base.z() - width);
+    corners.push_back(
+        {add_vertex(inside * radial + top, assembly), add_vertex(outer * radial + top, assembly),
+         add_vertex(outer * radial + bottom, assembly), add_vertex(inside * radial + bottom, assembly)});
   }
+  const auto block_of = [&](int slice) {
+    const double middle = 0.5 * (cuts[slice] + cuts[slice + 1]) - cuts.front();
+    return num_blocks == 1 ? 0 : static_cast<int>(middle / surface.extent * num_blocks);
+  };
+  int block = -1;
   for (int s = 0; s < num_slices; ++s) {
+    if (s == 0 || block_of(s) != block_of(s - 1)) block = start_support_block(density, assembly);
     const auto& a = corners[s];
     const auto& b = corners[(s + 1) % num_slices];
+    const auto side = [&](int neighbour) {
+      return block_of((neighbour + num_slices) % num_slices) == block_of(s) ? FaceKind::internal
+                                                                            : FaceKind::free;
+    };
     start_part(block, s, assembly);
-    using enum FaceKind;
-    add_hexahedron({a[0], a[1], b[1], b[0]}, {a[3], a[2], b[2], b[3]}, {internal, free, internal, free},
-                   assembly);
+    add_hexahedron({a[0], a[1], b[1], b[0]}, {a[3], a[2], b[2], b[3]},
+                   {side(s - 1), FaceKind::free, side(s + 1), FaceKind::free}, assembly);
   }
 }
 
@@ -101,12 +126,14 @@ void add_plate(const SurfaceMap& surface, const std::vector<double>& cuts, int b
 }  // namespace
 
 void add_base_support(const SurfaceMap& surface, const std::vector<double>& cuts, double width,
-                      double density, Assembly* assembly) {
+                      int num_blocks, double density, Assembly* assembly) {
+  if (surface.footing == Footing::ring) {
+    add_ring(surface, num_blocks == 1 ? cuts : cuts_of_blocks(surface, cuts, num_blocks), width, num_blocks,
+             density, assembly);
+    return;
+  }
   start_support_block(density, assembly);
-  if (surface.footing == Footing::ring)
-    add_ring(surface, cuts, width, assembly);
-  else
-    add_plate(surface, cuts, 0, 1, width, assembly);
+  add_plate(surface, cuts, 0, 1, width, assembly);
 }
 
 void add_far_support(const SurfaceMap& surface, const std::vector<double>& cuts, double width, double density,

@@ -55,6 +55,7 @@ SurfaceMap arch_surface(const ArchSurface& arch, int rings) {
   surface.extent = arch.width;
   surface.flat_slices = true;
   surface.footing = Footing::both_springings;
+  surface.carries = true;
   surface.shell_volume = 2.0 * arch.width * half_area(R, R + arch.thickness, e, springing);
   surface.at = [=, num_beds = surface.num_rows](double bed, double y, double depth) {
     const double r = R + depth;

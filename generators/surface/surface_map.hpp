@@ -15,6 +15,7 @@ enum class Footing {
   plate,            ///< one box below z = 0, for walls
   both_springings,  ///< one box behind the first bed and one behind the last, for arches
   masonry,          ///< the first row of cells, and with `held_end` slices beyond both ends, for windows
+  drum,             ///< none: the first bed lies on the last one of a drum
 };
 
 /// A masonry surface as a map from (bed, abscissa, layer) to a point. It knows nothing about blocks.
@@ -41,17 +42,20 @@ struct SurfaceMap {
   bool flat_rings = false;        ///< so do the cells of one facet in successive rings
   bool flat_skins = true;         ///< the four corners of a cell on one skin are coplanar
   Footing footing = Footing::ring;
+  bool carries = false;  ///< a support or another surface lies on the last bed
+  double datum = 0.0;    ///< m, z from which heights count: the springing, or the foot of a drum
+  int rings_below = 0;   ///< courses of the drum below the first bed
   std::optional<double> shell_volume;  ///< m3, of the smooth shell, if a closed form is known
 
   int num_wythes() const { return static_cast<int>(wythes.size()); }
-  /// m, of a bed above the springing: of its intrados at a corner.
-  double height(double bed) const { return at(bed, first_corner, 0.0).z(); }
+  /// m, of a bed above the datum: of its intrados at a corner.
+  double height(double bed) const { return at(bed, first_corner, 0.0).z() - datum; }
   /// m, from the intrados to a layer.
   double depth(double bed, int layer) const;
   Vec3 point(double bed, double abscissa, int layer) const { return at(bed, abscissa, depth(bed, layer)); }
   Vec3 intrados(double bed, double abscissa) const { return at(bed, abscissa, 0.0); }
   Vec3 extrados(double bed, double abscissa) const { return point(bed, abscissa, num_wythes()); }
-  /// Ring of the first row: -1 if the first row is a support.
+  /// Ring of the first row among those of the surface: -1 if the first row is a support.
   int first_ring() const { return footing == Footing::masonry ? -1 : 0; }
   int num_rings() const { return num_rows / rows_per_ring + first_ring(); }
 };

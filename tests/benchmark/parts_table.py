@@ -9,7 +9,7 @@ import json
 import pathlib
 import sys
 
-MIDDLE = 14  # the ring at mid-height of the shells of which the shares are shown
+MIDDLE = 13.5  # m, mid-height of the shells; the shares are those of the nearest ring
 
 
 def rows(path):
@@ -20,7 +20,9 @@ def rows(path):
 def shares(post):
     """Of the vertical force, in per cent: inner shell, outer shell, ribs."""
     path = post / "members.csv"
-    ring = [r for r in rows(path) if int(r["ring"]) == MIDDLE] if path.exists() else []
+    table = rows(path) if path.exists() else []
+    distance = lambda r: abs(float(r["height_m"]) - MIDDLE)
+    ring = [r for r in table if distance(r) == min(map(distance, table))]
     share = {r["member"]: 100.0 * float(r["share"]) for r in ring}
     ribs = [value for name, value in share.items() if "rib" in name]
     return [f"{share[name]:.1f}" if name in share else "" for name in ("inner", "outer")] + [f"{sum(ribs):.1f}" if ribs else ""]
