@@ -215,5 +215,28 @@ TEST(Range, RefusesWhatTheModelDoesNotHave) {
             std::string::npos);
 }
 
+// A cube of weight W hangs on three ties in a row, symmetric about its middle, each of which yields at Y = 0.4 W: the ties at the
+// ends carry T each and the one in the middle S = W - 2 T, so that T lies in [(W - Y) / 2, Y] and S in [W - 2 Y, Y].
+TEST(Range, OfTiesThatYield) {
+  const Assembly cube = testing::make_boxes(
+      {{.center = {0, 0, 3}, .size = {4, 4, 1}, .fixed = true}, {.center = {0, 0, 1}, .size = {1, 1, 1}}});
+  const double W = cube.blocks[1].mass * testing::kG, Y = 0.4 * W;
+  Case scene = range_case(0.4, {TieForce{0}, TieForce{1}});
+  for (const double y : {-0.4, 0.0, 0.4}) {
+    PairTie tie;
+    tie.block_a = 0;
+    tie.block_b = 1;
+    tie.point_a = Vec3(0, y, 2.5);
+    tie.point_b = Vec3(0, y, 1.5);
+    tie.stiffness = 1e8;
+    tie.yield_force = Y;
+    scene.ties.pairs.push_back(tie);
+  }
+  const Summary summary = ranges_of(scene, cube);
+  ASSERT_EQ(summary.ranges.size(), 2u) << summary.message;
+  expect_ends(summary.ranges[0], 0.5 * (W - Y), Y, W);
+  expect_ends(summary.ranges[1], W - 2.0 * Y, Y, W);
+}
+
 }  // namespace
 }  // namespace cupola::range_test
