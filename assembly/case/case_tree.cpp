@@ -9,6 +9,7 @@
 #include "assembly/case/bundled.hpp"
 #include "assembly/case/yaml_text.hpp"
 #include "assembly/files/atomic_file.hpp"
+#include "assembly/files/number_text.hpp"
 
 namespace cupola {
 namespace {
@@ -24,11 +25,26 @@ fs::path identity_of(const fs::path& path) {
 
 /// Maps in which the `type` decides which other keys exist. The keys of `analysis` are common to all types.
 bool type_owns_keys(const std::string& path) {
-  return path == "geometry.surface" || path == "geometry.bond" || path == "geometry.drum.bond";
+  return path == "geometry.surface" || (path.starts_with("geometry.") && path.ends_with(".bond"));
+}
+
+/// The item that `key` names, as `wythes[0]`, in a list of `map`; nullptr: the key names no item of a list.
+CaseNode* find_item(CaseNode* map, const CaseNode::Entry& key) {
+  const size_t bracket = key.key.find('[');
+  if (bracket == std::string::npos || !key.key.ends_with(']')) return nullptr;
+  const auto list = std::ranges::find(map->entries, key.key.substr(0, bracket), &CaseNode::Entry::key);
+  if (list == map->entries.end() || list->value.kind != CaseNode::Kind::list) return nullptr;
+  std::vector<CaseNode>& items = list->value.items;
+  int index = 0;
+  const std::string number = key.key.substr(bracket + 1, key.key.size() - bracket - 2);
+  if (!read_integer(number, &index).empty() || index < 0 || index >= static_cast<int>(items.size()))
+    throw InputError(key.where, fmt::format("{}: {} has {} items, numbered from 0", shown(key.key), list->key,
+                                            items.size()));
+  return &items[static_cast<size_t>(index)];
 }
 
 /// Merges `over` into `base`: maps key by key, other nodes replace, an empty value (`null`) removes the key.
-/// In a map whose keys depend on its type, a different type replaces the whole map.
+/// In a map whose keys depend on its type, a different type replaces the whole map. The key `name[i]` changes item i of a list.
 void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "") {
   if (base->kind != CaseNode::Kind::map || over.kind != CaseNode::Kind::map) {
     *base = over;
@@ -38,6 +54,11 @@ void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "")
   const CaseNode* new_type = over.find("type");
   if (type_owns_keys(path) && old_type && new_type && old_type->text != new_type->text) base->entries.clear();
   for (const CaseNode::Entry& entry : over.entries) {
+    const std::string entry_path = path.empty() ? entry.key : path + "." + entry.key;
+    if (CaseNode* item = find_item(base, entry)) {
+      overlay(item, entry.value, entry_path);
+      continue;
+    }
     const auto present = std::find_if(base->entries.begin(), base->entries.end(),
                                       [&](const CaseNode::Entry& e) { return e.key == entry.key; });
     if (present == base->entries.end()) {
@@ -45,7 +66,7 @@ void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "")
     } else if (entry.value.kind == CaseNode::Kind::empty) {
       base->entries.erase(present);
     } else {
-      overlay(&present->value, entry.value, path.empty() ? entry.key : path + "." + entry.key);
+      overlay(&present->value, entry.value, entry_path);
     }
   }
 }

@@ -197,6 +197,28 @@ TEST(ReadCase, ADifferentTypeReplacesTheKeysOfTheOldType) {
   EXPECT_EQ(dynamic.analysis.tolerance, 1e-6);
 }
 
+TEST(ReadCase, AKeyWithANumberChangesOneItemOfAList) {
+  const ScratchFolder scratch;
+  const std::string path = scratch.write("wall.yaml",
+                                         "joints: {compliance: {per: area}}\n"
+                                         "geometry:\n"
+                                         "  surface: {type: wall}\n"
+                                         "  wythes: [{name: a, thickness: 1, bond: {type: running}}, {name: "
+                                         "b, thickness: 2, bond: {type: running}}]\n");
+  const Case c = read_case(path, {"geometry.wythes[1].thickness=0.5", "geometry.wythes[1].bond.type=stack"});
+  EXPECT_EQ(c.geometry.wythes[0].thickness.at(0.0), 1.0);
+  EXPECT_EQ(c.geometry.wythes[1].thickness.at(0.0), 0.5);
+  EXPECT_EQ(c.geometry.wythes[1].name, "b");
+  EXPECT_TRUE(std::holds_alternative<StackBond>(*c.geometry.wythes[1].bond));
+  for (const char* key : {"wythes[2]", "wythes[-1]", "wythes[x]", "wythes[]"}) try {
+      read_case(path, {fmt::format("geometry.{}.thickness=1", key)});
+      FAIL() << key;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("wythes has 2 items, numbered from 0"), std::string::npos)
+          << error.what();
+    }
+}
+
 TEST(Extends, OverridesTheKeysGivenAndKeepsTheOthers) {
   const ScratchFolder scratch;
   scratch.write("base/dome.yaml", kDome);
