@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "assembly/case/plausibility.hpp"
 #include "assembly/case/plausible_range.hpp"
+#include "assembly/model/joint_rule.hpp"
 
 namespace cupola {
 namespace {
@@ -65,6 +67,44 @@ std::vector<std::string> cuts_beside(const Postproc& postproc, const std::vector
   return out;
 }
 
+/// m: the largest distance by which a displacement opens or closes the joints of a fixed block.
+double opening_of_joints(const Assembly& assembly, int block, const Vec3& displacement) {
+  double largest = 0.0;
+  for (const Part& part : assembly.parts) {
+    if (part.block != block) continue;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const FaceKind kind = assembly.face_kinds[static_cast<size_t>(f)];
+      if (kind != FaceKind::bed && kind != FaceKind::head) continue;
+      largest = std::max(largest, std::abs(polygon_plane(face_points(assembly, f)).normal.dot(displacement)));
+    }
+  }
+  return largest;
+}
+
+/// Supports that stand so far from their places at the start that their joints are not found.
+std::vector<std::string> lost_supports(const Case& scene, const Assembly& assembly) {
+  const double margin = joint_rule(smallest_block_size(assembly), scene.contact.margin).margin;
+  std::vector<std::string> out;
+  for (size_t i = 0; i < scene.supports.moves.size(); ++i) {
+    const SupportMove& move = scene.supports.moves[i];
+    const Vec3 displacement = factor_at(move.time, 0.0) * move.displacement;
+    const auto moves = [&](int block) {
+      return move.blocks.empty() ||
+             std::ranges::any_of(move.blocks, [&](const BlockRef& one) { return one.number == block; });
+    };
+    double opening = 0.0;
+    for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b)
+      if (assembly.blocks[static_cast<size_t>(b)].fixed && moves(b))
+        opening = std::max(opening, opening_of_joints(assembly, b, displacement));
+    if (opening > margin)
+      out.push_back(fmt::format(
+          "supports.moves[{}]: opens a joint by {:.3g} m at the start, and joints are found up to {:.3g} m; "
+          "set contact.margin above it, or give the move a `time` that begins at 0 and use type: path",
+          i, opening, margin));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembly& assembly) {
@@ -94,6 +134,8 @@ std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembl
                       kMillimetres});
   std::vector<std::string> out = sentences(checks);
   for (std::string& text : cuts_beside(scene.postproc, points, extent)) out.push_back(std::move(text));
+  if (!varies(LimitSearch::Parameter::spread))
+    for (std::string& text : lost_supports(scene, assembly)) out.push_back(std::move(text));
   return out;
 }
 

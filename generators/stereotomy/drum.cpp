@@ -72,6 +72,15 @@ void add_places(const Openings& group, const SurfaceMap& surface, double course,
   }
 }
 
+/// Bonds do not know where they are laid, and their errors name the keys of the shell.
+BondPattern lay_wall(const Drum& drum, const SurfaceMap& surface, const BondGrid& grid) {
+  try {
+    return lay_masonry(drum, surface, grid);
+  } catch (const InputError& error) {
+    throw InputError(std::string("in geometry.drum: ") + error.what());
+  }
+}
+
 std::vector<std::string> names_of_members(const Drum& drum) {
   std::vector<std::string> names = member_names(drum);
   for (std::string& name : names) name = "drum " + name;
@@ -88,7 +97,7 @@ Shell make_drum(const Drum& drum, const SurfaceMap& shell) {
       drum.wythes.empty() ? std::vector<Thickness>{{{}, {drum.thickness}}} : thicknesses(drum.wythes),
       courses);
   const BondGrid grid{courses, true, surface.extent, surface.corners, false, 0};
-  BondPattern bond = lay_masonry(drum, surface, grid);
+  BondPattern bond = lay_wall(drum, surface, grid);
   std::vector<std::string> names = names_of_members(drum);
   std::vector<OpeningPlace> places;
   for (size_t i = 0; i < drum.openings.size(); ++i)

@@ -165,7 +165,22 @@ TEST(ImplausibleForBlocks, ValuesThatMustFitTheBlocks) {
   Case move = scene;
   move.supports.moves.resize(1);
   move.supports.moves[0].displacement = Vec3(20, 0, 0);
+  move.supports.moves[0].time = RampInTime{};
   EXPECT_TRUE(only(move).starts_with("supports.moves[0].displacement = 20 m: ")) << only(move);
+  Case settled = scene;  // joints are found within 1 % of the smaller block, which is some decimetres wide
+  settled.supports.moves.resize(1);
+  settled.supports.moves[0].blocks = {0};
+  settled.supports.moves[0].displacement = Vec3(0, 0, -0.001);
+  EXPECT_EQ(only(settled), "0 warnings");
+  settled.supports.moves[0].displacement = Vec3(0, 0, -0.01);
+  EXPECT_TRUE(only(settled).starts_with(
+      "supports.moves[0]: opens a joint by 0.01 m at the start, and joints are found up to "))
+      << only(settled);
+  settled.supports.moves[0].time = RampInTime{};
+  EXPECT_EQ(only(settled), "0 warnings");
+  settled.supports.moves[0].time = ConstantInTime{};
+  settled.contact.margin = 0.02;
+  EXPECT_EQ(only(settled), "0 warnings");
   Case imported = scene;
   imported.geometry.imported.emplace();
   Assembly millimetres = blocks;

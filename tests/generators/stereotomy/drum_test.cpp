@@ -268,5 +268,15 @@ TEST(Drum, RefusesOpeningsWithoutRoomForTheirLintels) {
   EXPECT_NE(message_of(round).find("a round plan has no sides"), std::string::npos);
 }
 
+TEST(Drum, SaysThatItsOwnBondDoesNotFit) {
+  Case c = vault_on_drum();
+  HerringboneBond bond;
+  bond.rings = 6;
+  bond.blocks_per_ring = 3;
+  c.geometry.drum->bond = bond;
+  const std::string message = message_of(c);
+  EXPECT_TRUE(message.starts_with("in geometry.drum: geometry.bond.spirals = 8: ")) << message;
+}
+
 }  // namespace
 }  // namespace cupola::drum_test
