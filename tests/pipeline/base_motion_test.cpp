@@ -39,6 +39,7 @@ Shaking shake(const Case& scene, const Assembly& assembly) {
     }
   };
   result.summary = run_dynamic(scene, assembly, sinks).value();
+  EXPECT_LE(result.summary.energy_error.value(), 1e-6);
   return result;
 }
 

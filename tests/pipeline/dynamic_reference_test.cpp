@@ -12,6 +12,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/simulation.hpp"
+#include "tests/solver/accounted_simulation.hpp"
 
 namespace cupola::dynamic_reference_test {
 namespace {
@@ -61,14 +62,14 @@ int count_slipped(const Simulation& simulation) {
   return count;
 }
 
-Simulation dome_simulation(const Case& scene, const Assembly& assembly, double damping) {
+testing::AccountedSimulation dome_simulation(const Case& scene, const Assembly& assembly, double damping) {
   SimulationOptions options;
   options.step.h = 0.01;
   options.step.damping = damping;
   options.step.tangential = scene.analysis.tangential;
   options.detection = detection_options(scene);
   options.solve = contact_solver_options(scene.analysis);
-  return Simulation(make_model(scene, assembly), options);
+  return {make_model(scene, assembly), options};
 }
 
 struct Settled {
@@ -81,7 +82,7 @@ Settled settle(double friction) {
   Case scene;  // 40 x 32 blocks, 1e-8 m/N per point
   scene.joints.friction = friction;
   const Assembly assembly = generate(scene);
-  Simulation simulation = dome_simulation(scene, assembly, 0.05);
+  testing::AccountedSimulation simulation = dome_simulation(scene, assembly, 0.05);
   StepReport report;
   double friction_work = 0.0;
   for (int step = 0; step < 400; ++step) {
@@ -137,7 +138,7 @@ Oscillation oscillate(TangentialSpring tangential) {
   Case scene;
   scene.analysis.tangential = tangential;
   const Assembly assembly = generate(scene);
-  Simulation simulation = dome_simulation(scene, assembly, 0.0);
+  testing::AccountedSimulation simulation = dome_simulation(scene, assembly, 0.0);
   const int crown = static_cast<int>(assembly.blocks.size()) - 1;
   Oscillation result;
   Vec3 impulse = Vec3::Zero(), momentum = Vec3::Zero();
@@ -188,7 +189,7 @@ TEST(WallMotionSlow, SmallBlocksOnStiffJointsSettleToTheStaticSolution) {
   scene.joints.compliance = {1e-12, 1e-12, Compliance::Per::point};
   scene.loads.top_load = TopLoad{10.0};
   const Assembly assembly = generate(scene);
-  Simulation simulation = dome_simulation(scene, assembly, 0.0);
+  testing::AccountedSimulation simulation = dome_simulation(scene, assembly, 0.0);
   StepReport report;
   for (int step = 0; step < 100; ++step) report = simulation.advance();
   EXPECT_LE(report.balance.residual, 1e-6);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "solver/analysis/analysis.hpp"
+#include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 #include "tests/verification/solve.hpp"
 #include "tests/verification/verification_row.hpp"
@@ -101,7 +102,7 @@ double offset_with_memory() {
   const Assembly block = testing::box_on_floor({4, 4, 0.5});
   Case scene = testing::make_case(0.8, 1e-10, 0.01, 0.02);
   scene.loads.gravity = testing::tilted_gravity(0.3);
-  Simulation simulation = testing::simulate(scene, block);
+  testing::AccountedSimulation simulation(scene, block);
   for (int step = 0; step < 2000; ++step) simulation.advance();
   const Pose& pose = simulation.state().poses[1];
   return (pose.p_WB + pose.q_WB * Vec3(0, 0, -0.25)).x();
@@ -112,7 +113,7 @@ double speed_of_literal_creep() {
   Case scene = testing::make_case(0.8, 1e-10, 0.01, 0.02);
   scene.loads.gravity = testing::tilted_gravity(0.3);
   scene.analysis.tangential = TangentialSpring::literal;
-  Simulation simulation = testing::simulate(scene, block);
+  testing::AccountedSimulation simulation(scene, block);
   for (int step = 0; step < 400; ++step) simulation.advance();
   return simulation.state().v[0];
 }
@@ -123,7 +124,7 @@ double sinking_speed_of_jammed_beam(const ReferenceRow&) {
                                              {.center = {0, 0, 0}, .size = {2.2, 0.5, 0.5}}});
   Case scene = testing::make_case(0.84, 1e-8, 0.01);
   scene.analysis.tangential = TangentialSpring::literal;
-  Simulation simulation = testing::simulate(scene, beam);
+  testing::AccountedSimulation simulation(scene, beam);
   for (int step = 0; step < 100; ++step) simulation.advance();
   return -simulation.state().v[2];
 }

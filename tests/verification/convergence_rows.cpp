@@ -46,7 +46,7 @@ double sliding_energy_error(double h) {
   Case scene = make_case(0.2, 1e-10, h);
   scene.loads.gravity = testing::tilted_gravity(0.5);
   Motion motion(scene, testing::box_on_floor({1.0, 0.5, 0.2}));
-  Simulation& simulation = motion.simulation;
+  auto& simulation = motion.simulation;
   double work = 0.0;
   const double start = simulation.energy().total();
   while (simulation.state().time < 0.5) work += simulation.advance().work.friction;
@@ -58,7 +58,7 @@ double tumbling_energy_error(double h) {
   Case scene = make_case(0.4, 1e-8, h);
   scene.loads.gravity.setZero();
   Motion motion(scene, testing::make_boxes({{.center = {0, 0, 50}, .size = {1, 2, 3}}}));
-  Simulation& simulation = motion.simulation;
+  auto& simulation = motion.simulation;
   simulation.mutable_state()->v << 1, 0, 0, 0.3, 2.0, 0.1;
   const double start = simulation.energy().total();
   while (simulation.state().time < 1.0) simulation.advance();

@@ -2,14 +2,14 @@
 
 #include <utility>
 
+#include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::verification {
 
 /// A simulation together with the assembly to which it refers.
 struct Motion {
-  Motion(const Case& scene, Assembly blocks)
-      : assembly(std::move(blocks)), simulation(testing::simulate(scene, assembly)) {}
+  Motion(const Case& scene, Assembly blocks) : assembly(std::move(blocks)), simulation(scene, assembly) {}
   Motion(const Motion&) = delete;
   Motion& operator=(const Motion&) = delete;
 
@@ -19,7 +19,7 @@ struct Motion {
   const State& state() const { return simulation.state(); }
 
   Assembly assembly;
-  Simulation simulation;
+  testing::AccountedSimulation simulation;
 };
 
 }  // namespace cupola::verification

@@ -70,7 +70,7 @@ double critical_groove_tilt(const ReferenceRow& row) {
 }
 
 /// Mean acceleration of the prism along the groove in the third second after `start` (s).
-double acceleration_in_third_second(Simulation* simulation, double start) {
+double acceleration_in_third_second(testing::AccountedSimulation* simulation, double start) {
   while (simulation->state().time < start + 2.0 - 5e-3) simulation->advance();
   const double before = simulation->state().v[1];
   while (simulation->state().time < start + 3.0 - 5e-3) simulation->advance();
@@ -97,7 +97,7 @@ double force_over_weight_above(const ReferenceRow& row) {
   Case scene = make_case(0.4, 4.0 * depth / (W * (2 + ratio)), 0.01);
   scene.analysis.tolerance = 1e-9;
   Motion motion(scene, testing::stack_of_cubes(1.0, {1000.0, 1000.0, 1000.0 * ratio}));
-  Simulation& simulation = motion.simulation;
+  auto& simulation = motion.simulation;
   StepReport report;
   for (int step = 0; step < 200; ++step) report = simulation.advance();
   double force = 0.0;
@@ -116,7 +116,7 @@ DrivenBlock drive(double until) {
   HarmonicInTime cosine{.frequency = 0.5 / std::numbers::pi, .phase_deg = 90.0};
   scene.loads.forces = {{.block = 1, .point = Vec3(0, 0, 0), .force = Vec3(8, 0, 0), .time = cosine}};
   Motion motion(scene, testing::box_on_floor({0.3, 0.3, 0.1}, 1.0 / (0.3 * 0.3 * 0.1)));
-  Simulation& simulation = motion.simulation;
+  auto& simulation = motion.simulation;
   DrivenBlock driven;
   while (simulation.state().time < until - 5e-4) {
     simulation.advance();

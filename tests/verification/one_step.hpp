@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::verification {
@@ -14,7 +15,7 @@ inline double speed_after_one_step(const Assembly& assembly, double friction, co
   Case scene = testing::make_case(friction, 0.0, 0.01);
   scene.analysis.tolerance = 1e-9;
   scene.loads.gravity = gravity;
-  Simulation simulation = testing::simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   const StepReport report = simulation.advance();
   if (report.solve.ending != SolveEnding::converged) throw std::runtime_error(report.solve.message);
   double largest = 0.0;

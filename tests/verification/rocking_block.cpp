@@ -25,7 +25,7 @@ RockingImpact rock_until_impact(double b, double H, double share, double h) {
   Case scene = testing::make_case(0.8, 1e-12, h);
   scene.analysis.tolerance = 1e-9;
   Motion motion(scene, testing::box_on_floor({2 * b, 1.0, 2 * H}));
-  Simulation& simulation = motion.simulation;
+  auto& simulation = motion.simulation;
   tip(b, H, share * std::atan(b / H), simulation.mutable_state());
   while (simulation.state().time < 2.0) {
     const double before = simulation.state().v[4];

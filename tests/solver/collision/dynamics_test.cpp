@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 #include "tests/solver/scenes.hpp"
 
@@ -34,7 +35,7 @@ TEST_P(RockingBlock, FollowsHousnersEquationAndImpactRatio) {
   const Assembly assembly = box_on_floor({2 * b, 1.0, 2 * H});
   Case scene = make_case(0.8, 1e-12, h);  // sqrt(m c) = 3e-5 s: rigid
   scene.analysis.tolerance = 1e-10;
-  Simulation simulation = simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   Pose& pose = simulation.mutable_state()->poses[1];
   const Vec3 hinge(b, 0, 0);
   pose.q_WB = AngleAxisd(0.5 * std::atan(b / H), Vec3::UnitY());
@@ -74,7 +75,7 @@ void drop(const Assembly& assembly, int count, unsigned seed) {
   for (int trial = 0; trial < count; ++trial) {
     Case scene = make_case(0.5, 1e-10, h);  // sinks by about 1e-6 m under its weight
     scene.analysis.tolerance = 1e-8;
-    Simulation simulation = simulate(scene, assembly);
+    testing::AccountedSimulation simulation(scene, assembly);
     simulation.mutable_state()->poses[1].q_WB = random_turn(&random);
     double energy = simulation.energy().total();
     double rise = 0.0;

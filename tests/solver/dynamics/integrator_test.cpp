@@ -7,6 +7,7 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/analysis/statics/static_start.hpp"
+#include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::integrator_test {
@@ -25,14 +26,14 @@ double observed_order(double h, const std::function<double(double)>& error) {
   return std::log2(std::abs(error(2.0 * h) / error(h)));
 }
 
-void advance(Simulation* simulation, double time) {
+void advance(testing::AccountedSimulation* simulation, double time) {
   while (simulation->state().time < time * (1.0 - 1e-9)) simulation->advance();
 }
 
 /// Error of the height of a cube on springs, w = 20 rad/s, released at rest, after 0.2 s.
 double spring_error(double h, double alpha) {
   const Assembly assembly = testing::box_on_floor({1, 1, 1});
-  Simulation simulation = testing::simulate(second_order(make_case(0.4, 1e-5, h, alpha)), assembly);
+  testing::AccountedSimulation simulation(second_order(make_case(0.4, 1e-5, h, alpha)), assembly);
   const double time = 0.2, w = 20.0, zeta = 0.5 * alpha * w, wd = w * std::sqrt(1.0 - zeta * zeta);
   advance(&simulation, time);
   const double exact =
@@ -52,7 +53,7 @@ double tumbling_error(double h) {
   const Assembly assembly = testing::make_boxes({{.center = {0, 0, 50}, .size = {1, 2, 3}}});
   Case scene = second_order(make_case(0.4, 1e-8, h));
   scene.loads.gravity.setZero();
-  Simulation simulation = testing::simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   simulation.mutable_state()->v << 1, 0, 0, 0.3, 2.0, 0.1;
   const double start = simulation.energy().total();
   advance(&simulation, 0.5);
@@ -68,7 +69,7 @@ double rocking_angle(double h, bool euler) {
   const Assembly assembly = testing::box_on_floor({0.4, 1.0, 2.0});
   Case scene = make_case(0.8, 1e-10, h);
   if (!euler) scene = second_order(scene);
-  Simulation simulation = testing::simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.5 * std::atan(0.2), Vec3::UnitY()));
   const Vec3 edge(0.2, 0, 0);
   simulation.mutable_state()->poses[1] = {edge + turn * Vec3(-0.2, 0, 1.0), turn};
@@ -89,7 +90,7 @@ TEST(GeneralizedAlpha, RockingIsFarMoreAccurateThanEuler) {
 TEST(GeneralizedAlpha, AnImpactGivesNoEnergy) {
   for (const double compliance : {0.0, 1e-10}) {
     const Assembly assembly = testing::box_on_floor({1.0, 1.0, 0.5});
-    Simulation simulation = testing::simulate(second_order(make_case(0.3, compliance, 5e-3)), assembly);
+    testing::AccountedSimulation simulation(second_order(make_case(0.3, compliance, 5e-3)), assembly);
     simulation.mutable_state()->poses[1].p_WB.z() += 0.3;
     const double start = simulation.energy().total();
     double after = 0.0;
@@ -111,7 +112,7 @@ TEST(GeneralizedAlpha, ASlidingBlockFollowsItsClosedForm) {
     Case scene = second_order(make_case(0.2, compliance, 5e-3));
     scene.analysis.friction_law = FrictionLaw::coulomb;
     scene.loads.gravity = testing::tilted_gravity(0.5);
-    Simulation simulation = testing::simulate(scene, assembly);
+    testing::AccountedSimulation simulation(scene, assembly);
     advance(&simulation, 0.5);
     const double a = std::atan(0.5), acceleration = kG * (std::sin(a) - 0.2 * std::cos(a));
     // The first two steps, and a contact that bears its weight one step late: g h each.
@@ -124,7 +125,7 @@ TEST(GeneralizedAlpha, StartsFromAStaticEquilibriumAtRest) {
   const Assembly assembly = testing::stack_of_cubes(1.0, {1000.0, 1000.0, 1000.0});
   Case scene = second_order(make_case(0.4, 1e-8, 0.01));
   scene.analysis.start = Analysis::Start::static_;
-  Simulation simulation = testing::simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   start_from_equilibrium(
       scene, [](const std::string&) {}, &simulation);
   for (int k = 0; k < 50; ++k) EXPECT_LT(largest_speed((simulation.advance(), simulation.state().v)), 1e-7);
@@ -138,7 +139,7 @@ TEST(GeneralizedAlpha, AdaptsItsStepsToAnErrorOfThirdOrder) {
     Case scene = second_order(make_case(0.4, 1e-5, 1e-3));
     scene.analysis.adaptive =
         AdaptiveStep{.smallest = 1e-6, .largest = 0.1, .displacement_error = i == 0 ? 8e-7 : 1e-7};
-    Simulation simulation = testing::simulate(scene, assembly);
+    testing::AccountedSimulation simulation(scene, assembly);
     for (; simulation.state().time < 1.0; ++steps[i]) {
       const double error = simulation.advance().time_error;
       // A larger error has the step repeated; the first steps are of implicit Euler.

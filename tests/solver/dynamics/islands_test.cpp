@@ -4,6 +4,7 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::islands_test {
@@ -42,7 +43,7 @@ TEST(Islands, AreFreeBlocksConnectedByContacts) {
 
 TEST(Islands, FallAsleepAtRestAndKeepTheirForces) {
   const Assembly assembly = stacks(3, false);
-  Simulation run = testing::simulate(sleeping_case(1.0), assembly);
+  testing::AccountedSimulation run(sleeping_case(1.0), assembly);
   StepReport report;
   for (int k = 0; k < 100; ++k) report = run.advance();
   EXPECT_EQ(report.num_asleep, 6);
@@ -56,7 +57,7 @@ TEST(Islands, FallAsleepAtRestAndKeepTheirForces) {
 TEST(Islands, WakeWhenABlockArrives) {
   const Assembly assembly = stacks(3, true);
   Case scene = sleeping_case(1.0);
-  Simulation run = testing::simulate(scene, assembly);
+  testing::AccountedSimulation run(scene, assembly);
   bool first_slept = false, first_woke = false;
   for (int k = 0; k < 200; ++k) {
     const int asleep = run.advance().num_asleep;
@@ -72,9 +73,9 @@ TEST(Islands, WakeWhenABlockArrives) {
 TEST(Islands, SleepingOnesDoNotChangeTheMotionOfOthers) {
   const Assembly assembly = stacks(4, true);
   Case scene = sleeping_case(1.0);
-  Simulation with = testing::simulate(scene, assembly);
+  testing::AccountedSimulation with(scene, assembly);
   scene.analysis.sleep.reset();
-  Simulation without = testing::simulate(scene, assembly);
+  testing::AccountedSimulation without(scene, assembly);
   for (int k = 0; k < 40; ++k) {
     with.advance();
     without.advance();
@@ -85,10 +86,10 @@ TEST(Islands, SleepingOnesDoNotChangeTheMotionOfOthers) {
 
 TEST(Islands, ContinueWithTheSameBitsAfterRestoring) {
   const Assembly assembly = stacks(2, true);
-  Simulation run = testing::simulate(sleeping_case(1.0), assembly);
+  testing::AccountedSimulation run(sleeping_case(1.0), assembly);
   for (int k = 0; k < 30; ++k) run.advance();
   run.forget_factor();
-  Simulation again = testing::simulate(sleeping_case(1.0), assembly);
+  testing::AccountedSimulation again(sleeping_case(1.0), assembly);
   again.restore(run.save());
   for (int k = 0; k < 60; ++k) {
     EXPECT_EQ(run.advance().num_asleep, again.advance().num_asleep);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/analysis/statics/static_start.hpp"
+#include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 // Blocks with one joint that has strength, in motion.
@@ -51,7 +52,7 @@ double smallest_damage(const Simulation& simulation) {
 TEST(JointsInMotion, ABlockHangsByTension) {
   Case scene = glued_case({.tension = 1.05 * kMass * kG / kArea, .cohesion = 1e6}, 1e-3);
   const Assembly assembly = hung_block();
-  Simulation simulation = testing::simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   ASSERT_EQ(start_from_equilibrium(
                 scene, [](const std::string&) {}, &simulation)
                 .solution.outcome,
@@ -68,7 +69,7 @@ TEST(JointsInMotion, ABlockHangsByTension) {
 TEST(JointsInMotion, ABlockFallsThatIsTooHeavyForItsTension) {
   Case scene = glued_case({.tension = 0.95 * kMass * kG / kArea, .cohesion = 1e6}, 1e-3);
   const Assembly assembly = hung_block();
-  Simulation simulation = testing::simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   double dissipated = 0.0;
   for (int k = 0; k < 60; ++k) dissipated += simulation.advance().work.friction;
   const double fall = -simulation.displacements()[1].z();
@@ -84,7 +85,7 @@ TEST(JointsInMotion, AnOpenJointDoesNotPullItsBlockBack) {
   constexpr double kV = 0.1, kH = 1e-5, kPull = 4 * kMass * kG;
   Case scene = glued_case({.tension = kPull / kArea, .cohesion = 1e6}, kH);
   const Assembly assembly = testing::box_on_floor(kSize, kDensity);
-  Simulation simulation = testing::simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   ASSERT_EQ(start_from_equilibrium(
                 scene, [](const std::string&) {}, &simulation)
                 .solution.outcome,
@@ -121,7 +122,7 @@ TEST(JointsInMotion, CohesionHoldsABlockOnAnIncline) {
       scene.loads.dead_load_time =
           RampInTime{.duration = 0.02};  // not suddenly, which would double the force
       scene.analysis.friction_law = law;
-      Simulation simulation = testing::simulate(scene, assembly);
+      testing::AccountedSimulation simulation(scene, assembly);
       for (int k = 0; k < 60; ++k) simulation.advance();
       const double before = simulation.linear_momentum().x();
       double work = 0.0;
@@ -151,7 +152,7 @@ Broken break_joint(const Vec3& force, double h) {
   scene.loads.forces.push_back({BlockRef{1}, Vec3(0, 0, 0), force, {}});
   scene.contact.margin = 0.05;  // the joint breaks before the faces are that far apart
   const Assembly assembly = testing::box_on_floor(kSize, kDensity);
-  Simulation simulation = testing::simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   Broken broken;
   for (int k = 0; k < 1000 && smallest_damage(simulation) < 1.0; ++k) {
     const StepReport report = simulation.advance();
@@ -203,10 +204,10 @@ TEST(SofteningJoints, ContinueFromACheckpointWithTheSameBits) {
   scene.loads.forces.push_back({BlockRef{1}, Vec3(0.2, 0, 0), Vec3(0, 0, 1.5e5), {}});
   scene.contact.margin = 0.05;
   const Assembly assembly = testing::box_on_floor(kSize, kDensity);
-  Simulation simulation = testing::simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   while (largest_damage(simulation) < 0.2) simulation.advance();
   simulation.forget_factor();
-  Simulation restored = testing::simulate(scene, assembly);
+  testing::AccountedSimulation restored(scene, assembly);
   restored.restore(simulation.save());
   ASSERT_LT(largest_damage(restored), 1.0);
   for (int k = 0; k < 20; ++k) {
@@ -229,7 +230,7 @@ TEST(BrittleJoints, SlideAsDryOnesOnceTheyAreBroken) {
     scene.joints.failure = JointFailure::brittle;
     scene.loads.gravity = gravity;
     scene.loads.dead_load_time = RampInTime{.duration = 0.02};
-    Simulation simulation = testing::simulate(scene, assembly);
+    testing::AccountedSimulation simulation(scene, assembly);
     for (int k = 0; k < 60; ++k) simulation.advance();
     const double before = simulation.linear_momentum().x();
     for (int k = 0; k < 50; ++k) simulation.advance();
@@ -245,7 +246,7 @@ TEST(JointsInMotion, NewContactsHaveNoBond) {
   const Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true},
                                                  {.center = {0, 0, 0.1}, .size = kSize},
                                                  {.center = {0, 0, 0.35}, .size = kSize}});
-  Simulation simulation = testing::simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   for (int k = 0; k < 400; ++k) simulation.advance();
   const ContactSet& contacts = simulation.contacts();
   int landed = 0;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/dynamics/joint_laws.hpp"
+#include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::joint_law_test {
@@ -111,7 +112,7 @@ TEST(FrictionInTime, BlockSlidesWhenFrictionFallsBelowTheSlope) {
   Case scene = make_case(0.4, 1e-14, h);
   scene.loads.gravity = testing::tilted_gravity(0.3);
   scene.joints.friction_time = RampInTime{.from = 1.0, .to = 0.5, .start = 0.0, .duration = 1.0};
-  Simulation simulation = testing::simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   for (int step = 0; step < 490; ++step) simulation.advance();
   EXPECT_LT(simulation.state().v.norm(), 1e-6);
   for (int step = 490; step < 1000; ++step) simulation.advance();

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::simulation_test {
@@ -11,13 +12,12 @@ namespace {
 
 using testing::kG;
 using testing::make_case;
-using testing::simulate;
 using testing::tilted_gravity;
 
 TEST(NormalCompliance, RestsAtItsElasticDepth) {
   const Assembly assembly = testing::box_on_floor({1, 1, 1}, 1000.0);
   Case scene = make_case(0.4, 2e-6, 0.002, 0.05);
-  Simulation simulation = simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   for (int step = 0; step < 2000; ++step) simulation.advance();
   EXPECT_NEAR(simulation.state().poses[1].p_WB.z() - 0.5, -2e-6 * 1000.0 * kG / 4.0, 1e-9 * 5e-3);
 }
@@ -28,7 +28,7 @@ TEST(RecoveryLimit, DoesNotChangeElasticDepth) {
   const Assembly assembly = testing::stack_of_cubes(2.0, std::vector<double>(5, 12742.0));
   Case scene = make_case(0.4, 1e-8, 0.01, 0.05);
   scene.analysis.recovery_speed = 0.005;
-  Simulation simulation = simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   for (int step = 0; step < 600; ++step) simulation.advance();
   const double weight = assembly.blocks[1].mass * kG;
   double depth = 0.0;
@@ -44,7 +44,7 @@ TEST(RecoveryLimit, LimitsTheRecoveryOfInitialOverlap) {
                                            {.center = {0, 0, 0.4999}, .size = {1, 1, 1}}});
   Case scene = make_case(0.4, 1e-12, 0.001);
   scene.analysis.recovery_speed = 0.01;
-  Simulation simulation = simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   simulation.advance();
   EXPECT_NEAR(simulation.state().v[2], 0.01, 1e-4);
 }
@@ -52,7 +52,7 @@ TEST(RecoveryLimit, LimitsTheRecoveryOfInitialOverlap) {
 TEST(FreeFlight, KeepsAngularMomentumDirectionAndFallsFreely) {
   const Assembly assembly = testing::make_boxes({{.center = {0, 0, 5}, .size = {1, 2, 3}}});
   Case scene = make_case(0.4, 1e-8, 1e-3);
-  Simulation simulation = simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   simulation.mutable_state()->v << 0, 0, 0, 0.3, 2.0, 0.1;
   const double energy = simulation.energy().total();
   for (int step = 0; step < 200; ++step) simulation.advance();

@@ -6,6 +6,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/files/time_table.hpp"
+#include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::supports_test {
@@ -13,7 +14,6 @@ namespace {
 
 using testing::kG;
 using testing::make_case;
-using testing::simulate;
 
 /// All fixed blocks move by `displacement` (m) within `duration` (s).
 SupportMove move_supports(const Vec3& displacement, double duration) {
@@ -30,7 +30,7 @@ TEST(MovingSupport, DragsABlockByFriction) {
   const double h = 1e-3, mu = 0.3, V = 1.0;
   Case scene = make_case(mu, 1e-14, h);
   scene.supports.moves = {move_supports({V, 0, 0}, 1.0)};
-  Simulation simulation = simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   for (int step = 0; step < 200; ++step) simulation.advance();
   // Under the associated law sliding dilates: the block gains an upward velocity mu V in the first step, and
   // the impulse that causes it adds friction once.
@@ -54,7 +54,7 @@ TEST(MovingSupport, LiftsABlockWithTheReactionOfItsAcceleration) {
   }
   move.time = table;
   scene.supports.moves = {move};
-  Simulation simulation = simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   StepReport report;
   for (int step = 0; step < 500; ++step) report = simulation.advance();
   EXPECT_NEAR(simulation.state().poses[1].p_WB.z(), 0.5 + 0.5 * a * 0.25, 1e-6);
@@ -75,7 +75,7 @@ TEST(MovingSupport, RotatesAStickingBlock) {
   }
   move.time = table;
   scene.supports.moves = {move};
-  Simulation simulation = simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   for (int step = 0; step < 500; ++step) simulation.advance();
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(std::numbers::pi / 6, Vec3::UnitY()));
   const Vec3 expected = move.pivot + turn * (Vec3(0, 0, 0.1) - move.pivot);

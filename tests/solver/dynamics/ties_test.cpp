@@ -7,6 +7,7 @@
 #include "assembly/base/error.hpp"
 #include "solver/analysis/statics/equilibrium_path.hpp"
 #include "solver/analysis/statics/static_solve.hpp"
+#include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::ties_test {
@@ -14,7 +15,6 @@ namespace {
 
 using testing::kG;
 using testing::make_case;
-using testing::simulate;
 
 /// A fixed ceiling and a cube of 1000 kg, 1 m below it.
 Assembly hanging_cube() {
@@ -51,7 +51,7 @@ TEST(Tie, InTensionIsTheImplicitEulerSpring) {
   for (const double alpha : {0.0, 0.01}) {
     Case scene = make_case(0.4, 1e-8, h, alpha);
     scene.ties.pairs = {vertical_tie(k)};
-    Simulation simulation = simulate(scene, assembly);
+    testing::AccountedSimulation simulation(scene, assembly);
     double v = 0.0, y = 0.0;
     for (int step = 1; step <= 20; ++step) {
       const StepReport report = simulation.advance();
@@ -71,7 +71,7 @@ TEST(Tie, HasNoForceWhileSlack) {
   tie.point_b = Vec3(0, 0, 0.5);  // 2 m long as generated
   scene.ties.pairs = {tie};
   scene.loads.gravity = Vec3(0, 0, kG);  // the cube rises, so the tie becomes slack
-  Simulation simulation = simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   for (int step = 0; step < 100; ++step) EXPECT_EQ(simulation.advance().forces.ties[0], 0.0);
   EXPECT_NEAR(simulation.state().v[2], kG * 0.1, 1e-12);
 }
@@ -122,7 +122,7 @@ TEST(Rod, PushesAndPulls) {
     Case scene = make_case(0.4, 1e-8, 1e-3, 0.01);
     scene.ties.rod_stiffness = 1e8;
     scene.loads.gravity = Vec3(0, 0, g);
-    Simulation simulation = simulate(scene, assembly);
+    testing::AccountedSimulation simulation(scene, assembly);
     StepReport report;
     for (int step = 0; step < 2000; ++step) report = simulation.advance();
     const double sunk = simulation.state().poses[1].p_WB.z() - 1.0;
@@ -239,7 +239,7 @@ TEST(YieldingTie, InMotionIsTheImplicitEulerSpringThatYields) {
   PairTie tie = vertical_tie(k);
   tie.yield_force = Y;
   scene.ties.pairs = {tie};
-  Simulation simulation = simulate(scene, assembly);
+  testing::AccountedSimulation simulation(scene, assembly);
   double v = 0.0, y = 0.0, plastic = 0.0, energy = simulation.energy().total();
   int yielding = 0;
   for (int step = 1; step <= 200; ++step) {
