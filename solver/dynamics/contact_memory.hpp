@@ -18,7 +18,8 @@ struct JointDamage {
 
 /// State of a contact that is carried from step to step.
 struct ContactMemory {
-  Vec3 impulse = Vec3::Zero();  ///< N s, gamma of the last step in the contact frame, for the warm start
+  Vec3 impulse = Vec3::Zero();    ///< N s, gamma of the last step in its contact frame, for the warm start
+  Vec3 tangent_A = Vec3::Zero();  ///< first tangent of that frame, axes of block a; zero: unknown
   double elastic_gap =
       0.0;  ///< m: penetration caused by the compliance (< 0), or elongation under pull (> 0)
   Vec3 elastic_slip_A = Vec3::Zero();  ///< m, elongation of the tangential spring, axes of block a

@@ -73,6 +73,7 @@ SimulationOptions simulation_options(const Case& scene) {
   options.detection = detection_options(scene);
   options.solve = contact_solver_options(analysis);
   options.solve.lag_factor = true;  // the problem changes little from step to step
+  options.solve.try_rest = true;
   return options;
 }
 

@@ -123,7 +123,7 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
     if (model.joints.has_strength()) begin_step(contacts, memories);
     for (int pass = 0; pass < kMostPasses; ++pass) {
       problem = build_step_problem(model, middle, contacts, *memories, step);
-      if (pass == 0) solution = warm_start(problem, middle, *memories);
+      if (pass == 0) solution = warm_start(problem, middle, contacts, *memories);
       const SolveSummary solved = solver_.solve(problem.problem, solve_options, &solution);
       report.solve = pass == 0 ? solved : solved.after(report.solve);
       if (!model.joints.has_strength() || !report.solve.usable() ||

@@ -69,6 +69,7 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
     const Vec3 b = problem.b.segment<3>(3 * i) - step.support_velocity.segment<3>(3 * i);
     const Vec3 u_el = -(b + problem.E.segment<3>(3 * i).cwiseProduct(gamma));
     memory.impulse = gamma;
+    memory.tangent_A = state.poses[contact.block_a].q_WB.conjugate() * contact_frame(contact.normal).col(1);
     const double elastic_gap = b[0] * (h + options.damping) + h * u_el[0];
     const bool is_pulled = gamma[0] < 0.0 && model.joints.has_strength();
     memory.elastic_gap = is_pulled         ? std::max(0.0, elastic_gap)
@@ -112,12 +113,30 @@ void continue_from_rest(const Vec3& force, const Pose& pose_a, ContactMemory* me
   memory->loaded_steps = memory->impulse[0] > 0.0 ? kSmooth : 0;
 }
 
-ContactSolution warm_start(const StepProblem& step, const State& state, const ContactMemories& memories) {
+namespace {
+
+/// The impulse of the last step in the present contact frame. contact_frame() changes its tangents where the normal passes a tie between
+/// world axes, by 60 degrees or more. At a level bed rounding is enough for that.
+Vec3 in_present_frame(const ContactMemory& memory, const Contact& contact, const State& state) {
+  constexpr double kSameTangent = 0.75;  // cos; blocks turn by far less in a step
+  const Vec3 tangent_W = state.poses[contact.block_a].q_WB * memory.tangent_A;
+  const Vec3 tangent_C = contact_frame(contact.normal).transpose() * tangent_W;
+  const Eigen::Vector2d t = tangent_C.tail<2>().normalized();
+  if (t.isZero(0.0) || t[0] > kSameTangent) return memory.impulse;
+  const Vec3& old = memory.impulse;
+  return {old[0], old[1] * t[0] - old[2] * t[1], old[1] * t[1] + old[2] * t[0]};
+}
+
+}  // namespace
+
+ContactSolution warm_start(const StepProblem& step, const State& state, const ContactSet& contacts,
+                           const ContactMemories& memories) {
   CUPOLA_ASSERT(static_cast<int>(memories.values.size()) == step.num_contacts);
   ContactSolution guess;
   guess.v = state.v;
   guess.gamma = VecX::Zero(step.problem.b.size());
-  for (int i = 0; i < step.num_contacts; ++i) guess.gamma.segment<3>(3 * i) = memories.values[i].impulse;
+  for (int i = 0; i < step.num_contacts; ++i)
+    guess.gamma.segment<3>(3 * i) = in_present_frame(memories.values[i], contacts.points[i], state);
   for (size_t k = 0; k < memories.ties.size(); ++k)
     guess.gamma[3 * (step.num_contacts + static_cast<int>(k))] = memories.ties[k].impulse;
   return guess;

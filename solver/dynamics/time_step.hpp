@@ -91,6 +91,7 @@ double plastic_elongation(const StepProblem& step, int row, const ContactSolutio
 void continue_from_rest(const Vec3& force, const Pose& pose_a, ContactMemory* memory);
 
 /// Warm start of the solve: velocities at the start of the step and impulses of the last step.
-ContactSolution warm_start(const StepProblem& step, const State& state, const ContactMemories& memories);
+ContactSolution warm_start(const StepProblem& step, const State& state, const ContactSet& contacts,
+                           const ContactMemories& memories);
 
 }  // namespace cupola

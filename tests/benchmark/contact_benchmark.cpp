@@ -4,6 +4,7 @@
 //   contact_benchmark methods     a first step and two static solves by each method
 //   contact_benchmark gaps        random gaps
 //   contact_benchmark stepping    warm-started time steps
+//   contact_benchmark motion      whole steps of domes in motion and at rest
 //   contact_benchmark scale       1,280 to 20,480 blocks
 //   contact_benchmark threads     assembly and factor on two threads, against CG
 
@@ -13,12 +14,15 @@
 #include <fmt/format.h>
 
 #include "assembly/base/process.hpp"
+#include "assembly/case/case_reader.hpp"
 #include "solver/contact/blocks/block_cholesky.hpp"
 #include "solver/contact/blocks/multigrid.hpp"
 #include "solver/contact/methods/solve_contact.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/contact/problem/whitening.hpp"
+#include "solver/dynamics/scene_options.hpp"
+#include "solver/dynamics/simulation.hpp"
 #include "solver/runtime/threads.hpp"
 #include "tests/benchmark/dome_problem.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
@@ -136,6 +140,66 @@ void time_stepping() {
     }
     fmt::print("{},{:.0e},{:.0e},{:.1f},{:.2f},{},{:.1e}\n", problem.num_contacts(), c, tolerance,
                1e3 * cpu / 49, iterations / 49.0, factorizations, worst);
+    std::fflush(stdout);
+  }
+}
+
+/// A dome of 1,280 blocks, 20 steps of 0.01 s after the first 10.
+struct DomeMotion {
+  std::string name, bond;
+  double friction, compliance, tolerance;  ///< compliance in m/N per point
+};
+
+struct StepCost {
+  double cpu = 0.0, iterations = 0.0, factorizations = 0.0, worst = 0.0;
+  double displacement = 0.0;  ///< m, largest
+  int contacts = 0;
+};
+
+/// Mean cost of a step, from contact detection to the account of energy. `carried`: with the factor and the impulses at rest that the
+/// solver keeps from step to step; the initial guess is the last step in any case.
+StepCost measure_steps(const DomeMotion& dome, bool carried) {
+  constexpr int kFirst = 10, kSteps = 20;
+  Case scene = read_case(
+      CUPOLA_SOURCE_DIR "/cases/dome_circular.yaml",
+      {"geometry.bond=" + dome.bond, "analysis.type=dynamic",
+       fmt::format("joints.friction={}", dome.friction), fmt::format("analysis.tolerance={}", dome.tolerance),
+       fmt::format("joints.compliance.normal={}", dome.compliance),
+       fmt::format("joints.compliance.tangential={}", dome.compliance)});
+  const Assembly assembly = cut_assembly(scene);
+  SimulationOptions options = simulation_options(scene);
+  options.solve.lag_factor = options.solve.try_rest = carried;
+  Simulation simulation(make_model(scene, assembly), options);
+  StepCost cost;
+  for (int k = 0; k < kFirst + kSteps; ++k) {
+    const double start = cpu_seconds();
+    const StepReport report = simulation.advance();
+    if (k < kFirst) continue;
+    cost.cpu += (cpu_seconds() - start) / kSteps;
+    cost.iterations += 1.0 * report.solve.iterations / kSteps;
+    cost.factorizations += 1.0 * report.solve.factorizations / kSteps;
+    cost.worst = std::max(cost.worst, largest_residual(report.residuals));
+  }
+  for (const Vec3& d : simulation.displacements()) cost.displacement = std::max(cost.displacement, d.norm());
+  cost.contacts = static_cast<int>(simulation.contacts().points.size());
+  return cost;
+}
+
+void motion() {
+  fmt::print(
+      "scene,\"c, m/N\",contacts,tolerance,CPU ms per step,iterations,factorisations,worst residual,"
+      "\"displacement, m\",nothing carried: ms,ratio\n");
+  const std::string running = "{type: running, rings: 40, blocks_per_ring: 32, slices_per_block: 4}";
+  const std::string stack = "{type: stack, rings: 40, blocks_per_ring: 32, slices_per_block: 1}";
+  for (const DomeMotion& dome : {DomeMotion{"swinging, running bond", running, 0.4, 1e-8, 1e-4},
+                                 {"swinging, running bond", running, 0.4, 1e-8, 1e-6},
+                                 {"rigid, running bond", running, 0.4, 0.0, 1e-6},
+                                 {"rigid, stack bond", stack, 0.4, 0.0, 1e-6},
+                                 {"rigid, running bond, friction 0.05", running, 0.05, 0.0, 1e-6}}) {
+    const StepCost cost = measure_steps(dome, true), without = measure_steps(dome, false);
+    fmt::print("\"{}\",{:g},{},{:g},{:.0f},{:.1f},{:.1f},{:.1e},{:.1e},{:.0f},{:.2f}\n", dome.name,
+               dome.compliance, cost.contacts, dome.tolerance, 1e3 * cost.cpu, cost.iterations,
+               cost.factorizations, cost.worst, cost.displacement, 1e3 * without.cpu, cost.cpu / without.cpu);
     std::fflush(stdout);
   }
 }
@@ -273,11 +337,13 @@ int main(int argc, char** argv) {
     cupola::random_gaps();
   else if (table == "stepping")
     cupola::time_stepping();
+  else if (table == "motion")
+    cupola::motion();
   else if (table == "scale")
     cupola::scale();
   else if (table == "threads")
     cupola::threads();
   else
-    fmt::print(stderr, "usage: contact_benchmark methods | gaps | stepping | scale | threads\n");
+    fmt::print(stderr, "usage: contact_benchmark methods | gaps | stepping | motion | scale | threads\n");
   return table.empty();
 }

@@ -165,7 +165,7 @@ ForcesUnique forces_unique(const ContactProblem& problem, const FlowRule& law) {
   return {true, "associated law with a compliance above zero at every contact"};
 }
 
-double largest_unbalanced_impulse(const ContactProblem& p, const ContactSolution& x) {
+double momentum_residual(const ContactProblem& p, const ContactSolution& x, double reference_speed) {
   const VecX impulse = generalized_impulse(p, x.gamma);
   double largest = 0.0;
   for (int k = 0; k < p.num_blocks(); ++k) {
@@ -175,7 +175,7 @@ double largest_unbalanced_impulse(const ContactProblem& p, const ContactSolution
     if (std::isnan(norm)) return norm;
     largest = std::max(largest, norm);
   }
-  return largest;
+  return largest / (root_mean_mass(p) * reference_speed);
 }
 
 double root_mean_mass(const ContactProblem& problem) {
@@ -190,8 +190,7 @@ Residuals compute_residuals(const ContactProblem& problem, const ContactSolution
   CUPOLA_ASSERT(reference_speed > 0.0);
   CUPOLA_ASSERT(solution.gamma.size() == problem.b.size());
   Residuals residuals;
-  residuals.momentum =
-      largest_unbalanced_impulse(problem, solution) / (root_mean_mass(problem) * reference_speed);
+  residuals.momentum = momentum_residual(problem, solution, reference_speed);
   measure_contact_law(problem, solution, law, reference_speed, &residuals);
   residuals.contact_law_rounding = contact_law_rounding(problem, solution);
   residuals.cone_violation = cone_violation(problem, solution.gamma);

@@ -61,8 +61,9 @@ ForcesUnique forces_unique(const ContactProblem& problem, const FlowRule& law);
 /// trace(N_ii), N = D^T M^-1 D, 1/kg: response of the contact to a unit impulse on itself.
 double delassus_trace(const ContactProblem& problem, int i);
 
-/// Largest M_k^-1 norm over the blocks of r = M (v - v_star) - D gamma, N s / sqrt(kg).
-double largest_unbalanced_impulse(const ContactProblem& problem, const ContactSolution& solution);
+/// Residuals::momentum alone.
+double momentum_residual(const ContactProblem& problem, const ContactSolution& solution,
+                         double reference_speed);
 
 /// Square root of the mean block mass (a third of the trace of the linear part), sqrt(kg); 1 without blocks.
 double root_mean_mass(const ContactProblem& problem);

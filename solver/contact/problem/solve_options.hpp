@@ -28,6 +28,9 @@ struct SolveOptions {
 struct ContactSolverOptions : SolveOptions {
   ContactMethod method = ContactMethod::newton;
   FlowRule law;
+  /// Rigid contacts only: try first whether blocks at rest under the impulses of the guess are the solution. For time steps, in
+  /// which a structure at rest then keeps its impulses.
+  bool try_rest = false;
 };
 
 }  // namespace cupola
