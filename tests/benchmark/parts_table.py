@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Prints a CSV table of what the parts of the dome of Florence do.
+"""Prints a CSV table of what the parts of a dome do.
 
-  parts_table.py OUT MODEL ...      reads OUT/MODEL/results/, OUT/MODEL/post/ and OUT/MODEL_range/results/
+  parts_table.py OUT MODEL ...      reads OUT/MODEL/results/ and post/, OUT/MODEL_range/results/ and, if it is there,
+                                    OUT/MODEL_friction_limit/results/
 """
 
 import csv
@@ -34,19 +35,30 @@ def tension(post):
     return " / ".join(f"{float(r['mean_force_N']) / 1e3:.0f}" for r in rows(path)) if path.exists() else ""
 
 
-out = pathlib.Path(sys.argv[1])
-print("model,blocks,weight MN,outward force on the base MN,least MN,greatest MN,inner shell %,outer shell %,ribs %,"
-      "chains kN,largest pressure MPa,largest displacement mm,status,certified error,CPU s")
-for model in sys.argv[2:]:
+def least_friction(out, model):
+    path = out / f"{model}_friction_limit/results/summary.json"
+    return f"{json.loads(path.read_text())['critical_value']:.4g}" if path.exists() else ""
+
+
+def row(out, model):
     results, post = (json.loads((out / model / folder / "summary.json").read_text()) for folder in ("results", "post"))
     span = json.loads((out / f"{model}_range/results/summary.json").read_text())
     thrust = next(r for r in span["ranges"] if r["quantity"] == "thrust")
+    least, greatest = ("" if (v := thrust[end].get("value")) is None else f"{v / 1e6:.4g}" for end in ("min", "max"))
+    inner, outer, ribs = shares(out / model / "post")
     base = rows(out / model / "post/rings.csv")[0]
-    ends = ["" if (v := thrust[end].get("value")) is None else f"{v / 1e6:.4g}" for end in ("min", "max")]
     error = results["certified_force_error"].get("value")
-    print(",".join([model, str(post["blocks"]), f"{results['weight_N'] / 1e6:.4g}",
-                    f"{float(base['radial_thrust_N']) / 1e6:.4g}", *ends, *shares(out / model / "post"),
-                    tension(out / model / "post"), f"{post['largest_pressure_Pa'] / 1e6:.3g}",
-                    f"{1e3 * results['max_displacement_m']:.3g}", results["status"],
-                    "" if error is None else f"{error:.1e}",
-                    f"{results['cpu_time_seconds'] + span['cpu_time_seconds']:.0f}"]))
+    return {"model": model.replace("_", " "), "blocks": str(post["blocks"]), "weight MN": f"{results['weight_N'] / 1e6:.4g}",
+            "outward force on the base MN": f"{float(base['radial_thrust_N']) / 1e6:.4g}", "least MN": least, "greatest MN": greatest,
+            "inner shell %": inner, "outer shell %": outer, "ribs %": ribs, "chains kN": tension(out / model / "post"),
+            "least friction": least_friction(out, model), "largest pressure MPa": f"{post['largest_pressure_Pa'] / 1e6:.3g}",
+            "largest displacement mm": f"{1e3 * results['max_displacement_m']:.3g}", "status": results["status"],
+            "certified error": "" if error is None else f"{error:.1e}",
+            "CPU s": f"{results['cpu_time_seconds'] + span['cpu_time_seconds']:.0f}"}
+
+
+table = [row(pathlib.Path(sys.argv[1]), model) for model in sys.argv[2:]]
+columns = [key for key in table[0] if any(entry[key] for entry in table)]  # without chains no column of chains
+print(",".join(columns))
+for entry in table:
+    print(",".join(entry[key] for key in columns))
