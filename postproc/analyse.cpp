@@ -36,10 +36,12 @@ void remove_earlier_output(const std::string& folder) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    for (const char* start : {"ranges.csv", "path.csv", "rings.csv", "stages.csv", "shell", "thrust_",
-                              "hoop_", "section_", "cut_"})
+    for (const char* start :
+         {"ranges.csv", "path.csv", "rings.csv", "stages.csv", "members.csv", "wythes.csv", "chains.csv",
+          "ties.csv", "shell", "thrust_", "hoop_", "section_", "cut_"})
       if (name.starts_with(start) && name.ends_with(".csv")) std::filesystem::remove(entry.path(), ignored);
   }
+  std::filesystem::remove(in_folder(folder, "ties.vtp"), ignored);
   for (const char* subfolder : {"figures", "pictures"})
     for (const auto& entry : std::filesystem::directory_iterator(in_folder(folder, subfolder), ignored))
       for (const char* ending : {".gp", ".png", ".svg", ".pdf"})
@@ -112,6 +114,7 @@ void write_meshes(const Evaluation& e, const std::string& folder) {
   write_mesh(in_folder(folder, "thrust_lines.vtp"), thrust_lines_mesh(e));
   write_mesh(in_folder(folder, "sections.vtp"), sections_mesh(e));
   write_mesh(in_folder(folder, "cracks.vtp"), cracks_mesh(e));
+  if (e.last.frame.ties.size() > 0) write_mesh(in_folder(folder, "ties.vtp"), ties_mesh(e));
 }
 
 struct Drawn {

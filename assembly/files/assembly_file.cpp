@@ -206,6 +206,8 @@ void add_member_arrays(const Assembly& assembly, Mesh* mesh) {
   mesh->field_data.push_back(
       column<I>("block_member", assembly.blocks, [](const Block& b) { return b.member; }));
   mesh->field_data.push_back({"member_name", 1, assembly.members});
+  mesh->point_data.push_back({"layer", 1, assembly.vertex_layers});
+  mesh->point_data.push_back({"depth", 1, assembly.vertex_depths});
 }
 
 void read_members(const Mesh& mesh, const Columns& fields, Assembly* assembly) {
@@ -215,6 +217,9 @@ void read_members(const Mesh& mesh, const Columns& fields, Assembly* assembly) {
   for (size_t b = 0; b < assembly->blocks.size(); ++b) assembly->blocks[b].member = member[b];
   const auto& wythe = Columns(mesh, mesh.cell_data).get<std::int32_t>("wythe", assembly->parts.size());
   for (size_t i = 0; i < assembly->parts.size(); ++i) assembly->parts[i].wythe = wythe[i];
+  const Columns points(mesh, mesh.point_data);
+  assembly->vertex_layers = points.get<std::int32_t>("layer", assembly->vertices.size());
+  assembly->vertex_depths = points.get<double>("depth", assembly->vertices.size());
 }
 
 void read_ties(const Mesh& mesh, const Columns& fields, Assembly* assembly) {
@@ -248,6 +253,10 @@ void check(const Assembly& assembly, const std::string& path) {
   const int num_vertices = static_cast<int>(assembly.vertices.size());
   for (size_t v = 0; v < assembly.vertices.size(); ++v)
     require(assembly.vertices[v].allFinite(), "vertex", v);
+  for (size_t v = 0; v < assembly.vertex_layers.size(); ++v)
+    require(assembly.vertex_layers[v] >= -1 && assembly.vertex_depths[v] >= 0.0 &&
+                assembly.vertex_depths[v] <= 1.0,
+            "layer of vertex", v);
   const std::vector<int>& start = assembly.face_vertex_start;
   const int num_corners = static_cast<int>(assembly.face_vertices.size());
   require(!start.empty() && start.front() == 0 && start.back() == num_corners, "face range", 0);

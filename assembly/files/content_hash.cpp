@@ -19,6 +19,8 @@ std::string content_hash(const Assembly& assembly) {
   if (!assembly.members.empty()) {
     for (const Part& part : assembly.parts) hash.add(part.wythe);
     for (const Block& block : assembly.blocks) hash.add(block.member);
+    hash.add(std::span(assembly.vertex_layers));
+    hash.add(std::span(assembly.vertex_depths));
   }
   for (const BuiltTie& tie : assembly.ties) {
     hash.add(tie.block_a).add(tie.block_b).add(tie.stiffness).add(tie.length).add(tie.pushes);

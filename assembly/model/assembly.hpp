@@ -98,6 +98,11 @@ struct Assembly {
   int num_rings = 0;          ///< rings of the complete model; 0 for imported blocks
   /// Names of the wythes and, behind them, of the groups of bonders; empty for a shell of one wythe.
   std::vector<std::string> members;
+  /// Of the corners of a shell with wythes (num_vertices): the layer on which they lie, and their share of the thickness of
+  /// the shell, 0 on the intrados and 1 on the extrados. Wythe members[l] lies between layers l and l + 1. -1 and 0 for
+  /// the corners of supports. Empty for a shell of one wythe.
+  std::vector<int> vertex_layers;
+  std::vector<double> vertex_depths;
   std::string check_report;  ///< results of the generator's checks, as lines of text; may be empty
   std::vector<std::string> block_warnings;  ///< of the generator about the blocks, one sentence each
   std::vector<std::string> case_warnings;   ///< of the generator about the rest of its case

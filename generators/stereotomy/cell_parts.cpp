@@ -133,7 +133,7 @@ void add_parts(const CellGrid& grid, const CellRange& cells, GridPoints* points,
       for (const bool right : {false, true})
         (outer ? cell.outer : cell.inner)[upper ? (right ? 2 : 3) : (right ? 1 : 0)] = points->vertex(
             upper ? cells.row_end : cells.row_start, right ? cells.slice_end : cells.slice_start,
-            outer ? cells.wythe_end : cells.wythe_start, &assembly->vertices);
+            outer ? cells.wythe_end : cells.wythe_start, assembly);
   cell.inner_kind = layer_kind(grid, cells, false);
   cell.outer_kind = layer_kind(grid, cells, true);
   cell.sides = {bed_kind(grid, cells, false), head_kind(grid, cells, true), bed_kind(grid, cells, true),

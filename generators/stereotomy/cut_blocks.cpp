@@ -48,15 +48,28 @@ Block make_block(const CellGrid& grid, int bond_block, double density) {
 
 /// Drops the grid corners that no face uses because cells were merged.
 void drop_unused_vertices(Assembly* assembly) {
+  const bool has_layers = !assembly->vertex_layers.empty();
+  if (has_layers) {
+    assembly->vertex_layers.resize(assembly->vertices.size(), -1);  // corners of supports
+    assembly->vertex_depths.resize(assembly->vertices.size(), 0.0);
+  }
   std::vector<int> new_id(assembly->vertices.size(), -1);
   for (int v : assembly->face_vertices) new_id[v] = 0;
   int count = 0;
   for (size_t v = 0; v < new_id.size(); ++v)
     if (new_id[v] == 0) {
       assembly->vertices[count] = assembly->vertices[v];
+      if (has_layers) {
+        assembly->vertex_layers[count] = assembly->vertex_layers[v];
+        assembly->vertex_depths[count] = assembly->vertex_depths[v];
+      }
       new_id[v] = count++;
     }
   assembly->vertices.resize(count);
+  if (has_layers) {
+    assembly->vertex_layers.resize(count);
+    assembly->vertex_depths.resize(count);
+  }
   for (int& v : assembly->face_vertices) v = new_id[v];
 }
 
@@ -68,8 +81,9 @@ void add_storey(const Shell& shell, const CutOptions& options, Assembly* assembl
   GridPoints points(grid, options.imperfections);
   if (surface.footing != Footing::masonry && surface.footing != Footing::drum)
     add_base_support(surface, cuts, options.support_width, options.base_blocks, options.density, assembly);
-  points.make_shared(&assembly->vertices);
   const int first_member = static_cast<int>(assembly->members.size());
+  assembly->members.insert(assembly->members.end(), shell.members.begin(), shell.members.end());
+  points.make_shared(first_member, assembly);
   for (int bond_block : grid.order) {
     Block block = make_block(grid, bond_block, options.density);
     block.member += first_member;
@@ -82,7 +96,6 @@ void add_storey(const Shell& shell, const CutOptions& options, Assembly* assembl
   if (surface.footing == Footing::both_springings)
     add_far_support(surface, cuts, options.support_width, options.density, assembly);
   assembly->num_rings = surface.rings_below + surface.num_rings();
-  assembly->members.insert(assembly->members.end(), shell.members.begin(), shell.members.end());
 }
 
 }  // namespace

@@ -66,13 +66,25 @@ bool GridPoints::bulges_along_rising_diagonal(int bed, int cut) const {
   return right.cross(up).dot(opposite) >= 0.0;
 }
 
-void GridPoints::make_shared(std::vector<Vec3>* vertices) {
+void GridPoints::append(const Vec3& point, int bed, int layer, Assembly* assembly) const {
+  if (!assembly->members.empty()) {
+    assembly->vertex_layers.resize(assembly->vertices.size(), -1);  // corners of supports
+    assembly->vertex_depths.resize(assembly->vertices.size(), 0.0);
+    assembly->vertex_layers.push_back(first_layer_ + layer);
+    assembly->vertex_depths.push_back(grid_.surface.depth(bed, layer) /
+                                      grid_.surface.depth(bed, num_layers_ - 1));
+  }
+  assembly->vertices.push_back(point);
+}
+
+void GridPoints::make_shared(int first_layer, Assembly* assembly) {
+  first_layer_ = first_layer;
   if (gap_ > 0.0) return;
-  first_vertex_ = static_cast<int>(vertices->size());
+  first_vertex_ = static_cast<int>(assembly->vertices.size());
   for (int bed = 0; bed <= grid_.num_rows; ++bed)
     for (int column = 0; column < num_columns_; ++column)
       for (int layer = 0; layer < num_layers_; ++layer)
-        vertices->push_back(point(0.0, 0.0, bed, column, layer));
+        append(point(0.0, 0.0, bed, column, layer), bed, layer, assembly);
 }
 
 void GridPoints::start_block(int bond_block) {
@@ -88,10 +100,10 @@ void GridPoints::start_block(int bond_block) {
   sides_.right_gap = opening() / metres_per_abscissa(row, right - 1);
 }
 
-int GridPoints::vertex(int bed, int cut, int layer, std::vector<Vec3>* vertices) {
+int GridPoints::vertex(int bed, int cut, int layer, Assembly* assembly) {
   CUPOLA_ASSERT(bed >= 0 && bed <= grid_.num_rows);
   if (gap_ == 0.0) return first_vertex_ + (bed * num_columns_ + grid_.wrap(cut)) * num_layers_ + layer;
-  const auto [it, is_new] = own_.try_emplace({bed, cut, layer}, static_cast<int>(vertices->size()));
+  const auto [it, is_new] = own_.try_emplace({bed, cut, layer}, static_cast<int>(assembly->vertices.size()));
   if (!is_new) return it->second;
   const double bed_shift = bed == sides_.lower   ? sides_.lower_gap
                            : bed == sides_.upper ? -sides_.upper_gap
@@ -99,7 +111,7 @@ int GridPoints::vertex(int bed, int cut, int layer, std::vector<Vec3>* vertices)
   const double cut_shift = cut == sides_.left    ? sides_.left_gap
                            : cut == sides_.right ? -sides_.right_gap
                                                  : 0.0;
-  vertices->push_back(point(bed_shift, cut_shift, bed, cut, layer));
+  append(point(bed_shift, cut_shift, bed, cut, layer), bed, layer, assembly);
   return it->second;
 }
 

@@ -35,14 +35,16 @@ class GridPoints {
   /// Where skins are not plane: true if the layers of a cell bulge outwards along the diagonal from its lower left to
   /// its upper right corner, false if along the other.
   bool bulges_along_rising_diagonal(int bed, int cut) const;
-  /// Appends the shared vertices; call once, before the first block.
-  void make_shared(std::vector<Vec3>* vertices);
+  /// Appends the shared vertices; call once, before the first block. If the shell has wythes, the layers of all vertices are
+  /// counted from `first_layer`.
+  void make_shared(int first_layer, Assembly* assembly);
   /// Call before the vertices of each block.
   void start_block(int bond_block);
   /// Index of a corner of the current block; appends it if the block has its own corners.
-  int vertex(int bed, int cut, int layer, std::vector<Vec3>* vertices);
+  int vertex(int bed, int cut, int layer, Assembly* assembly);
 
  private:
+  void append(const Vec3& point, int bed, int layer, Assembly* assembly) const;
   Vec3 point(double bed_shift, double cut_shift, int bed, int cut, int layer) const;
   double metres_per_bed(int bed, int cut) const;
   double metres_per_abscissa(int bed, int cut) const;
@@ -50,7 +52,7 @@ class GridPoints {
   const CellGrid& grid_;
   double gap_ = 0.0, noise_ = 0.0;  // m
   Random random_;
-  int num_columns_ = 0, num_layers_ = 0, first_vertex_ = 0;
+  int num_columns_ = 0, num_layers_ = 0, first_vertex_ = 0, first_layer_ = 0;
   std::vector<double> bed_noise_, cut_noise_, skin_noise_;  // bed units, abscissa units, m
 
   struct Sides {

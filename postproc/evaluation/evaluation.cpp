@@ -198,8 +198,7 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e, const std:
       nearest = std::abs(ring.height - height);
       section.ring = ring.ring;
     }
-    if (section.ring >= 0 && has_one_layer_of_rings(e))
-      section.resultants = bed_resultants(e, input, section.ring);
+    if (section.ring >= 0) section.resultants = bed_resultants(e, input, section.ring);
     sections.push_back(std::move(section));
   }
   return sections;
@@ -228,10 +227,6 @@ bool is_mechanism(const Summary& summary, const Frame& frame) {
       return false;
   }
   return false;
-}
-
-bool has_one_layer_of_rings(const Evaluation& e) {
-  return e.shell.num_rings() > 0 && e.assembly.members.empty();
 }
 
 bool is_vault(const Evaluation& e) {
@@ -307,6 +302,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
                       e.last.frame.ties, left_out);
   e.chains = chain_forces(e.assembly.chains, e.last.frame.ties);
+  e.wythes = wythe_sums(e.assembly, e.shell, e.last.joints, e.last.frame.contacts, e.up);
   e.members = member_sums(e.assembly, e.last.joints, e.last.gravity, left_out);
   count_lost_joints(results, &e);
   e.meridians = evaluate_meridians(e);
@@ -317,7 +313,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
         plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads, e.last.frame.ties));
   const std::optional<double> rib = meridian_named("rib", scene),
                               mid_sail = meridian_named("mid_sail", scene);
-  if (rib && mid_sail && e.assembly.members.empty())  // thrust lines see no wythes
+  if (rib && mid_sail && e.assembly.members.empty())  // its beds follow the period of one bond
     e.rib_over_mid_sail = rib_ratio(thrust_input(e, e.last), scene.geometry, *rib, *mid_sail);
   return e;
 }

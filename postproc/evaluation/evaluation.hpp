@@ -14,6 +14,7 @@
 #include "postproc/mechanics/plane_cut.hpp"
 #include "postproc/mechanics/ring_sums.hpp"
 #include "postproc/mechanics/thrust_line.hpp"
+#include "postproc/mechanics/wythe_sums.hpp"
 
 namespace cupola {
 
@@ -28,9 +29,11 @@ struct FrameEvaluation {
   std::vector<int> groups;          ///< per block, group that moves as one body
 };
 
-/// A meridian: the thrust line along it and the hoop forces across it.
+/// A meridian: the thrust lines along it and the hoop forces across it.
 struct MeridianEvaluation {
   ThrustLine thrust;
+  std::vector<ThrustLine>
+      wythes;                 ///< of each wythe that has points on it, inside first; empty without wythes
   std::vector<HoopRow> hoop;  ///< empty for an arch
   /// Thrust lines at the ends of the range of the thrust, if the run has their frames.
   std::optional<ThrustLine> least_thrust, greatest_thrust;
@@ -70,6 +73,7 @@ struct Evaluation {
   int last_frame = -1;  ///< its number
   std::vector<RingSum> rings;
   std::vector<MemberSum> members;  ///< empty without wythes
+  std::vector<WytheSum> wythes;    ///< empty without wythes
   std::vector<ChainForces> chains;
   std::vector<MeridianEvaluation> meridians;
   std::vector<SectionEvaluation> sections;
@@ -88,8 +92,6 @@ bool at_rest(const Summary& summary);
 /// motion that the static solve of a case or of a stage of construction, or a range analysis, found.
 bool is_mechanism(const Summary& summary, const Frame& frame);
 
-/// True for a shell of rings without wythes, which can be unrolled and has beds from intrados to extrados.
-bool has_one_layer_of_rings(const Evaluation& evaluation);
 /// True for a vault about the z axis, where azimuths are meaningful.
 bool is_vault(const Evaluation& evaluation);
 

@@ -1,6 +1,7 @@
 #include "postproc/evaluation/meridians.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -9,16 +10,32 @@
 namespace cupola {
 namespace {
 
-/// The thrust lines of all meridians in one frame.
-std::vector<ThrustLine> thrust_lines(const Evaluation& e, const FrameEvaluation& frame) {
-  const ThrustInput input = thrust_input(e, frame);
-  std::vector<ThrustLine> lines;
+/// A meridian of the case; of an arch its only one.
+struct Drawn {
+  std::string name;
+  std::optional<double> azimuth_deg;
+};
+
+std::vector<Drawn> drawn_meridians(const Evaluation& e) {
   using enum SurfaceTraits::Meridians;
   const SurfaceTraits::Meridians drawn = traits_of(e.scene.geometry.surface).meridians;
-  if (drawn == one) lines.push_back(thrust_line(input, "arch", std::nullopt));
+  std::vector<Drawn> meridians;
+  if (drawn == one) meridians.push_back({"arch", std::nullopt});
   if (drawn == by_azimuth)
     for (const Meridian& meridian : e.scene.postproc.meridians)
-      lines.push_back(thrust_line(input, meridian.name, meridian.azimuth_deg));
+      meridians.push_back({meridian.name, meridian.azimuth_deg});
+  return meridians;
+}
+
+/// The thrust lines of the wythes along a meridian, each with the name of its wythe after that of the meridian.
+std::vector<ThrustLine> wythe_lines(const Evaluation& e, const ThrustInput& input, const Drawn& meridian) {
+  std::vector<ThrustLine> lines;
+  for (int wythe = 0; wythe < e.shell.num_wythes; ++wythe) {
+    if (e.shell.is_alone(wythe)) continue;  // the whole thickness
+    const std::string name = fmt::format("{}_{}", meridian.name, in_file_names(e.assembly.members[wythe]));
+    ThrustLine line = thrust_line(input, name, meridian.azimuth_deg, wythe);
+    if (!line.points.empty()) lines.push_back(std::move(line));
+  }
   return lines;
 }
 
@@ -27,8 +44,11 @@ void add_end(const ResultsReader& results, const RangeEnd& end,
              std::optional<ThrustLine> MeridianEvaluation::*member, Evaluation* e) {
   if (end.outcome != RangeOutcome::bounded || !end.frame) return;
   try {
-    std::vector<ThrustLine> lines = thrust_lines(*e, evaluate_frame(*e, results.read_frame(*end.frame)));
-    for (size_t i = 0; i < lines.size(); ++i) e->meridians[i].*member = std::move(lines[i]);
+    const FrameEvaluation frame = evaluate_frame(*e, results.read_frame(*end.frame));
+    const ThrustInput input = thrust_input(*e, frame);
+    const std::vector<Drawn> meridians = drawn_meridians(*e);
+    for (size_t i = 0; i < meridians.size(); ++i)
+      e->meridians[i].*member = thrust_line(input, meridians[i].name, meridians[i].azimuth_deg);
   } catch (const InputError& error) {
     leave_out(fmt::format("frame {}", *end.frame), error.what(), e);
   }
@@ -36,17 +56,27 @@ void add_end(const ResultsReader& results, const RangeEnd& end,
 
 }  // namespace
 
+std::string in_file_names(std::string text) {
+  for (char& c : text)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+  return text;
+}
+
 ThrustInput thrust_input(const Evaluation& e, const FrameEvaluation& frame) {
   return {&e.assembly, &e.shell, &frame.frame.contacts, &frame.joints, frame.from_below, frame.gravity};
 }
 
 std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {
   std::vector<MeridianEvaluation> meridians;
-  const bool vault = traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::by_azimuth;
-  for (ThrustLine& line : thrust_lines(e, e.last)) {
-    const double azimuth = line.azimuth_deg;
-    meridians.push_back({.thrust = std::move(line), .hoop = {}, .least_thrust = {}, .greatest_thrust = {}});
-    if (vault) meridians.back().hoop = hoop_forces(e.assembly, e.last.joints, azimuth, e.last.frame.ties);
+  const ThrustInput input = thrust_input(e, e.last);
+  for (const Drawn& drawn : drawn_meridians(e)) {
+    meridians.push_back({.thrust = thrust_line(input, drawn.name, drawn.azimuth_deg),
+                         .wythes = wythe_lines(e, input, drawn),
+                         .hoop = {},
+                         .least_thrust = {},
+                         .greatest_thrust = {}});
+    if (drawn.azimuth_deg)
+      meridians.back().hoop = hoop_forces(e.assembly, e.last.joints, *drawn.azimuth_deg, e.last.frame.ties);
   }
   return meridians;
 }

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "postproc/evaluation/evaluation.hpp"
 
 namespace cupola {
+
+/// The name of a wythe as a part of file names: letters, digits, _ and -.
+std::string in_file_names(std::string text);
 
 /// What the thrust lines of a frame are computed from. It refers to both arguments.
 ThrustInput thrust_input(const Evaluation& evaluation, const FrameEvaluation& frame);

@@ -130,9 +130,9 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
   std::vector<Figure> figures;
   const std::vector<ForceRange>& ranges = e.summary.ranges;
   if (!ranges.empty()) figures.push_back(range_figure(e));
-  if (has_one_layer_of_rings(e) &&
-      std::any_of(ranges.begin(), ranges.end(), [](const ForceRange& r) { return r.joint.has_value(); }))
-    figures.push_back(certainty_map(e));
+  const std::vector<ShellMap> maps = shell_maps(e);
+  if (std::any_of(ranges.begin(), ranges.end(), [](const ForceRange& r) { return r.joint.has_value(); }))
+    for (const ShellMap& map : maps) figures.push_back(certainty_map(e, map));
   if (history.size() > 1) figures.push_back(history_figure(e, history));
   if (!at_rest(e.summary)) return figures;
   for (const MeridianEvaluation& m : e.meridians)
@@ -147,14 +147,11 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
   for (const MeridianEvaluation& m : e.meridians)
     if (!m.hoop.empty()) figures.push_back(hoop_figure(m));
   if (!e.chains.empty()) figures.push_back(chain_figure(e));
-  if (has_one_layer_of_rings(e)) {
-    const ShellMap map = shell_map(e);
-    MapScales scales;
-    scales.include(map);
-    for (Figure (*draw)(const ShellMap&, const MapScales&) : {force_map, utilisation_map})
-      if (Figure figure = draw(map, scales); !figure.commands.empty()) figures.push_back(std::move(figure));
-    if (Figure cracks = crack_map(e); !cracks.commands.empty()) figures.push_back(std::move(cracks));
-  }
+  MapScales scales;
+  for (const ShellMap& map : maps) scales.include(map);
+  for (const ShellMap& map : maps)
+    for (const Figure& figure : {force_map(map, scales), utilisation_map(map, scales), crack_map(e, map)})
+      if (!figure.commands.empty()) figures.push_back(figure);
   return figures;
 }
 

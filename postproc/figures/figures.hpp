@@ -4,6 +4,7 @@
 
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/gnuplot.hpp"
+#include "postproc/tables/shell_map.hpp"
 
 namespace cupola {
 
@@ -21,10 +22,10 @@ Figure range_figure(const Evaluation& evaluation);
 
 /// The joints of the unrolled shell, coloured by how uncertain their normal force is: the width of its range over its mean,
 /// of a range analysis of single joints. In gnuplot's data: $joints has one segment per joint and its value.
-Figure certainty_map(const Evaluation& evaluation);
+Figure certainty_map(const Evaluation& evaluation, const ShellMap& shell);
 
 /// The open joints of the unrolled shell, coloured by their largest gap; without commands if there are none.
-Figure crack_map(const Evaluation& evaluation);
+Figure crack_map(const Evaluation& evaluation, const ShellMap& shell);
 
 /// Profile with thrust line, envelope and lines of action, and thin lines of least and greatest thrust where the
 /// meridian has them; r, v, couple length and distance to the nearer

@@ -55,6 +55,11 @@ std::vector<JointMap::Side> JointMap::sides_of(std::pair<int, int> joint) const 
   return sides;
 }
 
+bool JointMap::has(const Shell& shell, std::pair<int, int> blocks) const {
+  return shell.wythes[blocks.first].contains(map_.number) &&
+         shell.wythes[blocks.second].contains(map_.number);
+}
+
 void JointMap::add(std::pair<int, int> blocks, std::optional<double> value, Rows* rows) {
   for (const Side& side : sides_of(blocks)) {
     const bool first = low_ == 0.0 && high_ == 0.0;

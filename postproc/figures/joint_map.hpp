@@ -24,6 +24,9 @@ class JointMap {
 
   std::string outlines() const;  ///< data block $outlines, boxes of the blocks
   std::string axes() const;      ///< ranges and labels that hold all segments added
+  const ShellMap& shell() const { return map_; }
+  /// True for a joint between blocks of the map, or between one of them and a support.
+  bool has(const Shell& shell, std::pair<int, int> blocks) const;
   /// False if browsers would be slow to draw the map from vectors.
   bool is_small() const { return map_.boxes.size() <= kMostVectorBoxes; }
 

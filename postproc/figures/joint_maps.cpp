@@ -24,11 +24,11 @@ std::string outline_plot() {
 
 }  // namespace
 
-Figure certainty_map(const Evaluation& e) {
-  JointMap map(shell_map(e));
+Figure certainty_map(const Evaluation& e, const ShellMap& shell) {
+  JointMap map(shell);
   JointMap::Rows joints, unlimited, unknown;
   for (const ForceRange& range : e.summary.ranges) {
-    if (!range.joint) continue;
+    if (!range.joint || !map.has(e.shell, *range.joint)) continue;
     const double value = relative_range(range);
     if (std::isfinite(value))
       map.add(*range.joint, value, &joints);
@@ -36,8 +36,8 @@ Figure certainty_map(const Evaluation& e) {
       map.add(*range.joint, std::nullopt, std::isinf(value) ? &unlimited : &unknown);
   }
   Figure f;
-  f.name = "map_certainty";
-  f.title = std::string("Certainty of the joint forces over the ") + (is_vault(e) ? "shell" : "wall");
+  f.name = fmt::format("map_certainty{}", shell.suffix());
+  f.title = fmt::format("Certainty of the joint forces over the {}", mapped_text(shell));
   f.caption =
       "The joints, coloured by the width of the range of their normal force over its mean: at 0 "
       "equilibrium and friction determine the force, at 2 it may be anything from zero to its maximum.";
@@ -63,25 +63,27 @@ Figure certainty_map(const Evaluation& e) {
   return f;
 }
 
-Figure crack_map(const Evaluation& e) {
-  JointMap map(shell_map(e));
+Figure crack_map(const Evaluation& e, const ShellMap& shell) {
+  JointMap map(shell);
   JointMap::Rows joints;
   double length = 0.0, widest = 0.0;
-  const std::vector<Crack> cracks = cracks_of(e.last.frame.contacts, e.last.joints);
-  for (const Crack& crack : cracks) {
+  int cracks = 0;
+  for (const Crack& crack : cracks_of(e.last.frame.contacts, e.last.joints)) {
     const JointWrench& joint = e.last.joints.wrenches[crack.joint];
+    if (!map.has(e.shell, {joint.block_a, joint.block_b})) continue;
+    ++cracks;
     map.add({joint.block_a, joint.block_b}, 1e3 * crack.widest_gap, &joints);
     length += crack.extent;
     widest = std::max(widest, crack.widest_gap);
   }
   Figure f;
-  f.name = "map_cracks";
-  f.title = std::string("Open joints over the ") + (is_vault(e) ? "shell" : "wall");
+  f.name = fmt::format("map_cracks{}", shell.suffix());
+  f.title = fmt::format("Open joints over the {}", mapped_text(shell));
   f.caption = fmt::format(
       "The joints that are open, at least in part, coloured by their largest gap. The "
       "open parts of {} extend "
       "over {} in total; the widest gap is {}.",
-      counted(cracks.size(), "joint"), length_text(length), length_text(widest));
+      counted(cracks, "joint"), length_text(length), length_text(widest));
   f.width = 1100;
   f.height = 640;
   f.vector = map.is_small();

@@ -76,6 +76,11 @@ double end_of(double most) {
 
 }  // namespace
 
+std::string mapped_text(const ShellMap& map) {
+  if (!map.wythe.empty()) return fmt::format("wythe {}", map.wythe);
+  return map.vault ? "shell" : "wall";
+}
+
 void MapScales::include(const ShellMap& map) {
   for (const ShellBox& box : map.boxes) {
     compression = std::max(compression, 1e-3 * box.meridional_force);
@@ -88,15 +93,16 @@ void MapScales::include(const ShellMap& map) {
 
 Figure force_map(const ShellMap& map, const MapScales& scales) {
   Figure f;
-  f.name = "map_forces";
+  f.name = fmt::format("map_forces{}", map.suffix());
   const char *along = map.vault ? "meridional" : "vertical", *across = map.vault ? "hoop" : "horizontal";
-  f.title = map.vault           ? "Meridional and hoop forces over the shell"
-            : scales.hoop > 0.0 ? "Vertical and horizontal forces over the wall"
-                                : "Vertical forces over the wall";
+  f.title = map.vault           ? "Meridional and hoop forces over the "
+            : scales.hoop > 0.0 ? "Vertical and horizontal forces over the "
+                                : "Vertical forces over the ";
+  f.title += mapped_text(map);
   f.caption = fmt::format(
-      "{}. Forces per metre from the mean stress of each block, compression positive{}. Grey: the force is "
+      "The {}{}{}. Forces per metre from the mean stress of each block, compression positive{}. Grey: the force is "
       "negligible.",
-      map.vault ? "The unrolled shell" : "The wall from the front",
+      map.vault ? "unrolled " : "", mapped_text(map), map.vault ? "" : " from the front",
       scales.hoop > 0.0 ? fmt::format("; {} tension is orange", across) : "");
   std::vector<std::string> panels;
   if (scales.compression > 0.0 || scales.tension > 0.0)
@@ -117,8 +123,8 @@ Figure force_map(const ShellMap& map, const MapScales& scales) {
 
 Figure utilisation_map(const ShellMap& map, const MapScales& scales) {
   Figure f;
-  f.name = "map_utilisation";
-  f.title = fmt::format("Utilisation of the joints over the {}", map.vault ? "shell" : "wall");
+  f.name = fmt::format("map_utilisation{}", map.suffix());
+  f.title = fmt::format("Utilisation of the joints over the {}", mapped_text(map));
   f.caption =
       "Largest friction utilisation of the joints of each block (1: every point slides), and largest kern "
       "utilisation of its bed joints (above 1: part of the joint is unloaded). Grey: no such joint carries "

@@ -7,6 +7,9 @@ namespace cupola {
 
 inline constexpr size_t kMostVectorBoxes = 3000;  ///< with more, browsers are slow to open the SVG
 
+/// "shell", "wall" or "wythe NAME": what the map shows, for titles.
+std::string mapped_text(const ShellMap& map);
+
 /// Ends of the colour scales of maps: the largest values of all maps included.
 struct MapScales {
   double compression = 0.0, tension = 0.0;  ///< kN/m, meridional

@@ -6,6 +6,7 @@
 
 #include "postproc/figures/figures.hpp"
 #include "postproc/figures/plot_style.hpp"
+#include "postproc/figures/wythe_curves.hpp"
 #include "postproc/tables/range_values.hpp"
 
 namespace cupola {
@@ -28,17 +29,11 @@ struct Range {
   }
 };
 
-/// Abscissa of a profile: horizontal distance from the axis in the meridian plane; x for an arch.
-double abscissa(const ThrustLine& line, bool arch, const Vec3& p) {
-  const double angle = arch ? 0.0 : line.azimuth_deg / kDegrees;
-  return std::cos(angle) * p.x() + std::sin(angle) * p.y();
-}
-
 /// The points of a thrust line, interrupted where its position is undefined.
 Rows line_rows(const ThrustLine& line, bool arch) {
   Rows rows;
   for (const ThrustPoint& p : line.points)
-    rows.push_back(p.is_placed() ? std::vector{abscissa(line, arch, p.point), p.point.z()}
+    rows.push_back(p.is_placed() ? std::vector{profile_abscissa(line, arch, p.point), p.point.z()}
                                  : std::vector<double>{});
   return rows;
 }
@@ -46,7 +41,7 @@ Rows line_rows(const ThrustLine& line, bool arch) {
 /// Data blocks of a thrust figure: skins, beds, thrust lines, lines of action, envelope, graphs.
 std::string thrust_data(const MeridianEvaluation& m, bool arch, const ForceUnit& unit) {
   const ThrustLine& line = m.thrust;
-  const auto at = [&](const Vec3& p) { return std::vector{abscissa(line, arch, p), p.z()}; };
+  const auto at = [&](const Vec3& p) { return std::vector{profile_abscissa(line, arch, p), p.z()}; };
   Rows skins[2], thirds[2], beds, action, envelope, graphs, pressed;
   double longest = 0.0;
   for (const ThrustPoint& p : line.points) longest = std::max(longest, p.r);
@@ -88,6 +83,14 @@ double largest_zone_pressure(const ThrustLine& line) {
   return largest;
 }
 
+/// The section of the wythes with their thrust lines and that of the whole thickness.
+std::string wythe_profile(const WytheCurves& wythes) {
+  return fmt::format(
+      "plot {}$intrados w l lc rgb 'black' lw 1.5 notitle, $extrados w l lc rgb 'black' lw 1.5 notitle{}, "
+      "$thrust w lp lc rgb '{}' lw 2 pt 7 ps 0.5 title 'whole thickness'\n",
+      wythes.section, wythes.lines, kOrange);
+}
+
 std::string profile_plot(const MeridianEvaluation& m, const Summary& summary, bool zones) {
   std::string title = "thrust line";
   if (summary.analysis == AnalysisType::range)
@@ -124,7 +127,7 @@ std::string few_ticks(double largest) {
 
 /// Four panels with a common height axis: profile, resultant, couple length, distance to the nearer face.
 std::string vault_panels(const MeridianEvaluation& m, int width, int height, const ForceUnit& unit,
-                         const std::string& profile) {
+                         const std::string& profile, const WytheCurves& wythes) {
   const size_t rows = m.thrust.points.size();
   Range x, z;
   for (const ThrustLine* line : {&m.thrust, m.least_thrust ? &*m.least_thrust : nullptr,
@@ -132,7 +135,7 @@ std::string vault_panels(const MeridianEvaluation& m, int width, int height, con
     if (line == nullptr) continue;
     for (const ThrustPoint& p : line->points)
       for (const Vec3& q : {p.intrados, p.extrados, p.is_placed() ? p.point : p.intrados}) {
-        x.add(abscissa(*line, false, q));
+        x.add(profile_abscissa(*line, false, q));
         z.add(q.z());
       }
   }
@@ -166,25 +169,25 @@ std::string vault_panels(const MeridianEvaluation& m, int width, int height, con
          fmt::format(
              "{5}set xrange [0:*]\nset xlabel 'resultant ({2})'\nunset ylabel\n"
              "plot $graphs using 2:1 w lp lc rgb '{0}' pt 7 ps 0.4 notitle, $graphs using 3:1 w l lc "
-             "rgb '{1}' dt 2 lw 2 notitle{3}{4}\n",
+             "rgb '{1}' dt 2 lw 2 notitle{3}{4}{6}\n",
              kBlue, kOrange, unit.name,
              curve_label("graphs", rows / 2, "$2", "$1", "r: norm", kBlue, "left offset 1.2,0"),
              curve_label("graphs", rows / 4, "$3", "$1", "v: vertical", kOrange, "right offset -1.2,0"),
-             few_ticks(resultant)) +
+             few_ticks(resultant), wythes.resultant) +
          margins(right + 2 * gap + panel, right + 2 * gap + 2 * panel) +
          fmt::format(
              "{}set xlabel 'couple length (m)'\nset xrange [0:{}<*]\n"
-             "plot $graphs using 4:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle\n",
-             few_ticks(couple), kLeastCouple, kPurple) +
+             "plot $graphs using 4:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
+             few_ticks(couple), kLeastCouple, kPurple, wythes.couple) +
          margins(0.98 - panel, 0.98) +
          fmt::format(
              "{}set xlabel 'distance to the nearer face (m)'\nset xrange [*<0:*]\n"
-             "plot $graphs using 5:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle\nunset multiplot\n",
-             few_ticks(distance), kGreen);
+             "plot $graphs using 5:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\nunset multiplot\n",
+             few_ticks(distance), kGreen, wythes.distance);
 }
 
 /// Profile on top; below it resultant, couple length and distance to the nearer face, over x.
-std::string arch_panels(const ForceUnit& unit, const std::string& profile) {
+std::string arch_panels(const ForceUnit& unit, const std::string& profile, const WytheCurves& wythes) {
   const auto band = [](double bottom, double top) {
     return fmt::format("set bmargin at screen {}\nset tmargin at screen {}\n", bottom, top);
   };
@@ -195,18 +198,18 @@ std::string arch_panels(const ForceUnit& unit, const std::string& profile) {
              "set ylabel 'resultant ({2})'\nset yrange [0:*]\n"
              "plot $graphs using 1:2 w lp lc rgb '{0}' pt 7 ps 0.4 title 'r: norm', $graphs using "
              "1:(abs($3)) "
-             "w l lc rgb '{1}' dt 2 title 'v: vertical'\n",
-             kBlue, kOrange, unit.name) +
+             "w l lc rgb '{1}' dt 2 title 'v: vertical'{3}\n",
+             kBlue, kOrange, unit.name, wythes.resultant) +
          band(0.245, 0.345) +
          fmt::format(
              "set ylabel 'couple length (m)'\nset yrange [0:0.001<*]\n"
-             "plot $graphs using 1:4 w lp lc rgb '{}' pt 7 ps 0.4 notitle\n",
-             kPurple) +
+             "plot $graphs using 1:4 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
+             kPurple, wythes.couple) +
          band(0.08, 0.18) +
          fmt::format(
              "set xlabel 'x (m)'\nset ylabel 'to face (m)'\nset yrange [*<0:*]\n"
-             "plot $graphs using 1:5 w lp lc rgb '{}' pt 7 ps 0.4 notitle\nunset multiplot\n",
-             kGreen);
+             "plot $graphs using 1:5 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\nunset multiplot\n",
+             kGreen, wythes.distance);
 }
 
 }  // namespace
@@ -239,11 +242,18 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
         " The thick parts of the beds push, darker where the mean pressure of these parts is higher, at most "
         "{:.3g} MPa.",
         1e-6 * pressure);
+  const WytheCurves wythes = wythe_curves(e, m, unit);
+  if (!m.wythes.empty())
+    f.caption +=
+        " Shaded: the blocks that the plane of the meridian cuts. The line of a wythe takes the beds that "
+        "lie in it alone; "
+        "where a bonder rests on another, only the whole thickness has a line.";
   f.width = 1200;
   f.height = arch ? 900 : 560;
-  const std::string profile = profile_plot(m, e.summary, zones);
-  f.commands = plot_style() + thrust_data(m, arch, unit) +
-               (arch ? arch_panels(unit, profile) : vault_panels(m, f.width, f.height, unit, profile));
+  const std::string profile = m.wythes.empty() ? profile_plot(m, e.summary, zones) : wythe_profile(wythes);
+  f.commands =
+      plot_style() + thrust_data(m, arch, unit) + wythes.data +
+      (arch ? arch_panels(unit, profile, wythes) : vault_panels(m, f.width, f.height, unit, profile, wythes));
   return f;
 }
 

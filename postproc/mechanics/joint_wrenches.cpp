@@ -118,6 +118,13 @@ JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& conta
   return out;
 }
 
+WytheRange wythes_of(const Assembly& assembly, const Shell& shell, const Joint& joint) {
+  const WytheRange a = shell.wythes[joint.block_a], b = shell.wythes[joint.block_b];
+  const WytheRange common{std::max(a.from, b.from), std::min(a.to, b.to)};
+  if (common.count() > 0) return common;
+  return assembly.blocks[joint.block_a].ring > assembly.blocks[joint.block_b].ring ? a : b;
+}
+
 Wrench wrench_on(const JointWrench& joint, int block) {
   CUPOLA_ASSERT(block == joint.block_a || block == joint.block_b);
   return block == joint.block_b ? joint.wrench : -1.0 * joint.wrench;

@@ -50,6 +50,10 @@ struct JointWrenches {
 JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell,
                              double unbalanced = 0.0);
 
+/// The wythes in which a joint lies: those that both blocks occupy. Between two layers of the thickness, where they share
+/// none, those of the block in the higher ring; in one ring, of block_b.
+WytheRange wythes_of(const Assembly& assembly, const Shell& shell, const Joint& joint);
+
 /// The wrench of the joint on `block`, which must be one of its two.
 Wrench wrench_on(const JointWrench& joint, int block);
 

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "assembly/base/error.hpp"
+#include "postproc/mechanics/layer_facets.hpp"
 
 namespace cupola {
 namespace {
@@ -86,6 +87,23 @@ double standard_width(const Assembly& assembly, const Shell& shell) {
   return median(std::move(values));
 }
 
+/// Per free block of a shell with wythes, the mean vector from the inner to the outer edges of its bed facets, m. Zero in
+/// other shells and without a bed of its own.
+std::vector<Vec3> through_blocks(const Assembly& assembly, const Shell& shell) {
+  std::vector<Vec3> through(assembly.blocks.size(), Vec3::Zero());
+  std::vector<int> edges(through.size(), 0);
+  if (assembly.members.empty()) return through;
+  for (const auto& bed : shell.beds)
+    for (const BedFacet& f : bed) {
+      if (assembly.blocks[f.block].fixed) continue;
+      through[f.block] += f.extrados_a + f.extrados_b - f.intrados_a - f.intrados_b;
+      edges[f.block] += 2;
+    }
+  for (size_t b = 0; b < through.size(); ++b)
+    if (edges[b] > 0) through[b] /= edges[b];
+  return through;
+}
+
 }  // namespace
 
 double model_size(const Assembly& assembly) {
@@ -117,6 +135,21 @@ const Vec3& Shell::direction(int ring) const {
   return progress.empty() ? up : progress[std::clamp(ring, 0, num_rings() - 1)];
 }
 
+double Shell::wythes_inside(int block) const {
+  const WytheRange& range = wythes[block];
+  return 0.5 * (range.from + range.to - 1) - innermost[range.from];
+}
+
+bool Shell::is_alone(int wythe) const {
+  return innermost[wythe] == wythe && (wythe + 1 == num_wythes || innermost[wythe + 1] == wythe + 1);
+}
+
+int Shell::most_wythes() const {
+  int most = 1;
+  for (int wythe = 0; wythe < num_wythes; ++wythe) most = std::max(most, wythe - innermost[wythe] + 1);
+  return most;
+}
+
 Shell shell_of(const Assembly& assembly, const Vec3& up) {
   Shell shell;
   shell.up = up;
@@ -124,8 +157,17 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
   if (num_rings == 0) return shell;
   shell.progress = progress_directions(assembly, num_rings, up);
   shell.beds.resize(static_cast<size_t>(num_rings) + 1);
+  set_wythes(assembly, &shell);
+  const bool has_layers = !assembly.vertex_layers.empty();
+  LayerFacets facets(assembly);
+  const auto add = [&](const Part& part, int f, int bed) {
+    if (has_layers)
+      facets.add(part, f, bed);
+    else
+      add_facet(assembly, part, f, &shell.beds[bed]);
+  };
   for (const Part& part : assembly.parts) {
-    if (part.ring < 0 || !assembly.members.empty()) continue;  // facets reach from skin to skin
+    if (part.ring < 0) continue;
     const Block& block = assembly.blocks[part.block];
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
       const FaceKind kind = assembly.face_kinds[f];
@@ -134,11 +176,17 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
       if (!joint && !inside) continue;
       const double along = polygon_plane(face_points(assembly, f)).normal.dot(shell.progress[part.ring]);
       constexpr double kSideways = 0.1;  // internal faces between slices are perpendicular to this direction
-      if (along < -kSideways) add_facet(assembly, part, f, &shell.beds[part.ring]);
-      if (along > kSideways && joint && part.ring == num_rings - 1)
-        add_facet(assembly, part, f, &shell.beds.back());
+      if (along < -kSideways) add(part, f, part.ring);
+      if (along > kSideways && joint && part.ring == num_rings - 1) add(part, f, num_rings);
+      if (has_layers && joint && std::abs(along) > kSideways)
+        for (const int v : assembly.face(f)) {
+          double& share = shell.layers[part.ring + (along > 0.0 ? 1 : 0)][assembly.vertex_layers[v]];
+          if (along < 0.0 || std::isnan(share))
+            share = assembly.vertex_depths[v];  // a drum may be as wide below
+        }
     }
   }
+  facets.add_to(&shell);
   shell.block_width_rad = standard_width(assembly, shell);
   return shell;
 }
@@ -159,9 +207,12 @@ std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell) 
       (kind == FaceKind::extrados ? has_outer : has_inner)[part.block] = 1;
     }
   }
+  const std::vector<Vec3> through = through_blocks(assembly, shell);
   for (size_t b = 0; b < axes.size(); ++b) {
     const Block& block = assembly.blocks[b];
     ShellAxes& a = axes[b];
+    const bool has_skin = skin_area[b] > 0.0;
+    if (!has_skin) a.n = through[b];  // between two wythes
     if (block.ring < 0 || a.n.norm() == 0.0) continue;
     a.n.normalize();
     const Vec3& progress = shell.direction(block.ring);
@@ -169,11 +220,19 @@ std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell) 
     if (a.m.norm() == 0.0) continue;
     a.m.normalize();
     a.t = a.m.cross(a.n);
-    a.thickness = (has_inner[b] + has_outer[b]) * block.volume / skin_area[b];  // a wythe may have one skin
+    a.thickness = has_skin ? (has_inner[b] + has_outer[b]) * block.volume / skin_area[b]  // one in a wythe
+                           : through[b].norm();
     CUPOLA_ASSERT(std::isfinite(a.thickness) && std::abs(a.t.norm() - 1.0) < 1e-9);
     a.exists = true;
   }
   return axes;
+}
+
+std::vector<Vec3> shifts_by_wythe(const Assembly& assembly, const Shell& shell) {
+  std::vector<Vec3> shifts = through_blocks(assembly, shell);
+  for (size_t b = 0; b < shifts.size(); ++b)
+    shifts[b] = shell.wythes_inside(static_cast<int>(b)) * shifts[b].stableNormalized();
+  return shifts;
 }
 
 }  // namespace cupola

@@ -7,22 +7,43 @@
 
 namespace cupola {
 
-/// One facet of a bed: its edges on the intrados and on the extrados, both from side a to side b.
+/// One facet of a bed: its inner and its outer edge, both from side a to side b. They lie on the intrados and the extrados,
+/// or on layers between wythes.
 struct BedFacet {
   int block = 0;  ///< block above the bed; block below it for the last bed
   Vec3 intrados_a, intrados_b, extrados_a, extrados_b;  ///< m
-  bool internal = false;  ///< the bed runs through a block that spans several rings
+  bool internal = false;        ///< the bed runs through a block that spans several rings
+  double from = 0.0, to = 1.0;  ///< shares of the thickness of the shell at the inner and the outer edge
+};
+
+/// Wythes from .. to - 1 of the thickness, counted from the inside as in Assembly::members; those of a drum come first, with
+/// numbers of their own.
+struct WytheRange {
+  int from = 0, to = 1;
+  int count() const { return to - from; }
+  bool contains(int wythe) const { return wythe >= from && wythe < to; }
+  auto operator<=>(const WytheRange&) const = default;
 };
 
 /// An assembly seen as a shell of rings: bed k lies below ring k, counted from the springing, and bed
-/// num_rings closes the last ring. Imported blocks without rings have no beds. The beds of a shell with wythes have no
-/// facets, so that thrust lines, sections and unrolled maps leave it out.
+/// num_rings closes the last ring. Imported blocks without rings have no beds.
 struct Shell {
   std::vector<std::vector<BedFacet>> beds;  ///< (num_rings + 1), facets of each bed
   std::vector<Vec3> progress;               ///< (num_rings), unit direction from ring to ring
   Vec3 up = Vec3::UnitZ();                  ///< against gravity
   double block_width_rad = 0.0;             ///< rad, median width in azimuth of the standard blocks; 0: none
+  int num_wythes = 1;                       ///< numbers in use; some may have no blocks
+  std::vector<int> innermost;      ///< (num_wythes), number of the innermost wythe of the same drum or shell
+  std::vector<WytheRange> wythes;  ///< per block, those that it occupies; all for supports
+  /// (num_rings + 1) x (num_wythes + 1), share of the thickness at each layer of a bed; NaN where no facet has it.
+  std::vector<std::vector<double>> layers;
   int num_rings() const { return static_cast<int>(progress.size()); }
+  /// Wythes between the innermost one of its drum or shell and the middle of a free block.
+  double wythes_inside(int block) const;
+  /// True for the only wythe of a drum or shell.
+  bool is_alone(int wythe) const;
+  /// Largest number of wythes of a drum or shell.
+  int most_wythes() const;
   /// Unit direction from ring to ring at the given ring; up for a shell without rings.
   const Vec3& direction(int ring) const;
 };
@@ -30,13 +51,17 @@ Shell shell_of(const Assembly& assembly, const Vec3& up);
 
 /// Local axes of a block in the shell, unit and orthogonal, and its thickness.
 struct ShellAxes {
-  bool exists = false;     ///< false for a block without intrados and extrados
+  bool exists = false;     ///< false for a block without intrados and extrados, and without wythes
   Vec3 n = Vec3::Zero();   ///< from intrados to extrados
   Vec3 m = Vec3::Zero();   ///< along the meridian, upwards
   Vec3 t = Vec3::Zero();   ///< along the ring, m x n
   double thickness = 0.0;  ///< m, volume over the mean area of the two skins
 };
 std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell);
+
+/// Per block, wythes_inside() times the unit direction through the thickness: shifts along it pull the wythes apart. Zero
+/// for supports and for blocks without a bed of their own.
+std::vector<Vec3> shifts_by_wythe(const Assembly& assembly, const Shell& shell);
 
 inline constexpr double kDegrees = 180.0 / std::numbers::pi;  ///< degrees per radian
 

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "assembly/base/error.hpp"
+#include "postproc/mechanics/bed_blocks.hpp"
 
 namespace cupola {
 namespace {
@@ -18,38 +19,11 @@ namespace {
 /// coefficient up to 10.
 constexpr double kLeastNormalShare = 0.1;
 
-/// The facets of one block on one bed, their range of azimuths and their mean plane.
-struct BlockBed {
-  std::vector<const BedFacet*> facets;
-  double from = 0.0, to = 0.0;  // rad, unwrapped
-  Plane plane;
+/// What one thrust line follows: a meridian, or none in an arch, and a wythe, or none for the whole thickness.
+struct Route {
+  std::optional<double> meridian;  // rad
+  std::optional<int> wythe;
 };
-
-std::map<int, BlockBed> blocks_on(const std::vector<BedFacet>& bed) {
-  std::map<int, BlockBed> blocks;
-  for (const BedFacet& facet : bed) {
-    const auto [entry, is_new] = blocks.try_emplace(facet.block);
-    BlockBed& block = entry->second;
-    const double a = azimuth(facet.intrados_a);
-    if (is_new) block.from = block.to = a;
-    for (const Vec3& corner : {facet.intrados_a, facet.intrados_b}) {
-      const double angle = block.from + wrapped(azimuth(corner) - block.from);
-      block.from = std::min(block.from, angle);
-      block.to = std::max(block.to, angle);
-    }
-    block.facets.push_back(&facet);
-  }
-  for (auto& [id, block] : blocks) {
-    Vec3 normal = Vec3::Zero(), mean = Vec3::Zero();
-    for (const BedFacet* f : block.facets) {
-      normal += (f->intrados_b - f->extrados_a).cross(f->extrados_b - f->intrados_a);
-      mean += 0.25 * (f->intrados_a + f->intrados_b + f->extrados_a + f->extrados_b);
-    }
-    normal.normalize();
-    block.plane = {normal, normal.dot(mean) / static_cast<double>(block.facets.size())};
-  }
-  return blocks;
-}
 
 /// Share of a block's width that lies in the strip.
 double overlap(const BlockBed& block, double center, double width) {
@@ -58,29 +32,6 @@ double overlap(const BlockBed& block, double center, double width) {
   const double half = 0.5 * (block.to - block.from);
   const double common = std::min(half, offset + width / 2) - std::max(-half, offset - width / 2);
   return half > 0.0 ? std::max(0.0, common) / (2.0 * half) : 0.0;
-}
-
-/// Position through the thickness of a point in the plane of the bed, from its distances to the intrados and
-/// extrados edges of the nearest facet.
-double position_in(const BlockBed& block, const Vec3& x) {
-  const BedFacet* facet = block.facets.front();
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const BedFacet* f : block.facets) {
-    const double distance =
-        (0.25 * (f->intrados_a + f->intrados_b + f->extrados_a + f->extrados_b) - x).squaredNorm();
-    if (distance < nearest) {
-      nearest = distance;
-      facet = f;
-    }
-  }
-  const auto from_edge = [&](const Vec3& a, const Vec3& b, const Vec3& inside) {
-    const Vec3 along = (b - a).normalized();
-    const auto rejection = [&](const Vec3& p) { return Vec3(p - a - along.dot(p - a) * along); };
-    return rejection(x).dot(rejection(inside).normalized());
-  };
-  const double inner = from_edge(facet->intrados_a, facet->intrados_b, facet->extrados_a);
-  const double outer = from_edge(facet->extrados_a, facet->extrados_b, facet->intrados_a);
-  return inner / (inner + outer);
 }
 
 /// Wrench on the piece of a block above a bed inside the block: it balances the weight of the piece and its
@@ -121,40 +72,108 @@ Wrench turned(const Wrench& w, double angle) {
   return {R * w.point, R * w.force, R * w.moment};
 }
 
-/// Finds intrados and extrados of the bed in the meridian plane, or in the middle of the width of an arch.
-/// False if the bed does not cross the meridian.
-bool find_skins(const std::vector<BedFacet>& bed, std::optional<double> meridian, ThrustPoint* point) {
-  if (!meridian) {
-    point->intrados = point->extrados = Vec3::Zero();
-    const double n = static_cast<double>(bed.size());
-    for (const BedFacet& f : bed) {
-      point->intrados += (f.intrados_a + f.intrados_b) / (2.0 * n);
-      point->extrados += (f.extrados_a + f.extrados_b) / (2.0 * n);
-    }
-    return !bed.empty();
-  }
+/// Where the edges of a facet meet the meridian plane, or its middle in an arch. None if it does not cross the meridian.
+struct FacetEdges {
+  Vec3 inner, outer;
+};
+std::optional<FacetEdges> edges_on(const BedFacet& f, std::optional<double> meridian) {
+  if (!meridian) return FacetEdges{0.5 * (f.intrados_a + f.intrados_b), 0.5 * (f.extrados_a + f.extrados_b)};
   const Vec3 across(-std::sin(*meridian), std::cos(*meridian), 0.0);
   const Vec3 outwards(std::cos(*meridian), std::sin(*meridian), 0.0);
-  for (const BedFacet& f : bed) {
-    const double a = across.dot(f.intrados_a), b = across.dot(f.intrados_b);
-    if (a * b > 0.0 || a == b || outwards.dot(f.intrados_a) <= 0.0) continue;
-    const auto meet = [&](const Vec3& p, const Vec3& q) {
-      const double s = across.dot(p), t = across.dot(q);
-      return s == t ? p : Vec3(p + s / (s - t) * (q - p));
-    };
-    point->intrados = meet(f.intrados_a, f.intrados_b);
-    point->extrados = meet(f.extrados_a, f.extrados_b);
-    return true;
-  }
-  return false;
+  const double a = across.dot(f.intrados_a), b = across.dot(f.intrados_b);
+  if (a * b > 0.0 || a == b || outwards.dot(f.intrados_a) <= 0.0) return std::nullopt;
+  const auto meet = [&](const Vec3& p, const Vec3& q) {
+    const double s = across.dot(p), t = across.dot(q);
+    return s == t ? p : Vec3(p + s / (s - t) * (q - p));
+  };
+  return FacetEdges{meet(f.intrados_a, f.intrados_b), meet(f.extrados_a, f.extrados_b)};
 }
 
-/// Sums the blocks of the strip on one bed. False if none of them carries a force.
+/// The place of a layer on the meridian, in an arch the mean over its width. If no facet ends at the layer there, it lies on
+/// the line through the edges of another one. None if the bed does not cross the meridian.
+std::optional<Vec3> place_of(const std::vector<BedFacet>& bed, double layer, std::optional<double> meridian) {
+  std::optional<Vec3> elsewhere;
+  std::vector<Vec3> places;
+  for (const BedFacet& f : bed) {
+    const std::optional<FacetEdges> edges = edges_on(f, meridian);
+    if (!edges) continue;
+    if (f.from == layer || f.to == layer) {
+      places.push_back(f.from == layer ? edges->inner : edges->outer);
+      if (meridian) break;
+    }
+    if (!elsewhere)
+      elsewhere = edges->inner + (layer - f.from) / (f.to - f.from) * (edges->outer - edges->inner);
+  }
+  if (places.empty()) return elsewhere;
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& place : places) mean += place / static_cast<double>(places.size());
+  return mean;
+}
+
+/// Finds the skins of the bed at two layers in the meridian plane. False if the bed does not cross the meridian.
+bool find_skins(const std::vector<BedFacet>& bed, const Layers& layers, std::optional<double> meridian,
+                ThrustPoint* point) {
+  const auto inner = place_of(bed, layers.inner, meridian), outer = place_of(bed, layers.outer, meridian);
+  if (!inner || !outer) return false;
+  point->intrados = *inner;
+  point->extrados = *outer;
+  return true;
+}
+
+/// True if the bed force of a block cannot be shared among its wythes: it rests on, or is, a block through several.
+bool is_undivided(const ThrustInput& in, int block, int bed) {
+  if (in.shell->wythes[block].count() == 1) return false;
+  if (bed < in.shell->num_rings() && in.assembly->blocks[block].ring != bed) return true;
+  const bool last = bed == in.shell->num_rings();
+  return std::ranges::any_of(in.joints->wrenches, [&](const JointWrench& joint) {
+    return (last ? joint.lower : joint.upper) == block && !joint.negligible &&
+           wythes_of(*in.assembly, *in.shell, joint).count() > 1;
+  });
+}
+
+/// Wrench across a bed within the width of one block, of the joints in a wythe. The block must not be undivided.
+Wrench wrench_in_wythe(const ThrustInput& in, int block, int bed, int wythe) {
+  if (in.shell->wythes[block] == WytheRange{wythe, wythe + 1}) return wrench_at_bed(in, block, bed);
+  Wrench w;
+  w.point = in.assembly->blocks[block].centroid;
+  const bool last = bed == in.shell->num_rings();
+  for (const JointWrench& joint : in.joints->wrenches)
+    if ((last ? joint.lower : joint.upper) == block &&
+        wythes_of(*in.assembly, *in.shell, joint).contains(wythe))
+      w.add(wrench_on(joint, joint.upper));
+  return w;
+}
+
+/// Normal force of a block on a bed, N, and the share of the thickness at which it acts.
+struct Push {
+  double normal_force = 0.0, share = 0.0;
+};
+
+/// From the block's wrench: where its line of action meets the mean plane of the bed.
+Push push_of(const Wrench& w, const BlockBed& block, const Vec3& onwards) {
+  const Vec3 x = axis_in_plane(central_axis(w), w.force, block.plane);
+  return {std::copysign(1.0, block.plane.normal.dot(onwards)) * block.plane.normal.dot(w.force),
+          share_at(block, x)};
+}
+
+/// From the contact points of its joints on the bed.
+Push push_at_points(const ThrustInput& in, int id, int bed, const BlockBed& block, std::optional<int> wythe) {
+  const bool last = bed == in.shell->num_rings();
+  Bearing bearing;
+  for (const JointWrench& joint : in.joints->wrenches)
+    if ((last ? joint.lower : joint.upper) == id &&
+        (!wythe || wythes_of(*in.assembly, *in.shell, joint).contains(*wythe)))
+      add_bearing(joint, *in.joints, *in.contacts, block, &bearing);
+  return {bearing.normal_force, bearing.share()};
+}
+
+/// Sums the blocks of the strip on one bed. False if none of them carries a force, or if one is undivided.
 ///
 /// The position of the strip is the mean of the blocks' positions weighted by their normal forces on the bed.
 /// The moments of the normal forces thus add up, and a force along the bed, whose position is ill-defined,
 /// has no weight.
-bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, ThrustPoint* point) {
+bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route& route, ThrustPoint* point) {
+  const auto& [meridian, wythe] = route;
   Wrench sum;
   sum.point = 0.5 * (point->intrados + point->extrados);
   double weighted_position = 0.0, pressing = 0.0;
@@ -162,14 +181,16 @@ bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, T
   for (const auto& [id, block] : blocks_on(in.shell->beds[bed])) {
     const double share = meridian ? overlap(block, *meridian, in.shell->block_width_rad) : 1.0;
     if (share <= 0.0) continue;
-    const Wrench w = wrench_at_bed(in, id, bed);
+    if (wythe && is_undivided(in, id, bed)) return false;
+    if (wythe && !in.shell->wythes[id].contains(*wythe)) continue;
+    const Wrench w = wythe ? wrench_in_wythe(in, id, bed, *wythe) : wrench_at_bed(in, id, bed);
     if (w.force.norm() == 0.0) continue;
-    const Vec3 x = axis_in_plane(central_axis(w), w.force, block.plane);
     const double turn = meridian ? *meridian - 0.5 * (block.from + block.to) : 0.0;
     sum.add(share * turned(w, turn));
-    const double normal =
-        std::copysign(1.0, block.plane.normal.dot(onwards)) * block.plane.normal.dot(w.force);
-    weighted_position += share * normal * position_in(block, x);
+    const bool stands = bed == in.shell->num_rings() || in.assembly->blocks[id].ring == bed;
+    const auto [normal, at] = in.shell->num_wythes > 1 && stands ? push_at_points(in, id, bed, block, wythe)
+                                                                 : push_of(w, block, onwards);
+    weighted_position += share * normal * layers.position(at);
     pressing += share * normal;
     ++point->blocks;
   }
@@ -183,23 +204,25 @@ bool sum_strip(const ThrustInput& in, int bed, std::optional<double> meridian, T
 }
 
 /// Finds the part of the bed that pushes. A point that carries less than kLeastShare of the mean of its joint's does not.
-void find_compressed_zone(const ThrustInput& in, int bed, std::optional<double> meridian,
+void find_compressed_zone(const ThrustInput& in, int bed, const Layers& layers, const Route& route,
                           ThrustPoint* point) {
   constexpr double kLeastShare = 1e-6;
   const bool last = bed == in.shell->num_rings();
   const ContactTable& c = *in.contacts;
   double force = 0.0, area = 0.0;
   for (const auto& [id, block] : blocks_on(in.shell->beds[bed])) {
-    if (meridian && overlap(block, *meridian, in.shell->block_width_rad) <= 0.0) continue;
+    if (route.meridian && overlap(block, *route.meridian, in.shell->block_width_rad) <= 0.0) continue;
     if (!last && in.assembly->blocks[id].ring != bed) continue;
     for (const JointWrench& joint : in.joints->wrenches) {
       if ((last ? joint.lower : joint.upper) != id || joint.negligible) continue;
+      if (route.wythe && !wythes_of(*in.assembly, *in.shell, joint).contains(*route.wythe)) continue;
       const double least = kLeastShare * std::max(0.0, joint.normal_force) / joint.num_contacts;
       for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
         const int row = in.joints->contacts[i];
         if (c.normal_force[row] <= least) continue;
-        const double position = std::clamp(position_in(block, c.point[row]), 0.0, 1.0);  // rounding
-        point->compressed_from = std::fmin(point->compressed_from, position);            // skips NaN
+        const double share = share_at(block, c.point[row]);
+        const double position = std::clamp(layers.position(share), 0.0, 1.0);  // rounding
+        point->compressed_from = std::fmin(point->compressed_from, position);  // skips NaN
         point->compressed_to = std::fmax(point->compressed_to, position);
         force += c.normal_force[row];
         area += c.area[row];
@@ -239,27 +262,45 @@ double ThrustLine::largest_couple_length() const {
   return largest;
 }
 
+std::vector<std::vector<Vec3>> ThrustLine::runs() const {
+  std::vector<std::vector<Vec3>> runs(1);
+  int last = -1;
+  for (const ThrustPoint& p : points) {
+    if (!p.is_placed() || (wythe && p.bed != last + 1)) runs.emplace_back();
+    if (p.is_placed()) runs.back().push_back(p.point);
+    last = p.bed;
+  }
+  std::erase_if(runs, [](const std::vector<Vec3>& run) { return run.size() < 2; });
+  return runs;
+}
+
 Wrench wrench_at_bed(const ThrustInput& in, int block, int bed) {
   CUPOLA_ASSERT(bed >= 0 && bed <= in.shell->num_rings());
   if (bed == in.shell->num_rings()) return wrench_onwards(in, block);
   return in.assembly->blocks[block].ring == bed ? in.from_below[block] : wrench_through(in, block, bed);
 }
 
-ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg) {
+ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg,
+                       std::optional<int> wythe) {
   CUPOLA_ASSERT(input.from_below.size() == input.assembly->blocks.size());
   CUPOLA_ASSERT(input.shell->num_rings() == 0 ||
                 static_cast<int>(input.shell->beds.size()) == input.shell->num_rings() + 1);
   ThrustLine line;
   line.name = name;
   line.azimuth_deg = azimuth_deg.value_or(0.0);
+  line.wythe = wythe;
   std::optional<double> meridian;
   if (azimuth_deg) meridian = *azimuth_deg * std::numbers::pi / 180.0;
+  const Route route{meridian, wythe};
+  std::optional<WytheRange> wythes;
+  if (wythe) wythes = WytheRange{*wythe, *wythe + 1};
   for (int bed = 0; bed <= input.shell->num_rings(); ++bed) {
     ThrustPoint point;
     point.bed = bed;
-    if (!find_skins(input.shell->beds[bed], meridian, &point)) continue;
-    if (!sum_strip(input, bed, meridian, &point)) continue;
-    find_compressed_zone(input, bed, meridian, &point);
+    const std::optional<Layers> layers = layers_of(*input.shell, bed, wythes);
+    if (!layers || !find_skins(input.shell->beds[bed], *layers, meridian, &point)) continue;
+    if (!sum_strip(input, bed, *layers, route, &point)) continue;
+    find_compressed_zone(input, bed, *layers, route, &point);
     line.points.push_back(point);
   }
   for (ThrustPoint& point : line.points) measure(input.joints->floor, &point);

@@ -11,7 +11,7 @@
 
 namespace cupola {
 
-/// The resultant of a meridian strip across one bed.
+/// The resultant of a meridian strip across one bed. Of a wythe: its skins are those of the wythe.
 ///
 /// Its position is undefined if the resultant runs along the bed or is negligible: `position`, `point`,
 /// `face_distance` and `geometric_safety` are then NaN, and so is the couple length of a negligible one.
@@ -48,10 +48,15 @@ struct ThrustPoint {
 ///   bed.
 /// - The position of each block's resultant is measured through the thickness on the block's own bed. The
 ///   position of the strip is the mean of these, weighted by the normal forces on the bed, and is drawn on
-///   the meridian.
+///   the meridian. In a shell with wythes it is the mean over the contact points.
+///
+/// The thrust line of a wythe takes the joints that lie in it, see wythes_of(). Where a block of the strip rests on a joint
+/// that lies in several wythes, as a bonder on a bonder, nothing tells how its force is shared among them: the line of
+/// the wythe has no point there. At its points, the forces of all wythes add up to that of the whole thickness.
 struct ThrustLine {
   std::string name;
   double azimuth_deg = 0.0;
+  std::optional<int> wythe;          ///< none: of the whole thickness
   std::vector<ThrustPoint> points;   ///< from the springing upwards
   std::vector<Vec3> envelope;        ///< m, intersections of successive lines of action
   int undefined = 0;                 ///< number of points of undefined position
@@ -59,6 +64,9 @@ struct ThrustLine {
   double least_face_distance = 0.0;  ///< m
   double least_geometric_safety = 0.0;
   double largest_couple_length() const;  ///< m, of its points
+  /// m, its points in runs of at least two: it is interrupted where its position is undefined, that of a wythe also at
+  /// beds without a point.
+  std::vector<std::vector<Vec3>> runs() const;
 };
 
 /// The data of one frame that all thrust lines use.
@@ -76,7 +84,8 @@ struct ThrustInput {
 Wrench wrench_at_bed(const ThrustInput& input, int block, int bed);
 
 /// Thrust line along a meridian of a vault about the z axis. Without azimuth: along an arch, where the strip
-/// is the full width.
-ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg);
+/// is the full width. Without wythe: of the whole thickness.
+ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg,
+                       std::optional<int> wythe = std::nullopt);
 
 }  // namespace cupola

@@ -16,6 +16,7 @@ STONE = (0.85, 0.83, 0.78)
 LAYERS = [
     ("joint_forces.vtp", True, 2.0, "force_magnitude_N"),
     ("thrust_lines.vtp", True, 3.0, (0.9, 0.45, 0.0)),
+    ("ties.vtp", True, 5.0, "force_N"),
     ("wrenches.vtp", False, 2.0, "resultant_N"),
     ("sections.vtp", False, 2.0, (0.1, 0.1, 0.1)),
     ("cracks.vtp", False, 3.0, (0.75, 0.0, 0.0)),

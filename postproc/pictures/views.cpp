@@ -1,5 +1,3 @@
-#include "postproc/pictures/views.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,51 +6,17 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/export/arrows.hpp"
+#include "postproc/pictures/view_parts.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/mesh_parts.hpp"
 
 namespace cupola {
 namespace {
 
-// The colours of the 3-D view of the report.
-constexpr Colour kFlat{0.87, 0.80, 0.70}, kCorner{0.77, 0.63, 0.45}, kUpright{0.84, 0.42, 0.16};
-constexpr Colour kSupport{0.50, 0.53, 0.55}, kImported{0.74, 0.78, 0.70}, kThrust{0.84, 0.06, 0.24};
 const std::vector<Colour> kSequential{
     {0.99, 0.91, 0.65}, {0.96, 0.70, 0.42}, {0.87, 0.43, 0.37}, {0.63, 0.20, 0.41}, {0.27, 0.07, 0.36}};
 const std::vector<Colour> kDiverging{
     {0.70, 0.09, 0.17}, {0.96, 0.65, 0.51}, {0.96, 0.96, 0.96}, {0.57, 0.77, 0.87}, {0.13, 0.40, 0.67}};
-
-Colour bond_colour(const Block& block) {
-  if (block.fixed) return kSupport;
-  if (block.kind == BlockKind::herringbone) return kUpright;
-  if (block.kind == BlockKind::imported) return kImported;
-  return block.rib ? kCorner : kFlat;
-}
-
-/// Towards the model, from the left and above. Walls and arches stand along x.
-Vec3 view_direction(const Evaluation& e) {
-  return is_vault(e) ? Vec3(0.35, 1.0, -0.33) : Vec3(0.45, 1.0, -0.25);
-}
-
-/// Several surfaces as one, with a colour per face.
-struct Coloured {
-  BlockSurface surface;
-  std::vector<Colour> colours;
-
-  void add(const BlockSurface& more, const Colour& colour) {
-    const int first = static_cast<int>(surface.vertices.size());
-    surface.vertices.insert(surface.vertices.end(), more.vertices.begin(), more.vertices.end());
-    for (std::vector<int> face : more.faces) {
-      for (int& v : face) v += first;
-      surface.faces.push_back(std::move(face));
-      colours.push_back(colour);
-    }
-  }
-  void paint(Painter* painter, double opacity = 1.0) const {
-    painter->add_faces(surface.vertices, surface.faces, colours, opacity);
-    if (opacity == 1.0) painter->add_edges(surface.vertices, surface.faces);
-  }
-};
 
 /// True for blocks behind the vertical plane through the axis, seen along the view.
 bool is_behind(const Pictured& run, int block) {
@@ -174,18 +138,6 @@ bool draw_forces(const Pictured& run, Painter* painter) {
   return true;
 }
 
-void add_thrust(const ThrustLine& line, double radius, Painter* painter) {
-  std::vector<std::vector<Vec3>> runs(1);  // interrupted where the position is undefined
-  for (const ThrustPoint& p : line.points) {
-    if (p.is_placed())
-      runs.back().push_back(p.point);
-    else
-      runs.emplace_back();
-  }
-  std::erase_if(runs, [](const std::vector<Vec3>& run) { return run.size() < 2; });
-  painter->add_tubes(runs, kThrust, radius, true);
-}
-
 double size_of(const Pictured& run) {
   double size = 0.0;
   for (const BlockSurface& block : run.blocks)
@@ -199,7 +151,8 @@ bool draw_thrust(const Pictured& run, Painter* painter) {
   if (!at_rest(e.summary) || e.meridians.empty()) return false;
   const double azimuth = e.meridians.front().thrust.azimuth_deg * EIGEN_PI / 180.0;
   const Vec3 behind = is_vault(e) ? Vec3(-std::sin(azimuth), std::cos(azimuth), 0.0) : Vec3::UnitY();
-  for (const MeridianEvaluation& m : e.meridians) add_thrust(m.thrust, 0.005 * size_of(run), painter);
+  for (const MeridianEvaluation& m : e.meridians)
+    painter->add_tubes(m.thrust.runs(), kThrust, 0.005 * size_of(run), true);
   paint_blocks(
       run, [&](int b) { return bond_colour(e.assembly.blocks[b]); },
       [&](int b) { return !is_vault(e) || e.assembly.blocks[b].centroid.dot(behind) > 0.0; }, painter);
@@ -267,6 +220,7 @@ bool draw_motion(const Pictured& run, Painter* painter) {
 const std::vector<StandardView>& standard_views() {
   static const std::vector<StandardView> views{
       {"overview", 2000, 1000, draw_overview}, {"inside", 1400, 1000, draw_inside},
+      {"cut_open", 1400, 1000, draw_cut_open}, {"exploded", 1400, 1800, draw_exploded},
       {"forces", 1400, 1000, draw_forces},     {"thrust", 1400, 1000, draw_thrust},
       {"cracks", 1400, 1000, draw_cracks},     {"motion", 1000, 700, draw_motion, true}};
   return views;

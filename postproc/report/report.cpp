@@ -150,7 +150,7 @@ std::string tables_section(const std::vector<Table>& tables, bool equilibrium) {
   return out;
 }
 
-std::string files_section(bool equilibrium, bool pictures) {
+std::string files_section(bool equilibrium, bool ties, bool pictures) {
   std::string out = "<h2>Files</h2>\n<dl>\n";
   const auto row = [&out](const char* file, const char* what) {
     out += fmt::format("<dt><a href=\"{0}\">{0}</a></dt><dd>{1}</dd>\n", file, what);
@@ -162,6 +162,7 @@ std::string files_section(bool equilibrium, bool pictures) {
   if (equilibrium) row("thrust_lines.vtp", "thrust lines, envelopes and lines of action");
   if (equilibrium) row("sections.vtp", "sections and planes with the resultants across them");
   row("cracks.vtp", "open joints as lines");
+  if (ties) row("ties.vtp", "bars of chains and other ties, with their tension");
   row("open_in_paraview.py", "opens the run in ParaView: paraview --script=open_in_paraview.py");
   row("summary.json", "the numbers used to compare runs");
   if (pictures) row("pictures", "standard views as PNG");
@@ -197,7 +198,7 @@ std::string report_html(const ReportInput& input) {
   if (e.last.joints.floor.force > 0.0) quality.push_back(floor_text(e));
   body += list_section("How good the answer is", quality);
   body += case_section(e);
-  body += files_section(at_rest(e.summary), !input.picture_folder.empty());
+  body += files_section(at_rest(e.summary), e.last.frame.ties.size() > 0, !input.picture_folder.empty());
   body += run_section(input);
   return html_page(e.scene.title, body);
 }

@@ -44,11 +44,13 @@ std::string column_reference() {
                       {{"summary.json", {kRangeSummaryKeys}}}) +
          reference_of("rings.csv: ring cuts", ring_columns(), {{"summary.json", {kRingSummaryKeys}}}) +
          reference_of("members.csv: wythes and bonders", member_columns(), {}) +
-         reference_of("thrust_NAME.csv: thrust line of a meridian", thrust_columns(), {}) +
+         reference_of("wythes.csv: what passes through each wythe", wythe_columns(), {}) +
+         reference_of("thrust_NAME.csv, thrust_NAME_WYTHE.csv: thrust line of a meridian", thrust_columns(),
+                      {}) +
          reference_of("hoop_NAME.csv: hoop forces across a meridian", hoop_columns(), {}) +
          reference_of("chains.csv: tension of chains", chain_columns(),
                       {{"summary.json", {kChainSummaryKeys}}}) +
-         reference_of("ties.csv: bars of chains and other ties", tie_columns(), {}) +
+         reference_of("ties.csv: bars of chains and other ties", tie_columns(), {{"ties.vtp", {kTieKeys}}}) +
          reference_of("section_HEIGHTm.csv: resultants across a bed", section_columns(), {}) +
          reference_of("cut_NAME.csv: joints across a plane", plane_columns(), {}) +
          reference_of("joints.csv, joints.vtp, joint_forces.vtp, cracks.vtp: joints", joint_columns(),
@@ -58,7 +60,9 @@ std::string column_reference() {
          reference_of(
              "blocks.csv, blocks_NNNN.vtu, wrenches.vtp: blocks", block_columns(),
              {{"blocks_NNNN.vtu", {kBlockMeshKeys}}, {"wrenches.vtp", {kWrenchCellKeys, kWrenchPointKeys}}}) +
-         reference_of("shell.csv, shell_x.csv: blocks of the unrolled shell", shell_columns(), {}) +
+         reference_of(
+             "shell.csv, shell_x.csv, shell_WYTHE.csv, shell_x_WYTHE.csv: blocks of the unrolled shell",
+             shell_columns(), {}) +
          reference_of("thrust_lines.vtp: cells", line_cell_columns(),
                       {{"thrust_lines.vtp", {kLineCellKeys}}}) +
          reference_of("sections.vtp: cells", section_cell_columns(), {{"sections.vtp", {kSectionCellKeys}}});

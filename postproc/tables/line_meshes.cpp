@@ -43,9 +43,26 @@ Mesh thrust_lines_mesh(const Evaluation& e) {
     add_line(line.envelope, LineCell::envelope, index);
     add_line(intrados, LineCell::intrados, index);
     add_line(extrados, LineCell::extrados, index);
+    for (const ThrustLine& wythe : e.meridians[m].wythes)
+      for (const std::vector<Vec3>& run : wythe.runs()) add_line(run, LineCell::line_of_wythe, index);
   }
   mesh.cell_data = mesh_arrays(line_cell_columns(), cells, kLineCellKeys);
   mesh.field_data = about(e, scale);
+  return mesh;
+}
+
+Mesh ties_mesh(const Evaluation& e) {
+  const TieTable& ties = e.last.frame.ties;
+  Mesh mesh;
+  MeshInts chain;
+  for (int i = 0; i < ties.size(); ++i) {
+    const int start = add_point(&mesh, ties.point_a[i]);
+    mesh.add_cell(CellType::polyline, {start, add_point(&mesh, ties.point_b[i])});
+    chain.push_back(ties.chain[i]);
+  }
+  mesh.cell_data = mesh_arrays(tie_columns(), tie_rows(e), kTieKeys);
+  mesh.cell_data.push_back({"chain", 1, std::move(chain)});
+  mesh.field_data = about(e, 0.0);
   return mesh;
 }
 

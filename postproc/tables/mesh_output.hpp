@@ -37,9 +37,12 @@ Mesh joint_forces_mesh(const Evaluation& evaluation);
 /// same scale.
 Mesh wrenches_mesh(const Evaluation& evaluation);
 
-/// thrust_lines.vtp: per meridian, the thrust line, its envelope, the lines of action and the two skins, as
-/// polylines. The cell array `what` says which (LineCell).
+/// thrust_lines.vtp: per meridian, the thrust line, its envelope, the lines of action, the two skins and the thrust lines of
+/// the wythes, as polylines. The cell array `what` says which (LineCell).
 Mesh thrust_lines_mesh(const Evaluation& evaluation);
+
+/// ties.vtp: the bars of chains and other ties, one segment each; the cell array `chain` is the index of its chain, -1: none.
+Mesh ties_mesh(const Evaluation& evaluation);
 
 /// sections.vtp: outlines of the blocks cut by sections and planes. Segments show the resultants across the
 /// bed nearest to each section and the joint forces across each plane, to the same scale. The cell array

@@ -66,6 +66,17 @@ std::vector<MemberRow> member_rows(const Evaluation& e) {
   return rows;
 }
 
+std::vector<WytheRow> wythe_rows(const Evaluation& e) {
+  std::vector<WytheRow> rows;
+  const std::vector<std::string>& names = e.assembly.members;
+  for (const WytheSum& sum : e.wythes) {
+    const std::string &first = names[sum.wythes.from], &last = names[sum.wythes.to - 1];
+    rows.push_back({sum, sum.wythes.count() > 1 ? fmt::format("{} to {}", first, last) : first,
+                    e.rings[sum.ring].height});
+  }
+  return rows;
+}
+
 std::vector<PlaneJoint> plane_joints(const Evaluation& e, const PlaneCut& cut) {
   std::vector<PlaneJoint> rows;
   for (const int j : cut.joints) {
@@ -245,6 +256,38 @@ const Columns<MemberRow>& member_columns() {
   return columns;
 }
 
+const Columns<WytheRow>& wythe_columns() {
+  using W = WytheRow;
+  static const Columns<W> columns{
+      {"ring", "", "the cut runs below this ring", [](const W& w) { return w.sum.ring; }},
+      {"height_m", "m", "mean height of the ring's bed joints", &W::height},
+      {"wythe", "", "in which the joints lie; A to B: joints between bonders, which lie in several",
+       &W::name},
+      {"joints", "", "its bed joints under blocks that begin in the ring",
+       [](const W& w) { return w.sum.joints; }},
+      {"area_m2", "m2", "area of these joints", [](const W& w) { return w.sum.area; }},
+      {"vertical_force_N", "N",
+       "vertical force through its joints on the blocks above the cut, positive upwards",
+       [](const W& w) { return w.sum.vertical_force; }},
+      {"share", "", "this force over the sum of the ring", [](const W& w) { return w.sum.share; }},
+      {"outward_force_N", "N", "sum of the horizontal outward forces through its joints on the blocks below",
+       [](const W& w) { return w.sum.outward_force; }},
+      {"position", "",
+       "mean place of the normal forces on its beds through its thickness: 0 inner, 1 outer side; empty: "
+       "none",
+       [](const W& w) { return w.sum.position; }},
+      {"pressure_Pa", "Pa", "normal force on its bed joints over their area",
+       [](const W& w) { return w.sum.pressure; }},
+      {"cv_pressure", "", "coefficient of variation of the pressure of its bed joints",
+       [](const W& w) { return w.sum.cv_pressure; }},
+      {"largest_friction_use", "", "largest friction utilisation of its bed joints",
+       [](const W& w) { return w.sum.largest_friction_use; }},
+      {"largest_kern_use", "", "largest kern utilisation of its bed joints",
+       [](const W& w) { return w.sum.largest_kern; }},
+  };
+  return columns;
+}
+
 const Columns<ThrustPoint>& thrust_columns() {
   using P = ThrustPoint;
   static const Columns<P> columns{
@@ -351,7 +394,9 @@ const Columns<PlaneJoint>& plane_columns() {
 const Columns<LineCell>& line_cell_columns() {
   using C = LineCell;
   static const Columns<C> columns{
-      {"what", "", "0 thrust line, 1 envelope, 2 line of action, 3 intrados, 4 extrados", &C::what},
+      {"what", "",
+       "0 thrust line, 1 envelope, 2 line of action, 3 intrados, 4 extrados, 5 thrust line of a wythe",
+       &C::what},
       {"meridian", "", "index of the meridian in the case", &C::meridian},
       {"resultant_N", "N", "norm of the resultant on a line of action; 0 elsewhere", &C::resultant},
   };

@@ -50,6 +50,14 @@ struct MemberRow {
 };
 std::vector<MemberRow> member_rows(const Evaluation& evaluation);
 
+/// What passes through a wythe of a cut.
+struct WytheRow {
+  const WytheSum& sum;
+  std::string name;     ///< of the wythe, or "A to B" of the first and the last of several
+  double height = 0.0;  ///< m, of the cut, see RingSum
+};
+std::vector<WytheRow> wythe_rows(const Evaluation& evaluation);
+
 /// A tie of one frame.
 struct TieRow {
   const TieTable& ties;
@@ -60,7 +68,7 @@ std::vector<TieRow> tie_rows(const Evaluation& evaluation);
 
 /// A cell of thrust_lines.vtp.
 struct LineCell {
-  enum What { line_of_thrust, envelope, line_of_action, intrados, extrados };
+  enum What { line_of_thrust, envelope, line_of_action, intrados, extrados, line_of_wythe };
   int what = line_of_thrust;
   int meridian = 0;        ///< index into Evaluation::meridians
   double resultant = 0.0;  ///< N, of a line of action
@@ -81,6 +89,7 @@ const Columns<RingRow>& ring_columns();
 const Columns<JointWrench>& joint_columns();
 const Columns<BlockRow>& block_columns();
 const Columns<MemberRow>& member_columns();
+const Columns<WytheRow>& wythe_columns();
 const Columns<ThrustPoint>& thrust_columns();
 const Columns<HoopRow>& hoop_columns();
 const Columns<ChainForces>& chain_columns();
@@ -111,6 +120,8 @@ inline constexpr std::array kWrenchPointKeys{"force_N", "couple_Nm"};
 inline constexpr std::array kJointKeys{
     "force_magnitude_N", "force_N",   "moment_Nm", "normal",  "couple_length_m", "eccentricity_m", "kern_use",
     "friction_use",      "opening_m", "slip_m",    "block_a", "block_b",         "kind",           "ring"};
+/// ties.vtp: cell data.
+inline constexpr std::array kTieKeys{"force_N", "yield_force_N", "yielded_m", "block_a", "block_b"};
 /// cracks.vtp: cell data.
 inline constexpr std::array kCrackKeys{"opening_m", "slip_m", "kind"};
 /// thrust_lines.vtp and sections.vtp: cell data.

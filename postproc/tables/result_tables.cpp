@@ -24,15 +24,16 @@ Table with_block_names(const Assembly& assembly, Table table) {
   return table;
 }
 
-/// Inserts the names of wythes and groups of bonders after the kinds of the blocks, in the order of the assembly.
+/// Inserts the names of wythes and groups of bonders after the kinds of the blocks in column `block`.
 Table with_member_names(const Assembly& assembly, Table table) {
   if (assembly.members.empty()) return table;
   const auto kind = std::ranges::find(table.columns, "kind", &Table::Column::key);
   const auto after = kind - table.columns.begin() + 1;
+  const auto index = std::ranges::find(table.columns, "block", &Table::Column::key) - table.columns.begin();
   table.columns.insert(table.columns.begin() + after, {"member", "", "its wythe or group of bonders"});
-  for (size_t b = 0; b < table.rows.size(); ++b) {
-    const Block& block = assembly.blocks[b];
-    table.rows[b].insert(table.rows[b].begin() + after, block.fixed ? "" : assembly.members[block.member]);
+  for (auto& row : table.rows) {
+    const Block& block = assembly.blocks[static_cast<size_t>(std::get<int>(row[index]))];
+    row.insert(row.begin() + after, block.fixed ? "" : assembly.members[block.member]);
   }
   return table;
 }
@@ -63,6 +64,11 @@ Table ring_table(const Evaluation& e) {
 Table member_table(const Evaluation& e) {
   return make_table("members", "What wythes and bonders carry through the cut below each ring",
                     member_columns(), member_rows(e));
+}
+
+Table wythe_table(const Evaluation& e) {
+  return make_table("wythes", "What passes through each wythe of the cut below each ring", wythe_columns(),
+                    wythe_rows(e));
 }
 
 Table joint_table(const Evaluation& e) {
@@ -97,11 +103,13 @@ Table tie_table(const Evaluation& e) {
                           make_table("ties", "Bars of chains and other ties", tie_columns(), tie_rows(e)));
 }
 
-Table section_table(const SectionEvaluation& section) {
-  return make_table(fmt::format("section_{:g}m", section.height),
-                    fmt::format("Resultants of the blocks across the bed nearest to z = {:g} m (ring {})",
-                                section.height, section.ring),
-                    section_columns(), section.resultants);
+Table section_table(const Evaluation& e, const SectionEvaluation& section) {
+  const Table table =
+      make_table(fmt::format("section_{:g}m", section.height),
+                 fmt::format("Resultants of the blocks across the bed nearest to z = {:g} m (ring {})",
+                             section.height, section.ring),
+                 section_columns(), section.resultants);
+  return with_member_names(e.assembly, table);
 }
 
 Table plane_table(const Evaluation& e, const PlaneCut& cut) {
@@ -114,15 +122,21 @@ std::vector<Table> result_tables(const Evaluation& e) {
   if (!e.summary.ranges.empty()) tables.push_back(range_table(e.summary.ranges));
   if (!e.rings.empty()) tables.push_back(ring_table(e));
   if (!e.members.empty()) tables.push_back(member_table(e));
+  if (!e.wythes.empty()) tables.push_back(wythe_table(e));
   for (const MeridianEvaluation& m : e.meridians) {
     tables.push_back(thrust_table(m.thrust));
+    for (const ThrustLine& line : m.wythes) {
+      tables.push_back(thrust_table(line));
+      tables.back().title = fmt::format("Thrust line of the meridian {}, wythe {}", m.thrust.name,
+                                        e.assembly.members[*line.wythe]);
+    }
     if (!m.hoop.empty()) tables.push_back(hoop_table(m));
   }
   if (!e.chains.empty()) tables.push_back(chain_table(e));
   if (e.last.frame.ties.size() > 0) tables.push_back(tie_table(e));
-  for (const SectionEvaluation& section : e.sections) tables.push_back(section_table(section));
+  for (const SectionEvaluation& section : e.sections) tables.push_back(section_table(e, section));
   for (const PlaneCut& cut : e.planes) tables.push_back(plane_table(e, cut));
-  if (has_one_layer_of_rings(e)) tables.push_back(shell_table(shell_map(e)));
+  for (const ShellMap& map : shell_maps(e)) tables.push_back(shell_table(map));
   tables.push_back(joint_table(e));
   tables.push_back(block_table(e));
   for (Table& table : tables) set_floors(e, &table);

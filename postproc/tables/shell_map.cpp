@@ -4,11 +4,58 @@
 #include <filesystem>
 #include <map>
 
+#include <fmt/format.h>
+
+#include "postproc/evaluation/meridians.hpp"
+
 namespace cupola {
 namespace {
 
 constexpr const char* kByAzimuth = "shell";
 constexpr const char* kAlongX = "shell_x";
+
+/// Share of the thickness that a wythe takes on a bed; on the nearest bed where its layers are known, if they are not.
+double share_of(const Shell& shell, int bed, int wythe) {
+  const int beds = static_cast<int>(shell.layers.size());
+  for (int away = 0; away < beds; ++away)
+    for (const int near : {bed - away, bed + away}) {
+      if (near < 0 || near >= beds) continue;
+      const double share = shell.layers[near][wythe + 1] - shell.layers[near][wythe];
+      if (share > 0.0) return share;  // false for NaN
+    }
+  return 1.0;
+}
+
+/// Adds the blocks on the beds of the map's wythe. Of the forces of a bonder it has the part in the wythe: mean stress times
+/// the thickness of the wythe.
+void add_boxes(const Evaluation& e, ShellMap* out) {
+  struct Extent {
+    double from, to;
+    double part;  // of the block's thickness
+  };
+  std::map<std::pair<int, int>, Extent> extents;  // (block, ring)
+  for (int ring = 0; ring < out->num_rings; ++ring) {
+    for (const BedFacet& f : e.shell.beds[ring]) {
+      if (!e.shell.wythes[f.block].contains(out->number)) continue;
+      const auto place = [&](const Vec3& p) { return out->vault ? azimuth(p) : p.x(); };
+      const double a = place(f.intrados_a);
+      const double part =
+          e.shell.wythes[f.block].count() == 1 ? 1.0 : share_of(e.shell, ring, out->number) / (f.to - f.from);
+      Extent& extent = extents.try_emplace({f.block, ring}, Extent{a, a, part}).first->second;
+      for (const Vec3& p : {f.intrados_a, f.intrados_b}) {
+        const double c = out->vault ? extent.from + wrapped(place(p) - extent.from) : place(p);
+        extent = {std::min(extent.from, c), std::max(extent.to, c), part};
+      }
+    }
+  }
+  const double unit = out->vault ? kDegrees : 1.0;
+  for (const auto& [key, extent] : extents) {
+    const BlockFields& fields = e.last.fields[key.first];
+    out->boxes.push_back({key.first, key.second, unit * extent.from, unit * extent.to,
+                          extent.part * fields.meridional_force, extent.part * fields.hoop_force,
+                          fields.friction_use, fields.kern});
+  }
+}
 
 }  // namespace
 
@@ -34,34 +81,26 @@ const Columns<ShellBox>& shell_columns() {
 
 // clang-format on
 
-ShellMap shell_map(const Evaluation& e) {
-  ShellMap out{is_vault(e), e.shell.num_rings(), {}};
-  struct Extent {
-    double from, to;
-  };
-  std::map<std::pair<int, int>, Extent> extents;  // (block, ring)
-  for (int ring = 0; ring < out.num_rings; ++ring) {
-    for (const BedFacet& f : e.shell.beds[ring]) {
-      const auto place = [&](const Vec3& p) { return out.vault ? azimuth(p) : p.x(); };
-      const double a = place(f.intrados_a);
-      Extent& extent = extents.try_emplace({f.block, ring}, Extent{a, a}).first->second;
-      for (const Vec3& p : {f.intrados_a, f.intrados_b}) {
-        const double c = out.vault ? extent.from + wrapped(place(p) - extent.from) : place(p);
-        extent = {std::min(extent.from, c), std::max(extent.to, c)};
-      }
-    }
+std::string ShellMap::suffix() const {
+  return wythe.empty() ? "" : fmt::format("_{}", in_file_names(wythe));
+}
+
+std::vector<ShellMap> shell_maps(const Evaluation& e) {
+  std::vector<ShellMap> maps;
+  if (e.shell.num_rings() == 0) return maps;
+  const bool named = !e.assembly.members.empty();
+  for (int wythe = 0; wythe < e.shell.num_wythes; ++wythe) {
+    maps.push_back({is_vault(e), e.shell.num_rings(), {}, named ? e.assembly.members[wythe] : "", wythe});
+    add_boxes(e, &maps.back());
+    if (named && maps.back().boxes.empty()) maps.pop_back();
   }
-  const double unit = out.vault ? kDegrees : 1.0;
-  for (const auto& [key, extent] : extents) {
-    const BlockFields& fields = e.last.fields[key.first];
-    out.boxes.push_back({key.first, key.second, unit * extent.from, unit * extent.to, fields.meridional_force,
-                         fields.hoop_force, fields.friction_use, fields.kern});
-  }
-  return out;
+  return maps;
 }
 
 Table shell_table(const ShellMap& map) {
-  return make_table(map.vault ? kByAzimuth : kAlongX, "Blocks of the unrolled shell, as the maps show them",
+  return make_table(fmt::format("{}{}", map.vault ? kByAzimuth : kAlongX, map.suffix()),
+                    fmt::format("Blocks of the unrolled {}, as the maps show them",
+                                map.wythe.empty() ? "shell" : fmt::format("wythe {}", map.wythe)),
                     shell_columns(), map.boxes);
 }
 

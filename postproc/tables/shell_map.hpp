@@ -18,22 +18,26 @@ struct ShellBox {
   double friction_use = 0.0, kern = 0.0;            ///< NaN without a loaded joint
 };
 
-/// The unrolled shell: ring over azimuth, or over x.
+/// The unrolled shell, or one wythe of it: ring over azimuth, or over x.
 struct ShellMap {
   bool vault = false;  ///< azimuths
   int num_rings = 0;
   std::vector<ShellBox> boxes;
+  std::string wythe = {};      ///< its name; "" for a shell without wythes
+  int number = 0;              ///< of the wythe, from the inside
+  std::string suffix() const;  ///< of the names of its files: "" or "_" and the wythe
 };
 
 const Columns<ShellBox>& shell_columns();
 
-/// The blocks on the beds of the shell. A block that crosses +-180 degrees begins or ends beyond.
-ShellMap shell_map(const Evaluation& evaluation);
+/// The blocks on the beds of the shell, of one map per wythe that has blocks, inside first; no map without rings. A bonder is
+/// in the maps of all its wythes. A block that crosses +-180 degrees begins or ends beyond.
+std::vector<ShellMap> shell_maps(const Evaluation& evaluation);
 
-/// shell.csv, or shell_x.csv for a shell without azimuths.
+/// shell.csv, or shell_x.csv for a shell without azimuths; of a wythe with its name behind.
 Table shell_table(const ShellMap& map);
 
-/// The map in the folder of a run; none if it has no rings or no equilibrium.
+/// The map in the folder of a run; none if it has no rings, no equilibrium, or wythes.
 std::optional<ShellMap> read_shell_map(const std::string& post_folder);
 
 }  // namespace cupola

@@ -1,6 +1,6 @@
 // The drawn objects of a scene: blocks, joints of one or two states, lines, and what is selected.
 
-const kLineColours = {thrust: [213, 16, 62], least: [0, 114, 178], greatest: [120, 60, 160], crack: [200, 0, 0]};
+const kLineColours = {thrust: [213, 16, 62], wythe: [0, 158, 115], least: [0, 114, 178], greatest: [120, 60, 160], crack: [200, 0, 0]};
 const kSelected = [255, 0, 200];
 
 class Model {
@@ -9,9 +9,11 @@ class Model {
     this.pose = new Pose(scene);
     this.ring = scene.get("block.ring");
     this.course = Infinity, this.laid = Infinity, this.born = null;  // stages: frame shown, and per block the one in which it is laid
+    this.member = scene.has("block.member") ? scene.get("block.member") : null, this.hidden = new Set();  // of members
     this.sets = [];  // the state shown, and the one beside it
     this.addBlocks();
     this.addLines();
+    this.addTies();
     this.selection = this.addRods([], [], [], false, {depthTest: false});
     this.selection.renderOrder = 3;
     this.showStates(this.header.states.length ? [0] : []);
@@ -66,6 +68,22 @@ class Model {
     }
   }
 
+  /** Chains and other ties as bars coloured by their tension. */
+  addTies() {
+    if (!this.header.ties) return;
+    const points = this.scene.get("ties"), force = this.scene.get("tie.force"), roots = [], spans = [], colours = [];
+    this.tieScale = scaleOf(force, "");
+    for (let i = 0; i < force.length; ++i)
+      for (let k = 0; k < 3; ++k) {
+        roots.push(points[6 * i + k]);
+        spans.push(points[6 * i + 3 + k] - points[6 * i + k]);
+        colours.push(colourAt(this.tieScale, force[i])[k]);
+      }
+    this.ties = this.addRods(roots, spans, colours, false, {depthTest: false});
+    this.ties.material.uniforms.thickness.value *= 2.5;
+    this.ties.renderOrder = 2, this.ties.visible = false;
+  }
+
   /** Shows the joints and forces of these states, two of them side by side. Both have the scale of the first state. */
   showStates(numbers) {
     for (const set of this.sets) set.remove();
@@ -88,7 +106,9 @@ class Model {
     this.stage.resize();
   }
 
-  isShown(b) { return this.ring[b] <= this.course && !(this.born && this.born[b] > this.laid); }
+  isShown(b) {
+    return this.ring[b] <= this.course && !(this.born && this.born[b] > this.laid) && !(this.member && this.hidden.has(this.member[b]));
+  }
 
   /** Moves everything to the pose and hides what is not shown. */
   update() {
@@ -104,7 +124,7 @@ class Model {
   /** True if all blocks are in place, so that the inner faces of the joints cannot be seen. */
   get isClosed() {
     const far = this.pose.factor * this.header.film.largest_shift_m;
-    return this.faces.material === this.materials.solid && this.pose.apart === 0 && far < 1e-3 * this.size &&
+    return this.faces.material === this.materials.solid && this.pose.apart === 0 && this.pose.step === 0 && this.hidden.size === 0 && far < 1e-3 * this.size &&
            this.stage.shared.cut.value.w > 1e30 && this.course === Infinity && this.laid === Infinity;
   }
 

@@ -1,4 +1,5 @@
-// Where the blocks are: the displacement of a frame times a factor, plus the distance by which the model is pulled apart.
+// Where the blocks are: the displacement of a frame times a factor, plus the distance by which the model or its wythes are
+// pulled apart.
 
 class Pose {
   constructor(scene) {
@@ -7,6 +8,7 @@ class Pose {
     this.film = scene.header.film;
     this.shifts = scene.get("film.shift");
     this.turns = scene.get("film.turn");
+    this.byWythe = scene.has("block.apart") ? scene.get("block.apart") : new Float64Array(this.centroid.length);  // of one wythe's step
     this.centre = [0, 1, 2].map((k) => {
       let sum = 0;
       for (let b = 0; b < this.blocks; ++b) sum += this.centroid[3 * b + k];
@@ -14,7 +16,7 @@ class Pose {
     });
     this.offset = new Float64Array(3 * this.blocks);     // of the centroids
     this.rotation = new Float64Array(9 * this.blocks);   // row by row
-    this.frame = 0, this.factor = 1, this.apart = 0;
+    this.frame = 0, this.factor = 1, this.apart = 0, this.step = 0;  // step: m from wythe to wythe
     this.update();
   }
 
@@ -23,7 +25,7 @@ class Pose {
     for (let b = 0; b < this.blocks; ++b) {
       for (let k = 0; k < 3; ++k) {
         const i = 3 * b + k;
-        this.offset[i] = this.factor * this.shifts[at + i] + this.apart * (this.centroid[i] - this.centre[k]);
+        this.offset[i] = this.factor * this.shifts[at + i] + this.apart * (this.centroid[i] - this.centre[k]) + this.step * this.byWythe[i];
       }
       this.rotate(b, at + 3 * b);
     }

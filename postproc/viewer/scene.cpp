@@ -136,7 +136,13 @@ void add_blocks(const Evaluation& e, const Film& film, bool rounded, PackedArray
   arrays->add("block.role", role);
   arrays->add("block.fixed", fixed);
   arrays->add("block.ring", ring, 1);
-  if (!e.assembly.members.empty()) arrays->add("block.member", member, 1);
+  if (!e.assembly.members.empty()) {
+    std::vector<double> apart;
+    for (const Vec3& shift : shifts_by_wythe(e.assembly, e.shell))
+      apart.insert(apart.end(), shift.begin(), shift.end());
+    arrays->add("block.member", member, 1);
+    arrays->add_rounded("block.apart", apart);
+  }
   arrays->add("block.body", body, 1);
   arrays->add("block.centroid", centroid);
   add_columns("block.", block_columns(), block_keys(e), block_rows(e, e.last), rounded, arrays);
@@ -306,7 +312,7 @@ std::string scene_bytes(const Evaluation& e, const Film& film) {
     add_state("State of the report", e.last.joints);
     for (const Film::State& state : film.range_states()) add_state(state.name, state.joints);
   }
-  const Json lines = add_lines(e, lattice, &arrays);
+  const Json lines = add_lines(e, lattice, &arrays), ties = add_ties(e, lattice, &arrays);
   const Json frames = add_film(e, film, lattice, &arrays);
   const Box box = box_of(e.assembly);
   return arrays.bytes({{"title", e.scene.title},
@@ -326,6 +332,8 @@ std::string scene_bytes(const Evaluation& e, const Film& film) {
                        {"states", states},
                        {"joint_outlines", whole_joints},
                        {"lines", lines},
+                       {"ties", ties},
+                       {"wythes", e.shell.most_wythes()},
                        {"film", frames},
                        {"notes", notes_of(e, film, inner_faces, whole_joints)}});
 }

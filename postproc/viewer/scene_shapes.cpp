@@ -33,16 +33,8 @@ struct Lines {
     points.insert(points.end(), line.begin(), line.end());
   }
 
-  /// A thrust line is interrupted where its position is undefined.
   void add(const char* what, const ThrustLine& thrust) {
-    std::vector<Vec3> run;
-    for (const ThrustPoint& p : thrust.points) {
-      if (p.is_placed())
-        run.push_back(p.point);
-      else
-        add(what, std::exchange(run, {}));
-    }
-    add(what, run);
+    for (const std::vector<Vec3>& run : thrust.runs()) add(what, run);
   }
 };
 
@@ -99,6 +91,7 @@ nlohmann::json add_lines(const Evaluation& e, const Lattice& lattice, PackedArra
   if (at_rest(e.summary)) {
     for (const MeridianEvaluation& m : e.meridians) {
       lines.add("thrust", m.thrust);
+      for (const ThrustLine& wythe : m.wythes) lines.add("wythe", wythe);
       if (m.least_thrust) lines.add("least", *m.least_thrust);
       if (m.greatest_thrust) lines.add("greatest", *m.greatest_thrust);
     }
@@ -112,6 +105,16 @@ nlohmann::json add_lines(const Evaluation& e, const Lattice& lattice, PackedArra
   }
   arrays->add_points("lines", lines.points, lattice);
   return lines.list;
+}
+
+nlohmann::json add_ties(const Evaluation& e, const Lattice& lattice, PackedArrays* arrays) {
+  const TieTable& ties = e.last.frame.ties;
+  if (!at_rest(e.summary) || ties.size() == 0) return nullptr;
+  std::vector<Vec3> ends;
+  for (int i = 0; i < ties.size(); ++i) ends.insert(ends.end(), {ties.point_a[i], ties.point_b[i]});
+  arrays->add_points("ties", ends, lattice);
+  arrays->add("tie.force", ties.force);
+  return e.chains.empty() ? "Ties" : "Chains";
 }
 
 }  // namespace cupola

@@ -27,4 +27,8 @@ void add_faces(const Assembly& assembly, bool inner_faces, const Lattice& lattic
 /// Thrust lines and open joints: points in the array `lines`; the header's list of {what, count}.
 nlohmann::json add_lines(const Evaluation& evaluation, const Lattice& lattice, PackedArrays* arrays);
 
+/// Bars of chains and other ties of an equilibrium: both ends of each in the array `ties`, its tension (N) in `tie.force`.
+/// Returns what they are called together; null without any.
+nlohmann::json add_ties(const Evaluation& evaluation, const Lattice& lattice, PackedArrays* arrays);
+
 }  // namespace cupola

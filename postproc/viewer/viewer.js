@@ -2,7 +2,7 @@
 
 const kMarkup = `
   <div class="picture"><canvas tabindex="0" aria-label="Model in three dimensions: drag to turn it, click a block or joint for its numbers"></canvas>
-    <canvas class="printed" aria-hidden="true"></canvas><div class="legend"></div><div class="part-names" hidden></div><div class="forces-legend"></div>
+    <canvas class="printed" aria-hidden="true"></canvas><div class="legend"></div><div class="part-names" hidden></div><div class="forces-legend"></div><div class="ties-legend" hidden></div>
     <div class="film" hidden><button class="play" type="button">Play</button><input class="frame" type="range" min="0" step="1" value="0" aria-label="Frame"><output></output></div>
   </div>
   <div class="side-panel">
@@ -11,11 +11,13 @@ const kMarkup = `
     <label>Blocks <select class="blocks"><option value="solid">solid</option><option value="ghost">see-through</option><option value="edges">edges only</option><option value="none">hidden</option></select></label>
     <div class="states" hidden><label>Forces of <select class="state"></select></label><label>beside it <select class="second"></select></label></div>
     <div class="switches"></div>
+    <div class="members switches" hidden>Show </div>
     <label class="of-forces">Length of arrows <input class="length" type="range" min="-1" max="1" step="0.01" value="0"></label>
     <label class="of-magnification">Displacement <output></output><input class="magnify" type="range" min="0" max="1" step="0.01" value="0"></label>
     <details><summary>Cut and take apart</summary>
       <label class="of-courses">Courses up to <output></output><input class="course" type="range" min="0" step="1"></label>
       <label>Cut <select class="axis"><option value="">none</option></select><input class="cut" type="range" min="0" max="1" step="0.005" value="0.5" aria-label="Place of the cut"></label>
+      <label class="of-wythes">Wythes apart <input class="wythes-apart" type="range" min="0" max="1" step="0.01" value="0"></label>
       <label>Pull apart <input class="apart" type="range" min="0" max="1" step="0.01" value="0"></label>
     </details>
     <div class="numbers" aria-live="polite"><p class="hint">Drag: turn. Right drag or two fingers: move. Wheel or pinch: zoom. Click a block, an arrow or a coloured joint: its numbers.</p></div>
@@ -59,8 +61,10 @@ class Viewer {
     if (this.header.states.length) this.addSwitch("forces", "Forces", (on) => this.showForces(on));
     this.find(".of-forces").hidden = true;
     this.on(".length", "input", (e) => { this.model.setForceScale(10 ** e.target.value); this.forceLegend(); this.stage.invalidate(); });
-    const lines = {thrust: "Thrust lines", least: "Least thrust", greatest: "Greatest thrust", crack: "Open joints"};
+    const lines = {thrust: "Thrust lines", wythe: "Thrust lines of wythes", least: "Least thrust", greatest: "Greatest thrust", crack: "Open joints"};
     for (const what of Object.keys(this.model.lines)) this.addSwitch(what, lines[what], (on) => this.showLines(what, on));
+    if (this.header.ties) this.addSwitch("ties", this.header.ties, (on) => this.showTies(on));
+    this.addMembers();
     this.addMagnifier();
     this.addCuts();
     this.find(".notes").textContent = this.header.notes.join(" ");
@@ -73,11 +77,38 @@ class Viewer {
     this.find(".views").append(button);
   }
 
-  addSwitch(name, text, action) {
+  addSwitch(name, text, action, group = ".switches:not(.members)") {
     const label = document.createElement("label");
-    label.innerHTML = `<input type="checkbox" name="${name}"> ${text}`;
+    label.innerHTML = `<input type="checkbox" name="${name}"> ${escaped(text)}`;
     label.firstChild.addEventListener("change", (e) => action(e.target.checked));
-    this.find(".switches").append(label);
+    this.find(group).append(label);
+    return label.firstChild;
+  }
+
+  /** A switch for every wythe and group of bonders that has blocks, all of them on. */
+  addMembers() {
+    const {header, model} = this, present = new Set(model.member || []);
+    this.find(".members").hidden = present.size < 2;
+    this.find(".of-wythes").hidden = header.wythes < 2;
+    header.members.forEach((name, m) => {
+      if (!present.has(m)) return;
+      this.addSwitch(`member${m}`, name, (on) => {
+        on ? model.hidden.delete(m) : model.hidden.add(m);
+        model.filter();
+      }, ".members").checked = true;
+    });
+    this.on(".wythes-apart", "input", (e) => {
+      model.pose.step = 0.3 * model.size * e.target.value ** 2 / Math.max(1, header.wythes - 1);
+      model.update();
+    });
+  }
+
+  showTies(on) {
+    const legend = this.find(".ties-legend");
+    this.model.ties.visible = on, legend.hidden = !on;
+    legend.innerHTML = bar({label: `Tension, ${this.header.ties.toLowerCase()}`, unit: "N"}, this.model.tieScale, false);
+    if (on && this.find(".blocks").value === "solid") this.setBlocks("ghost");
+    this.stage.invalidate();
   }
 
   addStates() {
@@ -269,7 +300,7 @@ class Viewer {
     pen.fillStyle = style.getPropertyValue("--ink"), pen.font = `${14 * unit}px sans-serif`;
     const text = (selector) => this.find(selector).hidden ? "" : this.find(selector).innerText.replace(/\s+/g, " ").trim();
     pen.fillText(this.header.title, 12 * unit, gl.height + 18 * unit, out.width - 24 * unit);
-    pen.fillText([text(".legend"), text(".forces-legend"), text(".film output")].filter(Boolean).join("   "), 12 * unit, gl.height + 42 * unit, out.width - 24 * unit);
+    pen.fillText([text(".legend"), text(".forces-legend"), text(".ties-legend"), text(".film output")].filter(Boolean).join("   "), 12 * unit, gl.height + 42 * unit, out.width - 24 * unit);
     out.toBlob((blob) => {
       const link = document.createElement("a");
       link.href = URL.createObjectURL(blob), link.download = "cupola.png";

@@ -10,9 +10,8 @@ namespace cupola::test {
 
 /// Analyses frames of a column of three blocks in a fresh folder and returns its folder post/.
 inline std::string analysed_column(const std::string& name, const std::vector<Frame>& frames,
-                                   const Summary& summary) {
+                                   const Summary& summary, const Assembly& a = column(3)) {
   const std::string folder = fresh_folder(name);
-  const Assembly a = column(3);
   write_assembly(folder + "/assembly.vtu", a);
   ResultsWriter writer(folder + "/results", content_hash(a));
   for (const Frame& frame : frames) writer.write_frame(frame);

@@ -107,6 +107,10 @@ TEST(AssemblyFile, WythesRoundTrip) {
   a.members = {"inner", "outer", "rib"};
   a.parts.back().wythe = 1;
   a.blocks.back().member = 2;
+  a.vertex_layers.assign(a.vertices.size(), -1);
+  a.vertex_depths.assign(a.vertices.size(), 0.0);
+  a.vertex_layers.back() = 1;
+  a.vertex_depths.back() = 0.25;
   EXPECT_NE(content_hash(a), without);
   const std::string path = test::fresh_folder("a") + "/assembly.vtu";
   write_assembly(path, a);
@@ -115,9 +119,15 @@ TEST(AssemblyFile, WythesRoundTrip) {
   EXPECT_EQ(b.parts.front().wythe, 0);
   EXPECT_EQ(b.parts.back().wythe, 1);
   EXPECT_EQ(b.blocks.back().member, 2);
+  EXPECT_EQ(b.vertex_layers, a.vertex_layers);
+  EXPECT_EQ(b.vertex_depths, a.vertex_depths);
   a.blocks.back().member = 3;
   write_assembly(path, a);
   EXPECT_NE(read_error(path).find("block 1 is invalid"), std::string::npos) << read_error(path);
+  a.blocks.back().member = 2;
+  a.vertex_depths[0] = 1.5;
+  write_assembly(path, a);
+  EXPECT_NE(read_error(path).find("layer of vertex 0 is invalid"), std::string::npos) << read_error(path);
 }
 
 // A VTK hexahedron lists four points of one face, then the four points across from them. The edges 0-4, 1-5,

@@ -116,7 +116,7 @@ TEST(ShellMaps, IncludedMapsShareTheirScale) {
 }
 
 TEST(ShellMaps, ReadBackUnchangedFromTheTable) {
-  const ShellMap map = shell_map(test::column_evaluation(0.9, 0.3));
+  const ShellMap map = shell_maps(test::column_evaluation(0.9, 0.3)).front();
   ASSERT_EQ(map.boxes.size(), 3u);
   const std::string folder = test::fresh_folder("post");
   write_text_atomically(folder + "/shell_x.csv", to_csv(shell_table(map)));

@@ -112,8 +112,9 @@ TEST(CertaintyMap, ColoursEachJointByTheWidthOfItsRangeOverItsMean) {
   summary.ranges = {joint_range(0, 1, test::bounded_end(2.0, 2.0, 1), test::bounded_end(2.0, 2.0, 2)),
                     joint_range(1, 2, test::bounded_end(1.0, 1.0, 1), test::bounded_end(3.0, 3.0, 2)),
                     joint_range(2, 3, test::bounded_end(1.0, 1.0, 1), {RangeOutcome::unbounded, {}, {}, {}})};
-  const Figure figure = certainty_map(
-      test::evaluated(a, test::range_frames(a), summary, test::column_case(), test::fresh_folder("results")));
+  const Evaluation e =
+      test::evaluated(a, test::range_frames(a), summary, test::column_case(), test::fresh_folder("results"));
+  const Figure figure = certainty_map(e, shell_maps(e).front());
   const auto joints = blocks_of(figure, "joints").at(0), unlimited = blocks_of(figure, "unlimited").at(0);
   ASSERT_EQ(joints.size(), 2u);
   EXPECT_EQ(joints[0][1], 0.0) << "the foot";

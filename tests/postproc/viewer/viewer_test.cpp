@@ -222,6 +222,65 @@ TEST(Viewer, LinksTheViewsOfAComparison) {
   EXPECT_EQ(fmt::format("{}", fmt::join(browser.complaints(), "\n")), "");
 }
 
+/// The column as two blocks of an inner wythe and a bonder on top, with a tie from block 1 to block 3.
+std::string column_with_wythes() {
+  Assembly a = test::column(3);
+  a.members = {"inner", "outer", "bonder"};
+  a.blocks[3].member = 2;
+  a.vertex_layers.assign(a.vertices.size(), -1);
+  a.vertex_depths.assign(a.vertices.size(), 0.0);
+  for (size_t v = 8; v < a.vertices.size(); ++v) {  // behind the support, eight per block
+    const bool outside = a.vertices[v].y() > 0.0;
+    a.vertex_layers[v] = !outside ? 0 : v < 24 ? 1 : 2;
+    a.vertex_depths[v] = !outside ? 0.0 : v < 24 ? 0.5 : 1.0;
+  }
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.5, 0.3);
+  frame.ties.chain = {-1};
+  frame.ties.block_a = {1};
+  frame.ties.block_b = {3};
+  frame.ties.point_a = {Vec3(0.5, 0.4, 0.25)};
+  frame.ties.point_b = {Vec3(0.5, 0.4, 1.25)};
+  frame.ties.force = {1234.0};
+  frame.ties.yield_force = {1e6};
+  frame.ties.yielded = {0.0};
+  frame.ties.strut = {0};
+  return test::analysed_column("wythes", {frame}, test::column_summary(a), a);
+}
+
+TEST(Viewer, TakesWythesAwayMovesThemApartAndShowsTies) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  Browser browser;
+  open_view(column_with_wythes(), &browser);
+  EXPECT_EQ(
+      browser.value("Array.from(view.host.querySelectorAll('.members label'), (l) => l.innerText.trim())"),
+      (nlohmann::json{"inner", "bonder", "Support"}))
+      << "no block is of the outer wythe";
+  const char* triangles = "view.model.faces.geometry.drawRange.count";
+  const int all = browser.value(triangles);
+  browser.value("view.find('[name=member2]').click()");
+  const int fewer = browser.value(triangles);
+  EXPECT_EQ(browser.value("view.model.isShown(3)"), false);
+  EXPECT_NE(fewer, all);
+  browser.value("view.find('[name=member2]').click()");
+  EXPECT_EQ(browser.value(triangles), all);
+  // The bonder reaches through both wythes: its middle lies half a wythe outside that of the inner one.
+  const double moved =
+      browser
+          .value(
+              "(() => { const s = view.find('.wythes-apart'); s.value = 1; s.dispatchEvent(new "
+              "Event('input')); return view.model.pose.offset[3 * 3 + 1] / view.model.size; })()")
+          .get<double>();
+  EXPECT_NEAR(moved, 0.3 * 0.5, 1e-6) << "rounding to seven digits";
+  EXPECT_EQ(browser.value("view.model.pose.offset[3 * 1 + 1]"), 0.0) << "the inner wythe stays";
+  EXPECT_EQ(browser.value("view.model.ties.visible"), false);
+  browser.value("view.find('[name=ties]').click()");
+  EXPECT_EQ(browser.value("view.model.ties.visible"), true);
+  const std::string legend = browser.value("view.find('.ties-legend').innerText");
+  EXPECT_NE(legend.find("Tension, ties, kN"), std::string::npos) << legend;
+  EXPECT_NE(legend.find("1.234"), std::string::npos) << legend;
+  EXPECT_EQ(fmt::format("{}", fmt::join(browser.complaints(), "\n")), "");
+}
+
 TEST(Viewer, EveryControlWorksWithoutComplaint) {
   if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
   Browser browser;

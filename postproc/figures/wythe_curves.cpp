@@ -1,0 +1,107 @@
+#include "postproc/figures/wythe_curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "postproc/figures/gnuplot.hpp"
+
+namespace cupola {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+
+struct WytheColours {
+  const char *line, *section;
+};
+
+/// Of a wythe, from the inside; other than those of the curves of the whole thickness.
+WytheColours colours_of(int wythe) {
+  constexpr WytheColours kColours[] = {
+      {"#7B3F00", "#f1dcc8"}, {"#555555", "#f7f7f7"}, {"#B8860B", "#fbeac2"}, {"#4B0082", "#e6dff0"}};
+  return kColours[wythe % 4];
+}
+constexpr const char* kBonderSection = "#dfe4e8";
+
+/// The plane of a meridian, or the middle of the width of an arch. It is shifted by a hair, since joints may lie in it.
+Plane plane_of(const ThrustLine& line, bool arch) {
+  constexpr double kHair = 1e-6;  // m
+  if (arch) return {Vec3::UnitY(), line.points.front().intrados.y() + kHair};
+  const double angle = line.azimuth_deg / kDegrees;
+  return {Vec3(-std::sin(angle), std::cos(angle), 0.0), kHair};
+}
+
+/// The outlines of the cut blocks of a member, and whether it is a wythe.
+struct CutMember {
+  Rows outlines;
+  bool is_wythe = true;
+};
+
+std::vector<CutMember> cut_members(const Evaluation& e, const ThrustLine& line, bool arch) {
+  std::vector<CutMember> cut(e.assembly.members.size());
+  for (const CutPolygon& polygon : cut_by_plane(e.assembly, plane_of(line, arch))) {
+    const Block& block = e.assembly.blocks[polygon.block];
+    if (block.fixed || (!arch && profile_abscissa(line, arch, block.centroid) <= 0.0)) continue;
+    Rows& rows = cut[block.member].outlines;
+    cut[block.member].is_wythe = e.shell.wythes[polygon.block] == WytheRange{block.member, block.member + 1};
+    for (const Vec3& p : polygon.outline) rows.push_back({profile_abscissa(line, arch, p), p.z()});
+    rows.push_back({profile_abscissa(line, arch, polygon.outline.front()), polygon.outline.front().z()});
+    rows.push_back({});
+  }
+  return cut;
+}
+
+void add_section(const Evaluation& e, const ThrustLine& line, bool arch, WytheCurves* out) {
+  const std::vector<CutMember> cut = cut_members(e, line, arch);
+  for (int m = 0; m < static_cast<int>(cut.size()); ++m) {
+    if (cut[m].outlines.empty()) continue;
+    const std::string name = fmt::format("cut_{}", m);
+    out->data += data_block(name, cut[m].outlines);
+    out->section += fmt::format(
+        "${0} w filledcurves closed fc rgb '{1}' notitle, ${0} w l lc rgb '#999999' lw 0.5 notitle, ", name,
+        cut[m].is_wythe ? colours_of(m).section : kBonderSection);
+  }
+}
+
+}  // namespace
+
+double profile_abscissa(const ThrustLine& line, bool arch, const Vec3& point) {
+  const double angle = arch ? 0.0 : line.azimuth_deg / kDegrees;
+  return std::cos(angle) * point.x() + std::sin(angle) * point.y();
+}
+
+WytheCurves wythe_curves(const Evaluation& e, const MeridianEvaluation& m, const ForceUnit& unit) {
+  WytheCurves out;
+  if (m.wythes.empty()) return out;
+  const bool arch = !is_vault(e);
+  add_section(e, m.thrust, arch, &out);
+  for (const ThrustLine& line : m.wythes) {
+    Rows profile, graphs;
+    int last = -1;
+    for (const ThrustPoint& p : line.points) {
+      if (p.bed != last + 1)
+        for (Rows* rows : {&profile, &graphs}) rows->emplace_back();
+      last = p.bed;
+      profile.push_back(p.is_placed() ? std::vector{profile_abscissa(line, arch, p.point), p.point.z()}
+                                      : std::vector<double>{});
+      graphs.push_back({arch ? 0.5 * (p.intrados.x() + p.extrados.x()) : p.height(), unit.per_newton * p.r,
+                        p.couple_length, p.face_distance});
+    }
+    const std::string name = fmt::format("wythe_{}", *line.wythe), curves = name + "_graphs";
+    const char* colour = colours_of(*line.wythe).line;
+    out.data += data_block(name, profile) + data_block(curves, graphs);
+    out.lines += fmt::format(", ${} w lp lc rgb '{}' lw 1.8 pt 7 ps 0.35 title '{}'", name, colour,
+                             gnuplot_text(e.assembly.members[*line.wythe]));
+    const auto curve = [&](int column) {
+      return fmt::format(", ${} using {} w lp lc rgb '{}' pt 7 ps 0.3 notitle", curves,
+                         arch ? fmt::format("1:{}", column) : fmt::format("{}:1", column), colour);
+    };
+    out.resultant += curve(2);
+    out.couple += curve(3);
+    out.distance += curve(4);
+  }
+  return out;
+}
+
+}  // namespace cupola

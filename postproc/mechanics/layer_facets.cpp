@@ -1,0 +1,97 @@
+#include "postproc/mechanics/layer_facets.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "assembly/base/error.hpp"
+
+namespace cupola {
+namespace {
+
+/// True if all corners of a face belong to the ring below, too: the face lies on the bed, and is no cut through a cell.
+bool is_on_bed_below(const Assembly& assembly, const Part& part, int f) {
+  const auto of_block = std::ranges::equal_range(assembly.parts, part.block, {}, &Part::block);
+  const auto in_ring_below = [&](int v) {
+    return std::ranges::any_of(of_block, [&](const Part& below) {
+      if (below.ring != part.ring - 1) return false;
+      for (int g = below.face_start; g < below.face_start + below.num_faces; ++g)
+        if (std::ranges::find(assembly.face(g), v) != assembly.face(g).end()) return true;
+      return false;
+    });
+  };
+  return std::ranges::all_of(assembly.face(f), in_ring_below);
+}
+
+/// Finds the innermost wythe of each drum or shell: it begins at the layer of depth 0 and ends at the next one of depth 1.
+/// Numbers of bonders between them are their own.
+void set_innermost(const Assembly& assembly, std::vector<int>* innermost) {
+  const int num_wythes = static_cast<int>(innermost->size());
+  std::vector<bool> begins(num_wythes + 1, false), ends(num_wythes + 1, false);
+  for (size_t v = 0; v < assembly.vertices.size(); ++v) {
+    const int layer = assembly.vertex_layers[v];
+    if (layer < 0) continue;
+    begins[layer] = begins[layer] || assembly.vertex_depths[v] == 0.0;
+    ends[layer] = ends[layer] || assembly.vertex_depths[v] == 1.0;
+  }
+  int first = -1;
+  for (int wythe = 0; wythe < num_wythes; ++wythe) {
+    if (ends[wythe]) first = -1;
+    if (begins[wythe]) first = wythe;
+    (*innermost)[wythe] = first >= 0 ? first : wythe;
+  }
+}
+
+}  // namespace
+
+void LayerFacets::add(const Part& part, int f, int bed) {
+  const bool internal = assembly_.face_kinds[f] == FaceKind::internal;
+  if (internal && !is_on_bed_below(assembly_, part, f)) return;
+  Cell& cell = cells_[{bed, part.block, part.slice, part.wythe}];
+  cell.internal = internal;
+  for (const int v : assembly_.face(f))
+    if (std::ranges::find(cell.corners, v) == cell.corners.end()) cell.corners.push_back(v);
+}
+
+void LayerFacets::add_to(Shell* shell) const {
+  for (const auto& [key, cell] : cells_) {
+    const auto [bed, block, slice, wythe] = key;
+    const auto depth = [&](int v) { return assembly_.vertex_depths[v]; };
+    const auto [low, high] = std::ranges::minmax(cell.corners, {}, depth);
+    std::vector<Vec3> inner, outer;
+    for (const int v : cell.corners)
+      (depth(v) == depth(low) ? inner : outer).push_back(assembly_.vertices[v]);
+    CUPOLA_ASSERT(inner.size() == 2 && outer.size() == 2);
+    const double parallel = (inner[0] - outer[0]).norm() + (inner[1] - outer[1]).norm();
+    const double crossed = (inner[0] - outer[1]).norm() + (inner[1] - outer[0]).norm();
+    if (crossed < parallel) std::swap(outer[0], outer[1]);
+    shell->beds[bed].push_back(
+        {block, inner[0], inner[1], outer[0], outer[1], cell.internal, depth(low), depth(high)});
+  }
+}
+
+void set_wythes(const Assembly& assembly, Shell* shell) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  shell->wythes.resize(assembly.blocks.size());
+  for (const int layer : assembly.vertex_layers) shell->num_wythes = std::max(shell->num_wythes, layer);
+  shell->layers.assign(shell->beds.size(), std::vector<double>(shell->num_wythes + 1, kUnknown));
+  shell->innermost.assign(shell->num_wythes, 0);
+  if (assembly.vertex_layers.empty()) {
+    shell->layers.assign(shell->beds.size(), {0.0, 1.0});
+    return;
+  }
+  set_innermost(assembly, &shell->innermost);
+  for (size_t b = 0; b < shell->wythes.size(); ++b)
+    shell->wythes[b] =
+        assembly.blocks[b].fixed ? WytheRange{0, shell->num_wythes} : WytheRange{shell->num_wythes, 0};
+  for (const Part& part : assembly.parts) {
+    if (assembly.blocks[part.block].fixed) continue;
+    WytheRange& range = shell->wythes[part.block];
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      for (const int v : assembly.face(f)) {
+        range.from = std::min(range.from, assembly.vertex_layers[v]);
+        range.to = std::max(range.to, assembly.vertex_layers[v]);
+      }
+  }
+}
+
+}  // namespace cupola

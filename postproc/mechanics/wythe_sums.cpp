@@ -1,0 +1,98 @@
+#include "postproc/mechanics/wythe_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include <Eigen/Geometry>
+
+#include "postproc/mechanics/bed_blocks.hpp"
+#include "postproc/mechanics/ring_sums.hpp"
+
+namespace cupola {
+namespace {
+
+int ring_above_support(const Block& block) {
+  return block.fixed ? -1 : std::max(block.ring, 0);
+}
+
+/// A sum and what its means are computed from.
+struct Collected {
+  WytheSum sum;
+  double bed_force = 0.0;         // N, normal forces of its bed joints
+  Bearing bearing;                // of those that are not negligible
+  std::vector<double> pressures;  // Pa
+};
+
+using Sums = std::map<std::pair<int, WytheRange>, Collected>;  // by ring and wythes
+
+/// Adds a joint to the cuts below all rings that it crosses.
+void add_forces(const Assembly& assembly, const JointWrench& joint, const WytheRange& wythes, const Vec3& up,
+                Sums* sums) {
+  const int a = ring_above_support(assembly.blocks[joint.block_a]);
+  const int b = ring_above_support(assembly.blocks[joint.block_b]);
+  if (a == b) return;
+  const Vec3 force = wrench_on(joint, a > b ? joint.block_a : joint.block_b).force;
+  const Vec3 level = joint.patch.centroid - joint.patch.centroid.dot(up) * up;
+  for (int k = std::min(a, b) + 1; k <= std::max(a, b); ++k) {
+    WytheSum& sum = (*sums)[{k, wythes}].sum;
+    sum.vertical_force += force.dot(up);
+    sum.outward_force -= force.dot(level.stableNormalized());
+  }
+}
+
+/// Adds what a bed joint tells about the ring of its upper block.
+void add_bed(const JointWrench& joint, Collected* at) {
+  ++at->sum.joints;
+  at->sum.area += joint.patch.area;
+  at->bed_force += joint.normal_force;
+  at->sum.largest_friction_use = std::fmax(at->sum.largest_friction_use, joint.friction_use);  // skips NaN
+  at->sum.largest_kern = std::fmax(at->sum.largest_kern, joint.kern);
+  if (joint.patch.area > 0.0) at->pressures.push_back(joint.normal_force / joint.patch.area);
+}
+
+/// The sum with its means.
+WytheSum finished(const Collected& at, const Shell& shell, double total, const Floor& floor) {
+  WytheSum sum = at.sum;
+  sum.share = std::abs(total) > floor.force ? sum.vertical_force / total : 0.0;
+  const std::optional<Layers> layers = layers_of(shell, sum.ring, sum.wythes);
+  sum.position = layers && at.bearing.normal_force > floor.force ? layers->position(at.bearing.share())
+                                                                 : std::numeric_limits<double>::quiet_NaN();
+  sum.pressure = sum.area > 0.0 ? at.bed_force / sum.area : 0.0;
+  sum.cv_pressure = above(coefficient_of_variation(at.pressures), floor.share);
+  return sum;
+}
+
+}  // namespace
+
+std::vector<WytheSum> wythe_sums(const Assembly& assembly, const Shell& shell, const JointWrenches& joints,
+                                 const ContactTable& contacts, const Vec3& up) {
+  std::vector<WytheSum> out;
+  if (assembly.members.empty() || shell.num_rings() == 0) return out;
+  std::vector<std::map<int, BlockBed>> beds;
+  for (const auto& bed : shell.beds) beds.push_back(blocks_on(bed));
+  Sums sums;
+  for (const JointWrench& joint : joints.wrenches) {
+    const WytheRange wythes = wythes_of(assembly, shell, joint);
+    add_forces(assembly, joint, wythes, up, &sums);
+    if (joint.upper < 0 || assembly.blocks[joint.upper].fixed) continue;
+    const int ring = ring_above_support(assembly.blocks[joint.upper]);
+    Collected& at = sums[{ring, wythes}];
+    add_bed(joint, &at);
+    const auto block = beds[ring].find(joint.upper);
+    if (!joint.negligible && block != beds[ring].end())
+      add_bearing(joint, joints, contacts, block->second, &at.bearing);
+  }
+  std::map<int, double> totals;  // N, by ring
+  for (auto& [key, at] : sums) {
+    std::tie(at.sum.ring, at.sum.wythes) = key;
+    totals[key.first] += at.sum.vertical_force;
+  }
+  for (const auto& [key, at] : sums) out.push_back(finished(at, shell, totals[key.first], joints.floor));
+  return out;
+}
+
+}  // namespace cupola
