@@ -100,7 +100,8 @@ Figure force_map(const ShellMap& map, const MapScales& scales) {
                                 : "Vertical forces over the ";
   f.title += mapped_text(map);
   f.caption = fmt::format(
-      "The {}{}{}. Forces per metre from the mean stress of each block, compression positive{}. Grey: the force is "
+      "The {}{}{}. Forces per metre from the mean stress of each block, compression positive{}. Grey: the "
+      "force is "
       "negligible.",
       map.vault ? "unrolled " : "", mapped_text(map), map.vault ? "" : " from the front",
       scales.hoop > 0.0 ? fmt::format("; {} tension is orange", across) : "");

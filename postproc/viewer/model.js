@@ -72,7 +72,7 @@ class Model {
   addTies() {
     if (!this.header.ties) return;
     const points = this.scene.get("ties"), force = this.scene.get("tie.force"), roots = [], spans = [], colours = [];
-    this.tieScale = scaleOf(force, "");
+    this.tieScale = {...scaleOf(force, ""), stops: kTension};
     for (let i = 0; i < force.length; ++i)
       for (let k = 0; k < 3; ++k) {
         roots.push(points[6 * i + k]);
@@ -80,7 +80,7 @@ class Model {
         colours.push(colourAt(this.tieScale, force[i])[k]);
       }
     this.ties = this.addRods(roots, spans, colours, false, {depthTest: false});
-    this.ties.material.uniforms.thickness.value *= 2.5;
+    this.ties.material.uniforms.thickness.value *= 5;
     this.ties.renderOrder = 2, this.ties.visible = false;
   }
 

@@ -35,6 +35,7 @@ function shown(value, unit) {
 // compression, red for tension.
 const kSequential = [[253, 231, 167], [246, 178, 107], [222, 110, 94], [160, 52, 104], [70, 18, 92]];
 const kDiverging = [[178, 24, 43], [244, 165, 130], [245, 245, 245], [146, 197, 222], [33, 102, 172]];
+const kTension = [[0, 90, 200], [130, 40, 160], [225, 0, 40]];  // of thin bars, visible from the lowest on
 const kUndefined = [150, 150, 150];
 const kRoles = [[222, 205, 178], [196, 160, 116], [214, 106, 40], [128, 134, 140], [188, 198, 178]];
 const kBodies = [[128, 134, 140], [230, 159, 0], [86, 180, 233], [0, 158, 115], [204, 121, 167], [0, 114, 178],
