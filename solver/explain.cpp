@@ -133,6 +133,10 @@ std::string motion_features(const Case& scene) {
   const SimulationOptions options = simulation_options(scene);
   line("tangential", options.step.tangential == TangentialSpring::memory ? "elastic slip is stored"
                                                                          : "literal scheme of the paper");
+  if (options.step.recovery == Recovery::literal)
+    line("recovery",
+         fmt::format("literal scheme of the paper: contacts bear at most {:g} m/s times step over compliance",
+                     options.step.recovery_speed));
   if (options.static_start)
     line("start", fmt::format("static equilibrium under the loads at time 0, residual at most {:.1e}",
                               static_options(scene.analysis).tolerance));

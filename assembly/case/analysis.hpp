@@ -199,6 +199,7 @@ struct Analysis {
   double damping = 0.0;   ///< alpha, s, >= 0: contact damping over contact stiffness
   /// eps_u, m/s, > 0: largest speed at which penetration beyond that due to compliance is corrected.
   double recovery_speed = 0.6;
+  Recovery recovery = Recovery::compliant;
   TangentialSpring tangential = TangentialSpring::memory;
   /// Initial state of a dynamic analysis: unloaded, or in static equilibrium under the loads at time 0.
   enum class Start { automatic, rest, static_ };

@@ -198,6 +198,14 @@ void declare_analysis(Section& s, Analysis& analysis) {
            "contact damping coefficient over contact stiffness, alpha");
   s.number("recovery_speed", analysis.recovery_speed, {.unit = "m/s", .above = 0},
            "largest speed at which penetration beyond that due to compliance is corrected");
+  s.choice("recovery", analysis.recovery,
+           "dynamic: what recovery_speed limits: penetration beyond that due to compliance, or all of it, "
+           "the paper's scheme (eq. 14), in which contacts loaded by more than recovery_speed h / compliance "
+           "sink without end");
+  s.rule(analysis.recovery == Recovery::compliant || analysis.type == AnalysisType::dynamic, "recovery",
+         "literal applies to dynamic analyses only; equilibria have no time in which to recover");
+  s.rule(analysis.recovery == Recovery::compliant || analysis.integrator == TimeIntegrator::euler, "recovery",
+         "literal is a scheme of implicit Euler; use integrator: euler");
   s.choice("tangential", analysis.tangential,
            "dynamic: tangential spring with memory of its slip, or the paper's scheme, which creeps");
   s.rule(analysis.integrator == TimeIntegrator::euler || analysis.tangential == TangentialSpring::memory,

@@ -36,4 +36,11 @@ constexpr auto enum_names(TangentialSpring) {
   return std::array{"memory", "literal"};
 }
 
+/// What the recovery speed of a dynamic analysis limits. `compliant`: the recovery of penetration beyond that due to the compliance.
+/// `literal`: all of it (paper eq. 14, 15), and with it the force of a compliant contact.
+enum class Recovery { compliant, literal };
+constexpr auto enum_names(Recovery) {
+  return std::array{"compliant", "literal"};
+}
+
 }  // namespace cupola

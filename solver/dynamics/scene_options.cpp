@@ -66,6 +66,7 @@ SimulationOptions simulation_options(const Case& scene) {
   options.step.integrator = Integrator::of(analysis.integrator);
   options.step.damping = analysis.damping;
   options.step.recovery_speed = analysis.recovery_speed;
+  options.step.recovery = analysis.recovery;
   options.step.tangential = analysis.tangential;
   options.adaptive = analysis.adaptive;
   options.sleep = analysis.sleep;

@@ -135,10 +135,11 @@ void set_contact_laws(const Model& model, const State& state, const ContactSet& 
 
     const KnownMotion known = known_motion(*step, i, state.v, options);
     const bool smooth = options.integrator.is_euler() || has_past(memory, options);
-    const double elastic_gap = memory.elastic_gap + known.to_middle[0];
-    const double excess = std::max(contact.gap - bond.zero_gap - memory.overlap - elastic_gap,
-                                   -options.recovery_speed * h_alpha);
-    double gap = elastic_gap + excess + known.rest[0];
+    const double unlimited =
+        options.recovery == Recovery::compliant ? memory.elastic_gap + known.to_middle[0] : 0.0;
+    const double excess =
+        std::max(contact.gap - bond.zero_gap - memory.overlap - unlimited, -options.recovery_speed * h_alpha);
+    double gap = unlimited + excess + known.rest[0];
     // A contact that closes stops there. In the rest of the step it would be pushed back to where it closed.
     if (!smooth) gap = std::max(gap, memory.elastic_gap);
     problem->b[3 * i] = gap / h_alpha;

@@ -15,6 +15,7 @@ struct StepOptions {
   Integrator integrator = Integrator::euler();
   double damping = 0.0;         ///< alpha, s, >= 0
   double recovery_speed = 0.6;  ///< eps_u, m/s, > 0
+  Recovery recovery = Recovery::compliant;
   TangentialSpring tangential = TangentialSpring::memory;
   /// Time by which loads, friction and supports advance, s; defaults to h. A static step has a large h and
   /// usually does not advance the time.
@@ -54,7 +55,8 @@ Mat3 contact_frame(const Vec3& normal);
 /// strength. Differences from the paper:
 ///
 /// - Eq. 14 limits all of phi / h by the recovery speed eps_u, which limits the force of a compliant contact
-///   to eps_u h / c. Here the limit applies only to penetration not caused by the compliance.
+///   to eps_u h / c. Recovery::literal is that scheme; with Recovery::compliant the limit applies only to
+///   penetration not caused by the compliance.
 /// - Eq. 14 has no elastic_slip, so that a sticking contact under a tangential force T creeps at c T / h.
 ///   TangentialSpring::literal is that scheme, TangentialSpring::memory includes elastic_slip.
 /// - Loads are evaluated in the middle of the step instead of at its start (eq. 10), so that their impulse is

@@ -99,6 +99,10 @@ TEST(ReadMotion, ErrorsNameTheBrokenRule) {
            {"analysis: {time_error: 1e-4, adaptive: {smallest: 1, largest: 0.1}}", "must be >= smallest"},
            {"analysis: {adaptive: {smallest: 1e-4}}", "requires time_error"},
            {"analysis: {integrator: generalized_alpha}", "applies to dynamic analyses only"},
+           {"analysis: {recovery: literal}", "literal applies to dynamic analyses only"},
+           {"analysis: {type: dynamic, integrator: generalized_alpha, recovery: literal}",
+            "literal is a scheme of implicit Euler"},
+           {"analysis: {type: dynamic, recovery: litteral}", "literal"},
            {"analysis: {type: dynamic, integrator: generalized_alpha, tangential: literal}",
             "literal is a scheme of implicit Euler"}}) {
     try {

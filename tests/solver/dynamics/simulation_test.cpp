@@ -39,6 +39,43 @@ TEST(RecoveryLimit, DoesNotChangeElasticDepth) {
   }
 }
 
+/// Velocity and depth of a block of weight W = 9810 N on four contacts of c = 1e-8 m/N after 60 steps of the literal scheme.
+struct Sinking {
+  double velocity, depth;
+};
+Sinking sink_literally(double h, double alpha, double recovery_speed) {
+  const Assembly assembly = testing::box_on_floor({1, 1, 1}, 1000.0);
+  Case scene = make_case(0.4, 1e-8, h, alpha);
+  scene.analysis.recovery = Recovery::literal;
+  scene.analysis.recovery_speed = recovery_speed;
+  testing::AccountedSimulation simulation(scene, assembly);
+  for (int step = 0; step < 60; ++step) simulation.advance();
+  return {simulation.state().v[2], 0.5 - simulation.state().poses[1].p_WB.z()};
+}
+
+// Paper eq. 14, 15 at a contact that has penetrated by more than eps_u (h + alpha): b_n = -eps_u, so that u_n - eps_u + E gamma_n = 0
+// with E = c / (h (h + alpha)). Four contacts balance the weight with gamma_n = W h / 4, so that the block sinks at
+// -u_n = c W / (4 (h + alpha)) - eps_u, whatever its depth. The way to that speed shrinks by 1 + 4 h (h + alpha) / (c m), at least 11, in
+// every step.
+TEST(RecoveryLimit, LetsLoadedContactsSinkInTheLiteralScheme) {
+  const double W = 1000.0 * kG;
+  for (const double h : {0.01, 0.005})
+    for (const double alpha : {0.0, 0.002}) {
+      const double exact = 1e-8 * W / (4.0 * (h + alpha)) - 5e-4;
+      EXPECT_GT(exact, 1e-3);
+      // Digits of a position of 0.5 m from which the depth is computed anew.
+      EXPECT_NEAR(sink_literally(h, alpha, 5e-4).velocity / -exact, 1.0, 1e-9)
+          << h << " s, " << alpha << " s";
+    }
+}
+
+// Below the limit, cW/4h = 2.5 mm/s, nothing is limited: the block rests at its elastic depth.
+TEST(RecoveryLimit, DoesNotChangeLightlyLoadedContactsInTheLiteralScheme) {
+  const Sinking rest = sink_literally(0.01, 0.0, 3e-3);
+  EXPECT_NEAR(rest.velocity, 0.0, 1e-12);
+  EXPECT_NEAR(rest.depth / (1e-8 * 1000.0 * kG / 4.0), 1.0, 1e-9);
+}
+
 TEST(RecoveryLimit, LimitsTheRecoveryOfInitialOverlap) {
   Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {20, 20, 1}, .fixed = true},
                                            {.center = {0, 0, 0.4999}, .size = {1, 1, 1}}});
