@@ -16,11 +16,11 @@ struct WytheColours {
   const char *line, *section;
 };
 
-/// Of a wythe, from the inside; other than those of the curves of the whole thickness.
-WytheColours colours_of(int wythe) {
-  constexpr WytheColours kColours[] = {
-      {"#7B3F00", "#f1dcc8"}, {"#555555", "#f7f7f7"}, {"#B8860B", "#fbeac2"}, {"#4B0082", "#e6dff0"}};
-  return kColours[wythe % 4];
+/// Of a wythe, by its place in its drum or shell; other than those of the curves of the whole thickness.
+WytheColours colours_of(const Shell& shell, int wythe) {
+  if (shell.innermost[wythe] == wythe) return {"#7B3F00", "#f1dcc8"};
+  if (wythe + 1 == shell.num_wythes || shell.innermost[wythe + 1] == wythe + 1) return {"#B8860B", "#fbeac2"};
+  return {"#555555", "#f7f7f7"};
 }
 constexpr const char* kBonderSection = "#dfe4e8";
 
@@ -60,7 +60,7 @@ void add_section(const Evaluation& e, const ThrustLine& line, bool arch, WytheCu
     out->data += data_block(name, cut[m].outlines);
     out->section += fmt::format(
         "${0} w filledcurves closed fc rgb '{1}' notitle, ${0} w l lc rgb '#999999' lw 0.5 notitle, ", name,
-        cut[m].is_wythe ? colours_of(m).section : kBonderSection);
+        cut[m].is_wythe ? colours_of(e.shell, m).section : kBonderSection);
   }
 }
 
@@ -89,7 +89,7 @@ WytheCurves wythe_curves(const Evaluation& e, const MeridianEvaluation& m, const
                         p.couple_length, p.face_distance});
     }
     const std::string name = fmt::format("wythe_{}", *line.wythe), curves = name + "_graphs";
-    const char* colour = colours_of(*line.wythe).line;
+    const char* colour = colours_of(e.shell, *line.wythe).line;
     out.data += data_block(name, profile) + data_block(curves, graphs);
     out.lines += fmt::format(", ${} w lp lc rgb '{}' lw 1.8 pt 7 ps 0.35 title '{}'", name, colour,
                              gnuplot_text(e.assembly.members[*line.wythe]));

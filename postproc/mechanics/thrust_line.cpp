@@ -19,10 +19,30 @@ namespace {
 /// coefficient up to 10.
 constexpr double kLeastNormalShare = 0.1;
 
+/// Per block, the bed and base joints under and over it.
+struct BedJoints {
+  std::vector<std::vector<const JointWrench*>> under, over;
+
+  explicit BedJoints(const ThrustInput& in)
+      : under(in.assembly->blocks.size()), over(in.assembly->blocks.size()) {
+    for (const JointWrench& joint : in.joints->wrenches) {
+      if (joint.upper < 0) continue;
+      under[joint.upper].push_back(&joint);
+      over[joint.lower].push_back(&joint);
+    }
+  }
+};
+
 /// What one thrust line follows: a meridian, or none in an arch, and a wythe, or none for the whole thickness.
 struct Route {
   std::optional<double> meridian;  // rad
   std::optional<int> wythe;
+  BedJoints beds;
+
+  /// The joints of a block on a bed: on the last one those over it.
+  const std::vector<const JointWrench*>& joints(const Shell& shell, int block, int bed) const {
+    return bed == shell.num_rings() ? beds.over[block] : beds.under[block];
+  }
 };
 
 /// Share of a block's width that lies in the strip.
@@ -121,26 +141,22 @@ bool find_skins(const std::vector<BedFacet>& bed, const Layers& layers, std::opt
 }
 
 /// True if the bed force of a block cannot be shared among its wythes: it rests on, or is, a block through several.
-bool is_undivided(const ThrustInput& in, int block, int bed) {
+bool is_undivided(const ThrustInput& in, const Route& route, int block, int bed) {
   if (in.shell->wythes[block].count() == 1) return false;
   if (bed < in.shell->num_rings() && in.assembly->blocks[block].ring != bed) return true;
-  const bool last = bed == in.shell->num_rings();
-  return std::ranges::any_of(in.joints->wrenches, [&](const JointWrench& joint) {
-    return (last ? joint.lower : joint.upper) == block && !joint.negligible &&
-           wythes_of(*in.assembly, *in.shell, joint).count() > 1;
+  return std::ranges::any_of(route.joints(*in.shell, block, bed), [&](const JointWrench* joint) {
+    return !joint->negligible && wythes_of(*in.assembly, *in.shell, *joint).count() > 1;
   });
 }
 
 /// Wrench across a bed within the width of one block, of the joints in a wythe. The block must not be undivided.
-Wrench wrench_in_wythe(const ThrustInput& in, int block, int bed, int wythe) {
+Wrench wrench_in_wythe(const ThrustInput& in, const Route& route, int block, int bed) {
+  const int wythe = *route.wythe;
   if (in.shell->wythes[block] == WytheRange{wythe, wythe + 1}) return wrench_at_bed(in, block, bed);
   Wrench w;
   w.point = in.assembly->blocks[block].centroid;
-  const bool last = bed == in.shell->num_rings();
-  for (const JointWrench& joint : in.joints->wrenches)
-    if ((last ? joint.lower : joint.upper) == block &&
-        wythes_of(*in.assembly, *in.shell, joint).contains(wythe))
-      w.add(wrench_on(joint, joint.upper));
+  for (const JointWrench* joint : route.joints(*in.shell, block, bed))
+    if (wythes_of(*in.assembly, *in.shell, *joint).contains(wythe)) w.add(wrench_on(*joint, joint->upper));
   return w;
 }
 
@@ -157,13 +173,11 @@ Push push_of(const Wrench& w, const BlockBed& block, const Vec3& onwards) {
 }
 
 /// From the contact points of its joints on the bed.
-Push push_at_points(const ThrustInput& in, int id, int bed, const BlockBed& block, std::optional<int> wythe) {
-  const bool last = bed == in.shell->num_rings();
+Push push_at_points(const ThrustInput& in, const Route& route, int id, int bed, const BlockBed& block) {
   Bearing bearing;
-  for (const JointWrench& joint : in.joints->wrenches)
-    if ((last ? joint.lower : joint.upper) == id &&
-        (!wythe || wythes_of(*in.assembly, *in.shell, joint).contains(*wythe)))
-      add_bearing(joint, *in.joints, *in.contacts, block, &bearing);
+  for (const JointWrench* joint : route.joints(*in.shell, id, bed))
+    if (!route.wythe || wythes_of(*in.assembly, *in.shell, *joint).contains(*route.wythe))
+      add_bearing(*joint, *in.joints, *in.contacts, block, &bearing);
   return {bearing.normal_force, bearing.share()};
 }
 
@@ -173,7 +187,8 @@ Push push_at_points(const ThrustInput& in, int id, int bed, const BlockBed& bloc
 /// The moments of the normal forces thus add up, and a force along the bed, whose position is ill-defined,
 /// has no weight.
 bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route& route, ThrustPoint* point) {
-  const auto& [meridian, wythe] = route;
+  const std::optional<double>& meridian = route.meridian;
+  const std::optional<int>& wythe = route.wythe;
   Wrench sum;
   sum.point = 0.5 * (point->intrados + point->extrados);
   double weighted_position = 0.0, pressing = 0.0;
@@ -181,14 +196,14 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
   for (const auto& [id, block] : blocks_on(in.shell->beds[bed])) {
     const double share = meridian ? overlap(block, *meridian, in.shell->block_width_rad) : 1.0;
     if (share <= 0.0) continue;
-    if (wythe && is_undivided(in, id, bed)) return false;
+    if (wythe && is_undivided(in, route, id, bed)) return false;
     if (wythe && !in.shell->wythes[id].contains(*wythe)) continue;
-    const Wrench w = wythe ? wrench_in_wythe(in, id, bed, *wythe) : wrench_at_bed(in, id, bed);
+    const Wrench w = wythe ? wrench_in_wythe(in, route, id, bed) : wrench_at_bed(in, id, bed);
     if (w.force.norm() == 0.0) continue;
     const double turn = meridian ? *meridian - 0.5 * (block.from + block.to) : 0.0;
     sum.add(share * turned(w, turn));
     const bool stands = bed == in.shell->num_rings() || in.assembly->blocks[id].ring == bed;
-    const auto [normal, at] = in.shell->num_wythes > 1 && stands ? push_at_points(in, id, bed, block, wythe)
+    const auto [normal, at] = in.shell->num_wythes > 1 && stands ? push_at_points(in, route, id, bed, block)
                                                                  : push_of(w, block, onwards);
     weighted_position += share * normal * layers.position(at);
     pressing += share * normal;
@@ -213,8 +228,9 @@ void find_compressed_zone(const ThrustInput& in, int bed, const Layers& layers, 
   for (const auto& [id, block] : blocks_on(in.shell->beds[bed])) {
     if (route.meridian && overlap(block, *route.meridian, in.shell->block_width_rad) <= 0.0) continue;
     if (!last && in.assembly->blocks[id].ring != bed) continue;
-    for (const JointWrench& joint : in.joints->wrenches) {
-      if ((last ? joint.lower : joint.upper) != id || joint.negligible) continue;
+    for (const JointWrench* of_block : route.joints(*in.shell, id, bed)) {
+      const JointWrench& joint = *of_block;
+      if (joint.negligible) continue;
       if (route.wythe && !wythes_of(*in.assembly, *in.shell, joint).contains(*route.wythe)) continue;
       const double least = kLeastShare * std::max(0.0, joint.normal_force) / joint.num_contacts;
       for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
@@ -291,7 +307,7 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
   line.wythe = wythe;
   std::optional<double> meridian;
   if (azimuth_deg) meridian = *azimuth_deg * std::numbers::pi / 180.0;
-  const Route route{meridian, wythe};
+  const Route route{meridian, wythe, BedJoints(input)};
   std::optional<WytheRange> wythes;
   if (wythe) wythes = WytheRange{*wythe, *wythe + 1};
   for (int bed = 0; bed <= input.shell->num_rings(); ++bed) {

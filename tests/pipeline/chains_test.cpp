@@ -7,6 +7,7 @@
 #include "assembly/files/content_hash.hpp"
 #include "generators/generate.hpp"
 #include "postproc/evaluation/evaluation.hpp"
+#include "postproc/tables/mesh_output.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "tests/pipeline/program_run.hpp"
 
@@ -63,6 +64,10 @@ TEST(Chain, CarriesTheThrustOfARingTimesItsRadius) {
   EXPECT_NEAR(e.chains[0].mean / T, 1.0, 1e-6);
   EXPECT_NEAR(e.chains[0].least / T, 1.0, 1e-6);
   EXPECT_NEAR(e.chains[0].greatest / T, 1.0, 1e-6);
+  const Mesh bars = ties_mesh(e);
+  EXPECT_EQ(bars.num_cells(), 16);
+  for (const double force : bars.array<double>(bars.cell_data, "force_N", 1))
+    EXPECT_NEAR(force / T, 1.0, 1e-6);
 }
 
 // A dome whose head joints are aligned has no hoop tension but that of its chain. Without friction at the base the chain holds

@@ -9,7 +9,7 @@
 #include "assembly/case/case_reader.hpp"
 #include "assembly/files/content_hash.hpp"
 #include "generators/generate.hpp"
-#include "postproc/tables/csv_file.hpp"
+#include "postproc/figures/figures.hpp"
 #include "postproc/tables/result_tables.hpp"
 #include "postproc/tables/shell_map.hpp"
 #include "solver/analysis/analysis.hpp"
@@ -196,6 +196,16 @@ TEST(Wythes, TheLinesAndSumsOfTwoShellsAddUpToTheWhole) {
     for (const WytheSum& sum : e.wythes) vertical += sum.ring == ring.ring ? sum.vertical_force : 0.0;
     EXPECT_NEAR(vertical, ring.joint_force.z(), 1e-11 * vertical) << "rounding of the sums";
   }
+  // Blocks between the shells have no skin; their axes follow the thickness of their beds.
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    if (e.shell.wythes[b] == WytheRange{1, 2} && !e.assembly.blocks[b].fixed) {
+      EXPECT_NEAR(e.axes[b].thickness, 0.6, 0.02) << "m, less the depth of the facets";
+      EXPECT_GT(e.last.fields[b].meridional_force, 0.0);
+    }
+  const Figure figure = thrust_figure(e, e.meridians[0]);
+  for (const char* data :
+       {"$cut_0 <<", "$cut_3 <<", "$wythe_0 <<", "$wythe_1_graphs <<", "title 'outer shell'"})
+    EXPECT_NE(figure.commands.find(data), std::string::npos) << data;
   std::vector<std::string> names;
   for (const Table& table : result_tables(e)) names.push_back(table.name);
   for (const char* name :

@@ -97,6 +97,36 @@ inline Frame column_at_rest(const Assembly& a, double g, double load, double x, 
   return frame;
 }
 
+/// The column as two blocks of an inner wythe, half as thick as the shell, and a bonder on top.
+inline Assembly column_with_wythes() {
+  Assembly a = column(3);
+  a.members = {"inner", "outer", "bonder"};
+  a.blocks[3].member = 2;
+  a.vertex_layers.assign(a.vertices.size(), -1);
+  a.vertex_depths.assign(a.vertices.size(), 0.0);
+  for (size_t v = 8; v < a.vertices.size(); ++v) {  // behind the support, eight per block
+    const bool outside = a.vertices[v].y() > 0.0;
+    a.vertex_layers[v] = !outside ? 0 : v < 24 ? 1 : 2;
+    a.vertex_depths[v] = !outside ? 0.0 : v < 24 ? 0.5 : 1.0;
+  }
+  return a;
+}
+
+/// The column at rest, with a tie from block 1 to block 3 under 1234 N.
+inline Frame column_with_a_tie(const Assembly& a) {
+  Frame frame = column_at_rest(a, 9.81, 0.0, 0.5, 0.3);
+  frame.ties.chain = {-1};
+  frame.ties.block_a = {1};
+  frame.ties.block_b = {3};
+  frame.ties.point_a = {Vec3(0.5, 0.4, 0.25)};
+  frame.ties.point_b = {Vec3(0.5, 0.4, 1.25)};
+  frame.ties.force = {1234.0};
+  frame.ties.yield_force = {1e6};
+  frame.ties.yielded = {0.0};
+  frame.ties.strut = {0};
+  return frame;
+}
+
 /// A vault of revolution about z in running bond, without supports. Every block is one hexahedron; beds lie
 /// on cones.
 inline Assembly ring_vault(int rings, int blocks_per_ring, double offset) {

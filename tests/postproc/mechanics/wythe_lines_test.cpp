@@ -247,5 +247,18 @@ TEST(WytheLines, ABonderLiesInAllItsWythes) {
   EXPECT_EQ(wythes_of(scene.assembly, scene.shell, between), (WytheRange{1, 2})) << "that of the higher ring";
 }
 
+TEST(Wythes, AreMovedApartThroughTheThickness) {
+  const Scene scene;
+  const std::vector<Vec3> shifts = shifts_by_wythe(scene.assembly, scene.shell);
+  const auto [inner, outer] = blocks_at(0, 0);
+  const Vec3 outwards = middle(kRadii[1], 0, 0) - middle(kRadii[0], 0, 0);
+  EXPECT_EQ(shifts[0], Vec3::Zero()) << "the support";
+  EXPECT_EQ(shifts[inner], Vec3::Zero());
+  EXPECT_LT((shifts[outer] - outwards.normalized()).norm(), 1e-12);
+  EXPECT_NEAR(shifts[blocks_at(1, 0)[0]].norm(), 0.5, 1e-12) << "a bonder stays between both";
+  EXPECT_EQ(scene.shell.most_wythes(), 2);
+  EXPECT_FALSE(scene.shell.is_alone(0) || scene.shell.is_alone(1));
+}
+
 }  // namespace
 }  // namespace cupola::wythe_lines_test

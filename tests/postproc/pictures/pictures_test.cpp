@@ -30,7 +30,19 @@ TEST(Pictures, ShowBlocksForcesAndMotion) {
     EXPECT_GT(png.size(), 15'000u) << name;
   }
   EXPECT_FALSE(std::filesystem::exists(folder + "/inside.png")) << "a column has no inside";
+  EXPECT_FALSE(std::filesystem::exists(folder + "/exploded.png")) << "it has one wythe";
   EXPECT_FALSE(std::filesystem::exists(folder + "/pictures.log"));
+}
+
+TEST(Pictures, TakeAShellWithWythesApart) {
+  if (!has_xvfb()) GTEST_SKIP() << "Xvfb is not installed";
+  const Assembly a = test::column_with_wythes();
+  const Evaluation e = test::evaluated(a, {test::column_with_a_tie(a)}, test::column_summary(a),
+                                       test::column_case(), test::fresh_folder("results"));
+  const std::string folder = test::fresh_folder("drawn");
+  EXPECT_EQ(draw_pictures(e, {}, folder), "");
+  for (const char* name : {"cut_open", "exploded"})
+    EXPECT_GT(read_text(folder + "/" + name + ".png").size(), 15'000u) << name;
 }
 
 TEST(Pictures, SaysWhatIsMissing) {

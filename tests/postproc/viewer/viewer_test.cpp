@@ -222,29 +222,9 @@ TEST(Viewer, LinksTheViewsOfAComparison) {
   EXPECT_EQ(fmt::format("{}", fmt::join(browser.complaints(), "\n")), "");
 }
 
-/// The column as two blocks of an inner wythe and a bonder on top, with a tie from block 1 to block 3.
 std::string column_with_wythes() {
-  Assembly a = test::column(3);
-  a.members = {"inner", "outer", "bonder"};
-  a.blocks[3].member = 2;
-  a.vertex_layers.assign(a.vertices.size(), -1);
-  a.vertex_depths.assign(a.vertices.size(), 0.0);
-  for (size_t v = 8; v < a.vertices.size(); ++v) {  // behind the support, eight per block
-    const bool outside = a.vertices[v].y() > 0.0;
-    a.vertex_layers[v] = !outside ? 0 : v < 24 ? 1 : 2;
-    a.vertex_depths[v] = !outside ? 0.0 : v < 24 ? 0.5 : 1.0;
-  }
-  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.5, 0.3);
-  frame.ties.chain = {-1};
-  frame.ties.block_a = {1};
-  frame.ties.block_b = {3};
-  frame.ties.point_a = {Vec3(0.5, 0.4, 0.25)};
-  frame.ties.point_b = {Vec3(0.5, 0.4, 1.25)};
-  frame.ties.force = {1234.0};
-  frame.ties.yield_force = {1e6};
-  frame.ties.yielded = {0.0};
-  frame.ties.strut = {0};
-  return test::analysed_column("wythes", {frame}, test::column_summary(a), a);
+  const Assembly a = test::column_with_wythes();
+  return test::analysed_column("wythes", {test::column_with_a_tie(a)}, test::column_summary(a), a);
 }
 
 TEST(Viewer, TakesWythesAwayMovesThemApartAndShowsTies) {
