@@ -77,7 +77,8 @@ BondPattern lay_wall(const Drum& drum, const SurfaceMap& surface, const BondGrid
   try {
     return lay_masonry(drum, surface, grid);
   } catch (const InputError& error) {
-    throw InputError(std::string("in geometry.drum: ") + error.what());
+    const std::string text = error.what();  // begins with "error: "
+    throw InputError("in geometry.drum: " + text.substr(text.find(' ') + 1));
   }
 }
 

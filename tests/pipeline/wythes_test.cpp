@@ -7,27 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "assembly/case/case_reader.hpp"
-#include "assembly/files/content_hash.hpp"
-#include "generators/generate.hpp"
 #include "postproc/figures/figures.hpp"
 #include "postproc/tables/result_tables.hpp"
 #include "postproc/tables/shell_map.hpp"
-#include "solver/analysis/analysis.hpp"
-#include "tests/pipeline/program_run.hpp"
+#include "tests/pipeline/static_run.hpp"
 
 namespace cupola::wythes_test {
 namespace {
-
-Evaluation solve_and_evaluate(const Case& scene, const ProgramFolder& folder) {
-  const Assembly assembly = generate(scene);
-  ResultsWriter writer(folder.file("results"), content_hash(assembly));
-  Summary summary = run_static(scene, assembly,
-                               {[&writer](const Frame& frame) { writer.write_frame(frame); },
-                                [](const std::string&) {}, [](const std::string&) {}});
-  summary.assembly_hash = content_hash(assembly);
-  writer.write_summary(summary);
-  return evaluate(scene, assembly, ResultsReader(folder.file("results"), content_hash(assembly)));
-}
 
 constexpr double kLength = 1.2, kHeight = 0.48, kThickness = 0.12, kUnitWeight = 18000.0;  // m, N/m3
 constexpr int kRings = 8;

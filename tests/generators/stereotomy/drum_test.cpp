@@ -275,7 +275,7 @@ TEST(Drum, SaysThatItsOwnBondDoesNotFit) {
   bond.blocks_per_ring = 3;
   c.geometry.drum->bond = bond;
   const std::string message = message_of(c);
-  EXPECT_TRUE(message.starts_with("in geometry.drum: geometry.bond.spirals = 8: ")) << message;
+  EXPECT_TRUE(message.starts_with("error: in geometry.drum: geometry.bond.spirals = 8: ")) << message;
 }
 
 }  // namespace
