@@ -146,7 +146,8 @@ bool Shell::is_alone(int wythe) const {
 
 int Shell::most_wythes() const {
   int most = 1;
-  for (int wythe = 0; wythe < num_wythes; ++wythe) most = std::max(most, wythe - innermost[wythe] + 1);
+  const int known = static_cast<int>(innermost.size());  // none in models without courses
+  for (int wythe = 0; wythe < known; ++wythe) most = std::max(most, wythe - innermost[wythe] + 1);
   return most;
 }
 
