@@ -18,6 +18,9 @@ namespace {
 constexpr int kCoarsest = 1500;  // blocks; a factorisation takes a few hundredths of a second
 constexpr int kPiece = 4096;     // rows that a sweep visits in sequence
 constexpr double kOperationsPerEntry = 72.0;
+/// Below this mean of the diagonal, where 1 is inertia, a level has no coarser one. In the collapse of 11,568 bricks
+/// (means of 60 to 250) a step then takes 13 % less time, as sweeps need few CG iterations by themselves.
+constexpr double kSoft = 300.0;
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
@@ -33,6 +36,16 @@ std::vector<Mat6> inverse_diagonal(const BlockRows& A) {
     if (!inverse[i].allFinite()) return {};
   }
   return inverse;
+}
+
+/// Whether inertia is so large a share of the whitened matrix that sweeps suffice.
+bool is_soft(const BlockRows& A) {
+  double trace = 0.0;
+  for (int i = 0; i < A.num_rows(); ++i) {
+    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+      if (A.column[k] == i) trace += A.value[k].trace();
+  }
+  return trace < kSoft * 6.0 * A.num_rows();
 }
 
 /// Upper estimate of the largest eigenvalue of D^-1 A: power iteration, plus 10 %.
@@ -158,6 +171,18 @@ void sweep_backward(const SingleBlockRows& A, const std::vector<Mat6>& inverse, 
   });
 }
 
+/// Completes a forward sweep from x = 0 to a symmetric one within each piece: x <- (1 + D^-1 U)^-1 x with the upper triangle U.
+void complete_sweep(const SingleBlockRows& A, const std::vector<Mat6>& inverse, VecX* x) {
+  share_pieces(A, [&](int first, int last) {
+    for (int i = last - 1; i >= first; --i) {
+      Vec6 sum = Vec6::Zero();
+      for (int k = A.start[i + 1] - 1; A.column[k] > i; --k)
+        if (A.column[k] < last) sum.noalias() += A.value[k].cast<double>() * x->segment<6>(6 * A.column[k]);
+      x->segment<6>(6 * i).noalias() -= inverse[i] * sum;
+    }
+  });
+}
+
 }  // namespace
 
 bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
@@ -166,13 +191,22 @@ bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
   constexpr double kLeastCoarsening = 0.7;   // aggregates per block; with more, a level is not worth its cost
   CUPOLA_ASSERT(std::ssize(motions_of_blocks.motion) == pattern.num_blocks());
   levels_.clear();
+  ends_in_sweeps_ = false;
   BlockRows A = both_triangles(pattern, matrix);
   RigidMotions motions = motions_of_blocks;
-  while (A.num_rows() > kCoarsest) {
+  while (A.num_rows() > kCoarsest || is_soft(A)) {
     Level level;
     level.inverse = inverse_diagonal(A);
+    if (level.inverse.empty()) return false;
+    ends_in_sweeps_ = is_soft(A);
+    if (ends_in_sweeps_) {
+      level.A = in_single_precision(A);
+      levels_.push_back(std::move(level));
+      if (levels_.size() == 1) matrix_ = std::move(A);
+      return true;
+    }
     const Aggregates aggregates = aggregate_blocks(A, motions);
-    if (level.inverse.empty() || aggregates.size() > kLeastCoarsening * A.num_rows()) return false;
+    if (aggregates.size() > kLeastCoarsening * A.num_rows()) return false;
     std::optional<AggregateMotions> aggregated = aggregate_motions(motions, aggregates);
     if (!aggregated) return false;
     const double lambda = levels_.empty() ? kFinestEigenvalue : largest_eigenvalue(A, level.inverse);
@@ -214,6 +248,10 @@ VecX Multigrid::cycle(std::size_t index, const VecX& r) const {
   if (index == levels_.size()) return coarsest_.solve(r);
   const Level& level = levels_[index];
   VecX x = sweep_forward(level.A, level.inverse, r);
+  if (ends_in_sweeps_ && index + 1 == levels_.size()) {
+    complete_sweep(level.A, level.inverse, &x);
+    return x;
+  }
   const VecX coarse = cupola::multiply(level.P_transposed, residual_after_sweep(level.A, x));
   x += cupola::multiply(level.P, cycle(index + 1, coarse));
   sweep_backward(level.A, level.inverse, r, &x);

@@ -48,7 +48,8 @@ struct NewtonLoop {
 
   double residual(const PrimalPoint& point) const { return point.largest_block_gradient * residual_scale; }
 
-  bool uses_multigrid() const { return has_many_blocks(p) && !options.lag_factor; }
+  bool uses_multigrid() const { return options.multigrid.value_or(has_many_blocks(p)); }
+  bool lags_factor() const { return options.lag_factor && motions.empty(); }
   int max_iterations() const { return options.max_iterations.value_or(kNewtonIterations); }
   bool all_stick_start(VecX* w);
   bool solve(const BlockMatrix& H, const VecX& rhs, double forcing, VecX* x);
@@ -84,7 +85,7 @@ bool NewtonLoop::solve(const BlockMatrix& H, const VecX& rhs, double forcing, Ve
 double NewtonLoop::forcing(double residual, double last_residual) const {
   constexpr double kLoosest = 0.1, kTwoDigits = 1e-2, kThreeDigits = 1e-3, kShare = 0.3;
   const double required = kShare * options.tolerance / residual;
-  if (options.lag_factor) return std::clamp(required, kThreeDigits, kLoosest);
+  if (lags_factor()) return std::clamp(required, kThreeDigits, kLoosest);
   const double reduction = residual / last_residual;
   return std::clamp(std::max(required, 0.5 * reduction * reduction), kTwoDigits, kLoosest);
 }
@@ -92,7 +93,7 @@ double NewtonLoop::forcing(double residual, double last_residual) const {
 bool NewtonLoop::direction(const PrimalPoint& point, double last_residual, VecX* d) {
   const BlockMatrix H = assemble_hessian(p, graph, stiffnesses(p, point.y));
   const double relative_tolerance = forcing(residual(point), last_residual);
-  if (options.lag_factor &&
+  if (lags_factor() &&
       solver.solve_lagged(graph.pattern, H, -point.gradient, relative_tolerance, d, &summary))
     return true;
   return solve(H, -point.gradient, relative_tolerance, d);

@@ -16,7 +16,9 @@ struct SolveOptions {
   /// m/s, > 0: h |g|, the speed that a free block gains in the step. Makes residuals relative.
   double reference_speed = 0.0;
   std::optional<int> max_iterations;  ///< >= 1; none: the default of the method
-  /// Newton only: keep the factor from step to step as the preconditioner of conjugate gradients, and renew
+  /// Newton only: directions by multigrid-preconditioned conjugate gradients; none: if has_many_blocks() (newton.hpp).
+  std::optional<bool> multigrid;
+  /// Newton without multigrid only: keep the factor from step to step as the preconditioner of conjugate gradients, and renew
   /// it when they need more than 25 iterations. Faster while few contacts change state, at the same accuracy.
   bool lag_factor = false;
 

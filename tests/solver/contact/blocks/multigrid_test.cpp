@@ -17,6 +17,7 @@ namespace cupola::multigrid_test {
 namespace {
 
 const scenes::Joint kJoint{.mu = 0.4};
+constexpr double kMotion = 0.003;  // s, a step in which inertia prevails
 
 struct System {
   ContactProblem problem;
@@ -123,28 +124,32 @@ TEST(Multigrid, NeedsFewIterationsForAnyNumberOfBlocks) {
 }
 
 TEST(Multigrid, IsSymmetricPositiveDefinite) {
-  const System s = system_of(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
-  Multigrid multigrid;
-  ASSERT_TRUE(multigrid.build(s.graph.pattern, s.H, s.motions));
-  const VecX x = some_vector(s.problem.num_blocks()), y = x.reverse();
-  const VecX Bx = multigrid.cycle(x), By = multigrid.cycle(y);
-  EXPECT_GT(x.dot(Bx), 0.0);
-  // Rounding: the condition number of the matrix is 1e8.
-  EXPECT_NEAR(y.dot(Bx), x.dot(By), 1e-8 * std::sqrt(x.dot(Bx) * y.dot(By)));
+  for (const double h : {100.0, kMotion}) {
+    const System s = system_of(scenes::dome({.rings = 80, .blocks_per_ring = 80}, h, kJoint));
+    Multigrid multigrid;
+    ASSERT_TRUE(multigrid.build(s.graph.pattern, s.H, s.motions));
+    const VecX x = some_vector(s.problem.num_blocks()), y = x.reverse();
+    const VecX Bx = multigrid.cycle(x), By = multigrid.cycle(y);
+    EXPECT_GT(x.dot(Bx), 0.0);
+    // Rounding: the condition number of the matrix is 1e8 in statics.
+    EXPECT_NEAR(y.dot(Bx), x.dot(By), 1e-8 * std::sqrt(x.dot(Bx) * y.dot(By))) << h;
+  }
 }
 
 // 6,400 blocks: two pieces of a sweep, and enough work for a second thread in products.
 TEST(Multigrid, GivesTheSameBitsForAnyNumberOfThreads) {
-  const System s = system_of(scenes::dome({.rings = 80, .blocks_per_ring = 80}, 100.0, kJoint));
-  const VecX x = some_vector(s.problem.num_blocks());
-  VecX expected;
-  for (const int threads : {1, 2, 3}) {
-    set_num_threads(threads);
-    Multigrid multigrid;
-    ASSERT_TRUE(multigrid.build(s.graph.pattern, s.H, s.motions));
-    const VecX y = multigrid.cycle(x);
-    if (threads == 1) expected = y;
-    EXPECT_TRUE((y.array() == expected.array()).all()) << threads << " threads";
+  for (const double h : {100.0, kMotion}) {
+    const System s = system_of(scenes::dome({.rings = 80, .blocks_per_ring = 80}, h, kJoint));
+    const VecX x = some_vector(s.problem.num_blocks());
+    VecX expected;
+    for (const int threads : {1, 2, 3}) {
+      set_num_threads(threads);
+      Multigrid multigrid;
+      ASSERT_TRUE(multigrid.build(s.graph.pattern, s.H, s.motions));
+      const VecX y = multigrid.cycle(x);
+      if (threads == 1) expected = y;
+      EXPECT_TRUE((y.array() == expected.array()).all()) << threads << " threads, h = " << h;
+    }
   }
   set_num_threads(1);
 }
@@ -171,17 +176,19 @@ TEST(NewtonDirection, IsZeroForAZeroRightHandSide) {
   EXPECT_EQ(summary.conjugate_gradients, 0);
 }
 
-/// Compares forces found with multigrid to those found with factors (which lag_factor selects).
+/// Compares forces found with multigrid to those found with factors.
 void expect_same_forces(const ContactProblem& problem) {
   SolveOptions options;
   options.tolerance = 1e-10;
   options.reference_speed = scenes::kGravity * problem.h;
+  options.lag_factor = true;  // as in motions
+  options.multigrid = true;
   ContactSolution by_multigrid, by_factor;
   const SolveSummary with = NewtonSolver().solve(problem, options, &by_multigrid);
   ASSERT_EQ(with.ending, SolveEnding::converged) << with.message;
   EXPECT_EQ(with.factorizations, 0);
   EXPECT_GT(with.conjugate_gradients, 0);
-  options.lag_factor = true;
+  options.multigrid = false;
   const SolveSummary without = NewtonSolver().solve(problem, options, &by_factor);
   ASSERT_EQ(without.ending, SolveEnding::converged) << without.message;
   EXPECT_GT(without.factorizations, 0);
@@ -191,6 +198,14 @@ void expect_same_forces(const ContactProblem& problem) {
 
 TEST(NewtonWithMultigrid, FindsTheForcesFoundWithFactors) {
   expect_same_forces(scenes::dome({.rings = 100, .blocks_per_ring = 104, .gap = 1e-5}, 100.0, kJoint));
+}
+
+// A step of a motion, with sweeps alone and, on joints a million times as stiff, with a hierarchy.
+TEST(NewtonWithMultigrid, FindsTheForcesOfAMotionFoundWithFactors) {
+  ContactProblem problem = scenes::dome({.rings = 40, .blocks_per_ring = 40}, kMotion, kJoint);
+  expect_same_forces(problem);
+  for (int i = 0; i < problem.num_contacts(); i += 3) problem.E.segment<3>(3 * i) *= 1e-6;
+  expect_same_forces(problem);
 }
 
 TEST(NewtonWithMultigridSlow, FindsTheForcesInASector) {
