@@ -32,8 +32,9 @@ for shell, chains, drum in itertools.product(sys.argv[3:], (False, True), (False
     if added:
         text += "geometry:\n" + "".join(parts[part] for part in added)
     write(folder / f"{name}.yaml", text)
-    # Chains do not repeat by sectors: their bars begin at different azimuths.
-    sectors = "" if chains else " analysis.cyclic_sectors=8"
+    # Chains do not repeat by sectors: their bars begin at different azimuths. With arches a small contact is missing in some
+    # sectors, which the solver refuses as not symmetric.
+    sectors = "" if chains or shell == "florence_arches" else " analysis.cyclic_sectors=8"
     variants.append(f"{name}_range {name} analysis.type=range analysis.range.quantities=[thrust]{sectors}\n")
     variants.append(f"{name}_friction_limit {name} analysis.type=limit analysis.limit.parameter=friction "
                     "analysis.limit.low=0.03 analysis.limit.high=0.3\n")
