@@ -8,6 +8,7 @@
 #include "assembly/base/error.hpp"
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "tests/pipeline/static_run.hpp"
 
 namespace cupola::cyclic_symmetry_test {
 namespace {
@@ -20,11 +21,7 @@ struct Answer {
 
 Answer solve(const Case& scene, const Assembly& assembly) {
   Answer answer;
-  Frame last;
-  answer.summary = run_static(
-      scene, assembly,
-      {[&](const Frame& frame) { last = frame; }, [](const std::string&) {}, [](const std::string&) {}});
-  EXPECT_EQ(answer.summary.status, Status::stable) << answer.summary.message;
+  const Frame last = solve_to_rest(scene, assembly, &answer.summary);
   for (int i = 0; i < last.contacts.size(); ++i)
     answer.forces.try_emplace({last.contacts.block_a[i], last.contacts.block_b[i]}, Vec3::Zero())
         .first->second += last.contacts.force[i];

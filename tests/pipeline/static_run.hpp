@@ -8,6 +8,16 @@
 
 namespace cupola {
 
+/// The last frame of a static case that must be stable.
+inline Frame solve_to_rest(const Case& scene, const Assembly& assembly, Summary* summary) {
+  Frame last;
+  *summary = run_static(
+      scene, assembly,
+      {[&](const Frame& frame) { last = frame; }, [](const std::string&) {}, [](const std::string&) {}});
+  EXPECT_EQ(summary->status, Status::stable) << summary->message;
+  return last;
+}
+
 /// Generates, solves and evaluates a static case, with its results in the folder.
 inline Evaluation solve_and_evaluate(const Case& scene, const ProgramFolder& folder) {
   const Assembly assembly = generate(scene);

@@ -191,14 +191,14 @@ bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
   constexpr double kLeastCoarsening = 0.7;   // aggregates per block; with more, a level is not worth its cost
   CUPOLA_ASSERT(std::ssize(motions_of_blocks.motion) == pattern.num_blocks());
   levels_.clear();
-  ends_in_sweeps_ = false;
   BlockRows A = both_triangles(pattern, matrix);
   RigidMotions motions = motions_of_blocks;
-  while (A.num_rows() > kCoarsest || is_soft(A)) {
+  while (true) {
+    ends_in_sweeps_ = is_soft(A);
+    if (!ends_in_sweeps_ && A.num_rows() <= kCoarsest) break;
     Level level;
     level.inverse = inverse_diagonal(A);
     if (level.inverse.empty()) return false;
-    ends_in_sweeps_ = is_soft(A);
     if (ends_in_sweeps_) {
       level.A = in_single_precision(A);
       levels_.push_back(std::move(level));
