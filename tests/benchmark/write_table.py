@@ -16,8 +16,12 @@ import sys
 
 
 def context():
-    version = subprocess.run(["git", "describe", "--always", "--dirty"], capture_output=True, text=True,
-                             cwd=os.path.dirname(os.path.abspath(__file__)), check=False).stdout.strip()
+    def git(*arguments):
+        return subprocess.run(["git", "-C", os.path.dirname(os.path.abspath(__file__)), *arguments], capture_output=True,
+                              text=True, check=False).stdout.strip()
+    # Pages and pictures change while their tables are written, and no result depends on them.
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", ":/", ":(top,exclude)*.md", ":(top,exclude)docs/pictures")
+    version = git("describe", "--always") + ("-dirty" if changed else "")
     processor = "unknown processor"
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         for line in file:
