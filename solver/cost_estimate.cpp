@@ -77,6 +77,11 @@ std::optional<double> time_multigrid(const ContactProblem& problem) {
   return cpu_seconds() - started;
 }
 
+/// Whether directions come from conjugate gradients with multigrid, so that no factor is needed.
+bool uses_multigrid(const Case& scene, const ContactProblem& problem) {
+  return method_traits(scene.analysis.method).uses_multigrid && has_many_blocks(problem);
+}
+
 double num_passes(const Case& scene) {
   const bool rigid = scene.joints.compliance.normal == 0.0 || scene.joints.compliance.tangential == 0.0;
   if (rigid) return kPasses;
@@ -118,7 +123,7 @@ void estimate_static(const Case& scene, const Assembly& assembly, const ContactP
   const bool by_stages = scene.analysis.type == AnalysisType::staged && !staged.independent_rings();
   const double solves = num_passes(scene) * (by_stages ? num_stage_solves(staged, assembly)
                                                        : num_equilibria(scene.analysis, assembly.num_rings));
-  if (method_traits(scene.analysis.method).uses_multigrid && has_many_blocks(problem)) {
+  if (uses_multigrid(scene, problem)) {
     std::optional<double> once;
     if (!add_time(
             "a multigrid solve", [&] { once = time_multigrid(problem); }, cost))
@@ -175,7 +180,8 @@ void estimate_motion(const Case& scene, const Assembly& assembly, const ContactP
   if (!cost->basis.empty()) cost->basis += "; ";
   cost->basis += fmt::format("{}, the last of {:.3g} s in {:.3g} s", counted(cost->steps.size(), "step"),
                              last.h, last.seconds);
-  if (!method_traits(scene.analysis.method).uses_factor || !cost->left_out.empty()) return;
+  const bool factors = method_traits(scene.analysis.method).uses_factor && !uses_multigrid(scene, problem);
+  if (!factors || !cost->left_out.empty()) return;
   BlockCholesky factor;
   const double motion = cost->seconds;
   if (add_time(
