@@ -30,8 +30,8 @@ int usual_newton_iterations(const ContactProblem& problem);
 ///
 /// With many blocks (has_many_blocks) multigrid-preconditioned conjugate gradients replace the factorisation.
 /// They serve statics and motions, and reduce the residual to a tenth at first and further as Newton converges (Eisenstat and Walker 1996).
-/// If they fail, the direction comes from a factor. A sweep of BlockDescent follows every step; otherwise a
-/// few contacts that still change their region would delay the whole structure.
+/// If they fail, the direction comes from a factor. A sweep of BlockDescent follows every step with multigrid, and with factors every
+/// step from the tenth on; otherwise a few contacts that still change their region would delay the whole structure.
 ///
 /// The solver object keeps the ordering and the symbolic factor while the same pairs of blocks touch.
 ///
