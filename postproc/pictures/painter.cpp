@@ -163,7 +163,10 @@ void Painter::add_edges(const std::vector<Vec3>& points, const std::vector<std::
   mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -4.0);
   vtkProperty* look = scene_->add(mapper)->GetProperty();
   look->SetColor(0.2, 0.18, 0.16);
+  // As dark as with few blocks: beyond, edges would cover the faces.
+  constexpr double kFewEdges = 100000.0;
   look->SetLineWidth(1.6F);
+  look->SetOpacity(std::min(1.0, kFewEdges / static_cast<double>(cells->GetNumberOfCells())));
   look->LightingOff();
 }
 
