@@ -305,6 +305,8 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.wythes = wythe_sums(e.assembly, e.shell, e.last.joints, e.last.frame.contacts, e.up);
   e.members = member_sums(e.assembly, e.last.joints, e.last.gravity, left_out);
   count_lost_joints(results, &e);
+  if (e.shell.num_rings() == 0 && !scene.postproc.meridians.empty())
+    e.warnings.push_back("thrust lines along postproc.meridians were left out: the blocks have no courses");
   e.meridians = evaluate_meridians(e);
   add_ends_of_thrust(results, &e);
   e.sections = evaluate_sections(e, left_out);

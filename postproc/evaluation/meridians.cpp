@@ -10,7 +10,7 @@
 namespace cupola {
 namespace {
 
-/// A meridian of the case; of an arch its only one.
+/// A meridian of the case; of an arch its only one. Blocks without courses, such as most imported ones, have none.
 struct Drawn {
   std::string name;
   std::optional<double> azimuth_deg;
@@ -18,6 +18,7 @@ struct Drawn {
 
 std::vector<Drawn> drawn_meridians(const Evaluation& e) {
   using enum SurfaceTraits::Meridians;
+  if (e.shell.num_rings() == 0) return {};
   const SurfaceTraits::Meridians drawn = traits_of(e.scene.geometry.surface).meridians;
   std::vector<Drawn> meridians;
   if (drawn == one) meridians.push_back({"arch", std::nullopt});
