@@ -4,7 +4,7 @@
 
 namespace cupola {
 
-/// Version and git revision of this build, e.g. "0.2.0-dev (3f2a9c1)".
+/// Version and git revision of this build, e.g. "0.3.0-dev (3f2a9c1)".
 std::string program_version();
 
 /// Peak resident memory of this process so far, bytes.

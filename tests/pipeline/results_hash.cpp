@@ -1,18 +1,22 @@
-// results_hash: hashes of the numeric results of runs.
+// results_hash: one line per number that runs wrote, to be compared before and after a change.
 //
-// Two versions of the programs with bit-identical results give the same hashes, even if versions, messages,
-// keys, file names or column names differ. Times, memory and numbers of threads are not included.
+//   results_hash out/net > after; diff before after
 //
-//   results_hash out/brunelleschi out/wall_small
+// A line is a hash of all values of one field of a frame, one key of a JSON file or one column of a CSV file: FOLDER/FILE
+// COLUMN HASH. Two versions of the programs with bit-identical results print the same lines. Times, memory, versions,
+// hashes of inputs and sentences are left out. The bits depend on the kernels that OpenBLAS chooses for the processor,
+// which the first line names.
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <map>
 
+#include <cblas.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "assembly/base/error.hpp"
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/content_hash.hpp"
 #include "assembly/files/hash.hpp"
@@ -22,93 +26,120 @@
 namespace {
 
 using namespace cupola;
+namespace fs = std::filesystem;
+
+/// What differs between two runs of one program, or says which program and input it was.
+bool is_left_out(const std::string& key) {
+  for (const char* word : {"seconds", "solve_time", "memory", "threads", "version", "hash", "revision",
+                           "message", "text_files", "warnings"})
+    if (key.find(word) != std::string::npos) return true;
+  return false;
+}
+
+void print(const std::string& place, const std::string& column, const std::string& hash) {
+  fmt::print("{} {} {}\n", place, column, hash);
+}
+
+void print(const std::string& place, const std::string& column, const Hash& hash) {
+  print(place, column, hash.hex());
+}
 
 template <class T>
-std::span<const T> bytes_of(const std::vector<T>& values) {
-  return values;
+void print_array(const std::string& place, const std::string& column, const std::vector<T>& values) {
+  if (!values.empty()) print(place, column, Hash().add(std::span<const T>(values)));
 }
 
-std::string hash_of(const Assembly& assembly) {
-  Hash hash;
-  hash.add(std::string_view(content_hash(assembly)));
-  for (const Part& part : assembly.parts) hash.add(part.volume);
-  for (const Block& block : assembly.blocks)
-    hash.add(block.mass).add(bytes_of<double>({block.centroid.data(), block.centroid.data() + 3}));
-  return hash.hex();
+void print_frame(const std::string& place, const Frame& frame) {
+  const ContactTable& c = frame.contacts;
+  print(place, "time", Hash().add(frame.time));
+  print_array(place, "contacts.joint", c.joint);
+  print_array(place, "contacts.block_a", c.block_a);
+  print_array(place, "contacts.block_b", c.block_b);
+  print_array(place, "contacts.kind", c.kind);
+  print_array(place, "contacts.ring", c.ring);
+  print_array(place, "contacts.point", c.point);
+  print_array(place, "contacts.normal", c.normal);
+  print_array(place, "contacts.gap", c.gap);
+  print_array(place, "contacts.force", c.force);
+  print_array(place, "contacts.normal_force", c.normal_force);
+  print_array(place, "contacts.friction_use", c.friction_use);
+  print_array(place, "contacts.area", c.area);
+  print_array(place, "contacts.slip", c.slip);
+  print_array(place, "contacts.law_violation", c.law_violation);
+  print_array(place, "contacts.strength_use", c.strength_use);
+  print_array(place, "contacts.damage", c.damage);
+  print_array(place, "contacts.crack_opening", c.crack_opening);
+  print_array(place, "blocks.position", frame.blocks.position);
+  print_array(place, "blocks.quaternion", frame.blocks.quaternion_wxyz);
+  print_array(place, "blocks.velocity", frame.blocks.velocity);
+  print_array(place, "blocks.angular_velocity", frame.blocks.angular_velocity);
+  print_array(place, "blocks.displacement", frame.blocks.displacement);
+  print_array(place, "ties.force", frame.ties.force);
+  print_array(place, "ties.yielded", frame.ties.yielded);
 }
 
-std::string hash_of(const Frame& frame) {
-  const ContactTable& contacts = frame.contacts;
-  const BlockTable& blocks = frame.blocks;
-  Hash hash;
-  hash.add(frame.time);
-  for (const auto* values : {&contacts.joint, &contacts.block_a, &contacts.block_b, &contacts.ring})
-    hash.add(bytes_of(*values));
-  hash.add(bytes_of(contacts.kind));
-  for (const auto* values : {&contacts.point, &contacts.normal, &contacts.force}) hash.add(bytes_of(*values));
-  for (const auto* values : {&contacts.gap, &contacts.normal_force, &contacts.friction_use, &contacts.area,
-                             &contacts.slip, &contacts.law_violation})
-    hash.add(bytes_of(*values));
-  for (const auto* values :
-       {&blocks.position, &blocks.velocity, &blocks.angular_velocity, &blocks.displacement})
-    hash.add(bytes_of(*values));
-  hash.add(bytes_of(blocks.quaternion_wxyz));
-  return hash.hex();
+/// Every number, word and truth value of a JSON file by its path; items of lists are counted.
+void print_json(const std::string& place, const fs::path& file) {
+  const nlohmann::json all = nlohmann::json::parse(std::ifstream(file)).flatten();
+  for (const auto& [path, value] : all.items())
+    if (!is_left_out(path)) print(place, path, hash_text(value.dump()));
 }
 
-std::string hash_of(const Summary& s) {
-  Hash hash;
-  hash.add(s.status).add(s.blocks).add(s.free_blocks).add(s.joints).add(s.contacts).add(s.unknowns);
-  for (const Vec3& v : {s.applied_load_N, s.support_reaction_N})
-    hash.add(bytes_of<double>({v.data(), v.data() + 3}));
-  for (const double number : {s.weight_N, s.time_step_s, s.max_penetration_m}) hash.add(number);
-  for (const std::optional<double>& number :
-       {s.momentum_residual, s.equilibrium_residual, s.inertia_share, s.contact_law_residual,
-        s.certified_force_error.value, s.friction_cone_violation, s.max_displacement_m, s.max_speed_m_per_s})
-    hash.add(number.value_or(-1.0));
-  hash.add(s.slipping_contacts).add(s.steps).add(s.iterations);
-  return hash.hex();
-}
-
-/// Hash of the numbers in a table of the postprocessor, in the order of rows and columns. Words are ignored.
-std::string hash_of_table(const std::filesystem::path& file) {
-  Hash hash;
-  std::ifstream lines(file);
-  std::string line, word;
-  std::getline(lines, line);  // column names
-  while (std::getline(lines, line)) {
-    std::istringstream words(line);
-    while (std::getline(words, word, ',')) {
-      char* end = nullptr;
-      const double number = std::strtod(word.c_str(), &end);
-      if (!word.empty() && *end == '\0') hash.add(number);
-    }
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (c == ',' && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += c;
   }
-  return hash.hex();
+  return cells;
 }
 
-std::string hash_of_run(const std::filesystem::path& folder) {
+void print_csv(const std::string& place, const fs::path& file) {
+  std::ifstream lines(file);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> names = cells_of(line);
+  std::vector<std::string> columns(names.size());
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    for (size_t i = 0; i < std::min(cells.size(), columns.size()); ++i) columns[i] += cells[i] + ",";
+  }
+  for (size_t i = 0; i < names.size(); ++i)
+    if (!is_left_out(names[i])) print(place, names[i], hash_text(columns[i]));
+}
+
+void print_run(const std::string& place, const fs::path& folder) {
   const Assembly assembly = read_assembly(folder / "assembly.vtu");
+  print(place, "assembly", content_hash(assembly));
+  Hash mass;
+  for (const Part& part : assembly.parts) mass.add(part.volume);
+  for (const Block& block : assembly.blocks)
+    mass.add(block.mass).add(std::span<const double>(block.centroid.data(), 3));
+  print(place, "masses", mass);
   const ResultsReader results(folder / "results", content_hash(assembly));
-  std::vector<std::string> hashes{hash_of(assembly), hash_of(results.summary())};
   for (int i = 0; i < static_cast<int>(results.times().size()); ++i)
-    hashes.push_back(hash_of(results.read_frame(i)));
-  std::vector<std::string> tables;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "post"))
-    if (entry.path().extension() == ".csv") tables.push_back(hash_of_table(entry.path()));
-  std::sort(tables.begin(), tables.end());  // independent of file names
-  Hash hash;
-  for (const std::string& part : hashes) hash.add(std::string_view(part));
-  for (const std::string& part : tables) hash.add(std::string_view(part));
-  return hash.hex();
+    print_frame(fmt::format("{}/frame_{}", place, i), results.read_frame(i));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   return run_program("results_hash", [&] {
-    for (int i = 1; i < argc; ++i)
-      fmt::print("{}  {}\n", hash_of_run(argv[i]), std::filesystem::path(argv[i]).filename().string());
-    return argc > 1 ? ExitCode::done : ExitCode::bad_input;
+    if (argc != 2) throw InputError("one folder of runs is expected");
+    fmt::print("kernels of OpenBLAS: {}\n", openblas_get_corename());
+    std::map<std::string, fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(argv[1]))
+      if (entry.is_regular_file()) files[fs::relative(entry.path(), argv[1])] = entry.path();
+    for (const auto& [name, path] : files) {
+      if (path.filename() == "assembly.vtu" && fs::exists(path.parent_path() / "results" / "summary.json"))
+        print_run(fs::path(name).parent_path(), path.parent_path());
+      if (path.extension() == ".json") print_json(name, path);
+      if (path.extension() == ".csv") print_csv(name, path);
+    }
+    return ExitCode::done;
   });
 }
