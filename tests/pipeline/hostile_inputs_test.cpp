@@ -56,6 +56,7 @@ f 11 12 16 15
 f 12 9 13 16
 )";
   std::ofstream(folder.file("two.yaml")) << "geometry:\n  import: {file: two.obj, supports: [ground]}\n"
+                                            "joints: {compliance: {per: area}}\n"
                                             "postproc:\n  meridians: [{name: side, azimuth_deg: 0}]\n";
   const std::string outputs = " --assembly a.vtu ";
   ASSERT_EQ(folder.run("cupola-generate two.yaml --output a.vtu").code, 0);
