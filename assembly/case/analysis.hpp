@@ -149,7 +149,7 @@ struct LoadPath {
 
 /// Accuracy requested by name, or as an error of the joint wrenches, instead of a tolerance.
 struct RequestedAccuracy {
-  /// Points on the measured curve of error against time (docs/accuracy.md). `custom` uses the key
+  /// Points on the measured curve of error against time (docs/data/accuracy.md). `custom` uses the key
   /// `tolerance`.
   enum class Preset { custom, draft, standard, reference };
   Preset preset = Preset::custom;

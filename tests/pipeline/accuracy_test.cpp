@@ -90,7 +90,7 @@ TEST(WrenchError, IsNotMetWhereNothingCanBeCertified) {
 class AccuracyPresetSlow : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(AccuracyPresetSlow, StandardIsWithinItsCertifiedErrorAndThatIsSmall) {
-  constexpr double kStandardError = 1e-5;  // documented in docs/accuracy.md
+  constexpr double kStandardError = 1e-5;  // documented in docs/data/accuracy.md
   const StaticRun run = solve(GetParam(), {"analysis.accuracy=standard"});
   ASSERT_EQ(run.summary.status, Status::stable) << run.summary.message;
   const StaticRun exact = solve(GetParam(), {"analysis.accuracy=reference"});
