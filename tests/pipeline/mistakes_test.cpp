@@ -1,4 +1,4 @@
-// The mistakes of docs/getting-started.md, repeated as they are printed there: each ```yaml block is a file, named in
+// The mistakes of docs/mistakes.md, repeated as they are printed there: each ```yaml block is a file, named in
 // its first line, each ```console block holds commands and what they print.
 
 #include <cstdlib>
@@ -18,12 +18,6 @@ struct Typed {
 struct Fence {
   std::string language, text;
 };
-
-std::string between(const std::string& text, const std::string& start, const std::string& end) {
-  const size_t at = text.find(start);
-  if (at == std::string::npos) return "";
-  return text.substr(at, text.find(end, at + start.size()) - at);
-}
 
 /// The parts of a text that begin with `start`.
 std::vector<std::string> parts_of(const std::string& text, const std::string& start) {
@@ -97,9 +91,8 @@ void write_file(const ProgramFolder& folder, const std::string& text) {
 TEST(Mistakes, TheDocumentShowsWhatTheProgramsPrint) {
   ::unsetenv("MAKEFLAGS");  // of a make that runs the tests
   ::unsetenv("MAKELEVEL");
-  const std::string document = slurp(CUPOLA_SOURCE_DIR "/docs/getting-started.md");
-  const std::vector<std::string> mistakes =
-      parts_of(between(document, "\n## The ten most likely mistakes\n", "\n## "), "\n### ");
+  const std::string document = slurp(CUPOLA_SOURCE_DIR "/docs/mistakes.md");
+  const std::vector<std::string> mistakes = parts_of(document, "\n## ");
   ASSERT_EQ(mistakes.size(), 10u);
   const ProgramFolder folder;
   std::filesystem::create_directory_symlink(CUPOLA_SOURCE_DIR, folder.file("cupola"));
