@@ -152,7 +152,7 @@ std::vector<std::pair<Anchor, Anchor>> clamps(const Level& level, const std::vec
   return pairs;
 }
 
-std::vector<Anchor> polygon(const Level& level, const Chain& chain, const Shell& shell,
+std::vector<Anchor> polygon(const Level& level, const Chain& chain, const Storey& shell,
                             const BlockFinder& blocks) {
   const SurfaceMap& surface = shell.surface;
   std::vector<Anchor> anchors;
@@ -188,7 +188,7 @@ BuiltTie built_tie(const std::pair<Anchor, Anchor>& ends, const Chain& chain, in
 
 }  // namespace
 
-void add_chains(const std::vector<Chain>& chains, int refinement, const Shell& shell, Assembly* assembly) {
+void add_chains(const std::vector<Chain>& chains, int refinement, const Storey& shell, Assembly* assembly) {
   if (chains.empty()) return;
   const BlockFinder blocks(*assembly);
   for (size_t c = 0; c < chains.size(); ++c) {

@@ -13,6 +13,6 @@ namespace cupola {
 ///
 /// Throws InputError for a level outside the masonry, for anchors in a cavity, for clamps longer than blocks, and for two ends of a
 /// tie in one block.
-void add_chains(const std::vector<Chain>& chains, int refinement, const Shell& shell, Assembly* assembly);
+void add_chains(const std::vector<Chain>& chains, int refinement, const Storey& shell, Assembly* assembly);
 
 }  // namespace cupola

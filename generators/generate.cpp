@@ -28,7 +28,7 @@ CutOptions cut_options(const Case& input) {
 
 /// Volume of the smooth shell, m3; none if parts of the grid are empty or the thickness varies over the height, whose
 /// breaks no extrapolation follows.
-std::optional<double> smooth_volume(const Shell& shell) {
+std::optional<double> smooth_volume(const Storey& shell) {
   const SurfaceMap& surface = shell.surface;
   if (std::ranges::count(shell.bond.block_of, kVoid) > 0 ||
       !std::ranges::all_of(surface.wythes, &Thickness::constant))
@@ -37,9 +37,9 @@ std::optional<double> smooth_volume(const Shell& shell) {
 }
 
 /// m3, of all storeys; none if that of one is not known.
-std::optional<double> smooth_volume(const std::vector<Shell>& storeys) {
+std::optional<double> smooth_volume(const std::vector<Storey>& storeys) {
   std::optional<double> sum = 0.0;
-  for (const Shell& storey : storeys) {
+  for (const Storey& storey : storeys) {
     const std::optional<double> volume = smooth_volume(storey);
     if (!volume) return std::nullopt;
     *sum += *volume;
@@ -60,7 +60,7 @@ Assembly with_report(Assembly assembly, const GenerateReport& report, const Case
 }  // namespace
 
 Assembly cut_assembly(const Case& input) {
-  const std::vector<Shell> storeys = make_storeys(input.geometry);
+  const std::vector<Storey> storeys = make_storeys(input.geometry);
   Assembly assembly = cut_blocks(storeys, cut_options(input));
   add_chains(input.geometry.chains, refinement_of(*finest_bond(input.geometry)), storeys.back(), &assembly);
   assembly.title = input.title;

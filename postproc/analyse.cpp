@@ -27,10 +27,6 @@
 namespace cupola {
 namespace {
 
-std::string in_folder(const std::string& folder, const std::string& name) {
-  return (std::filesystem::path(folder) / name).string();
-}
-
 /// Removes what an earlier run wrote for parts that this one may not have.
 void remove_earlier_output(const std::string& folder) {
   std::error_code ignored;
@@ -144,7 +140,7 @@ Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const st
 }
 
 void write_report(const AnalyseRequest& request, const std::vector<Table>& tables,
-                  const std::optional<Construction>& construction, const Drawn& drawn,
+                  const std::optional<StageReport>& construction, const Drawn& drawn,
                   const std::vector<HistoryRow>& history, const std::string& run_yaml, const Evaluation& e) {
   const std::string& folder = request.output_folder;
   write_text_atomically(in_folder(folder, "report.html"),
@@ -195,7 +191,7 @@ std::optional<CsvFile> readable_table(const ResultsReader& results, const std::s
 }
 
 /// The stages of a staged run.
-std::optional<Construction> read_construction(const ResultsReader& results, Evaluation* e) {
+std::optional<StageReport> read_construction(const ResultsReader& results, Evaluation* e) {
   if (e->summary.analysis != AnalysisType::staged) return std::nullopt;
   if (const auto rings = readable_table(results, "stages.csv", e)) return rings_laid(*e, *rings);
   if (const auto stages = readable_table(results, "construction.csv", e))
@@ -224,7 +220,7 @@ ExitCode analyse(const AnalyseRequest& request) {
   remove_earlier_output(folder);
   std::vector<Table> tables = result_tables(e);
   std::optional<Figure> own;
-  const std::optional<Construction> construction = read_construction(run.results, &e);
+  const std::optional<StageReport> construction = read_construction(run.results, &e);
   if (construction) {
     tables.insert(tables.begin(), construction->table);
     own = construction->figure;

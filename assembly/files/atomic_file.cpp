@@ -56,6 +56,10 @@ void write_text_atomically(const std::string& path, const std::string& text) {
   });
 }
 
+std::string in_folder(const std::string& folder, const std::string& name) {
+  return (std::filesystem::path(folder) / name).string();
+}
+
 void make_folder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);

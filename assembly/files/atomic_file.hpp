@@ -13,6 +13,9 @@ void write_atomically(const std::string& path,
                       const std::function<bool(const std::string& side_path)>& write);
 void write_text_atomically(const std::string& path, const std::string& text);
 
+/// The path of a file in a folder.
+std::string in_folder(const std::string& folder, const std::string& name);
+
 /// Creates a folder and its parents. Throws SystemError with the path.
 void make_folder(const std::string& path);
 

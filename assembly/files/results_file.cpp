@@ -18,10 +18,6 @@ namespace {
 
 constexpr std::int32_t kFrameFormatVersion = 2;
 
-std::string in_folder(const std::string& folder, const std::string& name) {
-  return (std::filesystem::path(folder) / name).string();
-}
-
 std::string frame_file(const char* what, int index) {
   return fmt::format("{}_{:04}.vtp", what, index);
 }

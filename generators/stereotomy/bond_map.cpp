@@ -53,7 +53,7 @@ void draw_block(const CellGrid& grid, int block, const Scale& scale, std::string
   }
 }
 
-double panel_height(const Shell& storey) {
+double panel_height(const Storey& storey) {
   const int rows = storey.surface.num_rows;
   return rows * std::clamp(800.0 / rows, 2.0, 60.0);
 }
@@ -81,9 +81,9 @@ void draw_wythe(const CellGrid& grid, int wythe, const std::string& name, double
 std::string bond_map_svg(const Geometry& geometry) {
   if (geometry.imported)
     throw InputError("--bond-map: not available for imported blocks, which have no bond");
-  const std::vector<Shell> storeys = make_storeys(geometry);
+  const std::vector<Storey> storeys = make_storeys(geometry);
   double height = kMargin;
-  for (const Shell& storey : storeys) height += storey.bond.num_wythes * (panel_height(storey) + kMargin);
+  for (const Storey& storey : storeys) height += storey.bond.num_wythes * (panel_height(storey) + kMargin);
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} "
       "{1:.0f}'>\n"
@@ -92,7 +92,7 @@ std::string bond_map_svg(const Geometry& geometry) {
       "<rect width='100%' height='100%' fill='white'/>\n",
       kWidth, height, kMargin, kWidth - 2.0 * kMargin, height - 2.0 * kMargin);
   double bottom = height - kMargin;
-  for (const Shell& storey : storeys) {
+  for (const Storey& storey : storeys) {
     const CellGrid grid = make_cell_grid(storey.surface, storey.bond, storey.stage_rings);
     for (int wythe = 0; wythe < grid.num_wythes; ++wythe) {
       const std::string name = storeys.size() > 1 || grid.num_wythes > 1 ? storey.members[wythe] : "";

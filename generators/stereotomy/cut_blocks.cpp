@@ -74,7 +74,7 @@ void drop_unused_vertices(Assembly* assembly) {
 }
 
 /// Appends the blocks of a storey, with the supports between which it stands.
-void add_storey(const Shell& shell, const CutOptions& options, Assembly* assembly) {
+void add_storey(const Storey& shell, const CutOptions& options, Assembly* assembly) {
   const SurfaceMap& surface = shell.surface;
   const std::vector<double>& cuts = shell.bond.cuts;
   const CellGrid grid = make_cell_grid(surface, shell.bond, shell.stage_rings);
@@ -100,9 +100,9 @@ void add_storey(const Shell& shell, const CutOptions& options, Assembly* assembl
 
 }  // namespace
 
-Assembly cut_blocks(std::span<const Shell> storeys, const CutOptions& options) {
+Assembly cut_blocks(std::span<const Storey> storeys, const CutOptions& options) {
   Assembly assembly;
-  for (const Shell& storey : storeys) add_storey(storey, options, &assembly);
+  for (const Storey& storey : storeys) add_storey(storey, options, &assembly);
   drop_unused_vertices(&assembly);
   CUPOLA_ASSERT(std::ranges::all_of(assembly.vertices, [](const Vec3& v) { return v.allFinite(); }));
   compute_mass_properties(&assembly);

@@ -23,6 +23,6 @@ struct CutOptions {
 /// Block 0 is the fixed support, or the first of them where the base is divided; an arch has a second one, the last block. A window with held ends has three: the
 /// end at abscissa 0, the base and the other end. The others follow ring by ring in
 /// slot order, so that the lower block of every bed joint has the lower number.
-Assembly cut_blocks(std::span<const Shell> storeys, const CutOptions& options);
+Assembly cut_blocks(std::span<const Storey> storeys, const CutOptions& options);
 
 }  // namespace cupola

@@ -91,7 +91,7 @@ std::vector<std::string> names_of_members(const Drum& drum) {
 
 }  // namespace
 
-Shell make_drum(const Drum& drum, const SurfaceMap& shell) {
+Storey make_drum(const Drum& drum, const SurfaceMap& shell) {
   const int courses = rings_of(*finest_bond(drum));
   SurfaceMap surface = drum_surface(
       shell, drum.height,

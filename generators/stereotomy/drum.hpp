@@ -8,6 +8,6 @@ namespace cupola {
 /// `drum` and the name of a wythe or group of bonders, and `drum lintel`.
 ///
 /// Throws InputError if an opening and its lintel reach beyond a corner of the plan or into the opening beside it.
-Shell make_drum(const Drum& drum, const SurfaceMap& shell);
+Storey make_drum(const Drum& drum, const SurfaceMap& shell);
 
 }  // namespace cupola

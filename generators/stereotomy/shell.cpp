@@ -56,7 +56,7 @@ BondPattern lay_masonry(const Masonry& masonry, const SurfaceMap& surface, const
                                 : make_wythe_bond(masonry, grid, course_heights(surface));
 }
 
-Shell make_shell(const Geometry& geometry) {
+Storey make_shell(const Geometry& geometry) {
   const Bond& bond_of_courses = *finest_bond(geometry);
   const int courses = rings_of(bond_of_courses);
   const int stage = geometry.stage ? geometry.stage->rings * refinement_of(bond_of_courses) : 0;
@@ -82,8 +82,8 @@ Shell make_shell(const Geometry& geometry) {
   return {std::move(surface), std::move(bond), std::move(members), stage};
 }
 
-std::vector<Shell> make_storeys(const Geometry& geometry) {
-  std::vector<Shell> storeys{make_shell(geometry)};
+std::vector<Storey> make_storeys(const Geometry& geometry) {
+  std::vector<Storey> storeys{make_shell(geometry)};
   if (geometry.drum) storeys.insert(storeys.begin(), make_drum(*geometry.drum, storeys.front().surface));
   return storeys;
 }

@@ -7,7 +7,7 @@
 namespace cupola {
 
 /// A surface and the bond laid on it.
-struct Shell {
+struct Storey {
   SurfaceMap surface;
   BondPattern bond;  ///< with the support of a window as blocks of its own, below and beside the courses
   std::vector<std::string> members;  ///< of the bond's labels: wythes and groups of bonders; none: one wythe
@@ -16,10 +16,10 @@ struct Shell {
 
 /// The shell of a case, without the drum on which it stands. Throws InputError if surface, bond and window do not fit each
 /// other.
-Shell make_shell(const Geometry& geometry);
+Storey make_shell(const Geometry& geometry);
 
 /// The drum, if there is one, and the shell, from below.
-std::vector<Shell> make_storeys(const Geometry& geometry);
+std::vector<Storey> make_storeys(const Geometry& geometry);
 
 std::vector<Thickness> thicknesses(const std::vector<Wythe>& wythes);
 /// Lays the bond or the wythes of a surface.

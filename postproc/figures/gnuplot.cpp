@@ -12,10 +12,6 @@
 namespace cupola {
 namespace {
 
-std::string in_folder(const std::string& folder, const std::string& name) {
-  return (std::filesystem::path(folder) / name).string();
-}
-
 /// A temporary file, deleted at the end of its scope.
 struct TemporaryFile {
   std::string path;

@@ -5,14 +5,10 @@
 
 #include <Eigen/Geometry>
 
+#include "postproc/mechanics/ring_sums.hpp"
+
 namespace cupola {
-namespace {
-
-int ring_or_support(const Block& block) {
-  return block.fixed ? -1 : block.ring;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches& joints, const Vec3& gravity,
                                    const std::vector<bool>& left_out) {
@@ -21,7 +17,7 @@ std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches
   const double g = gravity.norm();
   const Vec3 up = g > 0.0 ? Vec3(-gravity / g) : Vec3(Vec3::UnitZ());
   int num_rings = 0;
-  for (const Block& block : assembly.blocks) num_rings = std::max(num_rings, ring_or_support(block) + 1);
+  for (const Block& block : assembly.blocks) num_rings = std::max(num_rings, ring_above_support(block) + 1);
   std::vector<MemberSum> sums(M * static_cast<size_t>(num_rings));
   const auto at = [&](int ring, int member) -> MemberSum& {
     return sums[static_cast<size_t>(ring) * M + static_cast<size_t>(member)];
@@ -34,8 +30,8 @@ std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches
     sum.weight += block.mass * g;
   }
   for (const JointWrench& joint : joints.wrenches) {
-    const int ring_a = ring_or_support(assembly.blocks[joint.block_a]);
-    const int ring_b = ring_or_support(assembly.blocks[joint.block_b]);
+    const int ring_a = ring_above_support(assembly.blocks[joint.block_a]);
+    const int ring_b = ring_above_support(assembly.blocks[joint.block_b]);
     if (ring_a == ring_b) continue;
     const int upper = ring_a > ring_b ? joint.block_a : joint.block_b;
     const Vec3 force = wrench_on(joint, upper).force;

@@ -7,12 +7,12 @@
 #include "postproc/mechanics/chain_forces.hpp"
 
 namespace cupola {
-namespace {
 
-int first_ring(const Assembly& assembly, int block) {
-  const Block& b = assembly.blocks[block];
-  return b.fixed ? -1 : std::max(b.ring, 0);
+int ring_above_support(const Block& block) {
+  return block.fixed ? -1 : std::max(block.ring, 0);
 }
+
+namespace {
 
 /// Turns the load of each ring into the load above each cut.
 void accumulate_downwards(std::vector<RingSum>* rings) {
@@ -26,13 +26,13 @@ void add_loads(const Assembly& assembly, const Vec3& gravity, const std::vector<
   };
   for (size_t b = 0; b < assembly.blocks.size(); ++b) {
     if (!counts(b)) continue;
-    RingSum& ring = (*rings)[first_ring(assembly, static_cast<int>(b))];
+    RingSum& ring = (*rings)[ring_above_support(assembly.blocks[b])];
     ring.load_above += assembly.blocks[b].mass * gravity;
     ++ring.blocks;
   }
   for (const PointForce& load : loads) {
     if (!counts(static_cast<size_t>(load.block))) continue;
-    (*rings)[first_ring(assembly, load.block)].load_above += load.force;
+    (*rings)[ring_above_support(assembly.blocks[load.block])].load_above += load.force;
   }
   accumulate_downwards(rings);
 }
@@ -43,7 +43,8 @@ void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, con
                       std::vector<RingSum>* rings) {
   std::vector<Vec3> change(rings->size() + 1, Vec3::Zero());
   const auto add = [&](int block_a, int block_b, const Vec3& force_on_b) {
-    const int a = first_ring(assembly, block_a), b = first_ring(assembly, block_b);
+    const int a = ring_above_support(assembly.blocks[block_a]),
+              b = ring_above_support(assembly.blocks[block_b]);
     if (a == b) return;
     const Vec3 on_upper = b > a ? force_on_b : Vec3(-force_on_b);
     change[std::min(a, b) + 1] += on_upper;
@@ -67,7 +68,7 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
     if (joint.upper < 0 || assembly.blocks[joint.upper].fixed) continue;
     normal_force[joint.upper] += joint.normal_force;
     area[joint.upper] += joint.patch.area;
-    const int k = first_ring(assembly, joint.upper);
+    const int k = ring_above_support(assembly.blocks[joint.upper]);
     RingSum& ring = (*rings)[k];
     ring.height += joint.patch.area * joint.patch.centroid.z();
     ring_area[k] += joint.patch.area;
@@ -79,7 +80,7 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
   std::vector<std::vector<double>> resultants(rings->size()), pressures(rings->size());
   for (size_t b = 0; b < from_below.size(); ++b) {
     if (assembly.blocks[b].fixed || area[b] <= 0.0) continue;
-    const int k = first_ring(assembly, static_cast<int>(b));
+    const int k = ring_above_support(assembly.blocks[b]);
     resultants[k].push_back(from_below[b].force.norm());
     pressures[k].push_back(normal_force[b] / area[b]);
     RingSum& ring = (*rings)[k];

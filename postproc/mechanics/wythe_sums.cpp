@@ -15,10 +15,6 @@
 namespace cupola {
 namespace {
 
-int ring_above_support(const Block& block) {
-  return block.fixed ? -1 : std::max(block.ring, 0);
-}
-
 /// A sum and what its means are computed from.
 struct Collected {
   WytheSum sum;

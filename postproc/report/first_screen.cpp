@@ -149,7 +149,7 @@ std::vector<KeyNumber> key_numbers(const Evaluation& e, const std::vector<Histor
 }
 
 std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& history,
-                         const Construction* construction, const std::string& viewer) {
+                         const StageReport* construction, const std::string& viewer) {
   const Summary& s = e.summary;
   std::string out;
   for (const std::string& warning : notices(e))

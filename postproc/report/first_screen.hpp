@@ -23,6 +23,6 @@ std::vector<KeyNumber> key_numbers(const Evaluation& evaluation, const std::vect
 /// What answers the first questions, as HTML: warnings, verdict, key numbers, 3-D view, worst joints. `construction`: the stages
 /// of a staged run, else null.
 std::string first_screen(const Evaluation& evaluation, const std::vector<HistoryRow>& history,
-                         const Construction* construction, const std::string& viewer);
+                         const StageReport* construction, const std::string& viewer);
 
 }  // namespace cupola

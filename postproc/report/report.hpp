@@ -15,9 +15,9 @@ namespace cupola {
 struct ReportInput {
   const Evaluation* evaluation = nullptr;
   std::vector<Table> tables;
-  std::optional<Construction> construction;  ///< of a staged run
-  std::vector<HistoryRow> history;           ///< of a dynamic run
-  std::string viewer;                        ///< the 3-D view, as HTML; may be empty
+  std::optional<StageReport> construction;  ///< of a staged run
+  std::vector<HistoryRow> history;          ///< of a dynamic run
+  std::string viewer;                       ///< the 3-D view, as HTML; may be empty
   std::vector<Figure> figures;
   std::string figure_folder;   ///< folder of the figure files
   std::string picture_folder;  ///< of the standard views; "" if none were drawn

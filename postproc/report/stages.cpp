@@ -91,10 +91,10 @@ std::vector<Table::Column> construction_columns(Least least) {
 
 }  // namespace
 
-Construction rings_laid(const Evaluation& e, const CsvFile& csv) {
+StageReport rings_laid(const Evaluation& e, const CsvFile& csv) {
   const size_t ring = csv.column("ring"), blocks = csv.column("blocks"), verdict = csv.column("verdict");
   const size_t stands = csv.column("critical_stands"), moves = csv.column("critical_moves");
-  Construction out;
+  StageReport out;
   Table& t = out.table = {"stages", "Construction, ring by ring", {}, {}};
   t.columns = {
       {"ring", "", "the ring just laid"},
@@ -130,13 +130,13 @@ Construction rings_laid(const Evaluation& e, const CsvFile& csv) {
   return out;
 }
 
-Construction blocks_laid(Least least, const CsvFile& csv, const std::optional<CsvFile>& failures) {
+StageReport blocks_laid(Least least, const CsvFile& csv, const std::optional<CsvFile>& failures) {
   const size_t number = csv.column("stage"), ring = csv.column("ring"), laid = csv.column("laid");
   const size_t blocks = csv.column("blocks"), verdict = csv.column("verdict");
   const size_t stands = csv.column("least_stands"), moves = csv.column("least_moves");
   const size_t squeeze = csv.column("head_squeeze_m"), displacement = csv.column("displacement_m");
   const bool cohesion = least == Least::cohesion;
-  Construction out;
+  StageReport out;
   out.table = {"stages", "Construction, stage by stage", construction_columns(least), {}};
   std::vector<std::vector<double>> points;
   for (size_t row = 0; row < csv.rows.size(); ++row) {

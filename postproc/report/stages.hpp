@@ -11,7 +11,7 @@
 namespace cupola {
 
 /// What a staged run shows of its stages.
-struct Construction {
+struct StageReport {
   Table table;  ///< one row per stage
   std::optional<Figure>
       figure;         ///< what fresh mortar must provide; none if no stage needs it, or none was searched
@@ -20,11 +20,11 @@ struct Construction {
 };
 
 /// Of rings laid one by one from unloaded joints (results/stages.csv), with the heights of the rings.
-Construction rings_laid(const Evaluation& evaluation, const CsvFile& stages);
+StageReport rings_laid(const Evaluation& evaluation, const CsvFile& stages);
 
 /// Of any other construction (results/construction.csv), with what moves (results/failures.csv; none if nothing does).
 /// `least`: the property of the fresh mortar that was sought.
-Construction blocks_laid(StagedConstruction::Least least, const CsvFile& stages,
-                         const std::optional<CsvFile>& failures);
+StageReport blocks_laid(StagedConstruction::Least least, const CsvFile& stages,
+                        const std::optional<CsvFile>& failures);
 
 }  // namespace cupola

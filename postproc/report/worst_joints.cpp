@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "postproc/figures/plot_style.hpp"
-#include "postproc/mechanics/joint_motion.hpp"
+#include "postproc/mechanics/joint_speeds.hpp"
 #include "postproc/report/first_screen.hpp"
 #include "postproc/report/html.hpp"
 
@@ -114,13 +114,13 @@ std::optional<MovingJoints> moving_joints(const Evaluation& e) {
   if (mechanism && fastest == 0.0) return std::nullopt;
   MovingJoints out;
   for (size_t j = 0; j < joints.size(); ++j) {
-    JointMotion motion{joints[j].opening, joints[j].slip};
+    double opening = joints[j].opening, sliding = joints[j].slip;
     if (mechanism) {
-      motion = joint_motion(e.assembly, e.last.frame, e.last.joints, j);
-      motion.opening /= fastest, motion.sliding /= fastest;
+      const JointSpeeds speeds = joint_speeds(e.assembly, e.last.frame, e.last.joints, j);
+      opening = speeds.opening / fastest, sliding = speeds.sliding / fastest;
     }
-    if (motion.sliding > out.sliding.motion) out.sliding = {j, motion.sliding};
-    if (motion.opening > out.opening.motion) out.opening = {j, motion.opening};
+    if (sliding > out.sliding.motion) out.sliding = {j, sliding};
+    if (opening > out.opening.motion) out.opening = {j, opening};
   }
   return out;
 }

@@ -37,8 +37,7 @@ bool shows_nothing(const Model& model, const StaticSolution& solution) {
 /// rule. Rigid contacts are left out, because their forces are not unique.
 bool slips_nowhere(const StaticSolution& solution, const FlowRule& law, double acceleration) {
   const StepProblem& step = solution.step;
-  for (int i = 0; i < step.problem.num_contacts(); ++i)
-    if (is_rigid(contact_law(step.problem, i))) return false;
+  if (first_rigid_contact(step.problem)) return false;
   return compute_residuals(step.problem, solution.step_solution, solution.h * acceleration, law)
              .contact_law <= kOutcomeTolerance;
 }

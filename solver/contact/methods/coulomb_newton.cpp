@@ -133,13 +133,6 @@ bool solve_subproblem(const CoulombSubproblem& sub, double tolerance, const Solv
   return largest_block(F) <= tolerance;
 }
 
-/// True if some compliance that the law uses is zero.
-bool has_rigid_contacts(const ContactProblem& p) {
-  for (int i = 0; i < p.num_contacts(); ++i)
-    if (is_rigid(contact_law(p, i))) return true;
-  return false;
-}
-
 /// The best solution so far, judged by residuals of the given problem.
 struct BestSolution {
   const ContactProblem& problem;
@@ -177,7 +170,7 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
   const ContactGraph graph = contact_graph(problem);
   CoulombSubproblem sub{white.problem, graph, options.law.dilatancy, VecX::Zero(problem.num_contacts()),
                         VecX::Zero(problem.b.size())};
-  const bool rigid = has_rigid_contacts(problem);
+  const bool rigid = first_rigid_contact(problem).has_value();
   const double scale = root_mean_mass(problem) * options.reference_speed;
   const double tolerance = kShare * options.tolerance * scale;
   BestSolution best{problem, white, options, solution};

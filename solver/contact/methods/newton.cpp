@@ -20,15 +20,6 @@ namespace cupola {
 
 namespace {
 
-/// Message about the first contact of zero compliance, or an empty string.
-std::string rigid_contact(const ContactProblem& p) {
-  for (int i = 0; i < p.num_contacts(); ++i) {
-    if (!is_rigid(contact_law(p, i))) continue;
-    return fmt::format("contact {} has zero compliance: Newton's method requires a compliance above zero", i);
-  }
-  return {};
-}
-
 std::vector<Mat3> stiffnesses(const ContactProblem& p, const VecX& y) {
   std::vector<Mat3> G(p.num_contacts());
   for (int i = 0; i < p.num_contacts(); ++i) G[i] = contact_stiffness(contact_law(p, i), y.segment<3>(3 * i));
@@ -224,7 +215,9 @@ SolveSummary NewtonSolver::solve(const ContactProblem& problem, const SolveOptio
   const double start = wall_seconds();
   options.validate();
   if (const std::string defect = problem.defect(); !defect.empty()) return failed(defect);
-  if (const std::string rigid = rigid_contact(problem); !rigid.empty()) return failed(rigid);
+  if (const std::optional<int> rigid = first_rigid_contact(problem))
+    return failed(fmt::format(
+        "contact {} has zero compliance: Newton's method requires a compliance above zero", *rigid));
 
   const WhitenedProblem white = whiten(problem);
   SolveSummary summary;

@@ -19,13 +19,6 @@ constexpr double kProximalShare = 1e-4;
 constexpr double kLargestRoundingResidual = 1e-2;  // a larger momentum residual is not due to rounding
 constexpr int kRescueOuterIterations = 40;
 
-bool has_rigid_contact(const ContactProblem& p) {
-  for (int i = 0; i < p.num_contacts(); ++i) {
-    if (is_rigid(contact_law(p, i))) return true;
-  }
-  return false;
-}
-
 /// Blocks at rest under the impulses of the guess, if their residuals are those of a solution. Many impulses of rigid contacts balance
 /// the same loads, so that any others would be no better. The momentum residual alone excludes most motions, at a tenth of the cost.
 std::optional<SolveSummary> keep_at_rest(const ContactProblem& problem, const ContactSolverOptions& options,
@@ -52,7 +45,7 @@ std::optional<SolveSummary> keep_at_rest(const ContactProblem& problem, const Co
 
 SolveSummary ContactSolver::solve(const ContactProblem& problem, const ContactSolverOptions& options,
                                   ContactSolution* solution) {
-  const bool rigid = has_rigid_contact(problem);
+  const bool rigid = first_rigid_contact(problem).has_value();
   if (rigid && options.try_rest) {
     options.validate();
     if (problem.defect().empty())

@@ -51,6 +51,12 @@ Evaluation evaluate(const ContactLaw& law, const Vec3& y) {
 
 }  // namespace
 
+std::optional<int> first_rigid_contact(const ContactProblem& problem) {
+  for (int i = 0; i < problem.num_contacts(); ++i)
+    if (is_rigid(contact_law(problem, i))) return i;
+  return std::nullopt;
+}
+
 ContactRegion contact_region(const ContactLaw& law, const Vec3& y) {
   return evaluate(without_unused_compliance(law), y).region;
 }

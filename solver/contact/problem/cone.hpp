@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "solver/contact/problem/contact_problem.hpp"
 
@@ -49,6 +50,9 @@ inline ContactLaw contact_law(const ContactProblem& problem, int i, double e_n, 
 inline bool is_rigid(const ContactLaw& law) {
   return law.e_n == 0.0 || (law.carries_shear() && law.e_t == 0.0);
 }
+
+/// The first contact of the problem with zero compliance, if there is one.
+std::optional<int> first_rigid_contact(const ContactProblem& problem);
 
 /// Impulse of a compliant contact at the relative velocity y = D^T v + b (m/s, normal first): the gamma in
 /// the set Y (contact_problem.hpp) whose plastic velocity z = y + E gamma is zero in stick and obeys the flow rule

@@ -12,10 +12,10 @@ namespace {
 TEST(Stages, RingsHaveTheirHeightsAndTheMiddleOfTheBracket) {
   const Evaluation e = test::column_evaluation(0.6, 0.4);
   const std::string header = "ring,blocks,weight_N,verdict,speed_ratio,critical_stands,critical_moves,note\n";
-  const Construction c = rings_laid(e, parse_csv(header + "1,2,100,equilibrium,1e-9,0.12,0.11,narrow\n"
-                                                          "2,3,150,moving,0.3,,,no bracket\n"
-                                                          "0,1,50,equilibrium,1e-9,0,,stands without any\n",
-                                                 "stages.csv"));
+  const StageReport c = rings_laid(e, parse_csv(header + "1,2,100,equilibrium,1e-9,0.12,0.11,narrow\n"
+                                                         "2,3,150,moving,0.3,,,no bracket\n"
+                                                         "0,1,50,equilibrium,1e-9,0,,stands without any\n",
+                                                "stages.csv"));
   ASSERT_EQ(c.table.rows.size(), 3u);
   EXPECT_NEAR(std::get<double>(c.table.rows[0][1]), 0.5, 1e-12) << "the bed of ring 1";
   EXPECT_NEAR(std::get<double>(c.table.rows[0][4]), 0.115, 1e-15);
@@ -25,8 +25,7 @@ TEST(Stages, RingsHaveTheirHeightsAndTheMiddleOfTheBracket) {
   EXPECT_EQ(c.worst, "the first that does not: ring 2");
   ASSERT_TRUE(c.figure);
   EXPECT_NE(c.figure->commands.find("0.5 0.115"), std::string::npos);
-  const Construction without =
-      rings_laid(e, parse_csv(header + "0,1,50,equilibrium,1e-9,,,\n", "stages.csv"));
+  const StageReport without = rings_laid(e, parse_csv(header + "0,1,50,equilibrium,1e-9,,,\n", "stages.csv"));
   EXPECT_FALSE(without.figure) << "no critical friction was requested";
   EXPECT_EQ(without.worst, "");
 }
@@ -45,7 +44,7 @@ TEST(Stages, TheMostDemandingStageSaysWhatMovesWithLess) {
       "stage,ring,block,course,how,relative_speed\n0,20,801,20,slides,1\n1,20,801,20,slides,1\n"
       "1,20,802,20,slides,0.5\n1,20,790,19,tips,0.2\n",
       "failures.csv");
-  const Construction c = blocks_laid(StagedConstruction::Least::cohesion, stages, failures);
+  const StageReport c = blocks_laid(StagedConstruction::Least::cohesion, stages, failures);
   EXPECT_EQ(c.standing, 3);
   EXPECT_EQ(
       c.worst,
@@ -65,7 +64,7 @@ TEST(Stages, TheFirstStageThatDoesNotStandSaysWhatMoves) {
                                    "construction.csv");
   const CsvFile failures =
       parse_csv("stage,ring,block,course,how,relative_speed\n1,3,12,3,slides,1\n", "failures.csv");
-  const Construction c = blocks_laid(StagedConstruction::Least::none, stages, failures);
+  const StageReport c = blocks_laid(StagedConstruction::Least::none, stages, failures);
   EXPECT_EQ(c.standing, 1);
   EXPECT_EQ(c.worst, "the first that does not: stage 1 in course 3, where 1 block of course 3 slides");
   EXPECT_FALSE(c.figure);

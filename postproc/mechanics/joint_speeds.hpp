@@ -7,13 +7,13 @@
 namespace cupola {
 
 /// How fast the two sides of a joint move apart and past each other: the largest values of its points.
-struct JointMotion {
+struct JointSpeeds {
   double opening = 0.0;  ///< along the normal, m/s, >= 0
   double sliding = 0.0;  ///< in the plane of the joint, m/s
 };
 
 /// Of the joint of that number in a mechanism: blocks in place, with the velocities of the frame.
-JointMotion joint_motion(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
+JointSpeeds joint_speeds(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
                          size_t joint);
 
 }  // namespace cupola

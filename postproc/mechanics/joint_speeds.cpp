@@ -1,10 +1,10 @@
-#include "postproc/mechanics/joint_motion.hpp"
+#include "postproc/mechanics/joint_speeds.hpp"
 
 #include <algorithm>
 
 namespace cupola {
 
-JointMotion joint_motion(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
+JointSpeeds joint_speeds(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
                          size_t joint) {
   const ContactTable& contacts = frame.contacts;
   const BlockTable& blocks = frame.blocks;
@@ -13,15 +13,15 @@ JointMotion joint_motion(const Assembly& assembly, const Frame& frame, const Joi
            blocks.angular_velocity[block].cross(point - assembly.blocks[block].centroid);
   };
   const JointWrench& j = joints.wrenches[joint];
-  JointMotion motion;
+  JointSpeeds speeds;
   for (int i = j.contact_start; i < j.contact_start + j.num_contacts; ++i) {
     const int c = joints.contacts[i];
     const Vec3 u = velocity_at(j.block_b, contacts.point[c]) - velocity_at(j.block_a, contacts.point[c]);
     const double apart = u.dot(contacts.normal[c]);
-    motion.opening = std::max(motion.opening, apart);
-    motion.sliding = std::max(motion.sliding, (u - apart * contacts.normal[c]).norm());
+    speeds.opening = std::max(speeds.opening, apart);
+    speeds.sliding = std::max(speeds.sliding, (u - apart * contacts.normal[c]).norm());
   }
-  return motion;
+  return speeds;
 }
 
 }  // namespace cupola
