@@ -1,18 +1,17 @@
 #include "solver/analysis/statics/proximal_point.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "solver/analysis/statics/cyclic_reduction.hpp"
 #include "solver/analysis/statics/static_step.hpp"
-#include "solver/contact/methods/newton.hpp"
 
 namespace cupola {
 namespace {
-
-/// Newton iterations within which a point of the path converges, or h is too large.
-constexpr int kIterationsOfPath = 15;
 
 /// Solves the whole problem, or one sector of it if the model has cyclic symmetry.
 SolveSummary solve_problem(const ContactProblem& problem, const CyclicSymmetry* symmetry,
@@ -32,17 +31,15 @@ double weight_over_load(const Model& model, double acceleration) {
 }
 
 ProximalPoint::ProximalPoint(const Model& model, const State& start, const ContactSet& contacts,
-                             const ContactMemories& memories, const StaticOptions& options)
+                             const ContactMemories& memories, const StaticOptions& options, const Pace& pace)
     : model_(model),
       start_(start),
       contacts_(contacts),
       memories_(memories),
       options_(options),
-      associated_(options.solve.law.is_associated()),
       acceleration_(reference_acceleration(model, start)),
-      largest_h_(largest_static_step(model, start, contacts)) {
-  follows_path_ = !associated_ && !options.control && options.solve.method == ContactMethod::newton &&
-                  std::isfinite(largest_h_);
+      largest_h_(largest_static_step(model, start, contacts)),
+      pace_(pace) {
   set_step(first_static_step(model, start, contacts, acceleration_, options));
 }
 
@@ -54,36 +51,16 @@ void ProximalPoint::set_step(double h) {
   step_ = build_step_problem(model_, start_, contacts_, memories_, static_step_options(options_, h));
 }
 
-/// Tolerance of the next contact solve: a small part of the last residual, as an inexact proximal-point
-/// method requires, but no smaller than the answer requires.
-double ProximalPoint::solve_tolerance() const {
-  const double kCoarse = follows_path_ ? 0.1 : 1e-4;
-  const double kShare = follows_path_ ? 0.03 : 1e-3;  // of the last residual
-  constexpr double kRounding = 1e-12;                 // smallest tolerance that weight_over_load() may cause
+/// Options of the next contact solve. Its tolerance is no smaller than the answer requires.
+ContactSolverOptions ProximalPoint::solve_options() const {
+  constexpr double kRounding = 1e-12;  // smallest tolerance that weight_over_load() may cause
+  ContactSolverOptions solve = options_.solve;
+  solve.reference_speed = trial_.h * acceleration_;
   const double scale = weight_over_load(model_, acceleration_);
   const double own = kSolveShare * options_.tolerance;
   const double fine = std::max(own * scale, std::min(own, kRounding));
-  return tightening_ * std::max(fine, std::min(kCoarse, kShare * residual_ * scale));
-}
-
-void ProximalPoint::iterate() {
-  constexpr double kMomentum = 0.5;  // doubles the speed of a slow slide; 0.7 overshoots
-  ContactSolverOptions solve = options_.solve;
-  solve.reference_speed = trial_.h * acceleration_;
-  solve.tolerance = solve_tolerance();
-  // After the first iteration few joints change their state, and the last factor is a good preconditioner.
-  solve.lag_factor = !follows_path_ && x_.v.size() > 0 && !has_many_blocks(step_.problem);
-  if (follows_path_ && !solve.max_iterations) solve.max_iterations = kIterationsOfPath;
-  const VecX before = x_.v.size() > 0 ? x_.v : VecX::Zero(step_.problem.v_star.size());
-  const bool slides = flow_.size() > 0;
-  const VecX free = slides ? VecX(before + kMomentum * trial_.h * flow_) : before;  // without forces
-  trial_.step_solution = x_;
-  if (slides) trial_.step_solution.v = free;
-  if (!options_.control) return attempt(solve, before, free);
-  constexpr double kSmallest = 1e-13;  // tolerance that rounding admits
-  const double share = control_share();
-  solve.tolerance = std::max(kSmallest, std::min(solve.tolerance, kSolveShare * share));
-  seek_time(share * trial_.h * trial_.h * acceleration_, [&] { attempt(solve, before, free); });
+  solve.tolerance = std::max(fine, std::min(pace_.coarse, pace_.share * residual_ * scale));
+  return solve;
 }
 
 /// One contact solve from the guess in trial_. `before`: velocities of the last iterate; `free`: those without forces.
@@ -111,56 +88,97 @@ void ProximalPoint::attempt(const ContactSolverOptions& solve, const VecX& befor
 
 /// Judged by residuals that are computed independently of the contact method.
 bool ProximalPoint::accepts(const StaticSolution& trial) const {
-  return trial.solve.usable() && !misses_displacement(trial) &&
-         trial.balance.residual <= options_.tolerance && excess(trial.residuals, options_.tolerance) <= 1.0;
+  return trial.solve.usable() && trial.balance.residual <= options_.tolerance &&
+         excess(trial.residuals, options_.tolerance) <= 1.0;
 }
 
 /// True if the error of the contact solve is small compared with the imbalance that remains, so that the next
 /// iteration may start from it.
-bool ProximalPoint::is_accurate_enough(const StaticSolution& trial) const {
+bool ProximalPoint::is_accurate_enough() const {
   constexpr double kShare = 1e-2;
-  if (!trial.solve.usable()) return false;
-  if (trial.solve.ending == SolveEnding::converged) return true;
-  return std::max(trial.residuals.momentum, trial.residuals.contact_law) <= kShare * trial.speed_ratio;
+  if (!trial_.solve.usable()) return false;
+  if (trial_.solve.ending == SolveEnding::converged) return true;
+  return std::max(trial_.residuals.momentum, trial_.residuals.contact_law) <= kShare * trial_.speed_ratio;
 }
 
-/// A shorter step makes the contact problem easier, because inertia carries a larger share. False if this was
-/// tried often enough or the user limits the iterations.
-bool ProximalPoint::shorten_step() {
-  constexpr int kMaxShortened = 4, kMaxShortenedOfPath = 60;
-  constexpr double kFactor = 0.1, kPathFactor = 0.4;
-  constexpr double kSettling = 0.0126;  // g h^2 is then of the size of the settlement (first_static_step())
-  if (options_.solve.max_iterations ||
-      ++num_shortened_ > (follows_path_ ? kMaxShortenedOfPath : kMaxShortened))
-    return false;
-  failed_h_ = trial_.h;
-  set_step(trial_.h * (!follows_path_ ? kFactor : num_shortened_ == 1 ? kSettling : kPathFactor));
-  return true;
+double ProximalPoint::advance() {
+  const double contraction = trial_.balance.residual / residual_;
+  residual_ = trial_.balance.residual;
+  x_ = trial_.step_solution;
+  if (best_.h == 0.0 || residual_ < best_.balance.residual) best_ = trial_;
+  return contraction;
 }
 
-/// After an iteration that reduced the residual by less than a digit: lengthens the step, because an elastic
-/// mode of eigenvalue lambda contracts by 1 / (1 + h^2 lambda). Rigid joints do not contract; what remains at
-/// rest is the error of the contact solve, summed over the courses.
-void ProximalPoint::speed_up(double contraction) {
-  constexpr double kBelowFailed = 0.7, kForgetting = 1.2, kNear = 1e-4;
-  constexpr double kSlow = 0.1, kWanted = 1e-2, kSmallest = 2.0, kLargest = 10.0, kTightening = 0.1;
-  if (contraction <= kSlow) return;
-  if (trial_.speed_ratio <= kAtRest && std::isinf(largest_h_)) tightening_ *= kTightening;
-  if (std::isinf(largest_h_)) return;
-  if (follows_path_) {
-    const int n = trial_.solve.iterations;
-    const double factor = n <= 3 ? 2.5 : n <= 6 ? 1.6 : n <= 9 ? 1.0 : 0.7;
-    // Just below a step that failed the next one fails too, until the structure has moved on.
-    const double limit = std::min(largest_h_, std::max(kBelowFailed * failed_h_, trial_.h));
-    failed_h_ *=
-        residual_ < kNear ? factor : kForgetting;  // near equilibrium few contacts change their state
-    const double h = std::min(limit, factor * trial_.h);
-    if (h != trial_.h) set_step(h);
-    return;
+/// The verdict on a contact solve that is too inexact to start the next iteration from. None: the step was shortened.
+std::optional<StaticSolution> ProximalPoint::judge_failed_solve() {
+  if (trial_.solve.usable() && best_.h == 0.0) best_ = trial_;
+  if (accepts(trial_)) return finish_accepted();
+  if (!options_.solve.max_iterations && shorten_step()) return {};
+  return finish(StaticOutcome::unconverged,
+                fmt::format("the contact problem was not solved: {}", trial_.solve.message));
+}
+
+StaticSolution ProximalPoint::finish(StaticOutcome outcome, std::string message) {
+  StaticSolution answer = std::move(outcome == StaticOutcome::unconverged && best_.h > 0.0 ? best_ : trial_);
+  answer.iterations = trial_.iterations;
+  answer.outcome = outcome;
+  answer.message = std::move(message);
+  x_ = {};
+  if (answer.h != trial_.h || answer.time_advance != options_.time_advance) {
+    options_.time_advance = answer.time_advance;
+    set_step(answer.h);
   }
-  const double growth = contraction < 1.0 ? std::sqrt(contraction / (1.0 - contraction) / kWanted) : kLargest;
-  const double h = std::min(largest_h_, std::clamp(growth, kSmallest, kLargest) * trial_.h);
-  if (h > trial_.h) set_step(h);
+  answer.step = std::move(step_);
+  if (answer.increment.size() > 0)
+    answer.step.problem.v_star += answer.step_solution.v - answer.increment / answer.h;
+  return answer;
+}
+
+StaticSolution ProximalPoint::finish_accepted() {
+  std::string message = fmt::format("equilibrium residual {:.2e} <= tolerance {:.2e}",
+                                    trial_.balance.residual, options_.tolerance);
+  if (trial_.residuals.contact_law > options_.tolerance)  // accepted as rounding: say so
+    message += "; " + residuals_text(trial_.residuals, options_.tolerance);
+  return finish(StaticOutcome::equilibrium, message);
+}
+
+std::string ProximalPoint::acceleration_text() const {
+  return fmt::format("blocks accelerate at up to {:.3g} m/s2", trial_.speed_ratio * acceleration_);
+}
+
+StaticSolution ProximalPoint::finish_moving(const std::string& way) {
+  return finish(
+      StaticOutcome::moving,
+      fmt::format("a steady motion was found: {}{}; not proven: other contact forces might balance the loads",
+                  acceleration_text(), way));
+}
+
+StaticSolution ProximalPoint::give_up() {
+  return finish(StaticOutcome::unconverged,
+                fmt::format("equilibrium residual {:.2e} > tolerance {:.2e} after {}", best_.balance.residual,
+                            options_.tolerance, counted(pace_.max_solves, "solve")));
+}
+
+StaticSolution ProximalPoint::run() {
+  constexpr double kNoProgress = 0.5;  // contraction from which blocks may be moving
+  for (int k = 0; k < pace_.max_solves; ++k) {
+    iterate();
+    options_.log(fmt::format(
+        "static  h {:9.3e} s  iterations {:3d}  momentum {:9.2e}  law {:9.2e}  equilibrium {:9.2e}  "
+        "increment/(g h^2) {:9.2e}",
+        trial_.h, trial_.solve.iterations, trial_.residuals.momentum, trial_.residuals.contact_law,
+        trial_.balance.residual, trial_.speed_ratio));
+    if (!is_accurate_enough()) {
+      if (std::optional<StaticSolution> answer = judge_failed_solve()) return std::move(*answer);
+      continue;
+    }
+    if (accepts(trial_)) return finish_accepted();
+    const double contraction = advance();
+    if (contraction > kNoProgress && trial_.speed_ratio > kAtRest && !options_.control)
+      if (std::optional<StaticSolution> answer = judge_motion(contraction)) return std::move(*answer);
+    adapt(contraction);
+  }
+  return give_up();
 }
 
 }  // namespace cupola

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -19,66 +17,68 @@ constexpr double kSolveShare = 0.1;
 /// the residual of a contact solve to the latter, which is far larger where small blocks carry large loads.
 double weight_over_load(const Model& model, double acceleration);
 
-/// The proximal-point iteration of one scene (static_solve.hpp). A non-associated law with compliant joints follows a path by
-/// pseudo-transient continuation.
+/// The proximal-point iteration of one scene (static_solve.hpp): what coming to rest (coming_to_rest.hpp) and following a path
+/// (following_path.hpp) have in common. They differ in the step, in its accuracy, and in what they call a motion.
 class ProximalPoint {
  public:
-  ProximalPoint(const Model& model, const State& start, const ContactSet& contacts,
-                const ContactMemories& memories, const StaticOptions& options);
-
-  /// Starts from the displacements and forces of another solve of the same scene instead of following a path.
-  void start_from(const StaticSolution& other) {
-    follows_path_ = false;
-    set_step(other.h);
-    x_ = other.step_solution;
-  }
+  virtual ~ProximalPoint() = default;
+  ProximalPoint(const ProximalPoint&) = delete;
+  ProximalPoint& operator=(const ProximalPoint&) = delete;
   StaticSolution run();
 
- private:
+ protected:
+  /// How accurate a contact solve must be while the residual is large: the smaller of `coarse` and `share` of the residual, as an
+  /// inexact proximal-point method requires.
+  struct Pace {
+    int max_solves;
+    double coarse, share;
+  };
+  ProximalPoint(const Model& model, const State& start, const ContactSet& contacts,
+                const ContactMemories& memories, const StaticOptions& options, const Pace& pace);
+
+  /// One contact solve, or several under a control, from the last iterate.
+  virtual void iterate() = 0;
+  /// A shorter step makes the contact problem easier, because inertia carries a larger share. False if this was
+  /// tried often enough.
+  virtual bool shorten_step() = 0;
+  /// Adapts the step to the contraction of the last iteration.
+  virtual void adapt(double contraction) = 0;
+  /// The verdict on a scene whose last iteration left the residual above half of the one before. None: go on.
+  virtual std::optional<StaticSolution> judge_motion(double contraction) = 0;
+  /// The last iterate becomes the start of the next one. Returns by how much it reduced the residual.
+  virtual double advance();
+  virtual bool accepts(const StaticSolution& trial) const;
+  virtual StaticSolution give_up();
+
   void set_step(double h);
-  double solve_tolerance() const;
-  void iterate();
+  ContactSolverOptions solve_options() const;
   void attempt(const ContactSolverOptions& solve, const VecX& before, const VecX& free);
-  double control_share() const;
-  void seek_time(double tolerance, const std::function<void()>& attempt_now);
-  bool misses_displacement(const StaticSolution& trial) const;
-  bool accepts(const StaticSolution& trial) const;
-  bool is_accurate_enough(const StaticSolution& trial) const;
-  bool shorten_step();
-  void speed_up(double contraction);
-  double proof(const StaticSolution& trial) const;
-  bool moves_steadily(double contraction, int count);
-  bool moves_far();
-  double advance();
-  std::optional<StaticSolution> judge_motion(double contraction);
-  std::optional<StaticSolution> judge_failed_solve();
-  StaticSolution finish_accepted();
   StaticSolution finish(StaticOutcome outcome, std::string message);
+  StaticSolution finish_moving(const std::string& way);
+  std::string acceleration_text() const;
 
   const Model& model_;
   const State& start_;
   const ContactSet& contacts_;
   const ContactMemories& memories_;
-  StaticOptions options_;  // under a control: at the time tried last
-  const bool associated_;
-  bool follows_path_ = false;  // solve_static(): non-associated law, compliant joints, Newton's method
+  StaticOptions options_;      // under a control: at the time tried last
   const double acceleration_;  // m/s2, reference
   const double largest_h_;     // s
+  StepProblem step_;           // at trial_.h; its v_star is the free velocity at rest, h M^-1 w
+  ContactSolution x_;          // last accepted iterate, at trial_.h
+  StaticSolution trial_;       // without the contact problem, which is large
+  VecX moved_;                 // m, rad: displacement of the last iteration (6 nb)
+  double residual_ = 1.0;      // equilibrium residual of x_; at the start, of the unsupported structure
+  int num_shortened_ = 0;
+
+ private:
+  bool is_accurate_enough() const;
+  std::optional<StaticSolution> judge_failed_solve();
+  StaticSolution finish_accepted();
+
+  const Pace pace_;
   ContactSolver solver_;
-  StepProblem step_;             // at trial_.h; its v_star is the free velocity at rest, h M^-1 w
-  ContactSolution x_;            // last accepted iterate, at trial_.h
-  StaticSolution trial_, best_;  // without the contact problem, which is large
-  double residual_ = 1.0;        // equilibrium residual of x_; at the start, of the unsupported structure
-  double tightening_ = 1.0;      // factor on the tolerance of the contact solves
-  int num_shortened_ = 0, num_steady_ = 0;
-  double settlement_ = 0.0;                                    // m, largest displacement of the first iterate
-  double failed_h_ = std::numeric_limits<double>::infinity();  // s, step at which Newton failed last
-  double lowest_residual_ = std::numeric_limits<double>::infinity();  // steps of a quarter
-  double travel_ = 0.0;      // m, sum of the largest displacements since lowest_residual_
-  VecX moved_;               // m, rad: displacement of the last iteration (6 nb)
-  VecX flow_;                // m/s2: moved_ / h^2 while the path is far from equilibrium, else empty
-  double reached_ = 0.0;     // m, control: displacement beyond the one asked for
-  double time_slope_ = 0.0;  // m/s, control: change of the displacement with the time; 0: unknown
+  StaticSolution best_;  // without the contact problem
 };
 
 }  // namespace cupola

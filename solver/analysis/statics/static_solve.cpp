@@ -1,9 +1,11 @@
 #include "solver/analysis/statics/static_solve.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "assembly/model/joint_rule.hpp"
-#include "solver/analysis/statics/proximal_point.hpp"
+#include "solver/analysis/statics/coming_to_rest.hpp"
+#include "solver/analysis/statics/following_path.hpp"
 #include "solver/analysis/statics/static_step.hpp"
 #include "solver/contact/problem/cone.hpp"
 
@@ -42,18 +44,27 @@ bool slips_nowhere(const StaticSolution& solution, const FlowRule& law, double a
              .contact_law <= kOutcomeTolerance;
 }
 
+/// Of a non-associated law: along a path, if the method and the joints permit it.
+StaticSolution solve_from_start(const Model& model, const State& start, const ContactSet& contacts,
+                                const ContactMemories& memories, const StaticOptions& options) {
+  if (options.solve.method == ContactMethod::newton &&
+      std::isfinite(largest_static_step(model, start, contacts)))
+    return FollowingPath(model, start, contacts, memories, options).run();
+  return ComingToRest(model, start, contacts, memories, options).run();
+}
+
 }  // namespace
 
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
   StaticSolution solution;
   if (options.solve.law.is_associated() || options.control) {
-    solution = ProximalPoint(model, start, contacts, memories, options).run();
+    solution = ComingToRest(model, start, contacts, memories, options).run();
   } else {
     StaticOptions associated = options;
     associated.solve.law = FrictionLaw::associated;
     associated.tolerance = std::max(options.tolerance, kOutcomeTolerance);
-    StaticSolution first = ProximalPoint(model, start, contacts, memories, associated).run();
+    StaticSolution first = ComingToRest(model, start, contacts, memories, associated).run();
     if (first.outcome == StaticOutcome::moving) {
       first.message += ", under either friction law";
       return first;
@@ -61,7 +72,7 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
     int iterations = first.iterations;
     const bool stands = first.outcome == StaticOutcome::equilibrium;
     const auto from_associated = [&] {
-      ProximalPoint again(model, start, contacts, memories, options);
+      ComingToRest again(model, start, contacts, memories, options);
       again.start_from(first);
       return again.run();
     };
@@ -69,7 +80,7 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
       solution = from_associated();
     if (solution.outcome != StaticOutcome::equilibrium) {
       iterations += solution.iterations;
-      solution = ProximalPoint(model, start, contacts, memories, options).run();
+      solution = solve_from_start(model, start, contacts, memories, options);
       if (stands && !options.follow_from_start && shows_nothing(model, solution)) {
         if (StaticSolution second = from_associated(); second.outcome == StaticOutcome::equilibrium)
           solution = std::move(second);

@@ -26,6 +26,48 @@ std::vector<Mat3> stiffnesses(const ContactProblem& p, const VecX& y) {
   return G;
 }
 
+/// The iterate of the smallest residual.
+class BestIterate {
+ public:
+  BestIterate(const PrimalPoint& point, double residual) : w_(point.w), residual_(residual) {}
+  void include(const PrimalPoint& point, double residual) {
+    if (!(residual < residual_)) return;
+    residual_ = residual;
+    w_ = point.w;
+  }
+  double residual() const { return residual_; }
+  const VecX& w() const { return w_; }
+
+ private:
+  VecX w_;
+  double residual_;
+};
+
+/// Whether iterations still gain.
+class Stagnation {
+ public:
+  explicit Stagnation(double residual) : largest_(residual), best_since_largest_(residual) {}
+
+  /// `gained`: the cost fell, or the residual fell clearly below its best value.
+  void include(bool gained, double residual) {
+    without_gain_ = gained ? 0 : without_gain_ + 1;
+    const bool is_best = residual < best_since_largest_ || residual > largest_;
+    since_best_ = is_best ? 0 : since_best_ + 1;
+    if (is_best) best_since_largest_ = residual;
+    largest_ = std::max(largest_, residual);
+  }
+  /// Residuals may rise for some iterations while the cost decreases, but not for this many.
+  bool is_final() const { return without_gain_ >= 12; }
+  /// Multigrid misses very soft modes. It is given up after so many iterations without a residual below all since the largest: from a
+  /// good guess the residual rises at first, by a factor of up to 100. Brick domes take up to ten.
+  static constexpr int kMultigridLimit = 15;
+  bool ends_multigrid() const { return since_best_ >= kMultigridLimit; }
+
+ private:
+  double largest_, best_since_largest_;
+  int without_gain_ = 0, since_best_ = 0;
+};
+
 /// State of one solve, shared by the stages of the loop.
 struct NewtonLoop {
   const ContactProblem& p;  ///< whitened
@@ -47,7 +89,7 @@ struct NewtonLoop {
   double forcing(double residual, double last_residual) const;
   bool direction(const PrimalPoint& point, double last_residual, VecX* d);
   PrimalPoint run(PrimalPoint point);
-  bool should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain);
+  bool should_stop(const PrimalPoint& point, double best_residual, const Stagnation& stagnation);
 };
 
 /// Solves with all contacts sticking, including those with a gap. With open gaps this is a far better start
@@ -90,9 +132,7 @@ bool NewtonLoop::direction(const PrimalPoint& point, double last_residual, VecX*
   return solve(H, -point.gradient, relative_tolerance, d);
 }
 
-bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int iterations_without_gain) {
-  // Residuals may rise for some iterations while the cost decreases, but not for this many.
-  constexpr int kStagnationLimit = 12;
+bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, const Stagnation& stagnation) {
   if (residual(point) <= options.tolerance) {
     summary.ending = SolveEnding::converged;
     summary.message = fmt::format("momentum residual {:.2e} <= tolerance {:.2e} after {}", residual(point),
@@ -105,7 +145,7 @@ bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, int
         fmt::format("Newton failed: the cost became {} in iteration {}", point.cost, summary.iterations);
     return true;
   }
-  if (iterations_without_gain >= kStagnationLimit) {
+  if (stagnation.is_final()) {
     summary.ending = SolveEnding::stalled;
     summary.message =
         fmt::format("Newton stalled: momentum residual {:.2e} above the tolerance {:.2e} after {}",
@@ -129,21 +169,17 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
   // saves half the time and more. Most solves end before.
   constexpr int kSlow = 10;
   constexpr double kNegligible = 0.1;  // gradient of a block that BlockDescent skips, of the tolerance
-  // Multigrid misses very soft modes. It is given up after so many iterations without a residual below all since the largest: from a
-  // good guess the residual rises at first, by a factor of up to 100. Brick domes take up to ten.
-  constexpr int kMultigridStagnationLimit = 15;
-  VecX best_w = point.w;
-  double best = residual(point), last_residual = best;
-  double largest = best, best_since_largest = best;
-  int iterations_without_gain = 0, iterations_since_best = 0;
+  double last_residual = residual(point);
+  BestIterate best(point, last_residual);
+  Stagnation stagnation(last_residual);
   while (true) {
     summary.residual_history.push_back(residual(point));
-    if (should_stop(point, best, iterations_without_gain)) break;
-    if (!motions.empty() && iterations_since_best >= kMultigridStagnationLimit) {
+    if (should_stop(point, best.residual(), stagnation)) break;
+    if (!motions.empty() && stagnation.ends_multigrid()) {
       motions = {};
       summary.ending = SolveEnding::stalled;
       summary.message = fmt::format("multigrid-preconditioned CG made no progress for {}",
-                                    counted(kMultigridStagnationLimit, "iteration"));
+                                    counted(Stagnation::kMultigridLimit, "iteration"));
       break;
     }
 
@@ -177,20 +213,13 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
 
     // 4. Progress
     const bool cost_fell = next.cost < point.cost * (1.0 - kCostRounding);
-    const bool residual_fell = residual(next) < 0.9 * best;
-    iterations_without_gain = cost_fell || residual_fell ? 0 : iterations_without_gain + 1;
+    const bool residual_fell = residual(next) < 0.9 * best.residual();
     last_residual = residual(point);
     point = std::move(next);
-    const bool recent_best = residual(point) < best_since_largest || residual(point) > largest;
-    iterations_since_best = recent_best ? 0 : iterations_since_best + 1;
-    if (recent_best) best_since_largest = residual(point);
-    largest = std::max(largest, residual(point));
-    if (residual(point) < best) {
-      best = residual(point);
-      best_w = point.w;
-    }
+    stagnation.include(cost_fell || residual_fell, residual(point));
+    best.include(point, residual(point));
   }
-  return residual(point) == best ? point : primal_point(p, std::move(best_w));
+  return residual(point) == best.residual() ? point : primal_point(p, best.w());
 }
 
 SolveSummary failed(const std::string& message) {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+
+#include "solver/analysis/statics/proximal_point.hpp"
+
+namespace cupola {
+
+/// The proximal-point iteration with steps as long as the compliance permits: a few accurate solves. Under a control each iteration
+/// also finds its time (length_control.hpp).
+class ComingToRest : public ProximalPoint {
+ public:
+  ComingToRest(const Model& model, const State& start, const ContactSet& contacts,
+               const ContactMemories& memories, const StaticOptions& options);
+
+  /// Starts from the displacements and forces of another solve of the same scene.
+  void start_from(const StaticSolution& other) {
+    set_step(other.h);
+    x_ = other.step_solution;
+  }
+
+ private:
+  void iterate() override;
+  bool shorten_step() override;
+  void adapt(double contraction) override;
+  std::optional<StaticSolution> judge_motion(double contraction) override;
+  bool accepts(const StaticSolution& trial) const override;
+  StaticSolution give_up() override;
+
+  double control_share() const;
+  void seek_time(double tolerance, const std::function<void()>& attempt_now);
+  bool misses_displacement(const StaticSolution& trial) const;
+  double proof(const StaticSolution& trial) const;
+  bool moves_steadily(double contraction, int count);
+
+  int num_steady_ = 0;
+  double tightening_ = 1.0;  // factor on the tolerance of the contact solves
+  double reached_ = 0.0;     // m, control: displacement beyond the one asked for
+  double time_slope_ = 0.0;  // m/s, control: change of the displacement with the time; 0: unknown
+};
+
+}  // namespace cupola
