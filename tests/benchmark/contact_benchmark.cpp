@@ -5,6 +5,7 @@
 //   contact_benchmark gaps        random gaps
 //   contact_benchmark stepping    warm-started time steps
 //   contact_benchmark motion      whole steps of domes in motion and at rest
+//   contact_benchmark coulomb     rigid domes under Coulomb's law
 //   contact_benchmark scale       1,280 to 20,480 blocks
 //   contact_benchmark threads     assembly and factor on two threads, against CG
 
@@ -148,6 +149,7 @@ void time_stepping() {
 struct DomeMotion {
   std::string name, bond;
   double friction, compliance, tolerance;  ///< compliance in m/N per point
+  FrictionLaw law = FrictionLaw::associated;
 };
 
 struct StepCost {
@@ -164,6 +166,7 @@ StepCost measure_steps(const DomeMotion& dome, bool carried) {
       CUPOLA_SOURCE_DIR "/cases/dome_circular.yaml",
       {"geometry.bond=" + dome.bond, "analysis.type=dynamic",
        fmt::format("joints.friction={}", dome.friction), fmt::format("analysis.tolerance={}", dome.tolerance),
+       fmt::format("analysis.friction_law={}", to_string(dome.law)),
        fmt::format("joints.compliance.normal={}", dome.compliance),
        fmt::format("joints.compliance.tangential={}", dome.compliance)});
   const Assembly assembly = cut_assembly(scene);
@@ -185,21 +188,54 @@ StepCost measure_steps(const DomeMotion& dome, bool carried) {
   return cost;
 }
 
+const std::string kRunning = "{type: running, rings: 40, blocks_per_ring: 32, slices_per_block: 4}";
+const std::string kRunningOfTwo = "{type: running, rings: 40, blocks_per_ring: 32, slices_per_block: 2}";
+const std::string kStack = "{type: stack, rings: 40, blocks_per_ring: 32, slices_per_block: 1}";
+
 void motion() {
   fmt::print(
       "scene,\"c, m/N\",contacts,tolerance,CPU ms per step,iterations,factorisations,worst residual,"
       "\"displacement, m\",nothing carried: ms,ratio\n");
-  const std::string running = "{type: running, rings: 40, blocks_per_ring: 32, slices_per_block: 4}";
-  const std::string stack = "{type: stack, rings: 40, blocks_per_ring: 32, slices_per_block: 1}";
-  for (const DomeMotion& dome : {DomeMotion{"swinging, running bond", running, 0.4, 1e-8, 1e-4},
-                                 {"swinging, running bond", running, 0.4, 1e-8, 1e-6},
-                                 {"rigid, running bond", running, 0.4, 0.0, 1e-6},
-                                 {"rigid, stack bond", stack, 0.4, 0.0, 1e-6},
-                                 {"rigid, running bond, friction 0.05", running, 0.05, 0.0, 1e-6}}) {
+  for (const DomeMotion& dome : {DomeMotion{"swinging, running bond", kRunning, 0.4, 1e-8, 1e-4},
+                                 {"swinging, running bond", kRunning, 0.4, 1e-8, 1e-6},
+                                 {"rigid, running bond", kRunning, 0.4, 0.0, 1e-6},
+                                 {"rigid, stack bond", kStack, 0.4, 0.0, 1e-6},
+                                 {"rigid, running bond, friction 0.05", kRunning, 0.05, 0.0, 1e-6}}) {
     const StepCost cost = measure_steps(dome, true), without = measure_steps(dome, false);
     fmt::print("\"{}\",{:g},{},{:g},{:.0f},{:.1f},{:.1f},{:.1e},{:.1e},{:.0f},{:.2f}\n", dome.name,
                dome.compliance, cost.contacts, dome.tolerance, 1e3 * cost.cpu, cost.iterations,
                cost.factorizations, cost.worst, cost.displacement, 1e3 * without.cpu, cost.cpu / without.cpu);
+    std::fflush(stdout);
+  }
+}
+
+/// Rigid domes under Coulomb's law: one step of 0.01 s from rest, scaled to mean mass 1 and reference speed 1, and whole steps.
+void coulomb() {
+  fmt::print(
+      "scene,contacts,tolerance,CPU ms,iterations,factorisations,worst residual,\"displacement, m\"\n");
+  for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+    DomeProblem dome;
+    dome.slices_per_block = 2;
+    dome.h = 0.01;
+    dome.compliance = 0.0;
+    const ContactProblem problem = make_problem(dome);
+    ContactSolverOptions options = options_for(problem, ContactMethod::newton, tolerance);
+    options.law = FrictionLaw::coulomb;
+    const Run r = run(problem, options);
+    fmt::print("first step from rest,{},{:g},{:.1f},{},{},{:.1e},\n", problem.num_contacts(), tolerance,
+               1e3 * r.cpu, r.summary.iterations, r.summary.factorizations, largest_residual(r.residuals));
+    std::fflush(stdout);
+  }
+  const FrictionLaw law = FrictionLaw::coulomb;
+  for (const DomeMotion& dome :
+       {DomeMotion{"at rest, stack bond", kStack, 0.4, 0.0, 1e-6, law},
+        {"at rest, running bond", kRunningOfTwo, 0.4, 0.0, 1e-6, law},
+        {"sliding at friction 0.05, stack bond", kStack, 0.05, 0.0, 1e-3, law},
+        {"sliding at friction 0.05, running bond", kRunningOfTwo, 0.05, 0.0, 1e-3, law}}) {
+    const StepCost cost = measure_steps(dome, true);
+    fmt::print("\"{}\",{},{:g},{:.1f},{:.1f},{:.1f},{:.1e},{:.1e}\n", dome.name, cost.contacts,
+               dome.tolerance, 1e3 * cost.cpu, cost.iterations, cost.factorizations, cost.worst,
+               cost.displacement);
     std::fflush(stdout);
   }
 }
@@ -339,11 +375,14 @@ int main(int argc, char** argv) {
     cupola::time_stepping();
   else if (table == "motion")
     cupola::motion();
+  else if (table == "coulomb")
+    cupola::coulomb();
   else if (table == "scale")
     cupola::scale();
   else if (table == "threads")
     cupola::threads();
   else
-    fmt::print(stderr, "usage: contact_benchmark methods | gaps | stepping | motion | scale | threads\n");
+    fmt::print(stderr,
+               "usage: contact_benchmark methods | gaps | stepping | motion | coulomb | scale | threads\n");
   return table.empty();
 }
