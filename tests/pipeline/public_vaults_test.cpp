@@ -8,8 +8,9 @@ namespace {
 
 ProgramRun solve(const ProgramFolder& folder, const std::string& name, const std::string& options) {
   const std::string path = CUPOLA_SOURCE_DIR "/cases/" + name + ".yaml";
-  if (!std::filesystem::exists(folder.file("a.vtu")))
+  if (!std::filesystem::exists(folder.file("a.vtu"))) {
     EXPECT_EQ(folder.run("cupola-generate " + path + " --output a.vtu").code, 0);
+  }
   return folder.run("cupola-solve " + path + " --assembly a.vtu --output results " + options);
 }
 
