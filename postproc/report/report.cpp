@@ -1,6 +1,7 @@
 #include "postproc/report/report.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <set>
 
@@ -193,9 +194,14 @@ std::string report_html(const ReportInput& input) {
                      : list_section("Motion", motion_sentences(e, input.history));
   body += figures_section(input);
   body += tables_section(input.tables, at_rest(e));
+  const Summary& s = e.summary;
   std::vector<std::string> quality = quality_sentences(e);
   if (e.last.joints.floor.force > 0.0) quality.push_back(floor_text(e));
-  body += list_section("How good the answer is", quality);
+  std::string said = s.message;
+  if (!said.empty()) said[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(said[0])));
+  quality.insert(quality.begin(), said + ".");
+  if (at_rest(e)) quality.insert(quality.begin(), how_sure(e));
+  body += list_section("How exact", quality);
   body += case_section(e);
   body += files_section(at_rest(e), e.last.frame.ties.size() > 0, !input.picture_folder.empty());
   body += run_section(input);
