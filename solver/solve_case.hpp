@@ -12,8 +12,6 @@ struct SolveRequest {
   Case scene;
   std::string assembly_path;
   std::string output_folder;
-  std::string
-      dump_fclib;  ///< file for the contact problem of the static solve or the last step; may be empty
   bool quiet = false;
   bool verbose = false;  ///< print every step, and all residuals at the end
   bool strict = false;   ///< warnings are errors
