@@ -146,7 +146,9 @@ Mesh read_frame_mesh(const std::string& path, const RunOfFrame& run) {
   if (mesh.field<std::string>("assembly_hash") != run.assembly_hash)
     throw InputError(FileLocation{path}, "belongs to another assembly; run cupola-solve again");
   // Frames of version 0.2 do not name their case.
-  if (mesh.has(mesh.field_data, "case_hash") && mesh.field<std::string>("case_hash") != run.case_hash)
+  if (const std::string hash =
+          mesh.has(mesh.field_data, "case_hash") ? mesh.field<std::string>("case_hash") : "";
+      !hash.empty() && hash != run.case_hash)
     throw InputError(FileLocation{path}, "belongs to another run than summary.json; run cupola-solve again");
   return mesh;
 }

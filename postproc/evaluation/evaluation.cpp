@@ -242,8 +242,8 @@ bool is_vault(const Evaluation& e) {
 }
 
 bool is_arch(const Evaluation& e) {
-  return e.shell.num_rings() > 0 && !e.scene.geometry.imported &&
-         traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::one;
+  return e.shell.num_rings() > 0 && !e.assembly.sheets.empty() &&
+         e.assembly.sheets.back().thrust_lines == Sheet::ThrustLines::one;
 }
 
 void leave_out(const std::string& part, const std::string& reason, Evaluation* e) {

@@ -38,7 +38,6 @@ std::optional<double> value_of_case(const Case& scene) {
     case Parameter::lantern:
       return scene.loads.lantern ? scene.loads.lantern->weight_fraction : 0.0;
     case Parameter::thickness:
-      return std::visit([](const auto& surface) { return surface.thickness; }, scene.geometry.surface);
     case Parameter::peak_stress:
       break;
   }
@@ -201,8 +200,8 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   }
   std::string detail = per_metre(thrust, length);
   if (supports.size() > 1 && highest - lowest <= 1e-3 * std::abs(highest))
-    detail += fmt::format("{}{} on each of {} supports", detail.empty() ? "" : "; ", force_text(highest),
-                          supports.size());
+    detail += fmt::format("{}{} on each of {}", detail.empty() ? "" : "; ", force_text(highest),
+                          counted(supports.size(), "support"));
   else if (supports.size() > 1)
     detail += fmt::format("{}on a support {} to {}", detail.empty() ? "" : "; ", force_text(lowest),
                           force_text(highest));
@@ -228,7 +227,7 @@ std::optional<KeyNumber> crack_answer(const Evaluation& e) {
       "Widest crack", length_text(widest.widest_gap),
       fmt::format("in the {} joint between blocks {} and {}; {} open over {} in total",
                   joint.kind == JointKind::other ? "" : to_string(joint.kind), joint.block_a, joint.block_b,
-                  cracks.size() == 1 ? "1 joint is" : fmt::format("{} joints are", cracks.size()),
+                  counted(cracks.size(), "joint") + (cracks.size() == 1 ? " is" : " are"),
                   length_text(total))};
 }
 

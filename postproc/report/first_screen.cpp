@@ -117,7 +117,6 @@ std::vector<KeyNumber> key_numbers(const Evaluation& e, const std::vector<Histor
 
 std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& history,
                          const StageReport* construction, const std::string& viewer) {
-  const Summary& s = e.summary;
   std::string out;
   for (const std::string& warning : notices(e))
     out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";

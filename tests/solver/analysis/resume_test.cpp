@@ -127,7 +127,7 @@ TEST(Checkpoint, SurvivesAFailedWrite) {
   const std::string path = folder + "/checkpoint";
   write_checkpoint(path, {"0.1", "a", "b", {}, "", "good"});
   // The target is a folder, so that the rename fails, even for root.
-  EXPECT_THROW(write_checkpoint(folder, {"0.1", "a", "b", {}, "", "bad"}), SystemError);
+  EXPECT_THROW(write_checkpoint(folder, {"0.1", "a", "b", {}, "", "bad"}), InputError);
   EXPECT_EQ(read_checkpoint(path)->analysis, "good");
 }
 
