@@ -165,10 +165,9 @@ std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput&
 }
 
 /// Azimuth of a meridian of the case, degrees; none without a meridian of this name.
-std::optional<double> meridian_named(const std::string& name, const Case& scene) {
-  if (traits_of(scene.geometry.surface).meridians != SurfaceTraits::Meridians::by_azimuth)
-    return std::nullopt;
-  for (const Meridian& meridian : scene.postproc.meridians)
+std::optional<double> meridian_named(const std::string& name, const Evaluation& e) {
+  if (!is_vault(e)) return std::nullopt;
+  for (const Meridian& meridian : e.scene.postproc.meridians)
     if (meridian.name == name) return meridian.azimuth_deg;
   return std::nullopt;
 }
@@ -230,8 +229,8 @@ bool is_mechanism(const Summary& summary, const Frame& frame) {
 }
 
 bool is_vault(const Evaluation& e) {
-  return e.shell.num_rings() > 0 &&
-         traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::by_azimuth;
+  return e.shell.num_rings() > 0 && !e.assembly.sheets.empty() &&
+         e.assembly.sheets.back().thrust_lines == Sheet::ThrustLines::by_azimuth;
 }
 
 void leave_out(const std::string& part, const std::string& reason, Evaluation* e) {
@@ -313,10 +312,9 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   for (const CutPlane& plane : scene.postproc.planes)
     e.planes.push_back(
         plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads, e.last.frame.ties));
-  const std::optional<double> rib = meridian_named("rib", scene),
-                              mid_sail = meridian_named("mid_sail", scene);
+  const std::optional<double> rib = meridian_named("rib", e), mid_sail = meridian_named("mid_sail", e);
   if (rib && mid_sail && e.assembly.members.empty())  // its beds follow the period of one bond
-    e.rib_over_mid_sail = rib_ratio(thrust_input(e, e.last), scene.geometry, *rib, *mid_sail);
+    e.rib_over_mid_sail = rib_ratio(thrust_input(e, e.last), scene.geometry.bond, *rib, *mid_sail);
   return e;
 }
 

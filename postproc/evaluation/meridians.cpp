@@ -17,9 +17,9 @@ struct Drawn {
 };
 
 std::vector<Drawn> drawn_meridians(const Evaluation& e) {
-  using enum SurfaceTraits::Meridians;
-  if (e.shell.num_rings() == 0) return {};
-  const SurfaceTraits::Meridians drawn = traits_of(e.scene.geometry.surface).meridians;
+  using enum Sheet::ThrustLines;
+  if (e.shell.num_rings() == 0 || e.assembly.sheets.empty()) return {};
+  const Sheet::ThrustLines drawn = e.assembly.sheets.back().thrust_lines;
   std::vector<Drawn> meridians;
   if (drawn == one) meridians.push_back({"arch", std::nullopt});
   if (drawn == by_azimuth)

@@ -215,7 +215,7 @@ std::string arch_panels(const ForceUnit& unit, const std::string& profile, const
 }  // namespace
 
 Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
-  const bool arch = traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::one;
+  const bool arch = !is_vault(e);
   const ThrustLine& line = m.thrust;
   const double couple = line.largest_couple_length();
   double largest = 0.0;

@@ -14,8 +14,8 @@ namespace cupola {
 
 namespace {
 
-void scale_joints(const Case& scene, const Assembly& assembly, double extent, ContactSet* contacts) {
-  const JointGeometry joints(scene, assembly, *contacts);
+void scale_joints(const Assembly& assembly, double extent, ContactSet* contacts) {
+  const JointGeometry joints(assembly, *contacts);
   for (const auto& [key, pair] : joints.pairs()) {
     for (const int i : pair.contacts) {
       Contact& contact = contacts->points[i];
@@ -48,7 +48,7 @@ RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assemb
   rigid.contacts = detector.update(rigid.start.poses);
   const double open = joint_rule(smallest_block_size(*rigid.assembly), scene.contact.margin).min_width;
   std::erase_if(rigid.contacts.points, [&](const Contact& contact) { return contact.gap > open; });
-  if (joint_extent != 1.0) scale_joints(scene, *rigid.assembly, joint_extent, &rigid.contacts);
+  if (joint_extent != 1.0) scale_joints(*rigid.assembly, joint_extent, &rigid.contacts);
   rigid.memories = match_memories({}, rigid.contacts.points);
 
   const StepOptions step{.h = 1.0, .time_advance = 0.0};
