@@ -1,4 +1,4 @@
-#include "postproc/studies/study.hpp"
+#include "postproc/studies/tradeoff.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ class ForceCache {
   std::map<std::string, RunForces> forces_;
 };
 
-bool is_faster(const StudyRow& a, const StudyRow& b) {
+bool is_faster(const TradeoffRow& a, const TradeoffRow& b) {
   return a.seconds() < b.seconds();
 }
 
@@ -42,22 +42,22 @@ Summary read_summary(const std::string& runs, const std::string& name) {
 
 }  // namespace
 
-bool StudyRow::uses_wall_time() const {
+bool TradeoffRow::uses_wall_time() const {
   return std::any_of(point.settings.begin(), point.settings.end(),
                      [](const std::string& setting) { return setting.starts_with("--threads="); });
 }
 
-double StudyRow::seconds() const {
+double TradeoffRow::seconds() const {
   if (!summary) return 0.0;
   return uses_wall_time() ? summary->wall_time_seconds : summary->cpu_time_seconds;
 }
 
-std::vector<StudyRow> measure_study(const std::vector<StudyPoint>& points, const std::string& runs) {
+std::vector<TradeoffRow> measure_tradeoff(const std::vector<TradeoffRun>& points, const std::string& runs) {
   const RunCache cache(runs);
   ForceCache forces(runs);
-  std::vector<StudyRow> rows;
-  for (const StudyPoint& point : points) {
-    StudyRow row{point, {}, {}, {}};
+  std::vector<TradeoffRow> rows;
+  for (const TradeoffRun& point : points) {
+    TradeoffRow row{point, {}, {}, {}};
     const bool finished = cache.finished(point.name) && cache.finished(point.reference);
     if (finished && !point.coarse.empty() && cache.finished(point.coarse)) {
       row.summary = read_summary(runs, point.name);
@@ -76,26 +76,26 @@ std::vector<StudyRow> measure_study(const std::vector<StudyPoint>& points, const
   return rows;
 }
 
-std::vector<std::string> knobs_of(const std::vector<StudyRow>& rows) {
+std::vector<std::string> knobs_of(const std::vector<TradeoffRow>& rows) {
   std::vector<std::string> knobs;
-  for (const StudyRow& row : rows)
+  for (const TradeoffRow& row : rows)
     if (std::find(knobs.begin(), knobs.end(), row.point.knob) == knobs.end()) knobs.push_back(row.point.knob);
   return knobs;
 }
 
-std::vector<StudyRow> rows_of(const std::vector<StudyRow>& rows, const std::string& knob) {
-  std::vector<StudyRow> chosen;
-  for (const StudyRow& row : rows)
+std::vector<TradeoffRow> rows_of(const std::vector<TradeoffRow>& rows, const std::string& knob) {
+  std::vector<TradeoffRow> chosen;
+  for (const TradeoffRow& row : rows)
     if (row.point.knob == knob && row.finished() && !row.point.is_reference()) chosen.push_back(row);
   std::stable_sort(chosen.begin(), chosen.end(), is_faster);
   return chosen;
 }
 
-std::vector<StudyRow> pareto_front(const std::vector<StudyRow>& rows) {
+std::vector<TradeoffRow> pareto_front(const std::vector<TradeoffRow>& rows) {
   CUPOLA_ASSERT(std::is_sorted(rows.begin(), rows.end(), is_faster));
-  std::vector<StudyRow> front;
+  std::vector<TradeoffRow> front;
   double best = std::numeric_limits<double>::infinity();
-  for (const StudyRow& row : rows) {
+  for (const TradeoffRow& row : rows) {
     if (!row.reached() || !(row.error() < best)) continue;
     best = row.error();
     front.push_back(row);
@@ -103,7 +103,7 @@ std::vector<StudyRow> pareto_front(const std::vector<StudyRow>& rows) {
   return front;
 }
 
-Table study_table(const std::vector<StudyRow>& rows) {
+Table tradeoff_table(const std::vector<TradeoffRow>& rows) {
   Table t{"tradeoff", "Cost and errors of every run of the study", {}, {}};
   t.columns = {{"knob", "", "the setting that is varied"},
                {"run", "", "folder of the run"},
@@ -125,7 +125,7 @@ Table study_table(const std::vector<StudyRow>& rows) {
                {"thrust_line_error", "", "largest shift of a thrust line over the thickness"},
                {"base_thrust_error", "", "relative error of the outward base thrust"},
                {"critical_value_error", "", "relative error of the critical value, limit analyses"}};
-  for (const StudyRow& row : rows) {
+  for (const TradeoffRow& row : rows) {
     std::string settings;
     for (const std::string& setting : row.point.settings) settings += (settings.empty() ? "" : " ") + setting;
     const Summary s = row.summary.value_or(Summary{});

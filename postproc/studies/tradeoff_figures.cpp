@@ -1,4 +1,4 @@
-#include "postproc/studies/study_figures.hpp"
+#include "postproc/studies/tradeoff_figures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,13 @@ namespace cupola {
 namespace {
 
 constexpr double kSmallestDrawnError = 1e-14;  // smaller errors, zero included, are drawn here
-constexpr const char* kColours[] = {kBlue, kOrange, kGreen, kPurple, kSky, "#E69F00", "#444444", "#999999"};
+constexpr const char* kSeriesColours[] = {kBlue, kOrange,   kGreen,    kPurple,
+                                          kSky,  "#E69F00", "#444444", "#999999"};
 // Hollow point types of gnuplot: square, circle, triangle, downward triangle, diamond. Filled: the next
 // number.
 constexpr int kHollow[] = {4, 6, 8, 10, 12};
 
-double drawn_error(const StudyRow& row) {
+double drawn_error(const TradeoffRow& row) {
   return std::max(row.error(), kSmallestDrawnError);
 }
 
@@ -35,14 +36,14 @@ std::string method_title(ContactMethod method) {
 
 struct Series {
   std::string title;
-  std::vector<StudyRow> rows;
+  std::vector<TradeoffRow> rows;
 };
 
 /// Splits the runs of a knob into lines: runs whose names agree up to the last underscore, or that use the
 /// same method.
-std::vector<Series> series_of(const std::vector<StudyRow>& rows, bool by_method) {
+std::vector<Series> series_of(const std::vector<TradeoffRow>& rows, bool by_method) {
   std::vector<Series> series;
-  for (const StudyRow& row : rows) {
+  for (const TradeoffRow& row : rows) {
     const std::string& name = row.point.name;
     const std::string title = by_method ? method_title(row.summary->method) : name.substr(0, name.rfind('_'));
     auto at = std::find_if(series.begin(), series.end(), [&](const Series& s) { return s.title == title; });
@@ -57,7 +58,7 @@ std::string end_of_name(const std::string& name) {
   return last == std::string::npos ? name : name.substr(last + 1);
 }
 
-std::string axes(const std::vector<StudyRow>& rows) {
+std::string axes(const std::vector<TradeoffRow>& rows) {
   const bool critical = !rows.empty() && rows.front().critical_error;
   const bool uses_wall_time = !rows.empty() && rows.front().uses_wall_time();
   return fmt::format("set ylabel '{}'\n",
@@ -70,11 +71,11 @@ std::string axes(const std::vector<StudyRow>& rows) {
 /// and hollow points for the others; `line` joins the points.
 void add_series(const Series& series, size_t number, bool line, std::string* data, std::string* plot) {
   std::vector<std::vector<double>> points, reached;
-  for (const StudyRow& row : series.rows) {
+  for (const TradeoffRow& row : series.rows) {
     points.push_back({row.seconds(), drawn_error(row)});
     if (row.reached()) reached.push_back(points.back());
   }
-  const char* colour = kColours[number % std::size(kColours)];
+  const char* colour = kSeriesColours[number % std::size(kSeriesColours)];
   const int shape = kHollow[number % std::size(kHollow)];
   const std::string name = fmt::format("series{}", number);
   *data += data_block(name, points);
@@ -85,9 +86,9 @@ void add_series(const Series& series, size_t number, bool line, std::string* dat
   *plot += fmt::format(", ${}_reached w p lc rgb '{}' pt {} ps 1.2 notitle", name, colour, shape + 1);
 }
 
-std::string labels(const std::vector<StudyRow>& rows, bool whole_name) {
+std::string labels(const std::vector<TradeoffRow>& rows, bool whole_name) {
   std::string commands;
-  for (const StudyRow& row : rows)
+  for (const TradeoffRow& row : rows)
     commands += fmt::format(
         "set label '{}' at {:.9g},{:.9g} offset 0.7,0.6 noenhanced font ',9' textcolor rgb '#444444'\n",
         gnuplot_text(whole_name ? row.point.name : end_of_name(row.point.name)), row.seconds(),
@@ -95,7 +96,7 @@ std::string labels(const std::vector<StudyRow>& rows, bool whole_name) {
   return commands;
 }
 
-Figure knob_figure(const std::vector<StudyRow>& rows, const std::string& knob) {
+Figure knob_figure(const std::vector<TradeoffRow>& rows, const std::string& knob) {
   Figure figure;
   figure.name = "tradeoff_" + knob;
   figure.title = fmt::format("Error over time: {}", knob);
@@ -114,7 +115,7 @@ Figure knob_figure(const std::vector<StudyRow>& rows, const std::string& knob) {
   return figure;
 }
 
-Figure overall_figure(const std::vector<StudyRow>& all) {
+Figure overall_figure(const std::vector<TradeoffRow>& all) {
   Figure figure;
   figure.name = "tradeoff";
   figure.title = "Error over time: all knobs";
@@ -128,7 +129,7 @@ Figure overall_figure(const std::vector<StudyRow>& all) {
   std::string data, plot;
   size_t number = 0;
   for (const std::string& knob : knobs_of(all)) {
-    const std::vector<StudyRow> rows = rows_of(all, knob);
+    const std::vector<TradeoffRow> rows = rows_of(all, knob);
     // A different kind of error or time cannot share the axes
     if (!rows.empty() && (rows.front().critical_error || rows.front().uses_wall_time())) continue;
     if (knob == "method") {
@@ -137,9 +138,9 @@ Figure overall_figure(const std::vector<StudyRow>& all) {
       add_series({knob, rows}, number++, false, &data, &plot);
     }
   }
-  const std::vector<StudyRow> front = pareto_front(rows_of(all, "method"));
+  const std::vector<TradeoffRow> front = pareto_front(rows_of(all, "method"));
   std::vector<std::vector<double>> steps;
-  for (const StudyRow& row : front) steps.push_back({row.seconds(), drawn_error(row)});
+  for (const TradeoffRow& row : front) steps.push_back({row.seconds(), drawn_error(row)});
   if (!steps.empty()) data += data_block("front", steps);
   if (!steps.empty())
     plot += ", $front w steps lc rgb '#000000' lw 0.8 dt 2 title 'Pareto front of the methods'";
@@ -150,10 +151,10 @@ Figure overall_figure(const std::vector<StudyRow>& all) {
 
 }  // namespace
 
-std::vector<Figure> study_figures(const std::vector<StudyRow>& rows) {
+std::vector<Figure> tradeoff_figures(const std::vector<TradeoffRow>& rows) {
   std::vector<Figure> figures;
   for (const std::string& knob : knobs_of(rows))
-    if (const std::vector<StudyRow> of_knob = rows_of(rows, knob); !of_knob.empty())
+    if (const std::vector<TradeoffRow> of_knob = rows_of(rows, knob); !of_knob.empty())
       figures.push_back(knob_figure(of_knob, knob));
   if (!figures.empty()) figures.insert(figures.begin(), overall_figure(rows));
   return figures;

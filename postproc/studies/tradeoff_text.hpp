@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "postproc/studies/study.hpp"
+#include "postproc/studies/tradeoff.hpp"
 
 namespace cupola {
 
 /// The exchange of time for accuracy in words: runs that are missing, one paragraph per reference, one per
 /// knob.
-std::vector<std::string> study_text(const std::vector<StudyRow>& rows);
+std::vector<std::string> tradeoff_text(const std::vector<TradeoffRow>& rows);
 
 }  // namespace cupola

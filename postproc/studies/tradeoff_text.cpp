@@ -1,4 +1,4 @@
-#include "postproc/studies/study_text.hpp"
+#include "postproc/studies/tradeoff_text.hpp"
 
 #include <algorithm>
 
@@ -16,16 +16,16 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 /// "NAME (2 s, 1.0e-03)": name, time and error.
-std::string with_cost(const StudyRow& row) {
+std::string with_cost(const TradeoffRow& row) {
   return fmt::format("{} ({:.2g} s{}, {:.1e})", row.point.name, row.seconds(),
                      row.uses_wall_time() ? " wall time" : "", row.error());
 }
 
 /// The fastest run within each of a few round errors; runs that are fastest within several errors come once.
-std::string fastest_runs(const std::vector<StudyRow>& front) {
+std::string fastest_runs(const std::vector<TradeoffRow>& front) {
   std::vector<std::string> errors, parts;
   for (const double error : {1e-1, 1e-2, 1e-3, 1e-6}) {
-    const auto within = [error](const StudyRow& row) { return row.error() <= error; };
+    const auto within = [error](const TradeoffRow& row) { return row.error() <= error; };
     const auto at = std::find_if(front.begin(), front.end(), within);
     if (at == front.end()) break;
     const std::string run = with_cost(*at);
@@ -44,9 +44,9 @@ std::string fastest_runs(const std::vector<StudyRow>& front) {
 }
 
 /// Time and error from the fastest to the most accurate run of the front.
-std::string exchange(const std::vector<StudyRow>& front) {
+std::string exchange(const std::vector<TradeoffRow>& front) {
   if (front.size() < 2) return "";
-  const StudyRow &fast = front.front(), &fine = front.back();
+  const TradeoffRow &fast = front.front(), &fine = front.back();
   const std::string gain =
       fine.error() > 0.0 ? fmt::format("the error falls by a factor of {:.2g}", fast.error() / fine.error())
                          : std::string("the error falls to zero");
@@ -54,16 +54,17 @@ std::string exchange(const std::vector<StudyRow>& front) {
                      fine.point.name, fine.seconds() / fast.seconds(), gain);
 }
 
-std::string knob_text(const std::vector<StudyRow>& all, const std::string& knob) {
-  const std::vector<StudyRow> rows = rows_of(all, knob);
+std::string knob_text(const std::vector<TradeoffRow>& all, const std::string& knob) {
+  const std::vector<TradeoffRow> rows = rows_of(all, knob);
   if (rows.empty()) return "";
-  const StudyRow& worst = *std::max_element(
-      rows.begin(), rows.end(),
-      [](const StudyRow& a, const StudyRow& b) { return a.errors.wrench_worst < b.errors.wrench_worst; });
+  const TradeoffRow& worst =
+      *std::max_element(rows.begin(), rows.end(), [](const TradeoffRow& a, const TradeoffRow& b) {
+        return a.errors.wrench_worst < b.errors.wrench_worst;
+      });
   std::vector<std::string> unreached;
-  for (const StudyRow& row : rows)
+  for (const TradeoffRow& row : rows)
     if (!row.reached()) unreached.push_back(with_cost(row));
-  const std::vector<StudyRow> front = pareto_front(rows);
+  const std::vector<TradeoffRow> front = pareto_front(rows);
   std::string text = fmt::format("{}: ", knob);
   if (!rows.front().point.coarse.empty())
     text += fmt::format("Reference {}, extrapolated to a time step of zero for a method of first order. ",
@@ -80,12 +81,12 @@ std::string knob_text(const std::vector<StudyRow>& all, const std::string& knob)
 
 }  // namespace
 
-std::vector<std::string> study_text(const std::vector<StudyRow>& rows) {
+std::vector<std::string> tradeoff_text(const std::vector<TradeoffRow>& rows) {
   std::vector<std::string> paragraphs, missing;
-  for (const StudyRow& row : rows)
+  for (const TradeoffRow& row : rows)
     if (!row.finished()) missing.push_back(row.point.name);
   if (!missing.empty()) paragraphs.push_back("Not run: " + listed(missing) + ".");
-  for (const StudyRow& row : rows)
+  for (const TradeoffRow& row : rows)
     if (row.point.is_reference() && row.finished())
       paragraphs.push_back(
           fmt::format("Reference {}: {:.2g} s{}, {:.0f} MB, {}, status {}, certified force error {}.",
