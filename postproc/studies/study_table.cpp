@@ -64,7 +64,7 @@ double number_of(const StudyColumn& column, const std::string& run, RunCache& ca
   double number = evaluate(of_row(column.value, run), cache);
   if (column.over) number /= evaluate(of_row(*column.over, run), cache);
   if (column.minus) number -= evaluate(of_row(*column.minus, run), cache);
-  return column.scale * number;
+  return column.scale * number + 0.0;  // no negative zero
 }
 
 /// Why the numbers of a column are not to be used; empty: they are.
@@ -89,7 +89,7 @@ Table::Cell cell_of(const StudyColumn& column, const std::string& run, RunCache&
   try {
     return number_of(column, run, cache);
   } catch (const InputError&) {  // the run has no such number
-    const std::string& name = of_row(column.value, run).runs.front();
+    const std::string name = of_row(column.value, run).runs.front();
     return filled(*column.absent, "{reason}", reason_of(cache.run(name).message()));
   }
 }

@@ -123,6 +123,8 @@ const Columns<ForceRange>& range_columns() {
        [](const R& r) { return r.max.frame.value_or(-1); }},
       {"relative_range", "", "width of the range over its mean, 0: certain, 2: from zero; inf: unbounded",
        [](const R& r) { return relative_range(r); }},
+      {"margin", "", "distance of the chosen value from the nearer end, over the width of the range",
+       [](const R& r) { return margin_of(r); }},
       {"block_a", "", "of a normal force: block of the joint with the smaller number; -1: another quantity",
        [](const R& r) { return r.joint ? r.joint->first : -1; }},
       {"block_b", "", "of a normal force: the other block of the joint; -1: another quantity",

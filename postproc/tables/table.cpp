@@ -27,7 +27,8 @@ std::string to_csv(const Table& table) {
   fmt::memory_buffer out;
   const auto end_of = [](size_t i, size_t n) { return i + 1 == n ? '\n' : ','; };
   for (size_t i = 0; i < table.columns.size(); ++i)
-    fmt::format_to(std::back_inserter(out), "{}{}", table.columns[i].key, end_of(i, table.columns.size()));
+    fmt::format_to(std::back_inserter(out), "{}{}", csv_text(table.columns[i].key),
+                   end_of(i, table.columns.size()));
   for (const auto& row : table.rows)
     for (size_t i = 0; i < row.size(); ++i)
       fmt::format_to(std::back_inserter(out), "{}{}", csv_cell(row[i]), end_of(i, row.size()));
