@@ -30,7 +30,9 @@ FirstProblem build_first_problem(const Case& scene, const Assembly& assembly) {
   const Analysis& analysis = scene.analysis;
   FirstProblem first{make_model(scene, assembly), {}, {}, {}};
   const State rest = state_at_rest(first.model);
-  first.contacts = ContactDetector(assembly, detection_options(scene)).update(rest.poses);
+  ContactDetector detector(assembly, detection_options(scene));
+  first.contacts = analysis.type == AnalysisType::static_ ? contacts_at_rest(rest, assembly, &detector)
+                                                          : detector.update(rest.poses);
   const ContactMemories memories = match_memories({}, first.contacts.points);
   first.step =
       analysis.type == AnalysisType::dynamic

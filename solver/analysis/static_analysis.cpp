@@ -65,7 +65,10 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   const Model model = make_model(scene, assembly);
   const State rest = state_at_rest(model);
   // The detector is destroyed at once: for a large model it is as large as the contact problem.
-  const ContactSet contacts = ContactDetector(assembly, detection_options(scene)).update(rest.poses);
+  const ContactSet contacts = [&] {
+    ContactDetector detector(assembly, detection_options(scene));
+    return contacts_at_rest(rest, assembly, &detector);
+  }();
   sinks.as_built(contacts);
   release_freed_memory();
   const ContactMemories memories = match_memories({}, contacts.points);
