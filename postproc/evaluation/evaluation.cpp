@@ -234,6 +234,11 @@ bool is_vault(const Evaluation& e) {
          traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::by_azimuth;
 }
 
+bool is_arch(const Evaluation& e) {
+  return e.shell.num_rings() > 0 && !e.scene.geometry.imported &&
+         traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::one;
+}
+
 void leave_out(const std::string& part, const std::string& reason, Evaluation* e) {
   std::string text = fmt::format("{} was left out: {}", part, reason);
   if (std::find(e->unreadable.begin(), e->unreadable.end(), text) == e->unreadable.end())
@@ -300,7 +305,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.last = evaluate_frame(e, evaluated_frame(results, &e));
   const std::vector<bool> left_out = blocks_left_out(e);
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
-                      e.last.frame.ties, left_out);
+                      e.last.frame.ties, left_out, is_arch(e));
   e.chains = chain_forces(e.assembly.chains, e.last.frame.ties);
   e.wythes = wythe_sums(e.assembly, e.shell, e.last.joints, e.last.frame.contacts, e.up);
   e.members = member_sums(e.assembly, e.last.joints, e.last.gravity, left_out);

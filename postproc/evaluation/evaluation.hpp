@@ -95,6 +95,9 @@ bool is_mechanism(const Summary& summary, const Frame& frame);
 /// True for a vault about the z axis, where azimuths are meaningful.
 bool is_vault(const Evaluation& evaluation);
 
+/// True for an arch or barrel vault over x, whose courses run along y.
+bool is_arch(const Evaluation& evaluation);
+
 /// Records that a part of the results was left out and why, once per part.
 void leave_out(const std::string& part, const std::string& reason, Evaluation* evaluation);
 

@@ -229,9 +229,10 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
                  : fmt::format("Thrust line, meridian {} ({:g} deg)", line.name, line.azimuth_deg);
   f.caption =
       describe(line) +
-      " r is the norm of the resultant of a strip one block wide across a bed, v its vertical component. The "
-      "largest couple length of such a resultant is " +
-      length_text(couple) + ".";
+      fmt::format(
+          " r is the norm of the resultant of {} across a bed, v its vertical component. The largest couple "
+          "length of such a resultant is {}.",
+          arch ? "the full width" : "a strip one block wide", length_text(couple));
   if (m.least_thrust || m.greatest_thrust)
     f.caption +=
         " The thin lines belong to the states of least and greatest thrust among all admissible ones.";

@@ -25,6 +25,12 @@ std::string with_capital(std::string text) {
 }
 
 KeyNumber critical_number(const CriticalValue& critical) {
+  if (critical.parameter == "joint_extent" && critical.stable > 0.0)
+    return {"Geometric safety factor", fmt::format("{:.4g}", 1.0 / critical.stable),
+            fmt::format(
+                "Heyman's, of the safest state: forces exist that stay inside joints of {:.4g} times their "
+                "extent, and none inside joints of {:.4g} times",
+                critical.stable, critical.moving)};
   std::string unit = limit_unit(critical.parameter);
   double factor = 1.0;
   if (unit == "Pa") factor = critical.value < 1e6 ? 1e-3 : 1e-6, unit = critical.value < 1e6 ? "kPa" : "MPa";
@@ -62,9 +68,10 @@ void add_thrust_line(const Evaluation& e, std::vector<KeyNumber>* out) {
         (!worst || m.thrust.least_face_distance < worst->least_face_distance))
       worst = &m.thrust;
   if (!worst || worst->undefined == static_cast<int>(worst->points.size())) return;
-  const std::string safety = std::isfinite(worst->least_geometric_safety)
-                                 ? fmt::format(", geometric safety {:.3g}", worst->least_geometric_safety)
-                                 : "";
+  const std::string safety =
+      std::isfinite(worst->least_geometric_safety)
+          ? fmt::format(", half the thickness over the eccentricity {:.3g}", worst->least_geometric_safety)
+          : "";
   out->push_back({"Thrust line to the nearer face", length_text(worst->least_face_distance),
                   fmt::format("least distance, meridian {}{}", worst->name, safety)});
 }
@@ -87,8 +94,9 @@ void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
   add_thrust_line(e, out);
   const auto sliding = std::count_if(joints.begin(), joints.end(),
                                      [](const JointWrench& j) { return j.friction_use > kSlides; });
-  out->push_back({kLargestFrictionUse, fmt::format("{:.3g} %", 100.0 * s.largest_friction_use.value_or(0.0)),
-                  fmt::format("{} of {} slide", sliding, counted(joints.size(), "joint"))});
+  out->push_back(
+      {kLargestFrictionUse, fmt::format("{:.3g} %", 100.0 * s.largest_friction_use.value_or(0.0)),
+       fmt::format("{} of {} are at their friction limit", sliding, counted(joints.size(), "joint"))});
   double force = 0.0;
   for (const JointWrench& joint : joints) force = std::max(force, joint.wrench.force.norm());
   out->push_back({"Largest force of a joint", force_text(force),

@@ -60,7 +60,7 @@ std::string friction_text(const PostSummary& s) {
   if (use == 0.0) return "Friction is not used: the tangential forces of all joints are negligible.";
   constexpr double kSliding = 0.999;  // as printed: 100.0 %
   return fmt::format("The largest friction utilisation of a joint is {}{}.", percent(use),
-                     use > kSliding ? ": this joint slides" : "");
+                     use > kSliding ? ": this joint is at its limit" : "");
 }
 
 std::string strength_text(const PostSummary& s) {
@@ -91,9 +91,8 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
   if (s.largest_strength_use && !leads(leading, kLargestPressure)) out.push_back(strength_text(s));
   for (const PlaneCut& cut : e.planes)
     out.push_back(
-        fmt::format("The joints across the plane {} transmit a normal force of {} (compression positive) to "
-                    "the part beyond.",
-                    cut.name, force_text(above(cut.across.force.dot(cut.normal), s.negligible_force_N))));
+        fmt::format("The joints across the plane {} transmit {} to the part beyond.", cut.name,
+                    normal_force_text(above(cut.across.force.dot(cut.normal), s.negligible_force_N))));
   for (const ChainForces& chain : e.chains) out.push_back(chain_text(chain));
   add_rings(e, s, &out);
   if (s.rib_over_mid_sail)

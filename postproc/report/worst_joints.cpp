@@ -38,10 +38,10 @@ std::string at_rest_html(const Evaluation& e) {
   std::string out;
   if (worst.sliding && e.last.joints.wrenches[*worst.sliding].friction_use > 0.0) {
     const JointWrench& j = e.last.joints.wrenches[*worst.sliding];
-    out += fmt::format("<li>{} {}: it uses {:.3g} % of its friction under a normal force of {}.</li>\n",
+    out += fmt::format("<li>{} {}: it uses {:.3g} % of its friction under {}.</li>\n",
                        joint_link(e, *worst.sliding),
-                       j.friction_use > kSlides ? "slides" : "is the nearest to sliding",
-                       100.0 * j.friction_use, markup_text(force_text(j.normal_force)));
+                       j.friction_use > kSlides ? "is at its friction limit" : "is the nearest to sliding",
+                       100.0 * j.friction_use, markup_text(normal_force_text(j.normal_force)));
   }
   if (worst.edge && e.last.joints.wrenches[*worst.edge].kern > 0.0) {
     const JointWrench& j = e.last.joints.wrenches[*worst.edge];

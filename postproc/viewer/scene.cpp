@@ -65,6 +65,11 @@ std::string label_of(const ColumnInfo& column) {
   return text;
 }
 
+/// True for a share that the view shows in percent, as the cards do.
+bool is_share(const std::string& key) {
+  return key == "friction_use" || key == "strength_use" || key == "open_share" || key == "damage";
+}
+
 /// Entries of the header for one column: one, or three for a vector.
 template <class Row>
 Json column_entries(const Columns<Row>& columns, const KeyList& keys) {
@@ -73,7 +78,7 @@ Json column_entries(const Columns<Row>& columns, const KeyList& keys) {
     const Column<Row>& column = column_named(columns, key);
     for (const std::string& table_key : column.table_keys())
       entries.push_back({{"key", table_key},
-                         {"unit", column.unit},
+                         {"unit", is_share(table_key) ? "share" : column.unit},
                          {"label", label_of(column)},
                          {"meaning", column.meaning},
                          {"colour", !column.is_vector}});

@@ -13,6 +13,7 @@
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/analysis/statics/static_solve.hpp"
+#include "solver/conic/solve_conic.hpp"
 
 namespace cupola {
 namespace {
@@ -91,12 +92,15 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
 }
 
 /// Writes the admissible state and the mechanism as frames. Returns a description of the mechanism: "; " and a clause.
-std::string write_ends(const DirectLimit& limit, const AnalysisSinks& sinks, Summary* summary) {
+/// `gravity`: m/s2, without a horizontal acceleration that the search adds.
+std::string write_ends(const DirectLimit& limit, double gravity, const AnalysisSinks& sinks,
+                       Summary* summary) {
   const RigidScene& stable = limit.at_admissible;
   const Frame frame = admissible_frame(stable, limit.gamma, stable.start.time);
   sinks.frame(frame);
   summarize_frame(frame, stable.model, summary);
   summarize_balance(balance_of(stable, limit.gamma), summary);
+  summary->weight_N = free_weight(*stable.assembly, gravity);
 
   if (limit.mechanism.size() == 0) return "";
   const RigidScene& moving = limit.at_moving;
@@ -106,6 +110,17 @@ std::string write_ends(const DirectLimit& limit, const AnalysisSinks& sinks, Sum
     write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism,
                     {frame.contacts.force, frame.ties.force}, frame.contacts.law_violation, sinks);
   return "; " + describe(mechanism);
+}
+
+/// Writes an admissible state under the loads of the case, if there is one: without a limit no value stands out.
+void write_state_of_case(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks,
+                         Summary* summary) {
+  DirectLimit own;
+  own.at_admissible = rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));
+  const ConicSolution any = solve_conic(own.at_admissible.problem);
+  if (any.outcome != ConicOutcome::optimal) return;
+  own.gamma = any.gamma;
+  write_ends(own, scene.loads.gravity.norm(), sinks, summary);
 }
 
 /// The critical value and what proves it from both sides.
@@ -145,9 +160,9 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
                            state ? "they are one of the admissible states" : "no equilibrium was found"};
   summary.status = limit.unlimited ? Status::stable : limit.no_state ? Status::moving : Status::unconverged;
   summary.message = name + ": " + limit.message;
-  if (limit.unlimited) write_ends(limit, sinks, &summary);
+  if (limit.unlimited) write_state_of_case(scene, assembly, sinks, &summary);
   if (limit.found) {
-    const std::string mechanism = write_ends(limit, sinks, &summary);
+    const std::string mechanism = write_ends(limit, scene.loads.gravity.norm(), sinks, &summary);
     const double width = limit.relative_width();
     summary.accuracy.reached = summary.accuracy.worst_over_run = width;
     // Recomputed from points and world forces: what the solver calls admissible must balance.

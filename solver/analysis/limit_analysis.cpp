@@ -113,6 +113,7 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
     const Frame frame =
         static_frame(probe.model, probe.start, probe.contacts, probe.memories, probe.solution, run.options);
     summarize_static(probe.solution, frame, probe.model, run.options.tolerance, summary);
+    summary->weight_N = free_weight(*probe.model.assembly, run.scene.loads.gravity.norm());
     summary->max_displacement_m.reset();  // it depends on how close the bracket is to the critical value
     Frame first = frame;
     first.time = 0.0;

@@ -197,7 +197,9 @@ TEST(Commands, CompareRuns) {
   EXPECT_TRUE(
       contains(run.out, "B: Six rings <b>& a crown (with geometry.surface.thickness=2) (runs/thin/post)"))
       << run.out;
-  EXPECT_TRUE(contains(run.out, "The smallest geometric safety of the thrust lines is")) << run.out;
+  EXPECT_TRUE(contains(run.out,
+                       "The smallest ratio of half the thickness to the eccentricity of the thrust lines is"))
+      << run.out;
   const std::string page = slurp(folder.file("both/comparison.html"));
   EXPECT_TRUE(contains(page, "Six rings &lt;b&gt;&amp; a crown"));
   EXPECT_FALSE(contains(page, "Six rings <b>"));

@@ -6,6 +6,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/model/outward.hpp"
 
 namespace cupola {
 JointGeometry::JointGeometry(const Case& scene, const Assembly& assembly, const ContactSet& contacts)
@@ -60,9 +61,8 @@ bool JointGeometry::is_arch() const {
 
 Vec3 JointGeometry::outward(const Vec3& point) const {
   const bool imported = scene_.geometry.imported.has_value();
-  if (!imported && traits_of(scene_.geometry.surface).closed)
-    return Vec3(point.x(), point.y(), 0.0).stableNormalized();
-  if (is_arch()) return {point.x() < 0.0 ? -1.0 : 1.0, 0.0, 0.0};
+  if (is_arch() || (!imported && traits_of(scene_.geometry.surface).closed))
+    return outward_at(point, is_arch());
   throw InputError(fmt::format(
       "analysis.range.quantities: {} no axis, so that `thrust` and `outward` are not defined; give "
       "a reaction or joint a `direction`",

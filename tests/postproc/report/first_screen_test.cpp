@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "postproc/report/report.hpp"
 #include "postproc/report/worst_joints.hpp"
 #include "tests/postproc/scene.hpp"
 
@@ -54,6 +55,18 @@ TEST(FirstScreen, ALimitAnalysisBeginsWithItsCriticalValue) {
   ASSERT_EQ(numbers.size(), 3u);
   EXPECT_EQ(numbers[0].name, "Critical tilt");
   EXPECT_EQ(numbers[0].value, "9.462 degrees");
+}
+
+// Heyman's factor is the inverse of the least extent of the joints, and of no thrust line shown.
+TEST(FirstScreen, TheLeastExtentOfTheJointsIsAGeometricSafetyFactor) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.analysis = AnalysisType::limit;
+  e.summary.critical = CriticalValue{"joint_extent", 0.8, 0.8, 0.8 - 1e-9};
+  const KeyNumber first = key_numbers(e, {}).front();
+  EXPECT_EQ(first.name, "Geometric safety factor");
+  EXPECT_EQ(first.value, "1.25");
+  for (const std::string& sentence : finding_sentences(e))
+    EXPECT_EQ(sentence.find("eometric safety"), std::string::npos) << sentence;
 }
 
 TEST(FirstScreen, ARangeAnalysisGivesTheRangeInPlaceOfTheChosenThrust) {
