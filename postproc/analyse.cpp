@@ -14,6 +14,7 @@
 #include "postproc/figures/figures.hpp"
 #include "postproc/pictures/paraview.hpp"
 #include "postproc/pictures/pictures.hpp"
+#include "postproc/report/answers.hpp"
 #include "postproc/report/load_path.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/report/stages.hpp"
@@ -33,8 +34,8 @@ void remove_earlier_output(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
     for (const char* start :
-         {"ranges.csv", "path.csv", "rings.csv", "stages.csv", "members.csv", "wythes.csv", "chains.csv",
-          "ties.csv", "shell", "thrust_", "hoop_", "section_", "cut_"})
+         {"ranges.csv", "path.csv", "rings.csv", "reactions.csv", "stages.csv", "members.csv", "wythes.csv",
+          "chains.csv", "ties.csv", "shell", "thrust_", "hoop_", "section_", "cut_"})
       if (name.starts_with(start) && name.ends_with(".csv")) std::filesystem::remove(entry.path(), ignored);
   }
   std::filesystem::remove(in_folder(folder, "ties.vtp"), ignored);
@@ -239,8 +240,9 @@ ExitCode analyse(const AnalyseRequest& request) {
 
   report_warnings("cupola-post", e.warnings, run.doubts, false);
   if (!request.quiet)
-    fmt::print("{}, {}; open {}\n", counted(tables.size(), "table"), counted(drawn.figures.size(), "figure"),
-               in_folder(folder, request.tables_only ? "summary.json" : "report.html"));
+    for (const std::string& line :
+         terminal_lines(e, in_folder(folder, request.tables_only ? "summary.json" : "report.html")))
+      fmt::print("{}\n", line);
   throw_if_incomplete(e, folder);
   return ExitCode::done;
 }

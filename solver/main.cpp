@@ -32,6 +32,8 @@ ExitCode solve(int argc, char** argv) {
   line.flag("--explain", &explain, "print the model, its cost and the active features without solving it");
   line.flag("--force", &request.force, "use an assembly that was made from another geometry or material");
   line.flag("--resume", &request.resume, "resume from the checkpoint in the output folder, if there is one");
+  line.flag("--verbose", &request.verbose,
+            "print every step, trial and iteration, and all residuals at the end");
   line.optional("--threads", &request.threads, 1,
                 "number of threads (default 1); the results are the same to the bit");
   line.optional("--dump-fclib", &request.dump_fclib, "FILE",

@@ -119,7 +119,7 @@ void print_forces(const Summary& summary) {
              summary.contacts);
 }
 
-void print_summary(const Summary& summary) {
+void print_summary(const Summary& summary, bool verbose) {
   const Colour colour = summary.status == Status::stable        ? Colour::green
                         : summary.status == Status::unconverged ? Colour::red
                                                                 : Colour::yellow;
@@ -128,6 +128,12 @@ void print_summary(const Summary& summary) {
     fmt::print("{}\n", in_colour(summary.message, colour, stdout));
   else
     fmt::print("{}: {}\n", in_colour(to_string(summary.status), colour, stdout), summary.message);
+  if (!verbose) {
+    fmt::print("  {}, weight {}; {:.3g} s; --verbose prints steps and residuals\n",
+               counted(summary.free_blocks, "free block"), readable_force(summary.weight_N),
+               summary.wall_time_seconds);
+    return;
+  }
   fmt::print("  {}, {}, {}, {}\n", counted(summary.free_blocks, "free block"),
              counted(summary.joints, "joint"), counted(summary.contacts, "contact"),
              counted(summary.unknowns, "unknown"));
@@ -165,12 +171,13 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
   const AnalysisType type = request.scene.analysis.type;
   const bool has_progress =
       type == AnalysisType::dynamic || type == AnalysisType::staged || type == AnalysisType::path;
-  const bool bar = !request.quiet && has_progress && is_terminal(stdout);
-  sinks.log = [&request, bar, last_line](const std::string& line) {
+  const bool live = !request.quiet && !request.verbose && is_terminal(stdout);
+  sinks.log = [&request, progress, one_line = live && !has_progress, last_line](const std::string& line) {
     *last_line = line;
-    if (!request.quiet && !bar) fmt::print("{}\n", line), std::fflush(stdout);
+    if (request.verbose && !request.quiet) fmt::print("{}\n", line), std::fflush(stdout);
+    if (one_line) progress->show(line);
   };
-  if (bar)
+  if (live && has_progress)
     sinks.progress = [progress](double share, const std::string& state) { progress->show(share, state); };
   sinks.history = [run](const std::string& row) { run->history += row + "\n"; };
   sinks.frame = [writer, run](const Frame& frame) {
@@ -288,7 +295,7 @@ ExitCode solve_case(SolveRequest request) {
   // Written again even if an interrupted run wrote it: the summary lists the files that this run wrote.
   if (!run.history.empty()) writer.write_text("history.csv", run.history);
   writer.write_summary(*summary);
-  if (!request.quiet) print_summary(*summary);
+  if (!request.quiet) print_summary(*summary, request.verbose);
   return summary->status == Status::unconverged ? ExitCode::accuracy_not_reached : ExitCode::done;
 }
 

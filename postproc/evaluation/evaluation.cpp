@@ -115,6 +115,19 @@ double unbalanced_force(const Summary& s) {
   return s.equilibrium_residual.value_or(0.0) * s.weight_N / s.free_blocks;
 }
 
+/// Reads the mechanism that follows the last equilibrium of a limit analysis.
+void find_what_gives_way(const ResultsReader& results, Evaluation* e) {
+  if (e->summary.analysis != AnalysisType::limit || e->times.size() < 2) return;
+  try {
+    const Frame frame = results.read_frame(1);
+    if (!is_mechanism(e->summary, frame)) return;
+    e->gives_way = what_gives_way(e->assembly, frame, joint_wrenches(e->assembly, frame.contacts, e->shell),
+                                  e->scene.joints.friction);
+  } catch (const InputError& error) {
+    leave_out(frame_name(1), error.what(), e);
+  }
+}
+
 /// Sets loads and thickness to those of the equilibrium evaluated.
 void apply_limit(Evaluation* e) {
   e->acting = e->scene.loads;
@@ -306,6 +319,9 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   const std::vector<bool> left_out = blocks_left_out(e);
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
                       e.last.frame.ties, left_out, is_arch(e));
+  e.reactions = support_reactions(e.assembly, e.last.joints, e.axes, is_arch(e));
+  e.parts = connected_parts(e.assembly, e.last.joints);
+  find_what_gives_way(results, &e);
   e.chains = chain_forces(e.assembly.chains, e.last.frame.ties);
   e.wythes = wythe_sums(e.assembly, e.shell, e.last.joints, e.last.frame.contacts, e.up);
   e.members = member_sums(e.assembly, e.last.joints, e.last.gravity, left_out);

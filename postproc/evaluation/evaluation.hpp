@@ -10,8 +10,10 @@
 #include "postproc/mechanics/block_fields.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
 #include "postproc/mechanics/cuts.hpp"
+#include "postproc/mechanics/joint_speeds.hpp"
 #include "postproc/mechanics/member_sums.hpp"
 #include "postproc/mechanics/plane_cut.hpp"
+#include "postproc/mechanics/reactions.hpp"
 #include "postproc/mechanics/ring_sums.hpp"
 #include "postproc/mechanics/thrust_line.hpp"
 #include "postproc/mechanics/wythe_sums.hpp"
@@ -75,6 +77,9 @@ struct Evaluation {
   std::vector<MemberSum> members;  ///< empty without wythes
   std::vector<WytheSum> wythes;    ///< empty without wythes
   std::vector<ChainForces> chains;
+  std::vector<Reaction> reactions;    ///< of the last frame, on the supports
+  std::vector<int> parts;             ///< connected_parts()
+  std::optional<GivesWay> gives_way;  ///< of a limit analysis with a mechanism
   std::vector<MeridianEvaluation> meridians;
   std::vector<SectionEvaluation> sections;
   std::vector<PlaneCut> planes;

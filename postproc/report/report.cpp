@@ -1,6 +1,7 @@
 #include "postproc/report/report.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <set>
 
@@ -194,9 +195,14 @@ std::string report_html(const ReportInput& input) {
                              : list_section("Motion", motion_sentences(e, input.history));
   body += figures_section(input);
   body += tables_section(input.tables, at_rest(e.summary));
-  std::vector<std::string> quality = quality_sentences(e.summary);
+  const Summary& s = e.summary;
+  std::vector<std::string> quality = quality_sentences(s);
   if (e.last.joints.floor.force > 0.0) quality.push_back(floor_text(e));
-  body += list_section("How good the answer is", quality);
+  std::string said = s.message;
+  if (!said.empty()) said[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(said[0])));
+  quality.insert(quality.begin(), said + ".");
+  if (at_rest(s)) quality.insert(quality.begin(), how_sure(s));
+  body += list_section("How exact", quality);
   body += case_section(e);
   body += files_section(at_rest(e.summary), e.last.frame.ties.size() > 0, !input.picture_folder.empty());
   body += run_section(input);

@@ -55,12 +55,15 @@ std::string couple_text(const Evaluation& e, const PostSummary& s) {
   return text + ", that of the resultant of a strip of a thrust line " + length_text(strips) + ".";
 }
 
-std::string friction_text(const PostSummary& s) {
+std::string friction_text(const Evaluation& e, const PostSummary& s) {
   const double use = s.largest_friction_use.value_or(0.0);
   if (use == 0.0) return "Friction is not used: the tangential forces of all joints are negligible.";
-  constexpr double kSliding = 0.999;  // as printed: 100.0 %
-  return fmt::format("The largest friction utilisation of a joint is {}{}.", percent(use),
-                     use > kSliding ? ": this joint is at its limit" : "");
+  const auto& joints = e.last.joints.wrenches;
+  const auto at_limit = std::count_if(joints.begin(), joints.end(),
+                                      [](const JointWrench& j) { return j.friction_use > kSlides; });
+  return at_limit > 0
+             ? fmt::format("{} of {} are at their friction limit.", at_limit, counted(joints.size(), "joint"))
+             : fmt::format("The largest friction use of a joint is {}.", percent(use));
 }
 
 std::string strength_text(const PostSummary& s) {
@@ -101,7 +104,7 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
         "and {:.2f} times on a single bed (compliance per {}).",
         *s.rib_over_mid_sail, *s.rib_over_mid_sail_smallest, *s.rib_over_mid_sail_largest, s.compliance_per));
   if (!e.rings.empty()) out.push_back(couple_text(e, s));
-  if (!leads(leading, kLargestFrictionUse)) out.push_back(friction_text(s));
+  out.push_back(friction_text(e, s));
   if (s.mean_kern_use)
     out.push_back(
         *s.mean_kern_use == 0.0
@@ -110,9 +113,11 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
             : fmt::format("The mean eccentricity of the bed forces is {:.2f} of the distance to the edge of "
                           "the kern. Where it exceeds 1, part of the joint is unloaded.",
                           *s.mean_kern_use));
-  if (const double length = s.crack_length_m.value_or(0.0); length > 0.0)
-    out.push_back(fmt::format("Joints are open over {} in total, by up to {}.", length_text(length),
-                              length_text(*s.widest_crack_m)));
+  if (s.max_displacement_m)
+    out.push_back(fmt::format(
+        "The largest displacement of a block is {}, from the compliance of the joints and the motion of "
+        "the supports.",
+        length_text(*s.max_displacement_m)));
   return out;
 }
 

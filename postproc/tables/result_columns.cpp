@@ -346,6 +346,23 @@ const Columns<ChainForces>& chain_columns() {
   return columns;
 }
 
+const Columns<Reaction>& reaction_columns() {
+  using S = Reaction;
+  static const Columns<S> columns{
+      {"support", "", "index of the fixed block", &S::block},
+      {"force_{}_N", "N", "of the structure on the support", &S::force},
+      {"outward_force_N", "N", "sum of its joints along the outward direction at the centroid of each",
+       &S::outward},
+      {"length_m", "m", "of its joints along the course, area over thickness; empty: no thickness",
+       &S::length},
+      {"vertical_N_per_m", "N/m", "downwards on the support, per metre of support",
+       [](const S& r) { return -r.force.z() / r.length; }},
+      {"outward_N_per_m", "N/m", "outwards, per metre of support",
+       [](const S& r) { return r.outward / r.length; }},
+  };
+  return columns;
+}
+
 const Columns<TieRow>& tie_columns() {
   using T = TieRow;
   static const Columns<T> columns{
