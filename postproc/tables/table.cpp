@@ -4,15 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "assembly/files/csv_text.hpp"
+
 namespace cupola {
 namespace {
-
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 std::string csv_cell(const Table::Cell& cell) {
   if (const auto* number = std::get_if<double>(&cell))
