@@ -9,6 +9,7 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
+#include "assembly/files/folder_lock.hpp"
 #include "assembly/program/warnings.hpp"
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/figures.hpp"
@@ -40,7 +41,7 @@ void remove_earlier_output(const std::string& folder) {
   std::filesystem::remove(in_folder(folder, "ties.vtp"), ignored);
   for (const char* subfolder : {"figures", "pictures"})
     for (const auto& entry : std::filesystem::directory_iterator(in_folder(folder, subfolder), ignored))
-      for (const char* ending : {".gp", ".png", ".svg", ".pdf"})
+      for (const char* ending : {".gp", ".log", ".png", ".svg", ".pdf"})
         if (entry.path().extension() == ending) std::filesystem::remove(entry.path(), ignored);
 }
 
@@ -214,7 +215,7 @@ ExitCode analyse(const AnalyseRequest& request) {
   EvaluatedRun run = evaluate_run(request.run);
   Evaluation& e = run.evaluation;
   const std::string& folder = request.output_folder;
-  make_folder(folder);
+  const FolderLock lock(folder);
   // The summary marks the folder as complete: remove the old one before the first file is replaced.
   std::filesystem::remove(in_folder(folder, "summary.json"));
   remove_earlier_output(folder);

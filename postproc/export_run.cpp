@@ -44,6 +44,7 @@ std::vector<Eigen::Isometry3d> poses_of(const Evaluation& e) {
 
 ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) {
   check_export_path(path);
+  check_output_file(path);
   const EvaluatedRun run = evaluate_run(input);
   const Evaluation& e = run.evaluation;
   std::vector<std::string> warnings = e.warnings;

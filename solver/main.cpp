@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
 #include "assembly/program/command_line.hpp"
 #include "solver/fclib/solve_fclib.hpp"
 #include "solver/solve_case.hpp"
@@ -42,6 +43,7 @@ ExitCode solve(int argc, char** argv) {
       {"--output", "--quiet"});
   if (const auto ended = line.parse(argc, argv)) return *ended;
 
+  check_output_file(fclib_path.empty() ? request.dump_fclib : request.output_folder);
   if (!fclib_path.empty()) return solve_fclib(fclib_path, request.output_folder, line.quiet());
 
   // 2. The case

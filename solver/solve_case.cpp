@@ -9,9 +9,11 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
+#include "assembly/case/keys_without_effect.hpp"
 #include "assembly/case/plausibility.hpp"
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/content_hash.hpp"
+#include "assembly/files/folder_lock.hpp"
 #include "assembly/files/number_text.hpp"
 #include "assembly/files/results_file.hpp"
 #include "assembly/model/block_names.hpp"
@@ -28,6 +30,7 @@
 #include "solver/fclib/fclib_file.hpp"
 #include "solver/runtime/checkpoint.hpp"
 #include "solver/runtime/interruption.hpp"
+#include "solver/runtime/iteration_log.hpp"
 #include "solver/runtime/run_control.hpp"
 #include "solver/runtime/threads.hpp"
 
@@ -40,6 +43,7 @@ Assembly read_matching_assembly(SolveRequest* asked, std::vector<std::string>* d
   SolveRequest& request = *asked;
   const std::string& path = request.assembly_path;
   Assembly assembly = read_assembly(path);
+  refuse_keys_without_effect(request.scene, assembly);
   resolve_block_names(assembly, &request.scene.loads, &request.scene.ties, &request.scene.supports);
   resolve_block_names(assembly, &request.scene.analysis.range.quantities);
   if (auto& control = request.scene.analysis.path.control) {
@@ -159,8 +163,8 @@ std::optional<Checkpoint> find_checkpoint(const SolveRequest& request, const std
 
 /// Connects an analysis to the results folder and the terminal.
 AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpoint_path,
-                         const StopRequest& stop, ResultsWriter* writer, Checkpoint* run,
-                         ProgressBar* progress, std::string* last_line) {
+                         const StopRequest& stop, const FolderLock& lock, ResultsWriter* writer,
+                         Checkpoint* run, ProgressBar* progress, std::string* last_line) {
   AnalysisSinks sinks;
   const AnalysisType type = request.scene.analysis.type;
   const bool has_progress =
@@ -173,7 +177,8 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
   if (bar)
     sinks.progress = [progress](double share, const std::string& state) { progress->show(share, state); };
   sinks.history = [run](const std::string& row) { run->history += row + "\n"; };
-  sinks.frame = [writer, run](const Frame& frame) {
+  sinks.frame = [writer, run, &lock](const Frame& frame) {
+    lock.check();
     writer->write_frame(frame);
     run->frame_times.push_back(frame.time);
     if (!run->history.empty()) writer->write_text("history.csv", run->history);
@@ -238,12 +243,15 @@ ExitCode solve_case(SolveRequest request) {
   }
 
   // 1. Start or resume
+  const FolderLock lock(request.output_folder);
   Checkpoint run = find_checkpoint(request, checkpoint_path, assembly_hash).value_or(Checkpoint{});
   if (!run.analysis.empty() && !request.quiet)
     fmt::print("resuming {}\n",
                run.frame_times.empty()
                    ? "before the first frame"
                    : fmt::format("after frame {} at {:g} s", run.frame_times.size(), run.frame_times.back()));
+  // A checkpoint of another run would be offered if this one is interrupted before it writes its own.
+  if (run.analysis.empty()) std::filesystem::remove(checkpoint_path);
   run.program_version = program_version();
   run.case_hash = request.scene.hash;
   run.assembly_hash = assembly_hash;
@@ -254,13 +262,15 @@ ExitCode solve_case(SolveRequest request) {
   // 2. The analysis
   ProgressBar progress;
   std::string last_line;
-  AnalysisSinks sinks = make_sinks(request, checkpoint_path, stop, &writer, &run, &progress, &last_line);
+  AnalysisSinks sinks =
+      make_sinks(request, checkpoint_path, stop, lock, &writer, &run, &progress, &last_line);
   const std::string patches_path = (std::filesystem::path(request.output_folder) / "patches.vtp").string();
   sinks.as_built = [&](const ContactSet& contacts) {
     warnings.add(soft_joints(request.scene, assembly, contacts));
     warnings.add(weak_joints(request.scene, assembly, contacts));
     write_patches(patches_path, contacts, assembly_hash);
   };
+  const IterationLog iterations(sinks.log);
   std::optional<Summary> summary = summary_unless_interrupted(request.scene, assembly, sinks);
   progress.finish();
   if (!summary) {
@@ -284,6 +294,7 @@ ExitCode solve_case(SolveRequest request) {
   summary->cpu_time_seconds = cpu_seconds();
   summary->peak_memory_bytes = peak_memory_bytes();
   summary->warnings = warnings.all();
+  lock.check();
   writer.write_text("run.yaml", provenance(*summary) + request.scene.effective_yaml);
   // Written again even if an interrupted run wrote it: the summary lists the files that this run wrote.
   if (!run.history.empty()) writer.write_text("history.csv", run.history);
