@@ -255,7 +255,7 @@ ExitCode solve_case(SolveRequest request) {
   run.program_version = program_version();
   run.case_hash = request.scene.hash;
   run.assembly_hash = assembly_hash;
-  ResultsWriter writer(request.output_folder, assembly_hash, run.frame_times);
+  ResultsWriter writer(request.output_folder, assembly_hash, run.frame_times, run.case_hash);
   // A summary marks a folder as complete: remove the old one before the first frame is replaced.
   std::filesystem::remove(std::filesystem::path(request.output_folder) / "summary.json");
 

@@ -290,7 +290,7 @@ class Campaign:
     def draw(self, rng):
         case = base_case(rng)
         with self.lock: weights = [1 / (1 + self.runs_of_key[k.name]) for k in self.schema.leaves]
-        for key in rng.choices(self.schema.leaves, weights, k=rng.choice([1, 2, 3, 4, 6, 8, 12])):
+        for key in rng.choices(self.schema.leaves, weights, k=rng.choice([1, 2, 3, 4, 5, 6, 8])):
             add_companions(case, key, rng)
             self.schema.place(case, key, rng)
         return case
@@ -326,6 +326,7 @@ class Campaign:
         if (defect := self.defect_of(code, error, (0, 2, 3))) or code == 2: return "solve", code, error, defect
         post = ["--assembly", "assembly.vtu", "--results", "results", "--output", "post"] + ([] if full else ["--tables"])
         code, _, error = self.run(folder, "cupola-post", "analyse", "case.yaml", *post)
+        if code == 2 and solved == 3 and "found no state" in error: return "unsolved", code, error, ""
         if defect := self.defect_of(code, error, (0,)): return "post", code, error, defect
         return "done", solved, "", self.output_defect(folder, full)
 
@@ -342,7 +343,7 @@ class Campaign:
             stage, code, error, defect = self.stages(folder, rng)
             if defect: self.keep(folder, number, stage, defect, error)
             if stage == "done" or defect: break
-            if stage == "size":
+            if stage in ("size", "unsolved"):
                 case = self.draw(rng)
                 continue
             with self.lock: self.refused += 1

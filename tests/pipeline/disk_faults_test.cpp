@@ -56,7 +56,7 @@ TEST(DiskFaults, TwoRunsDoNotShareAFolder) {
   const WallFolder folder;
   // The first run solves until it is stopped.
   const ProgramRun run = folder.run("sh -c '" + folder.solve +
-                                    "results --set analysis.duration=1000 & first=$!; "
+                                    "results --set analysis.duration=100 & first=$!; "
                                     "until [ -e results/checkpoint ]; do sleep 0.02; done; " +
                                     folder.solve +
                                     "results; code=$?; kill -9 $first; "
@@ -73,7 +73,7 @@ TEST(DiskFaults, OutputRemovedDuringAMotionStopsIt) {
   const WallFolder folder;
   for (const std::string removal : {"rm -r results", "mv results other", "rm results/*_0001.vtp"}) {
     const ProgramRun run = folder.run("sh -c '" + folder.solve +
-                                      "results --set analysis.duration=1000 & first=$!; "
+                                      "results --set analysis.duration=100 & first=$!; "
                                       "until [ -e results/blocks_0002.vtp ]; do sleep 0.02; done; until " +
                                       removal + " 2> /dev/null; do :; done; wait $first'");
     EXPECT_EQ(run.code, 1) << removal;

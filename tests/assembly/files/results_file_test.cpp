@@ -10,6 +10,7 @@
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/summary_file.hpp"
 #include "tests/assembly/scene.hpp"
+#include "tests/fresh_folder.hpp"
 
 namespace cupola::results_file_test {
 namespace {
@@ -339,6 +340,50 @@ TEST(SummaryJson, ErrorsNameTheKey) {
   for (const std::string count : {"3.5", "1e+85", "4294967299", "-4294967293", "18446744073709551615"})
     EXPECT_EQ(error_of(with("\"blocks\": 3", "\"blocks\": " + count)),
               "r/summary.json: error: blocks = " + count + ": has the wrong type or an unknown value");
+}
+
+TEST(ResultsFile, FramesOfAnotherRunAreRefused) {
+  const std::string folder = test::fresh_folder("two_runs");
+  Summary summary = example_summary();
+  for (const char* run : {"one", "two"}) {
+    ResultsWriter writer(folder, summary.assembly_hash, {}, run);
+    writer.write_frame(two_block_frame(0.0));
+    if (run == std::string("one")) writer.write_frame(two_block_frame(0.5));
+    summary.case_hash = run;
+    writer.write_summary(summary);
+  }
+  const ResultsReader reader(folder, summary.assembly_hash);
+  EXPECT_NO_THROW(reader.read_frame(0));
+  try {
+    reader.read_frame(1);
+    FAIL() << "the second frame is of the first run";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("contacts_0001.vtp: error: belongs to another run"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(ResultsFile, RemovedFramesStopARun) {
+  const std::string folder = test::fresh_folder("removed");
+  ResultsWriter writer(folder, "hash", {}, "run");
+  writer.write_frame(two_block_frame(0.0));
+  std::filesystem::remove(folder + "/blocks_0000.vtp");
+  EXPECT_THROW(writer.write_frame(two_block_frame(0.5)), SystemError);
+  EXPECT_THROW(ResultsWriter(folder, "hash", {0.0}, "run"), InputError) << "and it cannot be resumed";
+}
+
+TEST(ResultsFile, ARunWithoutFramesSaysWhy) {
+  const std::string folder = test::fresh_folder("no_frames");
+  const Summary summary = example_summary();
+  ResultsWriter(folder, summary.assembly_hash).write_summary(summary);
+  try {
+    const ResultsReader reader(folder, summary.assembly_hash);
+    FAIL() << "there are no frames";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("found no state that could be evaluated: largest speed"),
+              std::string::npos);
+  }
 }
 
 }  // namespace
