@@ -1,5 +1,7 @@
 #include "postproc/claims/claims_command.hpp"
 
+#include <filesystem>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -29,6 +31,8 @@ ExitCode run_claims(int argc, const char* const* argv) {
     return ExitCode::done;
   }
   if (runs_folder.empty()) throw InputError("option --runs is missing; see cupola-post claims --help");
+  if (!std::filesystem::is_directory(runs_folder))
+    throw InputError(FileLocation{runs_folder}, "--runs: the folder of the runs does not exist");
 
   // 3. Evaluate and write
   const std::vector<ClaimResult> results = evaluate_claims(claims, runs_folder);

@@ -167,6 +167,7 @@ TEST(Commands, EvaluateClaims) {
   EXPECT_EQ(count(table, ",not reproduced"), 1u) << table;
   EXPECT_TRUE(contains(slurp(folder.file("told/claims.html")), "All blocks &lt;i&gt;are there."));
   EXPECT_EQ(folder.run("cupola-post claims claims.yaml").code, 2);
+  EXPECT_EQ(folder.run("cupola-post claims claims.yaml --runs rusn").code, 2) << "no such folder";
 }
 
 TEST(Commands, CompareAStudyWithItsReference) {
