@@ -41,7 +41,7 @@ frames_of_new_run() { # frames written by the disturbed run itself
 defect() { defects=$((defects + 1)); echo "DEFECT: $analysis, $stage, $kind at call $at: $1"; }
 
 for analysis in $analyses; do
-settings=$(settings_of $analysis)
+write_case $analysis
 # Results of the whole pipeline before (old: a different length) and after (new).
 rm -rf "$work/old" "$work/new"; mkdir "$work/old" "$work/new"
 generate "$work/old" --set geometry.surface.length=3 && solve "$work/old" --set geometry.surface.length=3 &&

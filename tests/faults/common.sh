@@ -1,25 +1,25 @@
 # Shared by the scripts of this folder: runs the three programs on a small case and lists their output. Expects $bin,
-# creates $work. The programs run with --quiet; `quiet= solve ...` prints everything. `settings` changes keys of the case.
+# creates $work. The programs run with --quiet; `quiet= solve ...` prints everything.
 here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 work=$(mktemp -d); trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 case_file=$work/small.yaml; cp "$here/small.yaml" "$case_file"
-settings=
-
-# Every analysis on the small case, by the keys that it changes. A motion is what the case asks for.
+# write_case ANALYSIS: the small case, with another analysis than its motion.
 analyses="dynamic static range limit staged path"
-settings_of() {
+write_case() {
+  local line
   case $1 in
-    dynamic) ;;
-    static) echo --set analysis.type=static ;;
-    range) echo --set analysis.type=range --set analysis.range.quantities=[{type:reaction,block:1}] ;;
-    limit) echo --set analysis.type=limit --set analysis.limit.parameter=acceleration ;;
-    staged) echo --set analysis.type=staged --set analysis.staged.carry=true --set analysis.friction_law=coulomb ;;
-    path) echo --set analysis.type=path --set analysis.path.steps=5 --set analysis.path.control.block=1 ;;
+    dynamic) line=$(grep ^analysis: "$here/small.yaml") ;;
+    static) line="analysis: {type: static}" ;;
+    range) line="analysis: {type: range, range: {quantities: [{type: joint, blocks: [0, 1], component: normal}]}}" ;;
+    limit) line="analysis: {type: limit, limit: {parameter: acceleration}}" ;;
+    staged) line="analysis: {type: staged, friction_law: coulomb, staged: {carry: true}}" ;;
+    path) line="analysis: {type: path, path: {steps: 5, control: {block: 1}}}" ;;
   esac
+  { grep -v ^analysis: "$here/small.yaml"; echo "$line"; } > "$case_file"
 }
-generate() { "$bin/cupola-generate" "$case_file" --quiet --output "$1/assembly.vtu" $settings "${@:2}"; }
-solve() { "$bin/cupola-solve" "$case_file" ${quiet---quiet} --assembly "$1/assembly.vtu" --output "$1/results" $settings "${@:2}"; }
-post() { "$bin/cupola-post" analyse "$case_file" --quiet --assembly "$1/assembly.vtu" --results "$1/results" --output "$1/post" $settings "${@:2}"; }
+generate() { "$bin/cupola-generate" "$case_file" --quiet --output "$1/assembly.vtu" "${@:2}"; }
+solve() { "$bin/cupola-solve" "$case_file" ${quiet---quiet} --assembly "$1/assembly.vtu" --output "$1/results" "${@:2}"; }
+post() { "$bin/cupola-post" analyse "$case_file" --quiet --assembly "$1/assembly.vtu" --results "$1/results" --output "$1/post" "${@:2}"; }
 
 # contents FOLDER [PATTERN]: one line per file with name and checksum, ignoring lines with times and memory, which
 # differ between runs, and lines that match PATTERN.
