@@ -25,7 +25,6 @@
 #include "solver/dynamics/soft_joints.hpp"
 #include "solver/dynamics/weak_joints.hpp"
 #include "solver/explain.hpp"
-#include "solver/fclib/fclib_file.hpp"
 #include "solver/runtime/checkpoint.hpp"
 #include "solver/runtime/interruption.hpp"
 #include "solver/runtime/run_control.hpp"
@@ -185,15 +184,6 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
     run->analysis = bytes;
     write_checkpoint(checkpoint_path, *run);
   };
-  if (!request.dump_fclib.empty()) {
-    if (request.scene.joints.have_strength())
-      throw InputError(
-          FileLocation{request.scene.file},
-          "joints have tension, cohesion or compressive_strength: --dump-fclib writes dry joints only");
-    sinks.problem = [&request](const ContactProblem& problem, const VecX& gamma) {
-      write_fclib(request.dump_fclib, request.scene.title, make_delassus(problem), gamma);
-    };
-  }
   sinks.interrupted = [&stop] { return stop.made(); };
   sinks.resume_from = run->analysis;
   return sinks;

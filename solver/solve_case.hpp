@@ -12,8 +12,6 @@ struct SolveRequest {
   Case scene;
   std::string assembly_path;
   std::string output_folder;
-  std::string
-      dump_fclib;  ///< file for the contact problem of the static solve or the last step; may be empty
   bool quiet = false;
   bool strict = false;  ///< warnings are errors
   bool force = false;   ///< use an assembly that was made from another geometry or material

@@ -98,23 +98,6 @@ void CommandLine::optional(const std::string& option, int* value, int smallest, 
   app_->add_option(option, *value, help)->check(CLI::Range(smallest, 1 << 20))->capture_default_str();
 }
 
-void CommandLine::instead_of_case(const std::string& option, std::string* value, const std::string& what,
-                                  const std::string& help, const std::vector<std::string>& heeded) {
-  optional(option, value, what, help);
-  instead_of_case_.push_back({option, value, heeded});
-}
-
-void CommandLine::refuse_ignored_options(const OtherRun& run) const {
-  if (!case_path_.empty())
-    throw InputError(
-        fmt::format("{} is given, so that {} is ignored; remove one of them", run.option, case_path_));
-  for (const CLI::Option* option : app_->get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() > 0 && name != run.option && std::ranges::find(run.heeded, name) == run.heeded.end())
-      throw InputError(fmt::format("{} has no effect with {}; remove it", name, run.option));
-  }
-}
-
 void CommandLine::flag(const std::string& option, bool* value, const std::string& help) {
   app_->add_flag(option, *value, help);
 }
@@ -126,11 +109,6 @@ std::optional<ExitCode> CommandLine::parse(int argc, const char* const* argv) {
   if (app_->count("--schema") > 0) {
     fmt::print("{}", case_schema(schema_key_));
     return ExitCode::done;
-  }
-  for (const OtherRun& run : instead_of_case_) {
-    if (run.value->empty()) continue;
-    refuse_ignored_options(run);
-    return std::nullopt;
   }
   if (case_path_.empty())
     throw InputError(fmt::format("CASE.yaml is missing; see {} --help", app_->get_name()));

@@ -173,7 +173,6 @@ std::optional<Summary> DynamicRun::run() {
     const Stop stop = stop_reason();
     const bool due = frame_is_due(stop);
     if (due) write_frame();
-    if (stop != Stop::no) sinks_.problem(report_.problem.problem, report_.step_solution.gamma);
     if (stop != Stop::no) return summarize(stop, wall_seconds() - started);
     // A resumed run starts without a factor. To give the same bits, this run drops its factor at every step
     // at which it can be interrupted.

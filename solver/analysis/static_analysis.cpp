@@ -101,7 +101,6 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
     summary.message += summary.robustness ? describe(*summary.robustness)
                                           : "; no horizontal acceleration was found that makes it move";
   }
-  sinks.problem(solution.step.problem, solution.step_solution.gamma);
   solution.step = {};  // for a large model as large as the frame, whose writing takes as much memory again
   sinks.frame(frame);
   return summary;

@@ -1,4 +1,4 @@
-// The commands besides the three stages, run as a user runs them: reports, bond maps, FCLIB problems, sweeps,
+// The commands besides the three stages, run as a user runs them: reports, bond maps, sweeps,
 // claims, studies, comparisons, explanations, pictures.
 
 #include <gtest/gtest.h>
@@ -86,38 +86,6 @@ TEST(Commands, RefuseInterfacesOfGeneratedBlocks) {
   const ProgramRun run = folder.run("cupola-generate " + kWall + " --output w.vtu --contacts c.csv");
   EXPECT_EQ(run.code, 2);
   EXPECT_TRUE(contains(run.err, "generated blocks have no interfaces")) << run.err;
-}
-
-TEST(Commands, SolveAContactProblemWrittenByTheSolver) {
-  const DomeFolder folder;
-  const std::string step = " --set analysis.type=dynamic --set analysis.duration=0.01";
-  ASSERT_EQ(folder.run("cupola-generate dome.yaml --output dome.vtu --quiet").code, 0);
-  ASSERT_EQ(
-      folder
-          .run("cupola-solve dome.yaml --assembly dome.vtu --output results --quiet --dump-fclib dome.hdf5" +
-               step)
-          .code,
-      0);
-  const ProgramRun run = folder.run("cupola-solve --fclib dome.hdf5");
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(run.out.find("converged: "), 0u) << run.out;
-  EXPECT_TRUE(contains(run.out, "576 contacts, local form")) << run.out;
-  EXPECT_TRUE(contains(run.out, "the file's own solution has FCLIB merit")) << run.out;
-  EXPECT_EQ(folder.run("cupola-solve --quiet --fclib dome.hdf5").out, "");
-  EXPECT_EQ(folder.run("cupola-solve --fclib dome.yaml").code, 2);
-  // The solution is written, and options without effect are refused.
-  ASSERT_EQ(folder.run("cupola-solve --quiet --fclib dome.hdf5 --output solved.hdf5").code, 0);
-  const ProgramRun again = folder.run("cupola-solve --fclib solved.hdf5");
-  EXPECT_TRUE(contains(again.out, "576 contacts, local form")) << again.out;
-  EXPECT_TRUE(contains(again.out, "the file's own solution has FCLIB merit")) << again.out;
-  for (const std::string ignored : {"--threads 2", "--resume", "--set joints.friction=0.3"}) {
-    const ProgramRun refused = folder.run("cupola-solve --fclib dome.hdf5 " + ignored);
-    EXPECT_EQ(refused.code, 2) << ignored;
-    EXPECT_TRUE(contains(refused.err,
-                         ignored.substr(0, ignored.find(' ')) + " has no effect with --fclib; remove it"))
-        << refused.err;
-  }
-  EXPECT_TRUE(contains(folder.run("cupola-solve dome.yaml --fclib dome.hdf5").err, "dome.yaml is ignored"));
 }
 
 TEST(Commands, TabulateASweepAndReportMissingMembers) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "solver/contact/problem/delassus.hpp"
 #include "solver/contact/problem/solve_summary.hpp"
+#include "tests/reference/delassus.hpp"
 
 namespace cupola {
 

@@ -1,4 +1,4 @@
-#include "solver/contact/methods/delassus_newton.hpp"
+#include "tests/reference/delassus_newton.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -32,7 +32,4 @@ class Hdf5Reader {
   std::int64_t file_;  // HDF5's handle
 };
 
-/// Closes all HDF5 files and frees the memory of the library, as it does at exit.
-void close_hdf5();
-
 }  // namespace cupola

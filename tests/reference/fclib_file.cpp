@@ -1,15 +1,11 @@
-#include "solver/fclib/fclib_file.hpp"
+#include "tests/reference/fclib_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 extern "C" {
 #include <fclib.h>
@@ -18,7 +14,7 @@ extern "C" {
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
-#include "solver/fclib/hdf5_reader.hpp"
+#include "tests/reference/hdf5_reader.hpp"
 
 namespace cupola {
 
@@ -135,7 +131,11 @@ std::optional<VecX> read_impulses(const Hdf5Reader& file, Eigen::Index size) {
   return impulses;
 }
 
-FclibProblem read_problem(const std::string& path) {
+}  // namespace
+
+// libfclib allocates arrays of the sizes stated in a file, regardless of the arrays in it, and ends the
+// process if a name is missing. We use it for writing only.
+FclibProblem read_fclib(const std::string& path) {
   const Hdf5Reader file(path);
   FclibProblem problem;
   if (file.has("/fclib_local")) {
@@ -150,37 +150,6 @@ FclibProblem read_problem(const std::string& path) {
   return problem;
 }
 
-/// HDF5 1.10 itself crashes on damaged files (null pointers in its metadata cache, also at exit). Therefore a
-/// child process reads the file first, and its exit status decides whether the file is accepted.
-void require_readable(const std::string& path) {
-  const pid_t child = fork();
-  if (child < 0) throw SystemError(path + ": cannot start the process that checks the file (fork failed)");
-  if (child == 0) {
-    // A signal handler of the caller, e.g. of a sanitizer, would report the crash of the library as ours.
-    for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(signal, SIG_DFL);
-    try {
-      read_problem(path);
-    } catch (...) {  // the parent reports it
-    }
-    close_hdf5();
-    _exit(0);
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    reject(path, "is damaged: the HDF5 library crashes when reading it. Obtain the file again");
-}
-
-}  // namespace
-
-// libfclib allocates arrays of the sizes stated in a file, regardless of the arrays in it, and ends the
-// process if a name is missing. We use it for writing only.
-FclibProblem read_fclib(const std::string& path) {
-  require_readable(path);
-  return read_problem(path);
-}
-
 void write_fclib(const std::string& path, const std::string& title, const DelassusProblem& problem,
                  const VecX& gamma) {
   CUPOLA_ASSERT(problem.W.rows() == problem.q.size() && problem.q.size() == 3 * problem.num_contacts());
@@ -189,7 +158,7 @@ void write_fclib(const std::string& path, const std::string& title, const Delass
   W.makeCompressed();
   VecX q = problem.q, mu = problem.mu, r = gamma;
   VecX u = r.size() == 0 ? VecX() : VecX(W * r + q);
-  std::string title_text = title, description = "written by cupola-solve", math = "W = D^T M^-1 D + E";
+  std::string title_text = title, description = "written by Cupola", math = "W = D^T M^-1 D + E";
   fclib_info info{title_text.data(), description.data(), math.data()};
   const int n = static_cast<int>(W.rows());
   fclib_matrix matrix{

@@ -1,4 +1,4 @@
-#include "solver/fclib/hdf5_reader.hpp"
+#include "tests/reference/hdf5_reader.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -58,10 +58,6 @@ Hdf5Reader::Hdf5Reader(const std::string& path) : path_(path), file_(-1) {
 
 Hdf5Reader::~Hdf5Reader() {
   H5Fclose(file_);
-}
-
-void close_hdf5() {
-  H5close();
 }
 
 bool Hdf5Reader::has(const std::string& name) const {

@@ -4,14 +4,20 @@
 
 #include <gtest/gtest.h>
 
+extern "C" {
+#include <fclib.h>
+}
+
 #include "assembly/base/error.hpp"
-#include "solver/contact/methods/delassus_newton.hpp"
 #include "solver/contact/methods/solve_contact.hpp"
-#include "solver/fclib/fclib_file.hpp"
+#include "tests/reference/delassus_newton.hpp"
+#include "tests/reference/fclib_file.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
 namespace cupola::fclib_test {
 namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
 
 /// Path of a file of this test in the temporary folder.
 std::string temporary(const std::string& name) {
@@ -124,7 +130,7 @@ TEST(Fclib, RejectsInvalidFilesWithAMessage) {
 // write past the end of arrays of the stated sizes (bad_m, bad_nz, nzmax_too_small), or end the process
 // (bad_text).
 TEST(Fclib, ChecksSizesAndOpensNoOtherFile) {
-  const std::string seeds = CUPOLA_SOURCE_DIR "/tests/fuzz/seeds/fclib/";
+  const std::string seeds = CUPOLA_SOURCE_DIR "/tests/reference/fclib/";
   for (const char* name : {"columns", "rows", "triplets", "nzmax_too_small"}) {
     const FclibProblem file = read_fclib(seeds + name + ".hdf5");
     EXPECT_EQ(file.local.W.toDense(), (2.0 * Eigen::Matrix3d::Identity()).eval()) << name;
@@ -147,6 +153,57 @@ TEST(Fclib, ChecksSizesAndOpensNoOtherFile) {
       EXPECT_NE(std::string(error.what()).find(phrase), std::string::npos) << error.what();
     }
   }
+}
+
+/// Writes the global form of libfclib, in columns.
+void write_global(const std::string& path, Sparse M, Sparse H, VecX f, VecX w, VecX mu) {
+  const auto matrix_of = [](Sparse& A) -> fclib_matrix {
+    A.makeCompressed();
+    return {static_cast<int>(A.nonZeros()),
+            static_cast<int>(A.rows()),
+            static_cast<int>(A.cols()),
+            A.outerIndexPtr(),
+            A.innerIndexPtr(),
+            A.valuePtr(),
+            -1,
+            nullptr};
+  };
+  fclib_matrix M_file = matrix_of(M), H_file = matrix_of(H);
+  fclib_global global{};
+  global.M = &M_file;
+  global.H = &H_file;
+  global.mu = mu.data();
+  global.f = f.data();
+  global.w = w.data();
+  global.spacedim = 3;
+  ASSERT_NE(fclib_write_global(&global, path.c_str()), 0);
+}
+
+// Two point masses of 2 kg one on the other, pressed down by 2 N s each. The upper one is pushed by 1.5 N s, of which
+// friction takes 0.5 * 2 N s: it slides at 0.5 / 2 m/s. The ground carries 4 N s and the friction, 1 <= 0.6 * 4 N s. Both
+// forces follow from equilibrium.
+TEST(Fclib, SolvesAGlobalProblemWithAKnownSolution) {
+  Sparse M(6, 6), H(6, 6);
+  M.setIdentity();
+  M *= 2.0;
+  for (int k = 0; k < 6; ++k) H.insert(k, k) = 1.0;
+  for (int k = 0; k < 3; ++k) H.insert(k, 3 + k) = -1.0;
+  VecX f(6), impulses(6), velocities(6);
+  f << -2.0, 0.0, 0.0, -2.0, 1.5, 0.0;
+  impulses << 4.0, -1.0, 0.0, 2.0, -1.0, 0.0;
+  velocities << 0.0, 0.0, 0.0, 0.0, 0.25, 0.0;
+  const std::string path = temporary("global.hdf5");
+  write_global(path, M, H, f, VecX::Zero(6), Eigen::Vector2d(0.6, 0.5));
+  const FclibProblem file = read_fclib(path);
+  std::filesystem::remove(path);
+  EXPECT_TRUE(file.was_global);
+  VecX gamma;
+  const SolveSummary summary = solve_delassus(file.local, {}, &gamma);
+  EXPECT_EQ(summary.ending, SolveEnding::converged) << summary.message;
+  constexpr double kTolerance =
+      1e-7;  // the merits are below 1e-9, times a condition number of at most 7 and 2 N s/(m/s)
+  EXPECT_LE((gamma - impulses).norm(), kTolerance) << gamma.transpose();
+  EXPECT_LE((file.local.W * gamma + file.local.q - velocities).norm(), kTolerance);
 }
 
 // Problems from other codes: full 3x3 blocks, no compliance, Coulomb's law; W of Capsules is unsymmetric by

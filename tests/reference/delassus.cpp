@@ -1,4 +1,4 @@
-#include "solver/contact/problem/delassus.hpp"
+#include "tests/reference/delassus.hpp"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "solver/contact/problem/delassus.hpp"
+#include "tests/reference/delassus.hpp"
 
 namespace cupola {
 
