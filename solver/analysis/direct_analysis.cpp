@@ -12,6 +12,7 @@
 #include "solver/analysis/record/mechanism.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
+#include "solver/analysis/statics/static_record.hpp"
 #include "solver/analysis/statics/static_solve.hpp"
 
 namespace cupola {
@@ -40,7 +41,7 @@ DirectLimit limit_of_tilt(const SceneAt& scene_at, double low, double high, doub
     trial.value = degrees(trial.value);
     report(trial);
   };
-  DirectLimit limit = limit_of_loads(at_tangent, tangent(low), tangent(high), width, in_degrees);
+  DirectLimit limit = limit_of_loads(at_tangent, tangent(low), tangent(high), width, in_degrees, degrees);
   if (!limit.found) return limit;
   limit.gamma /= std::hypot(1.0, limit.admissible);
   limit.admissible = degrees(limit.admissible);
@@ -88,6 +89,19 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
       break;  // follows displacements: uses_direct_limit() is false
   }
   throw std::logic_error("a direct limit analysis of a spread");
+}
+
+/// Writes the mechanism of a structure that moves at every value tried.
+void write_motion(const DirectLimit& limit, const AnalysisSinks& sinks, Summary* summary) {
+  const RigidScene& moving = limit.at_moving;
+  const Mechanism mechanism =
+      find_mechanism(moving.model, moving.start, moving.contacts, moving.problem.contacts, limit.mechanism);
+  const size_t nc = moving.contacts.points.size();
+  const VecX none = VecX::Zero(static_cast<Eigen::Index>(3 * moving.problem.contacts.num_contacts()));
+  summarize_frame(admissible_frame(moving, none, moving.start.time), moving.model, summary);
+  write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism,
+                  {std::vector<Vec3>(nc, Vec3::Zero()), {}}, std::vector<double>(nc, 0.0), sinks);
+  summary->message += "; " + describe(mechanism);
 }
 
 /// Writes the admissible state and the mechanism as frames. Returns a description of the mechanism: "; " and a clause.
@@ -145,7 +159,9 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
                            state ? "they are one of the admissible states" : "no equilibrium was found"};
   summary.status = limit.unlimited ? Status::stable : limit.no_state ? Status::moving : Status::unconverged;
   summary.message = name + ": " + limit.message;
-  if (limit.unlimited) write_ends(limit, sinks, &summary);
+  if (!limit.found && limit.gamma.size() > 0) write_ends(limit, sinks, &summary);
+  if (!limit.found && limit.gamma.size() == 0 && limit.mechanism.size() > 0)
+    write_motion(limit, sinks, &summary);
   if (limit.found) {
     const std::string mechanism = write_ends(limit, sinks, &summary);
     const double width = limit.relative_width();
@@ -156,6 +172,7 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
     summary.critical = CriticalValue{name, limit.middle(), limit.admissible, limit.moving};
     summary.message = bounds_text(*summary.critical, limit, balanced) + mechanism + bound_for_coulomb(limit);
   }
+  summary.message += gaps_note(limit.at_admissible.contacts, assembly);
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;
 }

@@ -60,6 +60,9 @@ Probe LimitRun::probe_at(double value) const {
   probe.contacts = detector.update(probe.start.poses);
   probe.memories = match_memories({}, probe.contacts.points);
   probe.solution = solve_static(probe.model, probe.start, probe.contacts, probe.memories, options);
+  // Forces that balance the loads to a tolerance do not decide a limit.
+  if (probe.solution.outcome == StaticOutcome::equilibrium && !probe.solution.proven)
+    probe.solution.outcome = StaticOutcome::unconverged;
   return probe;
 }
 
@@ -154,6 +157,11 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   summary.message =
       fmt::format("{}: {}{}{}", summary.critical ? critical_text(*summary.critical) : to_string(parameter),
                   bracket.message, mechanism.empty() ? "" : "; ", mechanism);
+  for (const std::optional<Probe>* probe : {&run.stable, &run.moving})
+    if (*probe) {
+      summary.message += gaps_note((*probe)->contacts, assembly);
+      break;
+    }
   if (!bracket.narrow && !run.undecided.empty()) summary.message += "; " + run.undecided;
   summary.steps = run.num_trials;
   summary.iterations = run.iterations;

@@ -202,6 +202,7 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
                       run.of_sector(), summary.ranges.size());
     sinks.table("ranges.csv", ranges_csv(summary.ranges));
   }
+  summary.message += gaps_note(rigid.contacts, assembly);
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;
 }

@@ -95,6 +95,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
                         reached};
   }
   summary.unknowns /= scene.analysis.cyclic_sectors;
+  summary.message += gaps_note(contacts, assembly);
   if (summary.max_displacement_m) summary.message += linearity_note(assembly, *summary.max_displacement_m);
   if (scene.analysis.robustness > 0 && solution.outcome == StaticOutcome::equilibrium) {
     summary.robustness = find_robustness(scene, assembly);

@@ -1,7 +1,6 @@
 #include "solver/analysis/admissible/rigid_scene.hpp"
 
 #include "assembly/base/error.hpp"
-#include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/admissible/joint_geometry.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/collision/contact_detector.hpp"
@@ -46,8 +45,6 @@ RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assemb
   rigid.start = state_at_rest(rigid.model);
   ContactDetector detector(*rigid.assembly, detection_options(scene));
   rigid.contacts = detector.update(rigid.start.poses);
-  const double open = joint_rule(smallest_block_size(*rigid.assembly), scene.contact.margin).min_width;
-  std::erase_if(rigid.contacts.points, [&](const Contact& contact) { return contact.gap > open; });
   if (joint_extent != 1.0) scale_joints(scene, *rigid.assembly, joint_extent, &rigid.contacts);
   rigid.memories = match_memories({}, rigid.contacts.points);
 

@@ -113,7 +113,12 @@ StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, 
       error->correction = expand({x.v, error->correction}, problem, *symmetry).gamma;
       error->remainder *= std::sqrt(symmetry->sectors);
     }
-    certificate.force_error = {largest_joint_error(contacts, problem, solution.gamma, *error),
+    const double largest = largest_joint_error(contacts, problem, solution.gamma, *error);
+    if (!std::isfinite(largest)) {
+      certificate.force_error.bounds = "the bound of the error exceeds the wrench of a joint";
+      return;
+    }
+    certificate.force_error = {largest,
                                "relative error of the wrench on any joint that carries more than 1 % of the "
                                "mean joint force, against "
                                "the exact static solution of this model"};

@@ -1,5 +1,11 @@
 #include "solver/analysis/statics/static_record.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/dynamics/law_violation.hpp"
 
@@ -33,6 +39,19 @@ std::vector<double> static_violations(const ContactSet& contacts, const StaticSo
                                       const FlowRule& law) {
   return law_violations(contacts, solution.step_solution.gamma,
                         contact_law_errors(solution.step.problem, solution.step_solution, law));
+}
+
+std::string gaps_note(const ContactSet& contacts, const Assembly& assembly) {
+  const double closed = joint_rule(smallest_block_size(assembly), 0.0).min_width;
+  int count = 0;
+  double largest = 0.0;
+  for (const Contact& contact : contacts.points) {
+    if (contact.gap > closed) ++count;
+    largest = std::max(largest, contact.gap);
+  }
+  if (count == 0) return "";
+  return fmt::format("; {} with gaps of up to {:.2g} mm {} within `contact.margin` and may carry forces",
+                     counted(count, "contact point"), 1e3 * largest, count == 1 ? "is" : "are");
 }
 
 Frame static_frame(const Model& model, const State& start, const ContactSet& contacts,

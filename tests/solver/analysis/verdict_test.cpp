@@ -92,6 +92,89 @@ TEST(VerdictSlow, NoTowerOf500StandsAboveItsLimitAtAnyAccuracy) {
   expect_no_tower_above_its_limit(500);
 }
 
+// Half of the limit tilt: no bed opens near its edge, and no joint slides. Elastic sway is far larger than the first settlement.
+TEST(Verdict, SlenderTowerStandsAtHalfOfItsLimit) {
+  for (const double compliance : {1e-9, 1e-8})
+    for (const FrictionLaw law : kLaws) {
+      constexpr int cubes = 500;
+      Case input = testing::make_case(0.7, compliance, 0.01);
+      input.loads.gravity = testing::tilted_gravity(0.5 / cubes);
+      const Scene scene(input, testing::stack_of_cubes(1.0, std::vector(cubes, 2000.0)));
+      const StaticSolution solution = scene.solve(1e-5, law);
+      EXPECT_EQ(solution.outcome, StaticOutcome::equilibrium)
+          << compliance << ", " << to_string(law) << ": " << solution.message;
+      EXPECT_TRUE(solution.proven) << compliance << ", " << to_string(law) << ": " << solution.message;
+    }
+}
+
+// 9 mm are less than 1 % of the block, the default of `contact.margin`: the cube rests on its support in every analysis.
+TEST(Verdict, CubeAboveItsSupportStandsInEveryAnalysis) {
+  const Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true},
+                                                 {.center = {0, 0, 0.509}, .size = {1, 1, 1}}});
+  Case input = testing::make_case(0.5, 1e-9, 0.01);
+  input.analysis.tolerance = 1e-9;
+  input.analysis.type = AnalysisType::static_;
+  const Summary statics = run_static(input, assembly, {});
+  EXPECT_EQ(statics.status, Status::stable) << statics.message;
+  EXPECT_NE(statics.message.find("4 contact points with gaps of up to 9 mm"), std::string::npos)
+      << statics.message;
+  input.analysis.type = AnalysisType::limit;
+  input.analysis.limit.parameter = LimitSearch::Parameter::acceleration;
+  for (const auto method : {LimitSearch::Method::direct, LimitSearch::Method::bisection}) {
+    input.analysis.limit.method = method;
+    const Summary limit = run_limit(input, assembly, {}).value();
+    ASSERT_TRUE(limit.critical) << limit.message;
+    EXPECT_NEAR(limit.critical->value, 0.5, 1e-3 * 0.5) << limit.message;
+    EXPECT_NE(limit.message.find("4 contact points with gaps of up to 9 mm"), std::string::npos)
+        << limit.message;
+  }
+}
+
+// The tower of 200 cubes stood at 1.0008 of its limit in a bracket of 1e-3.
+TEST(Verdict, BracketOfBisectionContainsTheLimit) {
+  constexpr int kCubes = 200;
+  Case input = testing::make_case(0.7, 1e-9, 0.01);
+  input.analysis.type = AnalysisType::limit;
+  input.analysis.limit.parameter = LimitSearch::Parameter::tilt;
+  input.analysis.limit.method = LimitSearch::Method::bisection;
+  input.analysis.limit.low = 0.2;
+  input.analysis.limit.high = 0.4;
+  const double exact = std::atan(1.0 / kCubes) * 180.0 / std::numbers::pi;
+  for (const FrictionLaw law : kLaws) {
+    input.analysis.friction_law = law;
+    const Summary limit =
+        run_limit(input, testing::stack_of_cubes(1.0, std::vector(kCubes, 1000.0)), {}).value();
+    ASSERT_TRUE(limit.critical) << limit.message;
+    EXPECT_LE(limit.critical->stable, exact) << limit.message;
+    EXPECT_GE(limit.critical->moving, exact) << limit.message;
+  }
+}
+
+// A cube of friction 0.5 tilts by 26.57 degrees. The ends of the bracket are said in its unit, and a frame shows what they showed.
+TEST(Verdict, EndsOfALimitWithoutBracketAreShown) {
+  const Assembly box = testing::box_on_floor({1, 1, 0.2});
+  Case input = testing::make_case(0.5, 1e-9, 0.01);
+  input.analysis.type = AnalysisType::limit;
+  input.analysis.limit.parameter = LimitSearch::Parameter::tilt;
+  const auto expect = [&](double low, double high, const std::string& message) {
+    input.analysis.limit.low = low;
+    input.analysis.limit.high = high;
+    int frames = 0;
+    AnalysisSinks sinks;
+    sinks.frame = [&](const Frame&) { ++frames; };
+    const Summary summary = run_limit(input, box, sinks).value();
+    EXPECT_FALSE(summary.critical);
+    EXPECT_NE(summary.message.find(message), std::string::npos) << summary.message;
+    EXPECT_GT(frames, 0) << summary.message;
+  };
+  expect(0.0, 20.0, "stands at both ends of the bracket, 0 and 20");
+  expect(30.0, 60.0, "moves at both ends of the bracket, 30 and 60");
+  input.analysis.limit.parameter = LimitSearch::Parameter::load;
+  expect(0.0, 20.0, "no load depends on the parameter");
+  input.analysis.limit.parameter = LimitSearch::Parameter::friction;
+  expect(0.1, 0.9, "stands at both ends of the bracket, 0.1 and 0.9");
+}
+
 // A cube on four points carries its weight with forces of a quarter each: exact ones exist next to forces that are wrong by 1 %, not next
 // to forces that tip it.
 TEST(ExactEquilibrium, ExistsNextToForcesThatNearlyBalance) {
