@@ -5,6 +5,7 @@
 #include "generators/generate.hpp"
 #include "tests/extremes/dice.hpp"
 #include "tests/extremes/rows.hpp"
+#include "tests/solver/keystone.hpp"
 
 namespace cupola {
 namespace {
@@ -62,12 +63,12 @@ LimitModel arch(Dice* dice) {
       dice->uniform(0.5, 0.9), dice);
 }
 
-/// A keystone between walls of slope tan(lean): stands from friction tan(lean) on.
+/// Stands from the slope of the walls on.
 LimitModel wedge(Dice* dice) {
-  LimitModel model{"wedge",
-                   {limit_case(Parameter::friction, 0.0, 3.0, 0.5),
-                    testing::wedge_between_walls(-dice->uniform(5.0, 20.0))},
-                   true};
+  LimitModel model{
+      "wedge",
+      {limit_case(Parameter::friction, 0.0, 3.0, 0.5), testing::keystone(dice->uniform(0.05, 0.6))},
+      true};
   return model;
 }
 

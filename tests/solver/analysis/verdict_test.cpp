@@ -8,7 +8,7 @@
 #include "solver/analysis/statics/static_solve.hpp"
 #include "solver/conic/exact_equilibrium.hpp"
 #include "solver/conic/motion_proof.hpp"
-#include "tests/solver/motion_scenes.hpp"
+#include "tests/solver/keystone.hpp"
 
 namespace cupola::verdict_test {
 namespace {
@@ -41,28 +41,13 @@ struct Scene {
   }
 };
 
-/// Keystone of 1 m between fixed walls whose distance grows downwards by `slope` on each side: forces that carry it exist from friction
-/// `slope` on.
-Assembly keystone(double slope) {
-  Assembly assembly;
-  const double foot = 1.0 + slope, head = 1.0;
-  testing::add_voussoir({Eigen::Vector2d{-foot - 2, 0}, {-foot, 0}, {-head, 1}, {-head - 2, 1}}, 1.0, 2000.0,
-                        true, 0, &assembly);
-  testing::add_voussoir({Eigen::Vector2d{foot, 0}, {foot + 2, 0}, {head + 2, 1}, {head, 1}}, 1.0, 2000.0,
-                        true, 0, &assembly);
-  testing::add_voussoir({Eigen::Vector2d{-foot, 0}, {foot, 0}, {head, 1}, {-head, 1}}, 1.0, 2000.0, false, 0,
-                        &assembly);
-  compute_mass_properties(&assembly);
-  return assembly;
-}
-
 // A ratio of forces to loads is no proof: near the critical friction the forces of the equilibrium grow without bound. Under Coulomb's law
 // compliant joints that open as the keystone sinks carry nothing, so that it falls at any friction. That has no proof.
 TEST(Verdict, KeystoneIsProvenToMoveBelowItsCriticalFrictionOnly) {
   for (const double slope : {0.1, 0.3, 0.5})
     for (const double distance : {-1e-2, -1e-3, -1e-4, 1e-4, 1e-3, 2e-3, 1e-2})
       for (const FrictionLaw law : kLaws) {
-        const Scene scene(testing::make_case(slope * (1.0 + distance), 1e-9, 0.01), keystone(slope));
+        const Scene scene(testing::make_case(slope * (1.0 + distance), 1e-9, 0.01), testing::keystone(slope));
         const StaticSolution solution = scene.solve(1e-9, law);
         const bool moves = solution.outcome == StaticOutcome::moving;
         EXPECT_EQ(moves && solution.proven, distance < 0.0)
