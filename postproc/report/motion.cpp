@@ -139,9 +139,8 @@ std::string how_sure_of_motion(const Evaluation& e) {
   if (s.status == Status::unconverged) return "";
   if (s.analysis == AnalysisType::static_ && s.friction_law == FrictionLaw::associated &&
       !e.scene.joints.have_strength())
-    return "It is proven, up to the forces named above, that no forces within the friction "
-           "cones "
-           "balance the loads. The proof holds for Coulomb's law too, which differs only in how joints "
+    return "It is proven that no forces within the friction cones balance the loads, unless the message says "
+           "`not proven`. The proof holds for Coulomb's law too, which differs only in how joints "
            "slide.";
   if (s.analysis == AnalysisType::static_ && s.friction_law != FrictionLaw::associated)
     return "A motion was found, but other contact forces might balance the loads; a range analysis "
