@@ -18,6 +18,7 @@
 #include "assembly/program/terminal.hpp"
 #include "assembly/program/warnings.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "solver/analysis/analysis_table.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/collision/geometry_warnings.hpp"
 #include "solver/collision/patch_file.hpp"
@@ -48,7 +49,7 @@ Assembly read_matching_assembly(SolveRequest* asked, std::vector<std::string>* d
       resolve_block_name(assembly, "analysis.path.control.relative_to", &*control->relative_to);
   }
   const bool any_fixed = std::ranges::any_of(assembly.blocks, [](const Block& block) { return block.fixed; });
-  if (!any_fixed && request.scene.analysis.type != AnalysisType::dynamic)
+  if (!any_fixed && !analysis_traits(request.scene.analysis.type).steps_in_time)
     throw InputError(FileLocation{path}, kNoBlockIsFixed);
   if (assembly.geometry_hash == request.scene.geometry_hash) return assembly;
   const std::string differs =
@@ -98,13 +99,11 @@ std::string residuals_line(const Summary& summary) {
   if (const auto& violation = summary.largest_law_violation)
     parts.push_back(fmt::format("worst contact {:.2e} (blocks {} and {})", violation->value,
                                 violation->block_a, violation->block_b));
-  const bool run_of_steps =
-      summary.steps > 1 && summary.analysis != AnalysisType::limit && summary.analysis != AnalysisType::range;
+  const AnalysisTraits& traits = analysis_traits(summary.analysis);
+  const bool run_of_steps = summary.steps > 1 && traits.many_states;
   add(run_of_steps ? "equilibrium at the end" : "equilibrium", summary.equilibrium_residual);
   if (parts.empty()) return "no residuals: no state was found that they could describe";
-  const char* state = summary.analysis == AnalysisType::limit ? " at the stable end of the bracket"
-                      : run_of_steps                          ? ", worst over the run"
-                                                              : "";
+  const char* state = run_of_steps ? ", worst over the run" : traits.state;
   return fmt::format("residuals{}: {}", state, fmt::join(parts, ", "));
 }
 
@@ -162,10 +161,8 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
                          const StopRequest& stop, ResultsWriter* writer, Checkpoint* run,
                          ProgressBar* progress, std::string* last_line) {
   AnalysisSinks sinks;
-  const AnalysisType type = request.scene.analysis.type;
-  const bool has_progress =
-      type == AnalysisType::dynamic || type == AnalysisType::staged || type == AnalysisType::path;
-  const bool bar = !request.quiet && has_progress && is_terminal(stdout);
+  const bool bar =
+      !request.quiet && analysis_traits(request.scene.analysis.type).many_states && is_terminal(stdout);
   sinks.log = [&request, bar, last_line](const std::string& line) {
     *last_line = line;
     if (!request.quiet && !bar) fmt::print("{}\n", line), std::fflush(stdout);
@@ -203,7 +200,7 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
 std::optional<Summary> summary_unless_interrupted(const Case& scene, const Assembly& assembly,
                                                   const AnalysisSinks& sinks) {
   try {
-    if (scene.analysis.type != AnalysisType::static_)  // which detects the contacts as built itself
+    if (!analysis_traits(scene.analysis.type).one_solve)  // which detects the contacts as built itself
       sinks.as_built(ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly)));
     return run_analysis(scene, assembly, sinks);
   } catch (const Interrupted&) {

@@ -136,7 +136,7 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
 
 std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
   if (uses_direct_limit(scene.analysis)) return run_direct_limit(scene, assembly, sinks);
-  LimitRun run{scene, assembly, sinks, static_options(scene.analysis), {}, {}};
+  LimitRun run{scene, assembly, sinks, verdict_options(scene.analysis), {}, {}};
   const LimitSearch::Parameter parameter = scene.analysis.limit.parameter;
   run.options.log = sinks.log;
   const double started = wall_seconds();

@@ -41,7 +41,7 @@ class StageRun {
     ContactDetector detector(stage_.assembly, detection_options(scene));
     contacts_ = detector.update(initial_poses(stage_.assembly));
     memories_ = match_memories({}, contacts_.points);
-    options_ = static_options(scene.analysis);
+    options_ = verdict_options(scene.analysis);
     options_.log = log;
   }
 
