@@ -59,13 +59,6 @@ std::optional<FrameEvaluation> frame_at(size_t index, const ResultsReader& resul
   }
 }
 
-/// What the picture of a moment says about it.
-std::string moment_text(const Evaluation& e, const Frame& frame) {
-  if (e.summary.analysis == AnalysisType::staged)
-    return fmt::format("{} {} just laid", is_vault(e) ? "ring" : "course", std::lround(frame.time));
-  return is_mechanism(e.summary, frame) ? "mechanism" : fmt::format("after {:.2f} s", frame.time);
-}
-
 /// The frames that show the motion: mechanisms, or instants of a motion in time; at most four, evenly spaced, with the
 /// last. `moving`: all that could be shown.
 std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const ResultsReader& results,
@@ -76,9 +69,8 @@ std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const Res
   for (size_t i = 1; i <= count; ++i) {
     const std::optional<FrameEvaluation> frame = frame_at(moving[moving.size() * i / count - 1], results, e);
     if (!frame) continue;
-    MovedBlocks moment{moment_text(*e, frame->frame), frame->frame.blocks, {}};
-    if (e->summary.analysis == AnalysisType::staged)
-      moment.top_ring = static_cast<int>(std::ceil(frame->frame.time));
+    MovedBlocks moment{frame->frame.label, frame->frame.blocks, {}};
+    if (is_stage(frame->frame.role)) moment.top_ring = static_cast<int>(std::ceil(frame->frame.time));
     moments.push_back(std::move(moment));
   }
   return moments;
@@ -89,7 +81,6 @@ std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const Res
 std::vector<MovedBlocks> write_frames(const ResultsReader& results, const std::string& folder, Evaluation* e,
                                       Film* film) {
   const DisplacedBlocks blocks(*e);
-  const bool in_time = e->summary.analysis == AnalysisType::dynamic && !at_rest(e->summary);
   std::vector<PvdEntry> entries;
   std::vector<size_t> moving;
   for (size_t i = 0; i < e->times.size(); ++i) {
@@ -101,7 +92,8 @@ std::vector<MovedBlocks> write_frames(const ResultsReader& results, const std::s
     write_mesh(in_folder(folder, name), mesh);
     film->add(i, *frame);
     entries.push_back({e->times[i], name});
-    if (is_mechanism(e->summary, frame->frame) || (in_time && i > 0)) moving.push_back(i);
+    if (is_mechanism(frame->frame.role) || (frame->frame.role == FrameRole::step && !at_rest(*e) && i > 0))
+      moving.push_back(i);
   }
   write_pvd(in_folder(folder, "blocks.pvd"), entries);
   return moments_of(moving, results, e);
@@ -173,7 +165,7 @@ std::string readable_text(const ResultsReader& results, const std::string& name,
 std::vector<HistoryRow> read_history(const ResultsReader& results, Evaluation* e) {
   std::vector<HistoryRow> history;
   const std::string name = "history.csv";
-  if (e->summary.analysis != AnalysisType::dynamic || !e->summary.text_files.contains(name)) return history;
+  if (e->last.frame.role != FrameRole::step || !e->summary.text_files.contains(name)) return history;
   const std::string text = readable_text(results, name, e);
   if (text.empty()) return history;
   const CsvFile csv = parse_csv(text, name);
@@ -196,7 +188,6 @@ std::optional<CsvFile> readable_table(const ResultsReader& results, const std::s
 
 /// The stages of a staged run.
 std::optional<Construction> read_construction(const ResultsReader& results, Evaluation* e) {
-  if (e->summary.analysis != AnalysisType::staged) return std::nullopt;
   if (const auto rings = readable_table(results, "stages.csv", e)) return rings_laid(*e, *rings);
   if (const auto stages = readable_table(results, "construction.csv", e))
     return blocks_laid(e->scene.analysis.staged.least, *stages, readable_table(results, "failures.csv", e));
@@ -229,9 +220,8 @@ ExitCode analyse(const AnalyseRequest& request) {
     tables.insert(tables.begin(), construction->table);
     own = construction->figure;
   }
-  if (e.summary.analysis == AnalysisType::path)
-    if (const auto path = readable_table(run.results, "path.csv", &e))
-      own = path_figure(tables.emplace(tables.begin(), path_table(*path))[0]);
+  if (const auto path = readable_table(run.results, "path.csv", &e))
+    own = path_figure(tables.emplace(tables.begin(), path_table(*path))[0]);
   for (const Table& table : tables)
     write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
   const std::string run_yaml = readable_text(run.results, "run.yaml", &e);

@@ -11,12 +11,13 @@
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/hash.hpp"
 #include "assembly/files/mesh_file.hpp"
+#include "assembly/files/old_frames.hpp"
 #include "assembly/files/summary_file.hpp"
 
 namespace cupola {
 namespace {
 
-constexpr std::int32_t kFrameFormatVersion = 2;
+constexpr std::int32_t kFrameFormatVersion = 3, kOldestFrameFormat = 2;
 
 std::string in_folder(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
@@ -43,19 +44,22 @@ std::vector<Vector> unflat(const std::vector<double>& values) {
   return vectors;
 }
 
-std::vector<MeshArray> frame_fields(double time, const std::string& assembly_hash) {
+std::vector<MeshArray> frame_fields(const Frame& frame, const std::string& assembly_hash) {
   return {{"format_version", 1, std::vector<std::int32_t>{kFrameFormatVersion}},
           {"program_version", 1, std::vector<std::string>{program_version()}},
           {"assembly_hash", 1, std::vector<std::string>{assembly_hash}},
-          {"time_s", 1, std::vector<double>{time}}};
+          {"time_s", 1, std::vector<double>{frame.time}},
+          {"role", 1, std::vector<std::string>{to_string(frame.role)}},
+          {"owner", 1, std::vector<std::string>{frame.owner}},
+          {"label", 1, std::vector<std::string>{frame.label}}};
 }
 
 /// Adds one vertex cell per point, so that ParaView shows the points.
-Mesh point_mesh(const std::vector<Vec3>& points, double time, const std::string& assembly_hash) {
+Mesh point_mesh(const std::vector<Vec3>& points, const Frame& frame, const std::string& assembly_hash) {
   Mesh mesh;
   mesh.points = flat(points);
   for (int i = 0; i < mesh.num_points(); ++i) mesh.add_cell(Mesh::CellType::vertex, {i});
-  mesh.field_data = frame_fields(time, assembly_hash);
+  mesh.field_data = frame_fields(frame, assembly_hash);
   return mesh;
 }
 
@@ -68,7 +72,7 @@ Mesh contacts_mesh(const Frame& frame, const std::string& assembly_hash) {
                 c.slip.size() == n && c.law_violation.size() == n &&
                 (c.strength_use.empty() || c.strength_use.size() == n) &&
                 c.damage.size() == c.strength_use.size() && c.crack_opening.size() == c.strength_use.size());
-  Mesh mesh = point_mesh(c.point, frame.time, assembly_hash);
+  Mesh mesh = point_mesh(c.point, frame, assembly_hash);
   std::vector<std::uint8_t> kinds;
   for (const JointKind kind : c.kind) kinds.push_back(static_cast<std::uint8_t>(kind));
   mesh.point_data = {{"joint", 1, c.joint},
@@ -97,7 +101,7 @@ Mesh blocks_mesh(const Frame& frame, const std::string& assembly_hash) {
   const std::size_t n = b.position.size();
   CUPOLA_ASSERT(b.quaternion_wxyz.size() == n && b.velocity.size() == n && b.angular_velocity.size() == n &&
                 b.displacement.size() == n);
-  Mesh mesh = point_mesh(b.position, frame.time, assembly_hash);
+  Mesh mesh = point_mesh(b.position, frame, assembly_hash);
   std::vector<std::int32_t> ids(n);
   for (size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int32_t>(i);
   mesh.point_data = {{"block", 1, std::move(ids)},
@@ -116,7 +120,7 @@ Mesh ties_mesh(const Frame& frame, const std::string& assembly_hash) {
                 t.point_a.size() == n && t.point_b.size() == n && t.yield_force.size() == n &&
                 t.yielded.size() == n && t.strut.size() == n);
   Mesh mesh;
-  mesh.field_data = frame_fields(frame.time, assembly_hash);
+  mesh.field_data = frame_fields(frame, assembly_hash);
   for (int i = 0; i < t.size(); ++i) {
     const int a = mesh.add_point(t.point_a[i].x(), t.point_a[i].y(), t.point_a[i].z());
     const int b = mesh.add_point(t.point_b[i].x(), t.point_b[i].y(), t.point_b[i].z());
@@ -132,14 +136,23 @@ Mesh ties_mesh(const Frame& frame, const std::string& assembly_hash) {
 Mesh read_frame_mesh(const std::string& path, const std::string& assembly_hash) {
   Mesh mesh = read_mesh(path);
   const int version = mesh.field<std::int32_t>("format_version");
-  if (version != kFrameFormatVersion)
+  if (version < kOldestFrameFormat || version > kFrameFormatVersion)
     throw InputError(
         FileLocation{path},
-        fmt::format("has format version {}, this program reads version {}; run cupola-solve again", version,
-                    kFrameFormatVersion));
+        fmt::format("has format version {}, this program reads versions {} to {}; run cupola-solve again",
+                    version, kOldestFrameFormat, kFrameFormatVersion));
   if (mesh.field<std::string>("assembly_hash") != assembly_hash)
     throw InputError(FileLocation{path}, "belongs to another assembly; run cupola-solve again");
   return mesh;
+}
+
+void read_role(const Mesh& mesh, Frame* frame) {
+  const auto& role = mesh.field<std::string>("role");
+  const std::optional<FrameRole> known = enum_from_name<FrameRole>(role);
+  if (!known) throw InputError(FileLocation{mesh.file}, fmt::format("the role `{}` is unknown", role));
+  frame->role = *known;
+  frame->owner = mesh.field<std::string>("owner");
+  frame->label = mesh.field<std::string>("label");
 }
 
 ContactTable read_contacts(const Mesh& mesh) {
@@ -309,6 +322,10 @@ Frame ResultsReader::read_frame(int index) const {
   const std::string ties_path = in_folder(folder_, frame_file("ties", index));
   if (std::filesystem::exists(ties_path)) frame.ties = read_ties(read_frame_mesh(ties_path, assembly_hash_));
   check_frame(frame, contacts_path);
+  if (contacts.field<std::int32_t>("format_version") == kFrameFormatVersion)
+    read_role(contacts, &frame);
+  else
+    set_role_of_old_frame(summary_, index, &frame);
   return frame;
 }
 

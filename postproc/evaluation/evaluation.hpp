@@ -56,8 +56,8 @@ struct SectionEvaluation {
   std::vector<BedResultant> resultants;  ///< across that bed, by block; empty if it carries no force
 };
 
-/// Everything the postprocessor derives from a run, for its last readable frame or, of a limit or range analysis, the
-/// first one. Without an equilibrium (at_rest()) the
+/// Everything the postprocessor derives from a run, for its first frame if that is an equilibrium, else for its last
+/// readable one. Without an equilibrium (at_rest()) the
 /// forces are those of one instant or of an unfinished solve: tables hold them, texts and figures do not interpret them.
 struct Evaluation {
   Case scene;
@@ -84,13 +84,8 @@ struct Evaluation {
   std::vector<std::string> unreadable;        ///< parts of the results that are missing or damaged
 };
 
-/// True if the forces evaluated are those of an equilibrium: of a stable run, or of the stable end of a limit
-/// analysis, or frame 0 of a range analysis that found an admissible state.
-bool at_rest(const Summary& summary);
-
-/// True for a frame that holds directions of motion without an amplitude: the mechanism of a limit analysis, or the
-/// motion that the static solve of a case or of a stage of construction, or a range analysis, found.
-bool is_mechanism(const Summary& summary, const Frame& frame);
+/// True if the forces evaluated are those of an equilibrium. Those of a motion or of stages are if the run is stable.
+bool at_rest(const Evaluation& evaluation);
 
 /// True for a vault about the z axis, where azimuths are meaningful.
 bool is_vault(const Evaluation& evaluation);

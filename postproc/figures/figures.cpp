@@ -134,7 +134,7 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
   if (std::any_of(ranges.begin(), ranges.end(), [](const ForceRange& r) { return r.joint.has_value(); }))
     for (const ShellMap& map : maps) figures.push_back(certainty_map(e, map));
   if (history.size() > 1) figures.push_back(history_figure(e, history));
-  if (!at_rest(e.summary)) return figures;
+  if (!at_rest(e)) return figures;
   for (const MeridianEvaluation& m : e.meridians)
     if (m.thrust.points.size() > 1) figures.push_back(thrust_figure(e, m));
   if (std::any_of(e.rings.begin(), e.rings.end(), varies)) figures.push_back(ring_figure(e));

@@ -93,8 +93,7 @@ std::string wythe_profile(const WytheCurves& wythes) {
 
 std::string profile_plot(const MeridianEvaluation& m, const Summary& summary, bool zones) {
   std::string title = "thrust line";
-  if (summary.analysis == AnalysisType::range)
-    title += has_chosen(summary.ranges) ? " (chosen)" : " (one state)";
+  if (!summary.ranges.empty()) title += has_chosen(summary.ranges) ? " (chosen)" : " (one state)";
   std::string ends;
   if (m.least_thrust) ends += fmt::format(", $least w l lc rgb '{}' lw 1.2 title 'least thrust'", kBlue);
   if (m.greatest_thrust)

@@ -99,8 +99,9 @@ void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
 }
 
 /// Whether the forces are those of the model, in words: "proven to 9 digits".
-std::string how_sure(const Summary& s) {
-  if (s.analysis == AnalysisType::limit && s.critical && s.critical->parameter != "peak_stress")
+std::string how_sure(const Evaluation& e) {
+  const Summary& s = e.summary;
+  if (s.critical && !is_stage(e.last.frame.role) && s.critical->parameter != "peak_stress")
     return fmt::format(
         "The structure stands at one end of a bracket of relative width {:.1e} and moves at the other. {}",
         std::abs(s.critical->stable - s.critical->moving) / std::max(std::abs(s.critical->value), 1e-300),
@@ -138,7 +139,7 @@ std::vector<KeyNumber> key_numbers(const Evaluation& e, const std::vector<Histor
   if (e.summary.critical) out.push_back(critical_number(*e.summary.critical));
   for (const ForceRange& range : e.summary.ranges)
     if (out.size() + 1 < kMost) out.push_back(range_number_of(range));
-  if (at_rest(e.summary)) {
+  if (at_rest(e)) {
     add_numbers_at_rest(e, &out);
   } else {
     const std::vector<KeyNumber> motion = motion_numbers(e, history);
@@ -154,10 +155,11 @@ std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& his
   std::string out;
   for (const std::string& warning : notices(e))
     out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
-  out += fmt::format("<p class=\"verdict{}\"><strong>{}</strong> <small>{}</small></p>\n",
-                     s.status == Status::stable ? "" : " bad", markup_text(verdict_text(s)),
-                     markup_text(with_capital(s.message) + "."));
-  if (const std::string sure = at_rest(s) ? how_sure(s) : how_sure_of_motion(e); !sure.empty())
+  out +=
+      fmt::format("<p class=\"verdict{}\"><strong>{}</strong> <small>{}</small></p>\n",
+                  s.status == Status::stable ? "" : " bad", markup_text(verdict_text(s, e.last.frame.role)),
+                  markup_text(with_capital(s.message) + "."));
+  if (const std::string sure = at_rest(e) ? how_sure(e) : how_sure_of_motion(e); !sure.empty())
     out += "<p><strong>How sure is that?</strong> " + markup_text(sure) + "</p>\n";
   std::vector<KeyNumber> numbers = key_numbers(e, history);
   if (construction)

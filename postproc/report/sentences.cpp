@@ -121,37 +121,37 @@ bool shows_bracket(const CriticalValue& critical) {
   return fmt::format("{:.5g}", critical.stable) != fmt::format("{:.5g}", critical.moving);
 }
 
-std::string verdict_text(const Summary& s) {
-  if (s.analysis == AnalysisType::limit && s.critical && s.critical->parameter == "peak_stress")
+std::string verdict_text(const Summary& s, FrameRole shown) {
+  const bool stages = is_stage(shown), limit = s.critical && !stages;
+  if (limit && s.critical->parameter == "peak_stress")
     return fmt::format(
         "In one admissible state no stress exceeds {:.5g} Pa; every other one has a stress of at least "
         "{:.5g} Pa "
         "somewhere. The forces below are those of the state found.",
         s.critical->stable, s.critical->moving);
-  if (s.analysis == AnalysisType::limit && s.critical && !shows_bracket(*s.critical))
+  if (limit && !shows_bracket(*s.critical))
     return fmt::format(
         "The structure stands {} {} and moves {} it. The forces below are those at this value.",
         s.critical->stable < s.critical->moving ? "up to" : "down to",
         phrase(s.critical->parameter, s.critical->stable),
         s.critical->stable < s.critical->moving ? "beyond" : "below");
-  if (s.analysis == AnalysisType::limit && s.critical)
+  if (limit)
     return fmt::format(
         "The structure stands at {} and moves at {:.5g}. The forces below are those at {:.5g}.",
         phrase(s.critical->parameter, s.critical->stable), s.critical->moving, s.critical->stable);
-  if (s.analysis == AnalysisType::range && s.status == Status::stable)
+  if (!s.ranges.empty() && s.status == Status::stable)
     return "Forces exist that balance the loads within the joint laws.";
-  if (s.analysis == AnalysisType::range && !s.ranges.empty())
+  if (!s.ranges.empty())
     return "Forces exist that balance the loads, but not all ends of the ranges reached the requested "
            "accuracy.";
   if (s.analysis == AnalysisType::range && s.status == Status::moving)
     return "The structure moves: no forces balance the loads within the joint laws.";
   switch (s.status) {
     case Status::stable:
-      return s.analysis == AnalysisType::staged ? "Every stage of the construction stands."
-                                                : "The structure is at rest.";
+      return stages ? "Every stage of the construction stands." : "The structure is at rest.";
     case Status::moving:
-      return s.analysis == AnalysisType::staged ? "Not every stage of the construction stands."
-                                                : "The structure is moving: no equilibrium was found.";
+      return stages ? "Not every stage of the construction stands."
+                    : "The structure is moving: no equilibrium was found.";
     case Status::collapsed:
       return "The structure has collapsed.";
     case Status::unconverged:
@@ -160,11 +160,13 @@ std::string verdict_text(const Summary& s) {
   return "";
 }
 
-std::vector<std::string> quality_sentences(const Summary& s) {
-  const bool equilibrium = at_rest(s), in_time = s.max_speed_m_per_s.has_value();
+std::vector<std::string> quality_sentences(const Evaluation& e) {
+  const Summary& s = e.summary;
+  const FrameRole shown = e.last.frame.role;
+  const bool equilibrium = at_rest(e), in_time = s.max_speed_m_per_s.has_value();
   std::vector<std::string> out{to_sentence(s.accuracy)};
   const auto add = [&out](std::string text) { out.push_back(std::move(text)); };
-  if (s.analysis == AnalysisType::limit && s.critical)
+  if (s.critical && !is_stage(shown))
     add(fmt::format("The residuals below are those of the equilibrium at {:.5g}.", s.critical->stable));
   if (equilibrium && s.equilibrium_residual)  // in motion it is mostly inertia
     add(fmt::format("The largest unbalanced force on a free block is {:.1e} of the mean block weight.",
@@ -172,7 +174,7 @@ std::vector<std::string> quality_sentences(const Summary& s) {
   if (equilibrium || in_time) {  // a static solve without an equilibrium has no forces
     if (s.contact_law_residual)
       add(fmt::format("The contact law holds to within {:.1e} of the forces{}.", *s.contact_law_residual,
-                      s.steps > 1 && s.analysis != AnalysisType::limit ? " in every step" : ""));
+                      s.steps > 1 && shown != FrameRole::equilibrium ? " in every step" : ""));
     if (const auto& worst = s.largest_law_violation)
       add(fmt::format(
           "At the worst contact, between the blocks {} and {}, the law holds to within {:.1e} of the force "

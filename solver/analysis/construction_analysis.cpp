@@ -180,6 +180,7 @@ void ConstructionRun::record(const LaidBlocks& stage, const StaticSolution& solu
   const int number = progress_.next;
   Frame frame = building_.frame(solution);
   frame.time = stage.ring - 1 + stage.share;
+  set_role(stage_role(solution.outcome), fmt::format("stage {}", number), &frame);
   sinks_.frame(frame);
   summarize_static(solution, frame, building_.problem().model, building_.options().tolerance, &summary_);
   progress_.worst.include(solution.residuals, summary_.certified_force_error, summary_.forces_unique,

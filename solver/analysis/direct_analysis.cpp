@@ -91,9 +91,11 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
 }
 
 /// Writes the admissible state and the mechanism as frames. Returns a description of the mechanism: "; " and a clause.
-std::string write_ends(const DirectLimit& limit, const AnalysisSinks& sinks, Summary* summary) {
+std::string write_ends(const DirectLimit& limit, const std::string& parameter, const AnalysisSinks& sinks,
+                       Summary* summary) {
   const RigidScene& stable = limit.at_admissible;
-  const Frame frame = admissible_frame(stable, limit.gamma, stable.start.time);
+  Frame frame = admissible_frame(stable, limit.gamma, stable.start.time);
+  set_role(FrameRole::equilibrium, parameter, &frame);
   sinks.frame(frame);
   summarize_frame(frame, stable.model, summary);
   summarize_balance(balance_of(stable, limit.gamma), summary);
@@ -104,7 +106,7 @@ std::string write_ends(const DirectLimit& limit, const AnalysisSinks& sinks, Sum
       find_mechanism(moving.model, moving.start, moving.contacts, moving.problem.contacts, limit.mechanism);
   if (moving.contacts.points.size() == stable.contacts.points.size())
     write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism,
-                    {frame.contacts.force, frame.ties.force}, frame.contacts.law_violation, sinks);
+                    {frame.contacts.force, frame.ties.force}, frame.contacts.law_violation, parameter, sinks);
   return "; " + describe(mechanism);
 }
 
@@ -145,9 +147,9 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
                            state ? "they are one of the admissible states" : "no equilibrium was found"};
   summary.status = limit.unlimited ? Status::stable : limit.no_state ? Status::moving : Status::unconverged;
   summary.message = name + ": " + limit.message;
-  if (limit.unlimited) write_ends(limit, sinks, &summary);
+  if (limit.unlimited) write_ends(limit, name, sinks, &summary);
   if (limit.found) {
-    const std::string mechanism = write_ends(limit, sinks, &summary);
+    const std::string mechanism = write_ends(limit, name, sinks, &summary);
     const double width = limit.relative_width();
     summary.accuracy.reached = summary.accuracy.worst_over_run = width;
     // Recomputed from points and world forces: what the solver calls admissible must balance.

@@ -42,7 +42,7 @@ class DynamicRun {
   void include_accuracy(double time);
   Stop stop_reason() const;
   bool frame_is_due(Stop stop) const;
-  void write_frame();
+  Frame last_frame() const;
   std::string checkpoint() const;
   Summary summarize(Stop stop, double seconds) const;
 
@@ -160,9 +160,11 @@ bool DynamicRun::frame_is_due(Stop stop) const {
   return std::abs(frames - std::round(frames)) < 1e-9;
 }
 
-void DynamicRun::write_frame() {
-  sinks_.frame(make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(), report_.forces,
-                          report_.violations, simulation_.memories(), simulation_.displacements()));
+Frame DynamicRun::last_frame() const {
+  Frame frame = make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(), report_.forces,
+                           report_.violations, simulation_.memories(), simulation_.displacements());
+  set_role(FrameRole::step, "", &frame);
+  return frame;
 }
 
 std::optional<Summary> DynamicRun::run() {
@@ -172,7 +174,7 @@ std::optional<Summary> DynamicRun::run() {
     step();
     const Stop stop = stop_reason();
     const bool due = frame_is_due(stop);
-    if (due) write_frame();
+    if (due) sinks_.frame(last_frame());
     if (stop != Stop::no) sinks_.problem(report_.problem.problem, report_.step_solution.gamma);
     if (stop != Stop::no) return summarize(stop, wall_seconds() - started);
     // A resumed run starts without a factor. To give the same bits, this run drops its factor at every step
@@ -195,9 +197,7 @@ std::string stop_note(Stop stop, const Analysis& analysis) {
 
 Summary DynamicRun::summarize(Stop stop, double seconds) const {
   Summary summary;
-  const Frame last =
-      make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(), report_.forces,
-                 report_.violations, simulation_.memories(), simulation_.displacements());
+  const Frame last = last_frame();
   summarize_frame(last, simulation_.model(), &summary);
   summary.steps = progress_.steps;
   summary.iterations = progress_.iterations;

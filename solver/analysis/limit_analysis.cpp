@@ -116,6 +116,7 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
     summary->max_displacement_m.reset();  // it depends on how close the bracket is to the critical value
     Frame first = frame;
     first.time = 0.0;
+    set_role(FrameRole::equilibrium, to_string(run.scene.analysis.limit.parameter), &first);
     run.sinks.frame(first);
   }
   if (!run.stable) {
@@ -128,7 +129,8 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
   const Mechanism mechanism = find_mechanism(probe.model, probe.start, probe.contacts, solution.step.problem,
                                              solution.increment / solution.h);
   write_mechanism(probe.model, probe.start, probe.contacts, probe.memories, mechanism, solution.forces,
-                  static_violations(probe.contacts, solution, run.options.solve.law), run.sinks);
+                  static_violations(probe.contacts, solution, run.options.solve.law),
+                  to_string(run.scene.analysis.limit.parameter), run.sinks);
   return describe(mechanism);
 }
 

@@ -74,6 +74,7 @@ Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time) 
                            law_violations(scene.contacts, gamma, outside), scene.memories,
                            std::vector<Vec3>(scene.start.poses.size(), Vec3::Zero()));
   frame.time = time;
+  set_role(FrameRole::equilibrium, "", &frame);
   return frame;
 }
 

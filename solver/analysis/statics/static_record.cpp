@@ -18,6 +18,18 @@ Status status_of(StaticOutcome outcome) {
   return Status::unconverged;
 }
 
+FrameRole role_of(StaticOutcome outcome) {
+  switch (outcome) {
+    case StaticOutcome::equilibrium:
+      return FrameRole::equilibrium;
+    case StaticOutcome::moving:
+      return FrameRole::mechanism;
+    case StaticOutcome::unconverged:
+      break;
+  }
+  return FrameRole::unconverged;
+}
+
 /// Of a static solve. Without an equilibrium, inertia balances the loads.
 Accuracy force_balance_accuracy(const StaticSolution& solution, double tolerance) {
   const bool moving = solution.outcome == StaticOutcome::moving;
@@ -52,6 +64,7 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   Frame frame =
       make_frame(model, loaded.state, contacts, solution.forces,
                  static_violations(contacts, solution, options.solve.law), loaded.memories, displacement);
+  set_role(role_of(solution.outcome), "", &frame);
   if (!equilibrium) return frame;
   const VecX u =
       relative_velocity(solution.step.problem, solution.step_solution.v) + solution.step.support_velocity;
@@ -61,6 +74,10 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
       frame.contacts.crack_opening[i] = crack_opening(frame.contacts.gap[i], loaded.memories.values[i]);
   }
   return frame;
+}
+
+FrameRole stage_role(StaticOutcome outcome) {
+  return outcome == StaticOutcome::moving ? FrameRole::failed_stage : FrameRole::stage;
 }
 
 void summarize_static(const StaticSolution& solution, const Frame& frame, const Model& model,

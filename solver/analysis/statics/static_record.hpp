@@ -17,6 +17,9 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
                    const ContactMemories& memories, const StaticSolution& solution,
                    const StaticOptions& options);
 
+/// Role of the frame of a stage of construction.
+FrameRole stage_role(StaticOutcome outcome);
+
 /// Sets the fields of the summary that follow from a static solve and its frame.
 void summarize_static(const StaticSolution& solution, const Frame& frame, const Model& model,
                       double tolerance, Summary* summary);

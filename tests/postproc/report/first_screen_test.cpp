@@ -48,7 +48,6 @@ TEST(FirstScreen, NegligibleJointsAreNeverTheWorst) {
 
 TEST(FirstScreen, ALimitAnalysisBeginsWithItsCriticalValue) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
-  e.summary.analysis = AnalysisType::limit;
   e.summary.critical = CriticalValue{"tilt", 9.4623222, 9.4623221, 9.4623223};
   const std::vector<KeyNumber> numbers = key_numbers(e, {});
   ASSERT_EQ(numbers.size(), 3u);
@@ -61,7 +60,6 @@ TEST(FirstScreen, ARangeAnalysisGivesTheRangeInPlaceOfTheChosenThrust) {
   ForceRange range{.quantity = "thrust", .unit = "N", .min = {}, .max = {}, .chosen = 2e7};
   range.min = {RangeOutcome::bounded, 1.25e7, 1.25e7, {}};
   range.max = {RangeOutcome::unbounded, {}, {}, {}};
-  e.summary.analysis = AnalysisType::range;
   e.summary.ranges = {range};
   const std::vector<KeyNumber> numbers = key_numbers(e, {});
   ASSERT_GE(numbers.size(), 1u);
@@ -73,7 +71,7 @@ TEST(FirstScreen, ARangeAnalysisGivesTheRangeInPlaceOfTheChosenThrust) {
 // Three blocks of which the upper two moved by 0.8 m; the threshold of 0.5 m was passed at 1.26 s.
 TEST(FirstScreen, AMotionBeginsWithHowFarAndWhen) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
-  e.summary.analysis = AnalysisType::dynamic;
+  e.last.frame.role = FrameRole::step;
   e.summary.status = Status::collapsed;
   e.last.frame.blocks.displacement[2] = Vec3(0.8, 0, 0);
   std::vector<HistoryRow> history;
