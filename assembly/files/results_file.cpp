@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include "assembly/files/mesh_file.hpp"
 #include "assembly/files/old_frames.hpp"
 #include "assembly/files/summary_file.hpp"
+#include "assembly/records/frame_record.hpp"
 
 namespace cupola {
 namespace {
@@ -44,6 +46,61 @@ std::vector<Vector> unflat(const std::vector<double>& values) {
   return vectors;
 }
 
+/// The columns of a table of a frame as arrays of a mesh.
+struct ArrayWriter {
+  size_t rows;
+  std::vector<MeshArray>& arrays;
+
+  template <class T>
+  void operator()(const char* key, const char*, const char*, const std::vector<T>& column) const {
+    CUPOLA_ASSERT(column.size() == rows);
+    if constexpr (requires { T::SizeAtCompileTime; })
+      arrays.push_back({key, T::SizeAtCompileTime, flat(column)});
+    else if constexpr (std::is_enum_v<T>)
+      arrays.push_back({key, 1, std::vector<std::uint8_t>(numbers(column))});
+    else
+      arrays.push_back({key, 1, column});
+  }
+  template <class Column>
+  void operator()(const char* key, const char* unit, const char* meaning, Optional<Column> optional) const {
+    if (!optional.column.empty()) (*this)(key, unit, meaning, optional.column);
+  }
+
+ private:
+  template <class Enum>
+  static std::vector<std::uint8_t> numbers(const std::vector<Enum>& column) {
+    std::vector<std::uint8_t> values(column.size());
+    std::transform(column.begin(), column.end(), values.begin(),
+                   [](Enum value) { return static_cast<std::uint8_t>(value); });
+    return values;
+  }
+};
+
+/// Its reverse. Throws InputError for an array that is missing or of another type, and for the number of no kind.
+struct ArrayReader {
+  const Mesh& mesh;
+  const std::vector<MeshArray>& arrays;
+
+  template <class T>
+  void operator()(const char* key, const char*, const char*, std::vector<T>& column) const {
+    if constexpr (requires { T::SizeAtCompileTime; }) {
+      column = unflat<T>(mesh.array<double>(arrays, key, T::SizeAtCompileTime));
+    } else if constexpr (std::is_enum_v<T>) {
+      for (const std::uint8_t value : mesh.array<std::uint8_t>(arrays, key, 1)) {
+        if (value >= enum_names(T{}).size())
+          throw InputError(FileLocation{mesh.file}, fmt::format("{} {} is unknown", key, value));
+        column.push_back(static_cast<T>(value));
+      }
+    } else {
+      column = mesh.array<T>(arrays, key, 1);
+    }
+  }
+  template <class Column>
+  void operator()(const char* key, const char* unit, const char* meaning, Optional<Column> optional) const {
+    if (mesh.has(arrays, key)) (*this)(key, unit, meaning, optional.column);
+  }
+};
+
 std::vector<MeshArray> frame_fields(const Frame& frame, const std::string& assembly_hash) {
   return {{"format_version", 1, std::vector<std::int32_t>{kFrameFormatVersion}},
           {"program_version", 1, std::vector<std::string>{program_version()}},
@@ -64,71 +121,34 @@ Mesh point_mesh(const std::vector<Vec3>& points, const Frame& frame, const std::
 }
 
 Mesh contacts_mesh(const Frame& frame, const std::string& assembly_hash) {
-  const ContactTable& c = frame.contacts;
-  [[maybe_unused]] const std::size_t n = c.joint.size();
-  CUPOLA_ASSERT(c.block_a.size() == n && c.block_b.size() == n && c.kind.size() == n && c.ring.size() == n &&
-                c.point.size() == n && c.normal.size() == n && c.gap.size() == n && c.force.size() == n &&
-                c.normal_force.size() == n && c.friction_use.size() == n && c.area.size() == n &&
-                c.slip.size() == n && c.law_violation.size() == n &&
-                (c.strength_use.empty() || c.strength_use.size() == n) &&
-                c.damage.size() == c.strength_use.size() && c.crack_opening.size() == c.strength_use.size());
-  Mesh mesh = point_mesh(c.point, frame, assembly_hash);
-  std::vector<std::uint8_t> kinds;
-  for (const JointKind kind : c.kind) kinds.push_back(static_cast<std::uint8_t>(kind));
-  mesh.point_data = {{"joint", 1, c.joint},
-                     {"block_a", 1, c.block_a},
-                     {"block_b", 1, c.block_b},
-                     {"kind", 1, std::move(kinds)},
-                     {"ring", 1, c.ring},
-                     {"normal", 3, flat(c.normal)},
-                     {"gap_m", 1, c.gap},
-                     {"force_N", 3, flat(c.force)},
-                     {"normal_force_N", 1, c.normal_force},
-                     {"friction_use", 1, c.friction_use},
-                     {"area_m2", 1, c.area},
-                     {"slip_m", 1, c.slip},
-                     {"law_violation", 1, c.law_violation}};
-  if (!c.strength_use.empty()) {
-    mesh.point_data.push_back({"strength_use", 1, c.strength_use});
-    mesh.point_data.push_back({"damage", 1, c.damage});
-    mesh.point_data.push_back({"crack_opening_m", 1, c.crack_opening});
-  }
+  const ContactTable& contacts = frame.contacts;
+  Mesh mesh = point_mesh(contacts.point, frame, assembly_hash);
+  fields(ArrayWriter{contacts.point.size(), mesh.point_data}, contacts);
   return mesh;
 }
 
 Mesh blocks_mesh(const Frame& frame, const std::string& assembly_hash) {
-  const BlockTable& b = frame.blocks;
-  const std::size_t n = b.position.size();
-  CUPOLA_ASSERT(b.quaternion_wxyz.size() == n && b.velocity.size() == n && b.angular_velocity.size() == n &&
-                b.displacement.size() == n);
-  Mesh mesh = point_mesh(b.position, frame, assembly_hash);
-  std::vector<std::int32_t> ids(n);
-  for (size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int32_t>(i);
-  mesh.point_data = {{"block", 1, std::move(ids)},
-                     {"quaternion_wxyz", 4, flat(b.quaternion_wxyz)},
-                     {"velocity_m_per_s", 3, flat(b.velocity)},
-                     {"angular_velocity_rad_per_s", 3, flat(b.angular_velocity)},
-                     {"displacement_m", 3, flat(b.displacement)}};
+  const BlockTable& blocks = frame.blocks;
+  Mesh mesh = point_mesh(blocks.position, frame, assembly_hash);
+  std::vector<std::int32_t> ids(blocks.position.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  mesh.point_data = {{"block", 1, std::move(ids)}};
+  fields(ArrayWriter{blocks.position.size(), mesh.point_data}, blocks);
   return mesh;
 }
 
 /// One segment per tie.
 Mesh ties_mesh(const Frame& frame, const std::string& assembly_hash) {
-  const TieTable& t = frame.ties;
-  [[maybe_unused]] const std::size_t n = t.force.size();
-  CUPOLA_ASSERT(t.chain.size() == n && t.block_a.size() == n && t.block_b.size() == n &&
-                t.point_a.size() == n && t.point_b.size() == n && t.yield_force.size() == n &&
-                t.yielded.size() == n && t.strut.size() == n);
+  const TieTable& ties = frame.ties;
+  CUPOLA_ASSERT(ties.point_a.size() == ties.force.size() && ties.point_b.size() == ties.force.size());
   Mesh mesh;
   mesh.field_data = frame_fields(frame, assembly_hash);
-  for (int i = 0; i < t.size(); ++i) {
-    const int a = mesh.add_point(t.point_a[i].x(), t.point_a[i].y(), t.point_a[i].z());
-    const int b = mesh.add_point(t.point_b[i].x(), t.point_b[i].y(), t.point_b[i].z());
+  for (int i = 0; i < ties.size(); ++i) {
+    const int a = mesh.add_point(ties.point_a[i].x(), ties.point_a[i].y(), ties.point_a[i].z());
+    const int b = mesh.add_point(ties.point_b[i].x(), ties.point_b[i].y(), ties.point_b[i].z());
     mesh.add_cell(Mesh::CellType::polyline, {a, b});
   }
-  mesh.cell_data = {{"chain", 1, t.chain},   {"block_a", 1, t.block_a},           {"block_b", 1, t.block_b},
-                    {"force_N", 1, t.force}, {"yield_force_N", 1, t.yield_force}, {"yielded_m", 1, t.yielded},
-                    {"strut", 1, t.strut}};
+  fields(ArrayWriter{ties.force.size(), mesh.cell_data}, ties);
   return mesh;
 }
 
@@ -156,67 +176,33 @@ void read_role(const Mesh& mesh, Frame* frame) {
 }
 
 ContactTable read_contacts(const Mesh& mesh) {
-  const auto ints = [&mesh](const char* name) { return mesh.array<std::int32_t>(mesh.point_data, name, 1); };
-  const auto doubles = [&mesh](const char* name) { return mesh.array<double>(mesh.point_data, name, 1); };
-  const auto vectors = [&mesh](const char* name) {
-    return unflat<Vec3>(mesh.array<double>(mesh.point_data, name, 3));
-  };
-  ContactTable c;
-  c.joint = ints("joint");
-  c.block_a = ints("block_a");
-  c.block_b = ints("block_b");
-  for (const std::uint8_t kind : mesh.array<std::uint8_t>(mesh.point_data, "kind", 1)) {
-    if (kind > static_cast<std::uint8_t>(JointKind::wythe))
-      throw InputError(FileLocation{mesh.file}, fmt::format("joint kind {} is unknown", kind));
-    c.kind.push_back(static_cast<JointKind>(kind));
-  }
-  c.ring = ints("ring");
-  c.point = unflat<Vec3>(mesh.points);
-  c.normal = vectors("normal");
-  c.gap = doubles("gap_m");
-  c.force = vectors("force_N");
-  c.normal_force = doubles("normal_force_N");
-  c.friction_use = doubles("friction_use");
-  c.area = doubles("area_m2");
-  c.slip = doubles("slip_m");
-  c.law_violation = doubles("law_violation");
-  if (!mesh.has(mesh.point_data, "strength_use")) return c;
-  c.strength_use = doubles("strength_use");
-  c.damage = doubles("damage");
-  c.crack_opening = doubles("crack_opening_m");
-  return c;
+  ContactTable contacts;
+  contacts.point = unflat<Vec3>(mesh.points);
+  fields(ArrayReader{mesh, mesh.point_data}, contacts);
+  if (contacts.damage.size() != contacts.strength_use.size() ||
+      contacts.crack_opening.size() != contacts.strength_use.size())
+    throw InputError(FileLocation{mesh.file}, "has some of strength_use, damage and crack_opening_m only");
+  return contacts;
 }
 
 BlockTable read_blocks(const Mesh& mesh) {
-  const auto vectors = [&mesh](const char* name) {
-    return unflat<Vec3>(mesh.array<double>(mesh.point_data, name, 3));
-  };
-  BlockTable b;
-  b.position = unflat<Vec3>(mesh.points);
-  b.quaternion_wxyz = unflat<Eigen::Vector4d>(mesh.array<double>(mesh.point_data, "quaternion_wxyz", 4));
-  b.velocity = vectors("velocity_m_per_s");
-  b.angular_velocity = vectors("angular_velocity_rad_per_s");
-  b.displacement = vectors("displacement_m");
-  return b;
+  BlockTable blocks;
+  blocks.position = unflat<Vec3>(mesh.points);
+  fields(ArrayReader{mesh, mesh.point_data}, blocks);
+  return blocks;
 }
 
 TieTable read_ties(const Mesh& mesh) {
-  TieTable t;
-  t.chain = mesh.array<std::int32_t>(mesh.cell_data, "chain", 1);
-  t.block_a = mesh.array<std::int32_t>(mesh.cell_data, "block_a", 1);
-  t.block_b = mesh.array<std::int32_t>(mesh.cell_data, "block_b", 1);
-  t.force = mesh.array<double>(mesh.cell_data, "force_N", 1);
-  t.yield_force = mesh.array<double>(mesh.cell_data, "yield_force_N", 1);
-  t.yielded = mesh.array<double>(mesh.cell_data, "yielded_m", 1);
-  t.strut = mesh.array<std::uint8_t>(mesh.cell_data, "strut", 1);
+  TieTable ties;
+  fields(ArrayReader{mesh, mesh.cell_data}, ties);
   const std::vector<Vec3> points = unflat<Vec3>(mesh.points);
-  if (points.size() != 2 * t.force.size())
+  if (points.size() != 2 * ties.force.size())
     throw InputError(FileLocation{mesh.file}, "has other than two points per tie");
   for (size_t i = 0; i < points.size(); i += 2) {
-    t.point_a.push_back(points[i]);
-    t.point_b.push_back(points[i + 1]);
+    ties.point_a.push_back(points[i]);
+    ties.point_b.push_back(points[i + 1]);
   }
-  return t;
+  return ties;
 }
 
 /// Joint and block numbers are used as indices by later stages: they must be in range.
