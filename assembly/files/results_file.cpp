@@ -46,14 +46,15 @@ struct RunOfFrame {
 };
 
 std::vector<MeshArray> frame_fields(const Frame& frame, const RunOfFrame& run) {
-  return {{"format_version", 1, std::vector<std::int32_t>{kFrameFormatVersion}},
-          {"program_version", 1, std::vector<std::string>{program_version()}},
-          {"assembly_hash", 1, std::vector<std::string>{run.assembly_hash}},
-          {"case_hash", 1, std::vector<std::string>{run.case_hash}},
-          {"time_s", 1, std::vector<double>{frame.time}},
-          {"role", 1, std::vector<std::string>{to_string(frame.role)}},
-          {"owner", 1, std::vector<std::string>{frame.owner}},
-          {"label", 1, std::vector<std::string>{frame.label}}};
+  std::vector<MeshArray> fields = {{"format_version", 1, std::vector<std::int32_t>{kFrameFormatVersion}},
+                                   {"program_version", 1, std::vector<std::string>{program_version()}},
+                                   {"assembly_hash", 1, std::vector<std::string>{run.assembly_hash}},
+                                   {"time_s", 1, std::vector<double>{frame.time}},
+                                   {"role", 1, std::vector<std::string>{to_string(frame.role)}},
+                                   {"owner", 1, std::vector<std::string>{frame.owner}},
+                                   {"label", 1, std::vector<std::string>{frame.label}}};
+  if (!run.case_hash.empty()) fields.push_back({"case_hash", 1, std::vector<std::string>{run.case_hash}});
+  return fields;
 }
 
 /// Adds one vertex cell per point, so that ParaView shows the points.
@@ -145,10 +146,8 @@ Mesh read_frame_mesh(const std::string& path, const RunOfFrame& run) {
                     version, kOldestFrameFormat, kFrameFormatVersion));
   if (mesh.field<std::string>("assembly_hash") != run.assembly_hash)
     throw InputError(FileLocation{path}, "belongs to another assembly; run cupola-solve again");
-  // Frames of version 0.2 do not name their case.
-  if (const std::string hash =
-          mesh.has(mesh.field_data, "case_hash") ? mesh.field<std::string>("case_hash") : "";
-      !hash.empty() && hash != run.case_hash)
+  // Frames of version 0.2, and of a writer without a case, do not name it.
+  if (mesh.has(mesh.field_data, "case_hash") && mesh.field<std::string>("case_hash") != run.case_hash)
     throw InputError(FileLocation{path}, "belongs to another run than summary.json; run cupola-solve again");
   return mesh;
 }

@@ -12,7 +12,7 @@ namespace cupola {
 /// collections, which are rewritten after each frame.
 class ResultsWriter {
  public:
-  /// Creates the folder. Every frame gets `assembly_hash` and `case_hash`, by which a reader knows the frames of one run.
+  /// Creates the folder. Every frame gets `assembly_hash` and, if given, `case_hash`, by which a reader knows the frames of one run.
   /// `times` (s): frames that exist already when a run is resumed; InputError if one is missing.
   ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times = {},
                 std::string case_hash = {});
