@@ -169,6 +169,10 @@ KeyNumber margin_answer(const Evaluation& e) {
                 robust->directions, robust->azimuth_deg, robust->moving_g)};
   if (is_limit(e) && at_rest(e))
     return {"Margin", "no limit", e.summary.message.substr(e.summary.message.rfind(": ") + 2)};
+  if (!at_rest(e.summary))
+    return {
+        "Margin", "none",
+        "without an equilibrium; a limit analysis finds the friction, load or thickness at which it stands"};
   return {"Margin", "not computed",
           command_for_margins(e) + " computes the horizontal acceleration that it bears"};
 }
@@ -198,7 +202,9 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
     lowest = std::min(lowest, r.outward);
     highest = std::max(highest, r.outward);
   }
-  std::string detail = per_metre(thrust, length);
+  // Joints of a smaller extent do not have the length of the supports.
+  const bool shrunk = e.summary.critical && e.summary.critical->parameter == "joint_extent";
+  std::string detail = shrunk ? "" : per_metre(thrust, length);
   if (supports.size() > 1 && highest - lowest <= 1e-3 * std::abs(highest))
     detail += fmt::format("{}{} on each of {}", detail.empty() ? "" : "; ", force_text(highest),
                           counted(supports.size(), "support"));
