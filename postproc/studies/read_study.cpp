@@ -88,11 +88,12 @@ Study read_study(const std::string& path, const std::string& case_name) {
     if (table.columns.empty() && study.script.empty())
       throw InputError(FileLocation{path},
                        fmt::format("tables: {} has no columns; give them, or a `script`", table.name));
-  if (study.runs.empty() && study.tables.empty() && study.comparisons.empty() && study.claims.empty())
-    throw InputError(
-        FileLocation{path},
-        "contains no runs; give `runs`, `tables`, `comparisons`, `tradeoff` or `claims`, or a case "
-        "with a `sweep`");
+  if (study.runs.empty() && study.tables.empty() && study.comparisons.empty() && study.claims.empty() &&
+      study.figures.empty())
+    throw InputError(FileLocation{path},
+                     "contains no runs; give `runs`, `tables`, `comparisons`, `tradeoff`, `claims` or "
+                     "`figures`, or a case "
+                     "with a `sweep`");
   return study;
 }
 

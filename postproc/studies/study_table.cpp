@@ -132,8 +132,13 @@ void declare_study_table(Section& s, StudyTable& table) {
 
 std::vector<std::string> runs_of(const StudyTable& table) {
   std::vector<std::string> runs;
+  // A row may be named by what the names of its runs share: dome of dome_thrust and dome_friction.
+  const bool reads_row = !table.rows.empty() || table.columns.empty() ||
+                         std::ranges::any_of(table.columns, [](const StudyColumn& column) {
+                           return column.text && *column.text != RunText::run;
+                         });
   for (const std::string& run : table.runs) {
-    runs.push_back(run);
+    if (reads_row) runs.push_back(run);
     for (const StudyColumn& column : table.columns)
       for (const Quantity& quantity : quantities_of(column, run))
         for (const std::string& name : runs_of(quantity)) runs.push_back(name);

@@ -114,6 +114,27 @@ TEST(Study, RunsAreTheProductOfCasesAndValues) {
   EXPECT_EQ(study.runs[3].settings, (std::vector<std::string>{"c.d=1", "e.f=3"}));
 }
 
+// The row `dome` stands for the two runs whose names begin with it; no run has that name.
+TEST(Study, ARowMayBeTheCommonPartOfTheNamesOfItsRuns) {
+  const ScratchFolder scratch;
+  const StudyTable table =
+      table_of(scratch,
+               "    runs: dome\n    columns:\n      - {heading: name, text: run}\n"
+               "      - {heading: x, runs: \"{run}_thrust {run}_friction\", key: results.x, take: sum}\n");
+  EXPECT_EQ(runs_of(table), (std::vector<std::string>{"dome_thrust", "dome_friction"}));
+}
+
+// Every study that comes with Cupola is read, and its members exist as cases or variants.
+TEST(Study, EveryShippedStudyNamesRunsThatExist) {
+  int studies = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(CUPOLA_SOURCE_DIR "/cases/studies")) {
+    const std::string path = entry.path().string();
+    EXPECT_NO_THROW(EXPECT_FALSE(members_text(members_of(read_study(path)), path).empty())) << path;
+    ++studies;
+  }
+  EXPECT_GE(studies, 16);
+}
+
 TEST(DocsPage, RefusesRunsOfDifferentOrChangedRevisions) {
   const ScratchFolder scratch;
   write_run(scratch, "a", "stable", 1);
