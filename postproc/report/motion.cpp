@@ -142,8 +142,8 @@ std::string how_sure_of_motion(const Evaluation& e) {
       return "A motion was found, but other contact forces might balance the loads; a range analysis "
              "(analysis.type: range) shows whether any do.";
     if (!e.scene.joints.have_strength())
-      return "It is proven, up to the forces named above, that no forces within the friction cones balance "
-             "the loads. The proof holds for Coulomb's law too, which differs only in how joints slide.";
+      return "It is proven that no forces within the friction cones balance the loads, unless the message "
+             "says `not proven`. The proof holds for Coulomb's law too, which differs only in how joints slide.";
   }
   if (e.last.frame.role != FrameRole::step) return "";
   if (analysis.time_error)
