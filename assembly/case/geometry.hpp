@@ -310,7 +310,6 @@ struct ImportedBlocks {
   std::vector<BlockDensity>
       densities;              ///< override those of the file, which override the material of the case
   std::string springs, rods;  ///< files of ties, brick CSV; "" for none
-  double weld = 1e-6;         ///< > 0: vertices closer than this times the block size are merged
   /// rad, > 0: neighbouring triangles form a facet if their normals agree within this and their vertices lie
   /// within this times the block size of one plane.
   /// None: chosen from the deviations of the faces from planes (generators/importer/flatness.hpp).

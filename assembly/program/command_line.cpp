@@ -77,6 +77,7 @@ CommandLine::CommandLine(const std::string& name, const std::string& description
                    "print every key of the case file, or those of one section: type, unit, range, default")
       ->type_name("[KEY]")
       ->expected(0, 1);
+  app_->add_flag("--json", json_, "with --schema: print all keys as a JSON schema, for editors");
   app_->add_flag("--quiet", quiet_, "print warnings and errors only");
   app_->add_flag("--strict", strict_, "treat warnings as errors");
 }
@@ -106,8 +107,10 @@ std::optional<ExitCode> CommandLine::parse(int argc, const char* const* argv) {
   const std::vector<const char*> arguments = with_set_before_each_pair(argc, argv);
   if (const auto ended = parse_arguments(*app_, static_cast<int>(arguments.size()), arguments.data()))
     return ended;
+  if (json_ && (app_->count("--schema") == 0 || !schema_key_.empty()))
+    throw InputError("--json requires --schema, without a key");
   if (app_->count("--schema") > 0) {
-    fmt::print("{}", case_schema(schema_key_));
+    fmt::print("{}", json_ ? case_json_schema() : case_schema(schema_key_));
     return ExitCode::done;
   }
   if (case_path_.empty())

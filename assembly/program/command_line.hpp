@@ -65,6 +65,7 @@ class CommandLine {
   bool list_inputs_ = false;
   bool strict_ = false;
   bool quiet_ = false;
+  bool json_ = false;
   std::string schema_key_;  // after --schema
 };
 

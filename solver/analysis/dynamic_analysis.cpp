@@ -99,7 +99,7 @@ void DynamicRun::step() {
   progress_.rest.include(simulation_.model(), simulation_.state(), analysis_.thresholds);
   const double time = simulation_.state().time;
   include_accuracy(time);
-  if (now_.speed > analysis_.stop.settled_speed) progress_.calm_since = time;
+  if (now_.speed > StopRules::kSettledSpeed) progress_.calm_since = time;
   sinks_.history(history_row(time, report_, now_, progress_.energy));
   sinks_.log(log_line(progress_.steps, time, report_, now_));
   sinks_.progress(std::min(1.0, time / analysis_.duration),
@@ -188,8 +188,8 @@ std::optional<Summary> DynamicRun::run() {
 
 std::string stop_note(Stop stop, const Analysis& analysis) {
   if (stop == Stop::settled)
-    return fmt::format("; settled: all blocks slower than {:.3g} m/s for {:.3g} s",
-                       analysis.stop.settled_speed, analysis.stop.settled_time);
+    return fmt::format("; settled: all blocks slower than {:.3g} m/s for {:.3g} s", StopRules::kSettledSpeed,
+                       analysis.stop.settled_time);
   if (stop == Stop::collapsed) return "; the analysis stopped there";
   return "";
 }
