@@ -379,6 +379,7 @@ class Campaign:
         print(f"DEFECT: {stage}: {defect}: {error.strip()[:300]}; kept in {kept}", flush=True)
 
     def report(self, seconds):
+        if not self.times: return print(f"seed {self.seed}: no complete pipeline, {self.refused} refusals, {self.defects} defects")
         reached = sum(count > 0 for count in self.runs_of_key.values())
         all_keys = len(self.runs_of_key)
         self.times.sort()
@@ -401,7 +402,11 @@ def main():
     campaign, started = Campaign(asked.bin.resolve(), asked.pipelines, asked.seed), time.monotonic()
     print(f"seed {asked.seed}", flush=True)
     with concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
-        list(pool.map(campaign.pipeline, range(asked.pipelines)))
+        runs = [pool.submit(campaign.pipeline, number) for number in range(asked.pipelines)]
+        try:
+            for run in runs: run.result()
+        except KeyboardInterrupt:  # then the report covers what ran so far
+            pool.shutdown(cancel_futures=True)
     campaign.report(time.monotonic() - started)
     return 1 if campaign.defects or campaign.complete < asked.pipelines else 0
 
