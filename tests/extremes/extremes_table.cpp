@@ -52,7 +52,8 @@ ExitCode write_table(const std::string& folder, const std::string& text) {
       "reason,"
       "message\n";
   std::string markdown = fmt::format(
-      "Written by `make -f Makefile.cases extremes`, Cupola {}. docs/data/extremes.md explains the columns.\n\n"
+      "Written by `make -f Makefile.cases extremes`, Cupola {}. docs/data/extremes.md explains the "
+      "columns.\n\n"
       "| group | what is hard | exact answer | ended | true error | stated | iterations | CPU "
       "s "
       "| verdict |\n|---|---|---|---|---|---|---|---|---|\n",
