@@ -118,9 +118,8 @@ TEST(ShellMaps, IncludedMapsShareTheirScale) {
 
 // The courses of an arch run along y. Over x its blocks have no width: the map was empty.
 TEST(ShellMaps, OfAnArchRunAcrossIt) {
-  Case scene = test::column_case();
-  scene.geometry.surface = ArchSurface{};
   Assembly a = test::column(3);
+  a.sheets.front().thrust_lines = Sheet::ThrustLines::one;
   Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.9, 0.3);
   const auto turn = [](Vec3& x) {
     x = Vec3(-x.y(), x.x(), x.z());
@@ -130,7 +129,7 @@ TEST(ShellMaps, OfAnArchRunAcrossIt) {
   for (Vec3& x : frame.contacts.point) turn(x);
   for (Vec3& x : frame.blocks.position) turn(x);
   const Evaluation e =
-      test::evaluated(a, {frame}, test::column_summary(a), scene, test::fresh_folder("results"));
+      test::evaluated(a, {frame}, test::column_summary(a), test::column_case(), test::fresh_folder("results"));
   const ShellMap map = shell_maps(e).front();
   EXPECT_EQ(shell_table(map).name, "shell_y");
   ASSERT_EQ(map.boxes.size(), 3u);
