@@ -7,6 +7,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
+#include "assembly/case/keys_without_effect.hpp"
 #include "assembly/case/plausibility.hpp"
 #include "assembly/model/block_names.hpp"
 #include "generators/bond/make_bond.hpp"
@@ -80,6 +81,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
     assembly.title = input.title;
     assembly.geometry_hash = input.geometry_hash;
     Case resolved = input;
+    refuse_keys_without_effect(input, assembly);
     resolve_block_names(assembly, &resolved.loads, &resolved.ties, &resolved.supports);
     report->model =
         check_model(assembly,
@@ -89,6 +91,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
     return with_report(std::move(assembly), *report, resolved);
   }
   Assembly assembly = cut_assembly(input);
+  refuse_keys_without_effect(input, assembly);
   ModelTolerances tolerances = generated_tolerances(assembly);
   if (geometry.imperfections && geometry.imperfections->gap > 0.0) {  // joints as the solver finds them
     const JointRule rule = joint_rule(smallest_block_size(assembly), input.contact.margin);

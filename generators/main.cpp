@@ -25,6 +25,7 @@ using namespace cupola;
 void make_parent(const std::string& file) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   if (!folder.empty()) make_folder(folder.string());
+  remove_part_files(folder.string());
 }
 
 ExitCode generate_assembly(int argc, char** argv) {
@@ -44,6 +45,8 @@ ExitCode generate_assembly(int argc, char** argv) {
   if (const auto ended = line.parse(argc, argv)) return *ended;
 
   if (!export_file.empty()) check_export_path(export_file);
+  for (const std::string& file : {output, export_file, report_file, bond_map_file, contacts_file})
+    check_output_file(file);
 
   // 2. Read the case
   const Case scene = line.read_case();

@@ -8,8 +8,11 @@ build=$1
 work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
 fail() { echo "FAILED: $1" >&2; exit 1; }
 
-(cd "$build" && cpack -G DEB -B "$work/package" > "$work/cpack.log" 2>&1) || { cat "$work/cpack.log"; fail "cpack"; }
+# The umask of who makes the package does not matter.
+(umask 077; cd "$build" && cpack -G DEB -B "$work/package" > "$work/cpack.log" 2>&1) || { cat "$work/cpack.log"; fail "cpack"; }
 package=$(ls "$work"/package/*.deb)
+dpkg-deb --contents "$package" | awk '{print $1, $6}' > "$work/rights"
+! grep -vE '^(-rw-r--r--|[-d]rwxr-xr-x) ' "$work/rights" || fail "a file or folder of the package has other rights"
 dpkg-deb --field "$package" Depends | grep -q libvtk || fail "the package does not depend on its libraries"
 
 # dpkg itself installs it, into a root with an empty database; the libraries are those of this machine.

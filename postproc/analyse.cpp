@@ -9,11 +9,13 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
+#include "assembly/files/folder_lock.hpp"
 #include "assembly/program/warnings.hpp"
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/figures.hpp"
 #include "postproc/pictures/paraview.hpp"
 #include "postproc/pictures/pictures.hpp"
+#include "postproc/report/answers.hpp"
 #include "postproc/report/load_path.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/report/stages.hpp"
@@ -33,14 +35,14 @@ void remove_earlier_output(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
     for (const char* start :
-         {"ranges.csv", "path.csv", "rings.csv", "stages.csv", "members.csv", "wythes.csv", "chains.csv",
-          "ties.csv", "shell", "thrust_", "hoop_", "section_", "cut_"})
+         {"ranges.csv", "path.csv", "rings.csv", "reactions.csv", "stages.csv", "members.csv", "wythes.csv",
+          "chains.csv", "ties.csv", "shell", "thrust_", "hoop_", "section_", "cut_"})
       if (name.starts_with(start) && name.ends_with(".csv")) std::filesystem::remove(entry.path(), ignored);
   }
   std::filesystem::remove(in_folder(folder, "ties.vtp"), ignored);
   for (const char* subfolder : {"figures", "pictures"})
     for (const auto& entry : std::filesystem::directory_iterator(in_folder(folder, subfolder), ignored))
-      for (const char* ending : {".gp", ".png", ".svg", ".pdf"})
+      for (const char* ending : {".gp", ".log", ".png", ".svg", ".pdf"})
         if (entry.path().extension() == ending) std::filesystem::remove(entry.path(), ignored);
 }
 
@@ -55,13 +57,6 @@ std::optional<FrameEvaluation> frame_at(size_t index, const ResultsReader& resul
   }
 }
 
-/// What the picture of a moment says about it.
-std::string moment_text(const Evaluation& e, const Frame& frame) {
-  if (e.summary.analysis == AnalysisType::staged)
-    return fmt::format("{} {} just laid", is_vault(e) ? "ring" : "course", std::lround(frame.time));
-  return is_mechanism(e.summary, frame) ? "mechanism" : fmt::format("after {:.2f} s", frame.time);
-}
-
 /// The frames that show the motion: mechanisms, or instants of a motion in time; at most four, evenly spaced, with the
 /// last. `moving`: all that could be shown.
 std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const ResultsReader& results,
@@ -72,9 +67,8 @@ std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const Res
   for (size_t i = 1; i <= count; ++i) {
     const std::optional<FrameEvaluation> frame = frame_at(moving[moving.size() * i / count - 1], results, e);
     if (!frame) continue;
-    MovedBlocks moment{moment_text(*e, frame->frame), frame->frame.blocks, {}};
-    if (e->summary.analysis == AnalysisType::staged)
-      moment.top_ring = static_cast<int>(std::ceil(frame->frame.time));
+    MovedBlocks moment{frame->frame.label, frame->frame.blocks, {}};
+    if (is_stage(frame->frame.role)) moment.top_ring = static_cast<int>(std::ceil(frame->frame.time));
     moments.push_back(std::move(moment));
   }
   return moments;
@@ -85,7 +79,6 @@ std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const Res
 std::vector<MovedBlocks> write_frames(const ResultsReader& results, const std::string& folder, Evaluation* e,
                                       Film* film) {
   const DisplacedBlocks blocks(*e);
-  const bool in_time = e->summary.analysis == AnalysisType::dynamic && !at_rest(e->summary);
   std::vector<PvdEntry> entries;
   std::vector<size_t> moving;
   for (size_t i = 0; i < e->times.size(); ++i) {
@@ -97,7 +90,8 @@ std::vector<MovedBlocks> write_frames(const ResultsReader& results, const std::s
     write_mesh(in_folder(folder, name), mesh);
     film->add(i, *frame);
     entries.push_back({e->times[i], name});
-    if (is_mechanism(e->summary, frame->frame) || (in_time && i > 0)) moving.push_back(i);
+    if (is_mechanism(frame->frame.role) || (frame->frame.role == FrameRole::step && !at_rest(*e) && i > 0))
+      moving.push_back(i);
   }
   write_pvd(in_folder(folder, "blocks.pvd"), entries);
   return moments_of(moving, results, e);
@@ -169,7 +163,7 @@ std::string readable_text(const ResultsReader& results, const std::string& name,
 std::vector<HistoryRow> read_history(const ResultsReader& results, Evaluation* e) {
   std::vector<HistoryRow> history;
   const std::string name = "history.csv";
-  if (e->summary.analysis != AnalysisType::dynamic || !e->summary.text_files.contains(name)) return history;
+  if (e->last.frame.role != FrameRole::step || !e->summary.text_files.contains(name)) return history;
   const std::string text = readable_text(results, name, e);
   if (text.empty()) return history;
   const CsvFile csv = parse_csv(text, name);
@@ -192,7 +186,6 @@ std::optional<CsvFile> readable_table(const ResultsReader& results, const std::s
 
 /// The stages of a staged run.
 std::optional<StageReport> read_construction(const ResultsReader& results, Evaluation* e) {
-  if (e->summary.analysis != AnalysisType::staged) return std::nullopt;
   if (const auto rings = readable_table(results, "stages.csv", e)) return rings_laid(*e, *rings);
   if (const auto stages = readable_table(results, "construction.csv", e))
     return blocks_laid(e->scene.analysis.staged.least, *stages, readable_table(results, "failures.csv", e));
@@ -214,7 +207,7 @@ ExitCode analyse(const AnalyseRequest& request) {
   EvaluatedRun run = evaluate_run(request.run);
   Evaluation& e = run.evaluation;
   const std::string& folder = request.output_folder;
-  make_folder(folder);
+  const FolderLock lock(folder);
   // The summary marks the folder as complete: remove the old one before the first file is replaced.
   std::filesystem::remove(in_folder(folder, "summary.json"));
   remove_earlier_output(folder);
@@ -225,9 +218,8 @@ ExitCode analyse(const AnalyseRequest& request) {
     tables.insert(tables.begin(), construction->table);
     own = construction->figure;
   }
-  if (e.summary.analysis == AnalysisType::path)
-    if (const auto path = readable_table(run.results, "path.csv", &e))
-      own = path_figure(tables.emplace(tables.begin(), path_table(*path))[0]);
+  if (const auto path = readable_table(run.results, "path.csv", &e))
+    own = path_figure(tables.emplace(tables.begin(), path_table(*path))[0]);
   for (const Table& table : tables)
     write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
   const std::string run_yaml = readable_text(run.results, "run.yaml", &e);
@@ -239,8 +231,9 @@ ExitCode analyse(const AnalyseRequest& request) {
 
   report_warnings("cupola-post", e.warnings, run.doubts, false);
   if (!request.quiet)
-    fmt::print("{}, {}; open {}\n", counted(tables.size(), "table"), counted(drawn.figures.size(), "figure"),
-               in_folder(folder, request.tables_only ? "summary.json" : "report.html"));
+    for (const std::string& line :
+         terminal_lines(e, in_folder(folder, request.tables_only ? "summary.json" : "report.html")))
+      fmt::print("{}\n", line);
   throw_if_incomplete(e, folder);
   return ExitCode::done;
 }

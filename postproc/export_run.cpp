@@ -30,7 +30,7 @@ ExportedJoint exported(const JointWrench& joint, const JointWrenches& joints, co
 
 std::vector<Eigen::Isometry3d> poses_of(const Evaluation& e) {
   std::vector<Eigen::Isometry3d> poses;
-  if (e.summary.analysis != AnalysisType::dynamic) return poses;
+  if (e.last.frame.role != FrameRole::step) return poses;
   const BlockTable& blocks = e.last.frame.blocks;
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
     const Eigen::Vector4d& q = blocks.quaternion_wxyz[b];
@@ -44,11 +44,12 @@ std::vector<Eigen::Isometry3d> poses_of(const Evaluation& e) {
 
 ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) {
   check_export_path(path);
+  check_output_file(path);
   const EvaluatedRun run = evaluate_run(input);
   const Evaluation& e = run.evaluation;
   std::vector<std::string> warnings = e.warnings;
   ExportModel model{e.assembly, poses_of(e), {}, common_scale(e)};
-  if (at_rest(e.summary))
+  if (at_rest(e))
     for (const JointWrench& joint : e.last.joints.wrenches)
       model.joints.push_back(exported(joint, e.last.joints, e.last.frame.contacts));
   else

@@ -5,9 +5,8 @@
 //   cupola-post analyse cases/dome_circular.yaml --assembly assembly.vtu --results results/ --output post/
 //   cupola-post export cases/dome_circular.yaml --assembly assembly.vtu --results results/ --output dome.gltf
 //   cupola-post compare out/A/post out/B/post --output comparison/
-//   cupola-post claims cases/claims.yaml --runs out/ --output out/paper/
-//   cupola-post sweep cases/friction_sweep.yaml --runs out/ --output out/friction_sweep/
-//   cupola-post tradeoff cases/tradeoff.txt --runs out/tradeoff/dome_circular --output study/
+//   cupola-post study cases/studies/paper.yaml --runs out/ --output out/paper/
+//   cupola-post study cases/friction_sweep.yaml --runs out/ --output out/friction_sweep/
 //   cupola-post columns > columns.md
 
 #include <cstring>
@@ -19,11 +18,9 @@
 #include "assembly/export/export.hpp"
 #include "assembly/program/command_line.hpp"
 #include "postproc/analyse.hpp"
-#include "postproc/claims/claims_command.hpp"
 #include "postproc/compare/compare.hpp"
 #include "postproc/export_run.hpp"
-#include "postproc/studies/sweep.hpp"
-#include "postproc/studies/tradeoff_command.hpp"
+#include "postproc/studies/study_command.hpp"
 #include "postproc/tables/result_columns.hpp"
 
 namespace {
@@ -35,9 +32,7 @@ constexpr const char* kUsage =
     "  cupola-post analyse CASE.yaml --assembly FILE --results FOLDER --output FOLDER\n"
     "  cupola-post export CASE.yaml --assembly FILE --results FOLDER --output FILE\n"
     "  cupola-post compare POST POST ... --output FOLDER\n"
-    "  cupola-post claims CLAIMS.yaml --runs FOLDER --output FOLDER\n"
-    "  cupola-post sweep CASE.yaml --runs FOLDER --output FOLDER\n"
-    "  cupola-post tradeoff STUDY.txt --runs FOLDER --output FOLDER\n"
+    "  cupola-post study STUDY.yaml --runs FOLDER --output FOLDER\n"
     "  cupola-post columns\n\n"
     "`cupola-post COMMAND --help` lists the options.\n";
 
@@ -92,9 +87,7 @@ ExitCode run(int argc, char** argv) {
   if (command == "analyse") return run_analyse(argc - 1, argv + 1);
   if (command == "export") return run_export(argc - 1, argv + 1);
   if (command == "compare") return run_compare(argc - 1, argv + 1);
-  if (command == "claims") return run_claims(argc - 1, argv + 1);
-  if (command == "sweep") return run_sweep(argc - 1, argv + 1);
-  if (command == "tradeoff") return run_tradeoff(argc - 1, argv + 1);
+  if (command == "study") return run_study(argc - 1, argv + 1);
   if (command == "columns") {
     fmt::print("{}", column_reference());
     return ExitCode::done;
@@ -108,10 +101,9 @@ ExitCode run(int argc, char** argv) {
     return ExitCode::done;
   }
   if (command.empty())
-    throw InputError(
-        "the command is missing; use analyse, export, compare, claims, sweep, tradeoff or columns");
-  throw InputError(fmt::format(
-      "unknown command `{}`; use analyse, export, compare, claims, sweep, tradeoff or columns", command));
+    throw InputError("the command is missing; use analyse, export, compare, study or columns");
+  throw InputError(
+      fmt::format("unknown command `{}`; use analyse, export, compare, study or columns", command));
 }
 
 }  // namespace

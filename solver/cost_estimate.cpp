@@ -8,13 +8,13 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/process.hpp"
+#include "solver/analysis/analysis_table.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/analysis/statics/static_start.hpp"
 #include "solver/contact/blocks/block_cholesky.hpp"
 #include "solver/contact/methods/method_table.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/whitening.hpp"
-#include "solver/dynamics/laying_order.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/runtime/interruption.hpp"
 
@@ -104,25 +104,9 @@ bool add_time(const std::string& what, const std::function<void()>& work, CostEs
   return ended;
 }
 
-/// Solves of a construction by stages, each counted with its share of the courses of the complete model.
-double num_stage_solves(const StagedConstruction& staged, const Assembly& assembly) {
-  constexpr double kSolvesPerSearch = 4.0;  // most stages confirm the bracket of the stage before
-  const int rings = std::max(1, assembly.num_rings);
-  const int last = staged.last_ring < 0 ? rings - 1 : std::min(staged.last_ring, rings - 1);
-  double solves = 0.0;
-  for (const LaidBlocks& stage : laying_order(assembly, staged, staged.first_ring, last)) {
-    const int courses = staged.hold_below < 0 ? stage.ring + 1 : std::min(stage.ring, staged.hold_below) + 1;
-    solves += static_cast<double>(courses) / rings;
-  }
-  return staged.least == StagedConstruction::Least::none ? solves : (1.0 + kSolvesPerSearch) * solves;
-}
-
 void estimate_static(const Case& scene, const Assembly& assembly, const ContactProblem& problem,
                      CostEstimate* cost) {
-  const StagedConstruction& staged = scene.analysis.staged;
-  const bool by_stages = scene.analysis.type == AnalysisType::staged && !staged.independent_rings();
-  const double solves = num_passes(scene) * (by_stages ? num_stage_solves(staged, assembly)
-                                                       : num_equilibria(scene.analysis, assembly.num_rings));
+  const double solves = num_passes(scene) * analysis_traits(scene.analysis.type).num_solves(scene, assembly);
   if (uses_multigrid(scene, problem)) {
     std::optional<double> once;
     if (!add_time(
@@ -196,7 +180,7 @@ CostEstimate estimate_cost(const Case& scene, const Assembly& assembly, const Co
                            double time_limit) {
   const TimeLimit limit(time_limit);
   CostEstimate cost;
-  if (scene.analysis.type == AnalysisType::dynamic)
+  if (analysis_traits(scene.analysis.type).steps_in_time)
     estimate_motion(scene, assembly, problem, &cost);
   else
     estimate_static(scene, assembly, problem, &cost);

@@ -8,6 +8,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/files/number_text.hpp"
+#include "solver/analysis/analysis_table.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/analysis/statics/cyclic_reduction.hpp"
@@ -30,13 +31,15 @@ FirstProblem build_first_problem(const Case& scene, const Assembly& assembly) {
   const Analysis& analysis = scene.analysis;
   FirstProblem first{make_model(scene, assembly), {}, {}, {}};
   const State rest = state_at_rest(first.model);
-  first.contacts = ContactDetector(assembly, detection_options(scene)).update(rest.poses);
+  ContactDetector detector(assembly, detection_options(scene));
+  first.contacts = analysis.type == AnalysisType::static_ ? contacts_at_rest(rest, assembly, &detector)
+                                                          : detector.update(rest.poses);
   const ContactMemories memories = match_memories({}, first.contacts.points);
   first.step =
-      analysis.type == AnalysisType::dynamic
+      analysis_traits(analysis.type).steps_in_time
           ? build_step_problem(first.model, rest, first.contacts, memories, simulation_options(scene).step)
           : first_static_problem(first.model, rest, first.contacts, memories, static_options(analysis));
-  if (analysis.type == AnalysisType::static_ && analysis.cyclic_sectors > 1)
+  if (analysis_traits(analysis.type).one_solve && analysis.cyclic_sectors > 1)
     first.sector = reduce(first.step.problem,
                           find_cyclic_symmetry(first.model, rest, first.contacts, analysis.cyclic_sectors));
   return first;
@@ -74,7 +77,7 @@ ModelCounts count_model(const FirstProblem& first, int sectors) {
   return counts;
 }
 
-/// One line per feature that adds work, with its value.
+/// One line per feature that adds work to any analysis, with its value.
 std::string active_features(const Case& scene, const ModelCounts& counts) {
   std::string text;
   const auto line = [&text](const std::string& name, const std::string& value) {
@@ -104,101 +107,7 @@ std::string active_features(const Case& scene, const ModelCounts& counts) {
   if (scene.contact.method == ContactDetection::Method::perturbed_gjk)
     line("contact", fmt::format("perturbed GJK, {} per pair of parts",
                                 counted(scene.contact.perturbation.perturbations, "query", "queries")));
-  if (analysis.cyclic_sectors > 1)
-    line("sectors",
-         fmt::format(
-             "one of {} is solved{}", analysis.cyclic_sectors,
-             analysis.type == AnalysisType::range ? " for quantities that repeat around the axis" : ""));
   return text;
-}
-
-std::string static_features(const Analysis& analysis) {
-  std::string text;
-  if (analysis.friction_law != FrictionLaw::associated)
-    text +=
-        "    law         the associated problem is solved first; about twice its time, near collapse ten "
-        "times\n";
-  if (analysis.accuracy.wrench_error)
-    text +=
-        fmt::format("    accuracy    wrench error at most {:g}: several solves with decreasing tolerance\n",
-                    *analysis.accuracy.wrench_error);
-  return text;
-}
-
-std::string motion_features(const Case& scene) {
-  std::string text;
-  const auto line = [&text](const std::string& name, const std::string& value) {
-    text += fmt::format("    {:<12}{}\n", name, value);
-  };
-  const SimulationOptions options = simulation_options(scene);
-  line("tangential", options.step.tangential == TangentialSpring::memory ? "elastic slip is stored"
-                                                                         : "literal scheme of the paper");
-  if (options.step.recovery == Recovery::literal)
-    line("recovery",
-         fmt::format("literal scheme of the paper: contacts bear at most {:g} m/s times step over compliance",
-                     options.step.recovery_speed));
-  if (options.static_start)
-    line("start", fmt::format("static equilibrium under the loads at time 0, residual at most {:.1e}",
-                              static_options(scene.analysis).tolerance));
-  if (options.adaptive)
-    line("step",
-         fmt::format("adaptive, {:g} to {:g} s, error at most {:g} m per step", options.adaptive->smallest,
-                     options.adaptive->largest, options.adaptive->displacement_error));
-  if (options.sleep)
-    line("sleep", fmt::format("islands slower than {:g} m/s for {:g} s are left out of the problem",
-                              options.sleep->speed, options.sleep->time));
-  line("frames", fmt::format("every {:g} s", scene.output.frames_every));
-  return text;
-}
-
-std::string analysis_line(const Case& scene) {
-  const Analysis& analysis = scene.analysis;
-  const std::string method = to_string(analysis.method);
-  switch (analysis.type) {
-    case AnalysisType::static_:
-      return fmt::format(
-          "static, {}: contacts are detected once, no time integration; equilibrium residual at most {:.1e}",
-          method, analysis.tolerance);
-    case AnalysisType::dynamic:
-      if (analysis.adaptive)
-        return fmt::format(
-            "dynamic, {}: {:g} s in adaptive steps, the first of {:g} s; contacts are updated where "
-            "blocks have moved",
-            method, analysis.duration, analysis.time_step);
-      return fmt::format(
-          "dynamic, {}: {} of {:g} s; contacts are updated where blocks have moved", method,
-          counted(static_cast<long long>(std::ceil(analysis.duration / analysis.time_step)), "step"),
-          analysis.time_step);
-    case AnalysisType::staged:
-      return fmt::format(
-          "staged, {}: one equilibrium per {}{}", method,
-          analysis.staged.unit == StagedConstruction::Unit::ring ? "ring" : "block of every team",
-          analysis.staged.least == StagedConstruction::Least::none
-              ? ""
-              : fmt::format(", and a search for the least fresh {} of each",
-                            to_string(analysis.staged.least)));
-    case AnalysisType::path:
-      return fmt::format(
-          "path, {}: {} up to {}{}", method, counted(analysis.path.steps, "equilibrium", "equilibria"),
-          analysis.path.length
-              ? fmt::format("a control displacement of {:g} m, each at a time that is found by "
-                            "several solves",
-                            *analysis.path.length)
-              : fmt::format("the time {:g} s", analysis.path.end),
-          scene.joints.failure == JointFailure::plastic ? "" : ", several solves where joints break");
-    case AnalysisType::range:
-      return fmt::format(
-          "range: one equilibrium by {}, and two conic programmes over all admissible states for each of {} "
-          "quantities",
-          method, analysis.range.quantities.size());
-    case AnalysisType::limit:
-      if (uses_direct_limit(analysis))
-        return fmt::format("limit, direct: conic programmes over all admissible states between {:g} and {:g}",
-                           analysis.limit.low, analysis.limit.high);
-      return fmt::format("limit, {}: about {:.0f} equilibria between {:g} and {:g}", method,
-                         num_equilibria(analysis, 0), analysis.limit.low, analysis.limit.high);
-  }
-  return "";
 }
 
 std::string duration_text(double seconds) {
@@ -234,10 +143,9 @@ ModelExplanation explain_model(const Case& scene, const Assembly& assembly, doub
                         counted(c.joints, "joint"));
   e.text += fmt::format("  weight      {}; {} besides gravity\n", readable_force(first.model.free_weight),
                         counted(first.model.loads.points.size(), "point load"));
-  e.text += "  analysis    " + analysis_line(scene) + "\n";
-  e.text += "  active\n" + active_features(scene, c);
-  if (scene.analysis.type == AnalysisType::static_) e.text += static_features(scene.analysis);
-  if (scene.analysis.type == AnalysisType::dynamic) e.text += motion_features(scene);
+  const AnalysisTraits& traits = analysis_traits(scene.analysis.type);
+  e.text += "  analysis    " + traits.describe(scene) + "\n";
+  e.text += "  active\n" + active_features(scene, c) + traits.features(scene);
   e.text += cost_text(e.cost);
   return e;
 }

@@ -4,14 +4,12 @@
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --output results/
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --output low/ --set joints.friction=0.2
 //   cupola-solve cases/dome_circular.yaml --assembly assembly.vtu --explain
-//   cupola-solve --fclib Capsules-i125-1213.hdf5 --output solved.hdf5
 //   cupola-solve cases/dome_circular_dynamic.yaml --assembly assembly.vtu --output results/ --resume
 
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
 #include "assembly/program/command_line.hpp"
-#include "solver/fclib/solve_fclib.hpp"
 #include "solver/solve_case.hpp"
 
 namespace {
@@ -22,7 +20,6 @@ ExitCode solve(int argc, char** argv) {
   // 1. Command line
   SolveRequest request;
   bool explain = false;
-  std::string fclib_path;
   CommandLine line("cupola-solve", "Finds the contact forces and the motion of an assembly of rigid blocks.",
                    "  cupola-solve dome.yaml --assembly assembly.vtu --output results/\n"
                    "  cupola-solve dome.yaml --assembly assembly.vtu --explain");
@@ -32,17 +29,11 @@ ExitCode solve(int argc, char** argv) {
   line.flag("--explain", &explain, "print the model, its cost and the active features without solving it");
   line.flag("--force", &request.force, "use an assembly that was made from another geometry or material");
   line.flag("--resume", &request.resume, "resume from the checkpoint in the output folder, if there is one");
+  line.flag("--verbose", &request.verbose,
+            "print every step, trial and iteration, and all residuals at the end");
   line.optional("--threads", &request.threads, 1,
                 "number of threads (default 1); the results are the same to the bit");
-  line.optional("--dump-fclib", &request.dump_fclib, "FILE",
-                "write the contact problem of the static solve or of the last step (HDF5)");
-  line.instead_of_case(
-      "--fclib", &fclib_path, "FILE",
-      "solve a contact problem in the FCLIB format (HDF5); --output FILE writes it with its solution",
-      {"--output", "--quiet"});
   if (const auto ended = line.parse(argc, argv)) return *ended;
-
-  if (!fclib_path.empty()) return solve_fclib(fclib_path, request.output_folder, line.quiet());
 
   // 2. The case
   request.scene = line.read_case();

@@ -9,15 +9,18 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
+#include "assembly/case/keys_without_effect.hpp"
 #include "assembly/case/plausibility.hpp"
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/content_hash.hpp"
+#include "assembly/files/folder_lock.hpp"
 #include "assembly/files/number_text.hpp"
 #include "assembly/files/results_file.hpp"
 #include "assembly/model/block_names.hpp"
 #include "assembly/program/terminal.hpp"
 #include "assembly/program/warnings.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "solver/analysis/analysis_table.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/collision/geometry_warnings.hpp"
 #include "solver/collision/patch_file.hpp"
@@ -25,9 +28,9 @@
 #include "solver/dynamics/soft_joints.hpp"
 #include "solver/dynamics/weak_joints.hpp"
 #include "solver/explain.hpp"
-#include "solver/fclib/fclib_file.hpp"
 #include "solver/runtime/checkpoint.hpp"
 #include "solver/runtime/interruption.hpp"
+#include "solver/runtime/iteration_log.hpp"
 #include "solver/runtime/run_control.hpp"
 #include "solver/runtime/threads.hpp"
 
@@ -40,6 +43,7 @@ Assembly read_matching_assembly(SolveRequest* asked, std::vector<std::string>* d
   SolveRequest& request = *asked;
   const std::string& path = request.assembly_path;
   Assembly assembly = read_assembly(path);
+  refuse_keys_without_effect(request.scene, assembly);
   resolve_block_names(assembly, &request.scene.loads, &request.scene.ties, &request.scene.supports);
   resolve_block_names(assembly, &request.scene.analysis.range.quantities);
   if (auto& control = request.scene.analysis.path.control) {
@@ -48,7 +52,7 @@ Assembly read_matching_assembly(SolveRequest* asked, std::vector<std::string>* d
       resolve_block_name(assembly, "analysis.path.control.relative_to", &*control->relative_to);
   }
   const bool any_fixed = std::ranges::any_of(assembly.blocks, [](const Block& block) { return block.fixed; });
-  if (!any_fixed && request.scene.analysis.type != AnalysisType::dynamic)
+  if (!any_fixed && !analysis_traits(request.scene.analysis.type).steps_in_time)
     throw InputError(FileLocation{path}, kNoBlockIsFixed);
   if (assembly.geometry_hash == request.scene.geometry_hash) return assembly;
   const std::string differs =
@@ -98,13 +102,11 @@ std::string residuals_line(const Summary& summary) {
   if (const auto& violation = summary.largest_law_violation)
     parts.push_back(fmt::format("worst contact {:.2e} (blocks {} and {})", violation->value,
                                 violation->block_a, violation->block_b));
-  const bool run_of_steps =
-      summary.steps > 1 && summary.analysis != AnalysisType::limit && summary.analysis != AnalysisType::range;
+  const AnalysisTraits& traits = analysis_traits(summary.analysis);
+  const bool run_of_steps = summary.steps > 1 && traits.many_states;
   add(run_of_steps ? "equilibrium at the end" : "equilibrium", summary.equilibrium_residual);
   if (parts.empty()) return "no residuals: no state was found that they could describe";
-  const char* state = summary.analysis == AnalysisType::limit ? " at the stable end of the bracket"
-                      : run_of_steps                          ? ", worst over the run"
-                                                              : "";
+  const char* state = run_of_steps ? ", worst over the run" : traits.state;
   return fmt::format("residuals{}: {}", state, fmt::join(parts, ", "));
 }
 
@@ -119,7 +121,7 @@ void print_forces(const Summary& summary) {
              summary.contacts);
 }
 
-void print_summary(const Summary& summary) {
+void print_summary(const Summary& summary, bool verbose) {
   const Colour colour = summary.status == Status::stable        ? Colour::green
                         : summary.status == Status::unconverged ? Colour::red
                                                                 : Colour::yellow;
@@ -128,6 +130,12 @@ void print_summary(const Summary& summary) {
     fmt::print("{}\n", in_colour(summary.message, colour, stdout));
   else
     fmt::print("{}: {}\n", in_colour(to_string(summary.status), colour, stdout), summary.message);
+  if (!verbose) {
+    fmt::print("  {}, weight {}; {:.3g} s; --verbose prints steps and residuals\n",
+               counted(summary.free_blocks, "free block"), readable_force(summary.weight_N),
+               summary.wall_time_seconds);
+    return;
+  }
   fmt::print("  {}, {}, {}, {}\n", counted(summary.free_blocks, "free block"),
              counted(summary.joints, "joint"), counted(summary.contacts, "contact"),
              counted(summary.unknowns, "unknown"));
@@ -159,21 +167,21 @@ std::optional<Checkpoint> find_checkpoint(const SolveRequest& request, const std
 
 /// Connects an analysis to the results folder and the terminal.
 AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpoint_path,
-                         const StopRequest& stop, ResultsWriter* writer, Checkpoint* run,
-                         ProgressBar* progress, std::string* last_line) {
+                         const StopRequest& stop, const FolderLock& lock, ResultsWriter* writer,
+                         Checkpoint* run, ProgressBar* progress, std::string* last_line) {
   AnalysisSinks sinks;
-  const AnalysisType type = request.scene.analysis.type;
-  const bool has_progress =
-      type == AnalysisType::dynamic || type == AnalysisType::staged || type == AnalysisType::path;
-  const bool bar = !request.quiet && has_progress && is_terminal(stdout);
-  sinks.log = [&request, bar, last_line](const std::string& line) {
+  const bool has_progress = analysis_traits(request.scene.analysis.type).many_states;
+  const bool live = !request.quiet && !request.verbose && is_terminal(stdout);
+  sinks.log = [&request, progress, one_line = live && !has_progress, last_line](const std::string& line) {
     *last_line = line;
-    if (!request.quiet && !bar) fmt::print("{}\n", line), std::fflush(stdout);
+    if (request.verbose && !request.quiet) fmt::print("{}\n", line), std::fflush(stdout);
+    if (one_line) progress->show(line);
   };
-  if (bar)
+  if (live && has_progress)
     sinks.progress = [progress](double share, const std::string& state) { progress->show(share, state); };
   sinks.history = [run](const std::string& row) { run->history += row + "\n"; };
-  sinks.frame = [writer, run](const Frame& frame) {
+  sinks.frame = [writer, run, &lock](const Frame& frame) {
+    lock.check();
     writer->write_frame(frame);
     run->frame_times.push_back(frame.time);
     if (!run->history.empty()) writer->write_text("history.csv", run->history);
@@ -185,15 +193,6 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
     run->analysis = bytes;
     write_checkpoint(checkpoint_path, *run);
   };
-  if (!request.dump_fclib.empty()) {
-    if (request.scene.joints.have_strength())
-      throw InputError(
-          FileLocation{request.scene.file},
-          "joints have tension, cohesion or compressive_strength: --dump-fclib writes dry joints only");
-    sinks.problem = [&request](const ContactProblem& problem, const VecX& gamma) {
-      write_fclib(request.dump_fclib, request.scene.title, make_delassus(problem), gamma);
-    };
-  }
   sinks.interrupted = [&stop] { return stop.made(); };
   sinks.resume_from = run->analysis;
   return sinks;
@@ -203,7 +202,7 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
 std::optional<Summary> summary_unless_interrupted(const Case& scene, const Assembly& assembly,
                                                   const AnalysisSinks& sinks) {
   try {
-    if (scene.analysis.type != AnalysisType::static_)  // which detects the contacts as built itself
+    if (!analysis_traits(scene.analysis.type).one_solve)  // which detects the contacts as built itself
       sinks.as_built(ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly)));
     return run_analysis(scene, assembly, sinks);
   } catch (const Interrupted&) {
@@ -238,29 +237,34 @@ ExitCode solve_case(SolveRequest request) {
   }
 
   // 1. Start or resume
+  const FolderLock lock(request.output_folder);
   Checkpoint run = find_checkpoint(request, checkpoint_path, assembly_hash).value_or(Checkpoint{});
   if (!run.analysis.empty() && !request.quiet)
     fmt::print("resuming {}\n",
                run.frame_times.empty()
                    ? "before the first frame"
                    : fmt::format("after frame {} at {:g} s", run.frame_times.size(), run.frame_times.back()));
+  // A checkpoint of another run would be offered if this one is interrupted before it writes its own.
+  if (run.analysis.empty()) std::filesystem::remove(checkpoint_path);
   run.program_version = program_version();
   run.case_hash = request.scene.hash;
   run.assembly_hash = assembly_hash;
-  ResultsWriter writer(request.output_folder, assembly_hash, run.frame_times);
+  ResultsWriter writer(request.output_folder, assembly_hash, run.frame_times, run.case_hash);
   // A summary marks a folder as complete: remove the old one before the first frame is replaced.
   std::filesystem::remove(std::filesystem::path(request.output_folder) / "summary.json");
 
   // 2. The analysis
   ProgressBar progress;
   std::string last_line;
-  AnalysisSinks sinks = make_sinks(request, checkpoint_path, stop, &writer, &run, &progress, &last_line);
+  AnalysisSinks sinks =
+      make_sinks(request, checkpoint_path, stop, lock, &writer, &run, &progress, &last_line);
   const std::string patches_path = (std::filesystem::path(request.output_folder) / "patches.vtp").string();
   sinks.as_built = [&](const ContactSet& contacts) {
     warnings.add(soft_joints(request.scene, assembly, contacts));
     warnings.add(weak_joints(request.scene, assembly, contacts));
     write_patches(patches_path, contacts, assembly_hash);
   };
+  const IterationLog iterations(sinks.log);
   std::optional<Summary> summary = summary_unless_interrupted(request.scene, assembly, sinks);
   progress.finish();
   if (!summary) {
@@ -284,11 +288,12 @@ ExitCode solve_case(SolveRequest request) {
   summary->cpu_time_seconds = cpu_seconds();
   summary->peak_memory_bytes = peak_memory_bytes();
   summary->warnings = warnings.all();
+  lock.check();
   writer.write_text("run.yaml", provenance(*summary) + request.scene.effective_yaml);
   // Written again even if an interrupted run wrote it: the summary lists the files that this run wrote.
   if (!run.history.empty()) writer.write_text("history.csv", run.history);
   writer.write_summary(*summary);
-  if (!request.quiet) print_summary(*summary);
+  if (!request.quiet) print_summary(*summary, request.verbose);
   return summary->status == Status::unconverged ? ExitCode::accuracy_not_reached : ExitCode::done;
 }
 

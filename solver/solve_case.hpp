@@ -12,13 +12,12 @@ struct SolveRequest {
   Case scene;
   std::string assembly_path;
   std::string output_folder;
-  std::string
-      dump_fclib;  ///< file for the contact problem of the static solve or the last step; may be empty
   bool quiet = false;
-  bool strict = false;  ///< warnings are errors
-  bool force = false;   ///< use an assembly that was made from another geometry or material
-  int threads = 1;      ///< >= 1
-  bool resume = false;  ///< resume from the checkpoint in the output folder, if there is one
+  bool verbose = false;  ///< print every step, and all residuals at the end
+  bool strict = false;   ///< warnings are errors
+  bool force = false;    ///< use an assembly that was made from another geometry or material
+  int threads = 1;       ///< >= 1
+  bool resume = false;   ///< resume from the checkpoint in the output folder, if there is one
 };
 
 /// Reads the assembly, checks that it was made from this case, runs the analysis and writes the results

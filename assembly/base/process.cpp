@@ -4,15 +4,7 @@
 
 #include <sys/resource.h>
 
-#ifndef CUPOLA_VERSION
-#error "CUPOLA_VERSION and CUPOLA_REVISION come from CMake"
-#endif
-
 namespace cupola {
-
-std::string program_version() {
-  return CUPOLA_VERSION " (" CUPOLA_REVISION ")";
-}
 
 long long peak_memory_bytes() {
   rusage usage{};

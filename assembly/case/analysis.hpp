@@ -20,9 +20,9 @@ struct AdaptiveStep {
 
 /// Conditions that end a dynamic analysis before its duration.
 struct StopRules {
-  bool collapsed = false;       ///< as soon as a block exceeds thresholds.displacement
-  double settled_time = 0.0;    ///< s for which all blocks stay below settled_speed; 0: never
-  double settled_speed = 1e-5;  ///< m/s, > 0
+  bool collapsed = false;     ///< as soon as a block exceeds thresholds.displacement
+  double settled_time = 0.0;  ///< s for which all blocks stay below kSettledSpeed; 0: never
+  static constexpr double kSettledSpeed = 1e-5;  ///< m/s, a millimetre in 100 s
 };
 
 /// Search for the parameter value at which the structure ceases to stand.

@@ -103,4 +103,8 @@ std::string case_schema(const std::string& key) {
                                                   : fmt::format("; did you mean {}?", near)));
 }
 
+std::string case_json_schema() {
+  return to_json_schema(case_schema_table());
+}
+
 }  // namespace cupola

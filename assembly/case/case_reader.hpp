@@ -18,5 +18,7 @@ SchemaTable case_schema_table();
 /// The same as text (`--schema`): all keys, or `key` and the keys of that section. Throws InputError for an unknown key,
 /// with the nearest one.
 std::string case_schema(const std::string& key = "");
+/// The same as a JSON schema for editors (`--schema --json`).
+std::string case_json_schema();
 
 }  // namespace cupola

@@ -9,6 +9,7 @@ namespace cupola {
 // the struct, which holds its default, and one line in the declaration.
 
 void declare_case(Section& s, Case& the_case);
+void declare_swept_key(Section& s, SweptKey& swept);
 void declare_geometry(Section& s, Geometry& geometry);
 void declare_bond(Section& s, Bond& bond);
 /// `bond`, or `wythes` and `bonders`, with the rules between them.

@@ -5,13 +5,6 @@
 namespace cupola {
 namespace {
 
-void declare_swept_key(Section& s, SweptKey& swept) {
-  s.text("key", swept.key, "path of a key of this case, as written after --set");
-  s.texts("values", swept.values, "values that the key takes in turn");
-  s.rule(!swept.key.empty(), "key", "must be given");
-  s.rule(!swept.values.empty(), "values", "must hold at least one value");
-}
-
 /// What contact points of divided joints and joints with strength cannot be combined with.
 void declare_strength_rules(Section& s, Case& the_case) {
   s.rule(
@@ -44,6 +37,13 @@ void declare_strength_rules(Section& s, Case& the_case) {
 }
 
 }  // namespace
+
+void declare_swept_key(Section& s, SweptKey& swept) {
+  s.text("key", swept.key, "path of a key of this case, as written after --set");
+  s.texts("values", swept.values, "values that the key takes in turn");
+  s.rule(!swept.key.empty(), "key", "must be given");
+  s.rule(!swept.values.empty(), "values", "must hold at least one value");
+}
 
 void declare_case(Section& s, Case& the_case) {
   s.text("title", the_case.title, "one line, for reports and pictures");

@@ -249,13 +249,14 @@ void declare_import(Section& s, ImportedBlocks& import) {
   s.list("densities", import.densities, "densities of particular blocks", declare_block_density);
   s.file("springs", import.springs, "file of springs that carry tension only (brick CSV)");
   s.file("rods", import.rods, "file of rigid rods (brick CSV)");
-  s.number("weld", import.weld, {.above = 0, .max = 0.1},
-           "merge vertices closer than this times the block size");
   s.optional_number(
       "facet_angle", import.facet_angle, {.unit = "rad", .above = 0, .max = 0.1}, "from the data",
       "merge neighbouring triangles whose normals differ by less than this into one plane facet");
   s.optional_number("snap", import.snap, {.unit = "m", .min = 0}, "from the data",
                     "move facing facets closer than this into a common plane; 0: leave them");
+  s.retired("weld",
+            "remove it: vertices closer than 1e-6 of the block size are merged; let the program that made "
+            "the file merge others");
   s.retired("most_overlap", "contact.margin is the largest overlap, in all programs");
   s.retired("joint_gap", "contact.margin is the largest gap of a joint, in all programs");
 }

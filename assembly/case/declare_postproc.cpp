@@ -27,6 +27,15 @@ void declare_plane(Section& s, CutPlane& plane) {
   s.rule(plane.normal.norm() > 0.0, "normal", "must not be zero");
 }
 
+/// Files and figures of two parts of one name would overwrite each other.
+template <class Named>
+bool names_differ(const std::vector<Named>& parts) {
+  std::vector<std::string> names;
+  for (const Named& part : parts) names.push_back(part.name);
+  std::ranges::sort(names);
+  return std::ranges::adjacent_find(names) == names.end();
+}
+
 }  // namespace
 
 void declare_output(Section& s, Output& output) {
@@ -36,9 +45,11 @@ void declare_output(Section& s, Output& output) {
 
 void declare_postproc(Section& s, Postproc& postproc) {
   s.list("meridians", postproc.meridians, "meridians in which thrust lines are drawn", declare_meridian);
+  s.rule(names_differ(postproc.meridians), "meridians", "two meridians have the same name");
   s.numbers("sections", postproc.sections, {.unit = "m"}, "heights of horizontal sections");
   s.list("planes", postproc.planes, "planes of any direction: the force transmitted across each",
          declare_plane);
+  s.rule(names_differ(postproc.planes), "planes", "two planes have the same name");
 }
 
 }  // namespace cupola

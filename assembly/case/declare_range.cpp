@@ -68,7 +68,10 @@ void declare_all_joints(Section& s, AllJoints& joints) {
 void declare_quantity(Section& s, ForceQuantity& quantity) {
   s.variant<ForceQuantity>(
       "type", quantity,
-      {alternative<ForceQuantity>("thrust", "outward horizontal force on the supports", declare_thrust),
+      {alternative<ForceQuantity>("thrust",
+                                  "outward horizontal force on the supports, each joint along the direction "
+                                  "at its centroid; of an arch at one springing",
+                                  declare_thrust),
        alternative<ForceQuantity>("reaction", "force of a block on the supports", declare_reaction),
        alternative<ForceQuantity>("joint", "force in the joint of two blocks", declare_joint),
        alternative<ForceQuantity>("hoop_force", "mean hoop force of a course, compression positive",

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "assembly/case/declare.hpp"
 
 namespace cupola {
@@ -56,6 +58,11 @@ void declare_curing_rules(Section& s, const StagedConstruction& staged) {
   s.rule(!staged.days_per_course || !staged.curing.empty(), "days_per_course", "requires curing");
 }
 
+bool all_differ(std::vector<int> numbers) {
+  std::ranges::sort(numbers);
+  return std::ranges::adjacent_find(numbers) == numbers.end();
+}
+
 }  // namespace
 
 void declare_staged(Section& s, StagedConstruction& staged) {
@@ -103,6 +110,10 @@ void declare_staged(Section& s, StagedConstruction& staged) {
            "relative width of the final bracket of critical_friction or least");
   declare_curing_rules(s, staged);
   s.rule(staged.order != Order::given || !staged.sequence.empty(), "order", "given requires a sequence");
+  s.rule(staged.order == Order::given || staged.sequence.empty(), "sequence", "requires order: given");
+  s.rule(all_differ(staged.sequence), "sequence", "names a block twice");
+  s.rule(staged.unit == Unit::block || staged.order == Order::counterclockwise, "order",
+         "requires unit: block");
   s.rule(staged.unit == Unit::block || staged.teams == 1, "teams", "requires unit: block");
 }
 

@@ -10,23 +10,21 @@
 #include <Eigen/Core>
 
 #include "assembly/base/named_enum.hpp"
+#include "assembly/model/sheet.hpp"
 
 namespace cupola {
 
-/// What a kind of surface is, for code that must not know the kinds: the reader, the stereotomy and the
-/// postprocessor. Each kind states its own traits and nothing else asks for a kind by name.
+/// What a kind of surface is, for code that must not know the kinds: the reader and the stereotomy. Each kind states its
+/// own traits and nothing else asks for a kind by name.
 struct SurfaceTraits {
-  /// Where thrust lines are drawn: nowhere, in the x-z plane of an arch, or at any azimuth about the z axis.
-  enum class Meridians : std::uint8_t { none, one, by_azimuth };
-
   bool closed = false;  ///< courses are rings about the z axis; their last block meets the first
-  Meridians meridians = Meridians::none;
+  Sheet::ThrustLines thrust_lines = Sheet::ThrustLines::none;
 };
 
 /// Dome of revolution with the pointed-fifth profile: two arcs of radius `radius_ratio * span`, centred
 /// beyond the axis so that the springing lies `span / 2` from it.
 struct DomeSurface {
-  static constexpr SurfaceTraits traits{.closed = true, .meridians = SurfaceTraits::Meridians::by_azimuth};
+  static constexpr SurfaceTraits traits{.closed = true, .thrust_lines = Sheet::ThrustLines::by_azimuth};
 
   double span = 45.0;             ///< m, > 0, clear diameter at the springing
   double radius_ratio = 0.8;      ///< intrados radius over span, >= 0.5 (0.5: hemisphere, 0.8: pointed fifth)
@@ -39,7 +37,7 @@ struct DomeSurface {
 
 /// Plane wall, x along the length, y across, z up.
 struct WallSurface {
-  static constexpr SurfaceTraits traits{.closed = false, .meridians = SurfaceTraits::Meridians::none};
+  static constexpr SurfaceTraits traits{.closed = false, .thrust_lines = Sheet::ThrustLines::none};
 
   double length = 12.0;    ///< m, > 0
   double height = 6.0;     ///< m, > 0
@@ -49,7 +47,7 @@ struct WallSurface {
 /// Cloister vault over a regular polygon (an octagon by default): each sail is a cylinder, and the section
 /// through two opposite corners is the pointed-fifth profile of the dome.
 struct OctagonalVault {
-  static constexpr SurfaceTraits traits{.closed = true, .meridians = SurfaceTraits::Meridians::by_azimuth};
+  static constexpr SurfaceTraits traits{.closed = true, .thrust_lines = Sheet::ThrustLines::by_azimuth};
 
   /// Beds on cones about the axis, as Brunelleschi laid them; in planes normal to each sail; level.
   enum class Construction : std::uint8_t { circular, planar_radial, planar_horizontal };
@@ -78,7 +76,7 @@ constexpr auto enum_names(OctagonalVault::Extrados) {
 /// Barrel arch of two arcs with radial joints, from one springing over the crown (x = 0) to the other; its
 /// axis is y. A pointed arch (radius_ratio > 0.5) has a joint in the crown plane.
 struct ArchSurface {
-  static constexpr SurfaceTraits traits{.closed = false, .meridians = SurfaceTraits::Meridians::one};
+  static constexpr SurfaceTraits traits{.closed = false, .thrust_lines = Sheet::ThrustLines::one};
 
   double span = 10.0;              ///< m, > 0, clear span of the full arc at z = 0: 2 R when semicircular
   double radius_ratio = 0.5;       ///< intrados radius over span, >= 0.5 (0.5: one circle)
@@ -312,7 +310,6 @@ struct ImportedBlocks {
   std::vector<BlockDensity>
       densities;              ///< override those of the file, which override the material of the case
   std::string springs, rods;  ///< files of ties, brick CSV; "" for none
-  double weld = 1e-6;         ///< > 0: vertices closer than this times the block size are merged
   /// rad, > 0: neighbouring triangles form a facet if their normals agree within this and their vertices lie
   /// within this times the block size of one plane.
   /// None: chosen from the deviations of the faces from planes (generators/importer/flatness.hpp).

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -11,6 +12,9 @@
 
 namespace cupola {
 namespace {
+
+/// Far beyond every quantity of masonry; its powers up to the tenth are finite.
+constexpr double kLargestNumber = 1e30;
 
 CaseNode list_of_numbers(const double* values, size_t size) {
   CaseNode node;
@@ -39,6 +43,10 @@ void Section::read_one_number(const std::string& key, const CaseNode& node, cons
   const std::string broken = read_number(node.text, value);
   if (!broken.empty()) fail(key, node, broken + number_hint(node.text));
   if (!admits(rule, *value)) fail(key, node, "must be " + describe_range(rule));
+  if (std::abs(*value) > kLargestNumber)
+    fail(key, node,
+         fmt::format("must be at most {:g} in magnitude, because products of larger numbers overflow",
+                     kLargestNumber));
 }
 
 void Section::file(const std::string& key, std::string& path, const std::string& meaning, bool or_folder) {

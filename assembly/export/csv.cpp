@@ -1,20 +1,9 @@
 #include <fmt/format.h>
 
 #include "assembly/export/formats.hpp"
+#include "assembly/files/csv_text.hpp"
 
 namespace cupola {
-namespace {
-
-/// In quotes, with inner quotes doubled, if it holds a character that a CSV file would misread.
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-}  // namespace
-
 std::string blocks_csv(const ExportModel& model) {
   std::string text =
       "block,name,kind,fixed,ring,num_rings,slot,rib,density_kg_per_m3,volume_m3,mass_kg,x_m,y_m,z_m\n";
@@ -22,7 +11,7 @@ std::string blocks_csv(const ExportModel& model) {
     const Block& block = model.assembly.blocks[b];
     const Vec3 p = model.placed(static_cast<int>(b), block.centroid);
     text += fmt::format("{},{},{},{},{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", b,
-                        csv_cell(block.name), to_string(block.kind), block.fixed ? 1 : 0, block.ring,
+                        csv_text(block.name), to_string(block.kind), block.fixed ? 1 : 0, block.ring,
                         block.num_rings, block.slot, block.rib ? 1 : 0, block.density, block.volume,
                         block.mass, p.x(), p.y(), p.z());
   }

@@ -222,6 +222,57 @@ void read_members(const Mesh& mesh, const Columns& fields, Assembly* assembly) {
   assembly->vertex_depths = points.get<double>("depth", assembly->vertices.size());
 }
 
+void add_sheet_arrays(const Assembly& assembly, std::vector<MeshArray>* arrays) {
+  const std::vector<Sheet>& sheets = assembly.sheets;
+  if (sheets.empty()) return;
+  using I = std::int32_t;
+  using B = std::uint8_t;
+  std::vector<std::string> names;
+  for (const Sheet& sheet : sheets) names.push_back(sheet.name);
+  arrays->push_back({"sheet_name", 1, std::move(names)});
+  arrays->push_back(column<I>("sheet_first_ring", sheets, [](const Sheet& s) { return s.first_ring; }));
+  arrays->push_back(column<I>("sheet_num_rings", sheets, [](const Sheet& s) { return s.num_rings; }));
+  arrays->push_back(column<B>("sheet_closed", sheets, [](const Sheet& s) { return s.closed; }));
+  arrays->push_back(column<B>("sheet_thrust_lines", sheets, [](const Sheet& s) { return s.thrust_lines; }));
+  arrays->push_back(column<I>("sheet_sails", sheets, [](const Sheet& s) { return s.sails; }));
+}
+
+/// The sheet of a file of version 0.2, which does not state it: those programs put one box below a wall and two behind the
+/// ends of an arch.
+Sheet assumed_sheet(const Assembly& assembly) {
+  Sheet sheet{.name = "shell", .num_rings = assembly.num_rings};
+  std::vector<int> parts(assembly.blocks.size(), 0);
+  for (const Part& part : assembly.parts) ++parts[part.block];
+  int boxes = 0, others = 0;
+  for (size_t b = 0; b < parts.size(); ++b) {
+    const Block& block = assembly.blocks[b];
+    if (block.fixed) ++(parts[b] == 1 ? boxes : others);
+    sheet.sails = std::max(sheet.sails, block.sail + 1);
+  }
+  using enum Sheet::ThrustLines;
+  const bool open = others == 0 && boxes <= 2 && sheet.sails == 1;
+  sheet.closed = !open;
+  sheet.thrust_lines = !open ? by_azimuth : boxes == 2 ? one : none;
+  return sheet;
+}
+
+void read_sheets(const Columns& fields, Assembly* assembly) {
+  if (!fields.has("sheet_name")) {
+    if (assembly->num_rings > 0) assembly->sheets = {assumed_sheet(*assembly)};
+    return;
+  }
+  const auto& name = fields.get_any_size<std::string>("sheet_name");
+  const size_t n = name.size();
+  const auto& first_ring = fields.get<std::int32_t>("sheet_first_ring", n);
+  const auto& num_rings = fields.get<std::int32_t>("sheet_num_rings", n);
+  const auto& closed = fields.get<std::uint8_t>("sheet_closed", n);
+  const auto& thrust_lines = fields.get<std::uint8_t>("sheet_thrust_lines", n);
+  const auto& sails = fields.get<std::int32_t>("sheet_sails", n);
+  for (size_t i = 0; i < n; ++i)
+    assembly->sheets.push_back({name[i], first_ring[i], num_rings[i], closed[i] != 0,
+                                static_cast<Sheet::ThrustLines>(thrust_lines[i]), sails[i]});
+}
+
 void read_ties(const Mesh& mesh, const Columns& fields, Assembly* assembly) {
   if (!mesh.has(mesh.field_data, "tie_block_a")) return;
   const auto& block_a = fields.get_any_size<std::int32_t>("tie_block_a");
@@ -285,6 +336,14 @@ void check(const Assembly& assembly, const std::string& path) {
                 block.centroid.allFinite() && block.inertia.allFinite(),
             "block", b);
   }
+  for (size_t i = 0; i < assembly.sheets.size(); ++i) {
+    const Sheet& sheet = assembly.sheets[i];
+    const int first = i == 0 ? 0 : assembly.sheets[i - 1].first_ring + assembly.sheets[i - 1].num_rings;
+    require(sheet.first_ring == first && sheet.num_rings > 0 &&
+                sheet.num_rings <= assembly.num_rings - first && sheet.sails > 0 &&
+                sheet.thrust_lines <= Sheet::ThrustLines::by_azimuth,
+            "sheet", i);
+  }
   for (size_t k = 0; k < assembly.ties.size(); ++k) {
     const BuiltTie& tie = assembly.ties[k];
     require(tie.block_a >= 0 && tie.block_a < num_blocks && tie.block_b >= 0 && tie.block_b < num_blocks &&
@@ -306,6 +365,7 @@ void write_assembly(const std::string& path, const Assembly& assembly, const std
   mesh.field_data = field_arrays(assembly);
   add_tie_arrays(assembly, &mesh.field_data);
   add_member_arrays(assembly, &mesh);
+  add_sheet_arrays(assembly, &mesh.field_data);
   if (std::ranges::any_of(assembly.blocks, [](const Block& b) { return !b.name.empty(); })) {
     std::vector<std::string> names;
     for (const Block& block : assembly.blocks) names.push_back(block.name);
@@ -345,6 +405,7 @@ Assembly read_assembly(const std::string& path) {
   read_blocks(fields, &assembly);
   read_ties(mesh, fields, &assembly);
   read_members(mesh, fields, &assembly);
+  read_sheets(fields, &assembly);
   check(assembly, path);
   if (content_hash(assembly) != mesh.field<std::string>("content_hash"))
     throw InputError(

@@ -1,6 +1,8 @@
 #include "assembly/files/atomic_file.hpp"
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +21,40 @@ namespace {
   throw SystemError(fmt::format("{}: {}: {}", path, what, std::strerror(errno)));
 }
 
+/// The file that a chain of symbolic links leads to; it need not exist.
+std::filesystem::path followed(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(path); ++i)
+    path = path.parent_path() / std::filesystem::read_symlink(path);
+  return path;
+}
+
+/// The process that writes a temporary file `.STEM.PROCESS.part.EXTENSION`; 0 for other files.
+int process_of_part(const std::string& name) {
+  const size_t end = name.rfind(".part");
+  if (!name.starts_with('.') || end == std::string::npos || end == 0) return 0;
+  if (const size_t after = end + 5; after < name.size() && name[after] != '.') return 0;
+  const size_t start = name.rfind('.', end - 1) + 1;
+  int process = 0;
+  const auto [stop, error] = std::from_chars(name.data() + start, name.data() + end, process);
+  return error == std::errc() && stop == name.data() + end ? process : 0;
+}
+
+bool has_ended(int process) {
+  return ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+/// Removes temporary files of processes that have ended, if their names begin with `start`.
+void remove_parts_of_ended(const std::filesystem::path& folder, const std::string& start) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(start)) continue;
+    if (const int process = process_of_part(name); process > 0 && has_ended(process))
+      std::filesystem::remove(entry.path(), ignored);
+  }
+}
+
 /// Flushes the data before the rename. Some file systems delay allocation and report a full disk only here.
 void flush_to_disk(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -31,8 +67,9 @@ void flush_to_disk(const std::string& path) {
 }  // namespace
 
 void write_atomically(const std::string& path, const std::function<bool(const std::string&)>& write) {
+  check_output_file(path);
+  const std::filesystem::path target = followed(path);
   // VTK chooses its format by the extension, which must therefore stay last.
-  const std::filesystem::path target(path);
   const std::string side = (target.parent_path() / fmt::format(".{}.{}.part{}", target.stem().string(),
                                                                ::getpid(), target.extension().string()))
                                .string();
@@ -40,7 +77,7 @@ void write_atomically(const std::string& path, const std::function<bool(const st
     errno = 0;
     if (!write(side)) fail(path, "cannot be written");
     flush_to_disk(side);
-    if (std::rename(side.c_str(), path.c_str()) != 0) fail(path, "cannot be renamed into place");
+    if (std::rename(side.c_str(), target.c_str()) != 0) fail(path, "cannot be renamed into place");
   } catch (...) {
     std::remove(side.c_str());
     throw;
@@ -58,6 +95,20 @@ void write_text_atomically(const std::string& path, const std::string& text) {
 
 std::string in_folder(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
+}
+
+void check_output_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status) || fs::is_regular_file(status)) return;
+  throw InputError(FileLocation{path}, fs::is_directory(status)
+                                           ? "is a folder: give the name of a file in it"
+                                           : "is a device or a pipe: the output must be a regular file");
+}
+
+void remove_part_files(const std::string& folder) {
+  remove_parts_of_ended(folder, ".");
 }
 
 void make_folder(const std::string& path) {

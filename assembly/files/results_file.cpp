@@ -11,12 +11,13 @@
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/hash.hpp"
 #include "assembly/files/mesh_file.hpp"
+#include "assembly/files/old_frames.hpp"
 #include "assembly/files/summary_file.hpp"
 
 namespace cupola {
 namespace {
 
-constexpr std::int32_t kFrameFormatVersion = 2;
+constexpr std::int32_t kFrameFormatVersion = 3, kOldestFrameFormat = 2;
 
 std::string frame_file(const char* what, int index) {
   return fmt::format("{}_{:04}.vtp", what, index);
@@ -39,23 +40,33 @@ std::vector<Vector> unflat(const std::vector<double>& values) {
   return vectors;
 }
 
-std::vector<MeshArray> frame_fields(double time, const std::string& assembly_hash) {
-  return {{"format_version", 1, std::vector<std::int32_t>{kFrameFormatVersion}},
-          {"program_version", 1, std::vector<std::string>{program_version()}},
-          {"assembly_hash", 1, std::vector<std::string>{assembly_hash}},
-          {"time_s", 1, std::vector<double>{time}}};
+/// What every file of a frame says about its run.
+struct RunOfFrame {
+  const std::string &assembly_hash, &case_hash;
+};
+
+std::vector<MeshArray> frame_fields(const Frame& frame, const RunOfFrame& run) {
+  std::vector<MeshArray> fields = {{"format_version", 1, std::vector<std::int32_t>{kFrameFormatVersion}},
+                                   {"program_version", 1, std::vector<std::string>{program_version()}},
+                                   {"assembly_hash", 1, std::vector<std::string>{run.assembly_hash}},
+                                   {"time_s", 1, std::vector<double>{frame.time}},
+                                   {"role", 1, std::vector<std::string>{to_string(frame.role)}},
+                                   {"owner", 1, std::vector<std::string>{frame.owner}},
+                                   {"label", 1, std::vector<std::string>{frame.label}}};
+  if (!run.case_hash.empty()) fields.push_back({"case_hash", 1, std::vector<std::string>{run.case_hash}});
+  return fields;
 }
 
 /// Adds one vertex cell per point, so that ParaView shows the points.
-Mesh point_mesh(const std::vector<Vec3>& points, double time, const std::string& assembly_hash) {
+Mesh point_mesh(const std::vector<Vec3>& points, const Frame& frame, const RunOfFrame& run) {
   Mesh mesh;
   mesh.points = flat(points);
   for (int i = 0; i < mesh.num_points(); ++i) mesh.add_cell(Mesh::CellType::vertex, {i});
-  mesh.field_data = frame_fields(time, assembly_hash);
+  mesh.field_data = frame_fields(frame, run);
   return mesh;
 }
 
-Mesh contacts_mesh(const Frame& frame, const std::string& assembly_hash) {
+Mesh contacts_mesh(const Frame& frame, const RunOfFrame& run) {
   const ContactTable& c = frame.contacts;
   [[maybe_unused]] const std::size_t n = c.joint.size();
   CUPOLA_ASSERT(c.block_a.size() == n && c.block_b.size() == n && c.kind.size() == n && c.ring.size() == n &&
@@ -64,7 +75,7 @@ Mesh contacts_mesh(const Frame& frame, const std::string& assembly_hash) {
                 c.slip.size() == n && c.law_violation.size() == n &&
                 (c.strength_use.empty() || c.strength_use.size() == n) &&
                 c.damage.size() == c.strength_use.size() && c.crack_opening.size() == c.strength_use.size());
-  Mesh mesh = point_mesh(c.point, frame.time, assembly_hash);
+  Mesh mesh = point_mesh(c.point, frame, run);
   std::vector<std::uint8_t> kinds;
   for (const JointKind kind : c.kind) kinds.push_back(static_cast<std::uint8_t>(kind));
   mesh.point_data = {{"joint", 1, c.joint},
@@ -88,12 +99,12 @@ Mesh contacts_mesh(const Frame& frame, const std::string& assembly_hash) {
   return mesh;
 }
 
-Mesh blocks_mesh(const Frame& frame, const std::string& assembly_hash) {
+Mesh blocks_mesh(const Frame& frame, const RunOfFrame& run) {
   const BlockTable& b = frame.blocks;
   const std::size_t n = b.position.size();
   CUPOLA_ASSERT(b.quaternion_wxyz.size() == n && b.velocity.size() == n && b.angular_velocity.size() == n &&
                 b.displacement.size() == n);
-  Mesh mesh = point_mesh(b.position, frame.time, assembly_hash);
+  Mesh mesh = point_mesh(b.position, frame, run);
   std::vector<std::int32_t> ids(n);
   for (size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int32_t>(i);
   mesh.point_data = {{"block", 1, std::move(ids)},
@@ -105,14 +116,14 @@ Mesh blocks_mesh(const Frame& frame, const std::string& assembly_hash) {
 }
 
 /// One segment per tie.
-Mesh ties_mesh(const Frame& frame, const std::string& assembly_hash) {
+Mesh ties_mesh(const Frame& frame, const RunOfFrame& run) {
   const TieTable& t = frame.ties;
   [[maybe_unused]] const std::size_t n = t.force.size();
   CUPOLA_ASSERT(t.chain.size() == n && t.block_a.size() == n && t.block_b.size() == n &&
                 t.point_a.size() == n && t.point_b.size() == n && t.yield_force.size() == n &&
                 t.yielded.size() == n && t.strut.size() == n);
   Mesh mesh;
-  mesh.field_data = frame_fields(frame.time, assembly_hash);
+  mesh.field_data = frame_fields(frame, run);
   for (int i = 0; i < t.size(); ++i) {
     const int a = mesh.add_point(t.point_a[i].x(), t.point_a[i].y(), t.point_a[i].z());
     const int b = mesh.add_point(t.point_b[i].x(), t.point_b[i].y(), t.point_b[i].z());
@@ -124,18 +135,30 @@ Mesh ties_mesh(const Frame& frame, const std::string& assembly_hash) {
   return mesh;
 }
 
-/// Reads a file of a frame and checks that it belongs to this assembly.
-Mesh read_frame_mesh(const std::string& path, const std::string& assembly_hash) {
+/// Reads a file of a frame and checks that it belongs to this assembly and run.
+Mesh read_frame_mesh(const std::string& path, const RunOfFrame& run) {
   Mesh mesh = read_mesh(path);
   const int version = mesh.field<std::int32_t>("format_version");
-  if (version != kFrameFormatVersion)
+  if (version < kOldestFrameFormat || version > kFrameFormatVersion)
     throw InputError(
         FileLocation{path},
-        fmt::format("has format version {}, this program reads version {}; run cupola-solve again", version,
-                    kFrameFormatVersion));
-  if (mesh.field<std::string>("assembly_hash") != assembly_hash)
+        fmt::format("has format version {}, this program reads versions {} to {}; run cupola-solve again",
+                    version, kOldestFrameFormat, kFrameFormatVersion));
+  if (mesh.field<std::string>("assembly_hash") != run.assembly_hash)
     throw InputError(FileLocation{path}, "belongs to another assembly; run cupola-solve again");
+  // Frames of version 0.2, and of a writer without a case, do not name it.
+  if (mesh.has(mesh.field_data, "case_hash") && mesh.field<std::string>("case_hash") != run.case_hash)
+    throw InputError(FileLocation{path}, "belongs to another run than summary.json; run cupola-solve again");
   return mesh;
+}
+
+void read_role(const Mesh& mesh, Frame* frame) {
+  const auto& role = mesh.field<std::string>("role");
+  const std::optional<FrameRole> known = enum_from_name<FrameRole>(role);
+  if (!known) throw InputError(FileLocation{mesh.file}, fmt::format("the role `{}` is unknown", role));
+  frame->role = *known;
+  frame->owner = mesh.field<std::string>("owner");
+  frame->label = mesh.field<std::string>("label");
 }
 
 ContactTable read_contacts(const Mesh& mesh) {
@@ -226,11 +249,28 @@ void check_frame(const Frame& frame, const std::string& path) {
 
 constexpr const char* kInterrupted = "interrupted.json";
 
+/// Path of a file of a frame that does not exist; "" if both do.
+std::string missing_file(const std::string& folder, int index) {
+  for (const char* what : {"contacts", "blocks"})
+    if (const std::string path = in_folder(folder, frame_file(what, index)); !std::filesystem::exists(path))
+      return path;
+  return "";
+}
+
 }  // namespace
 
-ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times)
-    : folder_(std::move(folder)), assembly_hash_(std::move(assembly_hash)), times_(std::move(times)) {
+ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times,
+                             std::string case_hash)
+    : folder_(std::move(folder)),
+      assembly_hash_(std::move(assembly_hash)),
+      case_hash_(std::move(case_hash)),
+      times_(std::move(times)) {
   make_folder(folder_);
+  for (int i = 0; i < static_cast<int>(times_.size()); ++i)
+    if (const std::string missing = missing_file(folder_, i); !missing.empty())
+      throw InputError(
+          FileLocation{missing},
+          "was removed, so that the run cannot be resumed; remove the checkpoint to start again");
   std::filesystem::remove(in_folder(folder_, kInterrupted));
 }
 
@@ -241,9 +281,13 @@ void ResultsWriter::write_frame(const Frame& frame) {
     std::filesystem::remove(in_folder(folder_, "summary.json"));
     std::filesystem::remove(in_folder(folder_, "ties.pvd"));
   }
+  for (int i = 0; i < index; ++i)
+    if (const std::string missing = missing_file(folder_, i); !missing.empty())
+      throw SystemError(missing + ": was removed during the run, which therefore stops");
   times_.push_back(frame.time);
-  write_mesh(in_folder(folder_, frame_file("contacts", index)), contacts_mesh(frame, assembly_hash_));
-  write_mesh(in_folder(folder_, frame_file("blocks", index)), blocks_mesh(frame, assembly_hash_));
+  const RunOfFrame run{assembly_hash_, case_hash_};
+  write_mesh(in_folder(folder_, frame_file("contacts", index)), contacts_mesh(frame, run));
+  write_mesh(in_folder(folder_, frame_file("blocks", index)), blocks_mesh(frame, run));
   const auto write_collection = [&](const char* what) {
     std::vector<PvdEntry> entries;
     for (int i = 0; i <= index; ++i)
@@ -257,7 +301,7 @@ void ResultsWriter::write_frame(const Frame& frame) {
   const std::string ties = in_folder(folder_, frame_file("ties", index));
   std::filesystem::remove(ties);
   if (frame.ties.size() == 0) return;
-  write_mesh(ties, ties_mesh(frame, assembly_hash_));
+  write_mesh(ties, ties_mesh(frame, run));
   write_collection("ties");
 }
 
@@ -290,21 +334,28 @@ ResultsReader::ResultsReader(std::string folder, const std::string& assembly_has
                      fmt::format("belongs to another assembly (hash {}; the given assembly has {}); "
                                  "run cupola-solve again, or accept it with --force",
                                  summary_.assembly_hash, assembly_hash_));
+  if (!std::filesystem::exists(in_folder(folder_, "contacts.pvd")))
+    throw InputError(FileLocation{summary_path},
+                     fmt::format("the run found no state that could be evaluated: {}", summary_.message));
   for (const PvdEntry& entry : read_pvd(in_folder(folder_, "contacts.pvd"))) times_.push_back(entry.time);
   if (times_.empty()) throw InputError(FileLocation{in_folder(folder_, "contacts.pvd")}, "lists no frames");
 }
 
 Frame ResultsReader::read_frame(int index) const {
   const std::string contacts_path = in_folder(folder_, frame_file("contacts", index));
+  const RunOfFrame run{assembly_hash_, summary_.case_hash};
   Frame frame;
-  const Mesh contacts = read_frame_mesh(contacts_path, assembly_hash_);
+  const Mesh contacts = read_frame_mesh(contacts_path, run);
   frame.time = contacts.field<double>("time_s");
   frame.contacts = read_contacts(contacts);
-  frame.blocks =
-      read_blocks(read_frame_mesh(in_folder(folder_, frame_file("blocks", index)), assembly_hash_));
+  frame.blocks = read_blocks(read_frame_mesh(in_folder(folder_, frame_file("blocks", index)), run));
   const std::string ties_path = in_folder(folder_, frame_file("ties", index));
-  if (std::filesystem::exists(ties_path)) frame.ties = read_ties(read_frame_mesh(ties_path, assembly_hash_));
+  if (std::filesystem::exists(ties_path)) frame.ties = read_ties(read_frame_mesh(ties_path, run));
   check_frame(frame, contacts_path);
+  if (contacts.field<std::int32_t>("format_version") == kFrameFormatVersion)
+    read_role(contacts, &frame);
+  else
+    set_role_of_old_frame(summary_, index, &frame);
   return frame;
 }
 

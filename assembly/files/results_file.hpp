@@ -12,9 +12,11 @@ namespace cupola {
 /// collections, which are rewritten after each frame.
 class ResultsWriter {
  public:
-  /// Creates the folder. Every file gets `assembly_hash`. `times` (s): frames that exist already when a run
-  /// is resumed.
-  ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times = {});
+  /// Creates the folder. Every frame gets `assembly_hash` and, if given, `case_hash`, by which a reader knows the frames of one run.
+  /// `times` (s): frames that exist already when a run is resumed; InputError if one is missing.
+  ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times = {},
+                std::string case_hash = {});
+  /// SystemError if an earlier frame was removed.
   void write_frame(const Frame& frame);
   void write_text(const std::string& name, const std::string& text);  ///< run.yaml, history.csv
   /// To be called last: a summary marks the folder as complete. It lists every text file with its hash.
@@ -26,13 +28,13 @@ class ResultsWriter {
 
  private:
   std::string folder_;
-  std::string assembly_hash_;
+  std::string assembly_hash_, case_hash_;
   std::vector<double> times_;
   std::map<std::string, std::string> text_files_;  ///< name to hash
 };
 
 /// Reads a results folder frame by frame. Throws InputError that names the file if it is missing, truncated
-/// or belongs to another assembly.
+/// or belongs to another assembly or run.
 class ResultsReader {
  public:
   /// `force`: also accepts results of another assembly, provided that all files belong to the same one.

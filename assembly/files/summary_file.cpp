@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSummaryFormatVersion = 2;
+constexpr int kSummaryFormatVersion = 3, kOldestSummaryFormat = 2;
 
 /// The keys of summary.json, listed once for writing and reading.
 template <class SummaryType, class Visit>
@@ -256,11 +256,12 @@ Summary summary_from_json(const std::string& text, const std::string& file) {
   const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object())
     throw InputError(FileLocation{file}, "is not a complete JSON object: damaged, or not a summary");
-  if (const Json version = json.value("format_version", Json()); version != kSummaryFormatVersion)
+  if (const Json version = json.value("format_version", Json());
+      !version.is_number_integer() || version < kOldestSummaryFormat || version > kSummaryFormatVersion)
     throw InputError(
         FileLocation{file},
-        fmt::format("has format_version {}, this program reads version {}; run cupola-solve again",
-                    version.dump(), kSummaryFormatVersion));
+        fmt::format("has format_version {}, this program reads versions {} to {}; run cupola-solve again",
+                    version.dump(), kOldestSummaryFormat, kSummaryFormatVersion));
   Summary summary;
   for_each_field(summary, [&](const char* key, auto& value) {
     constexpr bool is_optional = requires {

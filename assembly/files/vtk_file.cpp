@@ -1,8 +1,10 @@
 // Reads and writes .vtu and .vtp files, and reads .pvd collections. The only file of assembly/ with VTK data
 // types.
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <new>
@@ -219,8 +221,11 @@ void write_data(const std::string& side_path, vtkDataSet* data, const Mesh& mesh
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressionLevel(1);  // higher levels hardly compress floating-point data further
   CapturedVtkMessages messages;
-  if (writer->Write() != 1 || messages.any())
-    throw SystemError(fmt::format("{}: cannot be written: {}", side_path, messages.first()));
+  errno = 0;  // VTK's messages do not say why the system refused
+  if (writer->Write() == 1 && !messages.any()) return;
+  const int reason = errno;
+  throw SystemError(fmt::format("{}: cannot be written: {}", side_path,
+                                reason != 0 ? std::strerror(reason) : messages.first()));
 }
 
 void append_checksum(const std::string& side_path) {

@@ -1,5 +1,7 @@
 #include "assembly/model/assembly.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -49,6 +51,11 @@ const Vec3& first_vertex(const Assembly& assembly, const Part& part) {
 }
 
 }  // namespace
+
+const Sheet* Assembly::sheet_of(int ring) const {
+  const auto found = std::ranges::find_if(sheets, [&](const Sheet& sheet) { return sheet.has_ring(ring); });
+  return found == sheets.end() ? nullptr : &*found;
+}
 
 void Assembly::add_face(std::span<const int> vertex_ids, FaceKind kind) {
   CUPOLA_ASSERT(!parts.empty() && vertex_ids.size() >= 3);

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "assembly/base/named_enum.hpp"
+#include "assembly/model/sheet.hpp"
 
 namespace cupola {
 
@@ -96,6 +97,7 @@ struct Assembly {
   std::string title;
   std::string geometry_hash;  ///< hash of the case sections that the generator read
   int num_rings = 0;          ///< rings of the complete model; 0 for imported blocks
+  std::vector<Sheet> sheets;  ///< by their courses; none for imported blocks
   /// Names of the wythes and, behind them, of the groups of bonders; empty for a shell of one wythe.
   std::vector<std::string> members;
   /// Of the corners of a shell with wythes (num_vertices): the layer on which they lie, and their share of the thickness of
@@ -112,6 +114,8 @@ struct Assembly {
     return {face_vertices.data() + face_vertex_start[f],
             static_cast<std::size_t>(face_vertex_start[f + 1] - face_vertex_start[f])};
   }
+  /// The sheet to which a course belongs; null if there is none.
+  const Sheet* sheet_of(int ring) const;
   /// Appends a face to the last part. A new part starts with `face_start = num_faces()`.
   void add_face(std::span<const int> vertex_ids, FaceKind kind);
 };

@@ -1,10 +1,47 @@
 #include "assembly/model/results.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 
 #include <fmt/format.h>
 
 namespace cupola {
+namespace {
+
+std::string label_of(const Frame& frame) {
+  const double course = std::ceil(frame.time);
+  switch (frame.role) {
+    case FrameRole::step:
+    case FrameRole::path:
+      return fmt::format("{:.3f} s", frame.time);
+    case FrameRole::stage:
+    case FrameRole::failed_stage:
+      return frame.time == course
+                 ? fmt::format("course {:g} laid", course)
+                 : fmt::format("course {:g}, {:.0f} % laid", course, 100.0 * (1.0 - course + frame.time));
+    case FrameRole::range_end:
+    case FrameRole::self_stress: {
+      std::string label = frame.owner;
+      if (!label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+      return label;
+    }
+    case FrameRole::equilibrium:
+    case FrameRole::mechanism:
+    case FrameRole::unconverged:
+      break;
+  }
+  return to_string(frame.role);
+}
+
+}  // namespace
+
+void set_role(FrameRole role, const std::string& owner, Frame* frame) {
+  frame->role = role;
+  frame->owner = owner;
+  frame->label = label_of(*frame);
+}
+
 std::vector<Joint> joints_of(const ContactTable& contacts) {
   const int num_joints =
       contacts.joint.empty() ? 0 : 1 + *std::max_element(contacts.joint.begin(), contacts.joint.end());

@@ -91,13 +91,43 @@ struct TieTable {
   int size() const { return static_cast<int>(force.size()); }
 };
 
+/// What a frame shows. `mechanism` and `failed_stage` hold directions of motion without an amplitude: displacements are
+/// zero, the fastest block has the speed 1 m/s.
+enum class FrameRole : std::uint8_t {
+  equilibrium,   ///< forces that balance the loads; what follows in a run belongs to it
+  step,          ///< an instant of a motion
+  stage,         ///< a stage of a construction that stands, or whose solve did not converge
+  failed_stage,  ///< a stage that does not stand
+  path,          ///< an equilibrium on a path
+  mechanism,     ///< how a structure without equilibrium begins to move
+  range_end,     ///< admissible forces at an end of a range
+  self_stress,   ///< forces without loads that show why an end of a range is unbounded
+  unconverged    ///< what an unfinished solve had reached
+};
+constexpr auto enum_names(FrameRole) {
+  return std::array{"equilibrium", "step",      "stage",       "failed_stage", "path",
+                    "mechanism",   "range_end", "self_stress", "unconverged"};
+}
+constexpr bool is_mechanism(FrameRole role) {
+  return role == FrameRole::mechanism || role == FrameRole::failed_stage;
+}
+constexpr bool is_stage(FrameRole role) {
+  return role == FrameRole::stage || role == FrameRole::failed_stage;
+}
+
 /// Contacts, blocks and ties at one instant. Joint numbers are valid only within the frame.
 struct Frame {
-  double time = 0.0;  ///< s
+  double time = 0.0;  ///< s; of a stage the number of the last course laid, less the share that is missing
+  FrameRole role = FrameRole::equilibrium;
+  std::string owner;  ///< stage, parameter of a limit or end of a range to which it belongs; empty: the run
+  std::string label;  ///< in words, for legends
   ContactTable contacts;
   BlockTable blocks;
   TieTable ties;
 };
+
+/// Sets the role and the owner of a frame, and the label that follows from them and its time.
+void set_role(FrameRole role, const std::string& owner, Frame* frame);
 
 /// The joints of a frame, indexed by ContactTable::joint.
 std::vector<Joint> joints_of(const ContactTable& contacts);

@@ -77,6 +77,7 @@ CommandLine::CommandLine(const std::string& name, const std::string& description
                    "print every key of the case file, or those of one section: type, unit, range, default")
       ->type_name("[KEY]")
       ->expected(0, 1);
+  app_->add_flag("--json", json_, "with --schema: print all keys as a JSON schema, for editors");
   app_->add_flag("--quiet", quiet_, "print warnings and errors only");
   app_->add_flag("--strict", strict_, "treat warnings as errors");
 }
@@ -98,23 +99,6 @@ void CommandLine::optional(const std::string& option, int* value, int smallest, 
   app_->add_option(option, *value, help)->check(CLI::Range(smallest, 1 << 20))->capture_default_str();
 }
 
-void CommandLine::instead_of_case(const std::string& option, std::string* value, const std::string& what,
-                                  const std::string& help, const std::vector<std::string>& heeded) {
-  optional(option, value, what, help);
-  instead_of_case_.push_back({option, value, heeded});
-}
-
-void CommandLine::refuse_ignored_options(const OtherRun& run) const {
-  if (!case_path_.empty())
-    throw InputError(
-        fmt::format("{} is given, so that {} is ignored; remove one of them", run.option, case_path_));
-  for (const CLI::Option* option : app_->get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() > 0 && name != run.option && std::ranges::find(run.heeded, name) == run.heeded.end())
-      throw InputError(fmt::format("{} has no effect with {}; remove it", name, run.option));
-  }
-}
-
 void CommandLine::flag(const std::string& option, bool* value, const std::string& help) {
   app_->add_flag(option, *value, help);
 }
@@ -123,14 +107,11 @@ std::optional<ExitCode> CommandLine::parse(int argc, const char* const* argv) {
   const std::vector<const char*> arguments = with_set_before_each_pair(argc, argv);
   if (const auto ended = parse_arguments(*app_, static_cast<int>(arguments.size()), arguments.data()))
     return ended;
+  if (json_ && (app_->count("--schema") == 0 || !schema_key_.empty()))
+    throw InputError("--json requires --schema, without a key");
   if (app_->count("--schema") > 0) {
-    fmt::print("{}", case_schema(schema_key_));
+    fmt::print("{}", json_ ? case_json_schema() : case_schema(schema_key_));
     return ExitCode::done;
-  }
-  for (const OtherRun& run : instead_of_case_) {
-    if (run.value->empty()) continue;
-    refuse_ignored_options(run);
-    return std::nullopt;
   }
   if (case_path_.empty())
     throw InputError(fmt::format("CASE.yaml is missing; see {} --help", app_->get_name()));

@@ -38,10 +38,6 @@ class CommandLine {
   void optional(const std::string& option, std::string* value, const std::string& what,
                 const std::string& help);
   void optional(const std::string& option, int* value, int smallest, const std::string& help);
-  /// A string option that replaces CASE and the required options, for another kind of run. Of the other options that run
-  /// heeds only those in `heeded`; parse() refuses the rest.
-  void instead_of_case(const std::string& option, std::string* value, const std::string& what,
-                       const std::string& help, const std::vector<std::string>& heeded);
   void flag(const std::string& option, bool* value, const std::string& help);
 
   /// Returns an exit code if the program is to stop: --help, --version and --schema print and return `done`.
@@ -65,17 +61,11 @@ class CommandLine {
   std::string case_path_;
   std::vector<std::string> set_options_;
   std::vector<std::pair<std::string, std::string*>> required_;
-  struct OtherRun {
-    std::string option;
-    const std::string* value;
-    std::vector<std::string> heeded;
-  };
-  void refuse_ignored_options(const OtherRun& run) const;
-  std::vector<OtherRun> instead_of_case_;
   bool check_only_ = false;
   bool list_inputs_ = false;
   bool strict_ = false;
   bool quiet_ = false;
+  bool json_ = false;
   std::string schema_key_;  // after --schema
 };
 

@@ -1,9 +1,14 @@
 #include "assembly/program/program.hpp"
 
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
 #include "assembly/program/terminal.hpp"
@@ -18,8 +23,13 @@ int run_program(std::string_view name, const std::function<ExitCode()>& body) {
       message.replace(at, word.size(), in_colour(word, Colour::red, stderr));
     std::fprintf(stderr, "%.*s: %s\n", static_cast<int>(name.size()), name.data(), message.c_str());
   };
+  // A file above `ulimit -f` then fails to be written, like one on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
-    return static_cast<int>(body());
+    const ExitCode code = body();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw SystemError(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
+    return static_cast<int>(code);
   } catch (const InputError& error) {
     report(error.what());
     return static_cast<int>(ExitCode::bad_input);

@@ -1,69 +1,16 @@
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "assembly/files/atomic_file.hpp"
+#include "generators/importer/compas_json.hpp"
 #include "generators/importer/readers.hpp"
 
 namespace cupola {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// Line of a byte of the text, counted from 1.
-int line_of(const std::string& text, size_t byte) {
-  return 1 +
-         static_cast<int>(std::count(
-             text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size())), '\n'));
-}
-
-/// The value at the end of a path of keys. Throws InputError with the first missing key.
-const Json& descend(const Json& node, std::initializer_list<const char*> keys, const FileLocation& where,
-                    const std::string& what) {
-  const Json* here = &node;
-  for (const char* key : keys) {
-    if (!here->is_object() || !here->contains(key))
-      throw InputError(where, fmt::format("{}: key '{}' is missing", what, key));
-    here = &(*here)[key];
-  }
-  return *here;
-}
-
-double coordinate(const Json& vertex, const char* axis, const FileLocation& where, const std::string& what) {
-  const Json& value = descend(vertex, {axis}, where, what);
-  if (!value.is_number() || !std::isfinite(value.get<double>()))
-    throw InputError(where, fmt::format("{}: {} is not a finite number", what, axis));
-  return value.get<double>();
-}
-
-PolygonMesh read_mesh_of(const Json& data, const FileLocation& where, const std::string& block) {
-  PolygonMesh mesh;
-  std::map<std::string, int> id;
-  for (const auto& [key, vertex] : descend(data, {"vertex"}, where, block).items()) {
-    const std::string what = fmt::format("{}, vertex {}", block, key);
-    id[key] = static_cast<int>(mesh.vertices.size());
-    mesh.vertices.emplace_back(coordinate(vertex, "x", where, what), coordinate(vertex, "y", where, what),
-                               coordinate(vertex, "z", where, what));
-  }
-  for (const auto& [key, face] : descend(data, {"face"}, where, block).items()) {
-    std::vector<int> ids;
-    for (const Json& v : face) {
-      const auto found = id.find(v.is_string() ? v.get<std::string>() : v.dump());
-      if (found == id.end())
-        throw InputError(where, fmt::format("{}, face {}: the block has no vertex {}", block, key, v.dump()));
-      ids.push_back(found->second);
-    }
-    if (ids.size() < 3)
-      throw InputError(where, fmt::format("{}, face {}: fewer than three vertices", block, key));
-    mesh.faces.push_back(std::move(ids));
-  }
-  return mesh;
-}
 
 /// Orders numeric keys by value, so that block 2 comes before block 10.
 bool key_before(const std::string& a, const std::string& b) {
@@ -97,24 +44,35 @@ Json parse_assembly(const std::string& text, const std::string& path) {
   });
 }
 
-/// The graph of a file, and its text for line numbers.
-struct Graph {
+/// A file: its text, for line numbers, and what it holds.
+struct CompasFile {
   std::string text;
-  Json data;
+  Json root;
 };
 
-Graph read_graph(const std::string& path) {
-  Graph graph{read_text(path), {}};
-  Json root;
+CompasFile read_file(const std::string& path) {
+  CompasFile file{read_text(path), {}};
   try {
-    root = parse_assembly(graph.text, path);
+    file.root = parse_assembly(file.text, path);
   } catch (const Json::parse_error& error) {
-    throw InputError(FileLocation{path, line_of(graph.text, error.byte), 0}, "not valid JSON here");
+    throw InputError(FileLocation{path, line_of(file.text, error.byte), 0}, "not valid JSON here");
   } catch (const Json::out_of_range&) {
     throw InputError(FileLocation{path}, "a number does not fit in double precision");
   }
-  graph.data = descend(root, {"data", "graph", "data"}, FileLocation{path, 1, 0}, "not a COMPAS assembly");
-  return graph;
+  return file;
+}
+
+/// True for an assembly of compas_assembly, whose blocks are attributes of the nodes of its graph.
+bool is_assembly(const Json& root) {
+  const Json::json_pointer blocks("/data/graph/data/node"), elements("/data/elements");
+  if (!root.is_object() || !root.contains(blocks) || root.contains(elements)) return false;
+  const Json& nodes = root[blocks];
+  return !nodes.is_object() || nodes.empty() ||
+         (nodes.begin()->is_object() && nodes.begin()->contains("block"));
+}
+
+const Json& graph_of(const Json& root, const std::string& path) {
+  return descend(root, {"data", "graph", "data"}, FileLocation{path, 1, 0}, "not a COMPAS assembly");
 }
 
 /// The name of a block: the attribute `name` of its node, else the key of the node.
@@ -127,8 +85,11 @@ std::string name_of(const Json& node, const std::string& key) {
 }  // namespace
 
 std::vector<RawBlock> read_compas(const std::string& path) {
-  const auto [text, graph] = read_graph(path);
-  const Json& nodes = descend(graph, {"node"}, FileLocation{path, 1, 0}, "not a COMPAS assembly");
+  const auto [text, root] = read_file(path);
+  if (!is_assembly(root))
+    if (std::vector<RawBlock> blocks = read_compas_meshes(root, path); !blocks.empty()) return blocks;
+  const Json& nodes =
+      descend(graph_of(root, path), {"node"}, FileLocation{path, 1, 0}, "not a COMPAS assembly");
   if (!nodes.is_object())
     throw InputError(FileLocation{path, 1, 0}, "not a COMPAS assembly: 'node' must be an object");
   std::vector<std::string> keys;
@@ -157,7 +118,8 @@ std::vector<RawBlock> read_compas(const std::string& path) {
 }
 
 std::vector<RawInterface> read_compas_interfaces(const std::string& path) {
-  const auto [text, graph] = read_graph(path);
+  const auto [text, root] = read_file(path);
+  const Json& graph = graph_of(root, path);
   const FileLocation where{path, line_of(text, text.find("\"edge\"")), 0};
   std::vector<RawInterface> interfaces;
   const Json& nodes = descend(graph, {"node"}, where, "not a COMPAS assembly");

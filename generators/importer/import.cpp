@@ -120,12 +120,13 @@ struct Surfaces {
   std::vector<int> block;  // per mesh
 };
 
-Surfaces repair_all(const std::vector<RawBlock>& blocks, double weld) {
+Surfaces repair_all(const std::vector<RawBlock>& blocks) {
+  constexpr double kWeld = 1e-6;  // of the block size: vertices closer than this are merged
   Surfaces surfaces;
   for (size_t b = 0; b < blocks.size(); ++b) {
     const RawBlock& raw = blocks[b];
     if (raw.point_parts.empty()) {
-      surfaces.meshes.push_back(repair_mesh(raw, weld));
+      surfaces.meshes.push_back(repair_mesh(raw, kWeld));
       surfaces.block.push_back(static_cast<int>(b));
     }
     for (const auto& points : raw.point_parts) {
@@ -262,7 +263,7 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
   if (!report) report = &unused;
   std::vector<RawBlock> raw = read_all(source);
   place_in_world(source, &raw);
-  Surfaces surfaces = repair_all(raw, source.weld);
+  Surfaces surfaces = repair_all(raw);
   const DecompositionOptions options = choose_tolerances(source, surfaces.meshes, report);
   if (report->snap > 0.0) report->snapped_facets = snap_facets(&surfaces.meshes, options, report->snap);
 

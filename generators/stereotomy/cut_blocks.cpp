@@ -14,6 +14,11 @@
 namespace cupola {
 namespace {
 
+int num_sails_of(const SurfaceMap& surface) {
+  if (surface.sail_width == 0.0) return 1;
+  return static_cast<int>(std::lround(2.0 * std::numbers::pi / surface.sail_width));
+}
+
 /// Sets the sail of the block's middle, the position in it, and whether a corner of the surface lies inside
 /// the block.
 void set_sail(const CellGrid& grid, std::pair<int, int> slices, Block* block) {
@@ -21,7 +26,7 @@ void set_sail(const CellGrid& grid, std::pair<int, int> slices, Block* block) {
   if (surface.sail_width == 0.0) return;
   const auto [start, end] = slices;
   for (int cut = start + 1; cut < end; ++cut) block->rib = block->rib || grid.is_corner(cut);
-  const int num_sails = static_cast<int>(std::lround(2.0 * std::numbers::pi / surface.sail_width));
+  const int num_sails = num_sails_of(surface);
   const double middle =
       (0.5 * (grid.abscissa(start) + grid.abscissa(end)) - surface.first_corner) / surface.sail_width;
   const double sail =
@@ -96,6 +101,8 @@ void add_storey(const Storey& shell, const CutOptions& options, Assembly* assemb
   if (surface.footing == Footing::both_springings)
     add_far_support(surface, cuts, options.support_width, options.density, assembly);
   assembly->num_rings = surface.rings_below + surface.num_rings();
+  assembly->sheets.push_back({shell.name, surface.rings_below, surface.num_rings(), surface.closed,
+                              surface.thrust_lines, num_sails_of(surface)});
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ Storey make_drum(const Drum& drum, const SurfaceMap& shell) {
     lay_openings(grid, places, static_cast<int>(names.size()), &bond);
     names.emplace_back("drum lintel");
   }
-  return {std::move(surface), std::move(bond), std::move(names), 0};
+  return {"drum", std::move(surface), std::move(bond), std::move(names), 0};
 }
 
 }  // namespace cupola

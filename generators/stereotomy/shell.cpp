@@ -79,7 +79,7 @@ Storey make_shell(const Geometry& geometry) {
     surface.rings_below = rings_of(*finest_bond(*geometry.drum));
     if (members.empty()) members = {"shell"};
   }
-  return {std::move(surface), std::move(bond), std::move(members), stage};
+  return {"shell", std::move(surface), std::move(bond), std::move(members), stage};
 }
 
 std::vector<Storey> make_storeys(const Geometry& geometry) {

@@ -8,6 +8,7 @@ namespace cupola {
 
 /// A surface and the bond laid on it.
 struct Storey {
+  std::string name;  ///< of the member
   SurfaceMap surface;
   BondPattern bond;  ///< with the support of a window as blocks of its own, below and beside the courses
   std::vector<std::string> members;  ///< of the bond's labels: wythes and groups of bonders; none: one wythe

@@ -13,6 +13,7 @@ SurfaceMap drum_surface(const SurfaceMap& shell, double height, std::vector<Thic
   drum.wythes = std::move(wythes);
   drum.num_rows = rings;
   drum.closed = true;
+  drum.thrust_lines = shell.thrust_lines;
   drum.extent = shell.extent;
   drum.corners = shell.corners;
   drum.sail_width = shell.sail_width;

@@ -79,6 +79,7 @@ SurfaceMap make_surface(Surface surface, int rings, std::vector<Thickness> wythe
                                          [&](const WallSurface& wall) { return wall_surface(wall, rings); }},
                               surface);
   map.closed = traits_of(surface).closed;
+  map.thrust_lines = traits_of(surface).thrust_lines;
   map.wythes = std::move(wythes);
   if (!std::ranges::all_of(map.wythes, &Thickness::constant)) {
     map.shell_volume.reset();

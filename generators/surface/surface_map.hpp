@@ -33,14 +33,15 @@ struct SurfaceMap {
   int num_rows = 0;               ///< rows of cells, between beds 0 .. num_rows; `at` accepts fractional beds
   int rows_per_ring = 1;          ///< above 1 where several cells follow the curved faces of one course
   bool closed = false;            ///< the last slice meets the first; make_surface copies it from the traits
-  double extent = 0.0;            ///< range of the abscissa: 2 pi, or the length in m
-  std::vector<double> corners;    ///< ascending abscissae where facets meet, in [0, extent)
-  double sail_width = 0.0;        ///< range of the abscissa over a sail; 0: the surface has no sails
-  double first_corner = 0.0;      ///< abscissa where sail 0 begins
-  double held_end = 0.0;          ///< range of the abscissa of the fixed masonry beyond each end; 0: none
-  bool flat_slices = false;       ///< the cells of one ring and one facet form an exactly convex solid
-  bool flat_rings = false;        ///< so do the cells of one facet in successive rings
-  bool flat_skins = true;         ///< the four corners of a cell on one skin are coplanar
+  Sheet::ThrustLines thrust_lines = Sheet::ThrustLines::none;  ///< likewise
+  double extent = 0.0;          ///< range of the abscissa: 2 pi, or the length in m
+  std::vector<double> corners;  ///< ascending abscissae where facets meet, in [0, extent)
+  double sail_width = 0.0;      ///< range of the abscissa over a sail; 0: the surface has no sails
+  double first_corner = 0.0;    ///< abscissa where sail 0 begins
+  double held_end = 0.0;        ///< range of the abscissa of the fixed masonry beyond each end; 0: none
+  bool flat_slices = false;     ///< the cells of one ring and one facet form an exactly convex solid
+  bool flat_rings = false;      ///< so do the cells of one facet in successive rings
+  bool flat_skins = true;       ///< the four corners of a cell on one skin are coplanar
   Footing footing = Footing::ring;
   bool carries = false;  ///< a support or another surface lies on the last bed
   double datum = 0.0;    ///< m, z from which heights count: the springing, or the foot of a drum

@@ -1,53 +1,9 @@
 #include "postproc/claims/claim.hpp"
 
 #include <algorithm>
-#include <sstream>
-
-#include "assembly/base/error.hpp"
-#include "assembly/case/case_tree.hpp"
-#include "assembly/case/section.hpp"
 
 namespace cupola {
 namespace {
-
-void declare_filter(Section& s, RowFilter& filter) {
-  s.text("column", filter.column, "column of the table");
-  s.text("is", filter.is, "text that the column must equal");
-  s.optional_number("from", filter.from, {}, "no lower limit", "smallest number selected");
-  s.optional_number("to", filter.to, {}, "no upper limit", "largest number selected");
-  s.rule(!filter.column.empty(), "column", "must be given");
-  s.rule(filter.is.empty() || (!filter.from && !filter.to), "is", "cannot be combined with `from` or `to`");
-}
-
-std::vector<std::string> words(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> out;
-  for (std::string word; stream >> word;) out.push_back(word);
-  return out;
-}
-
-void declare_quantity(Section& s, Quantity& quantity) {
-  std::string runs;
-  s.text("runs", runs, "cases or variants, separated by spaces");
-  quantity.runs = words(runs);
-  s.text("key", quantity.key, "entry of results/summary.json or post/summary.json");
-  s.text("status", quantity.status, "share of the runs that ended with this status");
-  s.text("table", quantity.table, "CSV file of post/, without extension");
-  s.text("column", quantity.column, "column of the table");
-  s.text("against", quantity.against, "other column, for `take: linearity`");
-  s.text("reference", quantity.reference, "run whose column is subtracted first, row by row");
-  s.list("where", quantity.where, "filters that select rows of the table", declare_filter);
-  s.choice("take", quantity.take, "how several values are reduced to one");
-  const int sources = !quantity.key.empty() + !quantity.status.empty() + !quantity.table.empty();
-  s.rule(!quantity.runs.empty(), "runs", "must name at least one case");
-  s.rule(sources == 1, "key", "give exactly one of `key`, `status` and `table`");
-  s.rule(quantity.table.empty() == quantity.column.empty(), "column",
-         "`table` and `column` must be given together");
-  s.rule(!quantity.table.empty() || quantity.where.empty(), "where", "requires `table`");
-  s.rule(!quantity.table.empty() || quantity.reference.empty(), "reference", "requires `table`");
-  s.rule((quantity.take == Take::linearity) == !quantity.against.empty(), "against",
-         "must be given with `take: linearity`, and only then");
-}
 
 void declare_paper_limits(Section& s, ClaimLimits& limits) {
   s.optional_number("at_least", limits.at_least, {}, "no lower limit", "lower limit of the claim");
@@ -79,6 +35,18 @@ bool is_filled_by_runs(const Claim& claim) {
       return false;
   }
   return true;
+}
+
+}  // namespace
+
+std::vector<std::string> placeholders(const std::string& text) {
+  std::vector<std::string> names;
+  for (size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open + 1)) {
+    const size_t close = text.find('}', open);
+    // A brace that is not closed is no placeholder: the rest of the text is then a name that nothing has.
+    names.push_back(close == std::string::npos ? text.substr(open) : text.substr(open + 1, close - open - 1));
+  }
+  return names;
 }
 
 void declare_claim(Section& s, Claim& claim) {
@@ -115,34 +83,33 @@ void declare_figure(Section& s, ClaimFigure& figure) {
   s.text("shows", figure.shows, "caption: what to look at");
   s.text("run", figure.run, "case or variant that the picture shows");
   s.text("picture", figure.picture, "file below the folder post/ of the run");
-  s.rule(!figure.source.empty(), "source", "must be given");
+  s.text("copy", figure.copy, "file of the documentation that the picture replaces");
   s.rule(!figure.run.empty(), "run", "must name a case");
   s.rule(!figure.picture.empty(), "picture", "must name a file");
 }
 
-}  // namespace
-
-std::vector<std::string> placeholders(const std::string& text) {
-  std::vector<std::string> names;
-  for (size_t open = text.find('{'); open != std::string::npos; open = text.find('{', open + 1)) {
-    const size_t close = text.find('}', open);
-    // A brace that is not closed is no placeholder: the rest of the text is then a name that nothing has.
-    names.push_back(close == std::string::npos ? text.substr(open) : text.substr(open + 1, close - open - 1));
+std::vector<const Quantity*> quantities(const Claim& claim) {
+  std::vector<const Quantity*> out{&claim.value};
+  if (claim.over) out.push_back(&*claim.over);
+  if (claim.minus) out.push_back(&*claim.minus);
+  for (const NamedQuantity& also : claim.also) {
+    out.push_back(&also.value);
+    if (also.over) out.push_back(&*also.over);
   }
-  return names;
+  return out;
 }
 
-ClaimsFile read_claims(const std::string& path) {
-  const CaseNode tree = load_case_tree(path, {});
-  ClaimsFile file;
-  Section root(&tree, "", tree.where, path);
-  root.text("title", file.title, "of the publication");
-  root.list("claims", file.claims, "one entry per claim", declare_claim);
-  root.list("figures", file.figures, "one entry per figure", declare_figure);
-  root.finish();
-  if (file.claims.empty())
-    throw InputError(FileLocation{path}, "contains no claims; list at least one under `claims`");
-  return file;
+std::vector<std::string> needed_runs(const std::vector<Claim>& claims,
+                                     const std::vector<ClaimFigure>& figures) {
+  std::vector<std::string> runs;
+  const auto add = [&runs](const std::string& name) {
+    if (std::find(runs.begin(), runs.end(), name) == runs.end()) runs.push_back(name);
+  };
+  for (const Claim& claim : claims)
+    for (const Quantity* quantity : quantities(claim))
+      for (const std::string& name : runs_of(*quantity)) add(name);
+  for (const ClaimFigure& figure : figures) add(figure.run);
+  return runs;
 }
 
 }  // namespace cupola

@@ -1,57 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "assembly/base/named_enum.hpp"
+#include "postproc/claims/quantity.hpp"
 
 namespace cupola {
-
-/// Selects rows of a table: the text of the column equals `is`, or its number lies in [from, to].
-struct RowFilter {
-  std::string column;
-  std::string is;  ///< empty: the range applies
-  std::optional<double> from, to;
-};
-
-/// Reduces several values to one.
-enum class Take : std::uint8_t {
-  only,    ///< requires exactly one value
-  mean,    ///< arithmetic mean
-  median,  ///< for an even count the mean of the two middle values
-  largest,
-  smallest,
-  sum,
-  spread,     ///< (largest - smallest) / |mean|
-  variation,  ///< coefficient of variation: standard deviation / |mean|
-  rms,        ///< root mean square
-  linearity,  ///< squared correlation coefficient (R2) with the column `against`
-  roughness,  ///< mean |second difference| / |mean|; 0 on a straight line with even spacing
-};
-constexpr auto enum_names(Take) {
-  return std::array{"only",   "mean",      "median", "largest",   "smallest", "sum",
-                    "spread", "variation", "rms",    "linearity", "roughness"};
-}
-
-/// A number taken from the files of finished runs. It has exactly one of three sources:
-///
-///   key     an entry of results/summary.json or post/summary.json: `results.max_displacement_m`,
-///           `post.rings.0.cv_pressure`
-///   status  the share of the runs that ended with this status, from 0 to 1
-///   table   a CSV file of post/ and one of its columns, with the rows chosen by `where`
-///
-/// With `reference`, the same column of that run is subtracted first, row by row. The values of all runs are
-/// pooled in the order of `runs` and then reduced by `take`.
-struct Quantity {
-  std::vector<std::string> runs;  ///< names of cases or variants
-  std::string key;
-  std::string status;
-  std::string table, column, against, reference;
-  std::vector<RowFilter> where;
-  Take take = Take::only;
-};
 
 /// Limits of a claim, from the publication or chosen here.
 struct ClaimLimits {
@@ -99,15 +54,17 @@ struct ClaimFigure {
   std::string shows;    ///< caption
   std::string run;      ///< name of a case or variant
   std::string picture;  ///< path below the run's folder post/
+  std::string copy;     ///< file of the documentation that is replaced by the picture; empty: none
 };
 
-struct ClaimsFile {
-  std::string title;  ///< of the publication
-  std::vector<Claim> claims;
-  std::vector<ClaimFigure> figures;
-};
+/// The quantities that a claim reads.
+std::vector<const Quantity*> quantities(const Claim& claim);
 
-/// Reads a claims file with the strict reader of case files; throws InputError with line and key.
-ClaimsFile read_claims(const std::string& path);
+void declare_claim(Section& s, Claim& claim);
+void declare_figure(Section& s, ClaimFigure& figure);
+
+/// The runs that claims and figures read, each once, in the order of first use.
+std::vector<std::string> needed_runs(const std::vector<Claim>& claims,
+                                     const std::vector<ClaimFigure>& figures);
 
 }  // namespace cupola

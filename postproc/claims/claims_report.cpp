@@ -105,21 +105,6 @@ std::string claim_row(const Claim& claim, const ClaimResult& result) {
                      to_string(result.verdict), markup_text(claim.source), statement, number);
 }
 
-/// The figures in order, below a heading; "" if there are none.
-std::string figures_html(const std::vector<ClaimFigure>& figures, const std::string& runs) {
-  std::string out;
-  for (const ClaimFigure& figure : figures) {
-    const std::string path = fmt::format("{}/{}/post/{}", runs, figure.run, figure.picture);
-    std::string picture = html_picture(path, figure.shows);
-    if (picture.empty())
-      picture = markup_text(fmt::format("Not drawn yet: {} of the run {}.", figure.picture, figure.run));
-    out += fmt::format(
-        "<figure>\n{}\n<figcaption><strong>{}</strong> {} <small>{}</small></figcaption>\n</figure>\n",
-        picture, markup_text(figure.source), markup_text(figure.shows), markup_text(figure.run));
-  }
-  return out.empty() ? out : "<h2>Figures of the publication, drawn from our runs</h2>\n" + out;
-}
-
 }  // namespace
 
 Table claims_table(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results) {
@@ -169,20 +154,30 @@ std::string claims_text(const std::vector<Claim>& claims, const std::vector<Clai
   return out + "\n" + counts(results) + "\n";
 }
 
-std::string claims_html(const ClaimsFile& file, const std::vector<ClaimResult>& results,
-                        const std::string& runs) {
-  CUPOLA_ASSERT(results.size() == file.claims.size());
-  std::string body =
-      kClaimsStyle + fmt::format("<h1>{}</h1>\n<p>{}.</p>\n",
-                                 markup_text(file.title.empty() ? "Claims" : file.title), counts(results));
-  body +=
-      "<p>Limits marked <em>paper</em> follow from the sentence quoted; limits marked <em>ours</em> were "
-      "chosen here, "
-      "for the reason given. A run that did not reach its requested accuracy reproduces nothing.</p>\n"
-      "<table class=\"claims\"><colgroup><col><col><col><col></colgroup>\n"
-      "<tr><th>Verdict</th><th>Source</th><th>Statement</th><th>Number</th></tr>\n";
-  for (size_t i = 0; i < results.size(); ++i) body += claim_row(file.claims[i], results[i]);
-  return html_page("Claims and results", body + "</table>\n" + figures_html(file.figures, runs));
+std::string claims_html(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results) {
+  CUPOLA_ASSERT(results.size() == claims.size());
+  std::string body = kClaimsStyle + fmt::format("<p>{}.</p>\n", counts(results)) +
+                     "<p>Limits marked <em>paper</em> follow from the sentence quoted; limits marked "
+                     "<em>ours</em> were chosen here, for the reason given. A run that did not reach its "
+                     "requested accuracy reproduces nothing.</p>\n"
+                     "<table class=\"claims\"><colgroup><col><col><col><col></colgroup>\n"
+                     "<tr><th>Verdict</th><th>Source</th><th>Statement</th><th>Number</th></tr>\n";
+  for (size_t i = 0; i < claims.size(); ++i) body += claim_row(claims[i], results[i]);
+  return body + "</table>\n";
+}
+
+std::string figures_html(const std::vector<ClaimFigure>& figures, const std::string& runs) {
+  std::string out;
+  for (const ClaimFigure& figure : figures) {
+    const std::string path = fmt::format("{}/{}/post/{}", runs, figure.run, figure.picture);
+    std::string picture = html_picture(path, figure.shows);
+    if (picture.empty())
+      picture = markup_text(fmt::format("Not drawn yet: {} of the run {}.", figure.picture, figure.run));
+    out += fmt::format(
+        "<figure>\n{}\n<figcaption><strong>{}</strong> {} <small>{}</small></figcaption>\n</figure>\n",
+        picture, markup_text(figure.source), markup_text(figure.shows), markup_text(figure.run));
+  }
+  return out.empty() ? out : "<h2>Pictures of the runs</h2>\n" + out;
 }
 
 }  // namespace cupola

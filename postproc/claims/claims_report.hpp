@@ -14,9 +14,11 @@ Table claims_table(const std::vector<Claim>& claims, const std::vector<ClaimResu
 /// The table as text for a terminal, followed by the number of claims with each verdict.
 std::string claims_text(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results);
 
-/// The table as a self-contained HTML page, followed by the figures with the pictures from the folders
-/// `runs`/RUN/post. A picture that does not exist yet is reported by name.
-std::string claims_html(const ClaimsFile& file, const std::vector<ClaimResult>& results,
-                        const std::string& runs);
+/// The table as part of an HTML page, with its style.
+std::string claims_html(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results);
+
+/// The figures with the pictures from the folders `runs`/RUN/post, below a heading; "" if there are none. A picture that does not
+/// exist yet is reported by name.
+std::string figures_html(const std::vector<ClaimFigure>& figures, const std::string& runs);
 
 }  // namespace cupola

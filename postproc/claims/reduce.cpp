@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "assembly/base/error.hpp"
-#include "postproc/claims/verdict.hpp"
+#include "postproc/claims/quantity.hpp"
 
 namespace cupola {
 namespace {
@@ -53,11 +53,14 @@ double roughness(const std::vector<double>& values) {
 }  // namespace
 
 double reduce(Take take, const std::vector<double>& values, const std::vector<double>& against) {
+  if (take == Take::count) return static_cast<double>(values.size());
+  if (take == Take::sum) return std::accumulate(values.begin(), values.end(), 0.0);
   CUPOLA_ASSERT(!values.empty());
   CUPOLA_ASSERT(take != Take::linearity || against.size() == values.size());
   const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
   switch (take) {
     case Take::only:
+    case Take::first:
       return values.front();
     case Take::mean:
       return mean(values);
@@ -67,8 +70,11 @@ double reduce(Take take, const std::vector<double>& values, const std::vector<do
       return *largest;
     case Take::smallest:
       return *smallest;
+    case Take::last:
+      return values.back();
     case Take::sum:
-      return std::accumulate(values.begin(), values.end(), 0.0);
+    case Take::count:
+      break;  // above
     case Take::spread:
       return (*largest - *smallest) / std::abs(mean(values));
     case Take::variation:

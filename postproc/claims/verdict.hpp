@@ -37,11 +37,4 @@ struct ClaimResult {
 /// InputError if a finished run lacks a key, table or column that a claim reads.
 std::vector<ClaimResult> evaluate_claims(const std::vector<Claim>& claims, const std::string& out);
 
-/// The runs that the claims and figures read, each once, in the order of first use.
-std::vector<std::string> needed_runs(const ClaimsFile& file);
-
-/// Reduces `values`, which must not be empty, to one number. `against` is read by Take::linearity only and
-/// has then the same size as `values`.
-double reduce(Take take, const std::vector<double>& values, const std::vector<double>& against = {});
-
 }  // namespace cupola

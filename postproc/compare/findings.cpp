@@ -127,8 +127,11 @@ const std::vector<Measure>& measures() {
       {"kern_use", "", 1.0, "The mean eccentricity of the bed forces relative to the edge of the kern is",
        "How far off-centre the beds are loaded, on average; a bed above 1 is partly unloaded.",
        "most central", Best::lowest, [](const S& s) { return s.mean_kern_use; }},
-      {"geometric_safety", "", 1.0, "The smallest geometric safety of the thrust lines is",
-       "How many times thicker the shell is than the thrust line requires; at 1 the line touches a face.",
+      {"geometric_safety", "", 1.0,
+       "The smallest ratio of half the thickness to the eccentricity of the thrust lines is",
+       "How far from the faces the thrust lines of these states run; at 1 one touches a face. It is no "
+       "geometric "
+       "safety factor, which belongs to the safest state (analysis.limit.parameter: joint_extent).",
        "largest", Best::highest, least_safety},
       {"thrust_over_weight", "", 1.0, "The ratio of the outward base thrust to the weight is",
        "How hard the vault pushes outwards on its supports, compared with its weight.", "lowest",

@@ -55,33 +55,41 @@ std::string frame_name(int index) {
   return fmt::format("frame {}", index);
 }
 
-/// The last frame that can be read. For a limit analysis it is the first frame, the last equilibrium, which the
-/// mechanism follows; for a range analysis the first frame, which the ends of the ranges follow.
+/// The first frame if it is an equilibrium, which a mechanism or the ends of ranges follow; else the last that can be
+/// read.
 Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
-  const AnalysisType type = results.summary().analysis;
-  const bool first = type == AnalysisType::limit || type == AnalysisType::range;
-  for (int i = first ? 0 : static_cast<int>(results.times().size()) - 1;; --i) {
+  e->last_frame = 0;
+  try {
+    Frame first = results.read_frame(0);
+    if (results.times().size() == 1 || first.role == FrameRole::equilibrium) return first;
+  } catch (const InputError& error) {
+    if (results.times().size() == 1) throw;
+    leave_out(frame_name(0), error.what(), e);
+  }
+  for (e->last_frame = static_cast<int>(results.times().size()) - 1;; --e->last_frame) {
     try {
-      e->last_frame = i;
-      return results.read_frame(i);
+      return results.read_frame(e->last_frame);
     } catch (const InputError& error) {
-      if (i == 0) throw;
-      leave_out(frame_name(i), error.what(), e);
+      if (e->last_frame == 0) throw;
+      leave_out(frame_name(e->last_frame), error.what(), e);
     }
   }
 }
 
-void add_status_warnings(const Summary& summary, std::vector<std::string>* warnings) {
-  if (summary.status == Status::unconverged && summary.analysis == AnalysisType::limit)
-    warnings->push_back("the critical value was not bracketed to the requested width");
-  else if (summary.status == Status::unconverged && !summary.ranges.empty())
-    warnings->push_back("not all ends of the ranges were found to the requested accuracy");
-  else if (summary.status == Status::unconverged)
-    warnings->push_back("the solver did not reach the requested accuracy: do not use its forces");
-  else if (!at_rest(summary) && summary.analysis == AnalysisType::range)
-    warnings->push_back("the structure moves: there is no admissible state of which ranges could be found");
-  else if (!at_rest(summary))
-    warnings->push_back("the structure moves: its forces are those of one instant, not of an equilibrium");
+void add_status_warnings(Evaluation* e) {
+  const FrameRole shown = e->last.frame.role;
+  const auto warn = [e](const char* text) { e->warnings.emplace_back(text); };
+  if (e->summary.status == Status::unconverged && !e->summary.ranges.empty())
+    warn("not all ends of the ranges were found to the requested accuracy");
+  else if (e->summary.status == Status::unconverged &&
+           (shown == FrameRole::equilibrium || shown == FrameRole::mechanism))
+    warn("the critical value was not bracketed to the requested width");
+  else if (e->summary.status == Status::unconverged)
+    warn("the solver did not reach the requested accuracy: do not use its forces");
+  else if (!at_rest(*e) && e->summary.analysis == AnalysisType::range)
+    warn("the structure moves: there is no admissible state of which ranges could be found");
+  else if (!at_rest(*e))
+    warn("the structure moves: its forces are those of one instant, not of an equilibrium");
 }
 
 int joints_lost_between(const ContactTable& first, const ContactTable& last) {
@@ -96,7 +104,7 @@ int joints_lost_between(const ContactTable& first, const ContactTable& last) {
 
 void count_lost_joints(const ResultsReader& results, Evaluation* e) {
   e->lost_joints = 0;
-  if (e->times.size() < 2 || e->summary.analysis != AnalysisType::dynamic) return;
+  if (e->times.size() < 2 || e->last.frame.role != FrameRole::step) return;
   try {
     e->lost_joints = joints_lost_between(results.read_frame(0).contacts, e->last.frame.contacts);
   } catch (const InputError& error) {
@@ -110,28 +118,33 @@ void count_lost_joints(const ResultsReader& results, Evaluation* e) {
 }
 
 /// N, force that an equilibrium leaves unbalanced on a block.
-double unbalanced_force(const Summary& s) {
-  if (!at_rest(s) || s.free_blocks == 0) return 0.0;
+double unbalanced_force(const Evaluation& e) {
+  const Summary& s = e.summary;
+  if (!at_rest(e) || s.free_blocks == 0) return 0.0;
   return s.equilibrium_residual.value_or(0.0) * s.weight_N / s.free_blocks;
+}
+
+/// Reads the mechanism that follows the last equilibrium of a limit analysis.
+void find_what_gives_way(const ResultsReader& results, Evaluation* e) {
+  if (!e->summary.critical || e->times.size() < 2) return;
+  try {
+    const Frame frame = results.read_frame(1);
+    if (!is_mechanism(frame.role)) return;
+    e->gives_way = what_gives_way(e->assembly, frame, joint_wrenches(e->assembly, frame.contacts, e->shell),
+                                  e->scene.joints.friction);
+  } catch (const InputError& error) {
+    leave_out(frame_name(1), error.what(), e);
+  }
 }
 
 /// Sets loads and thickness to those of the equilibrium evaluated.
 void apply_limit(Evaluation* e) {
   e->acting = e->scene.loads;
-  if (e->summary.analysis != AnalysisType::limit || !e->summary.critical) return;
+  if (!e->summary.critical || is_stage(e->last.frame.role)) return;
   const double value = e->summary.critical->stable;
   e->acting = case_at(e->scene, value).loads;
   if (e->scene.analysis.limit.parameter == LimitSearch::Parameter::thickness)
     e->assembly = with_thickness(e->assembly, value);
-}
-
-/// True for a frame of a range analysis that shows an unbounded end: forces that balance themselves, without loads.
-bool is_self_stress(const Summary& summary, const Frame& frame) {
-  const auto shown = [&frame](const RangeEnd& end) {
-    return end.outcome == RangeOutcome::unbounded && end.frame && *end.frame == frame.time;
-  };
-  return std::any_of(summary.ranges.begin(), summary.ranges.end(),
-                     [&shown](const ForceRange& range) { return shown(range.min) || shown(range.max); });
 }
 
 /// The applied forces at a time, s.
@@ -165,18 +178,17 @@ std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput&
 }
 
 /// Azimuth of a meridian of the case, degrees; none without a meridian of this name.
-std::optional<double> meridian_named(const std::string& name, const Case& scene) {
-  if (traits_of(scene.geometry.surface).meridians != SurfaceTraits::Meridians::by_azimuth)
-    return std::nullopt;
-  for (const Meridian& meridian : scene.postproc.meridians)
+std::optional<double> meridian_named(const std::string& name, const Evaluation& e) {
+  if (!is_vault(e)) return std::nullopt;
+  for (const Meridian& meridian : e.scene.postproc.meridians)
     if (meridian.name == name) return meridian.azimuth_deg;
   return std::nullopt;
 }
 
 /// Per block, true if a frame of a construction leaves it out: blocks not laid yet, and courses held as supports. Neither
-/// rests on a joint of the frame. Empty for other analyses.
+/// rests on a joint of the frame. Empty unless a stage is shown.
 std::vector<bool> blocks_left_out(const Evaluation& e) {
-  if (e.summary.analysis != AnalysisType::staged) return {};
+  if (!is_stage(e.last.frame.role)) return {};
   std::vector<bool> left_out(e.assembly.blocks.size(), true);
   for (const JointWrench& joint : e.last.joints.wrenches)
     if (joint.upper >= 0) left_out[joint.upper] = false;
@@ -206,32 +218,32 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e, const std:
 
 }  // namespace
 
-bool at_rest(const Summary& summary) {
-  if (summary.analysis == AnalysisType::limit || summary.analysis == AnalysisType::path)
-    return summary.equilibrium_residual.has_value();
-  if (summary.analysis == AnalysisType::range) return !summary.ranges.empty();
-  return summary.status == Status::stable;
-}
-
-bool is_mechanism(const Summary& summary, const Frame& frame) {
-  switch (summary.analysis) {
-    case AnalysisType::limit:
-      return frame.time > 0.0;
-    case AnalysisType::static_:
-    case AnalysisType::range:
-      return summary.status == Status::moving;
-    case AnalysisType::staged:
-      return largest_norm(frame.blocks.velocity) > 0.0;
-    case AnalysisType::dynamic:
-    case AnalysisType::path:
-      return false;
+bool at_rest(const Evaluation& e) {
+  switch (e.last.frame.role) {
+    case FrameRole::equilibrium:
+    case FrameRole::path:
+    case FrameRole::range_end:
+      return true;
+    case FrameRole::step:
+    case FrameRole::stage:
+      return e.summary.status == Status::stable;
+    case FrameRole::failed_stage:
+    case FrameRole::mechanism:
+    case FrameRole::self_stress:
+    case FrameRole::unconverged:
+      break;
   }
   return false;
 }
 
 bool is_vault(const Evaluation& e) {
-  return e.shell.num_rings() > 0 &&
-         traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::by_azimuth;
+  return e.shell.num_rings() > 0 && !e.assembly.sheets.empty() &&
+         e.assembly.sheets.back().thrust_lines == Sheet::ThrustLines::by_azimuth;
+}
+
+bool is_arch(const Evaluation& e) {
+  return e.shell.num_rings() > 0 && !e.assembly.sheets.empty() &&
+         e.assembly.sheets.back().thrust_lines == Sheet::ThrustLines::one;
 }
 
 void leave_out(const std::string& part, const std::string& reason, Evaluation* e) {
@@ -250,19 +262,19 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   check_blocks(frame, e.assembly);
   FrameEvaluation out;
   out.frame = std::move(frame);
-  const bool mechanism = is_mechanism(e.summary, out.frame);
+  const bool mechanism = is_mechanism(out.frame.role);
   if (mechanism) displace_mechanism(e.assembly, &out.frame);
   const Loads& loads = e.acting;
-  if (!is_self_stress(e.summary, out.frame)) {
-    // The time of a frame of a range analysis is its number: all its states bear the same loads.
-    const double time = e.summary.analysis == AnalysisType::range ? 0.0 : out.frame.time;
+  if (out.frame.role != FrameRole::self_stress) {
+    // The time of an end of a range is its number: all these states bear the same loads.
+    const double time = out.frame.role == FrameRole::range_end ? 0.0 : out.frame.time;
     out.gravity = factor_at(loads.dead_load_time, time) * loads.gravity;
     out.loads = loads_at(e, time);
   }
-  out.joints = joint_wrenches(e.assembly, out.frame.contacts, e.shell, unbalanced_force(e.summary));
+  out.joints = joint_wrenches(e.assembly, out.frame.contacts, e.shell, unbalanced_force(e));
   out.from_below = wrenches_from_below(e.assembly, out.joints);
   out.fields = block_fields(e.assembly, out.frame, out.joints, out.from_below, out.loads, e.axes);
-  if (at_rest(e.summary) && !mechanism)
+  if (at_rest(e) && !mechanism)
     out.groups.assign(e.assembly.blocks.size(), 0);
   else
     out.groups = mechanism_groups(e.assembly, out.frame, out.joints,
@@ -278,7 +290,9 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.summary = results.summary();
   e.times = results.times();
   if (scene.loads.gravity.norm() > 0.0) e.up = -scene.loads.gravity.normalized();
-  add_status_warnings(e.summary, &e.warnings);
+  Frame shown = evaluated_frame(results, &e);
+  e.last.frame.role = shown.role;  // at_rest() asks for it
+  add_status_warnings(&e);
   for (const std::string& doubt : doubts) e.warnings.push_back(doubt);
   if (e.summary.geometry_hash != scene.geometry_hash || e.assembly.geometry_hash != scene.geometry_hash)
     e.warnings.push_back(
@@ -297,10 +311,13 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   if (!e.assembly.ties.empty() || !scene.ties.pairs.empty())
     e.warnings.push_back("wrenches on blocks and thrust lines count joints only, not the forces in ties");
 
-  e.last = evaluate_frame(e, evaluated_frame(results, &e));
+  e.last = evaluate_frame(e, std::move(shown));
   const std::vector<bool> left_out = blocks_left_out(e);
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
-                      e.last.frame.ties, left_out);
+                      e.last.frame.ties, left_out, is_arch(e));
+  e.reactions = support_reactions(e.assembly, e.last.joints, e.axes, is_arch(e));
+  e.parts = connected_parts(e.assembly, e.last.joints);
+  find_what_gives_way(results, &e);
   e.chains = chain_forces(e.assembly.chains, e.last.frame.ties);
   e.wythes = wythe_sums(e.assembly, e.shell, e.last.joints, e.last.frame.contacts, e.up);
   e.members = member_sums(e.assembly, e.last.joints, e.last.gravity, left_out);
@@ -313,10 +330,9 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   for (const CutPlane& plane : scene.postproc.planes)
     e.planes.push_back(
         plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads, e.last.frame.ties));
-  const std::optional<double> rib = meridian_named("rib", scene),
-                              mid_sail = meridian_named("mid_sail", scene);
+  const std::optional<double> rib = meridian_named("rib", e), mid_sail = meridian_named("mid_sail", e);
   if (rib && mid_sail && e.assembly.members.empty())  // its beds follow the period of one bond
-    e.rib_over_mid_sail = rib_ratio(thrust_input(e, e.last), scene.geometry, *rib, *mid_sail);
+    e.rib_over_mid_sail = rib_ratio(thrust_input(e, e.last), scene.geometry.bond, *rib, *mid_sail);
   return e;
 }
 

@@ -10,8 +10,10 @@
 #include "postproc/mechanics/block_fields.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
 #include "postproc/mechanics/cuts.hpp"
+#include "postproc/mechanics/joint_speeds.hpp"
 #include "postproc/mechanics/member_sums.hpp"
 #include "postproc/mechanics/plane_cut.hpp"
+#include "postproc/mechanics/reactions.hpp"
 #include "postproc/mechanics/ring_sums.hpp"
 #include "postproc/mechanics/thrust_line.hpp"
 #include "postproc/mechanics/wythe_sums.hpp"
@@ -56,8 +58,8 @@ struct SectionEvaluation {
   std::vector<BedResultant> resultants;  ///< across that bed, by block; empty if it carries no force
 };
 
-/// Everything the postprocessor derives from a run, for its last readable frame or, of a limit or range analysis, the
-/// first one. Without an equilibrium (at_rest()) the
+/// Everything the postprocessor derives from a run, for its first frame if that is an equilibrium, else for its last
+/// readable one. Without an equilibrium (at_rest()) the
 /// forces are those of one instant or of an unfinished solve: tables hold them, texts and figures do not interpret them.
 struct Evaluation {
   Case scene;
@@ -75,6 +77,9 @@ struct Evaluation {
   std::vector<MemberSum> members;  ///< empty without wythes
   std::vector<WytheSum> wythes;    ///< empty without wythes
   std::vector<ChainForces> chains;
+  std::vector<Reaction> reactions;    ///< of the last frame, on the supports
+  std::vector<int> parts;             ///< connected_parts()
+  std::optional<GivesWay> gives_way;  ///< of a limit analysis with a mechanism
   std::vector<MeridianEvaluation> meridians;
   std::vector<SectionEvaluation> sections;
   std::vector<PlaneCut> planes;
@@ -84,16 +89,14 @@ struct Evaluation {
   std::vector<std::string> unreadable;        ///< parts of the results that are missing or damaged
 };
 
-/// True if the forces evaluated are those of an equilibrium: of a stable run, or of the stable end of a limit
-/// analysis, or frame 0 of a range analysis that found an admissible state.
-bool at_rest(const Summary& summary);
-
-/// True for a frame that holds directions of motion without an amplitude: the mechanism of a limit analysis, or the
-/// motion that the static solve of a case or of a stage of construction, or a range analysis, found.
-bool is_mechanism(const Summary& summary, const Frame& frame);
+/// True if the forces evaluated are those of an equilibrium. Those of a motion or of stages are if the run is stable.
+bool at_rest(const Evaluation& evaluation);
 
 /// True for a vault about the z axis, where azimuths are meaningful.
 bool is_vault(const Evaluation& evaluation);
+
+/// True for an arch or barrel vault over x, whose courses run along y.
+bool is_arch(const Evaluation& evaluation);
 
 /// Records that a part of the results was left out and why, once per part.
 void leave_out(const std::string& part, const std::string& reason, Evaluation* evaluation);

@@ -10,21 +10,22 @@
 namespace cupola {
 namespace {
 
-/// A meridian of the case; of an arch its only one. Blocks without courses, such as most imported ones, have none.
+/// A meridian of the case, by default those over the x and y axes; of an arch its only one. Blocks without courses, such as most imported ones, have none.
 struct Drawn {
   std::string name;
   std::optional<double> azimuth_deg;
 };
 
 std::vector<Drawn> drawn_meridians(const Evaluation& e) {
-  using enum SurfaceTraits::Meridians;
-  if (e.shell.num_rings() == 0) return {};
-  const SurfaceTraits::Meridians drawn = traits_of(e.scene.geometry.surface).meridians;
+  using enum Sheet::ThrustLines;
+  if (e.shell.num_rings() == 0 || e.assembly.sheets.empty()) return {};
+  const Sheet::ThrustLines drawn = e.assembly.sheets.back().thrust_lines;
   std::vector<Drawn> meridians;
   if (drawn == one) meridians.push_back({"arch", std::nullopt});
-  if (drawn == by_azimuth)
-    for (const Meridian& meridian : e.scene.postproc.meridians)
-      meridians.push_back({meridian.name, meridian.azimuth_deg});
+  if (drawn != by_azimuth) return meridians;
+  for (const Meridian& meridian : e.scene.postproc.meridians)
+    meridians.push_back({meridian.name, meridian.azimuth_deg});
+  if (meridians.empty()) meridians = {{"x", 0.0}, {"y", 90.0}};  // every vault has its thrust lines
   return meridians;
 }
 

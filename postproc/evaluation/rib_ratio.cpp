@@ -7,11 +7,6 @@
 namespace cupola {
 namespace {
 
-int num_sails(const Surface& surface) {
-  const auto* vault = std::get_if<OctagonalVault>(&surface);
-  return vault ? vault->sails : 1;
-}
-
 /// Sum of r over the meridians at the same place in every sail, by bed.
 std::map<int, double> summed_resultants(const ThrustInput& input, double azimuth_deg, int sails) {
   std::map<int, double> sums;
@@ -31,9 +26,9 @@ int bond_period(const Bond& bond) {
   return std::holds_alternative<RunningBond>(bond) ? 2 : 1;
 }
 
-std::optional<RibRatio> rib_ratio(const ThrustInput& input, const Geometry& geometry, double rib_deg,
+std::optional<RibRatio> rib_ratio(const ThrustInput& input, const Bond& bond, double rib_deg,
                                   double mid_sail_deg) {
-  const int sails = num_sails(geometry.surface);
+  const int sails = input.assembly->sheets.back().sails;
   const std::map<int, double> rib = summed_resultants(input, rib_deg, sails);
   const std::map<int, double> mid_sail = summed_resultants(input, mid_sail_deg, sails);
   std::vector<double> ratios;
@@ -41,7 +36,7 @@ std::optional<RibRatio> rib_ratio(const ThrustInput& input, const Geometry& geom
     if (const auto same = mid_sail.find(bed); same != mid_sail.end() && same->second > 0.0)
       ratios.push_back(r / same->second);
   if (ratios.empty()) return std::nullopt;
-  const size_t period = static_cast<size_t>(bond_period(geometry.bond));
+  const size_t period = static_cast<size_t>(bond_period(bond));
   if (ratios.size() >= period) ratios.resize(ratios.size() / period * period);
   const auto [smallest, largest] = std::minmax_element(ratios.begin(), ratios.end());
   return RibRatio{std::accumulate(ratios.begin(), ratios.end(), 0.0) / static_cast<double>(ratios.size()),

@@ -25,7 +25,7 @@ int bond_period(const Bond& bond);
 
 /// The ratio for strips at the azimuths of one rib and one mid-sail, repeated in every sail. None without
 /// common beds.
-std::optional<RibRatio> rib_ratio(const ThrustInput& input, const Geometry& geometry, double rib_deg,
+std::optional<RibRatio> rib_ratio(const ThrustInput& input, const Bond& bond, double rib_deg,
                                   double mid_sail_deg);
 
 }  // namespace cupola

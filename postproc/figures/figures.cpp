@@ -42,7 +42,7 @@ Figure ring_figure(const Evaluation& e) {
           "set multiplot layout 1,2 margins 0.08,0.97,0.16,0.95 spacing 0.1\nunset key\n"
           "set ylabel 'height (m)'\nset xrange [0:0.1<*]\nset xlabel 'variation of the bed pressure (%)'\n"
           "plot $rings using 2:1 w lp lc rgb '{0}' pt 7 ps 0.5 lw 1.5\n"
-          "set xlabel 'largest kern use; friction use'\nset xrange [0:1.1<*]\n"
+          "set xlabel 'largest kern use; friction use (1 = 100 %)'\nset xrange [0:1.1<*]\n"
           "set arrow from 1, graph 0 to 1, graph 1 nohead dt 3 lc rgb '#444444'\n"
           "plot $rings using ($3/100):1 w lp lc rgb '{1}' pt 7 ps 0.5 lw 1.5, $rings using 4:1 w lp lc rgb "
           "'{2}' pt 5 ps 0.5 lw 1.5{3}{4}\nunset multiplot\n",
@@ -134,7 +134,7 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
   if (std::any_of(ranges.begin(), ranges.end(), [](const ForceRange& r) { return r.joint.has_value(); }))
     for (const ShellMap& map : maps) figures.push_back(certainty_map(e, map));
   if (history.size() > 1) figures.push_back(history_figure(e, history));
-  if (!at_rest(e.summary)) return figures;
+  if (!at_rest(e)) return figures;
   for (const MeridianEvaluation& m : e.meridians)
     if (m.thrust.points.size() > 1) figures.push_back(thrust_figure(e, m));
   if (std::any_of(e.rings.begin(), e.rings.end(), varies)) figures.push_back(ring_figure(e));

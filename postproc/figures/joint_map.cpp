@@ -90,7 +90,10 @@ std::string JointMap::axes() const {
       "set xrange [{}:{}]\nset yrange [-0.3:{}]\nset ytics {}\nset xlabel '{}'\nset ylabel '{}'\nunset "
       "grid\n",
       low - margin, high + margin, map_.num_rings + 0.3, std::max(1, (map_.num_rings + 7) / 8),
-      map_.vault ? "azimuth (deg)" : "x (m)", map_.vault ? "ring" : "course");
+      map_.vault  ? "azimuth (deg)"
+      : map_.arch ? "y (m)"
+                  : "x (m)",
+      map_.vault ? "ring" : "course");
 }
 
 }  // namespace cupola

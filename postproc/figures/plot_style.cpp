@@ -37,6 +37,11 @@ std::string force_text(double newtons) {
   return fmt::format("{:.4g} {}", unit.per_newton * newtons, unit.name);
 }
 
+std::string normal_force_text(double newtons) {
+  if (newtons < 0.0) return "a pull of " + force_text(-newtons);
+  return newtons == 0.0 ? "a negligible normal force" : "a normal force of " + force_text(newtons);
+}
+
 std::string length_text(double metres) {
   if (metres == 0.0) return "negligible";
   if (std::abs(metres) >= 1e3) return fmt::format("{:.0f} m", metres);
@@ -47,10 +52,10 @@ std::string length_text(double metres) {
 std::string describe(const ThrustLine& line) {
   if (line.undefined == static_cast<int>(line.points.size()))
     return "There is no thrust line: no bed of the meridian is in compression.";
-  const std::string safety =
-      std::isinf(line.least_geometric_safety)
-          ? "it runs through the middle of every bed"
-          : fmt::format("its smallest geometric safety is {:.3g}", line.least_geometric_safety);
+  const std::string safety = std::isinf(line.least_geometric_safety)
+                                 ? "it runs through the middle of every bed"
+                                 : fmt::format("where half the thickness is {:.3g} times the eccentricity",
+                                               line.least_geometric_safety);
   std::string text =
       fmt::format("The thrust line {} inside the thickness. Its smallest distance from a face is {}, {}.",
                   line.inside ? "stays" : "does not stay", length_text(line.least_face_distance), safety);

@@ -35,10 +35,13 @@ ForceUnit force_unit(double largest);
 /// "1.235 MN"; "negligible" for 0.
 std::string force_text(double newtons);
 
+/// "a normal force of 1.235 MN"; "a pull of 5.66 kN" of a negative one.
+std::string normal_force_text(double newtons);
+
 /// "12.3 mm", "1.23 m"; "negligible" for 0.
 std::string length_text(double metres);
 
-/// Where a thrust line runs, with its least distance to a face and its least geometric safety.
+/// Where a thrust line runs, with its least distance to a face and its greatest relative eccentricity.
 std::string describe(const ThrustLine& line);
 
 }  // namespace cupola

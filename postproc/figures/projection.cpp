@@ -7,9 +7,8 @@
 namespace cupola {
 
 Projection projection_of(const Evaluation& e) {
-  const Surface& surface = e.scene.geometry.surface;
-  if (std::holds_alternative<WallSurface>(surface) ||
-      traits_of(surface).meridians == SurfaceTraits::Meridians::one)
+  const std::vector<Sheet>& sheets = e.assembly.sheets;
+  if (!sheets.empty() && sheets.back().thrust_lines != Sheet::ThrustLines::by_azimuth)
     return {Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitY()};
   const double a = -60.0 / kDegrees, slant = 30.0 / kDegrees;  // seen from azimuth a and from above
   const Vec3 right(-std::sin(a), std::cos(a), 0.0);

@@ -1,6 +1,7 @@
 #include "postproc/figures/shell_maps.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ constexpr const char* kSequential =
 
 std::string map_axes(const ShellMap& map) {
   return (map.vault ? "set xrange [-180:180]\nset xtics 45\nset xlabel 'azimuth (deg)'\n"
-                    : "set xlabel 'x (m)'\n") +
+                    : fmt::format("set xlabel '{} (m)'\n", map.arch ? "y" : "x")) +
          fmt::format(
              "set yrange [0:{}]\nset ytics {}\nset ylabel '{}'\nunset grid\nset style fill solid 1 noborder\n"
              "set key at graph 1,1 right bottom horizontal\n",
@@ -78,7 +79,7 @@ double end_of(double most) {
 
 std::string mapped_text(const ShellMap& map) {
   if (!map.wythe.empty()) return fmt::format("wythe {}", map.wythe);
-  return map.vault ? "shell" : "wall";
+  return map.vault ? "shell" : map.arch ? "arch" : "wall";
 }
 
 void MapScales::include(const ShellMap& map) {
@@ -94,16 +95,20 @@ void MapScales::include(const ShellMap& map) {
 Figure force_map(const ShellMap& map, const MapScales& scales) {
   Figure f;
   f.name = fmt::format("map_forces{}", map.suffix());
-  const char *along = map.vault ? "meridional" : "vertical", *across = map.vault ? "hoop" : "horizontal";
-  f.title = map.vault           ? "Meridional and hoop forces over the "
-            : scales.hoop > 0.0 ? "Vertical and horizontal forces over the "
-                                : "Vertical forces over the ";
+  const char* along = map.vault ? "meridional" : map.arch ? "axial" : "vertical";
+  const char* across = map.vault ? "hoop" : map.arch ? "lateral" : "horizontal";
+  f.title = map.vault || scales.hoop > 0.0 ? fmt::format("{} and {} forces over the ", along, across)
+                                           : fmt::format("{} forces over the ", along);
+  f.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(f.title[0])));
   f.title += mapped_text(map);
   f.caption = fmt::format(
       "The {}{}{}. Forces per metre from the mean stress of each block, compression positive{}. Grey: the "
       "force is "
       "negligible.",
-      map.vault ? "unrolled " : "", mapped_text(map), map.vault ? "" : " from the front",
+      map.vault || map.arch ? "unrolled " : "", mapped_text(map),
+      map.vault  ? ""
+      : map.arch ? " from the left springing (course 0) to the right"
+                 : " from the front",
       scales.hoop > 0.0 ? fmt::format("; {} tension is orange", across) : "");
   std::vector<std::string> panels;
   if (scales.compression > 0.0 || scales.tension > 0.0)
@@ -127,19 +132,20 @@ Figure utilisation_map(const ShellMap& map, const MapScales& scales) {
   f.name = fmt::format("map_utilisation{}", map.suffix());
   f.title = fmt::format("Utilisation of the joints over the {}", mapped_text(map));
   f.caption =
-      "Largest friction utilisation of the joints of each block (1: every point slides), and largest kern "
-      "utilisation of its bed joints (above 1: part of the joint is unloaded). Grey: no such joint carries "
-      "more "
-      "than a negligible force.";
+      "Largest friction use of the joints of each block (100 %: every point is at its limit), and largest "
+      "kern "
+      "use of its bed joints (above 1: part of the joint is unloaded). Grey: no such joint carries more than "
+      "a "
+      "negligible force.";
   std::vector<std::string> panels;
   if (scales.friction > 0.0)
     panels.push_back(panel(
-        map, [](const ShellBox& b) { return b.friction_use; }, "friction", "no loaded joint",
-        "set cbrange [0:1]\nset cblabel 'friction utilisation'\n"));
+        map, [](const ShellBox& b) { return 100.0 * b.friction_use; }, "friction", "no loaded joint",
+        "set cbrange [0:100]\nset cblabel 'friction use (%)'\n"));
   if (scales.kern > 0.0)
     panels.push_back(panel(
         map, [](const ShellBox& b) { return b.kern; }, "kern", "no loaded bed joint",
-        fmt::format("set cbrange [0:{}]\nset cblabel 'kern utilisation'\n", end_of(scales.kern))));
+        fmt::format("set cbrange [0:{}]\nset cblabel 'kern use'\n", end_of(scales.kern))));
   draw_panels(map, panels, &f);
   return f;
 }

@@ -93,8 +93,7 @@ std::string wythe_profile(const WytheCurves& wythes) {
 
 std::string profile_plot(const MeridianEvaluation& m, const Summary& summary, bool zones) {
   std::string title = "thrust line";
-  if (summary.analysis == AnalysisType::range)
-    title += has_chosen(summary.ranges) ? " (chosen)" : " (one state)";
+  if (!summary.ranges.empty()) title += has_chosen(summary.ranges) ? " (chosen)" : " (one state)";
   std::string ends;
   if (m.least_thrust) ends += fmt::format(", $least w l lc rgb '{}' lw 1.2 title 'least thrust'", kBlue);
   if (m.greatest_thrust)
@@ -215,7 +214,7 @@ std::string arch_panels(const ForceUnit& unit, const std::string& profile, const
 }  // namespace
 
 Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
-  const bool arch = traits_of(e.scene.geometry.surface).meridians == SurfaceTraits::Meridians::one;
+  const bool arch = !is_vault(e);
   const ThrustLine& line = m.thrust;
   const double couple = line.largest_couple_length();
   double largest = 0.0;
@@ -229,9 +228,10 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
                  : fmt::format("Thrust line, meridian {} ({:g} deg)", line.name, line.azimuth_deg);
   f.caption =
       describe(line) +
-      " r is the norm of the resultant of a strip one block wide across a bed, v its vertical component. The "
-      "largest couple length of such a resultant is " +
-      length_text(couple) + ".";
+      fmt::format(
+          " r is the norm of the resultant of {} across a bed, v its vertical component. The largest couple "
+          "length of such a resultant is {}.",
+          arch ? "the full width" : "a strip one block wide", length_text(couple));
   if (m.least_thrust || m.greatest_thrust)
     f.caption +=
         " The thin lines belong to the states of least and greatest thrust among all admissible ones.";

@@ -1,27 +1,64 @@
 #include "postproc/mechanics/joint_speeds.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace cupola {
+namespace {
+
+/// Velocity of the second block of a contact relative to the first, m/s: along the normal and across it.
+struct Apart {
+  double opening = 0.0, sliding = 0.0;
+};
+Apart apart_at(const Assembly& assembly, const Frame& frame, const JointWrench& joint, int contact) {
+  const Vec3& point = frame.contacts.point[contact];
+  const auto velocity = [&](int block) -> Vec3 {
+    return frame.blocks.velocity[block] +
+           frame.blocks.angular_velocity[block].cross(point - assembly.blocks[block].centroid);
+  };
+  const Vec3 u = velocity(joint.block_b) - velocity(joint.block_a);
+  const Vec3& normal = frame.contacts.normal[contact];
+  const double opening = u.dot(normal);
+  return {opening, (u - opening * normal).norm()};
+}
+
+}  // namespace
 
 JointSpeeds joint_speeds(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
                          size_t joint) {
-  const ContactTable& contacts = frame.contacts;
-  const BlockTable& blocks = frame.blocks;
-  const auto velocity_at = [&](int block, const Vec3& point) -> Vec3 {
-    return blocks.velocity[block] +
-           blocks.angular_velocity[block].cross(point - assembly.blocks[block].centroid);
-  };
   const JointWrench& j = joints.wrenches[joint];
   JointSpeeds speeds;
   for (int i = j.contact_start; i < j.contact_start + j.num_contacts; ++i) {
-    const int c = joints.contacts[i];
-    const Vec3 u = velocity_at(j.block_b, contacts.point[c]) - velocity_at(j.block_a, contacts.point[c]);
-    const double apart = u.dot(contacts.normal[c]);
-    speeds.opening = std::max(speeds.opening, apart);
-    speeds.sliding = std::max(speeds.sliding, (u - apart * contacts.normal[c]).norm());
+    const Apart apart = apart_at(assembly, frame, j, joints.contacts[i]);
+    speeds.opening = std::max(speeds.opening, apart.opening);
+    speeds.sliding = std::max(speeds.sliding, apart.sliding);
   }
   return speeds;
+}
+
+GivesWay what_gives_way(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
+                        double friction) {
+  constexpr double kMoves = 0.02;  // of the fastest block
+  double fastest = 0.0;
+  for (const Vec3& v : frame.blocks.velocity) fastest = std::max(fastest, v.norm());
+  GivesWay count;
+  for (const JointWrench& j : joints.wrenches) {
+    Apart closest{std::numeric_limits<double>::infinity(), 0.0};  // where the joint opens least
+    double widest = 0.0;
+    for (int i = j.contact_start; i < j.contact_start + j.num_contacts; ++i) {
+      const Apart apart = apart_at(assembly, frame, j, joints.contacts[i]);
+      if (apart.opening < closest.opening) closest = apart;
+      widest = std::max(widest, apart.opening);
+    }
+    const double least = kMoves * fastest;
+    if (closest.sliding > least && closest.opening <= friction * closest.sliding + least)
+      ++count.sliding;
+    else if (closest.opening > least)
+      ++count.opening;
+    else if (widest > least)
+      ++count.hinging;
+  }
+  return count;
 }
 
 }  // namespace cupola

@@ -69,6 +69,7 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
 void measure(const Floor& floor, JointWrench* joint) {
   joint->negligible = floor.hides(joint->wrench.force);
   joint->opening = above(joint->opening, floor.length);
+  joint->slip = above(joint->slip, floor.length);
   if (joint->negligible) {
     joint->wrench = moved_to(joint->wrench, joint->patch.centroid);
     joint->centre_of_pressure = joint->axis.point = joint->patch.centroid;

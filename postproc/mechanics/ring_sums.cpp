@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/outward.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
 
 namespace cupola {
@@ -61,7 +62,7 @@ void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, con
 
 /// Fills in how evenly the blocks of each ring are loaded.
 void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
-                    const std::vector<Wrench>& from_below, std::vector<RingSum>* rings) {
+                    const std::vector<Wrench>& from_below, bool arch, std::vector<RingSum>* rings) {
   std::vector<double> normal_force(from_below.size(), 0.0), area(from_below.size(), 0.0);
   std::vector<double> ring_area(rings->size(), 0.0);
   for (const JointWrench& joint : joints.wrenches) {
@@ -74,8 +75,7 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
     ring_area[k] += joint.patch.area;
     ring.largest_friction_use = std::fmax(ring.largest_friction_use, joint.friction_use);  // skips NaN
     ring.largest_kern = std::fmax(ring.largest_kern, joint.kern);
-    const Eigen::Vector2d outward = joint.patch.centroid.head<2>().stableNormalized();
-    ring.radial_thrust -= outward.dot(wrench_on(joint, joint.upper).force.head<2>());
+    ring.radial_thrust -= outward_at(joint.patch.centroid, arch).dot(wrench_on(joint, joint.upper).force);
   }
   std::vector<std::vector<double>> resultants(rings->size()), pressures(rings->size());
   for (size_t b = 0; b < from_below.size(); ++b) {
@@ -113,7 +113,7 @@ double coefficient_of_variation(const std::vector<double>& values) {
 std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
                                const std::vector<PointForce>& loads, const TieTable& ties,
-                               const std::vector<bool>& left_out) {
+                               const std::vector<bool>& left_out, bool arch) {
   CUPOLA_ASSERT(from_below.size() == assembly.blocks.size());
   int num_rings = 0;
   if (assembly.num_rings > 0)
@@ -124,7 +124,7 @@ std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& jo
   for (int k = 0; k < num_rings; ++k) rings[k].ring = k;
   add_loads(assembly, gravity, loads, left_out, &rings);
   add_joint_forces(assembly, joints, ties, &rings);
-  add_uniformity(assembly, joints, from_below, &rings);
+  add_uniformity(assembly, joints, from_below, arch, &rings);
   for (RingSum& ring : rings) {
     if (ring.blocks == 0 && !left_out.empty()) ring = {.ring = ring.ring};
     const double load = ring.load_above.norm();

@@ -22,18 +22,18 @@ struct RingSum {
   double mean_resultant = 0.0;       ///< N, mean force of the ring's blocks from the ring below
   double cv_resultant = 0.0;         ///< coefficient of variation of these forces
   double cv_pressure = 0.0;          ///< the same of normal force over joint area, for blocks of unequal size
-  double radial_thrust = 0.0;        ///< N, sum of the horizontal outward forces on the ring below
+  double radial_thrust = 0.0;  ///< N, sum of the horizontal outward forces of its joints on the ring below
   double largest_couple_length = 0.0;  ///< m, of a block's wrench from below
   double largest_friction_use = 0.0;   ///< of the ring's bed joints
   double largest_kern = 0.0;           ///< kern utilisation of the ring's bed joints
 };
 
 /// One cut per ring, from the base upwards; empty for blocks without rings. `left_out`: per block, true if it does not take
-/// part, as before it is laid; empty: all take part.
+/// part, as before it is laid; empty: all take part. `arch`: what is outwards, see outward_at().
 std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
                                const std::vector<PointForce>& loads, const TieTable& ties = {},
-                               const std::vector<bool>& left_out = {});
+                               const std::vector<bool>& left_out = {}, bool arch = false);
 
 /// Standard deviation over |mean|; 0 for fewer than two values or a mean of zero.
 double coefficient_of_variation(const std::vector<double>& values);

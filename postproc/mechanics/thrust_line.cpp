@@ -203,8 +203,10 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
     const double turn = meridian ? *meridian - 0.5 * (block.from + block.to) : 0.0;
     sum.add(share * turned(w, turn));
     const bool stands = bed == in.shell->num_rings() || in.assembly->blocks[id].ring == bed;
-    const auto [normal, at] = in.shell->num_wythes > 1 && stands ? push_at_points(in, route, id, bed, block)
-                                                                 : push_of(w, block, onwards);
+    // Forces that hold each other along the bed, as across a wide arch, shift the line of action of the block's wrench.
+    const bool at_points = stands && (in.shell->num_wythes > 1 || !meridian);
+    const auto [normal, at] =
+        at_points ? push_at_points(in, route, id, bed, block) : push_of(w, block, onwards);
     weighted_position += share * normal * layers.position(at);
     pressing += share * normal;
     ++point->blocks;

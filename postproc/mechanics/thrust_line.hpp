@@ -48,7 +48,7 @@ struct ThrustPoint {
 ///   bed.
 /// - The position of each block's resultant is measured through the thickness on the block's own bed. The
 ///   position of the strip is the mean of these, weighted by the normal forces on the bed, and is drawn on
-///   the meridian. In a shell with wythes it is the mean over the contact points.
+///   the meridian. In an arch and in a shell with wythes it is the mean over the contact points, weighted in the same way.
 ///
 /// The thrust line of a wythe takes the joints that lie in it, see wythes_of(). Where a block of the strip rests on a joint
 /// that lies in several wythes, as a bonder on a bonder, nothing tells how its force is shared among them: the line of

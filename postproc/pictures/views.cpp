@@ -72,7 +72,7 @@ std::string bond_text(const Evaluation& e) {
 /// Left the bond, right the hoop force of a vault at rest.
 bool draw_overview(const Pictured& run, Painter* painter) {
   const Evaluation& e = run.e;
-  const bool hoop = is_vault(e) && at_rest(e.summary);
+  const bool hoop = is_vault(e) && at_rest(e);
   if (hoop) painter->new_view(0.0, 0.5);
   paint_blocks(
       run, [&](int b) { return bond_colour(e.assembly.blocks[b]); }, every_block, painter);
@@ -106,7 +106,7 @@ bool draw_inside(const Pictured& run, Painter* painter) {
 /// The force of every joint on its upper block, or on the second one.
 bool draw_forces(const Pictured& run, Painter* painter) {
   const Evaluation& e = run.e;
-  if (!at_rest(e.summary)) return false;
+  if (!at_rest(e)) return false;
   std::vector<double> magnitudes;
   double largest = 0.0;
   for (const JointWrench& joint : e.last.joints.wrenches)
@@ -148,7 +148,7 @@ double size_of(const Pictured& run) {
 /// The thrust lines, and the half of the vault behind the plane of the first one; a whole arch.
 bool draw_thrust(const Pictured& run, Painter* painter) {
   const Evaluation& e = run.e;
-  if (!at_rest(e.summary) || e.meridians.empty()) return false;
+  if (!at_rest(e) || e.meridians.empty()) return false;
   const double azimuth = e.meridians.front().thrust.azimuth_deg * EIGEN_PI / 180.0;
   const Vec3 behind = is_vault(e) ? Vec3(-std::sin(azimuth), std::cos(azimuth), 0.0) : Vec3::UnitY();
   for (const MeridianEvaluation& m : e.meridians)
@@ -166,7 +166,7 @@ bool draw_thrust(const Pictured& run, Painter* painter) {
 
 bool draw_cracks(const Pictured& run, Painter* painter) {
   const Mesh cracks = cracks_mesh(run.e);
-  if (!at_rest(run.e.summary) || cracks.num_cells() == 0) return false;
+  if (!at_rest(run.e) || cracks.num_cells() == 0) return false;
   paint_blocks(
       run, [&](int b) { return run.e.assembly.blocks[b].fixed ? kSupport : kFlat; }, every_block, painter);
   double widest = 0.0;

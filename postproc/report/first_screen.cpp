@@ -9,6 +9,7 @@
 #include "assembly/base/counted.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/figures/range_text.hpp"
+#include "postproc/report/answers.hpp"
 #include "postproc/report/html.hpp"
 #include "postproc/report/motion.hpp"
 #include "postproc/report/report.hpp"
@@ -22,19 +23,6 @@ namespace {
 std::string with_capital(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
-}
-
-KeyNumber critical_number(const CriticalValue& critical) {
-  std::string unit = limit_unit(critical.parameter);
-  double factor = 1.0;
-  if (unit == "Pa") factor = critical.value < 1e6 ? 1e-3 : 1e-6, unit = critical.value < 1e6 ? "kPa" : "MPa";
-  return {"Critical " + critical.parameter,
-          fmt::format("{:.4g}{}", factor * critical.value, unit.empty() ? "" : " " + unit),
-          shows_bracket(critical) || critical.value == 0.0
-              ? fmt::format("stands at {:.5g}, moves at {:.5g}", factor * critical.stable,
-                            factor * critical.moving)
-              : fmt::format("known to a relative error of {:.1e}",
-                            0.5 * std::abs(critical.stable - critical.moving) / std::abs(critical.value))};
 }
 
 /// "0.2202 to 32.62 MN": what the search proves, with ∞ where there is no limit and ? where it did not end.
@@ -55,28 +43,15 @@ KeyNumber range_number_of(const ForceRange& range) {
           "certain for every history" + chosen};
 }
 
-void add_thrust_line(const Evaluation& e, std::vector<KeyNumber>* out) {
-  const ThrustLine* worst = nullptr;
-  for (const MeridianEvaluation& m : e.meridians)
-    if (std::isfinite(m.thrust.least_face_distance) &&
-        (!worst || m.thrust.least_face_distance < worst->least_face_distance))
-      worst = &m.thrust;
-  if (!worst || worst->undefined == static_cast<int>(worst->points.size())) return;
-  const std::string safety = std::isfinite(worst->least_geometric_safety)
-                                 ? fmt::format(", geometric safety {:.3g}", worst->least_geometric_safety)
-                                 : "";
-  out->push_back({"Thrust line to the nearer face", length_text(worst->least_face_distance),
-                  fmt::format("least distance, meridian {}{}", worst->name, safety)});
-}
-
 void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
-  const PostSummary s = post_summary(e);
-  if (e.summary.ranges.empty() && is_vault(e) && s.thrust_over_weight)
-    out->push_back({"Outward thrust", force_text(e.rings.front().radial_thrust),
-                    fmt::format("{:.3g} of the weight; one of the admissible states{}", *s.thrust_over_weight,
-                                s.largest_strength_use ? "" : ", a range analysis gives the limits")});
-  const auto& joints = e.last.joints.wrenches;
-  if (s.largest_strength_use) {
+  for (const ForceRange& range : e.summary.ranges)
+    if (out->size() < 2 && range.quantity != "thrust") out->push_back(range_number_of(range));
+  if (std::optional<KeyNumber> thrust = thrust_answer(e)) {
+    const bool first = !e.summary.ranges.empty() && !e.summary.ranges.front().quantity.compare("thrust");
+    out->insert(first ? out->begin() : out->end(), std::move(*thrust));
+  }
+  if (const PostSummary s = post_summary(e); s.largest_strength_use) {
+    const auto& joints = e.last.joints.wrenches;
     const auto outside =
         std::count_if(joints.begin(), joints.end(), [](const JointWrench& j) { return j.kern > 1.0; });
     out->push_back({kLargestPressure, fmt::format("{:.3g} MPa", 1e-6 * s.largest_pressure_Pa.value_or(0.0)),
@@ -84,23 +59,14 @@ void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
                                 "forces of {} of {} lie outside the kern",
                                 100.0 * *s.largest_strength_use, outside, counted(joints.size(), "joint"))});
   }
-  add_thrust_line(e, out);
-  const auto sliding = std::count_if(joints.begin(), joints.end(),
-                                     [](const JointWrench& j) { return j.friction_use > kSlides; });
-  out->push_back({kLargestFrictionUse, fmt::format("{:.3g} %", 100.0 * s.largest_friction_use.value_or(0.0)),
-                  fmt::format("{} of {} slide", sliding, counted(joints.size(), "joint"))});
-  double force = 0.0;
-  for (const JointWrench& joint : joints) force = std::max(force, joint.wrench.force.norm());
-  out->push_back({"Largest force of a joint", force_text(force),
-                  fmt::format("weight of all blocks {}", force_text(e.summary.weight_N))});
-  if (s.max_displacement_m)
-    out->push_back(
-        {"Largest displacement", length_text(*s.max_displacement_m), "from the compliance of the joints"});
+  if (std::optional<KeyNumber> crack = crack_answer(e)) out->push_back(std::move(*crack));
 }
 
-/// Whether the forces are those of the model, in words: "proven to 9 digits".
-std::string how_sure(const Summary& s) {
-  if (s.analysis == AnalysisType::limit && s.critical && s.critical->parameter != "peak_stress")
+}  // namespace
+
+std::string how_sure(const Evaluation& e) {
+  const Summary& s = e.summary;
+  if (s.critical && !is_stage(e.last.frame.role) && s.critical->parameter != "peak_stress")
     return fmt::format(
         "The structure stands at one end of a bracket of relative width {:.1e} and moves at the other. {}",
         std::abs(s.critical->stable - s.critical->moving) / std::max(std::abs(s.critical->value), 1e-300),
@@ -122,6 +88,8 @@ std::string how_sure(const Summary& s) {
   return fmt::format("{}: {}{} is at most {:.1e}.", lead, article, certificate.bounds, *certificate.value);
 }
 
+namespace {
+
 std::string numbers_html(const std::vector<KeyNumber>& numbers) {
   std::string out = "<div class=\"key-numbers\">\n";
   for (const KeyNumber& n : numbers)
@@ -133,14 +101,13 @@ std::string numbers_html(const std::vector<KeyNumber>& numbers) {
 }  // namespace
 
 std::vector<KeyNumber> key_numbers(const Evaluation& e, const std::vector<HistoryRow>& history) {
-  constexpr size_t kMost = 3;
+  constexpr size_t kMost = 4;
   std::vector<KeyNumber> out;
-  if (e.summary.critical) out.push_back(critical_number(*e.summary.critical));
-  for (const ForceRange& range : e.summary.ranges)
-    if (out.size() + 1 < kMost) out.push_back(range_number_of(range));
-  if (at_rest(e.summary)) {
+  if (at_rest(e)) {
     add_numbers_at_rest(e, &out);
+    out.insert(e.summary.ranges.empty() ? out.begin() : out.end(), margin_answer(e));
   } else {
+    if (e.summary.critical) out.push_back(margin_answer(e));
     const std::vector<KeyNumber> motion = motion_numbers(e, history);
     out.insert(out.end(), motion.begin(), motion.end());
   }
@@ -150,22 +117,23 @@ std::vector<KeyNumber> key_numbers(const Evaluation& e, const std::vector<Histor
 
 std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& history,
                          const StageReport* construction, const std::string& viewer) {
-  const Summary& s = e.summary;
   std::string out;
   for (const std::string& warning : notices(e))
     out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
-  out += fmt::format("<p class=\"verdict{}\"><strong>{}</strong> <small>{}</small></p>\n",
-                     s.status == Status::stable ? "" : " bad", markup_text(verdict_text(s)),
-                     markup_text(with_capital(s.message) + "."));
-  if (const std::string sure = at_rest(s) ? how_sure(s) : how_sure_of_motion(e); !sure.empty())
-    out += "<p><strong>How sure is that?</strong> " + markup_text(sure) + "</p>\n";
+  const VerdictWords verdict = verdict_words(e);
+  out +=
+      fmt::format("<p class=\"verdict{}\"><strong>{}</strong> <small>{}</small></p>\n",
+                  verdict.good ? "" : " bad", markup_text(verdict.words), markup_text(reason_for_verdict(e)));
   std::vector<KeyNumber> numbers = key_numbers(e, history);
   if (construction)
     numbers.insert(numbers.begin(),
                    {"Stages that stand",
                     fmt::format("{} of {}", construction->standing, construction->table.rows.size()),
                     construction->worst});
-  return out + numbers_html(numbers) + viewer + worst_joints_html(e);
+  out += numbers_html(numbers);
+  if (const std::string certain = certain_sentence(e); !certain.empty())
+    out += "<p class=\"certain\">" + markup_text(certain) + "</p>\n";
+  return "<div class=\"first\">\n" + out + viewer + worst_joints_html(e) + "</div>\n";
 }
 
 }  // namespace cupola

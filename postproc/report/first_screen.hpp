@@ -10,17 +10,19 @@
 
 namespace cupola {
 
-/// From here on a joint slides: its friction use prints as 100 %.
+/// From here on a joint is at its friction limit: its friction use prints as 100 %.
 inline constexpr double kSlides = 0.999;
 
 inline constexpr const char* kLargestPressure = "Largest pressure on a joint";
-inline constexpr const char* kLargestFrictionUse = "Largest friction use of a joint";
 
-/// At most three: of a limit analysis the critical value, of a range analysis the ranges, then thrust, thrust line and
-/// friction; of a run that is not at rest what moves, how far and when.
+/// At most four: by how much it stands, its thrust, pressure and widest crack, of a range analysis the ranges first; of a
+/// run that is not at rest what moves, how far and when.
 std::vector<KeyNumber> key_numbers(const Evaluation& evaluation, const std::vector<HistoryRow>& history);
 
-/// What answers the first questions, as HTML: warnings, verdict, key numbers, 3-D view, worst joints. `construction`: the stages
+/// How exact the forces are, in words: "proven to 9 digits".
+std::string how_sure(const Evaluation& evaluation);
+
+/// What answers the first questions, as HTML: warnings, verdict, key numbers, what is certain, 3-D view, worst joints. `construction`: the stages
 /// of a staged run, else null.
 std::string first_screen(const Evaluation& evaluation, const std::vector<HistoryRow>& history,
                          const StageReport* construction, const std::string& viewer);

@@ -35,6 +35,7 @@ a { color: var(--link); } p, li, figcaption { max-width: 55rem; }
 .key-numbers { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 15rem), 1fr)); gap: .75rem; margin: 1rem 0; }
 .key-numbers div { border: 1px solid var(--line); border-radius: .3rem; padding: .5rem .8rem; }
 .key-numbers span, .key-numbers small { display: block; color: var(--soft); } .key-numbers strong { font-size: 1.5rem; }
+.first { display: flex; flex-direction: column; } .first > .certain { max-width: none; margin: 0 0 .5rem; font-size: .9rem; color: var(--soft); }
 .scroll { overflow-x: auto; max-width: 100%; }
 table { border-collapse: collapse; font-size: .875rem; margin: .5rem 0; font-variant-numeric: tabular-nums; }
 th, td { padding: .15rem .6rem; border-bottom: 1px solid var(--line); text-align: right; vertical-align: top; }
@@ -56,6 +57,7 @@ dt { color: var(--soft); } dd { margin: 0; }
   body { padding: .5rem .75rem 2rem; } h1 { font-size: 1.3rem; }
   figure { overflow-x: auto; } figure img { max-width: none; width: 58rem; } figure.half img { width: 40rem; }
   figcaption { position: sticky; left: 0; }
+  .first > .verdict { order: -2; margin: .25rem 0; } .first > .view { order: -1; margin: .25rem 0; }
   dl { grid-template-columns: minmax(0, 1fr); } dd { margin: 0 0 .4rem; }
 }
 @media print { :root { --paper: #fff; --text: #1a1a1a; --soft: #444; }

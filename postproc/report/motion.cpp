@@ -103,9 +103,9 @@ std::vector<KeyNumber> motion_numbers(const Evaluation& e, const std::vector<His
   std::vector<KeyNumber> out;
   const bool unconverged = e.summary.status == Status::unconverged;
   if (unconverged && history.empty()) return out;
-  if (!unconverged && is_mechanism(e.summary, e.last.frame))
+  if (!unconverged && is_mechanism(e.last.frame.role))
     add_numbers_of_mechanism(e, &out);
-  else if (e.summary.analysis == AnalysisType::dynamic)
+  else if (e.last.frame.role == FrameRole::step)
     add_numbers_in_time(e, history, &out);
   if (out.size() < kMost)
     out.push_back({"Free blocks", fmt::format("{}", e.summary.free_blocks),
@@ -121,10 +121,10 @@ std::vector<std::string> motion_sentences(const Evaluation& e, const std::vector
                       ? "Neither forces nor motion are known: the requested accuracy was not reached."
                       : "The error of the motion is unknown: the requested accuracy was "
                         "not reached.");
-  else if (e.summary.analysis == AnalysisType::staged)
+  else if (is_stage(e.last.frame.role))
     out.push_back(
         "The table of stages shows which stages do not stand, the 3-D view how their blocks begin to move.");
-  else if (!is_mechanism(e.summary, e.last.frame))
+  else if (!is_mechanism(e.last.frame.role))
     add_motion_in_time(e, history, &out);
   else if (const Farthest farthest = farthest_block(e); farthest.displacement > 0.0)
     out.push_back(fmt::format(
@@ -137,25 +137,23 @@ std::string how_sure_of_motion(const Evaluation& e) {
   const Summary& s = e.summary;
   const Analysis& analysis = e.scene.analysis;
   if (s.status == Status::unconverged) return "";
-  if (s.analysis == AnalysisType::static_ && s.friction_law == FrictionLaw::associated &&
-      !e.scene.joints.have_strength())
-    return "It is proven, up to the forces named above, that no forces within the friction "
-           "cones "
-           "balance the loads. The proof holds for Coulomb's law too, which differs only in how joints "
-           "slide.";
-  if (s.analysis == AnalysisType::static_ && s.friction_law != FrictionLaw::associated)
-    return "A motion was found, but other contact forces might balance the loads; a range analysis "
-           "(analysis.type: range) shows whether any do.";
-  if (s.analysis == AnalysisType::dynamic && analysis.time_error)
+  if (s.analysis == AnalysisType::static_) {
+    if (s.friction_law != FrictionLaw::associated)
+      return "A motion was found, but other contact forces might balance the loads; a range analysis "
+             "(analysis.type: range) shows whether any do.";
+    if (!e.scene.joints.have_strength())
+      return "It is proven that no forces within the friction cones balance the loads, unless the message "
+             "says `not proven`. The proof holds for Coulomb's law too, which differs only in how joints "
+             "slide.";
+  }
+  if (e.last.frame.role != FrameRole::step) return "";
+  if (analysis.time_error)
     return fmt::format("The motion was followed with an estimated error of at most {} per step.",
                        length_text(*analysis.time_error));
-  if (s.analysis == AnalysisType::dynamic)
-    return fmt::format(
-        "The motion was followed in steps of {:g} s. How much a shorter step changes it is not known: "
-        "compare "
-        "two runs, or set analysis.time_error.",
-        s.time_step_s);
-  return "";
+  return fmt::format(
+      "The motion was followed in steps of {:g} s. How much a shorter step changes it is not known: compare "
+      "two runs, or set analysis.time_error.",
+      s.time_step_s);
 }
 
 }  // namespace cupola

@@ -1,6 +1,7 @@
 #include "postproc/report/report.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <set>
 
@@ -48,7 +49,7 @@ std::string heading(const std::string& title) {
 
 /// Of a range analysis the findings belong to one state of many.
 std::string findings_heading(const Summary& s) {
-  if (s.analysis != AnalysisType::range) return "Findings";
+  if (s.ranges.empty()) return "Findings";
   return has_chosen(s.ranges) ? "Findings in the chosen state" : "Findings in one admissible state";
 }
 
@@ -70,7 +71,7 @@ std::string case_section(const Evaluation& e) {
   const Compliance& c = e.scene.joints.compliance;
   const char* unit = c.per == Compliance::Per::point ? "m/N per contact point" : "m³/N per joint area";
   row("Joint compliance", fmt::format("normal {:g}, tangential {:g} {}", c.normal, c.tangential, unit));
-  if (s.analysis == AnalysisType::range && at_rest(s))
+  if (!s.ranges.empty())
     row("State shown",
         has_chosen(s.ranges) ? "the one that the compliances choose" : "one of the admissible ones");
   else
@@ -111,8 +112,7 @@ std::string range_picture(const ReportInput& input) {
 std::string motion_picture(const ReportInput& input) {
   const std::string file = (std::filesystem::path(input.picture_folder) / "motion.png").string();
   if (input.picture_folder.empty() || !std::filesystem::exists(file)) return "";
-  const bool mechanism = is_mechanism(input.evaluation->summary, input.evaluation->last.frame) ||
-                         at_rest(input.evaluation->summary);
+  const bool mechanism = is_mechanism(input.evaluation->last.frame.role) || at_rest(*input.evaluation);
   return mechanism ? figure_html(html_picture(file, "Mechanism"), "Mechanism.",
                                  "How the blocks begin to move. A mechanism has directions but no amplitude: "
                                  "the displacements are drawn large enough to be seen.")
@@ -190,15 +190,20 @@ std::string report_html(const ReportInput& input) {
   std::string body = heading(e.scene.title);
   body += first_screen(e, input.history, input.construction ? &*input.construction : nullptr, input.viewer);
   body += ranges_section(e, range_picture(input));
-  body += at_rest(e.summary) ? list_section(findings_heading(e.summary), finding_sentences(e))
-                             : list_section("Motion", motion_sentences(e, input.history));
+  body += at_rest(e) ? list_section(findings_heading(e.summary), finding_sentences(e))
+                     : list_section("Motion", motion_sentences(e, input.history));
   body += figures_section(input);
-  body += tables_section(input.tables, at_rest(e.summary));
-  std::vector<std::string> quality = quality_sentences(e.summary);
+  body += tables_section(input.tables, at_rest(e));
+  const Summary& s = e.summary;
+  std::vector<std::string> quality = quality_sentences(e);
   if (e.last.joints.floor.force > 0.0) quality.push_back(floor_text(e));
-  body += list_section("How good the answer is", quality);
+  std::string said = s.message;
+  if (!said.empty()) said[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(said[0])));
+  quality.insert(quality.begin(), said + ".");
+  if (at_rest(e)) quality.insert(quality.begin(), how_sure(e));
+  body += list_section("How exact", quality);
   body += case_section(e);
-  body += files_section(at_rest(e.summary), e.last.frame.ties.size() > 0, !input.picture_folder.empty());
+  body += files_section(at_rest(e), e.last.frame.ties.size() > 0, !input.picture_folder.empty());
   body += run_section(input);
   return html_page(e.scene.title, body);
 }

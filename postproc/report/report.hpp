@@ -33,8 +33,8 @@ std::string report_html(const ReportInput& input);
 std::vector<std::string> finding_sentences(const Evaluation& evaluation);
 
 /// The verdict and the solution quality in words, each with its numbers.
-std::string verdict_text(const Summary& summary);
-std::vector<std::string> quality_sentences(const Summary& summary);
+std::string verdict_text(const Summary& summary, FrameRole shown);  ///< `shown`: of the frame evaluated
+std::vector<std::string> quality_sentences(const Evaluation& evaluation);
 
 /// True if the two ends of the bracket of a critical value differ in the digits that the report prints.
 bool shows_bracket(const CriticalValue& critical);

@@ -55,12 +55,15 @@ std::string couple_text(const Evaluation& e, const PostSummary& s) {
   return text + ", that of the resultant of a strip of a thrust line " + length_text(strips) + ".";
 }
 
-std::string friction_text(const PostSummary& s) {
+std::string friction_text(const Evaluation& e, const PostSummary& s) {
   const double use = s.largest_friction_use.value_or(0.0);
   if (use == 0.0) return "Friction is not used: the tangential forces of all joints are negligible.";
-  constexpr double kSliding = 0.999;  // as printed: 100.0 %
-  return fmt::format("The largest friction utilisation of a joint is {}{}.", percent(use),
-                     use > kSliding ? ": this joint slides" : "");
+  const auto& joints = e.last.joints.wrenches;
+  const auto at_limit = std::count_if(joints.begin(), joints.end(),
+                                      [](const JointWrench& j) { return j.friction_use > kSlides; });
+  return at_limit > 0
+             ? fmt::format("{} of {} are at their friction limit.", at_limit, counted(joints.size(), "joint"))
+             : fmt::format("The largest friction use of a joint is {}.", percent(use));
 }
 
 std::string strength_text(const PostSummary& s) {
@@ -91,9 +94,8 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
   if (s.largest_strength_use && !leads(leading, kLargestPressure)) out.push_back(strength_text(s));
   for (const PlaneCut& cut : e.planes)
     out.push_back(
-        fmt::format("The joints across the plane {} transmit a normal force of {} (compression positive) to "
-                    "the part beyond.",
-                    cut.name, force_text(above(cut.across.force.dot(cut.normal), s.negligible_force_N))));
+        fmt::format("The joints across the plane {} transmit {} to the part beyond.", cut.name,
+                    normal_force_text(above(cut.across.force.dot(cut.normal), s.negligible_force_N))));
   for (const ChainForces& chain : e.chains) out.push_back(chain_text(chain));
   add_rings(e, s, &out);
   if (s.rib_over_mid_sail)
@@ -102,7 +104,7 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
         "and {:.2f} times on a single bed (compliance per {}).",
         *s.rib_over_mid_sail, *s.rib_over_mid_sail_smallest, *s.rib_over_mid_sail_largest, s.compliance_per));
   if (!e.rings.empty()) out.push_back(couple_text(e, s));
-  if (!leads(leading, kLargestFrictionUse)) out.push_back(friction_text(s));
+  out.push_back(friction_text(e, s));
   if (s.mean_kern_use)
     out.push_back(
         *s.mean_kern_use == 0.0
@@ -111,9 +113,11 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
             : fmt::format("The mean eccentricity of the bed forces is {:.2f} of the distance to the edge of "
                           "the kern. Where it exceeds 1, part of the joint is unloaded.",
                           *s.mean_kern_use));
-  if (const double length = s.crack_length_m.value_or(0.0); length > 0.0)
-    out.push_back(fmt::format("Joints are open over {} in total, by up to {}.", length_text(length),
-                              length_text(*s.widest_crack_m)));
+  if (s.max_displacement_m)
+    out.push_back(fmt::format(
+        "The largest displacement of a block is {}, from the compliance of the joints and the motion of "
+        "the supports.",
+        length_text(*s.max_displacement_m)));
   return out;
 }
 
@@ -121,37 +125,37 @@ bool shows_bracket(const CriticalValue& critical) {
   return fmt::format("{:.5g}", critical.stable) != fmt::format("{:.5g}", critical.moving);
 }
 
-std::string verdict_text(const Summary& s) {
-  if (s.analysis == AnalysisType::limit && s.critical && s.critical->parameter == "peak_stress")
+std::string verdict_text(const Summary& s, FrameRole shown) {
+  const bool stages = is_stage(shown), limit = s.critical && !stages;
+  if (limit && s.critical->parameter == "peak_stress")
     return fmt::format(
         "In one admissible state no stress exceeds {:.5g} Pa; every other one has a stress of at least "
         "{:.5g} Pa "
         "somewhere. The forces below are those of the state found.",
         s.critical->stable, s.critical->moving);
-  if (s.analysis == AnalysisType::limit && s.critical && !shows_bracket(*s.critical))
+  if (limit && !shows_bracket(*s.critical))
     return fmt::format(
         "The structure stands {} {} and moves {} it. The forces below are those at this value.",
         s.critical->stable < s.critical->moving ? "up to" : "down to",
         phrase(s.critical->parameter, s.critical->stable),
         s.critical->stable < s.critical->moving ? "beyond" : "below");
-  if (s.analysis == AnalysisType::limit && s.critical)
+  if (limit)
     return fmt::format(
         "The structure stands at {} and moves at {:.5g}. The forces below are those at {:.5g}.",
         phrase(s.critical->parameter, s.critical->stable), s.critical->moving, s.critical->stable);
-  if (s.analysis == AnalysisType::range && s.status == Status::stable)
+  if (!s.ranges.empty() && s.status == Status::stable)
     return "Forces exist that balance the loads within the joint laws.";
-  if (s.analysis == AnalysisType::range && !s.ranges.empty())
+  if (!s.ranges.empty())
     return "Forces exist that balance the loads, but not all ends of the ranges reached the requested "
            "accuracy.";
   if (s.analysis == AnalysisType::range && s.status == Status::moving)
     return "The structure moves: no forces balance the loads within the joint laws.";
   switch (s.status) {
     case Status::stable:
-      return s.analysis == AnalysisType::staged ? "Every stage of the construction stands."
-                                                : "The structure is at rest.";
+      return stages ? "Every stage of the construction stands." : "The structure is at rest.";
     case Status::moving:
-      return s.analysis == AnalysisType::staged ? "Not every stage of the construction stands."
-                                                : "The structure is moving: no equilibrium was found.";
+      return stages ? "Not every stage of the construction stands."
+                    : "The structure is moving: no equilibrium was found.";
     case Status::collapsed:
       return "The structure has collapsed.";
     case Status::unconverged:
@@ -160,11 +164,13 @@ std::string verdict_text(const Summary& s) {
   return "";
 }
 
-std::vector<std::string> quality_sentences(const Summary& s) {
-  const bool equilibrium = at_rest(s), in_time = s.max_speed_m_per_s.has_value();
+std::vector<std::string> quality_sentences(const Evaluation& e) {
+  const Summary& s = e.summary;
+  const FrameRole shown = e.last.frame.role;
+  const bool equilibrium = at_rest(e), in_time = s.max_speed_m_per_s.has_value();
   std::vector<std::string> out{to_sentence(s.accuracy)};
   const auto add = [&out](std::string text) { out.push_back(std::move(text)); };
-  if (s.analysis == AnalysisType::limit && s.critical)
+  if (s.critical && !is_stage(shown))
     add(fmt::format("The residuals below are those of the equilibrium at {:.5g}.", s.critical->stable));
   if (equilibrium && s.equilibrium_residual)  // in motion it is mostly inertia
     add(fmt::format("The largest unbalanced force on a free block is {:.1e} of the mean block weight.",
@@ -172,7 +178,7 @@ std::vector<std::string> quality_sentences(const Summary& s) {
   if (equilibrium || in_time) {  // a static solve without an equilibrium has no forces
     if (s.contact_law_residual)
       add(fmt::format("The contact law holds to within {:.1e} of the forces{}.", *s.contact_law_residual,
-                      s.steps > 1 && s.analysis != AnalysisType::limit ? " in every step" : ""));
+                      s.steps > 1 && shown != FrameRole::equilibrium ? " in every step" : ""));
     if (const auto& worst = s.largest_law_violation)
       add(fmt::format(
           "At the worst contact, between the blocks {} and {}, the law holds to within {:.1e} of the force "

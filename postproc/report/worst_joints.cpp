@@ -23,7 +23,7 @@ std::string named_block(const Evaluation& e, int b) {
 std::string joint_link(const Evaluation& e, size_t index) {
   const JointWrench& joint = e.last.joints.wrenches[index];
   const std::string target =
-      at_rest(e.summary) ? fmt::format("joint=\"{}\"", index) : fmt::format("block=\"{}\"", joint.block_b);
+      at_rest(e) ? fmt::format("joint=\"{}\"", index) : fmt::format("block=\"{}\"", joint.block_b);
   return fmt::format("<a href=\"#view\" data-{}>The {} joint between blocks {} and {}</a>", target,
                      joint.kind == JointKind::other ? "" : to_string(joint.kind),
                      markup_text(named_block(e, joint.block_a)), markup_text(named_block(e, joint.block_b)));
@@ -38,10 +38,10 @@ std::string at_rest_html(const Evaluation& e) {
   std::string out;
   if (worst.sliding && e.last.joints.wrenches[*worst.sliding].friction_use > 0.0) {
     const JointWrench& j = e.last.joints.wrenches[*worst.sliding];
-    out += fmt::format("<li>{} {}: it uses {:.3g} % of its friction under a normal force of {}.</li>\n",
+    out += fmt::format("<li>{} {}: it uses {:.3g} % of its friction under {}.</li>\n",
                        joint_link(e, *worst.sliding),
-                       j.friction_use > kSlides ? "slides" : "is the nearest to sliding",
-                       100.0 * j.friction_use, markup_text(force_text(j.normal_force)));
+                       j.friction_use > kSlides ? "is at its friction limit" : "is the nearest to sliding",
+                       100.0 * j.friction_use, markup_text(normal_force_text(j.normal_force)));
   }
   if (worst.edge && e.last.joints.wrenches[*worst.edge].kern > 0.0) {
     const JointWrench& j = e.last.joints.wrenches[*worst.edge];
@@ -63,7 +63,7 @@ std::string moving_html(const Evaluation& e) {
   constexpr double kSmall = 0.01;  // of the fastest block: not shown
   const std::optional<MovingJoints> moving = moving_joints(e);
   if (!moving) return "";
-  const bool mechanism = is_mechanism(e.summary, e.last.frame);
+  const bool mechanism = is_mechanism(e.last.frame.role);
   std::string out;
   const auto add = [&](const MovingJoints::Joint& joint, const char* speed, const char* distance) {
     if (mechanism && joint.motion >= kSmall)
@@ -106,9 +106,9 @@ WorstJoints worst_joints(const JointWrenches& joints) {
 
 std::optional<MovingJoints> moving_joints(const Evaluation& e) {
   const std::vector<JointWrench>& joints = e.last.joints.wrenches;
-  const bool mechanism = is_mechanism(e.summary, e.last.frame);
-  if (at_rest(e.summary) || e.summary.status == Status::unconverged || joints.empty()) return std::nullopt;
-  if (!mechanism && e.summary.analysis != AnalysisType::dynamic) return std::nullopt;
+  const bool mechanism = is_mechanism(e.last.frame.role);
+  if (at_rest(e) || e.summary.status == Status::unconverged || joints.empty()) return std::nullopt;
+  if (!mechanism && e.last.frame.role != FrameRole::step) return std::nullopt;
   double fastest = 0.0;
   for (const Vec3& v : e.last.frame.blocks.velocity) fastest = std::max(fastest, v.norm());
   if (mechanism && fastest == 0.0) return std::nullopt;
@@ -126,7 +126,7 @@ std::optional<MovingJoints> moving_joints(const Evaluation& e) {
 }
 
 std::string worst_joints_html(const Evaluation& e) {
-  return at_rest(e.summary) ? at_rest_html(e) : moving_html(e);
+  return at_rest(e) ? at_rest_html(e) : moving_html(e);
 }
 
 }  // namespace cupola

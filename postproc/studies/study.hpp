@@ -1,48 +1,48 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "assembly/model/results.hpp"
-#include "postproc/studies/run_errors.hpp"
-#include "postproc/studies/settings_file.hpp"
-#include "postproc/tables/table.hpp"
+#include "assembly/case/sweep.hpp"
+#include "postproc/claims/claim.hpp"
+#include "postproc/studies/study_table.hpp"
+#include "postproc/studies/tradeoff_runs.hpp"
 
 namespace cupola {
 
-/// One run of the study with its cost and its errors against the reference.
-struct StudyRow {
-  StudyPoint point;
-  std::optional<Summary> summary;  ///< none: the run or its reference is not finished
-  ForceErrors errors;              ///< zero for a reference or if one of the two is not finished
-  /// Limit analyses only: relative error of the critical value. Their wrenches are not compared because their
-  /// last frames belong to different loads.
-  std::optional<double> critical_error;
-
-  bool finished() const { return summary.has_value(); }
-  /// False if the run did not reach its requested accuracy.
-  bool reached() const { return finished() && summary->status != Status::unconverged; }
-  /// The error used for ranking: of the critical value if there is one, otherwise wrench_rms.
-  double error() const { return critical_error.value_or(errors.wrench_rms); }
-  /// True if the run sets --threads: threads reduce the wall time, not the processor time.
-  bool uses_wall_time() const;
-  /// Processor time, or wall time if uses_wall_time().
-  double seconds() const;
+/// Finished runs side by side: comparison.html and comparison.csv.
+struct Comparison {
+  std::string name;  ///< subfolder of the study's folder; empty: the folder itself
+  std::vector<std::string> runs;
 };
 
-/// Reads and compares the runs in the folders `runs`/NAME/results and `runs`/NAME/post. A row whose run or
-/// reference is incomplete has no summary.
-std::vector<StudyRow> measure_study(const std::vector<StudyPoint>& points, const std::string& runs);
+/// A study: runs, the numbers taken from them, and what is made of the numbers. It is a YAML file
+/// cases/studies/NAME.yaml (docs/cases.md describes its keys), or a case with a `sweep`, which is the short form of a study
+/// of that case.
+struct Study {
+  std::string name;  ///< of the file without ending; runs that the study defines are in the folder NAME/
+  std::string title;
+  std::string script;  ///< in tests/benchmark: prints the rows of the tables without columns
+  std::vector<StudyRun>
+      runs;  ///< in the order of the file; tables have one row for each unless they say otherwise
+  std::vector<StudyTable> tables;
+  std::vector<Comparison> comparisons;
+  std::vector<TradeoffRun> tradeoff;
+  std::vector<Claim> claims;
+  std::vector<ClaimFigure> figures;
+  std::vector<SweptKey> sweep;  ///< of a case
+};
 
-/// The knobs in the order of their first appearance.
-std::vector<std::string> knobs_of(const std::vector<StudyRow>& rows);
-/// The finished rows of a knob without its references, fastest first.
-std::vector<StudyRow> rows_of(const std::vector<StudyRow>& rows, const std::string& knob);
-/// The Pareto front of rows sorted by time: converged runs with a smaller error() than every faster one.
-std::vector<StudyRow> pareto_front(const std::vector<StudyRow>& rows);
+/// Reads a study with the strict reader of case files; throws InputError with line and key. `case_name`, if not empty,
+/// replaces the key `case` of a trade-off.
+Study read_study(const std::string& path, const std::string& case_name = "");
 
-/// tradeoff.csv: one row per run.
-Table study_table(const std::vector<StudyRow>& rows);
+/// Every run that the study reads, each once: those that it defines first.
+std::vector<StudyRun> members_of(const Study& study);
+
+/// One line per run: NAME for a run that exists as case or variant, NAME CASE key.path=value ... for the others, in the
+/// format of cases/variants.txt. Throws InputError for a name that is neither a case nor a variant beside the study's
+/// folder.
+std::string members_text(const std::vector<StudyRun>& members, const std::string& study_path);
 
 }  // namespace cupola

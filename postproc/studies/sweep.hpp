@@ -4,27 +4,20 @@
 #include <vector>
 
 #include "assembly/case/sweep.hpp"
-#include "assembly/program/program.hpp"
-#include "postproc/tables/table.hpp"
+#include "postproc/studies/study_page.hpp"
+#include "postproc/studies/study_run.hpp"
 
 namespace cupola {
-
-/// One line per member, NAME CASE key.path=value ..., in the format of cases/variants.txt.
-std::string members_text(const std::vector<SweepMember>& members, const std::string& case_name);
 
 /// One row per member: settings, status, residual, displacement, critical value and time, and minimum, chosen value and
 /// maximum of each range of a range analysis. A member without
 /// results has the status `missing` and a remark that says how far it got.
-Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMember>& members,
+Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<StudyRun>& members,
                   const std::string& runs_folder);
 
-/// Number of members with the status `missing`.
-int num_missing(const Table& table);
-
-/// The command line: cupola-post sweep CASE.yaml --members FILE | --runs FOLDER [--output FOLDER]
-///
-/// With --members it lists the runs of the case's `sweep`; with --runs it tabulates the finished ones. The
-/// exit code is `failed` if members are missing.
-ExitCode run_sweep(int argc, const char* const* argv);
+/// Adds a sweep to a page: how the members ended, a figure, the table (sweep.csv), and links to the reports of the
+/// members. Returns the same as text.
+std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<StudyRun>& members,
+                      const std::string& runs_folder, StudyPage* page);
 
 }  // namespace cupola

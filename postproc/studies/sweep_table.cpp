@@ -32,13 +32,13 @@ std::string progress(const std::string& folder) {
 }
 
 /// Adds what joints with strength use of it, if the members have strength.
-void add_strength_columns(const std::vector<SweepMember>& members, const std::string& runs_folder, Table* t) {
+void add_strength_columns(const std::vector<StudyRun>& members, const std::string& runs_folder, Table* t) {
   const std::vector<Table::Column> columns = {
       {"largest_pressure_Pa", "Pa", "largest pressure on a joint"},
       {"largest_strength_use", "", "largest share of compressive or tensile strength that a joint uses"}};
   std::vector<std::vector<Table::Cell>> cells;
   bool any = false;
-  for (const SweepMember& member : members) {
+  for (const StudyRun& member : members) {
     RunFiles run(fmt::format("{}/{}", runs_folder, member.name));
     std::vector<Table::Cell>& row = cells.emplace_back();
     for (const Table::Column& column : columns) row.push_back(number_or_empty(run, "post." + column.key));
@@ -58,14 +58,7 @@ std::vector<ForceRange> ranges_of_member(const std::string& folder) {
 
 }  // namespace
 
-std::string members_text(const std::vector<SweepMember>& members, const std::string& case_name) {
-  std::string out;
-  for (const SweepMember& member : members)
-    out += fmt::format("{} {} {}\n", member.name, case_name, fmt::join(member.settings, " "));
-  return out;
-}
-
-Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMember>& members,
+Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<StudyRun>& members,
                   const std::string& runs_folder) {
   Table t{"sweep", "The members of the sweep", {{"member", "", "name of the run"}}, {}};
   for (const SweptKey& swept : sweep) t.columns.push_back({swept.key, "", swept.key});
@@ -78,7 +71,7 @@ Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMem
       {"cpu_time_seconds", "s", "processor time of cupola-solve"}};
   t.columns.insert(t.columns.end(), numbers.begin(), numbers.end());
   std::vector<std::vector<ForceRange>> ranges;
-  for (const SweepMember& member : members) {
+  for (const StudyRun& member : members) {
     std::vector<Table::Cell> row = {member.name};
     for (const std::string& setting : member.settings)
       row.emplace_back(setting.substr(setting.find('=') + 1));
@@ -101,16 +94,6 @@ Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<SweepMem
   add_strength_columns(members, runs_folder, &t);
   add_range_columns(ranges, &t);
   return t;
-}
-
-int num_missing(const Table& table) {
-  const auto status = std::find_if(table.columns.begin(), table.columns.end(),
-                                   [](const Table::Column& column) { return column.key == "status"; });
-  CUPOLA_ASSERT(status != table.columns.end());
-  const auto at = status - table.columns.begin();
-  return static_cast<int>(std::count_if(table.rows.begin(), table.rows.end(), [at](const auto& row) {
-    return row[at] == Table::Cell(std::string(kMissing));
-  }));
 }
 
 }  // namespace cupola

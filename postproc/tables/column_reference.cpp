@@ -43,6 +43,7 @@ std::string column_reference() {
   return reference_of("ranges.csv: ranges over all admissible states", range_columns(),
                       {{"summary.json", {kRangeSummaryKeys}}}) +
          reference_of("rings.csv: ring cuts", ring_columns(), {{"summary.json", {kRingSummaryKeys}}}) +
+         reference_of("reactions.csv: forces on the supports", reaction_columns(), {}) +
          reference_of("members.csv: wythes and bonders", member_columns(), {}) +
          reference_of("wythes.csv: what passes through each wythe", wythe_columns(), {}) +
          reference_of("thrust_NAME.csv, thrust_NAME_WYTHE.csv: thrust line of a meridian", thrust_columns(),
@@ -61,7 +62,8 @@ std::string column_reference() {
              "blocks.csv, blocks_NNNN.vtu, wrenches.vtp: blocks", block_columns(),
              {{"blocks_NNNN.vtu", {kBlockMeshKeys}}, {"wrenches.vtp", {kWrenchCellKeys, kWrenchPointKeys}}}) +
          reference_of(
-             "shell.csv, shell_x.csv, shell_WYTHE.csv, shell_x_WYTHE.csv: blocks of the unrolled shell",
+             "shell.csv, shell_x.csv, shell_y.csv, shell_WYTHE.csv, shell_x_WYTHE.csv: blocks of the "
+             "unrolled shell",
              shell_columns(), {}) +
          reference_of("thrust_lines.vtp: cells", line_cell_columns(),
                       {{"thrust_lines.vtp", {kLineCellKeys}}}) +

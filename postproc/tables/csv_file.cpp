@@ -3,33 +3,38 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
+#include "assembly/files/csv_text.hpp"
 
 namespace cupola {
 namespace {
 
-std::vector<std::string> cells_of(const std::string& line) {
+/// The cells of the record that begins at `*start`, which moves to the next one. A quoted cell may hold line ends.
+std::vector<std::string> cells_at(const std::string& text, size_t* start) {
   std::vector<std::string> cells(1);
   bool quoted = false;
-  for (size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+  for (size_t& i = *start; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' && quoted && i + 1 < text.size() && text[i + 1] == '"') {
       cells.back() += '"';
       ++i;
     } else if (c == '"') {
       quoted = !quoted;
     } else if (c == ',' && !quoted) {
       cells.emplace_back();
+    } else if (c == '\n' && !quoted) {
+      ++i;
+      break;
     } else {
       cells.back() += c;
     }
   }
+  for (std::string& cell : cells) cell = text_of_csv(cell);
   return cells;
 }
 
@@ -60,14 +65,13 @@ CsvFile read_csv(const std::string& path) {
 }
 
 CsvFile parse_csv(const std::string& text, const std::string& path) {
-  std::istringstream stream(text);
   CsvFile file;
   file.path = path;
-  std::string line;
-  if (!std::getline(stream, line)) throw InputError(FileLocation{path}, "is empty: expected a header line");
-  file.columns = cells_of(line);
-  while (std::getline(stream, line)) {
-    file.rows.push_back(cells_of(line));
+  if (text.empty()) throw InputError(FileLocation{path}, "is empty: expected a header line");
+  size_t start = 0;
+  file.columns = cells_at(text, &start);
+  while (start < text.size()) {
+    file.rows.push_back(cells_at(text, &start));
     if (file.rows.back().size() != file.columns.size())
       throw InputError(
           FileLocation{path, static_cast<int>(file.rows.size()) + 1, 0},

@@ -216,7 +216,7 @@ PostSummary post_summary(const Evaluation& e) {
   s.compliance_per = to_string(e.scene.joints.compliance.per);
   s.points_per_base_joint = points_per_base_joint(e.last.joints);
   s.ranges = e.summary.ranges;
-  if (at_rest(e.summary)) add_equilibrium(e, &s);
+  if (at_rest(e)) add_equilibrium(e, &s);
   return s;
 }
 

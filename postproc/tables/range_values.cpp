@@ -82,6 +82,14 @@ double relative_range(const ForceRange& range) {
   return mean > 0.0 ? (*range.max.value - *range.min.value) / mean : kNone;
 }
 
+double margin_of(const ForceRange& range) {
+  for (const RangeEnd* end : {&range.min, &range.max})
+    if (end->outcome != RangeOutcome::bounded || !end->value) return kNone;
+  const double width = *range.max.value - *range.min.value;
+  if (!range.chosen || !(width > 0.0)) return kNone;
+  return std::min(*range.chosen - *range.min.value, *range.max.value - *range.chosen) / width;
+}
+
 std::vector<double> relative_ranges(const std::vector<ForceRange>& ranges,
                                     const std::vector<JointWrench>& joints) {
   std::map<std::pair<int, int>, double> of_joint;

@@ -24,6 +24,10 @@ double size_of(const ForceRange& range);
 /// unbounded; NaN if an end was not found or both are zero.
 double relative_range(const ForceRange& range);
 
+/// Distance of the chosen value from the nearer end, over the width: 0 at an end, 0.5 in the middle. NaN without a chosen
+/// value or two bounded ends.
+double margin_of(const ForceRange& range);
+
 /// relative_range() of the normal force of each joint; NaN for joints without a range; empty if none has one.
 std::vector<double> relative_ranges(const std::vector<ForceRange>& ranges,
                                     const std::vector<JointWrench>& joints);

@@ -123,6 +123,8 @@ const Columns<ForceRange>& range_columns() {
        [](const R& r) { return r.max.frame.value_or(-1); }},
       {"relative_range", "", "width of the range over its mean, 0: certain, 2: from zero; inf: unbounded",
        [](const R& r) { return relative_range(r); }},
+      {"margin", "", "distance of the chosen value from the nearer end, over the width of the range",
+       [](const R& r) { return margin_of(r); }},
       {"block_a", "", "of a normal force: block of the joint with the smaller number; -1: another quantity",
        [](const R& r) { return r.joint ? r.joint->first : -1; }},
       {"block_b", "", "of a normal force: the other block of the joint; -1: another quantity",
@@ -149,7 +151,9 @@ const Columns<RingRow>& ring_columns() {
        [](const R& r) { return r.cut.cv_resultant; }},
       {"cv_pressure", "", "coefficient of variation of the blocks' bed pressures",
        [](const R& r) { return r.cut.cv_pressure; }},
-      {"radial_thrust_N", "N", "sum of the outward force components on the ring below",
+      {"radial_thrust_N", "N",
+       "sum of the forces of its joints on the ring below along the outward direction at the centroid of "
+       "each",
        [](const R& r) { return r.cut.radial_thrust; }},
       {"largest_couple_length_m", "m", "largest couple length of a block's wrench",
        [](const R& r) { return r.cut.largest_couple_length; }},
@@ -340,6 +344,23 @@ const Columns<ChainForces>& chain_columns() {
       {"slack_bars", "", "bars without tension", &C::slack},
       {"yielding_bars", "", "bars that have elongated plastically", &C::yielding},
       {"yielded_m", "m", "plastic elongation of all bars together", &C::yielded},
+  };
+  return columns;
+}
+
+const Columns<Reaction>& reaction_columns() {
+  using S = Reaction;
+  static const Columns<S> columns{
+      {"support", "", "index of the fixed block", &S::block},
+      {"force_{}_N", "N", "of the structure on the support", &S::force},
+      {"outward_force_N", "N", "sum of its joints along the outward direction at the centroid of each",
+       &S::outward},
+      {"length_m", "m", "of its joints along the course, area over thickness; empty: no thickness",
+       &S::length},
+      {"vertical_N_per_m", "N/m", "downwards on the support, per metre of support",
+       [](const S& r) { return -r.force.z() / r.length; }},
+      {"outward_N_per_m", "N/m", "outwards, per metre of support",
+       [](const S& r) { return r.outward / r.length; }},
   };
   return columns;
 }

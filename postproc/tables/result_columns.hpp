@@ -94,6 +94,7 @@ const Columns<ThrustPoint>& thrust_columns();
 const Columns<HoopRow>& hoop_columns();
 const Columns<ChainForces>& chain_columns();
 const Columns<TieRow>& tie_columns();
+const Columns<Reaction>& reaction_columns();
 const Columns<BedResultant>& section_columns();
 const Columns<PlaneJoint>& plane_columns();
 const Columns<LineCell>& line_cell_columns();

@@ -121,6 +121,8 @@ std::vector<Table> result_tables(const Evaluation& e) {
   std::vector<Table> tables;
   if (!e.summary.ranges.empty()) tables.push_back(range_table(e.summary.ranges));
   if (!e.rings.empty()) tables.push_back(ring_table(e));
+  if (!e.reactions.empty())
+    tables.push_back(make_table("reactions", "Forces on the supports", reaction_columns(), e.reactions));
   if (!e.members.empty()) tables.push_back(member_table(e));
   if (!e.wythes.empty()) tables.push_back(wythe_table(e));
   for (const MeridianEvaluation& m : e.meridians) {

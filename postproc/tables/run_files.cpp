@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "assembly/base/error.hpp"
+#include "assembly/case/case_tree.hpp"
 #include "assembly/files/atomic_file.hpp"
+#include "assembly/files/number_text.hpp"
 
 namespace cupola {
 namespace {
@@ -42,6 +44,18 @@ const UnorderedJson* descend(const UnorderedJson& root, const std::string& key) 
   return at;
 }
 
+/// "; did you mean KEY?" for a key that is probably misspelt, or "".
+std::string near_key(const UnorderedJson& root, const std::string& key) {
+  const size_t dot = key.rfind('.');
+  const std::string parent = dot == std::string::npos ? "" : key.substr(0, dot + 1);
+  const UnorderedJson* map = parent.empty() ? &root : descend(root, key.substr(0, dot));
+  std::vector<std::string> names;
+  if (map && map->is_object())
+    for (const auto& entry : map->items()) names.push_back(entry.key());
+  const std::string near = nearest_name(key.substr(parent.size()), names);
+  return near.empty() ? "" : fmt::format("; did you mean {}{}?", parent, near);
+}
+
 }  // namespace
 
 struct RunFiles::Summaries {
@@ -68,10 +82,33 @@ std::string RunFiles::message() {
   return text_of_results("message");
 }
 
+std::string RunFiles::revision() {
+  const std::string version = text_of_results("program_version");
+  const size_t open = version.rfind('('), close = version.rfind(')');
+  return open == std::string::npos || close == std::string::npos ? version
+                                                                 : version.substr(open + 1, close - open - 1);
+}
+
+double RunFiles::number_of_case(const std::string& key) {
+  const std::string path = folder_ + "/results/run.yaml";
+  if (!case_) case_ = load_case_tree(path, {});
+  const CaseNode* node = &*case_;
+  for (size_t start = 0; node && start <= key.size();) {
+    const size_t dot = std::min(key.find('.', start), key.size());
+    node = node->find(key.substr(start, dot - start));
+    start = dot + 1;
+  }
+  double value = 0.0;
+  if (!node || node->kind != CaseNode::Kind::scalar || !read_number(node->text, &value).empty())
+    throw InputError(FileLocation{path}, fmt::format("has no number `{}`", key));
+  return value;
+}
+
 double RunFiles::number(const std::string& key) {
   const bool of_results = key.starts_with("results.");
+  if (key.starts_with("case.")) return number_of_case(key.substr(key.find('.') + 1));
   if (!of_results && !key.starts_with("post."))
-    throw InputError(fmt::format("claims: key {}: must begin with `results.` or `post.`", key));
+    throw InputError(fmt::format("key {}: must begin with `results.`, `post.` or `case.`", key));
   const std::string path = folder_ + (of_results ? "/results/" : "/post/") + "summary.json";
   std::optional<UnorderedJson>& json = of_results ? summaries_->results : summaries_->post;
   if (!json) json = read_json(path);
@@ -79,14 +116,15 @@ double RunFiles::number(const std::string& key) {
   const UnorderedJson* value = descend(*json, inner);
   if (value && value->is_boolean()) return value->get<bool>() ? 1.0 : 0.0;
   if (!value || !value->is_number())
-    throw InputError(FileLocation{path}, fmt::format("has no number `{}`", inner));
+    throw InputError(FileLocation{path}, fmt::format("has no number `{}`{}", inner, near_key(*json, inner)));
   return value->get<double>();
 }
 
 const CsvFile& RunFiles::table(const std::string& name) {
   const auto found = tables_.find(name);
   if (found != tables_.end()) return found->second;
-  return tables_.emplace(name, read_csv(fmt::format("{}/post/{}.csv", folder_, name))).first->second;
+  const std::string file = name.starts_with("results/") ? name : "post/" + name;
+  return tables_.emplace(name, read_csv(fmt::format("{}/{}.csv", folder_, file))).first->second;
 }
 
 std::vector<std::string> RunFiles::table_names(const std::string& start) const {

@@ -2,9 +2,11 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "assembly/case/case_node.hpp"
 #include "postproc/tables/csv_file.hpp"
 
 namespace cupola {
@@ -15,21 +17,24 @@ class RunFiles {
   explicit RunFiles(std::string folder);
   ~RunFiles();
 
-  std::string status();   ///< of results/summary.json
-  std::string message();  ///< of results/summary.json: why the run ended with this status
-  /// Number `results.KEY` or `post.KEY` of the two summaries. Dots in KEY descend into maps and, by index,
-  /// into lists. Booleans count as 0 and 1. InputError if there is no such number.
+  std::string status();    ///< of results/summary.json
+  std::string message();   ///< of results/summary.json: why the run ended with this status
+  std::string revision();  ///< of cupola-solve, from the `program_version` in results/summary.json
+  /// Number `results.KEY` or `post.KEY` of the two summaries, or `case.KEY` of the case as it was run. Dots in KEY descend
+  /// into maps and, by index, into lists. Booleans count as 0 and 1. InputError if there is no such number.
   double number(const std::string& key);
-  const CsvFile& table(const std::string& name);  ///< post/NAME.csv
+  const CsvFile& table(const std::string& name);  ///< post/NAME.csv; for the name results/NAME that file
   /// Sorted names of the tables whose name begins with `start`.
   std::vector<std::string> table_names(const std::string& start) const;
 
  private:
   std::string text_of_results(const std::string& key);
+  double number_of_case(const std::string& key);
 
   struct Summaries;
   std::string folder_;
   std::unique_ptr<Summaries> summaries_;
+  std::optional<CaseNode> case_;  // as it was run
   std::map<std::string, CsvFile> tables_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
 
 #include <fmt/format.h>
@@ -10,9 +11,6 @@
 
 namespace cupola {
 namespace {
-
-constexpr const char* kByAzimuth = "shell";
-constexpr const char* kAlongX = "shell_x";
 
 /// Share of the thickness that a wythe takes on a bed; on the nearest bed where its layers are known, if they are not.
 double share_of(const Shell& shell, int bed, int wythe) {
@@ -37,7 +35,7 @@ void add_boxes(const Evaluation& e, ShellMap* out) {
   for (int ring = 0; ring < out->num_rings; ++ring) {
     for (const BedFacet& f : e.shell.beds[ring]) {
       if (!e.shell.wythes[f.block].contains(out->number)) continue;
-      const auto place = [&](const Vec3& p) { return out->vault ? azimuth(p) : p.x(); };
+      const auto place = [&](const Vec3& p) { return out->vault ? azimuth(p) : out->arch ? p.y() : p.x(); };
       const double a = place(f.intrados_a);
       const double part =
           e.shell.wythes[f.block].count() == 1 ? 1.0 : share_of(e.shell, ring, out->number) / (f.to - f.from);
@@ -66,7 +64,8 @@ const Columns<ShellBox>& shell_columns() {
   static const Columns<B> columns{
       {"block", "", "index in the assembly", &B::block},
       {"ring", "", "ring of the unrolled shell", &B::ring},
-      {"from", "", "where the block begins: azimuth in deg, in shell_x.csv x in m", &B::from},
+      {"from", "", "where the block begins: azimuth in deg, in shell_x.csv x in m, in shell_y.csv y in m",
+       &B::from},
       {"to", "", "where the block ends", &B::to},
       {"meridional_force_N_per_m", "N/m",
        "meridional force per metre of ring, compression positive; 0: negligible", &B::meridional_force},
@@ -81,6 +80,10 @@ const Columns<ShellBox>& shell_columns() {
 
 // clang-format on
 
+std::string ShellMap::table_name() const {
+  return vault ? "shell" : arch ? "shell_y" : "shell_x";
+}
+
 std::string ShellMap::suffix() const {
   return wythe.empty() ? "" : fmt::format("_{}", in_file_names(wythe));
 }
@@ -90,7 +93,8 @@ std::vector<ShellMap> shell_maps(const Evaluation& e) {
   if (e.shell.num_rings() == 0) return maps;
   const bool named = !e.assembly.members.empty();
   for (int wythe = 0; wythe < e.shell.num_wythes; ++wythe) {
-    maps.push_back({is_vault(e), e.shell.num_rings(), {}, named ? e.assembly.members[wythe] : "", wythe});
+    maps.push_back(
+        {is_vault(e), e.shell.num_rings(), {}, named ? e.assembly.members[wythe] : "", wythe, is_arch(e)});
     add_boxes(e, &maps.back());
     if (named && maps.back().boxes.empty()) maps.pop_back();
   }
@@ -98,19 +102,19 @@ std::vector<ShellMap> shell_maps(const Evaluation& e) {
 }
 
 Table shell_table(const ShellMap& map) {
-  return make_table(fmt::format("{}{}", map.vault ? kByAzimuth : kAlongX, map.suffix()),
+  return make_table(fmt::format("{}{}", map.table_name(), map.suffix()),
                     fmt::format("Blocks of the unrolled {}, as the maps show them",
                                 map.wythe.empty() ? "shell" : fmt::format("wythe {}", map.wythe)),
                     shell_columns(), map.boxes);
 }
 
 std::optional<ShellMap> read_shell_map(const std::string& post_folder) {
-  for (const bool vault : {true, false}) {
-    const std::string path =
-        (std::filesystem::path(post_folder) / (vault ? kByAzimuth : kAlongX)).string() + ".csv";
+  ShellMap vault{true, 0, {}}, wall{false, 0, {}}, arch{false, 0, {}};
+  arch.arch = true;
+  for (ShellMap& map : {std::ref(vault), std::ref(wall), std::ref(arch)}) {
+    const std::string path = (std::filesystem::path(post_folder) / map.table_name()).string() + ".csv";
     if (!std::filesystem::exists(path)) continue;
     const CsvFile csv = read_csv(path);
-    ShellMap map{vault, 0, {}};
     for (size_t i = 0; i < csv.rows.size(); ++i) {
       const auto number = [&](const char* key) { return csv.number(i, csv.column(key)); };
       map.boxes.push_back({static_cast<int>(number("block")), static_cast<int>(number("ring")),

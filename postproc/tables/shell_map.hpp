@@ -13,18 +13,21 @@ namespace cupola {
 /// A block in one ring of the unrolled shell, with its forces and utilisations.
 struct ShellBox {
   int block = 0, ring = 0;
-  double from = 0.0, to = 0.0;                      ///< deg of azimuth in a vault, m along x elsewhere
+  double from = 0.0, to = 0.0;  ///< deg of azimuth in a vault, m along x elsewhere, in an arch along y
   double meridional_force = 0.0, hoop_force = 0.0;  ///< N/m, 0 if negligible
   double friction_use = 0.0, kern = 0.0;            ///< NaN without a loaded joint
 };
 
-/// The unrolled shell, or one wythe of it: ring over azimuth, or over x.
+/// The unrolled shell, or one wythe of it: ring over azimuth, over x, or of an arch over y.
 struct ShellMap {
   bool vault = false;  ///< azimuths
   int num_rings = 0;
   std::vector<ShellBox> boxes;
-  std::string wythe = {};      ///< its name; "" for a shell without wythes
-  int number = 0;              ///< of the wythe, from the inside
+  std::string wythe = {};  ///< its name; "" for a shell without wythes
+  int number = 0;          ///< of the wythe, from the inside
+  bool arch = false;       ///< along y, across the arch; not along x
+  /// The file names' beginning: "shell", "shell_x" or "shell_y".
+  std::string table_name() const;
   std::string suffix() const;  ///< of the names of its files: "" or "_" and the wythe
 };
 
@@ -34,7 +37,7 @@ const Columns<ShellBox>& shell_columns();
 /// in the maps of all its wythes. A block that crosses +-180 degrees begins or ends beyond.
 std::vector<ShellMap> shell_maps(const Evaluation& evaluation);
 
-/// shell.csv, or shell_x.csv for a shell without azimuths; of a wythe with its name behind.
+/// shell.csv, or shell_x.csv for a shell without azimuths, shell_y.csv for an arch; of a wythe with its name behind.
 Table shell_table(const ShellMap& map);
 
 /// The map in the folder of a run; none if it has no rings, no equilibrium, or wythes.

@@ -4,15 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "assembly/files/csv_text.hpp"
+
 namespace cupola {
 namespace {
-
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 std::string csv_cell(const Table::Cell& cell) {
   if (const auto* number = std::get_if<double>(&cell))
@@ -27,7 +22,8 @@ std::string to_csv(const Table& table) {
   fmt::memory_buffer out;
   const auto end_of = [](size_t i, size_t n) { return i + 1 == n ? '\n' : ','; };
   for (size_t i = 0; i < table.columns.size(); ++i)
-    fmt::format_to(std::back_inserter(out), "{}{}", table.columns[i].key, end_of(i, table.columns.size()));
+    fmt::format_to(std::back_inserter(out), "{}{}", csv_text(table.columns[i].key),
+                   end_of(i, table.columns.size()));
   for (const auto& row : table.rows)
     for (size_t i = 0; i < row.size(); ++i)
       fmt::format_to(std::back_inserter(out), "{}{}", csv_cell(row[i]), end_of(i, row.size()));

@@ -26,30 +26,18 @@ void append_vector(const Vec3& v, std::vector<double>* numbers) {
   numbers->insert(numbers->end(), v.begin(), v.end());
 }
 
-Film::Kind kind_of(const Evaluation& e) {
-  switch (e.summary.analysis) {
-    case AnalysisType::dynamic:
-    case AnalysisType::path:
-      return Film::Kind::motion;
-    case AnalysisType::staged:
-      return Film::Kind::stages;
-    case AnalysisType::limit:
-      return e.times.size() > 1 ? Film::Kind::mechanism : Film::Kind::displacement;
-    case AnalysisType::static_:
-      if (is_mechanism(e.summary, e.last.frame)) return Film::Kind::mechanism;
-      return e.times.size() > 1 ? Film::Kind::motion : Film::Kind::displacement;
-    case AnalysisType::range:
-      return is_mechanism(e.summary, e.last.frame) ? Film::Kind::mechanism : Film::Kind::displacement;
-  }
-  return Film::Kind::displacement;
+Film::Kind kind_of(FrameRole shown) {
+  if (is_stage(shown)) return Film::Kind::stages;
+  if (shown == FrameRole::step || shown == FrameRole::path) return Film::Kind::motion;
+  return shown == FrameRole::mechanism ? Film::Kind::mechanism : Film::Kind::displacement;
 }
 
 }  // namespace
 
-Film::Film(const Evaluation& evaluation) : evaluation_(evaluation), kind_(kind_of(evaluation)) {
+Film::Film(const Evaluation& evaluation)
+    : evaluation_(evaluation), kind_(kind_of(evaluation.last.frame.role)) {
   const size_t poses = evaluation.times.size() * evaluation.assembly.blocks.size();
   stride_ = std::max<size_t>(1, (poses + kMostPoses - 1) / kMostPoses);
-  if (kind_ == Kind::mechanism) evaluated_ = 0;
 }
 
 void Film::add(size_t index, const FrameEvaluation& frame) {
@@ -61,18 +49,18 @@ void Film::add(size_t index, const FrameEvaluation& frame) {
     }
     if (is_evaluated) bodies_ = frame.groups, evaluated_ = num_frames();
     if (kind_ == Kind::stages) add_births(frame.frame);
-    add_poses(frame.frame.blocks, frame.frame.time);
-  } else if (kind_ == Kind::mechanism) {
-    if (!is_mechanism(evaluation_.summary, frame.frame)) return;
-    times_.clear(), shifts_.clear(), turns_.clear();  // the last one counts
+    add_poses(frame.frame);
+  } else if (frame.frame.role == FrameRole::mechanism) {  // replaces the equilibrium that it follows
+    kind_ = Kind::mechanism;
+    evaluated_ = 0;
+    labels_.clear(), shifts_.clear(), turns_.clear();
     bodies_ = frame.groups;
-    add_poses(frame.frame.blocks, frame.frame.time);
+    add_poses(frame.frame);
+  } else if (is_evaluated) {
+    bodies_ = frame.groups;
+    evaluated_ = 0;
+    add_poses(frame.frame);
   } else {
-    if (is_evaluated) {
-      bodies_ = frame.groups;
-      evaluated_ = 0;
-      add_poses(frame.frame.blocks, frame.frame.time);
-    }
     add_range_state(frame);
   }
 }
@@ -92,8 +80,9 @@ void Film::add_births(const Frame& frame) {
   }
 }
 
-void Film::add_poses(const BlockTable& blocks, double time) {
-  times_.push_back(time);
+void Film::add_poses(const Frame& frame) {
+  labels_.push_back(frame.label);
+  const BlockTable& blocks = frame.blocks;
   const std::vector<Block>& rest = evaluation_.assembly.blocks;
   for (size_t b = 0; b < rest.size(); ++b) {
     append_vector(blocks.position[b] - rest[b].centroid, &shifts_);
@@ -102,17 +91,12 @@ void Film::add_poses(const BlockTable& blocks, double time) {
 }
 
 void Film::add_range_state(const FrameEvaluation& frame) {
-  const int number = static_cast<int>(std::lround(frame.frame.time));
-  for (const ForceRange& range : evaluation_.summary.ranges)
-    for (const auto& [end, name] : {std::pair{&range.min, "Least"}, std::pair{&range.max, "Greatest"}}) {
-      if (!end->frame || *end->frame != number || number == 0) continue;
-      size_t joints = evaluation_.last.joints.wrenches.size() + frame.joints.wrenches.size();
-      for (const State& state : states_) joints += state.joints.wrenches.size();
-      if (joints > kMostStateJoints)
-        ++skipped_states_;
-      else
-        states_.push_back({fmt::format("{} {}", name, range.quantity), frame.joints});
-    }
+  size_t joints = evaluation_.last.joints.wrenches.size() + frame.joints.wrenches.size();
+  for (const State& state : states_) joints += state.joints.wrenches.size();
+  if (joints > kMostStateJoints)
+    ++skipped_states_;
+  else
+    states_.push_back({frame.frame.label, frame.joints});
 }
 
 }  // namespace cupola

@@ -29,13 +29,13 @@ class Film {
   void add(size_t index, const FrameEvaluation& frame);
 
   Kind kind() const { return kind_; }
-  int num_frames() const { return static_cast<int>(times_.size()); }
+  int num_frames() const { return static_cast<int>(labels_.size()); }
   int skipped() const { return skipped_; }                ///< frames left out to limit the size
   int skipped_states() const { return skipped_states_; }  ///< states of a range left out, likewise
-  const std::vector<double>& times() const { return times_; }
-  const std::vector<double>& shifts() const { return shifts_; }  ///< m, (num_frames x blocks x 3)
-  const std::vector<double>& turns() const { return turns_; }    ///< rad, rotation vectors, likewise
-  const std::vector<int>& bodies() const { return bodies_; }     ///< per block, body with which it moves
+  const std::vector<std::string>& labels() const { return labels_; }  ///< of the frames
+  const std::vector<double>& shifts() const { return shifts_; }       ///< m, (num_frames x blocks x 3)
+  const std::vector<double>& turns() const { return turns_; }         ///< rad, rotation vectors, likewise
+  const std::vector<int>& bodies() const { return bodies_; }          ///< per block, body with which it moves
   /// Of stages: per block, frame in which it is first laid; beyond the last one if in none.
   const std::vector<int>& born() const { return born_; }
   const std::vector<State>& range_states() const { return states_; }
@@ -43,7 +43,7 @@ class Film {
   int evaluated() const { return evaluated_; }
 
  private:
-  void add_poses(const BlockTable& blocks, double time);
+  void add_poses(const Frame& frame);
   void add_births(const Frame& frame);
   void add_range_state(const FrameEvaluation& frame);
 
@@ -52,7 +52,8 @@ class Film {
   size_t stride_ = 1;
   int evaluated_ = -1;
   int skipped_ = 0, skipped_states_ = 0;
-  std::vector<double> times_, shifts_, turns_;
+  std::vector<std::string> labels_;
+  std::vector<double> shifts_, turns_;
   std::vector<int> bodies_, born_;
   std::vector<State> states_;
 };

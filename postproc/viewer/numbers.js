@@ -7,6 +7,7 @@ const kUnits = {
   "N/m": [[1e6, "MN/m"], [1e3, "kN/m"], [1, "N/m"]],
   "m": [[1, "m"], [1e-3, "mm"]],
   "m2": [[1, "m²"]],
+  "share": [[0.01, "%"]],
   "Pa": [[1e6, "MPa"], [1e3, "kPa"], [1, "Pa"]],
 };
 
@@ -55,6 +56,9 @@ function scaleOf(values, key) {
   const least = sorted[0], most = sorted[sorted.length - 1];
   const at = (share) => sorted[Math.round(share * (sorted.length - 1))];
   let low = at(0.01), high = at(0.99);
+  const rounding = 1e-6 * Math.max(Math.abs(least), Math.abs(most));  // is neither of one sign nor of the other
+  if (Math.abs(low) <= rounding) low = 0;
+  if (Math.abs(high) <= rounding) high = 0;
   const fixed = {friction_use: 1, open_share: 1, strength_use: 1, damage: 1, relative_range: 2}[key];
   if (fixed) return {stops: kSequential, low: 0, high: fixed, cutLow: false, cutHigh: most > fixed};
   const signed = low < 0 && high > 0;

@@ -41,7 +41,7 @@ void append_keys(Keys more, KeyList* keys) {
 
 KeyList block_keys(const Evaluation& e) {
   KeyList keys;
-  if (at_rest(e.summary)) {
+  if (at_rest(e)) {
     append_keys(kBlockKeys, &keys);
     if (is_vault(e)) append_keys(kShellKeys, &keys);
   } else {
@@ -65,6 +65,11 @@ std::string label_of(const ColumnInfo& column) {
   return text;
 }
 
+/// True for a share that the view shows in percent, as the cards do.
+bool is_share(const std::string& key) {
+  return key == "friction_use" || key == "strength_use" || key == "open_share" || key == "damage";
+}
+
 /// Entries of the header for one column: one, or three for a vector.
 template <class Row>
 Json column_entries(const Columns<Row>& columns, const KeyList& keys) {
@@ -73,7 +78,7 @@ Json column_entries(const Columns<Row>& columns, const KeyList& keys) {
     const Column<Row>& column = column_named(columns, key);
     for (const std::string& table_key : column.table_keys())
       entries.push_back({{"key", table_key},
-                         {"unit", column.unit},
+                         {"unit", is_share(table_key) ? "share" : column.unit},
                          {"label", label_of(column)},
                          {"meaning", column.meaning},
                          {"colour", !column.is_vector}});
@@ -202,20 +207,8 @@ double fine_step(double step, double largest) {
   return largest > 0.0 ? std::min(step, largest / kLevels) : step;
 }
 
-std::string frame_label(const Evaluation& e, double time) {
-  if (e.summary.analysis == AnalysisType::staged)
-    return time == std::ceil(time) ? fmt::format("course {:g} laid", time)
-                                   : fmt::format("course {:g}, {:.0f} % laid", std::ceil(time),
-                                                 100.0 * (1.0 - std::ceil(time) + time));
-  const bool in_time =
-      e.summary.analysis == AnalysisType::dynamic || e.summary.analysis == AnalysisType::path;
-  return in_time ? fmt::format("{:.3f} s", time) : fmt::format("step {:g}", time);
-}
-
 Json add_film(const Evaluation& e, const Film& film, const Lattice& lattice, PackedArrays* arrays) {
   constexpr std::array kNames{"displacement", "motion", "mechanism", "stages"};
-  Json labels = Json::array();
-  for (const double time : film.times()) labels.push_back(frame_label(e, time));
   std::vector<double> shifts = film.shifts(), turns = film.turns();
   if (film.num_frames() == 0) {  // no frame could be read: the blocks as built
     shifts.assign(3 * e.assembly.blocks.size(), 0.0);
@@ -231,7 +224,7 @@ Json add_film(const Evaluation& e, const Film& film, const Lattice& lattice, Pac
           {"frames", std::max(1, film.num_frames())},
           {"evaluated", film.evaluated()},
           {"largest_shift_m", farthest},
-          {"labels", labels},
+          {"labels", film.labels()},
           {"born", film.born()}};
 }
 
@@ -255,7 +248,7 @@ std::vector<std::string> notes_of(const Evaluation& e, const Film& film, bool in
   if (film.skipped_states() > 0)
     notes.push_back(fmt::format("{} of the ranges were left out to limit the size; ParaView shows them.",
                                 counted(film.skipped_states(), "state")));
-  if (!at_rest(e.summary)) notes.push_back("No forces are shown, because no equilibrium was found.");
+  if (!at_rest(e)) notes.push_back("No forces are shown, because no equilibrium was found.");
   return notes;
 }
 
@@ -269,7 +262,7 @@ std::string first_colour(const Evaluation& e, const Film& film) {
   constexpr int kMostBodies = 7;
   if (film.kind() == Film::Kind::mechanism && largest_body(film) > 0)
     return largest_body(film) <= kMostBodies ? "body" : "displacement";
-  return film.kind() == Film::Kind::motion && !at_rest(e.summary) ? "displacement" : "bond";
+  return film.kind() == Film::Kind::motion && !at_rest(e) ? "displacement" : "bond";
 }
 
 Json block_names_of(const Assembly& assembly) {
@@ -308,7 +301,7 @@ std::string scene_bytes(const Evaluation& e, const Film& film) {
                &arrays);
     states.push_back({{"name", name}});
   };
-  if (at_rest(e.summary)) {
+  if (at_rest(e)) {
     add_state("State of the report", e.last.joints);
     for (const Film::State& state : film.range_states()) add_state(state.name, state.joints);
   }

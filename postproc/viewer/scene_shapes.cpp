@@ -88,7 +88,7 @@ void add_faces(const Assembly& assembly, bool inner_faces, const Lattice& lattic
 
 nlohmann::json add_lines(const Evaluation& e, const Lattice& lattice, PackedArrays* arrays) {
   Lines lines;
-  if (at_rest(e.summary)) {
+  if (at_rest(e)) {
     for (const MeridianEvaluation& m : e.meridians) {
       lines.add("thrust", m.thrust);
       for (const ThrustLine& wythe : m.wythes) lines.add("wythe", wythe);
@@ -109,7 +109,7 @@ nlohmann::json add_lines(const Evaluation& e, const Lattice& lattice, PackedArra
 
 nlohmann::json add_ties(const Evaluation& e, const Lattice& lattice, PackedArrays* arrays) {
   const TieTable& ties = e.last.frame.ties;
-  if (!at_rest(e.summary) || ties.size() == 0) return nullptr;
+  if (!at_rest(e) || ties.size() == 0) return nullptr;
   std::vector<Vec3> ends;
   for (int i = 0; i < ties.size(); ++i) ends.insert(ends.end(), {ties.point_a[i], ties.point_b[i]});
   arrays->add_points("ties", ends, lattice);

@@ -70,8 +70,7 @@ class ConstructionRun {
   bool lay_foundation();
   bool advance();
   LeastSearch::Result find_least();
-  void record(const LaidBlocks& stage, const StaticSolution& solution, const LeastSearch::Result& least,
-              double seconds);
+  void record(const LaidBlocks& stage, const StaticSolution& solution, const LeastSearch::Result& least);
   void record_failure(const LaidBlocks& stage, const std::vector<FallingBlock>& falling);
   std::string checkpoint() const;
   void judge();
@@ -102,7 +101,7 @@ ConstructionRun::ConstructionRun(const Case& scene, const Assembly& assembly, co
   stages_ = laying_order(assembly, staged_, staged_.first_ring, last);
   progress_.stages_csv =
       "stage,ring,laid,blocks,verdict,speed_ratio,least_stands,least_moves,head_squeeze_m,displacement_m,"
-      "solve_time_s,note\n";
+      "note\n";
   progress_.failures_csv = "stage,ring,block,course,how,relative_speed\n";
 }
 
@@ -144,7 +143,6 @@ LeastSearch::Result ConstructionRun::find_least() {
 
 /// One stage. False if the construction ends there.
 bool ConstructionRun::advance() {
-  const double started = wall_seconds();
   const LaidBlocks& stage = stages_[progress_.next];
   building_.lay(stage.blocks, stage.ring);
   LeastSearch::Result least;
@@ -154,7 +152,7 @@ bool ConstructionRun::advance() {
   progress_.iterations += solution.iterations;
   if (solution.outcome == StaticOutcome::moving)
     falling_ = falling_blocks(building_.problem().model, solution.step_solution.v);
-  record(stage, solution, least, wall_seconds() - started);
+  record(stage, solution, least);
   if (!falling_.empty()) record_failure(stage, falling_);
   falling_.clear();
   ++progress_.next;
@@ -176,10 +174,11 @@ std::string least_note(const LeastSearch::Result& least, StagedConstruction::Lea
 }
 
 void ConstructionRun::record(const LaidBlocks& stage, const StaticSolution& solution,
-                             const LeastSearch::Result& least, double seconds) {
+                             const LeastSearch::Result& least) {
   const int number = progress_.next;
   Frame frame = building_.frame(solution);
   frame.time = stage.ring - 1 + stage.share;
+  set_role(stage_role(solution.outcome), fmt::format("stage {}", number), &frame);
   sinks_.frame(frame);
   summarize_static(solution, frame, building_.problem().model, building_.options().tolerance, &summary_);
   progress_.worst.include(solution.residuals, summary_.certified_force_error, summary_.forces_unique,
@@ -208,10 +207,10 @@ void ConstructionRun::record(const LaidBlocks& stage, const StaticSolution& solu
                                                   : ",";
   const std::string note = least_note(least, staged_.least);
   progress_.stages_csv +=
-      fmt::format("{},{},{},{},{},{:.6e},{},{},{},{:.3f},\"{}\"\n", number, stage.ring, stage.blocks.size(),
+      fmt::format("{},{},{},{},{},{:.6e},{},{},{},\"{}\"\n", number, stage.ring, stage.blocks.size(),
                   building_.problem().model.num_free(), to_string(solution.outcome), solution.speed_ratio,
                   bracket, stands ? fmt::format("{:.6e}", building_.head_squeeze(solution)) : "",
-                  stands ? fmt::format("{:.6e}", largest_displacement(frame)) : "", seconds, note);
+                  stands ? fmt::format("{:.6e}", largest_displacement(frame)) : "", note);
   sinks_.table("construction.csv", progress_.stages_csv);
   const std::string line = fmt::format("stage {:5d}  ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}",
                                        number, stage.ring, building_.problem().model.num_free(),

@@ -12,7 +12,9 @@
 #include "solver/analysis/record/mechanism.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
+#include "solver/analysis/statics/static_record.hpp"
 #include "solver/analysis/statics/static_solve.hpp"
+#include "solver/conic/solve_conic.hpp"
 
 namespace cupola {
 namespace {
@@ -40,7 +42,7 @@ DirectLimit limit_of_tilt(const SceneAt& scene_at, double low, double high, doub
     trial.value = degrees(trial.value);
     report(trial);
   };
-  DirectLimit limit = limit_of_loads(at_tangent, tangent(low), tangent(high), width, in_degrees);
+  DirectLimit limit = limit_of_loads(at_tangent, tangent(low), tangent(high), width, in_degrees, degrees);
   if (!limit.found) return limit;
   limit.gamma /= std::hypot(1.0, limit.admissible);
   limit.admissible = degrees(limit.admissible);
@@ -90,13 +92,31 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
   throw std::logic_error("a direct limit analysis of a spread");
 }
 
+/// Writes the mechanism of a structure that moves at every value tried.
+void write_motion(const DirectLimit& limit, const std::string& parameter, const AnalysisSinks& sinks,
+                  Summary* summary) {
+  const RigidScene& moving = limit.at_moving;
+  const Mechanism mechanism =
+      find_mechanism(moving.model, moving.start, moving.contacts, moving.problem.contacts, limit.mechanism);
+  const size_t nc = moving.contacts.points.size();
+  const VecX none = VecX::Zero(static_cast<Eigen::Index>(3 * moving.problem.contacts.num_contacts()));
+  summarize_frame(admissible_frame(moving, none, moving.start.time), moving.model, summary);
+  write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism,
+                  {std::vector<Vec3>(nc, Vec3::Zero()), {}}, std::vector<double>(nc, 0.0), parameter, sinks);
+  summary->message += "; " + describe(mechanism);
+}
+
 /// Writes the admissible state and the mechanism as frames. Returns a description of the mechanism: "; " and a clause.
-std::string write_ends(const DirectLimit& limit, const AnalysisSinks& sinks, Summary* summary) {
+/// `gravity`: m/s2, without a horizontal acceleration that the search adds.
+std::string write_ends(const DirectLimit& limit, const std::string& parameter, double gravity,
+                       const AnalysisSinks& sinks, Summary* summary) {
   const RigidScene& stable = limit.at_admissible;
-  const Frame frame = admissible_frame(stable, limit.gamma, stable.start.time);
+  Frame frame = admissible_frame(stable, limit.gamma, stable.start.time);
+  set_role(FrameRole::equilibrium, parameter, &frame);
   sinks.frame(frame);
   summarize_frame(frame, stable.model, summary);
   summarize_balance(balance_of(stable, limit.gamma), summary);
+  summary->weight_N = free_weight(*stable.assembly, gravity);
 
   if (limit.mechanism.size() == 0) return "";
   const RigidScene& moving = limit.at_moving;
@@ -104,8 +124,19 @@ std::string write_ends(const DirectLimit& limit, const AnalysisSinks& sinks, Sum
       find_mechanism(moving.model, moving.start, moving.contacts, moving.problem.contacts, limit.mechanism);
   if (moving.contacts.points.size() == stable.contacts.points.size())
     write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism,
-                    {frame.contacts.force, frame.ties.force}, frame.contacts.law_violation, sinks);
+                    {frame.contacts.force, frame.ties.force}, frame.contacts.law_violation, parameter, sinks);
   return "; " + describe(mechanism);
+}
+
+/// Writes an admissible state under the loads of the case, if there is one: without a limit no value stands out.
+void write_state_of_case(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks,
+                         Summary* summary) {
+  DirectLimit own;
+  own.at_admissible = rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));
+  const ConicSolution any = solve_conic(own.at_admissible.problem);
+  if (any.outcome != ConicOutcome::optimal) return;
+  own.gamma = any.gamma;
+  write_ends(own, to_string(scene.analysis.limit.parameter), scene.loads.gravity.norm(), sinks, summary);
 }
 
 /// The critical value and what proves it from both sides.
@@ -145,9 +176,14 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
                            state ? "they are one of the admissible states" : "no equilibrium was found"};
   summary.status = limit.unlimited ? Status::stable : limit.no_state ? Status::moving : Status::unconverged;
   summary.message = name + ": " + limit.message;
-  if (limit.unlimited) write_ends(limit, sinks, &summary);
+  if (limit.unlimited)
+    write_state_of_case(scene, assembly, sinks, &summary);
+  else if (!limit.found && limit.gamma.size() > 0)
+    write_ends(limit, name, scene.loads.gravity.norm(), sinks, &summary);
+  else if (!limit.found && limit.mechanism.size() > 0)
+    write_motion(limit, name, sinks, &summary);
   if (limit.found) {
-    const std::string mechanism = write_ends(limit, sinks, &summary);
+    const std::string mechanism = write_ends(limit, name, scene.loads.gravity.norm(), sinks, &summary);
     const double width = limit.relative_width();
     summary.accuracy.reached = summary.accuracy.worst_over_run = width;
     // Recomputed from points and world forces: what the solver calls admissible must balance.
@@ -156,6 +192,7 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
     summary.critical = CriticalValue{name, limit.middle(), limit.admissible, limit.moving};
     summary.message = bounds_text(*summary.critical, limit, balanced) + mechanism + bound_for_coulomb(limit);
   }
+  summary.message += gaps_note(limit.at_admissible.contacts, assembly);
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;
 }

@@ -42,7 +42,7 @@ class DynamicRun {
   void include_accuracy(double time);
   Stop stop_reason() const;
   bool frame_is_due(Stop stop) const;
-  void write_frame();
+  Frame last_frame() const;
   std::string checkpoint() const;
   Summary summarize(Stop stop, double seconds) const;
 
@@ -99,7 +99,7 @@ void DynamicRun::step() {
   progress_.rest.include(simulation_.model(), simulation_.state(), analysis_.thresholds);
   const double time = simulation_.state().time;
   include_accuracy(time);
-  if (now_.speed > analysis_.stop.settled_speed) progress_.calm_since = time;
+  if (now_.speed > StopRules::kSettledSpeed) progress_.calm_since = time;
   sinks_.history(history_row(time, report_, now_, progress_.energy));
   sinks_.log(log_line(progress_.steps, time, report_, now_));
   sinks_.progress(std::min(1.0, time / analysis_.duration),
@@ -160,9 +160,11 @@ bool DynamicRun::frame_is_due(Stop stop) const {
   return std::abs(frames - std::round(frames)) < 1e-9;
 }
 
-void DynamicRun::write_frame() {
-  sinks_.frame(make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(), report_.forces,
-                          report_.violations, simulation_.memories(), simulation_.displacements()));
+Frame DynamicRun::last_frame() const {
+  Frame frame = make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(), report_.forces,
+                           report_.violations, simulation_.memories(), simulation_.displacements());
+  set_role(FrameRole::step, "", &frame);
+  return frame;
 }
 
 std::optional<Summary> DynamicRun::run() {
@@ -172,8 +174,7 @@ std::optional<Summary> DynamicRun::run() {
     step();
     const Stop stop = stop_reason();
     const bool due = frame_is_due(stop);
-    if (due) write_frame();
-    if (stop != Stop::no) sinks_.problem(report_.problem.problem, report_.step_solution.gamma);
+    if (due) sinks_.frame(last_frame());
     if (stop != Stop::no) return summarize(stop, wall_seconds() - started);
     // A resumed run starts without a factor. To give the same bits, this run drops its factor at every step
     // at which it can be interrupted.
@@ -187,17 +188,15 @@ std::optional<Summary> DynamicRun::run() {
 
 std::string stop_note(Stop stop, const Analysis& analysis) {
   if (stop == Stop::settled)
-    return fmt::format("; settled: all blocks slower than {:.3g} m/s for {:.3g} s",
-                       analysis.stop.settled_speed, analysis.stop.settled_time);
+    return fmt::format("; settled: all blocks slower than {:.3g} m/s for {:.3g} s", StopRules::kSettledSpeed,
+                       analysis.stop.settled_time);
   if (stop == Stop::collapsed) return "; the analysis stopped there";
   return "";
 }
 
 Summary DynamicRun::summarize(Stop stop, double seconds) const {
   Summary summary;
-  const Frame last =
-      make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(), report_.forces,
-                 report_.violations, simulation_.memories(), simulation_.displacements());
+  const Frame last = last_frame();
   summarize_frame(last, simulation_.model(), &summary);
   summary.steps = progress_.steps;
   summary.iterations = progress_.iterations;

@@ -60,6 +60,9 @@ Probe LimitRun::probe_at(double value) const {
   probe.contacts = detector.update(probe.start.poses);
   probe.memories = match_memories({}, probe.contacts.points);
   probe.solution = solve_static(probe.model, probe.start, probe.contacts, probe.memories, options);
+  // Forces that balance the loads to a tolerance do not decide a limit.
+  if (probe.solution.outcome == StaticOutcome::equilibrium && !probe.solution.proven)
+    probe.solution.outcome = StaticOutcome::unconverged;
   return probe;
 }
 
@@ -113,9 +116,11 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
     const Frame frame =
         static_frame(probe.model, probe.start, probe.contacts, probe.memories, probe.solution, run.options);
     summarize_static(probe.solution, frame, probe.model, run.options.tolerance, summary);
+    summary->weight_N = free_weight(*probe.model.assembly, run.scene.loads.gravity.norm());
     summary->max_displacement_m.reset();  // it depends on how close the bracket is to the critical value
     Frame first = frame;
     first.time = 0.0;
+    set_role(FrameRole::equilibrium, to_string(run.scene.analysis.limit.parameter), &first);
     run.sinks.frame(first);
   }
   if (!run.stable) {
@@ -128,7 +133,8 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
   const Mechanism mechanism = find_mechanism(probe.model, probe.start, probe.contacts, solution.step.problem,
                                              solution.increment / solution.h);
   write_mechanism(probe.model, probe.start, probe.contacts, probe.memories, mechanism, solution.forces,
-                  static_violations(probe.contacts, solution, run.options.solve.law), run.sinks);
+                  static_violations(probe.contacts, solution, run.options.solve.law),
+                  to_string(run.scene.analysis.limit.parameter), run.sinks);
   return describe(mechanism);
 }
 
@@ -136,7 +142,7 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
 
 std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
   if (uses_direct_limit(scene.analysis)) return run_direct_limit(scene, assembly, sinks);
-  LimitRun run{scene, assembly, sinks, static_options(scene.analysis), {}, {}};
+  LimitRun run{scene, assembly, sinks, verdict_options(scene.analysis), {}, {}};
   const LimitSearch::Parameter parameter = scene.analysis.limit.parameter;
   run.options.log = sinks.log;
   const double started = wall_seconds();
@@ -154,6 +160,11 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   summary.message =
       fmt::format("{}: {}{}{}", summary.critical ? critical_text(*summary.critical) : to_string(parameter),
                   bracket.message, mechanism.empty() ? "" : "; ", mechanism);
+  for (const std::optional<Probe>* probe : {&run.stable, &run.moving})
+    if (*probe) {
+      summary.message += gaps_note((*probe)->contacts, assembly);
+      break;
+    }
   if (!bracket.narrow && !run.undecided.empty()) summary.message += "; " + run.undecided;
   summary.steps = run.num_trials;
   summary.iterations = run.iterations;

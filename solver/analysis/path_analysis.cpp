@@ -152,8 +152,10 @@ bool PathRun::advance(double parameter) {
 }
 
 void PathRun::record(const StaticSolution& solution) {
-  const Frame frame =
+  Frame frame =
       static_frame(model_, path_.start(), path_.contacts(), path_.memories(), solution, path_.options());
+  set_role(FrameRole::path, "", &frame);
+  path_.list_parted(&frame);
   sinks_.frame(frame);
   summarize_static(solution, frame, model_, path_.options().tolerance, &summary_);
   progress_.worst.include(solution.residuals, summary_.certified_force_error, summary_.forces_unique,

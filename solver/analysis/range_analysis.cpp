@@ -73,7 +73,7 @@ class RangeSearchRun {
   int of_sector() const { return of_sector_; }  ///< ranges for which one sector was solved
 
  private:
-  void write_frame(RangeSolution* solution);
+  void write_frame(const std::string& end, RangeSolution* solution);
 
   const RigidScene& scene_;
   const std::vector<RangeObjective>& objectives_;
@@ -84,10 +84,14 @@ class RangeSearchRun {
   int solves_ = 0, iterations_ = 0, of_sector_ = 0;
 };
 
-void RangeSearchRun::write_frame(RangeSolution* solution) {
+/// `end`: "least thrust".
+void RangeSearchRun::write_frame(const std::string& end, RangeSolution* solution) {
   if (!states_ || solution->gamma.size() == 0) return;
   solution->end.frame = frames_;
-  sinks_.frame(admissible_frame(scene_, solution->gamma, frames_++));
+  Frame frame = admissible_frame(scene_, solution->gamma, frames_++);
+  const bool unbounded = solution->end.outcome == RangeOutcome::unbounded;
+  set_role(unbounded ? FrameRole::self_stress : FrameRole::range_end, end, &frame);
+  sinks_.frame(frame);
 }
 
 bool RangeSearchRun::run(std::vector<ForceRange>* ranges) {
@@ -106,11 +110,10 @@ bool RangeSearchRun::run(std::vector<ForceRange>* ranges) {
       const RangeObjective& objective = objectives_[first + i];
       ForceRange range{objective.quantity, objective.unit, {}, {}, {}, objective.joint};
       of_sector_ += found[2 * i].of_sector ? 1 : 0;
-      for (RangeSolution* end : {&found[2 * i], &found[2 * i + 1]}) {
-        write_frame(end);
-        ++solves_;
-        iterations_ += end->iterations;
-      }
+      write_frame("least " + range.quantity, &found[2 * i]);
+      write_frame("greatest " + range.quantity, &found[2 * i + 1]);
+      solves_ += 2;
+      iterations_ += found[2 * i].iterations + found[2 * i + 1].iterations;
       range.min = found[2 * i].end;
       range.max = found[2 * i + 1].end;
       ranges->push_back(range);
@@ -144,18 +147,19 @@ bool write_start(const RigidScene& rigid, const ChosenState& chosen, const Analy
     return true;
   }
   const ConicSolution any = solve_conic(rigid.problem);
-  const Frame frame = admissible_frame(rigid, any.gamma, 0.0);
+  Frame frame = admissible_frame(rigid, any.gamma, 0.0);
   summarize_frame(frame, rigid.model, summary);
   if (any.outcome == ConicOutcome::infeasible) {
     const Mechanism mechanism =
         find_mechanism(rigid.model, rigid.start, rigid.contacts, rigid.problem.contacts, any.v);
     const size_t nc = rigid.contacts.points.size();
     write_mechanism(rigid.model, rigid.start, rigid.contacts, rigid.memories, mechanism,
-                    {std::vector<Vec3>(nc, Vec3::Zero()), {}}, std::vector<double>(nc, 0.0), sinks);
+                    {std::vector<Vec3>(nc, Vec3::Zero()), {}}, std::vector<double>(nc, 0.0), "", sinks);
     summary->status = Status::moving;
     summary->message = "no admissible state exists: " + describe(mechanism);
     return false;
   }
+  if (any.outcome != ConicOutcome::optimal) set_role(FrameRole::unconverged, "", &frame);
   sinks.frame(frame);
   summarize_balance(balance_of(rigid, any.gamma), summary);
   summary->message = fmt::format("the search for an admissible state ended {}", to_string(any.outcome));
@@ -202,6 +206,7 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
                       run.of_sector(), summary.ranges.size());
     sinks.table("ranges.csv", ranges_csv(summary.ranges));
   }
+  summary.message += gaps_note(rigid.contacts, assembly);
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;
 }

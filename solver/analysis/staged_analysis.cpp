@@ -41,7 +41,7 @@ class StageRun {
     ContactDetector detector(stage_.assembly, detection_options(scene));
     contacts_ = detector.update(initial_poses(stage_.assembly));
     memories_ = match_memories({}, contacts_.points);
-    options_ = static_options(scene.analysis);
+    options_ = verdict_options(scene.analysis);
     options_.log = log;
   }
 
@@ -67,6 +67,7 @@ class StageRun {
 Frame StageRun::frame(const StaticSolution& solution, const Assembly& complete) const {
   Frame frame = static_frame(model_, state_at_rest(model_), contacts_, memories_, solution, options_);
   frame.time = stage_.ring;
+  set_role(stage_role(solution.outcome), fmt::format("ring {}", stage_.ring), &frame);
   for (int& block : frame.contacts.block_a) block = stage_.complete_block[static_cast<size_t>(block)];
   for (int& block : frame.contacts.block_b) block = stage_.complete_block[static_cast<size_t>(block)];
   BlockTable blocks;

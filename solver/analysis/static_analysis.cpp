@@ -65,7 +65,10 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   const Model model = make_model(scene, assembly);
   const State rest = state_at_rest(model);
   // The detector is destroyed at once: for a large model it is as large as the contact problem.
-  const ContactSet contacts = ContactDetector(assembly, detection_options(scene)).update(rest.poses);
+  const ContactSet contacts = [&] {
+    ContactDetector detector(assembly, detection_options(scene));
+    return contacts_at_rest(rest, assembly, &detector);
+  }();
   sinks.as_built(contacts);
   release_freed_memory();
   const ContactMemories memories = match_memories({}, contacts.points);
@@ -95,13 +98,13 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
                         reached};
   }
   summary.unknowns /= scene.analysis.cyclic_sectors;
+  summary.message += gaps_note(contacts, assembly);
   if (summary.max_displacement_m) summary.message += linearity_note(assembly, *summary.max_displacement_m);
   if (scene.analysis.robustness > 0 && solution.outcome == StaticOutcome::equilibrium) {
     summary.robustness = find_robustness(scene, assembly);
     summary.message += summary.robustness ? describe(*summary.robustness)
                                           : "; no horizontal acceleration was found that makes it move";
   }
-  sinks.problem(solution.step.problem, solution.step_solution.gamma);
   solution.step = {};  // for a large model as large as the frame, whose writing takes as much memory again
   sinks.frame(frame);
   return summary;

@@ -9,9 +9,7 @@
 #include "solver/conic/scaled_problem.hpp"
 
 namespace cupola {
-namespace {
 
-/// s_n - mu norm(s_t) of each contact: >= 0 in Y*.
 VecX distance_inside(const ContactProblem& p, const VecX& v) {
   const VecX s = relative_velocity(p, v);
   VecX inside(p.num_contacts());
@@ -20,7 +18,6 @@ VecX distance_inside(const ContactProblem& p, const VecX& v) {
   return inside;
 }
 
-/// Empty if rounding leaves none.
 VecX opening_motion(const ConicProblem& problem) {
   ScaledConicProblem s = scaled(problem);
   s.problem.load_columns.resize(Eigen::NoChange, 0);
@@ -31,10 +28,10 @@ VecX opening_motion(const ConicProblem& problem) {
     return {};
   VecX open = VecX::Zero(problem.cost.size());
   open(Eigen::seq(0, Eigen::last, 3)).setOnes();
-  return s.white.to_v(equations.solve(generalized_impulse(s.problem.contacts, open), VecX()).v);
+  VecX v = s.white.to_v(equations.solve(generalized_impulse(s.problem.contacts, open), VecX()).v);
+  if (!(distance_inside(problem.contacts, v).minCoeff() > 0.0)) return {};
+  return v;
 }
-
-}  // namespace
 
 bool open_contacts(const ConicProblem& problem, ConicSolution* solution) {
   CUPOLA_ASSERT(problem.load_columns.cols() == 1 && problem.rows.cols() == 0 && problem.cost.isZero(0.0));
@@ -42,7 +39,6 @@ bool open_contacts(const ConicProblem& problem, ConicSolution* solution) {
   const VecX opening = opening_motion(problem);
   if (opening.size() == 0) return false;
   const VecX gained = distance_inside(problem.contacts, opening);
-  if (!(gained.minCoeff() > 0.0)) return false;
   const VecX inside = distance_inside(problem.contacts, solution->v);
   const double share = kMargin * std::max(0.0, (-inside.cwiseQuotient(gained)).maxCoeff());
   const VecX v = solution->v + share * opening;

@@ -43,6 +43,17 @@ State state_at_rest(const Model& model) {
   return state;
 }
 
+const ContactSet& contacts_at_rest(const State& rest, const Assembly& assembly, ContactDetector* detector) {
+  std::vector<double> travel(rest.poses.size(), 0.0);
+  for (size_t b = 0; b < travel.size(); ++b) {
+    const Pose& pose = rest.poses[b];
+    travel[b] = (pose.p_WB - assembly.blocks[b].centroid).norm() +
+                detector->block_radius(static_cast<int>(b)) *
+                    pose.q_WB.angularDistance(Eigen::Quaterniond::Identity());
+  }
+  return detector->update(rest.poses, travel);
+}
+
 Mat6 mass_matrix(const Block& block, const Eigen::Quaterniond& q_WB) {
   const Mat3 R_WB = q_WB.toRotationMatrix();
   Mat6 M = Mat6::Zero();

@@ -4,7 +4,7 @@
 
 #include "assembly/case/case.hpp"
 #include "assembly/model/assembly.hpp"
-#include "solver/collision/contact_set.hpp"
+#include "solver/collision/contact_detector.hpp"
 #include "solver/contact/problem/contact_problem.hpp"
 #include "solver/dynamics/joint_laws.hpp"
 #include "solver/dynamics/loads.hpp"
@@ -47,6 +47,9 @@ struct State {
 };
 /// Blocks at rest as generated, supports at their imposed positions at time 0.
 State state_at_rest(const Model& model);
+
+/// Contacts at rest. A joint that a moved support opens or closes is found however far it has moved, up to the size of a block.
+const ContactSet& contacts_at_rest(const State& rest, const Assembly& assembly, ContactDetector* detector);
 
 /// Mass matrix of one block, with the inertia in world axes.
 Mat6 mass_matrix(const Block& block, const Eigen::Quaterniond& q_WB);

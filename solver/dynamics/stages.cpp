@@ -61,6 +61,7 @@ ConstructionStage build_stage(const Assembly& complete, int ring) {
   built.title = complete.title;
   built.geometry_hash = complete.geometry_hash;
   built.num_rings = complete.num_rings;
+  built.sheets = complete.sheets;
   built.members = complete.members;
   for (size_t block = 0; block < complete.blocks.size(); ++block) {
     if (!complete.blocks[block].fixed && complete.blocks[block].ring > ring) continue;

@@ -32,6 +32,17 @@ void ProgressBar::show(double share, const std::string& state) {
   shown_ = true;
 }
 
+void ProgressBar::show(const std::string& state) {
+  constexpr double kInterval = 0.2;  // s
+  constexpr size_t kWidth = 110;     // characters, which fit one line of most terminals
+  const double now = wall_seconds();
+  if (now - last_time_ < kInterval) return;
+  last_time_ = now;
+  fmt::print("\r{}\033[K", state.substr(0, kWidth));
+  std::fflush(stdout);
+  shown_ = true;
+}
+
 void ProgressBar::finish() {
   if (shown_) fmt::print("\n");
   shown_ = false;

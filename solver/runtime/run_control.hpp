@@ -10,6 +10,8 @@ class ProgressBar {
   /// `share`: completed fraction in [0, 1]. The remaining time is extrapolated from the progress since the
   /// first call. `state`: where the run is, in words.
   void show(double share, const std::string& state);
+  /// A line in place of the last one, for a run that does not know how much is left.
+  void show(const std::string& state);
   /// Ends the line.
   void finish();
 

@@ -1,4 +1,5 @@
 """One course laid without centering, brick by brick. Prints a CSV table.
+A script, not a study: it compares runs with closed forms and with each other.
 
   centering.py BIN_FOLDER WORK_FOLDER runs       makes the runs of the tables, as many at once as there are processors
   centering.py BIN_FOLDER WORK_FOLDER map        least fresh cohesion over height, bond and bed friction

@@ -1,4 +1,4 @@
-"""Runs of one course laid brick by brick, for centering.py."""
+"""Runs of one course laid brick by brick, for centering.py. A script, not a study: it reads frames."""
 
 import base64
 import csv

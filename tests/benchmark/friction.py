@@ -1,4 +1,5 @@
 """Coulomb's law near the critical friction of the associated law, on models of the paper. Prints a CSV table.
+A script, not a study: it runs at multiples of values that other runs found.
 
   friction.py BIN_FOLDER WORK_FOLDER brackets WIDTH [MODEL ...]   brackets of both laws to a relative WIDTH: value and time
   friction.py BIN_FOLDER WORK_FOLDER verdicts COUNT [MODEL ...]   COUNT frictions around both critical values: verdict and time

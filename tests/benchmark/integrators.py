@@ -1,4 +1,5 @@
 """Compares the time integrators on motions of the paper. Prints a CSV table. Needs python3-vtk9 and numpy.
+A script, not a study: it compares frames of several runs.
 
   integrators.py BIN_FOLDER WORK_FOLDER error       displacements of the swinging dome after 0.2 s against the time step
   integrators.py BIN_FOLDER WORK_FOLDER orders      errors on scenes of one block (integrator_benchmark) and on the dome

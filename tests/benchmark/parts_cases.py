@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes the cases of `make parts`: shells of the dome of Florence, each with and without chains and drum, and variants for the
-range of the thrust and the least friction. Prints their names.
+range of the thrust and the least friction. Prints their names. A script, not a study: its cases combine sections of others.
 
   parts_cases.py CASES FOLDER SHELL ...      reads CASES/florence_chains.yaml and florence_drum.yaml, writes to FOLDER
 """

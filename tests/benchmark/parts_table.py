@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Prints a CSV table of what the parts of a dome do.
+"""Prints a CSV table of what the parts of a dome do. A script, not a table of a study: it chooses the ring nearest to mid-height and lists
+several chains in a cell.
 
   parts_table.py OUT MODEL ...      reads OUT/MODEL/results/ and post/, OUT/MODEL_range/results/ and, if it is there,
                                     OUT/MODEL_friction_limit/results/
@@ -57,7 +58,8 @@ def row(out, model):
             "CPU s": f"{results['cpu_time_seconds'] + span['cpu_time_seconds']:.0f}"}
 
 
-table = [row(pathlib.Path(sys.argv[1]), model) for model in sys.argv[2:]]
+models = [name for name in sys.argv[2:] if not name.endswith(("_range", "_friction_limit"))]
+table = [row(pathlib.Path(sys.argv[1]), model) for model in models]
 columns = [key for key in table[0] if any(entry[key] for entry in table)]  # without chains no column of chains
 print(",".join(columns))
 for entry in table:

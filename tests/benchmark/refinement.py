@@ -1,4 +1,5 @@
-"""Sums the bed-joint wrenches of bricks over the macro-blocks that they stand for.
+"""Sums the bed-joint wrenches of bricks over the macro-blocks that they stand for. A script, not a study:
+it compares each run with another.
 
     refinement.py FOLDER N N ...    FOLDER/N/post/joints.csv for bond.refine = N, the finest last
 

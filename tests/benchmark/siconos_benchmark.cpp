@@ -42,9 +42,9 @@ extern "C" {
 
 #include "assembly/base/process.hpp"
 #include "solver/contact/methods/solve_contact.hpp"
-#include "solver/contact/problem/delassus.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "tests/benchmark/dome_problem.hpp"
+#include "tests/reference/delassus.hpp"
 
 namespace cupola {
 namespace {

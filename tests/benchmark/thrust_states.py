@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Draws the outward thrust of force states of one model inside its range over all admissible states.
+"""Draws the outward thrust of force states of one model inside its range over all admissible states. A script, not a table of a study:
+it compares each run with another.
 
-  thrust_states.py RANGE_RUN PICTURE.png STATE_RUN ...
+  thrust_states.py OUT RANGE_RUN STATE_RUN ...
 
 Fails if a state lies outside. Runs with contact points of their own, perturbed or opened, are drawn as circles: their range
 is another one.
@@ -21,7 +22,8 @@ def weight_and_summary(folder):
     return summary["weight_N"], summary
 
 
-range_run, picture, *folders = map(pathlib.Path, sys.argv[1:])
+range_run, *folders = (pathlib.Path(sys.argv[1]) / name for name in sys.argv[2:])
+picture = "docs/pictures/thrust_states.png"
 weight, summary = weight_and_summary(range_run)
 thrust = next(r for r in summary["ranges"] if r["quantity"] == "thrust")
 low, high = (thrust[end]["value"] / weight for end in ("min", "max"))

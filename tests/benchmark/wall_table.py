@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Tabulates the shear walls of Eindhoven beside their tests and draws their forces and cracks.
+"""Tabulates the shear walls of Eindhoven beside their tests and draws their forces and cracks. A script, not a table of a study: it
+interpolates paths and draws a picture.
 
-  wall_table.py OUT PICTURE.png      reads OUT/WALL/ and OUT/WALL_solid/ of the walls below, and three more runs of J4D
+  wall_table.py OUT ...      reads OUT/WALL/ and OUT/WALL_solid/ of the walls below, and three more runs of J4D
 
 The largest forces of the tests are second-hand: P. B. Lourenco (1996), Computational strategies for masonry structures, digitised.
 """
@@ -71,7 +72,7 @@ def crack_lines(run):
     return lines
 
 
-out, picture = map(pathlib.Path, sys.argv[1:])
+out, picture = pathlib.Path(sys.argv[1]), "docs/pictures/shear_walls.png"
 print("wall,bricks,pressure MPa,0.5 mm,1 mm,2 mm,3 mm,4 mm,largest kN,at mm,test kN,over test,split bricks,cracks m,widest mm")
 for suffix, bricks in (("", "can split"), ("_solid", "solid")):
     for run, label, pressure, test in WALLS:

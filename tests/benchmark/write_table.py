@@ -1,27 +1,55 @@
-"""Writes a table of measurements into a Markdown page.
+"""Writes a table that a script or a benchmark printed into a Markdown page. Tables of quantities of runs are studies (cases/studies).
 
-    PROGRAM | write_table.py [--digits=3] PAGE.md NAME [COLUMN=HEADING ...]
+    PROGRAM | write_table.py --runs=FOLDER|--program=PROGRAM [--digits=3] PAGE.md NAME [COLUMN=HEADING ...]
 
 Reads CSV with a header line (lines before it, and the context of Google Benchmark, are skipped) and replaces the text
-between `<!-- table NAME -->` and `<!-- end -->` by a Markdown table and a line with date, version, machine and load.
-With COLUMN=HEADING arguments only these columns are written, under these headings.
+between `<!-- table NAME -->` and `<!-- end -->` by a Markdown table and a line with date, revision, machine and load. The revision
+is that of the runs below FOLDER, from their summaries, or of PROGRAM, from its --version. Nothing is written if runs carry different
+revisions, or if sources were changed. With COLUMN=HEADING arguments only these columns are written, under these headings.
 """
 
+import collections
 import csv
 import datetime
+import json
 import os
+import pathlib
 import re
 import subprocess
 import sys
 
 
-def context():
-    def git(*arguments):
-        return subprocess.run(["git", "-C", os.path.dirname(os.path.abspath(__file__)), *arguments], capture_output=True,
-                              text=True, check=False).stdout.strip()
-    # Pages and pictures change while their tables are written, and no result depends on them.
-    changed = git("status", "--porcelain", "--untracked-files=no", "--", ":/", ":(top,exclude)*.md", ":(top,exclude)docs/pictures")
-    version = git("describe", "--always") + ("-dirty" if changed else "")
+def refuse_changed_tree():
+    """Pages and pictures change while their tables are written, and no result depends on them."""
+    changed = subprocess.run(["git", "-C", os.path.dirname(os.path.abspath(__file__)), "status", "--porcelain",
+                              "--untracked-files=no", "--", ":/", ":(top,exclude)*.md", ":(top,exclude)docs/pictures"],
+                             capture_output=True, text=True, check=True).stdout
+    if changed:
+        sys.exit(f"no table is written while files are changed; commit first:\n{changed}")
+
+
+def revision_of(source):
+    """The revision in --runs=FOLDER or --program=PROGRAM; exits unless there is one, of unchanged sources."""
+    kind, _, path = source.partition("=")
+    versions = collections.defaultdict(list)
+    if kind == "--runs":
+        for file in sorted(pathlib.Path(path).rglob("summary.json")):
+            if file.parent.name != "post":
+                versions[json.loads(file.read_text())["program_version"]].append(str(file.parent))
+    elif kind == "--program":
+        versions[subprocess.run([path, "--version"], capture_output=True, text=True, check=True).stdout.strip()].append(path)
+    else:
+        sys.exit("the first argument must be --runs=FOLDER or --program=PROGRAM")
+    if len(versions) != 1:
+        sys.exit(f"{path}: runs of {len(versions)} revisions; run them again:\n"
+                 + "\n".join(f"  {version}: {' '.join(names)}" for version, names in versions.items()))
+    revision = next(iter(versions)).rpartition("(")[2].rstrip(")")
+    if revision.endswith("-dirty") or revision.startswith("unknown"):
+        sys.exit(f"{path}: measured with changed or unknown sources (revision {revision}); commit, build and run again")
+    return revision
+
+
+def context(revision):
     processor = "unknown processor"
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         for line in file:
@@ -29,7 +57,7 @@ def context():
                 processor = line.split(":", 1)[1].strip()
                 break
     load = os.getloadavg()[0]
-    return (f"Measured {datetime.date.today()} at revision {version} on {os.cpu_count()} cores of {processor}, "
+    return (f"Measured {datetime.date.today()} by the programs of revision {revision} on {os.cpu_count()} cores of {processor}, "
             f"load average {load:.1f} at the end.")
 
 
@@ -42,6 +70,8 @@ def shown(text, digits):
 
 
 def main():
+    refuse_changed_tree()
+    revision = revision_of(sys.argv.pop(1))
     digits = 3
     if sys.argv[1].startswith("--digits="):
         digits = int(sys.argv.pop(1).split("=")[1])
@@ -58,7 +88,7 @@ def main():
     with open(page, encoding="utf-8") as file:
         text = file.read()
     pattern = rf"(<!-- table {re.escape(name)} -->\n).*?(<!-- end -->)"
-    text, count = re.subn(pattern, lambda match: f"{match[1]}\n{table}\n{context()}\n\n{match[2]}", text, flags=re.S)
+    text, count = re.subn(pattern, lambda match: f"{match[1]}\n{table}\n{context(revision)}\n\n{match[2]}", text, flags=re.S)
     if count != 1:
         sys.exit(f"{page}: needs one pair of markers for the table {name}, has {count}")
     with open(page + ".tmp", "w", encoding="utf-8") as file:

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "tests/extremes/rows.hpp"
+#include "tests/solver/keystone.hpp"
 
 namespace cupola {
 namespace {
@@ -128,6 +129,38 @@ void add_overhang(Rows* rows) {
   }
 }
 
+/// Keystones and leaning cards near the friction from which forces that carry them exist. Under Coulomb's law a keystone on compliant
+/// joints falls at any friction, because its joints open as it sinks.
+void add_frictions(Rows* rows) {
+  constexpr double kNear[] = {-1e-2, -1e-3, -1e-4, 1e-4, 1e-3, 1e-2};
+  const auto add = [&](const std::string& what, double critical, double distance, FrictionLaw law,
+                       const Assembly& assembly) {
+    const bool stands = distance > 0.0;
+    rows->push_back({"near the limit",
+                     fmt::format("{}, friction {} from the limit, {}", what, percent(distance), name_of(law)),
+                     fmt::format("{}: least friction {:.6g}", stands ? "stands" : "falls", critical),
+                     {stands ? Ending::stable : Ending::moving},
+                     [=] {
+                       Scene scene{statics(critical * (1.0 + distance), 1e-9), assembly};
+                       scene.input.analysis.friction_law = law;
+                       return scene;
+                     }});
+  };
+  for (const double slope : {0.1, 0.5})
+    for (const double distance : kNear)
+      for (const auto law : {FrictionLaw::associated, FrictionLaw::coulomb}) {
+        if (law == FrictionLaw::coulomb && distance > 0.0) continue;
+        add(fmt::format("keystone, slope {:g}", slope), slope, distance, law, testing::keystone(slope));
+      }
+  for (const double lean : {0.25, 0.75}) {
+    const testing::LeaningCards cards{.lean = lean};
+    for (const double distance : kNear)
+      for (const auto law : {FrictionLaw::associated, FrictionLaw::coulomb})
+        add(fmt::format("two cards leaning at {:g} rad", lean), cards.critical_friction(), distance, law,
+            cards.assembly());
+  }
+}
+
 }  // namespace
 
 void add_critical_rows(Rows* rows) {
@@ -135,6 +168,7 @@ void add_critical_rows(Rows* rows) {
   add_towers(rows);
   add_walls(rows);
   add_overhang(rows);
+  add_frictions(rows);
 }
 
 }  // namespace cupola

@@ -1,11 +1,11 @@
 #!/bin/bash
-# Makes each call with which a program changes a file fail in turn (disk full, input/output error, no permission), or
+# For every analysis: makes each call with which a program changes a file fail in turn (disk full, input/output error, no permission), or
 # kills the program there (kill -9), and checks three promises:
 #   1. the program exits with code 1 and prints one line that names a path (kill: it ends by the signal);
 #   2. every file is either the complete old one or the complete new one (files that grow with the frames: a complete
 #      shorter one), and the next program accepts only a complete set;
-#   3. the same command, run again, gives the same bytes as an undisturbed run. A dynamic analysis resumes at worst from
-#      the last frame but one, so that no fault destroys the previous checkpoint.
+#   3. the same command, run again, gives the same bytes as an undisturbed run. Motions, paths and buildings resume at worst
+#      from the last frame but one, so that no fault destroys the previous checkpoint.
 #
 #   campaign.sh BIN_FOLDER SHIM.so [faults per program and kind, spread evenly; default: at every call]
 set -u
@@ -14,18 +14,23 @@ bin=$(realpath "$1"); shim=$(realpath "$2"); most=${3:-1000000}
 faults=0; defects=0
 
 # Rewritten with every frame; a checkpoint carries its own checksum, and the second run resumes from it.
-growing='^\./results/(blocks\.pvd|contacts\.pvd|history\.csv|checkpoint) '
+growing_tables="history path stages construction failures"
+growing="^\\./results/(blocks\\.pvd|contacts\\.pvd|(${growing_tables// /|})\\.csv|checkpoint) "
 growing_files_are_whole() {
   local file text
   for file in blocks.pvd contacts.pvd; do
     [ ! -e "$run/results/$file" ] || [ "$(tail -n 1 "$run/results/$file")" = "</VTKFile>" ] || return 1; done
-  [ ! -e "$run/results/history.csv" ] && return 0
-  text=$(cat "$run/results/history.csv")
-  [[ "$(cat "$work/new/results/history.csv")" == "$text"* || "$(cat "$work/old/results/history.csv")" == "$text"* ]]
+  for file in $growing_tables; do
+    file=results/$file.csv
+    [ -e "$run/$file" ] || continue
+    text=$(cat "$run/$file")
+    [[ "$(cat "$work/new/$file")" == "$text"* || "$(cat "$work/old/$file")" == "$text"* ]] || return 1
+  done
 }
 # resumes FRAMES LOG: true if the resumed run continued from the last of FRAMES existing frames or the one before.
 resumes() {
   local existing=$1 from
+  [ -e "$work/new/results/checkpoint" ] || return 0 # nothing to resume from
   from=$(sed -n 's/^resuming after frame \([0-9]*\) .*/\1/p' "$2")
   [ "${from:-0}" -ge $((existing - 1)) ]
 }
@@ -33,10 +38,12 @@ frames_of_new_run() { # frames written by the disturbed run itself
   cmp -s "$run/results/blocks.pvd" "$start/results/blocks.pvd" && echo 0 && return
   grep -c '<DataSet' "$run/results/blocks.pvd" 2> /dev/null
 }
-defect() { defects=$((defects + 1)); echo "DEFECT: $stage, $kind at call $at: $1"; }
+defect() { defects=$((defects + 1)); echo "DEFECT: $analysis, $stage, $kind at call $at: $1"; }
 
+for analysis in $analyses; do
+write_case $analysis
 # Results of the whole pipeline before (old: a different length) and after (new).
-mkdir "$work/old" "$work/new"
+rm -rf "$work/old" "$work/new"; mkdir "$work/old" "$work/new"
 generate "$work/old" --set geometry.surface.length=3 && solve "$work/old" --set geometry.surface.length=3 &&
   post "$work/old" --set geometry.surface.length=3 && generate "$work/new" && solve "$work/new" && post "$work/new" || exit 1
 contents "$work/old" > "$work/old.txt"; contents "$work/new" > "$work/new.txt"
@@ -49,7 +56,7 @@ for stage in generate solve post; do
   run=$work/run; rm -rf "$run"; cp -r "$start" "$run"
   ( export LD_PRELOAD=$shim FAULT_FOLDER=$run FAULT_COUNT=$work/count; $stage "$run" )
   calls=$(cat "$work/count")
-  echo "$stage: $calls calls change files"
+  echo "$analysis, $stage: $calls calls change files"
   stride=$(( calls > most ? (calls + most - 1) / most : 1 ))
   for kind in ENOSPC EIO EACCES KILL; do
     for at in $(seq 1 "$stride" "$calls"); do
@@ -76,6 +83,7 @@ for stage in generate solve post; do
       done
     done
   done
+done
 done
 echo "$faults faults injected, $defects defects"
 [ "$defects" -eq 0 ]

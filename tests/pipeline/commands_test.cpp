@@ -1,5 +1,5 @@
-// The commands besides the three stages, run as a user runs them: reports, bond maps, FCLIB problems, sweeps,
-// claims, studies, comparisons, explanations, pictures.
+// The commands besides the three stages, run as a user runs them: reports, bond maps, studies, comparisons,
+// explanations, pictures.
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -88,64 +88,34 @@ TEST(Commands, RefuseInterfacesOfGeneratedBlocks) {
   EXPECT_TRUE(contains(run.err, "generated blocks have no interfaces")) << run.err;
 }
 
-TEST(Commands, SolveAContactProblemWrittenByTheSolver) {
-  const DomeFolder folder;
-  const std::string step = " --set analysis.type=dynamic --set analysis.duration=0.01";
-  ASSERT_EQ(folder.run("cupola-generate dome.yaml --output dome.vtu --quiet").code, 0);
-  ASSERT_EQ(
-      folder
-          .run("cupola-solve dome.yaml --assembly dome.vtu --output results --quiet --dump-fclib dome.hdf5" +
-               step)
-          .code,
-      0);
-  const ProgramRun run = folder.run("cupola-solve --fclib dome.hdf5");
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(run.out.find("converged: "), 0u) << run.out;
-  EXPECT_TRUE(contains(run.out, "576 contacts, local form")) << run.out;
-  EXPECT_TRUE(contains(run.out, "the file's own solution has FCLIB merit")) << run.out;
-  EXPECT_EQ(folder.run("cupola-solve --quiet --fclib dome.hdf5").out, "");
-  EXPECT_EQ(folder.run("cupola-solve --fclib dome.yaml").code, 2);
-  // The solution is written, and options without effect are refused.
-  ASSERT_EQ(folder.run("cupola-solve --quiet --fclib dome.hdf5 --output solved.hdf5").code, 0);
-  const ProgramRun again = folder.run("cupola-solve --fclib solved.hdf5");
-  EXPECT_TRUE(contains(again.out, "576 contacts, local form")) << again.out;
-  EXPECT_TRUE(contains(again.out, "the file's own solution has FCLIB merit")) << again.out;
-  for (const std::string ignored : {"--threads 2", "--resume", "--set joints.friction=0.3"}) {
-    const ProgramRun refused = folder.run("cupola-solve --fclib dome.hdf5 " + ignored);
-    EXPECT_EQ(refused.code, 2) << ignored;
-    EXPECT_TRUE(contains(refused.err,
-                         ignored.substr(0, ignored.find(' ')) + " has no effect with --fclib; remove it"))
-        << refused.err;
-  }
-  EXPECT_TRUE(contains(folder.run("cupola-solve dome.yaml --fclib dome.hdf5").err, "dome.yaml is ignored"));
-}
-
 TEST(Commands, TabulateASweepAndReportMissingMembers) {
   const DomeFolder folder;
-  ASSERT_EQ(folder.run("cupola-post sweep dome.yaml --members members.txt").code, 0);
+  ASSERT_EQ(folder.run("cupola-post study dome.yaml --members members.txt").code, 0);
   std::istringstream members(slurp(folder.file("members.txt")));
   std::string first, second, case_name, setting;
   members >> first >> case_name >> setting >> second;
   EXPECT_EQ(case_name + " " + setting, "dome joints.friction=0.4");
   run_dome(folder, first, "--set " + setting);
-  const std::string tabulate = "cupola-post sweep dome.yaml --runs runs --output table";
+  const std::string tabulate = "cupola-post study dome.yaml --runs runs --output table";
   const ProgramRun half = folder.run(tabulate);
   EXPECT_EQ(half.code, 1) << half.err;
-  EXPECT_TRUE(contains(half.out, "finished: 1 of 2 members, 1 missing")) << half.out;
+  EXPECT_TRUE(contains(half.out, "2 members: 1 stable, 1 missing")) << half.out;
   EXPECT_TRUE(contains(half.out, "no assembly: see the output of the run")) << half.out;
+  EXPECT_TRUE(contains(half.err, "not run: " + second)) << half.err;
   run_dome(folder, second, "--set joints.friction=0.5");
   EXPECT_EQ(folder.run(tabulate).code, 0);
   EXPECT_EQ(count(slurp(folder.file("table/sweep.csv")), ",stable,"), 2u);
-  const std::string page = slurp(folder.file("table/sweep.html"));
+  const std::string page = slurp(folder.file("table/study.html"));
   EXPECT_TRUE(contains(page, "Six rings &lt;b&gt;&amp; a crown"));
   EXPECT_FALSE(contains(page, "Six rings <b>"));
-  EXPECT_EQ(folder.run("cupola-post sweep dome.yaml").code, 2);
+  EXPECT_EQ(folder.run("cupola-post study dome.yaml").code, 2);
 }
 
 TEST(Commands, EvaluateClaims) {
   const DomeFolder folder;
   run_dome(folder, "low", "");
-  std::ofstream(folder.file("claims.yaml")) << R"(claims:
+  std::ofstream(folder.file("variants.txt")) << "low  dome\nhigh  dome  joints.friction=0.5\n";
+  std::ofstream(folder.file("statements.yaml")) << R"(claims:
   - says: All blocks <i>are there.
     quote: The model has 48 blocks.
     value: {runs: low, key: results.free_blocks}
@@ -158,33 +128,94 @@ TEST(Commands, EvaluateClaims) {
     value: {runs: low high, key: results.max_displacement_m, take: mean}
     ours: {at_least: 1, reason: visible}
 )";
-  EXPECT_EQ(folder.run("cupola-post claims claims.yaml --needs").out, "low\nhigh\n");
-  const ProgramRun run = folder.run("cupola-post claims claims.yaml --runs runs --output told");
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_TRUE(contains(run.out, "high")) << "the missing run\n" << run.out;
+  ASSERT_EQ(folder.run("cupola-post study statements.yaml --members members.txt").code, 0);
+  EXPECT_EQ(slurp(folder.file("members.txt")), "low\nhigh\n");
+  const ProgramRun run = folder.run("cupola-post study statements.yaml --runs runs --output told");
+  EXPECT_EQ(run.code, 1) << "a run is missing";
+  EXPECT_TRUE(contains(run.err, "not run: high")) << run.err;
   const std::string table = slurp(folder.file("told/claims.csv"));
   EXPECT_EQ(count(table, ",reproduced"), 1u) << table;
   EXPECT_EQ(count(table, ",not reproduced"), 1u) << table;
-  EXPECT_TRUE(contains(slurp(folder.file("told/claims.html")), "All blocks &lt;i&gt;are there."));
-  EXPECT_EQ(folder.run("cupola-post claims claims.yaml").code, 2);
+  EXPECT_EQ(count(table, ",not run,Not run: high."), 1u) << table;
+  EXPECT_TRUE(contains(slurp(folder.file("told/study.html")), "All blocks &lt;i&gt;are there."));
 }
 
-TEST(Commands, CompareAStudyWithItsReference) {
+TEST(Commands, CompareATradeoffWithItsReference) {
   const DomeFolder folder;
-  run_dome(folder, "exact", "--set analysis.tolerance=1e-10");
-  run_dome(folder, "coarse", "--set analysis.tolerance=1e-2");
-  std::ofstream(folder.file("study.txt")) << "method exact exact analysis.tolerance=1e-10\n"
-                                          << "method coarse exact analysis.tolerance=1e-2\n"
-                                          << "method absent exact analysis.tolerance=1e-4\n";
-  const ProgramRun run = folder.run("cupola-post tradeoff study.txt --runs runs --output study");
-  ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_TRUE(std::filesystem::exists(folder.file("study/tradeoff.html")));
+  run_dome(folder, "study/dome/exact", "--set analysis.tolerance=1e-10");
+  run_dome(folder, "study/dome/coarse", "--set analysis.tolerance=1e-2");
+  std::ofstream(folder.file("study.yaml")) << R"(case: dome
+tradeoff:
+  - knob: method
+    reference: exact
+    runs:
+      - {name: exact, set: analysis.tolerance=1e-10}
+      - {name: coarse, set: analysis.tolerance=1e-2}
+      - {name: absent, set: analysis.tolerance=1e-4}
+)";
+  ASSERT_EQ(folder.run("cupola-post study study.yaml --members members.txt").code, 0);
+  EXPECT_TRUE(contains(slurp(folder.file("members.txt")),
+                       "study/dome/coarse dome analysis.tolerance=1e-2 --tables\n"));
+  const ProgramRun run = folder.run("cupola-post study study.yaml --runs runs --output study");
+  ASSERT_EQ(run.code, 1) << run.err;
+  EXPECT_TRUE(contains(run.err, "not run: study/dome/absent")) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.file("study/study.html")));
   std::istringstream table(slurp(folder.file("study/tradeoff.csv")));
   std::vector<std::string> rows;
   for (std::string row; std::getline(table, row);) rows.push_back(row);
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_TRUE(contains(rows[2], ",stable,")) << rows[2];
   EXPECT_TRUE(contains(rows[3], ",not run,")) << rows[3];
+}
+
+// Two runs that a study defines, one of them missing, and a comparison of two.
+TEST(Commands, TabulateTheRunsOfAStudy) {
+  const DomeFolder folder;
+  std::ofstream(folder.file("two.yaml")) << R"(title: Two frictions
+runs:
+  - {cases: dome, sweep: [{key: joints.friction, values: [0.4, 0.5]}]}
+tables:
+  - name: frictions
+    columns:
+      - {heading: run, text: run}
+      - {heading: friction, key: case.joints.friction}
+      - {heading: blocks of ring 0, table: blocks, column: block, where: [{column: ring, is: "0"}], take: count}
+comparisons:
+  - {name: pair, runs: two/dome_friction0.4 two/dome_friction0.5}
+)";
+  ASSERT_EQ(folder.run("cupola-post study two.yaml --members members.txt").code, 0);
+  EXPECT_EQ(slurp(folder.file("members.txt")),
+            "two/dome_friction0.4 dome joints.friction=0.4\ntwo/dome_friction0.5 dome joints.friction=0.5\n");
+  run_dome(folder, "two/dome_friction0.4", "--set joints.friction=0.4");
+  const std::string measure = "cupola-post study two.yaml --runs runs --output runs/two";
+  EXPECT_EQ(folder.run(measure).code, 1);
+  EXPECT_EQ(slurp(folder.file("runs/two/frictions.csv")),
+            "run,friction,blocks of ring 0\ndome_friction0.4,0.4,8\ndome_friction0.5,not run,not run\n");
+  run_dome(folder, "two/dome_friction0.5", "--set joints.friction=0.5");
+  EXPECT_EQ(folder.run(measure + " --quiet").out, "");
+  EXPECT_TRUE(contains(slurp(folder.file("runs/two/frictions.csv")), "dome_friction0.5,0.5,8\n"));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("runs/two/pair/comparison.csv")));
+}
+
+TEST(Commands, ErrorsOfAStudyNameThePlaceAndWhatWasMeant) {
+  const DomeFolder folder;
+  const auto error_of = [&folder](const std::string& text) {
+    std::ofstream(folder.file("bad.yaml")) << text;
+    const ProgramRun run = folder.run("cupola-post study bad.yaml --members members.txt");
+    EXPECT_EQ(run.code, 2);
+    return run.err;
+  };
+  for (const auto& [text, error] : std::vector<std::pair<std::string, std::string>>{
+           {"tables:\n  - {name: t, runs: dome, colums: []}\n",
+            "bad.yaml:2:27: error: tables[0].colums: unknown key; did you mean columns?"},
+           {"tables:\n  - {name: t, runs: dome, columns: [{heading: h, key: post.x, take: men}]}\n",
+            "did you mean mean?"},
+           {"runs: [{names: dom}]\n",
+            "bad.yaml: error: dom: no case and no variant has this name; did you mean dome?"},
+           {"runs: [{cases: dome, set: a=$(touch x)}]\n", "bad.yaml:1:27: error: runs[0].set"},
+           {"runs: [{names: ../dome}]\n", "names consist of letters, digits"},
+           {"title: nothing\n", "contains no runs"}})
+    EXPECT_TRUE(contains(error_of(text), error)) << error_of(text);
 }
 
 TEST(Commands, CompareRuns) {
@@ -197,7 +228,9 @@ TEST(Commands, CompareRuns) {
   EXPECT_TRUE(
       contains(run.out, "B: Six rings <b>& a crown (with geometry.surface.thickness=2) (runs/thin/post)"))
       << run.out;
-  EXPECT_TRUE(contains(run.out, "The smallest geometric safety of the thrust lines is")) << run.out;
+  EXPECT_TRUE(contains(run.out,
+                       "The smallest ratio of half the thickness to the eccentricity of the thrust lines is"))
+      << run.out;
   const std::string page = slurp(folder.file("both/comparison.html"));
   EXPECT_TRUE(contains(page, "Six rings &lt;b&gt;&amp; a crown"));
   EXPECT_FALSE(contains(page, "Six rings <b>"));

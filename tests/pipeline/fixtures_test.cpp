@@ -16,7 +16,7 @@ struct OldRun {
   const char* assembly;
   AnalysisType analysis;
   Status status;
-  size_t frames;
+  std::vector<FrameRole> roles;
 };
 
 std::ostream& operator<<(std::ostream& out, const OldRun& run) {
@@ -36,11 +36,13 @@ TEST_P(Fixtures, AreRead) {
   const ResultsReader results(folder() + "/results", content_hash(assembly));
   EXPECT_EQ(results.summary().analysis, run.analysis);
   EXPECT_EQ(results.summary().status, run.status);
-  ASSERT_EQ(results.times().size(), run.frames);
-  for (size_t i = 0; i < run.frames; ++i) {
+  ASSERT_EQ(results.times().size(), run.roles.size());
+  for (size_t i = 0; i < run.roles.size(); ++i) {
     const Frame frame = results.read_frame(static_cast<int>(i));
     EXPECT_EQ(frame.blocks.position.size(), assembly.blocks.size());
     EXPECT_GT(frame.contacts.size(), 0);
+    EXPECT_EQ(to_string(frame.role), to_string(run.roles[i]));
+    EXPECT_FALSE(frame.label.empty());
   }
   for (const auto& [name, hash] : results.summary().text_files)
     EXPECT_FALSE(results.read_text_file(name).empty()) << name;
@@ -51,8 +53,8 @@ TEST_P(Fixtures, AreInEquilibriumWhereTheyStand) {
   const ResultsReader results(folder() + "/results", content_hash(read_assembly(file(run.assembly))));
   const Evaluation e =
       evaluate(read_case(folder() + "/case.yaml"), read_assembly(file(run.assembly)), results);
-  EXPECT_EQ(at_rest(e.summary), run.status == Status::stable);
-  if (!at_rest(e.summary)) return;
+  EXPECT_EQ(at_rest(e), run.status == Status::stable);
+  if (!at_rest(e)) return;
   EXPECT_FALSE(e.rings.empty());
   for (const RingSum& ring : e.rings)
     if (ring.blocks > 0) {
@@ -70,16 +72,23 @@ TEST_P(Fixtures, AreEvaluated) {
   EXPECT_TRUE(std::filesystem::exists(post.file("post/summary.json")));
 }
 
+using enum FrameRole;
 INSTANTIATE_TEST_SUITE_P(
     OfVersion, Fixtures,
-    ::testing::Values(OldRun{"0.2", "static", "arch.vtu", AnalysisType::static_, Status::stable, 1},
-                      OldRun{"0.2", "moving", "arch.vtu", AnalysisType::static_, Status::moving, 1},
-                      OldRun{"0.2", "dynamic", "arch.vtu", AnalysisType::dynamic, Status::moving, 2},
-                      OldRun{"0.2", "limit", "arch.vtu", AnalysisType::limit, Status::stable, 2},
-                      OldRun{"0.2", "range", "arch.vtu", AnalysisType::range, Status::stable, 3},
-                      OldRun{"0.2", "path", "arch.vtu", AnalysisType::path, Status::stable, 2},
-                      OldRun{"0.2", "staged", "wall.vtu", AnalysisType::staged, Status::stable, 2},
-                      OldRun{"0.2", "carried", "wall.vtu", AnalysisType::staged, Status::stable, 2}),
+    ::testing::Values(
+        OldRun{"0.2", "static", "arch.vtu", AnalysisType::static_, Status::stable, {equilibrium}},
+        OldRun{"0.2", "moving", "arch.vtu", AnalysisType::static_, Status::moving, {mechanism}},
+        OldRun{"0.2", "dynamic", "arch.vtu", AnalysisType::dynamic, Status::moving, {step, step}},
+        OldRun{"0.2", "limit", "arch.vtu", AnalysisType::limit, Status::stable, {equilibrium, mechanism}},
+        OldRun{"0.2",
+               "range",
+               "arch.vtu",
+               AnalysisType::range,
+               Status::stable,
+               {equilibrium, range_end, range_end}},
+        OldRun{"0.2", "path", "arch.vtu", AnalysisType::path, Status::stable, {path, path}},
+        OldRun{"0.2", "staged", "wall.vtu", AnalysisType::staged, Status::stable, {stage, stage}},
+        OldRun{"0.2", "carried", "wall.vtu", AnalysisType::staged, Status::stable, {stage, stage}}),
     [](const auto& row) { return std::string(row.param.name); });
 
 }  // namespace

@@ -1,25 +1,127 @@
 // File names that a shell or make would interpret, and cases that name parts which the blocks do not have.
 
+#include <regex>
+#include <vector>
+
 #include "tests/pipeline/program_run.hpp"
 
 namespace cupola::hostile_inputs_test {
 namespace {
 
+const std::string kMake = "make -f " CUPOLA_SOURCE_DIR "/Makefile.";
+
+/// Names that make, a shell or both would interpret.
+const std::vector<std::string> kHostileNames = {"x;touch pwned;y",
+                                                "$(shell touch pwned)",
+                                                "$(touch pwned)",
+                                                "e`touch pwned`",
+                                                "a|touch pwned",
+                                                "a&touch pwned",
+                                                "a>pwned",
+                                                "a b",
+                                                "q\"z",
+                                                "it's",
+                                                "c:d",
+                                                "#",
+                                                "%",
+                                                "a\\b",
+                                                "-rf",
+                                                "*",
+                                                "[x]",
+                                                "~root",
+                                                "new\nline",
+                                                "a=b",
+                                                "!",
+                                                "{x,y}"};
+
+/// A folder with a case of each hostile name and two plain ones.
+struct HostileFolder : ProgramFolder {
+  HostileFolder() {
+    for (const std::string& name : kHostileNames) std::ofstream(file(name + ".yaml")) << "sweep: []\n";
+    std::ofstream(file("swept-case_1.yaml")) << "sweep: [{key: joints.friction, values: [0.3, 0.4]}]\n";
+    std::ofstream(file("plain.yaml")) << "title: none\n";
+  }
+};
+
 TEST(HostileInputs, NamesOfCasesRunNoCommand) {
-  const ProgramFolder folder;
-  const std::string makefile = CUPOLA_SOURCE_DIR "/Makefile.cases";
-  for (const char* name : {"x;touch pwned;y.yaml", "$(shell touch pwned).yaml", "e`touch pwned`.yaml",
-                           "a b.yaml", "q\"z.yaml", "it's.yaml", "c:d.yaml", "a|touch pwned.yaml",
-                           "a&touch pwned.yaml", "a>pwned.yaml", "#.yaml", "%.yaml"})
-    std::ofstream(folder.file(name)) << "sweep: {joints.friction: [0.3, 0.4]}\n";
-  std::ofstream(folder.file("swept-case_1.yaml")) << "sweep: {joints.friction: [0.3, 0.4]}\n";
-  std::ofstream(folder.file("plain.yaml")) << "title: none\n";
-  const ProgramRun run = folder.run("make -f " + makefile + " FOLDER=. help");
+  const HostileFolder folder;
+  const ProgramRun run = folder.run(kMake + "cases FOLDER=. help");
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("Cases: plain swept-case_1\n"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("tabulates the runs: swept-case_1\n"), std::string::npos) << run.out;
   EXPECT_NE(run.err.find("it's.yaml"), std::string::npos) << "the ignored files are named: " << run.err;
   EXPECT_FALSE(std::filesystem::exists(folder.file("pwned")));
+}
+
+TEST(HostileInputs, NoTargetPassesOnHostileNames) {
+  const HostileFolder folder;
+  // make -n runs lines that contain $(MAKE); python3 would then write tables into the documentation.
+  const std::string fake = folder.file("bin/python3");
+  std::filesystem::create_directory(folder.file("bin"));
+  std::filesystem::create_symlink("/bin/true", fake);
+  std::smatch targets;
+  const std::string makefile = slurp(CUPOLA_SOURCE_DIR "/Makefile.cases");
+  ASSERT_TRUE(std::regex_search(makefile, targets, std::regex("\nTARGETS := (.*)\n")));
+  const ProgramRun run = folder.run("PATH=$PWD/bin:$PATH " + kMake +
+                                    "cases -nk FOLDER=. all-cases all-variants " + targets.str(1));
+  for (const char* part : {"pwned", "it's", "c:d", "q\"z", "new"})
+    EXPECT_EQ(run.out.find(std::string(part) + ".yaml"), std::string::npos) << part;
+  EXPECT_NE(run.out.find("./plain.yaml"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("pwned")));
+}
+
+TEST(HostileInputs, FoldersThatMakeWouldSplitAreRefused) {
+  const ProgramFolder folder;
+  for (const char* name : {"a b", "q\\\"z", "it's", "c:d", "a\\`b", "a;b", "a#b", "a%b", "a=b"})
+    for (const char* variable : {"FOLDER", "OUT", "BIN"}) {
+      const ProgramRun run = folder.run(kMake + "run BIN=. \"" + variable + "=" + name + "\" all-cases");
+      EXPECT_EQ(run.code, 2) << name;
+      EXPECT_NE(run.err.find("the path of this folder may not"), std::string::npos)
+          << variable << " " << name << run.err;
+    }
+  EXPECT_EQ(folder.run(kMake + "run BIN=. FOLDER=. OUT=./é_+-,@9 all-cases").code, 0);
+}
+
+constexpr const char* kWall = R"(geometry:
+  surface: {type: wall, length: 2, height: 1, thickness: 0.5}
+  bond: {type: running, rings: 2, blocks_per_ring: 2, slices_per_block: 2}
+joints: {compliance: {per: point}}
+)";
+
+TEST(HostileInputs, ACaseRestoredWithAnOlderDateRunsAgain) {
+  const ProgramFolder folder;
+  const std::string make = kMake + "run BIN=" CUPOLA_BIN_DIR " POST=--tables wall";
+  const auto thickness = [&] {
+    return slurp(folder.file("out/wall/results/run.yaml")).find("thickness: 0.4") != std::string::npos;
+  };
+  std::ofstream(folder.file("wall.yaml")) << kWall;
+  const auto date = std::filesystem::last_write_time(folder.file("wall.yaml"));
+  std::ofstream(folder.file("wall.yaml"))
+      << std::regex_replace(kWall, std::regex("thickness: 0.5"), "thickness: 0.4");
+  ASSERT_EQ(folder.run(make).code, 0);
+  EXPECT_TRUE(thickness());
+  std::ofstream(folder.file("wall.yaml")) << kWall;
+  std::filesystem::last_write_time(folder.file("wall.yaml"), date - std::chrono::hours(24));
+  ASSERT_EQ(folder.run(make).code, 0);
+  EXPECT_FALSE(thickness());
+  // A new date alone changes nothing.
+  std::filesystem::last_write_time(folder.file("wall.yaml"), std::filesystem::file_time_type::clock::now());
+  const ProgramRun again = folder.run(make);
+  EXPECT_EQ(again.code, 0);
+  EXPECT_EQ(again.out.find("cupola-solve"), std::string::npos) << again.out;
+}
+
+TEST(HostileInputs, SweepsFinishTheirFirstMembersFirst) {
+  const ProgramFolder folder;
+  std::ofstream(folder.file("wall.yaml"))
+      << kWall << "sweep: [{key: joints.friction, values: [0.3, 0.4, 0.5, 0.6, 0.7, 0.8]}]\n";
+  const ProgramRun run = folder.run(kMake + "run -j2 BIN=" CUPOLA_BIN_DIR " POST=--tables wall");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  const auto written = [&](const char* friction, const char* stamp) {
+    return std::filesystem::last_write_time(folder.file(std::string("out/wall_friction") + friction + stamp));
+  };
+  EXPECT_LT(written("0.3", "/.drawn"), written("0.8", "/.generated"));
 }
 
 TEST(HostileInputs, MeridiansOfBlocksWithoutCoursesAreLeftOut) {

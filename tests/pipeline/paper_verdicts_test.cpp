@@ -1,4 +1,4 @@
-// The verdicts of cases/claims.yaml: which statements of the paper the program reproduces and which it does
+// The verdicts of cases/studies/paper.yaml: which statements of the paper the program reproduces and which it does
 // not.
 #include <cstdlib>
 #include <filesystem>
@@ -6,12 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "postproc/claims/verdict.hpp"
+#include "postproc/studies/study.hpp"
 #include "tests/pipeline/program_run.hpp"
 
 namespace cupola::paper_verdicts_test {
 namespace {
 
-const std::string kClaims = CUPOLA_SOURCE_DIR "/cases/claims.yaml";
+const std::string kClaims = CUPOLA_SOURCE_DIR "/cases/studies/paper.yaml";
 
 /// Source and statement of the claims that are not reproduced. The page of claims gives the numbers.
 const std::set<std::string> kNotReproduced{
@@ -48,7 +49,7 @@ std::string name_of(const Claim& claim) {
 
 /// Compares the verdicts of all claims whose runs are finished; returns their number.
 int compare_verdicts(const std::string& runs) {
-  const std::vector<Claim> claims = read_claims(kClaims).claims;
+  const std::vector<Claim> claims = read_study(kClaims).claims;
   const std::vector<ClaimResult> results = evaluate_claims(claims, runs);
   int compared = 0;
   for (size_t i = 0; i < claims.size(); ++i) {
@@ -64,7 +65,7 @@ int compare_verdicts(const std::string& runs) {
 
 TEST(PaperVerdicts, ListNamesOnlyClaimsOfTheFile) {
   std::set<std::string> names;
-  for (const Claim& claim : read_claims(kClaims).claims) EXPECT_TRUE(names.insert(name_of(claim)).second);
+  for (const Claim& claim : read_study(kClaims).claims) EXPECT_TRUE(names.insert(name_of(claim)).second);
   for (const std::string& name : kNotReproduced) EXPECT_TRUE(names.contains(name)) << name;
 }
 
@@ -98,7 +99,7 @@ TEST(PaperVerdictsSlow, AreAsListed) {
     make += std::string(" -o " CUPOLA_BIN_DIR "/../bin/cupola-") + program;
   const ProgramRun run = folder.run(make + " paper");
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(compare_verdicts(folder.file("out")), static_cast<int>(read_claims(kClaims).claims.size()));
+  EXPECT_EQ(compare_verdicts(folder.file("out")), static_cast<int>(read_study(kClaims).claims.size()));
 }
 
 }  // namespace

@@ -53,11 +53,11 @@ class ProgramFolder {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
   }
 
-  /// Each file of the folder with a hash of its bytes.
+  /// Each file of the folder with a hash of its bytes, without `.lock`, which names the process.
   std::map<std::string, std::string> contents() const {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(path_ / "work"))
-      if (entry.is_regular_file())
+      if (entry.is_regular_file() && entry.path().filename() != ".lock")
         files[entry.path().lexically_relative(path_).string()] = hash_file(entry.path());
     return files;
   }

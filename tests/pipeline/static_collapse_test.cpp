@@ -24,7 +24,7 @@ TEST(StaticCollapse, DomeWithTooLittleFrictionIsProvenToMove) {
   for (const double friction : {0.0, 0.02, 0.05}) {
     const Summary summary = statics_of(dome(friction));
     EXPECT_EQ(summary.status, Status::moving) << friction << ": " << summary.message;
-    EXPECT_NE(summary.message.find("would have to be at least"), std::string::npos) << summary.message;
+    EXPECT_NE(summary.message.find("no joint resists"), std::string::npos) << summary.message;
   }
   EXPECT_EQ(statics_of(dome(0.4)).status, Status::stable);
 }
@@ -36,7 +36,7 @@ TEST(StaticCollapseSlow, DomeMovesUnderCoulombsLaw) {
   scene.analysis.friction_law = FrictionLaw::coulomb;
   const Summary summary = statics_of(scene);
   EXPECT_EQ(summary.status, Status::moving) << summary.message;
-  EXPECT_NE(summary.message.find("would have to be at least"), std::string::npos) << summary.message;
+  EXPECT_NE(summary.message.find("no joint resists"), std::string::npos) << summary.message;
 }
 
 // The associated law's critical friction is the lowest of all flow rules, because they admit the same forces. All

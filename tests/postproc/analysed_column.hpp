@@ -14,7 +14,7 @@ inline std::string analysed_column(const std::string& name, const std::vector<Fr
   const std::string folder = fresh_folder(name);
   write_assembly(folder + "/assembly.vtu", a);
   ResultsWriter writer(folder + "/results", content_hash(a));
-  for (const Frame& frame : frames) writer.write_frame(frame);
+  write_frames(frames, summary, &writer);
   writer.write_text("run.yaml", "title: column\n");
   writer.write_summary(summary);
   AnalyseRequest request;

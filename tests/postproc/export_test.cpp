@@ -19,9 +19,9 @@ std::string exported_column(const std::string& ending, Status status = Status::s
   const Assembly a = test::column(3);
   write_assembly(folder + "/assembly.vtu", a);
   ResultsWriter writer(folder + "/results", content_hash(a));
-  writer.write_frame(test::column_at_rest(a, test::kGravity, 0.0, 0.5, 0.3));
   Summary summary = test::column_summary(a);
   summary.status = status;
+  test::write_frames({test::column_at_rest(a, test::kGravity, 0.0, 0.5, 0.3)}, summary, &writer);
   writer.write_summary(summary);
   const RunInput input{test::column_case(), folder + "/assembly.vtu", folder + "/results"};
   EXPECT_EQ(export_run(input, folder + "/column" + ending, true), ExitCode::done);

@@ -42,6 +42,7 @@ inline Assembly column(int n, double density = 1800.0) {
   Assembly a;
   a.title = "Column";
   a.num_rings = n;
+  a.sheets = {{.name = "wall", .num_rings = n}};
   a.geometry_hash = "geometry of the column";
   Block support;
   support.kind = BlockKind::support;
@@ -132,6 +133,7 @@ inline Frame column_with_a_tie(const Assembly& a) {
 inline Assembly ring_vault(int rings, int blocks_per_ring, double offset) {
   Assembly a;
   a.num_rings = rings;
+  a.sheets = {{"vault", 0, rings, true, Sheet::ThrustLines::by_azimuth}};
   const double width = 2.0 * std::numbers::pi / blocks_per_ring;
   for (int k = 0; k < rings; ++k) {
     for (int s = 0; s < blocks_per_ring; ++s) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "assembly/files/content_hash.hpp"
+#include "assembly/files/old_frames.hpp"
 #include "postproc/evaluation/evaluation.hpp"
 #include "tests/postproc/models.hpp"
 
@@ -33,11 +34,20 @@ inline Summary column_summary(const Assembly& a) {
   return s;
 }
 
+/// Writes frames with the roles that they have in a run with this summary.
+inline void write_frames(const std::vector<Frame>& frames, const Summary& summary, ResultsWriter* writer) {
+  for (size_t i = 0; i < frames.size(); ++i) {
+    Frame frame = frames[i];
+    set_role_of_old_frame(summary, static_cast<int>(i), &frame);
+    writer->write_frame(frame);
+  }
+}
+
 /// Writes frames and a summary, and evaluates them.
 inline Evaluation evaluated(const Assembly& a, const std::vector<Frame>& frames, const Summary& summary,
                             const Case& scene, const std::string& folder) {
   ResultsWriter writer(folder, content_hash(a));
-  for (const Frame& frame : frames) writer.write_frame(frame);
+  write_frames(frames, summary, &writer);
   writer.write_summary(summary);
   return evaluate(scene, a, ResultsReader(folder, content_hash(a)));
 }

@@ -32,6 +32,7 @@ const Computations& computations() {
     add_convergence_rows(&map);
     add_range_rows(&map);
     add_strength_rows(&map);
+    add_feature_rows(&map);
     return map;
   }();
   return all;

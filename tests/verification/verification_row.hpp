@@ -21,6 +21,7 @@ void add_invariance_rows(Computations* all);
 void add_convergence_rows(Computations* all);
 void add_range_rows(Computations* all);
 void add_strength_rows(Computations* all);
+void add_feature_rows(Computations* all);
 
 /// The computation of every problem in references.yaml, by its id.
 const Computations& computations();

@@ -41,9 +41,11 @@ using ReportTrial = std::function<void(const DirectTrial&)>;
 /// Critical value of a parameter on which the loads depend smoothly. Each iteration maximises (or minimises)
 /// the multiplier t of the loads w(x) + t w'(x), linear in x, and moves x by t: one solve where the loads are
 /// linear in the parameter, a few for a tilt. `low` and `high`: an admissible state exists at one of them. If one exists
-/// at both, and the loads that grow with the parameter have one by themselves, there is no limit.
-DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, double relative_width,
-                           const ReportTrial& report);
+/// at both, and the loads that grow with the parameter have one by themselves, there is no limit. `in_unit`: from the values of the
+/// search to those of messages.
+DirectLimit limit_of_loads(
+    const SceneAt& scene_at, double low, double high, double relative_width, const ReportTrial& report,
+    const std::function<double(double)>& in_unit = [](double value) { return value; });
 
 /// Critical value of a parameter of the joints: the root of the pull alpha that the contacts need (pull_solve.hpp). Friction:
 /// Newton's method with the derivative that the mechanism gives, on rough solves, until its next step would not leave the
@@ -63,7 +65,7 @@ DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportT
 
 /// A limit that was not found, and why.
 DirectLimit not_found(std::string message);
-/// Why: the structure stands, or moves, at both ends of the bracket.
+/// Why: the structure stands, or moves, at both ends of the bracket, and what that shows.
 std::string at_both_ends(bool admissible, double low, double high);
 
 }  // namespace cupola

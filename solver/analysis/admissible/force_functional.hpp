@@ -42,7 +42,7 @@ class ForceScene {
         model(of_model),
         assembly(*of_model.assembly),
         contacts(detected),
-        joints(of_case, *of_model.assembly, detected) {}
+        joints(*of_model.assembly, detected) {}
 
   bool fixed(int block) const { return assembly.blocks[block].fixed; }
   std::string label(int block) const;

@@ -8,8 +8,7 @@
 #include "assembly/model/block_names.hpp"
 
 namespace cupola {
-JointGeometry::JointGeometry(const Case& scene, const Assembly& assembly, const ContactSet& contacts)
-    : scene_(scene), assembly_(assembly) {
+JointGeometry::JointGeometry(const Assembly& assembly, const ContactSet& contacts) : assembly_(assembly) {
   std::map<std::pair<int, int>, double> areas;
   for (const Patch& patch : contacts.patches) {
     const std::pair key{patch.block_a, patch.block_b};
@@ -54,15 +53,13 @@ const BlockPair& JointGeometry::pair(int block_a, int block_b) const {
 }
 
 bool JointGeometry::is_arch() const {
-  const SurfaceTraits traits = traits_of(scene_.geometry.surface);
-  return !scene_.geometry.imported && !traits.closed && traits.meridians == SurfaceTraits::Meridians::one;
+  return !assembly_.sheets.empty() && assembly_.sheets.back().thrust_lines == Sheet::ThrustLines::one;
 }
 
 Vec3 JointGeometry::outward(const Vec3& point) const {
-  const bool imported = scene_.geometry.imported.has_value();
-  if (!imported && traits_of(scene_.geometry.surface).closed)
-    return Vec3(point.x(), point.y(), 0.0).stableNormalized();
-  if (is_arch()) return {point.x() < 0.0 ? -1.0 : 1.0, 0.0, 0.0};
+  const bool imported = assembly_.sheets.empty();
+  if (!imported)
+    if (const std::optional<Vec3> outward = assembly_.sheets.back().outward(point)) return *outward;
   throw InputError(fmt::format(
       "analysis.range.quantities: {} no axis, so that `thrust` and `outward` are not defined; give "
       "a reaction or joint a `direction`",

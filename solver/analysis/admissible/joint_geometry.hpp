@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "assembly/case/case.hpp"
+#include "assembly/model/assembly.hpp"
 #include "solver/collision/contact_set.hpp"
 
 namespace cupola {
@@ -19,7 +19,7 @@ struct BlockPair {
 /// The joints of an assembly as pairs of blocks.
 class JointGeometry {
  public:
-  JointGeometry(const Case& scene, const Assembly& assembly, const ContactSet& contacts);
+  JointGeometry(const Assembly& assembly, const ContactSet& contacts);
 
   using Pairs = std::map<std::pair<int, int>, BlockPair>;
   const Pairs& pairs() const { return pairs_; }
@@ -32,7 +32,6 @@ class JointGeometry {
   bool is_arch() const;
 
  private:
-  const Case& scene_;
   const Assembly& assembly_;
   Pairs pairs_;
 };

@@ -141,8 +141,19 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
     if (!end.decided)
       return not_found(fmt::format(
           "the solve at {:g}, one end of the bracket, did not converge; move that end", end.value));
-  if (ends.below.admissible() == ends.above.admissible())
-    return not_found(at_both_ends(ends.below.admissible(), low, high));
+  if (ends.below.admissible() == ends.above.admissible()) {
+    DirectLimit limit = not_found(at_both_ends(ends.below.admissible(), low, high));
+    limit.trials = trials.count;
+    limit.iterations = trials.iterations;
+    if (ends.below.admissible()) {
+      limit.gamma = admissible_state(ends.below);
+      limit.at_admissible = std::move(ends.below.scene);
+    } else {
+      limit.mechanism = ends.below.solution.v;
+      limit.at_moving = std::move(ends.below.scene);
+    }
+    return limit;
+  }
   DirectLimit limit;
   RootSearch search(std::move(ends));
   while (trials.count < kMaxTrials) {

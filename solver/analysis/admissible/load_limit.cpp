@@ -36,8 +36,17 @@ ConicProblem largest_multiplier(const SceneAt& scene_at, double x, double toward
 }
 
 /// The structure stands at both ends of the bracket: perhaps it does at all values.
-DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high) {
+DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high,
+                                const std::function<double(double)>& in_unit) {
   RigidScene scene;
+  if (derivative_of_loads(scene_at, high).isZero(0.0)) {
+    DirectLimit limit = not_found(
+        "the structure stands, and no load depends on the parameter: give the load that it multiplies");
+    scene = scene_at(high);
+    limit.gamma = solve_conic(scene.problem).gamma;
+    limit.at_admissible = std::move(scene);
+    return limit;
+  }
   for (const double towards : {1.0, -1.0}) {
     const double end = towards > 0.0 ? high : low;
     if (solve_conic(largest_multiplier(scene_at, end, towards, &scene)).outcome != ConicOutcome::unbounded)
@@ -46,13 +55,26 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
     DirectLimit limit = not_found(fmt::format(
         "no limit: the structure stands at {:g} and at every {} value, because the loads that grow "
         "with it have an admissible state by themselves",
-        towards > 0.0 ? low : high, towards > 0.0 ? "higher" : "lower"));
+        in_unit(towards > 0.0 ? low : high), towards > 0.0 ? "higher" : "lower"));
     limit.unlimited = true;
     limit.gamma = any.gamma;
     limit.at_admissible = std::move(scene);
     return limit;
   }
-  return not_found(at_both_ends(true, low, high));
+  DirectLimit limit = not_found(at_both_ends(true, in_unit(low), in_unit(high)));
+  scene = scene_at(high);
+  limit.gamma = solve_conic(scene.problem).gamma;
+  limit.at_admissible = std::move(scene);
+  return limit;
+}
+
+/// The structure moves at both ends of the bracket.
+DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
+                               const std::function<double(double)>& in_unit) {
+  DirectLimit limit = not_found(at_both_ends(false, in_unit(low), in_unit(high)));
+  limit.at_moving = scene_at(low);
+  limit.mechanism = solve_conic(limit.at_moving.problem).v;
+  return limit;
 }
 
 /// Both bounds of the multiplier. Where rounding keeps them apart, the mechanism is improved.
@@ -73,16 +95,16 @@ ConicBounds bounds_of(const ConicProblem& problem, double enough, ConicSolution*
 }  // namespace
 
 DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, double relative_width,
-                           const ReportTrial& report) {
+                           const ReportTrial& report, const std::function<double(double)>& in_unit) {
   constexpr int kMaxIterations = 30;
   DirectLimit limit;
   const std::optional<bool> at_low = has_state(scene_at, low, &limit, report);
   const std::optional<bool> at_high = has_state(scene_at, high, &limit, report);
   if (!at_low || !at_high)
     return not_found(fmt::format("the solve at {:g}, one end of the bracket, did not converge; move that end",
-                                 at_low ? high : low));
-  if (*at_low && *at_high) return stands_at_both_ends(scene_at, low, high);
-  if (!*at_low && !*at_high) return not_found(at_both_ends(false, low, high));
+                                 in_unit(at_low ? high : low)));
+  if (*at_low && *at_high) return stands_at_both_ends(scene_at, low, high, in_unit);
+  if (!*at_low && !*at_high) return moves_at_both_ends(scene_at, low, high, in_unit);
   const double towards = *at_low ? 1.0 : -1.0;
   double x = *at_low ? low : high;
   for (int k = 0; k < kMaxIterations; ++k) {
@@ -94,7 +116,8 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
     const ConicBounds bounds = bounds_of(problem, 0.1 * relative_width * std::abs(x + step), &solution);
     if (solution.outcome == ConicOutcome::infeasible || solution.outcome == ConicOutcome::unbounded ||
         !std::isfinite(bounds.upper) || !std::isfinite(bounds.lower))
-      return not_found(fmt::format("the linearised problem at {:.8g} is {}", x, to_string(solution.outcome)));
+      return not_found(
+          fmt::format("the linearised problem at {:.8g} is {}", in_unit(x), to_string(solution.outcome)));
     limit.admissible = x - towards * bounds.upper;
     limit.moving = x - towards * bounds.lower;
     limit.gamma = solution.gamma;

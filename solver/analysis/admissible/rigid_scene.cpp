@@ -1,7 +1,6 @@
 #include "solver/analysis/admissible/rigid_scene.hpp"
 
 #include "assembly/base/error.hpp"
-#include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/admissible/joint_geometry.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/collision/contact_detector.hpp"
@@ -14,8 +13,8 @@ namespace cupola {
 
 namespace {
 
-void scale_joints(const Case& scene, const Assembly& assembly, double extent, ContactSet* contacts) {
-  const JointGeometry joints(scene, assembly, *contacts);
+void scale_joints(const Assembly& assembly, double extent, ContactSet* contacts) {
+  const JointGeometry joints(assembly, *contacts);
   for (const auto& [key, pair] : joints.pairs()) {
     for (const int i : pair.contacts) {
       Contact& contact = contacts->points[i];
@@ -46,9 +45,7 @@ RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assemb
   rigid.start = state_at_rest(rigid.model);
   ContactDetector detector(*rigid.assembly, detection_options(scene));
   rigid.contacts = detector.update(rigid.start.poses);
-  const double open = joint_rule(smallest_block_size(*rigid.assembly), scene.contact.margin).min_width;
-  std::erase_if(rigid.contacts.points, [&](const Contact& contact) { return contact.gap > open; });
-  if (joint_extent != 1.0) scale_joints(scene, *rigid.assembly, joint_extent, &rigid.contacts);
+  if (joint_extent != 1.0) scale_joints(*rigid.assembly, joint_extent, &rigid.contacts);
   rigid.memories = match_memories({}, rigid.contacts.points);
 
   const StepOptions step{.h = 1.0, .time_advance = 0.0};
@@ -74,6 +71,7 @@ Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time) 
                            law_violations(scene.contacts, gamma, outside), scene.memories,
                            std::vector<Vec3>(scene.start.poses.size(), Vec3::Zero()));
   frame.time = time;
+  set_role(FrameRole::equilibrium, "", &frame);
   return frame;
 }
 

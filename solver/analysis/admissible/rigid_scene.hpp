@@ -16,13 +16,12 @@ struct RigidScene {
   std::shared_ptr<const Assembly> assembly;
   Model model;
   State start;
-  ContactSet contacts;  ///< closed ones only
+  ContactSet contacts;  ///< those of a static analysis: all within `contact.margin`
   ContactMemories memories;
   ConicProblem problem;  ///< equilibrium under the loads at time 0, without an objective
 };
 
-/// Contacts whose gap exceeds 1e-3 of the smallest block, the least width of a joint (joint_rule.hpp), are
-/// open and carry nothing; a tie carries only tension, a strut only compression. `joint_extent` scales the distances of
+/// Every contact within `contact.margin` counts as closed, as in a static analysis; a tie carries only tension, a strut only compression. `joint_extent` scales the distances of
 /// the contact points from the centroid of their joint (all faces between two blocks), and its square their areas.
 /// Throws InputError for a joint with cohesion but without friction.
 RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly,

@@ -45,7 +45,7 @@ void require_carried(const Case& scene) {
 
 Construction::Construction(const Case& scene, const Assembly& assembly,
                            const std::function<void(const std::string&)>& log)
-    : scene_(scene), assembly_(assembly), options_(static_options(scene.analysis)) {
+    : scene_(scene), assembly_(assembly), options_(verdict_options(scene.analysis)) {
   require_carried(scene);
   if (!assembly.ties.empty()) throw InputError("analysis.staged: ties of the assembly require unit: ring");
   options_.log = log;

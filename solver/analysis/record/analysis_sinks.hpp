@@ -5,7 +5,6 @@
 
 #include "assembly/model/results.hpp"
 #include "solver/collision/contact_set.hpp"
-#include "solver/contact/problem/contact_problem.hpp"
 
 namespace cupola {
 
@@ -19,9 +18,6 @@ struct AnalysisSinks {
   /// A complete table that belongs to this analysis: file name (ending in .csv) and text.
   std::function<void(const std::string& name, const std::string& text)> table = [](const std::string&,
                                                                                    const std::string&) {};
-  /// The contact problem of the static solve or of the last step, and its impulses.
-  std::function<void(const ContactProblem&, const VecX& gamma)> problem = [](const ContactProblem&,
-                                                                             const VecX&) {};
   /// Fraction of the work that is done, in [0, 1], and where the run is, in words.
   std::function<void(double share, const std::string& state)> progress = [](double, const std::string&) {};
   /// The state after the last frame and row, as bytes from which the analysis resumes with the same bits.

@@ -111,12 +111,15 @@ Mechanism find_mechanism(const Model& model, const State& start, const ContactSe
 
 void write_mechanism(const Model& model, const State& start, const ContactSet& contacts,
                      const ContactMemories& memories, const Mechanism& mechanism, const JointForces& forces,
-                     const std::vector<double>& violations, const AnalysisSinks& sinks) {
+                     const std::vector<double>& violations, const std::string& owner,
+                     const AnalysisSinks& sinks) {
   State moving = start;
   moving.v = mechanism.v;
   moving.time = 1.0;
-  sinks.frame(make_frame(model, moving, contacts, forces, violations, memories,
-                         std::vector<Vec3>(moving.poses.size(), Vec3::Zero())));
+  Frame frame = make_frame(model, moving, contacts, forces, violations, memories,
+                           std::vector<Vec3>(moving.poses.size(), Vec3::Zero()));
+  set_role(FrameRole::mechanism, owner, &frame);
+  sinks.frame(frame);
   sinks.table("mechanism_blocks.csv", mechanism_blocks_csv(model, mechanism));
   sinks.table("mechanism_joints.csv", mechanism_joints_csv(mechanism));
 }

@@ -43,10 +43,11 @@ Mechanism find_mechanism(const Model& model, const State& start, const ContactSe
                          const ContactProblem& problem, const VecX& v);
 
 /// Writes the mechanism as a frame at 1 s, with its largest speed scaled to 1 m/s, and as two tables. `forces`
-/// (N, nc) and `violations` (nc) are those of the frame.
+/// (N, nc), `violations` (nc) and `owner` are those of the frame.
 void write_mechanism(const Model& model, const State& start, const ContactSet& contacts,
                      const ContactMemories& memories, const Mechanism& mechanism, const JointForces& forces,
-                     const std::vector<double>& violations, const AnalysisSinks& sinks);
+                     const std::vector<double>& violations, const std::string& owner,
+                     const AnalysisSinks& sinks);
 
 /// Tables of the blocks and joints of a mechanism.
 std::string mechanism_blocks_csv(const Model& model, const Mechanism& mechanism);

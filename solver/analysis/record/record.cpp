@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "assembly/base/error.hpp"
@@ -172,6 +173,41 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
   }
   frame.ties = tie_table(model, state, forces.ties, memories);
   return frame;
+}
+
+void append_parted(const ContactSet& built, const ContactSet& found, double margin, ContactTable* table) {
+  std::set<ContactId> held;
+  for (const Contact& contact : found.points) held.insert(contact.id);
+  std::map<std::tuple<int, int, JointKind>, int> joints;
+  int count = 0;
+  for (int i = 0; i < table->size(); ++i) {
+    joints[{table->block_a[i], table->block_b[i], table->kind[i]}] = table->joint[i];
+    count = std::max(count, table->joint[i] + 1);
+  }
+  const bool has_strength = !table->damage.empty();
+  for (const Contact& contact : built.points) {
+    if (contact.gap <= margin || held.contains(contact.id)) continue;
+    const Patch& patch = built.patches[contact.patch];
+    const auto [joint, is_new] = joints.try_emplace({contact.block_a, contact.block_b, patch.kind}, count);
+    count += is_new;
+    table->joint.push_back(joint->second);
+    table->block_a.push_back(contact.block_a);
+    table->block_b.push_back(contact.block_b);
+    table->kind.push_back(patch.kind);
+    table->ring.push_back(patch.ring);
+    table->point.push_back(0.5 * (contact.point_a + contact.point_b));
+    table->normal.push_back(contact.normal);
+    table->gap.push_back(contact.gap);
+    table->force.push_back(Vec3::Zero());
+    table->area.push_back(contact.area);
+    for (std::vector<double>* zero :
+         {&table->normal_force, &table->friction_use, &table->slip, &table->law_violation})
+      zero->push_back(0.0);
+    if (!has_strength) continue;
+    table->strength_use.push_back(0.0);
+    table->damage.push_back(1.0);
+    table->crack_opening.push_back(contact.gap);
+  }
 }
 
 void summarize_frame(const Frame& frame, const Model& model, Summary* summary) {

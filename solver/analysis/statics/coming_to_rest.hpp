@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "solver/analysis/statics/proximal_point.hpp"
+#include "solver/conic/motion_proof.hpp"
 
 namespace cupola {
 
@@ -30,12 +31,14 @@ class ComingToRest : public ProximalPoint {
   double control_share() const;
   void seek_time(double tolerance, const std::function<void()>& attempt_now);
   bool misses_displacement(const StaticSolution& trial) const;
-  double proof(const StaticSolution& trial) const;
+  double required_forces() const;
+  bool is_proven_to_move();
   bool moves_steadily(double contraction, int count);
 
   int num_steady_ = 0;
-  double tightening_ = 1.0;  // factor on the tolerance of the contact solves
-  double reached_ = 0.0;     // m, control: displacement beyond the one asked for
+  double tightening_ = 1.0;                  // factor on the tolerance of the contact solves
+  std::optional<MotionProof> motion_proof_;  // made where a motion shows
+  double reached_ = 0.0;                     // m, control: displacement beyond the one asked for
   double time_slope_ = 0.0;  // m/s, control: change of the displacement with the time; 0: unknown
 };
 

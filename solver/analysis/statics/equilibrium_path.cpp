@@ -8,6 +8,7 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/files/byte_archive.hpp"
+#include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/static_step.hpp"
 #include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/state_archive.hpp"
@@ -18,6 +19,16 @@ EquilibriumPath::EquilibriumPath(const Model& model, const DetectionOptions& det
                                  const StaticOptions& options)
     : model_(model), options_(options), detector_(*model.assembly, detection) {
   loaded_.state = state_at_rest(model_);
+  ContactDetector as_built(*model.assembly, detection);
+  contacts_at_rest(loaded_.state, *model.assembly, &as_built);
+  built_ = as_built.memory().contacts;
+}
+
+void EquilibriumPath::list_parted(Frame* frame) const {
+  AnchoredContacts built = built_;
+  const std::vector<Pose>& poses = loaded_.state.poses;
+  move_contacts(poses, moved_contacts(built.set, std::vector<char>(poses.size(), 1)), &built);
+  append_parted(built.set, contacts(), detector_.margin(), &frame->contacts);
 }
 
 StaticSolution solve_breaking(const Model& model, const State& start, const ContactSet& contacts,
@@ -57,7 +68,9 @@ StaticSolution EquilibriumPath::advance_by(const LengthControl& control) {
 
 StaticSolution EquilibriumPath::advance_from(double guess) {
   start_ = loaded_.state;
-  const ContactSet& contacts = detector_.update(start_.poses);
+  const ContactSet& contacts = detector_.num_detections() == 0
+                                   ? contacts_at_rest(start_, *model_.assembly, &detector_)
+                                   : detector_.update(start_.poses);
   memories_ = match_memories(loaded_.memories, contacts.points);
   options_.time_advance = guess - start_.time;
   StaticSolution solution = solve_breaking(model_, start_, contacts, options_, &memories_, &solves_);

@@ -37,6 +37,9 @@ class EquilibriumPath {
   int solves() const { return solves_; }  ///< static solves of the last step tried
   const ContactSet& contacts() const { return detector_.contacts(); }
   const ContactMemories& memories() const { return memories_; }
+  /// Adds to a frame of the last equilibrium the points of the joints as built whose faces have parted by more than the margin
+  /// of detection: the problem no longer holds them, and they carry nothing.
+  void list_parted(Frame* frame) const;
 
  private:
   StaticSolution advance_from(double guess);
@@ -44,6 +47,7 @@ class EquilibriumPath {
   const Model& model_;
   StaticOptions options_;
   ContactDetector detector_;
+  AnchoredContacts built_;  ///< the contacts as built
   LoadedState loaded_;
   State start_;
   ContactMemories memories_;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "assembly/base/error.hpp"
+#include "solver/conic/exact_equilibrium.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/duality_gap.hpp"
 #include "solver/contact/problem/residuals.hpp"
@@ -197,6 +198,10 @@ std::optional<ContactSolution> ForceProjection::correction(const std::vector<Mat
     rz = next;
   }
   return std::nullopt;
+}
+
+bool ForceProjection::proves_equilibrium(const ContactSolution& x) {
+  return equilibrium_distance(p_, white_, graph_, impulse_, x.gamma, &preconditioner_) <= kProvenDistance;
 }
 
 std::optional<ForceErrorBound> ForceProjection::force_error(const ContactSolution& x) {

@@ -26,6 +26,10 @@ class ForceProjection {
   /// sqrt(1e-3 gravity / m).
   bool is_stable(const ContactSolution& x, double gravity);
 
+  /// True if impulses in exact equilibrium next to those of x are proven to exist (exact_equilibrium.hpp). Replaces the factor that the
+  /// other functions share: call it last.
+  bool proves_equilibrium(const ContactSolution& x);
+
   /// Bounds the distance of the impulses from those of the exact static solution. None if no forces in the
   /// cones that balance the loads are found next to gamma. Requires all E > 0 and the associated law.
   std::optional<ForceErrorBound> force_error(const ContactSolution& x);

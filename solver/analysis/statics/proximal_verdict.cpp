@@ -10,9 +10,9 @@
 namespace cupola {
 namespace {
 
-/// Lower bound of the sum of normal forces of any equilibrium, over the sum found or the sum of the loads if
-/// that is larger, from which a motion counts as proven.
-constexpr double kProven = 100.0;
+/// Lower bound of the sum of normal forces of any equilibrium, over the sum found or the sum of the loads if that is larger, from which
+/// a proof of the motion is sought and, failing that, a motion without proof is reported.
+constexpr double kFarFromEquilibrium = 100.0;
 
 /// A lower bound with two digits, rounded down.
 std::string times_text(double times) {
@@ -26,12 +26,20 @@ std::string times_text(double times) {
 
 /// Lower bound of the sum of the normal forces of any equilibrium, from the motion, over the larger of the
 /// sum found and the sum of the loads.
-double ComingToRest::proof(const StaticSolution& trial) const {
+double ComingToRest::required_forces() const {
   double loads = 0.0;
   const VecX f = applied_forces(model_, start_, start_.time + options_.time_advance);
   for (Eigen::Index i = 0; i < f.size(); i += 6) loads += f.segment<3>(i).norm();
-  return required_normal_force(step_.problem, trial.increment / trial.h) /
-         std::max(loads, normal_force_sum(step_.problem, trial.step_solution.gamma));
+  return required_normal_force(step_.problem, trial_.increment / trial_.h) /
+         std::max(loads, normal_force_sum(step_.problem, trial_.step_solution.gamma));
+}
+
+/// True if the motion, or one that the conic solver finds, proves that no forces balance the loads.
+bool ComingToRest::is_proven_to_move() {
+  if (!motion_proof_)
+    motion_proof_.emplace(
+        step_.problem, step_.problem.h * applied_forces(model_, start_, start_.time + options_.time_advance));
+  return motion_proof_->next_to(trial_.increment) || motion_proof_->search() == MotionProof::Answer::moves;
 }
 
 /// True if `count` iterations in a row left the residual as it was and the blocks move.
@@ -47,19 +55,30 @@ std::optional<StaticSolution> ComingToRest::judge_motion(double contraction) {
   constexpr int kMoving = 3, kUnproven = 15;  // steady iterations until the search ends
   if (!options_.solve.law.is_associated())
     return moves_steadily(contraction, kMoving) ? std::optional(finish_moving("")) : std::nullopt;
-  const double needed = proof(trial_);
-  if (needed >= kProven)
-    return finish(
-        StaticOutcome::moving,
-        fmt::format("no equilibrium exists: {}; contact forces that balance the loads would have to be at "
-                    "least {} times as large as the loads",
-                    acceleration_text(), times_text(needed)));
+  const double required = required_forces();
+  if (required >= kFarFromEquilibrium) {
+    if (is_proven_to_move()) {
+      StaticSolution answer = finish(
+          StaticOutcome::moving,
+          fmt::format(
+              "no equilibrium exists: {}; a mechanism that the loads drive and no joint resists proves it",
+              acceleration_text()));
+      answer.proven = true;
+      return answer;
+    }
+    if (motion_proof_->search() != MotionProof::Answer::admissible)
+      return finish(
+          StaticOutcome::moving,
+          fmt::format(
+              "no equilibrium was found: {}; contact forces that balance the loads would have to be at "
+              "least {} times as large as the loads; not proven",
+              acceleration_text(), times_text(required)));
+  }
   if (!moves_steadily(contraction, kUnproven)) return {};
   return finish(
       StaticOutcome::unconverged,
-      fmt::format("{} in {}, but it is not proven that no equilibrium exists: contact forces {:.2g} times as "
-                  "large as the loads might balance them, and the proof requires {:g} times",
-                  acceleration_text(), counted(kUnproven, "iteration"), needed, kProven));
+      fmt::format("{} in {}, but contact forces {:.2g} times as large as the loads might balance them",
+                  acceleration_text(), counted(kUnproven, "iteration"), required));
 }
 
 }  // namespace cupola

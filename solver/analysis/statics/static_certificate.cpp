@@ -84,6 +84,7 @@ StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, 
   certificate.forces_unique = forces_unique(problem, law);
   if (problem.num_blocks() == 0 || problem.num_contacts() == 0) {
     certificate.force_error.bounds = "no joint carries force";
+    certificate.exact_forces = loads.isZero(0.0);
     return certificate;
   }
   const ContactProblem sector = symmetry ? reduce(problem, *symmetry) : ContactProblem{};
@@ -95,27 +96,35 @@ StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, 
   if (!symmetry && !has_ties && !rigid && !(coulomb && projection.slides(x)))
     certificate.balance = projection.is_stable(x, gravity) ? Balance::stable : Balance::unstable;
 
-  if (rigid || coulomb) {
-    certificate.force_error.bounds =
-        rigid ? "some compliance is zero: forces are not unique" : "Coulomb's law is not a minimisation";
-    return certificate;
-  }
-  std::optional<ForceErrorBound> error = projection.force_error(x);
-  if (!error) {
-    certificate.force_error.bounds =
-        "the forces in the loaded joints could not be brought into exact equilibrium inside the limits of "
-        "the "
-        "joints";
-    return certificate;
-  }
-  if (symmetry) {
-    error->correction = expand({x.v, error->correction}, problem, *symmetry).gamma;
-    error->remainder *= std::sqrt(symmetry->sectors);
-  }
-  certificate.force_error = {
-      largest_joint_error(contacts, problem, solution.gamma, *error),
-      "relative error of the wrench on any joint that carries more than 1 % of the mean joint force, against "
-      "the exact static solution of this model"};
+  const auto bound_force_error = [&] {
+    if (rigid || coulomb) {
+      certificate.force_error.bounds =
+          rigid ? "some compliance is zero: forces are not unique" : "Coulomb's law is not a minimisation";
+      return;
+    }
+    std::optional<ForceErrorBound> error = projection.force_error(x);
+    if (!error) {
+      certificate.force_error.bounds =
+          "the forces in the loaded joints could not be brought into exact equilibrium inside the limits of "
+          "the joints";
+      return;
+    }
+    if (symmetry) {
+      error->correction = expand({x.v, error->correction}, problem, *symmetry).gamma;
+      error->remainder *= std::sqrt(symmetry->sectors);
+    }
+    const double largest = largest_joint_error(contacts, problem, solution.gamma, *error);
+    if (!std::isfinite(largest)) {
+      certificate.force_error.bounds = "the bound of the error exceeds the wrench of a joint";
+      return;
+    }
+    certificate.force_error = {largest,
+                               "relative error of the wrench on any joint that carries more than 1 % of the "
+                               "mean joint force, against "
+                               "the exact static solution of this model"};
+  };
+  bound_force_error();
+  certificate.exact_forces = projection.proves_equilibrium(x);
   return certificate;
 }
 

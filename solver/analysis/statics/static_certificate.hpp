@@ -20,6 +20,8 @@ struct StaticCertificate {
   ForceCertificate force_error;
   ForcesUnique forces_unique;
   Balance balance = Balance::unknown;
+  bool exact_forces =
+      false;  ///< forces in exact equilibrium are proven to exist next to those found, under any law
 };
 
 /// What is certain about a static solution, computed from the solution alone.
@@ -44,6 +46,8 @@ struct StaticCertificate {
 /// **Stability.** The second variation of the energy: the stiffness of the joints in their present state plus
 /// the geometric stiffness of the contact forces, which act on points that rotate with their blocks. Growth
 /// slower than exp(t sqrt(1e-3 g / m)) is not reported.
+///
+/// **Existence.** Any law, rigid joints too: exact_equilibrium.hpp.
 ///
 /// `loads`: N, N m (6 nb). `gravity`: m/s2, sets that smallest growth rate. `problem` and `solution` are
 /// those of the whole model; with a symmetry the linear algebra is done on one sector.

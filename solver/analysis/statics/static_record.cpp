@@ -1,5 +1,11 @@
 #include "solver/analysis/statics/static_record.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/dynamics/law_violation.hpp"
 
@@ -16,6 +22,18 @@ Status status_of(StaticOutcome outcome) {
       break;
   }
   return Status::unconverged;
+}
+
+FrameRole role_of(StaticOutcome outcome) {
+  switch (outcome) {
+    case StaticOutcome::equilibrium:
+      return FrameRole::equilibrium;
+    case StaticOutcome::moving:
+      return FrameRole::mechanism;
+    case StaticOutcome::unconverged:
+      break;
+  }
+  return FrameRole::unconverged;
 }
 
 /// Of a static solve. Without an equilibrium, inertia balances the loads.
@@ -35,6 +53,19 @@ std::vector<double> static_violations(const ContactSet& contacts, const StaticSo
                         contact_law_errors(solution.step.problem, solution.step_solution, law));
 }
 
+std::string gaps_note(const ContactSet& contacts, const Assembly& assembly) {
+  const double closed = joint_rule(smallest_block_size(assembly), 0.0).min_width;
+  int count = 0;
+  double largest = 0.0;
+  for (const Contact& contact : contacts.points) {
+    if (contact.gap > closed) ++count;
+    largest = std::max(largest, contact.gap);
+  }
+  if (count == 0) return "";
+  return fmt::format("; {} with gaps of up to {:.2g} mm {} within `contact.margin` and may carry forces",
+                     counted(count, "contact point"), 1e3 * largest, count == 1 ? "is" : "are");
+}
+
 Frame static_frame(const Model& model, const State& start, const ContactSet& contacts,
                    const ContactMemories& memories, const StaticSolution& solution,
                    const StaticOptions& options) {
@@ -52,6 +83,7 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   Frame frame =
       make_frame(model, loaded.state, contacts, solution.forces,
                  static_violations(contacts, solution, options.solve.law), loaded.memories, displacement);
+  set_role(role_of(solution.outcome), "", &frame);
   if (!equilibrium) return frame;
   const VecX u =
       relative_velocity(solution.step.problem, solution.step_solution.v) + solution.step.support_velocity;
@@ -61,6 +93,10 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
       frame.contacts.crack_opening[i] = crack_opening(frame.contacts.gap[i], loaded.memories.values[i]);
   }
   return frame;
+}
+
+FrameRole stage_role(StaticOutcome outcome) {
+  return outcome == StaticOutcome::moving ? FrameRole::failed_stage : FrameRole::stage;
 }
 
 void summarize_static(const StaticSolution& solution, const Frame& frame, const Model& model,

@@ -3,25 +3,85 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/statics/coming_to_rest.hpp"
 #include "solver/analysis/statics/following_path.hpp"
 #include "solver/analysis/statics/static_step.hpp"
+#include "solver/conic/exact_equilibrium.hpp"
+#include "solver/conic/motion_proof.hpp"
 #include "solver/contact/problem/cone.hpp"
 
 namespace cupola {
 namespace {
 
+/// The motion of a mechanism that the conic solver found, in the place of an equilibrium to the tolerance.
+void turn_into_motion(const Model& model, const State& start, const VecX& loads, const VecX& mechanism,
+                      StaticSolution* solution) {
+  const ContactProblem& problem = solution->step.problem;
+  double power = loads.dot(mechanism), inertia = 0.0;
+  for (int k = 0; k < problem.num_blocks(); ++k)
+    inertia += mechanism.segment<6>(6 * k).dot(problem.M[k] * mechanism.segment<6>(6 * k));
+  const VecX acceleration = power / inertia * mechanism;
+  solution->increment = solution->h * solution->h * acceleration;
+  solution->step_solution.v = solution->h * acceleration;
+  solution->speed_ratio = largest_speed(acceleration) / reference_acceleration(model, start);
+  solution->outcome = StaticOutcome::moving;
+  solution->message = fmt::format(
+      "no equilibrium exists: blocks accelerate at up to {:.3g} m/s2; a mechanism that the loads drive and "
+      "no joint resists "
+      "proves it (without it, forces were found that balance the loads to {:.1e} of a block's weight)",
+      largest_speed(acceleration), solution->balance.residual);
+}
+
+/// Asks the conic solver where no verdict was reached, or where exact forces next to those found are not proven to exist.
+void decide(const Model& model, const State& start, const VecX& loads, const StaticOptions& options,
+            StaticSolution* solution) {
+  options.log("static  the conic solver decides whether exact forces exist");
+  const ContactProblem& problem = solution->step.problem;
+  MotionProof proof(problem, problem.h * loads);
+  switch (proof.search()) {
+    case MotionProof::Answer::moves:
+      solution->proven = true;
+      turn_into_motion(model, start, loads, proof.mechanism(), solution);
+      return;
+    case MotionProof::Answer::admissible:
+      solution->proven = solution->outcome == StaticOutcome::equilibrium &&
+                         proves_equilibrium(problem, problem.h * loads, proof.forces());
+      if (solution->outcome != StaticOutcome::equilibrium && options.solve.law.is_associated())
+        solution->message +=
+            "; forces that balance the loads exist, so that the structure stands, but "
+            "those that its compliances choose were not found";
+      break;
+    case MotionProof::Answer::unknown:
+      break;
+  }
+  if (!solution->proven && solution->outcome == StaticOutcome::equilibrium)
+    solution->message += "; not proven: forces in exact equilibrium were not found";
+}
+
+StaticCertificate unsolved() {
+  StaticCertificate certificate;
+  certificate.force_error.bounds = "the static problem was not solved";
+  return certificate;
+}
+
 void certify(const Model& model, const State& start, const ContactSet& contacts, const StaticOptions& options,
              StaticSolution* solution) {
-  if (solution->outcome != StaticOutcome::equilibrium) {
-    solution->certificate.force_error.bounds = "the static problem was not solved";
-    return;
+  if (solution->outcome == StaticOutcome::equilibrium) {
+    const VecX loads = applied_forces(model, start, start.time + solution->time_advance);
+    solution->certificate = certify_static(contacts, loads, solution->step.problem, solution->step_solution,
+                                           options.solve.law, model.loads.gravity.norm(), options.symmetry);
+    solution->proven = solution->certificate.exact_forces;
+    if (!solution->proven) decide(model, start, loads, options, solution);
   }
-  const VecX loads = applied_forces(model, start, start.time + solution->time_advance);
-  solution->certificate = certify_static(contacts, loads, solution->step.problem, solution->step_solution,
-                                         options.solve.law, model.loads.gravity.norm(), options.symmetry);
-  if (solution->certificate.balance == Balance::unstable)
+  if (solution->outcome == StaticOutcome::unconverged && !options.control && !options.solve.max_iterations)
+    decide(model, start, applied_forces(model, start, start.time + solution->time_advance), options,
+           solution);
+  if (solution->outcome != StaticOutcome::equilibrium)
+    solution->certificate = unsolved();
+  else if (solution->certificate.balance == Balance::unstable)
     solution->message +=
         "; unstable balance: joints and weight give a negative stiffness, so that a small disturbance would "
         "end the equilibrium";
@@ -65,7 +125,7 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
     associated.solve.law = FrictionLaw::associated;
     associated.tolerance = std::max(options.tolerance, kOutcomeTolerance);
     StaticSolution first = ComingToRest(model, start, contacts, memories, associated).run();
-    if (first.outcome == StaticOutcome::moving) {
+    if (first.outcome == StaticOutcome::moving && first.proven) {
       first.message += ", under either friction law";
       return first;
     }

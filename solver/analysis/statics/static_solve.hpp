@@ -38,7 +38,7 @@ constexpr double kOutcomeTolerance = 1e-5;
 /// How a static solve ended.
 enum class StaticOutcome {
   equilibrium,  ///< equilibrium residual and contact-law residual <= tolerance
-  moving,       ///< associated law: proven not to stand; Coulomb's law: proven, or a steady motion was found
+  moving,       ///< proven not to stand, or a steady motion was found
   unconverged   ///< neither was shown
 };
 constexpr auto enum_names(StaticOutcome) {
@@ -48,6 +48,9 @@ constexpr auto enum_names(StaticOutcome) {
 /// The best iterate, with its accuracy.
 struct StaticSolution {
   StaticOutcome outcome = StaticOutcome::unconverged;
+  /// Of an equilibrium: forces in exact equilibrium inside the limits of the joints exist (exact_equilibrium.hpp). Of a motion: no
+  /// forces balance the loads (motion_proof.hpp).
+  bool proven = false;
   std::string message;
   double h = 0.0;                 ///< s, step of the proximal-point iteration
   double time_advance = 0.0;      ///< s, that of the options or found by the control
@@ -78,7 +81,10 @@ struct StaticSolution {
 /// takes a single iteration with a large h, which leaves a share of inertia in the forces.
 ///
 /// Where no equilibrium exists under the associated law, the increments tend to a mechanism u with w . u > 0
-/// that opens every joint or slides along it (kinematic_bound.hpp). `moving` requires that proof.
+/// that opens every joint or slides along it. A motion is proven where such a mechanism holds in exact arithmetic: the increment,
+/// corrected by a motion that opens every contact, or the one that the conic solver finds (motion_proof.hpp). An equilibrium is proven
+/// where forces next to those found balance the loads exactly (exact_equilibrium.hpp). Where they do not, the conic solver decides: it
+/// gives such forces, or the mechanism that makes the answer `moving`.
 ///
 /// Non-associated laws (dilatancy below 1, Coulomb's law at 0) have no such theory: several equilibria may exist,
 /// and a steady motion does not exclude an equilibrium. The associated problem is solved first: what it proves

@@ -11,7 +11,7 @@ StaticStart start_from_equilibrium(const Case& scene, const std::function<void(c
   start.rest = state_at_rest(model);
   start.contacts = ContactDetector(*model.assembly, simulation->options().detection).update(start.rest.poses);
   start.memories = match_memories({}, start.contacts.points);
-  start.options = static_options(scene.analysis);
+  start.options = start_options(scene.analysis);
   start.options.log = log;
   start.solution = solve_static(model, start.rest, start.contacts, start.memories, start.options);
   if (start.solution.outcome == StaticOutcome::equilibrium)

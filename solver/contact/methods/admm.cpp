@@ -12,6 +12,7 @@
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/contact/problem/whitening.hpp"
 #include "solver/runtime/interruption.hpp"
+#include "solver/runtime/iteration_log.hpp"
 
 namespace cupola {
 
@@ -91,6 +92,7 @@ SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& optio
   ++summary.factorizations;
   while (valid && best > options.tolerance && summary.iterations < max_iterations) {
     throw_if_interrupted();
+    report_iteration("admm", summary.iterations, best, options.tolerance);
     admm.iterate();
     ++summary.iterations;
     if (summary.iterations % kIterationsPerCheck == 0 || summary.iterations == max_iterations) {

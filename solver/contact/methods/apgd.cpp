@@ -6,6 +6,7 @@
 #include "assembly/base/process.hpp"
 #include "solver/contact/methods/dual_problem.hpp"
 #include "solver/runtime/interruption.hpp"
+#include "solver/runtime/iteration_log.hpp"
 
 namespace cupola {
 
@@ -29,6 +30,7 @@ SolveSummary solve_apgd(const ContactProblem& problem, const SolveOptions& optio
   bool stalled = false;
   while (best_accuracy > options.tolerance && summary.iterations < max_iterations && !stalled) {
     throw_if_interrupted();
+    report_iteration("apgd", summary.iterations, best_accuracy, options.tolerance);
     ++summary.iterations;
 
     // 1. Projected step from x; L is raised until it majorises f along the step

@@ -161,7 +161,7 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
                                   ContactSolution* solution) {
   constexpr double kShare = 0.5;  // of the tolerance, so that residuals computed anew meet it too
   constexpr int kMaxOuterIterations = 200;
-  constexpr double kLargestShare = 1e3, kSmallestShare = 1e-6;
+  constexpr double kFirstShare = 1.0, kLargestShare = 1e3, kSmallestShare = 1e-6;
   const double start = wall_seconds();
   options.validate();
   SolveSummary summary;
@@ -182,6 +182,7 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
 
   // 1. Plain Newton
   if (!rigid) {
+    factor_share_ = 0.0;
     VecX next = w;
     const bool solved = solve_subproblem(sub, tolerance, options, &lu_, &next, &summary);
     if (solved || options.max_iterations) {
@@ -207,23 +208,27 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
   VecX diagonal(problem.num_contacts());
   for (int i = 0; i < problem.num_contacts(); ++i) diagonal[i] = delassus_trace(problem, i) / 3.0;
   if (solution->gamma.size() == problem.b.size()) sub.centre = solution->gamma;
-  SolveOptions fresh = options;
-  fresh.lag_factor = false;  // R changes the matrix
-  double share = 1.0;
+  SolveOptions inner = options;
+  double share = rigid ? share_ : kFirstShare;
   while (best.error > 1.0 && summary.outer_iterations < kMaxOuterIterations && share <= kLargestShare) {
     ++summary.outer_iterations;
     sub.R = share * diagonal;
+    inner.lag_factor = options.lag_factor && rigid && share == factor_share_;  // R changes the matrix
+    factor_share_ = share;
     VecX next = w;
-    if (!solve_subproblem(sub, 0.2 * tolerance, fresh, &lu_, &next, &summary)) {
-      share *= 10.0;
+    if (!solve_subproblem(sub, 0.2 * tolerance, inner, &lu_, &next, &summary)) {
+      // What was right for the last problem is not for this one.
+      share = summary.outer_iterations == 1 && share < kFirstShare ? kFirstShare : 10.0 * share;
       continue;
     }
+    share_ = share;
     share = std::max(0.3 * share, kSmallestShare);
     w = next;
     sub.centre = sub.impulses(w);
     best.include(w, sub.centre, &summary);
   }
   summary.time_seconds = wall_seconds() - start;
+  if (!(best.error <= 1.0)) share_ = kFirstShare;
   if (!std::isfinite(best.error)) {
     summary.message = fmt::format("Newton found no usable point of the friction law in {}",
                                   counted(summary.iterations, "iteration"));

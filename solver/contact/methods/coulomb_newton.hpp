@@ -21,7 +21,8 @@ namespace cupola {
 /// for any R >= 0. R is a share of the Delassus block of each contact: it grows tenfold where Newton fails and
 /// shrinks where it succeeds. A given max_iterations excludes this second attempt.
 ///
-/// The solver object keeps the symbolic factor while the same pairs of blocks touch.
+/// The solver object keeps the symbolic factor while the same pairs of blocks touch, and the share of R with which the last solve
+/// ended: where that suits the next problem too, a single proximal point solves it, and the last factor preconditions it.
 ///
 /// Converged when excess() of the residuals is <= 1.
 class CoulombNewton {
@@ -31,6 +32,8 @@ class CoulombNewton {
 
  private:
   BlockLu lu_;
+  double share_ = 1.0;         ///< of the Delassus blocks, the R with which the last solve ended
+  double factor_share_ = 0.0;  ///< that of the R in lu_
 };
 
 }  // namespace cupola

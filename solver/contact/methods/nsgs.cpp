@@ -4,6 +4,7 @@
 #include "solver/contact/methods/dual_problem.hpp"
 #include "solver/contact/methods/local_contact.hpp"
 #include "solver/runtime/interruption.hpp"
+#include "solver/runtime/iteration_log.hpp"
 
 namespace cupola {
 
@@ -56,6 +57,7 @@ SolveSummary solve_nsgs(const ContactProblem& problem, const SolveOptions& optio
   summary.residual_history.push_back(accuracy);
   while (accuracy > options.tolerance && summary.iterations < max_iterations) {
     throw_if_interrupted();
+    report_iteration("nsgs", summary.iterations, accuracy, options.tolerance);
     VecX w = p.v_star + generalized_impulse(p, gamma);  // recomputed to remove the rounding of the updates
     for (int k = 0; k < kSweepsPerCheck && summary.iterations < max_iterations; ++k, ++summary.iterations) {
       sweep(p, A, &gamma, &w);

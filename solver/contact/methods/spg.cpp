@@ -6,6 +6,7 @@
 #include "assembly/base/process.hpp"
 #include "solver/contact/methods/dual_problem.hpp"
 #include "solver/runtime/interruption.hpp"
+#include "solver/runtime/iteration_log.hpp"
 
 namespace cupola {
 
@@ -50,6 +51,7 @@ SolveSummary solve_spg(const ContactProblem& problem, const SolveOptions& option
   bool stalled = false;
   while (best_accuracy > options.tolerance && summary.iterations < max_iterations && !stalled) {
     throw_if_interrupted();
+    report_iteration("spg", summary.iterations, best_accuracy, options.tolerance);
     ++summary.iterations;
     const VecX d = dual.project(gamma - alpha * g.cwiseQuotient(dual.B)) - gamma;
     const VecX Ad = dual.times(d);

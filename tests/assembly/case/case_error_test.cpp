@@ -83,6 +83,12 @@ const BadCase kBadCases[] = {
      "bad.yaml:2:1: error: lods: unknown key; did you mean loads?"},
     {"OtherName", kGood + "  mu: 0.4\n",
      "bad.yaml:6:3: error: joints.mu: unknown key; did you mean joints.friction or joints.bed.friction"},
+    {"RetiredWeld", "geometry: {import: {weld: 1e-3}}\n",
+     "bad.yaml:1:27: error: geometry.import.weld = 1e-3: this key no longer exists; remove it: vertices "
+     "closer "
+     "than 1e-6 of the block size are merged"},
+    {"RetiredSettledSpeed", kGood + "analysis: {stop: {settled_speed: 1e-3}}\n",
+     "bad.yaml:6:34: error: analysis.stop.settled_speed = 1e-3: this key no longer exists; remove it"},
     {"RetiredKey", "geometry: {import: {most_overlap: 1e-3}}\n",
      "bad.yaml:1:35: error: geometry.import.most_overlap = 1e-3: this key no longer exists; contact.margin "
      "is"},

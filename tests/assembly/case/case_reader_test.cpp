@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "assembly/base/error.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
@@ -252,6 +253,32 @@ TEST(Schema, NamesEveryKeyOnceWithItsDefault) {
     EXPECT_NE(schema.find(expected), std::string::npos) << expected;
   std::istringstream lines(schema);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
+}
+
+// The bond of a wythe has the keys of geometry.bond, 30 of them.
+TEST(Schema, DescribesARepeatedSectionOnce) {
+  const std::string schema = case_schema();
+  EXPECT_NE(schema.find("geometry.wythes[].bond: map\n"), std::string::npos);
+  EXPECT_NE(schema.find("; keys as in geometry.bond\n"), std::string::npos);
+  EXPECT_EQ(schema.find("geometry.wythes[].bond.rings"), std::string::npos);
+  EXPECT_NE(case_schema("geometry.wythes").find("geometry.wythes[].bond.rings"), std::string::npos);
+}
+
+TEST(Schema, AsJsonSaysWhatAnEditorChecks) {
+  const auto schema = nlohmann::json::parse(case_json_schema());
+  const auto& keys = schema.at("properties");
+  EXPECT_EQ(keys.at("extends").at("type"), "string");
+  const auto& joints = keys.at("joints");
+  EXPECT_EQ(joints.at("additionalProperties"), false);
+  EXPECT_EQ(joints.at("properties").at("friction").at("minimum"), 0.0);
+  EXPECT_EQ(joints.at("properties").at("friction").at("description"),
+            "Coulomb friction coefficient mu; default 0.4");
+  const auto& surface = keys.at("geometry").at("properties").at("surface").at("properties");
+  EXPECT_EQ(surface.at("type").at("enum").size(), 4u);
+  EXPECT_EQ(surface.at("crown_angle_deg").at("exclusiveMaximum"), 90.0);
+  const auto& wythe = keys.at("geometry").at("properties").at("wythes").at("items").at("properties");
+  EXPECT_EQ(wythe.at("thickness").at("anyOf").size(), 2u) << "a number, or heights and values";
+  EXPECT_EQ(wythe.at("bond").at("properties").at("rings").at("type"), "integer");
 }
 
 TEST(Schema, ShowsOneKeyOrSection) {

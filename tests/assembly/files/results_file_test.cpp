@@ -8,8 +8,10 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
+#include "assembly/files/old_frames.hpp"
 #include "assembly/files/summary_file.hpp"
 #include "tests/assembly/scene.hpp"
+#include "tests/fresh_folder.hpp"
 
 namespace cupola::results_file_test {
 namespace {
@@ -140,6 +142,59 @@ TEST(ResultsFile, FramesRoundTripExactly) {
   ASSERT_EQ(reader.times(), (std::vector{0.0, 1.0 / 3.0}));
   expect_equal(reader.read_frame(0), two_block_frame(0.0));
   expect_equal(reader.read_frame(1), two_block_frame(1.0 / 3.0));
+}
+
+TEST(ResultsFile, FramesSayWhatTheyAre) {
+  const std::string folder = test::fresh_folder("roles");
+  ResultsWriter writer(folder, example_summary().assembly_hash);
+  constexpr auto kNames = enum_names(FrameRole{});
+  for (size_t i = 0; i < kNames.size(); ++i) {
+    Frame frame = two_block_frame(static_cast<double>(i));
+    set_role(static_cast<FrameRole>(i), "least thrust", &frame);
+    writer.write_frame(frame);
+  }
+  writer.write_summary(example_summary());
+  const ResultsReader reader(folder, example_summary().assembly_hash);
+  for (size_t i = 0; i < kNames.size(); ++i) {
+    const Frame frame = reader.read_frame(static_cast<int>(i));
+    EXPECT_EQ(to_string(frame.role), kNames[i]);
+    EXPECT_EQ(frame.owner, "least thrust");
+  }
+  EXPECT_EQ(reader.read_frame(1).label, "1.000 s");
+  EXPECT_EQ(reader.read_frame(static_cast<int>(FrameRole::range_end)).label, "Least thrust");
+}
+
+TEST(ResultsFile, AnOpenCourseIsLabelledByItsShare) {
+  Frame frame;
+  frame.time = 2.4;
+  set_role(FrameRole::stage, "stage 7", &frame);
+  EXPECT_EQ(frame.label, "course 3, 40 % laid");
+}
+
+// Version 0.2 wrote no roles. The frames of an unbounded end and of a static start that failed are in no fixture.
+TEST(ResultsFile, OldFramesGetTheirRoleFromTheSummary) {
+  const auto role = [](const Summary& summary, int index, const Frame& of = {}) {
+    Frame frame = of;
+    set_role_of_old_frame(summary, index, &frame);
+    return fmt::format("{} of {}", to_string(frame.role), frame.owner);
+  };
+  Summary s;
+  s.analysis = AnalysisType::range;
+  EXPECT_EQ(role(s, 0), "unconverged of ");
+  s.ranges = {
+      {"thrust", "N", {RangeOutcome::bounded, 1.0, 1.0, 1}, {RangeOutcome::unbounded, {}, {}, 2}, {}}};
+  EXPECT_EQ(role(s, 0), "equilibrium of ");
+  EXPECT_EQ(role(s, 1), "range_end of least thrust");
+  EXPECT_EQ(role(s, 2), "self_stress of greatest thrust");
+  s.analysis = AnalysisType::dynamic;
+  s.status = Status::moving;
+  EXPECT_EQ(role(s, 0), "mechanism of ") << "the static start";
+  s.max_speed_m_per_s = 0.1;
+  EXPECT_EQ(role(s, 0), "step of ");
+  s.analysis = AnalysisType::staged;
+  Frame falls;
+  falls.blocks.velocity = {Vec3::Zero(), Vec3(0, 0, -1)};
+  EXPECT_EQ(role(s, 3, falls), "failed_stage of stage 3");
 }
 
 TEST(ResultsFile, TextFilesThatChangedAreRefused) {
@@ -323,12 +378,12 @@ TEST(SummaryJson, ErrorsNameTheKey) {
             "r/summary.json: error: is not a complete JSON object: damaged, or not a summary");
   EXPECT_EQ(error_of("[1]"),
             "r/summary.json: error: is not a complete JSON object: damaged, or not a summary");
-  EXPECT_EQ(
-      error_of(with("\"format_version\": 2", "\"format_version\": 9")),
-      "r/summary.json: error: has format_version 9, this program reads version 2; run cupola-solve again");
-  EXPECT_EQ(
-      error_of(with("\"format_version\": 2", "\"format_version\": 1")),
-      "r/summary.json: error: has format_version 1, this program reads version 2; run cupola-solve again");
+  EXPECT_EQ(error_of(with("\"format_version\": 3", "\"format_version\": 9")),
+            "r/summary.json: error: has format_version 9, this program reads versions 2 to 3; run "
+            "cupola-solve again");
+  EXPECT_EQ(error_of(with("\"format_version\": 3", "\"format_version\": 1")),
+            "r/summary.json: error: has format_version 1, this program reads versions 2 to 3; run "
+            "cupola-solve again");
   EXPECT_NE(error_of(with("\"norm\"", "\"name\"")).find("r/summary.json: error: accuracy = {"),
             std::string::npos);
   EXPECT_EQ(error_of(with("\"weight_N\"", "\"weight\"")), "r/summary.json: error: key `weight_N` is missing");
@@ -339,6 +394,50 @@ TEST(SummaryJson, ErrorsNameTheKey) {
   for (const std::string count : {"3.5", "1e+85", "4294967299", "-4294967293", "18446744073709551615"})
     EXPECT_EQ(error_of(with("\"blocks\": 3", "\"blocks\": " + count)),
               "r/summary.json: error: blocks = " + count + ": has the wrong type or an unknown value");
+}
+
+TEST(ResultsFile, FramesOfAnotherRunAreRefused) {
+  const std::string folder = test::fresh_folder("two_runs");
+  Summary summary = example_summary();
+  for (const char* run : {"one", "two"}) {
+    ResultsWriter writer(folder, summary.assembly_hash, {}, run);
+    writer.write_frame(two_block_frame(0.0));
+    if (run == std::string("one")) writer.write_frame(two_block_frame(0.5));
+    summary.case_hash = run;
+    writer.write_summary(summary);
+  }
+  const ResultsReader reader(folder, summary.assembly_hash);
+  EXPECT_NO_THROW(reader.read_frame(0));
+  try {
+    reader.read_frame(1);
+    FAIL() << "the second frame is of the first run";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("contacts_0001.vtp: error: belongs to another run"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(ResultsFile, RemovedFramesStopARun) {
+  const std::string folder = test::fresh_folder("removed");
+  ResultsWriter writer(folder, "hash", {}, "run");
+  writer.write_frame(two_block_frame(0.0));
+  std::filesystem::remove(folder + "/blocks_0000.vtp");
+  EXPECT_THROW(writer.write_frame(two_block_frame(0.5)), SystemError);
+  EXPECT_THROW(ResultsWriter(folder, "hash", {0.0}, "run"), InputError) << "and it cannot be resumed";
+}
+
+TEST(ResultsFile, ARunWithoutFramesSaysWhy) {
+  const std::string folder = test::fresh_folder("no_frames");
+  const Summary summary = example_summary();
+  ResultsWriter(folder, summary.assembly_hash).write_summary(summary);
+  try {
+    const ResultsReader reader(folder, summary.assembly_hash);
+    FAIL() << "there are no frames";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("found no state that could be evaluated: largest speed"),
+              std::string::npos);
+  }
 }
 
 }  // namespace

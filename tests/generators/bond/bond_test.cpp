@@ -12,6 +12,7 @@
 #include "generators/bond/herringbone.hpp"
 #include "generators/generate.hpp"
 #include "tests/generators/models.hpp"
+#include "tests/test_names.hpp"
 
 namespace cupola::bond_test {
 namespace {
@@ -76,7 +77,8 @@ HerringboneBond left_herringbone() {
 
 INSTANTIATE_TEST_SUITE_P(Bonds, OctagonBond,
                          testing::Values(RunningBond{}, StackBond{}, HerringboneBond{}, left_herringbone(),
-                                         FillBond{}));
+                                         FillBond{}),
+                         test_names({"running", "stack", "herringbone", "left_herringbone", "fill"}));
 
 TEST(RunningBond, OverlapsByHalfABlockAndKeepsAQuarterFromCorners) {
   const BondGrid grid = octagon_grid(2);

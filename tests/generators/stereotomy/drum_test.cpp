@@ -113,7 +113,8 @@ TEST_P(DrumOf, FillsAPrismBelowTheSpringing) {
 
 INSTANTIATE_TEST_SUITE_P(Vaults, DrumOf,
                          testing::Values(Construction::circular, Construction::planar_radial,
-                                         Construction::planar_horizontal));
+                                         Construction::planar_horizontal),
+                         [](const auto& param_info) { return std::string(to_string(param_info.param)); });
 
 // The wall of a round dome is a prism over the polygon of its slices.
 TEST(Drum, OfADomeIsAPolygonalRing) {

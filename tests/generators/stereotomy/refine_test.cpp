@@ -108,7 +108,9 @@ double nearest_joint_to_a_corner(const Bond& bond) {
   Geometry geometry;
   geometry.surface = vault(OctagonalVault::Construction::circular);
   geometry.bond = bond;
-  const auto [surface, pattern, members, stage] = make_shell(geometry);
+  const auto shell = make_shell(geometry);
+  const SurfaceMap& surface = shell.surface;
+  const BondPattern& pattern = shell.bond;
   double nearest = surface.extent;
   for (int ring = 0; ring < pattern.num_rings; ++ring)
     for (int s = 0; s < pattern.num_slices(); ++s) {

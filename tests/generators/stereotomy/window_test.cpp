@@ -5,6 +5,7 @@
 #include <numbers>
 #include <tuple>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
@@ -184,9 +185,16 @@ TEST_P(BrickModel, LiesOnTheIntradosOfTheSurface) {
   }
 }
 
+std::string brick_name(const testing::TestParamInfo<std::tuple<bool, int, double>>& param_info) {
+  constexpr const char* kBonds[] = {"running", "right", "left", "both"};
+  const auto [is_octagon, bond, height] = param_info.param;
+  return fmt::format("{}_{}_{:.0f}_dm", is_octagon ? "octagon" : "dome", kBonds[bond + 1], 10.0 * height);
+}
+
 INSTANTIATE_TEST_SUITE_P(Heights, BrickModel,
                          testing::Combine(testing::Bool(), testing::Values(-1, 0, 1, 2),
-                                          testing::Values(7.0, 22.5, 32.0)));
+                                          testing::Values(7.0, 22.5, 32.0)),
+                         brick_name);
 
 /// Volume, kind, label, course and azimuth of every block, in the order of azimuths.
 std::map<std::tuple<int, long>, std::tuple<BlockKind, bool, int, double>> places(const Assembly& assembly,

@@ -9,6 +9,7 @@
 
 #include "assembly/base/error.hpp"
 #include "tests/generators/models.hpp"
+#include "tests/test_names.hpp"
 
 namespace cupola::wythe_test {
 namespace {
@@ -76,7 +77,8 @@ TEST_P(OneWythe, GivesTheShellOfThisThickness) {
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, OneWythe,
                          testing::Values(Surface{DomeSurface{}}, Surface{OctagonalVault{}},
-                                         Surface{ArchSurface{}}, Surface{WallSurface{}}));
+                                         Surface{ArchSurface{}}, Surface{WallSurface{}}),
+                         test_names({"dome", "octagonal_vault", "arch", "wall"}));
 
 TEST(Wythes, OfAStretcherBondAreTwoWallsSideBySide) {
   ModelReport report;

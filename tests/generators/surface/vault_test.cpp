@@ -3,6 +3,7 @@
 #include <numbers>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
@@ -10,6 +11,7 @@
 #include "generators/surface/make_surface.hpp"
 #include "tests/generators/models.hpp"
 #include "tests/generators/section.hpp"
+#include "tests/test_names.hpp"
 
 namespace cupola::vault_test {
 namespace {
@@ -46,7 +48,11 @@ INSTANTIATE_TEST_SUITE_P(Rules, VaultShell,
                                          std::pair(Construction::planar_radial, Extrados::corner),
                                          std::pair(Construction::planar_horizontal, Extrados::normal),
                                          std::pair(Construction::planar_horizontal, Extrados::corner),
-                                         std::pair(Construction::planar_horizontal, Extrados::bed)));
+                                         std::pair(Construction::planar_horizontal, Extrados::bed)),
+                         [](const auto& param_info) {
+                           return fmt::format("{}_{}", to_string(param_info.param.first),
+                                              to_string(param_info.param.second));
+                         });
 
 struct VaultCount {
   Surface surface;
@@ -98,7 +104,8 @@ INSTANTIATE_TEST_SUITE_P(
                     VaultCount{vault_of(Construction::circular), RunningBond{}, 1280, 5120, 2.246, 10.18,
                                4992, 1280, 128},
                     VaultCount{vault_of(Construction::circular), HerringboneBond{}, 1296, 4160, 0.751, 10.21,
-                               3376, 1920, 104}));
+                               3376, 1920, 104}),
+    test_names({"dome_running", "dome_herringbone", "vault_running", "vault_herringbone"}));
 
 // The cells of one ring and sail merge, so a block has one part, or two if it spans a corner.
 TEST(Vault, PlanarRibBlocksHaveTwoParts) {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "assembly/files/content_hash.hpp"
@@ -25,9 +26,11 @@ TEST_P(PaperWall, HasTheExpectedCountAndVolumeWithOnePartPerBlock) {
   EXPECT_EQ(report.islands, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, PaperWall,
-                         testing::Values(WallCount{4, 2, 10}, WallCount{20, 10, 210},
-                                         WallCount{100, 50, 5050}));
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, PaperWall, testing::Values(WallCount{4, 2, 10}, WallCount{20, 10, 210}, WallCount{100, 50, 5050}),
+    [](const auto& param_info) {
+      return fmt::format("{}x{}", param_info.param.rings, param_info.param.blocks_per_ring);
+    });
 
 // With n blocks per course there are n joints at the base, 2 n between two courses, and n - 1 or n heads in a
 // course.

@@ -5,6 +5,7 @@
 
 #include "assembly/base/error.hpp"
 #include "postproc/claims/claims_report.hpp"
+#include "postproc/studies/study.hpp"
 #include "postproc/tables/csv_file.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
 
@@ -27,7 +28,7 @@ void write_run(const ScratchFolder& scratch, const std::string& name, const std:
 }
 
 ClaimResult verdict(const ScratchFolder& scratch, const std::string& body) {
-  return evaluate_claims(read_claims(scratch.write("claims.yaml", claim_file(body))).claims, scratch.folder())
+  return evaluate_claims(read_study(scratch.write("claims.yaml", claim_file(body))).claims, scratch.folder())
       .front();
 }
 
@@ -42,6 +43,11 @@ TEST(Claims, ReduceGivesTheTextbookValues) {
   EXPECT_DOUBLE_EQ(reduce(Take::variation, v), std::sqrt(3.5) / 3.0);  // variance (4 + 1 + 0 + 9) / 4
   EXPECT_DOUBLE_EQ(reduce(Take::rms, v), std::sqrt(12.5));
   EXPECT_DOUBLE_EQ(reduce(Take::roughness, v), 1.0 / 3.0);  // second differences 0 and 2
+  EXPECT_EQ(reduce(Take::first, v), 1.0);
+  EXPECT_EQ(reduce(Take::last, v), 6.0);
+  EXPECT_EQ(reduce(Take::count, v), 4.0);
+  EXPECT_EQ(reduce(Take::count, {}), 0.0);
+  EXPECT_EQ(reduce(Take::sum, {}), 0.0);
 }
 
 TEST(Claims, LinearityIsOneOnALineAndLessOtherwise) {
@@ -145,7 +151,7 @@ TEST(Claims, PaperAndOwnLimitsBothApplyAndOwnStatementsHoldOrNot) {
   EXPECT_EQ(verdict(scratch, value + "    paper: {at_least: 1}\n" + ours).verdict, Verdict::not_reproduced);
   const auto own = [&](const std::string& limits) {
     const std::string path = scratch.write("own.yaml", "claims:\n  - says: a\n" + value + limits);
-    return evaluate_claims(read_claims(path).claims, scratch.folder()).front().verdict;
+    return evaluate_claims(read_study(path).claims, scratch.folder()).front().verdict;
   };
   EXPECT_EQ(own("    ours: {at_least: 1.5, reason: r}\n"), Verdict::holds);
   EXPECT_EQ(own(ours), Verdict::does_not_hold);
@@ -192,7 +198,7 @@ TEST(Claims, NotesTakeTheirNumbersFromTheRuns) {
 TEST(Claims, FileIsReadStrictly) {
   const ScratchFolder scratch;
   const std::string value = "    value: {runs: a, key: results.x}\n", paper = "    paper: {at_least: 1}\n";
-  EXPECT_NO_THROW(read_claims(scratch.write("claims.yaml", claim_file(value + paper))));
+  EXPECT_NO_THROW(read_study(scratch.write("claims.yaml", claim_file(value + paper))));
   for (const std::string& body :
        {"    value: {runs: a, key: x, status: stable}\n" + paper,  // two sources
         "    value: {runs: a, table: t}\n" + paper,                // no column
@@ -206,16 +212,16 @@ TEST(Claims, FileIsReadStrictly) {
             "    each_run: true\n    over: {runs: a b, key: results.x}\n",  // neither one nor as many
         std::string("    value: {runs: a, table: t, column: c, take: linearity}\n    open: true\n"),
         value + "    open: true\nfigures: [{source: F, run: a}]\n"})
-    EXPECT_THROW(read_claims(scratch.write("claims.yaml", claim_file(body))), InputError) << body;
+    EXPECT_THROW(read_study(scratch.write("claims.yaml", claim_file(body))), InputError) << body;
   // Limits of the publication need its sentence.
-  EXPECT_THROW(read_claims(scratch.write("claims.yaml", "claims:\n  - says: a\n" + value + paper)),
+  EXPECT_THROW(read_study(scratch.write("claims.yaml", "claims:\n  - says: a\n" + value + paper)),
                InputError);
 }
 
 TEST(Claims, ReportShowsEveryVerdictAndEscapesText) {
   const ScratchFolder scratch;
   write_run(scratch, "a", "stable", 2.0);
-  const ClaimsFile file = read_claims(scratch.write(
+  const Study file = read_study(scratch.write(
       "claims.yaml",
       "claims:\n  - {says: a < b, quote: q & a, value: {runs: a, key: results.deep.list.1}, paper: "
       "{at_least: 1}}\n"
@@ -225,12 +231,13 @@ TEST(Claims, ReportShowsEveryVerdictAndEscapesText) {
   scratch.write("a/post/figures/a.svg", "<svg/>");
   const auto& claims = file.claims;
   const auto results = evaluate_claims(claims, scratch.folder());
-  const std::string html = claims_html(file, results, scratch.folder()), text = claims_text(claims, results);
+  const std::string html = claims_html(claims, results) + figures_html(file.figures, scratch.folder()),
+                    text = claims_text(claims, results);
   for (const char* part : {"a &lt; b", "“q &amp; a”", "at least 1 (paper)", "at least 1 (ours: because)"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   EXPECT_NE(text.find("2 claims: 1 reproduced, 1 not run"), std::string::npos) << text;
   EXPECT_EQ(claims_table(claims, results).rows.size(), 2u);
-  EXPECT_EQ(needed_runs(file), (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(needed_runs(claims, file.figures), (std::vector<std::string>{"a", "b", "c"}));
   EXPECT_NE(html.find("<img alt=\"x &gt; y\" src=\"data:image/svg"), std::string::npos);
   EXPECT_NE(html.find("Not drawn yet: figures/c.svg of the run c."), std::string::npos);
 }

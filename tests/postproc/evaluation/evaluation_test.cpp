@@ -119,8 +119,7 @@ TEST(Evaluation, UnreadableFramesAreReportedBeforeWarnings) {
   later.time = 1.0;
   const std::string folder = test::fresh_folder("results");
   ResultsWriter writer(folder, content_hash(a));
-  writer.write_frame(frame);
-  writer.write_frame(later);
+  test::write_frames({frame, later}, summary, &writer);
   writer.write_summary(summary);
   std::filesystem::remove(folder + "/contacts_0001.vtp");
   const Evaluation e = evaluate(column_case(), a, ResultsReader(folder, content_hash(a)));
@@ -167,7 +166,7 @@ TEST(Evaluation, LimitAnalysisEvaluatesTheEquilibriumAndDisplacesTheMechanism) {
   EXPECT_LT(e.rings[0].relative_difference, 1e-14);
   EXPECT_TRUE(e.warnings.empty());
   EXPECT_EQ(post_summary(e).critical_value, 0.1);
-  EXPECT_NE(verdict_text(summary).find("stands at a friction of 0.101 and moves at 0.099"),
+  EXPECT_NE(verdict_text(summary, e.last.frame.role).find("stands at a friction of 0.101 and moves at 0.099"),
             std::string::npos);
 
   const FrameEvaluation mechanism = evaluate_frame(e, ResultsReader(folder, content_hash(a)).read_frame(1));

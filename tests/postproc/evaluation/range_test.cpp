@@ -10,19 +10,20 @@ namespace cupola::range_evaluation_test {
 namespace {
 
 /// The column as an arch, which has a thrust line.
-Case arch_case() {
-  Case scene = test::column_case();
-  scene.geometry.surface = ArchSurface{};
-  return scene;
+Assembly column_as_arch() {
+  Assembly a = test::column(3);
+  a.sheets.front().thrust_lines = Sheet::ThrustLines::one;
+  return a;
 }
 
 TEST(RangeEvaluation, EvaluatesFrameZeroAndTheThrustLinesOfBothEnds) {
-  const Assembly a = test::column(3);
+  const Assembly a = column_as_arch();
   const std::string folder = test::fresh_folder("results");
-  const Evaluation e = test::evaluated(a, test::range_frames(a), test::range_summary(a), arch_case(), folder);
-  EXPECT_TRUE(at_rest(e.summary));
+  const Evaluation e =
+      test::evaluated(a, test::range_frames(a), test::range_summary(a), test::column_case(), folder);
+  EXPECT_TRUE(at_rest(e));
   EXPECT_EQ(e.last.frame.time, 0.0);
-  EXPECT_FALSE(is_mechanism(e.summary, ResultsReader(folder, content_hash(a)).read_frame(2)));
+  EXPECT_FALSE(is_mechanism(ResultsReader(folder, content_hash(a)).read_frame(2).role));
   EXPECT_TRUE(e.warnings.empty());
   ASSERT_EQ(e.meridians.size(), 1u);
   const MeridianEvaluation& m = e.meridians[0];
@@ -36,12 +37,12 @@ TEST(RangeEvaluation, EvaluatesFrameZeroAndTheThrustLinesOfBothEnds) {
 }
 
 TEST(RangeEvaluation, OnlyBoundedEndsWithAFrameHaveAThrustLine) {
-  const Assembly a = test::column(3);
+  const Assembly a = column_as_arch();
   Summary summary = test::range_summary(a);
   summary.ranges[0].min.outcome = RangeOutcome::unbounded;
   summary.ranges[0].max.frame.reset();
   const Evaluation e =
-      test::evaluated(a, test::range_frames(a), summary, arch_case(), test::fresh_folder("results"));
+      test::evaluated(a, test::range_frames(a), summary, test::column_case(), test::fresh_folder("results"));
   EXPECT_FALSE(e.meridians[0].least_thrust);
   EXPECT_FALSE(e.meridians[0].greatest_thrust);
 }
@@ -49,8 +50,8 @@ TEST(RangeEvaluation, OnlyBoundedEndsWithAFrameHaveAThrustLine) {
 // The time of a frame is its number: the loads must not follow their time function there. The frame of an unbounded
 // end shows a self-stress, on which no load acts.
 TEST(RangeEvaluation, AllStatesBearTheSameLoadsAndSelfStressesNone) {
-  const Assembly a = test::column(3);
-  Case scene = arch_case();
+  const Assembly a = column_as_arch();
+  Case scene = test::column_case();
   scene.loads.dead_load_time = RampInTime{0.5, 1.0, 0.0, 4.0};
   const std::string folder = test::fresh_folder("results");
   const Evaluation e = test::evaluated(a, test::range_frames(a), test::range_summary(a), scene, folder);
@@ -61,29 +62,32 @@ TEST(RangeEvaluation, AllStatesBearTheSameLoadsAndSelfStressesNone) {
 }
 
 TEST(RangeEvaluation, WithoutAnAdmissibleStateFrameZeroIsAMechanism) {
-  const Assembly a = test::column(3);
+  const Assembly a = column_as_arch();
   const auto [summary, frame] = test::moving_range_run(a);
-  const Evaluation e = test::evaluated(a, {frame}, summary, arch_case(), test::fresh_folder("results"));
-  EXPECT_FALSE(at_rest(e.summary));
-  EXPECT_TRUE(is_mechanism(e.summary, e.last.frame));
+  const Evaluation e =
+      test::evaluated(a, {frame}, summary, test::column_case(), test::fresh_folder("results"));
+  EXPECT_FALSE(at_rest(e));
+  EXPECT_TRUE(is_mechanism(e.last.frame.role));
   EXPECT_GT(e.last.frame.blocks.displacement[3].x(), 0.0);
   EXPECT_FALSE(post_summary(e).thrust_over_weight);
-  EXPECT_EQ(verdict_text(summary), "The structure moves: no forces balance the loads within the joint laws.");
+  EXPECT_EQ(verdict_text(summary, e.last.frame.role),
+            "The structure moves: no forces balance the loads within the joint laws.");
   ASSERT_EQ(e.warnings.size(), 1u);
   EXPECT_NE(e.warnings[0].find("no admissible state"), std::string::npos);
 }
 
 // A range whose search did not converge leaves the state of frame 0 in equilibrium.
 TEST(RangeEvaluation, AnIncompleteRangeStillHasAnEquilibrium) {
-  const Assembly a = test::column(3);
+  const Assembly a = column_as_arch();
   Summary summary = test::range_summary(a);
   summary.status = Status::unconverged;
   const Evaluation e =
-      test::evaluated(a, test::range_frames(a), summary, arch_case(), test::fresh_folder("results"));
-  EXPECT_TRUE(at_rest(e.summary));
+      test::evaluated(a, test::range_frames(a), summary, test::column_case(), test::fresh_folder("results"));
+  EXPECT_TRUE(at_rest(e));
   ASSERT_EQ(e.warnings.size(), 1u);
   EXPECT_NE(e.warnings[0].find("not all ends of the ranges"), std::string::npos);
-  EXPECT_NE(verdict_text(summary).find("but not all ends of the ranges"), std::string::npos);
+  EXPECT_NE(verdict_text(summary, e.last.frame.role).find("but not all ends of the ranges"),
+            std::string::npos);
 }
 
 }  // namespace

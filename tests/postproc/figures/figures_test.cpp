@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/files/atomic_file.hpp"
+#include "assembly/model/outward.hpp"
 #include "postproc/figures/shell_maps.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "tests/postproc/scene.hpp"
@@ -113,6 +114,32 @@ TEST(ShellMaps, IncludedMapsShareTheirScale) {
   EXPECT_NE(force_map(small, scales).commands.find("set cbrange [-7:4]"), std::string::npos);
   EXPECT_NE(force_map(small, scales).commands.find("set cbrange [-9:9]"), std::string::npos);
   EXPECT_NE(utilisation_map(small, scales).commands.find("set cbrange [0:2.5]"), std::string::npos);
+}
+
+// The courses of an arch run along y. Over x its blocks have no width: the map was empty.
+TEST(ShellMaps, OfAnArchRunAcrossIt) {
+  Assembly a = test::column(3);
+  a.sheets.front().thrust_lines = Sheet::ThrustLines::one;
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.9, 0.3);
+  const auto turn = [](Vec3& x) {
+    x = Vec3(-x.y(), x.x(), x.z());
+  };  // its faces are normal to x, as at a springing
+  for (Vec3& x : a.vertices) turn(x);
+  compute_mass_properties(&a);
+  for (Vec3& x : frame.contacts.point) turn(x);
+  for (Vec3& x : frame.blocks.position) turn(x);
+  const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
+                                       test::fresh_folder("results"));
+  const ShellMap map = shell_maps(e).front();
+  EXPECT_EQ(shell_table(map).name, "shell_y");
+  ASSERT_EQ(map.boxes.size(), 3u);
+  for (const ShellBox& box : map.boxes) EXPECT_NEAR(box.to - box.from, 1.2, 1e-12);
+  EXPECT_NE(utilisation_map(map, {}).title.find("over the arch"), std::string::npos);
+  EXPECT_NE(thrust_figure(e, e.meridians.front()).caption.find("resultant of the full width"),
+            std::string::npos);
+  // Outwards of an arch is along x: by the slanting direction from the z axis a barrel lost a fifth of its thrust.
+  EXPECT_EQ(outward_at({-3.0, 2.0, 0.0}, true), Vec3(-1, 0, 0));
+  EXPECT_EQ(outward_at({-3.0, 4.0, 0.0}, false), Vec3(-0.6, 0.8, 0));
 }
 
 TEST(ShellMaps, ReadBackUnchangedFromTheTable) {

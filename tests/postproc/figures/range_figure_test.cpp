@@ -80,11 +80,10 @@ TEST(RangeFigure, SaysHowManyQuantitiesItLeavesOut) {
 }
 
 TEST(ThrustFigure, DrawsTheEndsOfTheRangeBesideTheChosenLine) {
-  const Assembly a = test::column(3);
-  Case scene = test::column_case();
-  scene.geometry.surface = ArchSurface{};
-  const Evaluation e =
-      test::evaluated(a, test::range_frames(a), test::range_summary(a), scene, test::fresh_folder("results"));
+  Assembly a = test::column(3);
+  a.sheets.front().thrust_lines = Sheet::ThrustLines::one;
+  const Evaluation e = test::evaluated(a, test::range_frames(a), test::range_summary(a), test::column_case(),
+                                       test::fresh_folder("results"));
   const Figure figure = thrust_figure(e, e.meridians[0]);
   EXPECT_EQ(blocks_of(figure, "least").at(0).size(), 3u);
   EXPECT_EQ(blocks_of(figure, "greatest").at(0).size(), 3u);
@@ -92,7 +91,7 @@ TEST(ThrustFigure, DrawsTheEndsOfTheRangeBesideTheChosenLine) {
        {"title 'thrust line (chosen)'", "title 'least thrust'", "title 'greatest thrust'"})
     EXPECT_NE(figure.commands.find(title), std::string::npos) << title;
   Evaluation of_static = e;
-  of_static.summary.analysis = AnalysisType::static_;
+  of_static.summary.ranges.clear();
   MeridianEvaluation plain = e.meridians[0];
   plain.least_thrust.reset();
   plain.greatest_thrust.reset();

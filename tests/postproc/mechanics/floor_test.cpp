@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "postproc/figures/plot_style.hpp"
 #include "postproc/mechanics/joint_wrenches.hpp"
 #include "postproc/tables/post_summary.hpp"
 #include "tests/postproc/scene.hpp"
@@ -63,6 +64,25 @@ TEST(Floor, JointsBelowItHaveNoUtilisationAndCountInNoExtreme) {
     EXPECT_EQ(post_summary(e).largest_friction_use, idle ? 0.0 : 1.0);
     EXPECT_EQ(e.rings[2].largest_friction_use, idle ? 0.0 : 1.0);
   }
+}
+
+// A slip of 8e-18 m is rounding: the floor of lengths is 1e-6 of a block.
+TEST(Floor, SlipBelowItIsNoFinding) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
+  frame.contacts.slip[0] = 7.9e-18;
+  frame.contacts.slip.back() = 1e-5;
+  const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
+                                       test::fresh_folder("results"));
+  double least = 1.0, largest = 0.0;
+  for (const JointWrench& joint : e.last.joints.wrenches) {
+    least = std::min(least, joint.slip);
+    largest = std::max(largest, joint.slip);
+  }
+  EXPECT_EQ(least, 0.0);
+  EXPECT_EQ(largest, 1e-5);
+  EXPECT_EQ(normal_force_text(-5664.0), "a pull of 5.664 kN");
+  EXPECT_EQ(normal_force_text(5664.0), "a normal force of 5.664 kN");
 }
 
 // The floor follows the error of the run: an equilibrium that leaves 1e-3 of a block's weight unbalanced.

@@ -6,7 +6,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "tests/postproc/models.hpp"
+#include "postproc/evaluation/meridians.hpp"
+#include "tests/postproc/scene.hpp"
 
 namespace cupola::thrust_line_test {
 namespace {
@@ -146,6 +147,23 @@ TEST(ThrustLine, BedInsideABlockCarriesThePieceAbove) {
 
 // Beds of 1.2 x 0.8 m, whose four corners stand for 0.24 m2 each. A force in the middle presses on the whole bed, one on a face
 // on half of it, at the face.
+// Across a wide arch the blocks of a course may hold each other: forces along the bed, at right angles to the arch, with a
+// torsion about its normal. They shift the line of action of the wrench, but not the point where the bed presses.
+TEST(ThrustLine, OfAnArchIsAtTheContactPoints) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, 9.81, 0.0, 0.6, 0.4);
+  for (int i = 0; i < frame.contacts.size(); ++i) {
+    const Vec3 arm = frame.contacts.point[i] - Vec3(0.6, 0.4, frame.contacts.point[i].z());
+    frame.contacts.force[i] +=
+        frame.contacts.normal_force[i] * (0.3 * Vec3::UnitX() + Vec3::UnitZ().cross(arm));
+  }
+  const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
+                                       test::fresh_folder("results"));
+  const ThrustLine line = thrust_line(thrust_input(e, e.last), "arch", std::nullopt);
+  ASSERT_EQ(line.points.size(), 3u);
+  for (const ThrustPoint& p : line.points) EXPECT_NEAR(p.position, 0.5, 1e-12) << p.bed;
+}
+
 TEST(ThrustLine, TheCompressedZoneIsWherePointsPush) {
   const Assembly a = test::column(3);
   const Shell shell = shell_of(a, Vec3::UnitZ());

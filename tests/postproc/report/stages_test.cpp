@@ -32,13 +32,13 @@ TEST(Stages, RingsHaveTheirHeightsAndTheMiddleOfTheBracket) {
 
 constexpr const char* kConstruction =
     "stage,ring,laid,blocks,verdict,speed_ratio,least_stands,least_moves,head_squeeze_m,displacement_m,"
-    "solve_time_s,note\n";
+    "note\n";
 
 TEST(Stages, TheMostDemandingStageSaysWhatMovesWithLess) {
   const CsvFile stages = parse_csv(std::string(kConstruction) +
-                                       "0,20,4,124,equilibrium,1e-9,5000,4900,1e-6,4e-5,0.8,\n"
-                                       "1,20,4,128,equilibrium,1e-9,6000,5900,1e-6,5e-5,1.3,\n"
-                                       "2,20,2,130,equilibrium,1e-9,0,,2e-6,6e-5,1.3,\n",
+                                       "0,20,4,124,equilibrium,1e-9,5000,4900,1e-6,4e-5,\n"
+                                       "1,20,4,128,equilibrium,1e-9,6000,5900,1e-6,5e-5,\n"
+                                       "2,20,2,130,equilibrium,1e-9,0,,2e-6,6e-5,\n",
                                    "construction.csv");
   const CsvFile failures = parse_csv(
       "stage,ring,block,course,how,relative_speed\n0,20,801,20,slides,1\n1,20,801,20,slides,1\n"
@@ -59,8 +59,8 @@ TEST(Stages, TheMostDemandingStageSaysWhatMovesWithLess) {
 
 TEST(Stages, TheFirstStageThatDoesNotStandSaysWhatMoves) {
   const CsvFile stages = parse_csv(std::string(kConstruction) +
-                                       "0,3,4,124,equilibrium,1e-9,,,1e-6,4e-5,0.8,\n"
-                                       "1,3,4,128,moving,0.3,,,,,1.3,\n",
+                                       "0,3,4,124,equilibrium,1e-9,,,1e-6,4e-5,\n"
+                                       "1,3,4,128,moving,0.3,,,,,\n",
                                    "construction.csv");
   const CsvFile failures =
       parse_csv("stage,ring,block,course,how,relative_speed\n1,3,12,3,slides,1\n", "failures.csv");

@@ -6,8 +6,8 @@
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "postproc/studies/study.hpp"
-#include "postproc/studies/study_figures.hpp"
-#include "postproc/studies/study_text.hpp"
+#include "postproc/studies/tradeoff_figures.hpp"
+#include "postproc/studies/tradeoff_text.hpp"
 #include "tests/fresh_folder.hpp"
 
 namespace cupola::tradeoff_test {
@@ -15,61 +15,74 @@ namespace {
 
 using test::fresh_folder;
 
-std::string written(const std::string& text) {
-  const std::string path = fresh_folder("study") + "/study.txt";
-  write_text_atomically(path, text);
-  return path;
+/// The trade-off of one knob with these runs, each {name: ..., set: ...}.
+std::string knob(const std::string& reference, const std::string& runs) {
+  return "  - {knob: t, " + reference + ", runs: [" + runs + "]}\n";
 }
 
-std::string error_of(const std::string& text) {
+std::vector<TradeoffRun> tradeoff_of(const std::string& knobs) {
+  const std::string path = fresh_folder("study") + "/study.yaml";
+  write_text_atomically(path, "case: dome\ntradeoff:\n" + knobs);
+  return read_study(path).tradeoff;
+}
+
+std::string error_of(const std::string& knobs) {
   try {
-    read_study({written(text)});
+    tradeoff_of(knobs);
   } catch (const InputError& error) {
     const std::string message = error.what();
-    return message.substr(message.find("study.txt"));
+    return message.substr(message.find("study.yaml"));
   }
   return "";
 }
 
-TEST(StudyFile, ReadsKnobNameReferenceAndSettings) {
-  const std::vector<StudyPoint> points =
-      read_study({written("# comment\n\nmethod exact exact  a.b=1\nmethod fast exact c=2 d=[1,2]\n")});
-  ASSERT_EQ(points.size(), 2u);
-  EXPECT_TRUE(points[0].is_reference());
-  EXPECT_EQ(points[1].knob, "method");
-  EXPECT_EQ(points[1].settings, (std::vector<std::string>{"c=2", "d=[1,2]"}));
+TEST(Tradeoff, ReadsKnobsRunsAndTheSettingsTheyShare) {
+  const std::vector<TradeoffRun> runs = tradeoff_of(
+      "  - {knob: method, reference: exact, set: a.b=1, runs: [{name: exact}, {name: fast, set: "
+      "'c=2 d=[1,2]'}]}\n"
+      "  - {knob: other, reference: exact, only: vault, runs: [{name: more}]}\n");
+  ASSERT_EQ(runs.size(), 2u) << "the second knob is of another case";
+  EXPECT_TRUE(runs[0].is_reference());
+  EXPECT_EQ(runs[1].knob, "method");
+  EXPECT_EQ(runs[1].settings, (std::vector<std::string>{"a.b=1", "c=2", "d=[1,2]"}));
+  EXPECT_EQ(runs[1].folder, "study/dome/fast");
 }
 
-TEST(StudyRow, UsesWallTimeIfThreadsAreTheKnob) {
-  const std::vector<StudyPoint> points = read_study({written("t one one --threads=1\nm two two a=1\n")});
+TEST(TradeoffRow, UsesWallTimeIfThreadsAreTheKnob) {
+  const std::vector<TradeoffRun> runs =
+      tradeoff_of(knob("reference: one", "{name: one, set: --threads=1}, {name: two, set: a=1}"));
   Summary summary;
   summary.cpu_time_seconds = 2.0;
   summary.wall_time_seconds = 1.25;
-  EXPECT_EQ((StudyRow{points[0], summary, {}, {}}).seconds(), 1.25);
-  EXPECT_EQ((StudyRow{points[1], summary, {}, {}}).seconds(), 2.0);
+  EXPECT_EQ((TradeoffRow{runs[0], summary, {}, {}}).seconds(), 1.25);
+  EXPECT_EQ((TradeoffRow{runs[1], summary, {}, {}}).seconds(), 2.0);
 }
 
-TEST(StudyFile, NamesTheInvalidLine) {
-  EXPECT_EQ(error_of("a b\n"), "study.txt:1: error: expected KNOB NAME REFERENCE key.path=value ...");
-  EXPECT_EQ(error_of("a b b x\n"), "study.txt:1: error: x: must have the form key.path=value");
-  EXPECT_EQ(error_of("a b b\na b b\n"),
-            "study.txt:2: error: b: another run has this name; names must be unique");
-  EXPECT_EQ(error_of("a b c\n"),
-            "study.txt:1: error: b: no line defines c as a reference, that is, with itself as reference");
-  EXPECT_THROW(read_study({written("# nothing\n")}), InputError);
+TEST(Tradeoff, ErrorsNameThePlace) {
+  EXPECT_EQ(error_of(knob("reference: b", "{name: b, set: x}")),
+            "study.yaml:3:51: error: tradeoff[0].runs[0].set = x: must be key.path=value ..., of letters, "
+            "digits and . _ + - [ ] , : only");
+  EXPECT_NE(error_of(knob("reference: b", "{name: b}, {name: b}")).find(":3:5: error: b: another run has"),
+            std::string::npos);
+  EXPECT_EQ(error_of(knob("reference: exakt", "{name: a}") + knob("reference: exact", "{name: exact}")),
+            "study.yaml:3:26: error: reference = exakt: no run of this name has itself as reference; did you "
+            "mean exact?");
 }
 
-TEST(StudyFile, ExtrapolatesFromTwoRunsWhoseStepsDifferByTwo) {
-  const std::string two =
-      "t fine fine+coarse analysis.time_step=0.1\nt coarse fine+coarse analysis.time_step=";
-  const std::vector<StudyPoint> points = read_study({written(two + "0.2\n")});
-  EXPECT_FALSE(points[0].is_reference());
-  EXPECT_EQ(points[1].reference_text(), "2 x fine - coarse");
-  EXPECT_EQ(error_of(two + "0.3\n"),
-            "study.txt:1: error: fine: extrapolation requires that analysis.time_step of coarse is twice "
-            "that of fine");
-  EXPECT_EQ(error_of("t fine fine+lost analysis.time_step=0.1\n"),
-            "study.txt:1: error: fine: no line defines lost");
+TEST(Tradeoff, ExtrapolatesFromTwoRunsWhoseStepsDifferByTwo) {
+  const auto two = [](const std::string& step) {
+    return knob(
+        "reference: fine, coarse: coarse",
+        "{name: fine, set: analysis.time_step=0.1}, {name: coarse, set: analysis.time_step=" + step + "}");
+  };
+  const std::vector<TradeoffRun> runs = tradeoff_of(two("0.2"));
+  EXPECT_FALSE(runs[0].is_reference());
+  EXPECT_EQ(runs[1].reference_text(), "2 x fine - coarse");
+  EXPECT_NE(error_of(two("0.3")).find("analysis.time_step of coarse is twice that of fine"),
+            std::string::npos);
+  EXPECT_NE(error_of(knob("reference: fine, coarse: lost", "{name: fine, set: analysis.time_step=0.1}"))
+                .find("no run has the name lost"),
+            std::string::npos);
 }
 
 /// Two joints of area 4 m2 that carry 100 N and 300 N upwards at x = 0.
@@ -143,16 +156,16 @@ TEST(ForceErrors, AJointMissingInOneRunCountsAsUnloaded) {
   EXPECT_NEAR(compare_forces(run, reference).wrench_rms, 100.0 / 300.0, 1e-12);
 }
 
-StudyRow row(const std::string& name, double seconds, double error, Status status = Status::stable) {
-  StudyRow r{{"method", name, "exact", "", {}}, Summary{}, {}, {}};
+TradeoffRow row(const std::string& name, double seconds, double error, Status status = Status::stable) {
+  TradeoffRow r{{"method", name, "exact", "", {}, ""}, Summary{}, {}, {}};
   r.summary->cpu_time_seconds = seconds;
   r.summary->status = status;
   r.errors.wrench_rms = r.errors.wrench_worst = error;
   return r;
 }
 
-std::vector<StudyRow> small_study() {
-  StudyRow missing{{"method", "lost", "exact", "", {}}, std::nullopt, {}, {}};
+std::vector<TradeoffRow> small_study() {
+  TradeoffRow missing{{"method", "lost", "exact", "", {}, ""}, std::nullopt, {}, {}};
   return {row("exact", 9, 0),
           row("b_2", 2, 1e-3),
           row("c_3", 3, 1e-2),
@@ -163,7 +176,7 @@ std::vector<StudyRow> small_study() {
 }
 
 TEST(Study, FrontHoldsRunsThatNoFasterRunBeats) {
-  const std::vector<StudyRow> front = pareto_front(rows_of(small_study(), "method"));
+  const std::vector<TradeoffRow> front = pareto_front(rows_of(small_study(), "method"));
   ASSERT_EQ(front.size(), 3u);
   EXPECT_EQ(front[0].point.name, "a_1");
   EXPECT_EQ(front[1].point.name, "b_2");
@@ -171,16 +184,16 @@ TEST(Study, FrontHoldsRunsThatNoFasterRunBeats) {
 }
 
 TEST(Study, RanksLimitAnalysesByTheirCriticalValue) {
-  StudyRow fast = row("fast", 1, 0.9), fine = row("fine", 2, 0.9);
+  TradeoffRow fast = row("fast", 1, 0.9), fine = row("fine", 2, 0.9);
   fast.critical_error = 1e-2;
   fine.critical_error = 1e-4;
   EXPECT_EQ(pareto_front({fast, fine}).size(), 2u);
-  EXPECT_EQ(study_text({fast, fine}).back().find("single joint"), std::string::npos);
+  EXPECT_EQ(tradeoff_text({fast, fine}).back().find("single joint"), std::string::npos);
 }
 
 TEST(Study, TextNamesTheFastestTheExchangeTheUnreachedAndTheMissing) {
   std::string text;
-  for (const std::string& paragraph : study_text(small_study())) text += paragraph + "\n";
+  for (const std::string& paragraph : tradeoff_text(small_study())) text += paragraph + "\n";
   for (const char* phrase :
        {"Not run: lost.",
         "Fastest run within 0.1 and 0.01 and 0.001: b_2 (2 s, 1.0e-03); within 1e-06: d_4 (4 s, 1.0e-07).",
@@ -190,11 +203,11 @@ TEST(Study, TextNamesTheFastestTheExchangeTheUnreachedAndTheMissing) {
 }
 
 TEST(Study, TheTableHasARowPerRunAndEveryKnobAFigure) {
-  const Table table = study_table(small_study());
+  const Table table = tradeoff_table(small_study());
   EXPECT_EQ(table.rows.size(), 7u);
   for (const auto& cells : table.rows) EXPECT_EQ(cells.size(), table.columns.size());
   EXPECT_EQ(std::get<std::string>(table.rows.back()[4]), "not run");
-  const std::vector<Figure> figures = study_figures(small_study());
+  const std::vector<Figure> figures = tradeoff_figures(small_study());
   ASSERT_EQ(figures.size(), 2u);
   EXPECT_EQ(figures[0].name, "tradeoff");
   EXPECT_EQ(figures[1].name, "tradeoff_method");

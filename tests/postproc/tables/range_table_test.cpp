@@ -101,7 +101,9 @@ TEST(RangeTable, ClaimsAddressRanges) {
 TEST(RangeTable, SweepHasColumnsForEveryQuantityOfItsMembers) {
   const ScratchFolder scratch;
   const std::vector<SweptKey> sweep = {{"joints.friction", {"0.1", "0.2", "0.3"}}};
-  const auto members = members_of(sweep, "dome");
+  std::vector<StudyRun> members;
+  for (const SweepMember& member : members_of(sweep, "dome"))
+    members.push_back({member.name, "dome", member.settings});
   scratch.write("dome_friction0.2/results/summary.json", R"({"status": "stable"})");
   scratch.write("dome_friction0.2/results/ranges.csv", kSolved);
   scratch.write("dome_friction0.3/results/summary.json", R"({"status": "moving"})");

@@ -83,5 +83,16 @@ TEST(Html, PicturesAreEmbedded) {
   EXPECT_EQ(html_picture(folder + "/none.png", ""), "");
 }
 
+TEST(Table, FormulasAndLineEndsComeBackAsText) {
+  const Table table{"t",
+                    "",
+                    {{"a", "", ""}, {"b", "", ""}},
+                    {{std::string("=1+1"), std::string("x,\n\"y\"")}, {-1.5, std::string("-1.5")}}};
+  const std::string text = to_csv(table);
+  EXPECT_EQ(text, "a,b\n\"'=1+1\",\"x,\n\"\"y\"\"\"\n-1.5,-1.5\n");
+  const CsvFile csv = parse_csv(text, "t.csv");
+  EXPECT_EQ(csv.rows, (std::vector<std::vector<std::string>>{{"=1+1", "x,\n\"y\""}, {"-1.5", "-1.5"}}));
+}
+
 }  // namespace
 }  // namespace cupola::table_test

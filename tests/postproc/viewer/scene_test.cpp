@@ -163,7 +163,7 @@ TEST(Scene, HoldsTheCertaintyOfTheJoints) {
 
 TEST(Scene, SaysNothingOfForcesWithoutAnEquilibrium) {
   Evaluation e = test::column_evaluation(0.5, 0.3);
-  e.summary.status = Status::collapsed;
+  e.last.frame.role = FrameRole::unconverged;
   const std::string bytes = column_scene(e);
   EXPECT_EQ(bytes.find("normal_force_N\":{"), std::string::npos);
   EXPECT_NE(bytes.find("No forces are shown"), std::string::npos);
@@ -171,7 +171,7 @@ TEST(Scene, SaysNothingOfForcesWithoutAnEquilibrium) {
 
 TEST(Film, LeavesOutFramesOfLongRunsAndSaysSo) {
   Evaluation e = test::column_evaluation(0.5, 0.3);
-  e.summary.analysis = AnalysisType::dynamic;
+  e.last.frame.role = FrameRole::step;
   e.times.clear();
   for (int i = 0; i < 600'000; ++i) e.times.push_back(1e-3 * i);
   FrameEvaluation frame = e.last;
@@ -190,7 +190,7 @@ TEST(Film, LeavesOutFramesOfLongRunsAndSaysSo) {
 // Of an open course (time 0.5: half of course 1) those blocks are laid that have contacts.
 TEST(Film, ShowsTheBlocksOfAnOpenCourseFromTheFrameInWhichTheyAreLaid) {
   Evaluation e = test::column_evaluation(0.5, 0.3);
-  e.summary.analysis = AnalysisType::staged;
+  e.last.frame.role = FrameRole::stage;
   e.times = {0.0, 0.5, 1.0, 2.0};
   ContactTable& contacts = e.last.frame.contacts;
   contacts = {};

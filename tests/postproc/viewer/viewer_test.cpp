@@ -38,6 +38,7 @@ std::string sliding_column(int num_frames) {
   Summary summary = test::column_summary(a);
   summary.status = Status::collapsed;
   summary.analysis = AnalysisType::dynamic;
+  summary.max_speed_m_per_s = 0.4;
   return test::analysed_column("sliding", frames, summary);
 }
 

@@ -53,6 +53,30 @@ TEST(DirectLimit, BlockSlidesAtItsFriction) {
   EXPECT_NEAR(critical(scene, box), 0.25, 1e-5 * 0.25);
 }
 
+// The weight is that of gravity, without the acceleration that the search adds to it.
+TEST(DirectLimit, TheWeightIsVertical) {
+  const Assembly box = testing::box_on_floor({1.0, 0.5, 0.2});
+  const double weight = free_weight(box, testing::kG);
+  for (const Parameter parameter : {Parameter::acceleration, Parameter::tilt}) {
+    Case scene = limit_case(parameter, 0.0, parameter == Parameter::tilt ? 60.0 : 2.0, 0.3);
+    EXPECT_NEAR(run_limit(scene, box, {})->weight_N, weight, 1e-12 * weight);
+  }
+}
+
+// A load on top of a column has no limit: the state shown is that of the case, not that of an end of the bracket.
+TEST(DirectLimit, WithoutALimitTheLoadsAreThoseOfTheCase) {
+  const Assembly box = testing::box_on_floor({1.0, 0.5, 0.2});
+  const double weight = free_weight(box, testing::kG);
+  Case scene = limit_case(Parameter::load, 0.0, 10.0, 0.3);
+  BlockForce load;
+  load.block = BlockRef{1};
+  load.force = Vec3(0, 0, -weight);
+  scene.loads.forces = {load};
+  const Summary summary = run_limit(scene, box, {}).value();
+  EXPECT_FALSE(summary.critical) << summary.message;
+  EXPECT_NEAR(summary.support_reaction_N.z(), 2.0 * weight, 1e-6 * weight);
+}
+
 // A horizontal force at mid-height of a flat block: P = mu W.
 TEST(DirectLimit, FactorOnAForce) {
   const Assembly box = testing::box_on_floor({1.0, 0.5, 0.2});

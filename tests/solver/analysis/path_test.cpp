@@ -103,6 +103,50 @@ TEST(Path, ACrackClosesAndOpensAgain) {
   for (size_t k = 1; k < result.rows.size(); ++k) EXPECT_GE(result.rows[k][3], result.rows[k - 1][3] - 1e-9);
 }
 
+// Two blocks lean on each other over a span of 2 m. Their supports spread by s each: both turn about the inner edges of
+// their springings by the angle at which the crown hinge, 1 m above, comes down, and the crown opens by 2 d sin(angle)
+// at its lower edge. Faces farther apart than the margin are no contacts any more; the frame lists them all the same.
+TEST(Path, TheCrownOfATwoBlockArchOpensAsItsHingesSay) {
+  Assembly arch;
+  const auto voussoir = [&arch](std::array<Eigen::Vector2d, 4> quad, bool mirrored, bool fixed) {
+    if (mirrored)
+      quad = {Eigen::Vector2d(-quad[1].x(), quad[1].y()), Eigen::Vector2d(-quad[0].x(), quad[0].y()),
+              Eigen::Vector2d(-quad[3].x(), quad[3].y()), Eigen::Vector2d(-quad[2].x(), quad[2].y())};
+    testing::add_voussoir(quad, 1.0, 2000.0, fixed, fixed ? -1 : 0, &arch);
+  };
+  for (const bool mirrored : {false, true}) {
+    voussoir({Eigen::Vector2d(-1.5, 0), {-1, 0}, {0, 0.5}, {0, 1}}, mirrored, false);
+    voussoir({Eigen::Vector2d(-2, -0.5), {-0.5, -0.5}, {-0.5, 0}, {-2, 0}}, mirrored, true);
+  }
+  compute_mass_properties(&arch);
+  const double spread = 0.05;  // m, of each support
+  Case scene = testing::make_case(0.75, 0.0, 0.01);
+  scene.joints.compliance = {kCompliance, kCompliance, Compliance::Per::area};
+  scene.analysis.type = AnalysisType::path;
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.path.steps = 40;
+  scene.analysis.path.control = LoadPath::Control{BlockRef{3}, {}, Vec3::UnitX()};
+  scene.supports.moves = {{.blocks = {BlockRef{1}}, .displacement = {-spread, 0, 0}, .time = RampInTime{}},
+                          {.blocks = {BlockRef{3}}, .displacement = {spread, 0, 0}, .time = RampInTime{}}};
+  const PathResult result = run(scene, arch);
+  ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
+  const double height = std::sqrt(2.0 - (1.0 + spread) * (1.0 + spread));
+  const double angle = 0.25 * M_PI - std::atan2(height, 1.0 + spread);
+  const ContactTable& contacts = result.frames.back().contacts;
+  double widest = 0.0, margin = 0.0;
+  for (int i = 0; i < contacts.size(); ++i) {
+    if (contacts.block_a[i] != 0 || contacts.block_b[i] != 2) continue;
+    widest = std::max(widest, contacts.gap[i]);
+    margin = std::max(margin, contacts.normal_force[i] > 0.0 ? contacts.gap[i] : 0.0);
+    if (contacts.gap[i] > 0.01) {
+      EXPECT_EQ(contacts.force[i], Vec3::Zero());
+    }
+  }
+  EXPECT_LT(margin, 1e-6) << "what carries touches";
+  // The outermost points of the quadrature stand 11 % of the depth inside the lower edge.
+  EXPECT_NEAR(widest, 2.0 * 0.5 * std::sin(angle), 0.15 * std::sin(angle));
+}
+
 /// Largest shear that a bed under N at a third of its width carries, over c A, by a force that grows in `steps`.
 double shear_over_cohesion(JointFailure failure, int steps) {
   const double cohesion = 1e5, normal = 2e4;

@@ -202,7 +202,7 @@ TEST(Range, RefusesWhatTheModelDoesNotHave) {
     }
     return "";
   };
-  EXPECT_NE(message(BaseThrust{}).find("a wall has no axis"), std::string::npos);
+  EXPECT_NE(message(BaseThrust{}).find("no axis"), std::string::npos);
   EXPECT_NE(message(joint(1, 2, JointForce::Component::normal))
                 .find("blocks 1 and 2 have no closed joint; block 1 touches 0"),
             std::string::npos);

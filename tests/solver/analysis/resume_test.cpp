@@ -126,8 +126,9 @@ TEST(Checkpoint, SurvivesAFailedWrite) {
   make_folder(folder);
   const std::string path = folder + "/checkpoint";
   write_checkpoint(path, {"0.1", "a", "b", {}, "", "good"});
-  // The target is a folder, so that the rename fails, even for root.
-  EXPECT_THROW(write_checkpoint(folder, {"0.1", "a", "b", {}, "", "bad"}), SystemError);
+  // A file cannot lie below a file, so that the write fails, even for root. A folder in its place is refused.
+  EXPECT_THROW(write_checkpoint(path + "/below", {"0.1", "a", "b", {}, "", "bad"}), SystemError);
+  EXPECT_THROW(write_checkpoint(folder, {"0.1", "a", "b", {}, "", "bad"}), InputError);
   EXPECT_EQ(read_checkpoint(path)->analysis, "good");
 }
 

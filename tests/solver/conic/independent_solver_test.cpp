@@ -64,7 +64,7 @@ double least_by_cvxopt(const ConicProblem& problem) {
   const std::string base =
       (std::filesystem::temp_directory_path() / ("cupola_cvxopt_" + std::to_string(::getpid()))).string();
   write(problem, base + ".in");
-  const std::string command = "python3 " + kScript + " < " + base + ".in > " + base + ".out";
+  const std::string command = "/usr/bin/python3 " + kScript + " < " + base + ".in > " + base + ".out";
   EXPECT_EQ(std::system(command.c_str()), 0);
   std::string status;
   double value = std::nan("");
@@ -89,14 +89,27 @@ void expect_same_value(const ConicProblem& problem) {
   EXPECT_LE(conic_bounds(problem, solution).relative_gap(), 1e-6);
 }
 
+/// Continuous integration sets CUPOLA_REQUIRE_PYTHON, so that the test runs there in any case.
+bool has_cvxopt() {
+  return std::getenv("CUPOLA_REQUIRE_PYTHON") != nullptr ||
+         std::system("/usr/bin/python3 -c 'import cvxopt' 2> /dev/null") == 0;
+}
+
 // cvxopt is asked for 1e-8; at 1e-10 it breaks down on one of the models.
-TEST(IndependentSolverSlow, FindsTheSameLeastValues) {
-  if (std::system("python3 -c 'import cvxopt' 2> /dev/null") != 0)
-    GTEST_SKIP() << "needs the package python3-cvxopt";
+TEST(IndependentSolver, FindsTheSameLeastValues) {
+  if (!has_cvxopt()) GTEST_SKIP() << "needs the package python3-cvxopt";
+  for (const ContactProblem& model : models()) {
+    SCOPED_TRACE(model.num_blocks());
+    expect_same_value(random_problem(model, 1));
+  }
+}
+
+TEST(IndependentSolverSlow, FindsTheSameLeastValuesOfMoreObjectives) {
+  if (!has_cvxopt()) GTEST_SKIP() << "needs the package python3-cvxopt";
   for (const ContactProblem& model : models()) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
       SCOPED_TRACE(model.num_blocks());
-      expect_same_value(random_problem(model, seed));
+      if (seed > 1) expect_same_value(random_problem(model, seed));
       for (const double sign : {1.0, -1.0}) expect_same_value(random_strong_problem(model, seed, sign));
     }
   }

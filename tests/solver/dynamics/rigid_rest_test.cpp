@@ -35,9 +35,11 @@ void expect_accurate(const StepReport& report, double tolerance) {
 
 // An arch stands on its abutments for 200 steps. Once its speeds are rounding errors or zero it stays where it is, to the last
 // bit; before that each step may move it by the tolerance times the free fall g h^2 of one step.
-TEST(RigidRest, AnArchStaysWhereItIs) {
+class ArchAtRest : public ::testing::TestWithParam<FrictionLaw> {};
+TEST_P(ArchAtRest, StaysWhereItIs) {
   const Assembly assembly = testing::make_arch({.voussoirs = 15, .thickness = 0.2});
-  const Case scene = rigid_case(0.7);
+  Case scene = rigid_case(0.7);
+  scene.analysis.friction_law = GetParam();
   testing::AccountedSimulation simulation(scene, assembly);
   constexpr int kSettled = 20;
   State settled;
@@ -57,6 +59,9 @@ TEST(RigidRest, AnArchStaysWhereItIs) {
     EXPECT_EQ(simulation.state().poses[block].p_WB, settled.poses[block].p_WB);
   EXPECT_LT(largest_displacement(simulation), kSettled * 1e-6 * kG * 0.01 * 0.01);
 }
+
+INSTANTIATE_TEST_SUITE_P(BothLaws, ArchAtRest,
+                         ::testing::Values(FrictionLaw::associated, FrictionLaw::coulomb));
 
 // The friction falls from 0.6 to 0.1 over a second on a slope of 0.3. The block must leave its rest when the friction is that of the
 // slope, at 0.6 s, and then slide under Coulomb's law: v = g cos a (0.5 t^2 / 2), t from then, less one step.

@@ -41,6 +41,28 @@ TEST(CoulombNewton, SlidesDownTheIncline) {
   }
 }
 
+// The next step of a dome that slides: the proximal compliance that ended the last solve suits it.
+TEST(CoulombNewton, CarriesTheProximalComplianceAlongASlide) {
+  scenes::DomeShape shape;
+  shape.rings = 8;
+  shape.blocks_per_ring = 12;
+  const ContactProblem first = scenes::dome(shape, 0.01, {0.05, 0.0, 0.0});
+  const ContactSolverOptions options = options_for(first, 1e-3);
+  CoulombNewton solver;
+  ContactSolution x;
+  solver.solve(first, options, &x);
+  ContactProblem second = first;
+  second.v_star += x.v;
+  ContactSolution carried = x, fresh = x;
+  const SolveSummary by_carried = solver.solve(second, options, &carried);
+  const SolveSummary by_fresh = CoulombNewton().solve(second, options, &fresh);
+  EXPECT_EQ(by_carried.ending, SolveEnding::converged) << by_carried.message;
+  EXPECT_LE(2 * by_carried.outer_iterations, by_fresh.outer_iterations);
+  EXPECT_LE(
+      excess(compute_residuals(second, carried, options.reference_speed, options.law), options.tolerance),
+      1.0);
+}
+
 // A step from rest with dilatancy theta: v_n = theta mu v_t and N = m (g h cos a + v_n), so that
 // v_t = A h / (1 + theta mu^2). At theta = 1 this is the first speed of the associated law's closed form.
 TEST(CoulombNewton, OpensTheContactByTheDilatancy) {

@@ -4,6 +4,7 @@
 #include "solver/contact/methods/solve_contact.hpp"
 #include "solver/contact/problem/duality_gap.hpp"
 #include "solver/contact/problem/residuals.hpp"
+#include "solver/runtime/iteration_log.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
 namespace cupola::methods_test {
@@ -39,6 +40,22 @@ scenes::DomeShape small_dome() {
   shape.rings = 8;
   shape.blocks_per_ring = 12;
   return shape;
+}
+
+// A line in every iteration with an interval of 0 s, and none with an hour.
+TEST(ContactMethods, FirstOrderMethodsSayWhereTheyAre) {
+  const ContactProblem problem = scenes::dome(small_dome(), 0.01, {0.4, 1e-8, 3e-9});
+  for (const ContactMethod method :
+       {ContactMethod::spg, ContactMethod::apgd, ContactMethod::nsgs, ContactMethod::admm})
+    for (const double interval : {0.0, 3600.0}) {
+      std::vector<std::string> lines;
+      const IterationLog log([&lines](const std::string& line) { lines.push_back(line); }, interval);
+      solve(problem, method, 1e-6);
+      EXPECT_EQ(lines.empty(), interval > 0.0) << to_string(method);
+      if (lines.empty()) continue;
+      EXPECT_TRUE(lines.back().starts_with(to_string(method))) << lines.back();
+      EXPECT_NE(lines.back().find("tolerance 1e-06"), std::string::npos) << lines.back();
+    }
 }
 
 TEST(ContactMethods, AgreeOnTheForcesOfAStep) {

@@ -1,0 +1,81 @@
+#include "assembly/case/keys_without_effect.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "assembly/base/error.hpp"
+
+namespace cupola {
+namespace {
+
+class Refusal {
+ public:
+  Refusal(const Case& scene, const Assembly& assembly) : file_(scene.file), assembly_(assembly) {}
+
+  void unless(bool holds, const std::string& message) const {
+    if (!holds) throw InputError(FileLocation{file_}, message);
+  }
+  /// For a key that selects courses from `ring` upwards. Imported blocks have one course, 0.
+  void course(const std::string& key, int ring) const {
+    const int last = std::max(0, assembly_.num_rings - 1);
+    unless(ring <= last,
+           fmt::format("{} = {}: has no effect: the model has the rings 0 to {}", key, ring, last));
+  }
+  void law(const char* kind, bool given, bool present, const char* what) const {
+    unless(!given || present,
+           fmt::format("joints.{}: has no effect: the model has no {}; remove it", kind, what));
+  }
+
+ private:
+  const std::string& file_;
+  const Assembly& assembly_;
+};
+
+bool have_herringbone(const Assembly& assembly) {
+  return std::ranges::any_of(assembly.blocks,
+                             [](const Block& b) { return b.kind == BlockKind::herringbone; });
+}
+
+void check_joints(const Joints& joints, const Assembly& assembly, const Refusal& refuse) {
+  refuse.law("herringbone", joints.herringbone.has_value(), have_herringbone(assembly), "herringbone block");
+  refuse.law("wythe", joints.wythe.has_value(),
+             std::ranges::find(assembly.face_kinds, FaceKind::wythe) != assembly.face_kinds.end(),
+             "joint between layers of the thickness");
+  const auto is_piece = [](const Block& block) { return block.name.find('#') != std::string::npos; };
+  refuse.law("pieces", joints.pieces.has_value(), std::ranges::any_of(assembly.blocks, is_piece),
+             "imported block in pieces, named NAME#1, NAME#2, ...");
+  for (size_t i = 0; i < joints.rings.size(); ++i)
+    refuse.course(fmt::format("joints.rings[{}].from", i), joints.rings[i].from);
+}
+
+void check_sequence(const std::vector<int>& sequence, const Assembly& assembly, const Refusal& refuse) {
+  const char* key = "analysis.staged.sequence";
+  for (const int block : sequence) {
+    refuse.unless(block < static_cast<int>(assembly.blocks.size()),
+                  fmt::format("{}: there is no block {}: the model has {}", key, block,
+                              counted(assembly.blocks.size(), "block")));
+    refuse.unless(!assembly.blocks[static_cast<size_t>(block)].fixed,
+                  fmt::format("{}: block {} is a support, which is not laid", key, block));
+  }
+}
+
+}  // namespace
+
+void refuse_keys_without_effect(const Case& scene, const Assembly& assembly) {
+  const Refusal refuse(scene, assembly);
+  check_joints(scene.joints, assembly, refuse);
+  for (size_t i = 0; i < scene.loads.faces.size(); ++i)
+    refuse.course(fmt::format("loads.faces[{}].from_ring", i), scene.loads.faces[i].from_ring);
+  const Analysis& analysis = scene.analysis;
+  if (analysis.type == AnalysisType::limit && analysis.limit.joints)
+    refuse.course("analysis.limit.joints.from", analysis.limit.joints->from);
+  if (analysis.type != AnalysisType::staged) return;
+  refuse.unless(
+      assembly.num_rings > 0,
+      "analysis.type: staged requires blocks in courses, which imported blocks are not; use type: static");
+  check_sequence(analysis.staged.sequence, assembly, refuse);
+}
+
+}  // namespace cupola

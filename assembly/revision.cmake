@@ -1,0 +1,17 @@
+# Writes OUTPUT, which defines program_version(), if it changes: cmake -DSOURCE=... -DVERSION=... -DOUTPUT=... -P revision.cmake
+set(sources assembly generators solver postproc CMakeLists.txt)
+execute_process(COMMAND git log -1 --format=%h -- ${sources} WORKING_DIRECTORY ${SOURCE}
+  OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+execute_process(COMMAND git status --porcelain -- ${sources} WORKING_DIRECTORY ${SOURCE} OUTPUT_VARIABLE changed ERROR_QUIET)
+if(NOT revision)
+  set(revision "unknown revision")
+elseif(changed)
+  string(APPEND revision "-dirty")
+endif()
+set(text "#include \"assembly/base/process.hpp\"\n\nstd::string cupola::program_version() {\n  return \"${VERSION} (${revision})\";\n}\n")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} old)
+endif()
+if(NOT "${text}" STREQUAL "${old}")
+  file(WRITE ${OUTPUT} "${text}")
+endif()

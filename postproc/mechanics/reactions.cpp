@@ -1,0 +1,57 @@
+#include "postproc/mechanics/reactions.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "assembly/model/outward.hpp"
+
+namespace cupola {
+
+std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWrenches& joints,
+                                        const std::vector<ShellAxes>& axes, bool arch) {
+  std::map<int, Reaction> found;
+  for (const JointWrench& joint : joints.wrenches) {
+    const bool a_fixed = assembly.blocks[joint.block_a].fixed;
+    if (a_fixed == assembly.blocks[joint.block_b].fixed) continue;
+    const int support = a_fixed ? joint.block_a : joint.block_b;
+    const ShellAxes& shell = axes[a_fixed ? joint.block_b : joint.block_a];
+    const Vec3 force = wrench_on(joint, support).force;
+    Reaction& reaction = found[support];
+    reaction.block = support;
+    reaction.force += force;
+    reaction.outward += force.dot(outward_at(joint.patch.centroid, arch));
+    reaction.length += shell.exists && shell.thickness > 0.0 ? joint.patch.area / shell.thickness
+                                                             : std::numeric_limits<double>::quiet_NaN();
+  }
+  std::vector<Reaction> reactions;
+  for (const auto& [block, reaction] : found) reactions.push_back(reaction);
+  return reactions;
+}
+
+std::vector<int> connected_parts(const Assembly& assembly, const JointWrenches& joints) {
+  std::vector<int> parent(assembly.blocks.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  const auto fixed = [&assembly](int b) { return assembly.blocks[b].fixed; };
+  for (const JointWrench& joint : joints.wrenches)
+    if (!fixed(joint.block_a) && !fixed(joint.block_b)) parent[root(joint.block_a)] = root(joint.block_b);
+  std::map<int, int> sizes;
+  for (int b = 0; b < static_cast<int>(parent.size()); ++b)
+    if (!fixed(b)) ++sizes[root(b)];
+  std::vector<int> order;  // roots, the largest part first, then by number
+  for (const auto& [first, size] : sizes) order.push_back(first);
+  std::stable_sort(order.begin(), order.end(), [&sizes](int a, int b) { return sizes[a] > sizes[b]; });
+  std::map<int, int> number;
+  for (size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<int>(i);
+  std::vector<int> parts(parent.size(), -1);
+  for (int b = 0; b < static_cast<int>(parts.size()); ++b)
+    if (!fixed(b)) parts[b] = number[root(b)];
+  return parts;
+}
+
+}  // namespace cupola

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "postproc/evaluation/evaluation.hpp"
+#include "postproc/report/key_number.hpp"
+
+namespace cupola {
+
+/// The verdict in the words of the first screen.
+struct VerdictWords {
+  std::string words;  ///< "It stands"
+  bool good = false;  ///< false: it falls, or nothing is decided
+};
+
+/// The words of a status, by its name.
+VerdictWords words_of_status(const std::string& status);
+
+/// The words for the structure under the loads of its case. Of a limit analysis: on which side of the limit the case lies.
+VerdictWords verdict_words(const Evaluation& evaluation);
+
+/// Why, in one to three sentences: the verdict of the run, moved supports, parts that move.
+std::string reason_for_verdict(const Evaluation& evaluation);
+
+/// By how much: the factor that this run computed, with what decides it, or the command that computes some.
+KeyNumber margin_answer(const Evaluation& evaluation);
+
+/// The thrust on the supports: in N, per metre and per support, with its range if the run has one. None without an axis.
+std::optional<KeyNumber> thrust_answer(const Evaluation& evaluation);
+
+/// The widest crack; none where joints are rigid, or without an equilibrium.
+std::optional<KeyNumber> crack_answer(const Evaluation& evaluation);
+
+/// What is certain and what is assumed, in one or two sentences.
+std::string certain_sentence(const Evaluation& evaluation);
+
+/// Which parts of a structure in several move and which do not; "" for one part, or in an equilibrium.
+std::string parts_sentence(const Evaluation& evaluation);
+
+/// Six lines for the terminal: verdict, margin, weight, thrust, warnings, report.
+std::vector<std::string> terminal_lines(const Evaluation& evaluation, const std::string& report);
+
+}  // namespace cupola

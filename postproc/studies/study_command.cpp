@@ -1,0 +1,163 @@
+#include "postproc/studies/study_command.hpp"
+
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
+#include "assembly/program/command_line.hpp"
+#include "postproc/claims/claims_report.hpp"
+#include "postproc/compare/compare.hpp"
+#include "postproc/report/html.hpp"
+#include "postproc/studies/docs_page.hpp"
+#include "postproc/studies/study.hpp"
+#include "postproc/studies/sweep.hpp"
+#include "postproc/studies/tradeoff_figures.hpp"
+#include "postproc/studies/tradeoff_text.hpp"
+
+namespace cupola {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyRequest {
+  std::string study_path, case_name, members_file, runs_folder, output_folder, pages_folder;
+  bool quiet = false;
+};
+
+/// A measured table and its definition.
+struct MeasuredTable {
+  StudyTable definition;
+  Table table;
+};
+
+std::vector<MeasuredTable> add_tables(const Study& study, RunCache& runs, StudyPage* page,
+                                      std::string* text) {
+  std::vector<MeasuredTable> tables;
+  for (const StudyTable& table : study.tables) {
+    tables.push_back({table, table.columns.empty() ? printed_table(table, page->folder() + "/script.csv")
+                                                   : measured_table(table, runs)});
+    page->add("<h2>" + markup_text(table.name) + "</h2>\n");
+    page->add_table(tables.back().table);
+    *text += aligned_text(tables.back().table) + "\n";
+  }
+  return tables;
+}
+
+void add_comparisons(const Study& study, const StudyRequest& request, const RunCache& runs, StudyPage* page) {
+  for (const Comparison& comparison : study.comparisons) {
+    std::vector<std::string> folders;
+    for (const std::string& run : comparison.runs)
+      if (runs.finished(run)) folders.push_back(request.runs_folder + "/" + run + "/post");
+    if (folders.size() < 2) continue;
+    const fs::path folder = fs::path(page->folder()) / comparison.name;
+    compare(folders, folder.string(), request.quiet);
+    const std::string link = (fs::path(comparison.name) / "comparison.html").string();
+    page->add(fmt::format("<p><a href=\"{0}\">{0}</a>: {1}</p>\n", link,
+                          markup_text(fmt::format("{}", fmt::join(comparison.runs, ", ")))));
+  }
+}
+
+void add_tradeoff(const Study& study, const std::string& runs_folder, StudyPage* page, std::string* text) {
+  if (study.tradeoff.empty()) return;
+  const fs::path folder = (fs::path(runs_folder) / study.tradeoff.front().folder).parent_path();
+  const std::vector<TradeoffRow> rows = measure_tradeoff(study.tradeoff, folder.string());
+  for (const std::string& paragraph : tradeoff_text(rows)) {
+    page->add_paragraph(paragraph);
+    *text += paragraph + "\n\n";
+  }
+  page->add_figures(tradeoff_figures(rows));
+  page->add("<h2>Numbers</h2>\n");
+  page->add_table(tradeoff_table(rows));
+}
+
+void add_claims(const Study& study, const std::string& runs_folder, StudyPage* page, std::string* text) {
+  if (!study.claims.empty()) {
+    const std::vector<ClaimResult> results = evaluate_claims(study.claims, runs_folder);
+    page->add(claims_html(study.claims, results));
+    page->write_csv(claims_table(study.claims, results));
+    *text += claims_text(study.claims, results);
+  }
+  page->add(figures_html(study.figures, runs_folder));
+}
+
+/// Writes what the study changes in the documentation.
+void write_pages(const Study& study, const std::vector<MeasuredTable>& tables, const StudyRequest& request,
+                 RunCache& runs) {
+  std::vector<std::string> names;
+  for (const StudyRun& member : members_of(study)) names.push_back(member.name);
+  const fs::path root(request.pages_folder);
+  for (const MeasuredTable& measured : tables) {
+    if (measured.definition.page.empty()) continue;
+    require_clean_tree(root.string());
+    write_to_page((root / measured.definition.page).string(), measured.definition.name,
+                  to_markdown(measured.definition, measured.table) + "\n" +
+                      measured_line(common_revision(names, runs)));
+  }
+  for (const ClaimFigure& figure : study.figures) {
+    if (figure.copy.empty()) continue;
+    require_clean_tree(root.string());
+    common_revision({figure.run}, runs);
+    const std::string picture = fmt::format("{}/{}/post/{}", request.runs_folder, figure.run, figure.picture);
+    write_text_atomically((root / figure.copy).string(), read_text(picture));
+  }
+}
+
+ExitCode measure(const Study& study, const StudyRequest& request) {
+  RunCache runs(request.runs_folder);
+  std::vector<std::string> missing;
+  for (const StudyRun& member : members_of(study))
+    if (!runs.finished(member.name)) missing.push_back(member.name);
+  StudyPage page(study.title.empty() ? study.name : study.title, request.output_folder);
+  std::string text;
+  if (!missing.empty()) page.add_paragraph(fmt::format("Not run: {}.", fmt::join(missing, ", ")));
+  if (!study.sweep.empty()) text += add_sweep(study.sweep, study.runs, request.runs_folder, &page);
+  const std::vector<MeasuredTable> tables = add_tables(study, runs, &page, &text);
+  add_comparisons(study, request, runs, &page);
+  add_tradeoff(study, request.runs_folder, &page, &text);
+  add_claims(study, request.runs_folder, &page, &text);
+  page.write();
+  if (!request.quiet) fmt::print("{}\nopen {}/study.html\n", text, page.folder());
+  if (!missing.empty()) {
+    fmt::print(stderr, "cupola-post: not run: {}\n", fmt::join(missing, " "));
+    return ExitCode::failed;
+  }
+  if (!request.pages_folder.empty()) write_pages(study, tables, request, runs);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+ExitCode run_study(int argc, const char* const* argv) {
+  // 1. Command line
+  StudyRequest request;
+  CLI::App app("Lists the runs of a study, or measures the finished ones.", "cupola-post study");
+  app.add_option("STUDY", request.study_path, "study file, or a case with a `sweep` (.yaml)")->required();
+  app.add_option("--members", request.members_file, "write the list of runs to this file and exit")
+      ->type_name("FILE");
+  app.add_option("--runs", request.runs_folder, "folder with one subfolder per run")->type_name("FOLDER");
+  app.add_option("--output", request.output_folder, "folder for study.html, tables and figures/")
+      ->type_name("FOLDER");
+  app.add_option("--pages", request.pages_folder, "write the tables of the pages below this folder")
+      ->type_name("FOLDER");
+  app.add_option("--case", request.case_name, "case of a trade-off")->type_name("NAME");
+  app.add_flag("--quiet", request.quiet, "print errors only");
+  app.footer("Sample runs:\n  cupola-post study cases/studies/chains.yaml --runs out/ --output out/chains/");
+  if (const auto ended = parse_arguments(app, argc, argv)) return *ended;
+
+  // 2. Runs
+  const Study study = read_study(request.study_path, request.case_name);
+  if (!request.members_file.empty()) {
+    write_text_atomically(request.members_file, members_text(members_of(study), request.study_path));
+    return ExitCode::done;
+  }
+  if (request.runs_folder.empty() || request.output_folder.empty())
+    throw InputError("give --members, or --runs and --output; see cupola-post study --help");
+
+  // 3. Measure and write
+  return measure(study, request);
+}
+
+}  // namespace cupola

@@ -1,0 +1,44 @@
+#include "postproc/studies/sweep.hpp"
+
+#include <map>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "postproc/report/html.hpp"
+#include "postproc/studies/sweep_figure.hpp"
+
+namespace cupola {
+namespace {
+
+/// How the members ended: "6 stable, 2 moving".
+std::string endings(const Table& table) {
+  std::map<std::string, int> count;
+  for (const auto& row : table.rows)
+    for (size_t k = 0; k < row.size(); ++k)
+      if (table.columns[k].key == "status") ++count[to_display(row[k])];
+  std::string text;
+  for (const auto& [status, members] : count)
+    text = fmt::format("{} {}{}{}", members, status, text.empty() ? "" : ", ", text);  // stable before moving
+  return text;
+}
+
+}  // namespace
+
+std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<StudyRun>& members,
+                      const std::string& runs_folder, StudyPage* page) {
+  const Table table = sweep_table(sweep, members, runs_folder);
+  const std::string ended = endings(table);
+  page->add(fmt::format("<p class=\"verdict\"><strong>{}.</strong> <small>{}.</small></p>\n", ended,
+                        counted(members.size(), "member")));
+  if (const Figure figure = sweep_figure(sweep, table); !figure.commands.empty()) page->add_figures({figure});
+  page->add_table(table);
+  std::string links;
+  for (const StudyRun& member : members)
+    links += (links.empty() ? "" : ", ") +
+             report_link(member.name, runs_folder + "/" + member.name + "/post", page->folder());
+  page->add("<p>Reports: " + links + ".</p>\n");
+  return fmt::format("{}\n{}: {}\n", aligned_text(table), counted(members.size(), "member"), ended);
+}
+
+}  // namespace cupola

@@ -1,0 +1,109 @@
+#include "assembly/files/atomic_file.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/files/csv_text.hpp"
+#include "assembly/files/folder_lock.hpp"
+#include "tests/fresh_folder.hpp"
+
+namespace cupola::atomic_file_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(AtomicFile, FollowsLinks) {
+  const fs::path folder = test::fresh_folder("atomic_links");
+  fs::create_directory(folder / "inner");
+  fs::create_symlink("inner/target.csv", folder / "first.csv");  // relative to its own folder, not to ours
+  fs::create_symlink("first.csv", folder / "second.csv");
+  for (const char* text : {"one", "two"}) {  // the target is absent, then present
+    write_text_atomically((folder / "second.csv").string(), text);
+    EXPECT_TRUE(fs::is_symlink(folder / "second.csv"));
+    EXPECT_TRUE(fs::is_symlink(folder / "first.csv"));
+    EXPECT_EQ(read_text((folder / "inner/target.csv").string()), text);
+  }
+}
+
+TEST(AtomicFile, RefusesWhatIsNoRegularFile) {
+  const fs::path folder = test::fresh_folder("atomic_devices");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  fs::create_symlink("/dev/null", folder / "link");
+  for (const std::string& path :
+       {std::string("/dev/null"), (folder / "pipe").string(), (folder / "link").string(), folder.string()})
+    EXPECT_THROW(write_text_atomically(path, "text"), InputError) << path;
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+}
+
+/// The number of a process that has ended.
+int ended_process() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ::waitpid(child, nullptr, 0);
+  return child;
+}
+
+TEST(FolderLock, RemovesTemporaryFilesOfKilledRunsOnly) {
+  const fs::path folder = test::fresh_folder("lock_parts");
+  const std::string ended = "." + std::to_string(ended_process()), alive = "." + std::to_string(::getpid());
+  const auto part = [&](const std::string& process) {
+    return folder / (".contacts_0001" + process + ".part.vtp");
+  };
+  for (const fs::path& file :
+       {part(ended), part(alive), folder / ".notes.12.particular", folder / "x.12.part"})
+    std::ofstream(file) << "text";
+  const FolderLock lock(folder.string());
+  EXPECT_FALSE(fs::exists(part(ended)));
+  EXPECT_TRUE(fs::exists(part(alive)));
+  EXPECT_TRUE(fs::exists(folder / ".notes.12.particular"));
+  EXPECT_TRUE(fs::exists(folder / "x.12.part"));
+}
+
+TEST(FolderLock, RefusesASecondOwnerAndNamesTheFirst) {
+  const fs::path folder = test::fresh_folder("lock_two");
+  {
+    const FolderLock first(folder.string());
+    try {
+      const FolderLock second(folder.string());
+      FAIL() << "two owners";
+    } catch (const SystemError& error) {
+      EXPECT_NE(std::string(error.what()).find("process " + std::to_string(::getpid())), std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_NO_THROW(FolderLock(folder.string()));
+}
+
+TEST(FolderLock, NoticesThatTheFolderWasReplaced) {
+  const fs::path folder = test::fresh_folder("lock_removed");
+  const FolderLock lock(folder.string());
+  EXPECT_NO_THROW(lock.check());
+  fs::remove_all(folder);
+  EXPECT_THROW(lock.check(), SystemError);
+  const FolderLock next(folder.string());
+  EXPECT_THROW(lock.check(), SystemError);
+  EXPECT_NO_THROW(next.check());
+}
+
+TEST(CsvText, QuotesFormulasAsText) {
+  for (const char* formula : {"=1+1", "+x", "-x", "@sum", "=cmd|' /C calc'!A0", "-1+1", "+"}) {
+    const std::string cell = csv_text(formula);
+    EXPECT_EQ(cell.substr(0, 2), "\"'") << formula;
+    EXPECT_EQ(text_of_csv(cell.substr(1, cell.size() - 2)), formula);
+  }
+  for (const char* plain : {"-1.5", "+2e-3", "-inf", "x=1", "", "'quoted'"}) {
+    EXPECT_EQ(csv_text(plain), plain);
+    EXPECT_EQ(text_of_csv(plain), plain);
+  }
+  EXPECT_EQ(csv_text("a \"b\", c"), "\"a \"\"b\"\", c\"");
+}
+
+}  // namespace
+}  // namespace cupola::atomic_file_test

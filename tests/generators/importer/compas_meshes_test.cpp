@@ -1,0 +1,93 @@
+// Files of COMPAS that are no assemblies: lists of meshes, and models of compas_dem.
+
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "generators/importer/readers.hpp"
+
+namespace cupola::compas_meshes_test {
+namespace {
+
+/// A unit cube on height z as COMPAS writes a mesh. `more`: further members after a comma.
+std::string cube(double z, const std::string& more = "") {
+  std::string vertices, faces;
+  int id = 0;
+  for (const double dz : {0.0, 1.0})
+    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+      vertices +=
+          fmt::format(R"({}"{}": {{"x": {}, "y": {}, "z": {}}})", id > 0 ? ", " : "", id, x, y, z + dz),
+          ++id;
+  const int quads[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                           {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  id = 0;
+  for (const auto& q : quads)
+    faces += fmt::format(R"({}"{}": [{}, {}, {}, {}])", id > 0 ? ", " : "", id, q[0], q[1], q[2], q[3]), ++id;
+  return fmt::format(
+      R"({{"dtype": "compas.datastructures/Mesh", "data": {{"vertex": {{{}}}, "face": {{{}}}}}{}}})",
+      vertices, faces, more);
+}
+
+std::vector<RawBlock> read(const std::string& text) {
+  const auto path = std::filesystem::temp_directory_path() / fmt::format("cupola_meshes_{}.json", ::getpid());
+  std::ofstream(path) << text;
+  struct Remove {
+    std::filesystem::path path;
+    ~Remove() { std::filesystem::remove(path); }
+  } remove{path};
+  return read_compas(path.string());
+}
+
+TEST(CompasMeshes, ListsOfMeshesAreBlocksInTheOrderOfTheFile) {
+  const auto blocks = read("[[" + cube(0) + "], [" + cube(1, R"(, "name": "upper")") + ", " + cube(2) + "]]");
+  ASSERT_EQ(blocks.size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(blocks[i].mesh.vertices.size(), 8u);
+    EXPECT_EQ(blocks[i].mesh.vertices.front().z(), i);
+    EXPECT_FALSE(blocks[i].fixed);
+  }
+  EXPECT_EQ(blocks[1].name, "upper");
+  EXPECT_TRUE(blocks[0].name.ends_with("_0") && blocks[2].name.ends_with("_2"));
+}
+
+TEST(CompasMeshes, ElementsOfAModelSayWhetherTheyAreSupports) {
+  const auto element = [](double z, bool support) {
+    return fmt::format(
+        R"({{"dtype": "compas_dem.elements/Block", "data": {{"transformation": null, "geometry": {}, "is_support": {}}}}})",
+        cube(z), support);
+  };
+  // The graph of a model holds meshes of its joints, which are no blocks.
+  const std::string graph =
+      R"("graph": {"data": {"node": {}, "edge": {"0": {"1": {"contacts": [)" + cube(1) + "]}}}}}";
+  for (const std::string& elements :
+       {"[" + element(0, true) + ", " + element(1, false) + "]",
+        R"({"a": )" + element(0, true) + R"(, "b": )" + element(1, false) + "}"}) {
+    const auto blocks = read(R"({"dtype": "compas_dem.models/BlockModel", "data": {)" + graph +
+                             R"(, "elements": )" + elements + "}}");
+    ASSERT_EQ(blocks.size(), 2u);
+    EXPECT_TRUE(blocks[0].fixed);
+    EXPECT_FALSE(blocks[1].fixed);
+  }
+}
+
+TEST(CompasMeshes, AreRefusedWithTheReason) {
+  const auto complaint = [](const std::string& text) -> std::string {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(complaint(R"([{"transformation": [1, 0], "geometry": )" + cube(0) + "}]").find("transformation"),
+            std::string::npos);
+  EXPECT_NE(complaint(R"({"dtype": "other"})").find("not a COMPAS assembly"), std::string::npos);
+  EXPECT_NE(complaint(R"([{"dtype": "m", "data": {"vertex": {}, "face": {}}}])").find("no faces"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace cupola::compas_meshes_test

@@ -1,0 +1,50 @@
+// Vaults that were drawn elsewhere (cases/cross_vault.yaml, cases/pavilion_vault.yaml). The geometry decides whether they stand, not
+// the stiffness of the joints.
+
+#include "tests/pipeline/program_run.hpp"
+
+namespace cupola::public_vaults_test {
+namespace {
+
+ProgramRun solve(const ProgramFolder& folder, const std::string& name, const std::string& options) {
+  const std::string path = CUPOLA_SOURCE_DIR "/cases/" + name + ".yaml";
+  if (!std::filesystem::exists(folder.file("a.vtu"))) {
+    EXPECT_EQ(folder.run("cupola-generate " + path + " --output a.vtu").code, 0);
+  }
+  return folder.run("cupola-solve " + path + " --assembly a.vtu --output results " + options);
+}
+
+TEST(PublicVaults, TheCrossVaultStandsWhateverTheStiffnessOfItsJoints) {
+  const ProgramFolder folder;
+  for (const char* compliance : {"1e-9", "1e-10", "1e-12"})
+    for (const char* law : {"associated", "coulomb"}) {
+      const ProgramRun run = solve(folder, "cross_vault",
+                                   std::string("--set analysis.friction_law=") + law +
+                                       " --set joints.compliance.normal=" + compliance);
+      EXPECT_EQ(run.code, 0) << run.err;
+      EXPECT_NE(run.out.find("stable"), std::string::npos) << law << ", " << compliance << ": " << run.out;
+    }
+}
+
+// Both ends of the bracket are proven; 0.001 covers the snapping of its corners, which the file states to three digits.
+TEST(PublicVaults, TheCrossVaultNeedsAFrictionOfTwoFifths) {
+  const ProgramFolder folder;
+  solve(
+      folder, "cross_vault",
+      "--set analysis.type=limit --set analysis.limit.parameter=friction --set analysis.limit.low=0.05 --set "
+      "analysis.limit.high=1");
+  const std::string summary = slurp(folder.file("results/summary.json"));
+  const size_t at = summary.find("\"critical_value\":");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_NEAR(std::strtod(summary.c_str() + at + 17, nullptr), 0.419, 1e-3);
+}
+
+TEST(PublicVaults, ThePavilionVaultStands) {
+  const ProgramFolder folder;
+  const ProgramRun run = solve(folder, "pavilion_vault", "");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("stable"), std::string::npos) << run.out;
+}
+
+}  // namespace
+}  // namespace cupola::public_vaults_test

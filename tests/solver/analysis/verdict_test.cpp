@@ -1,0 +1,208 @@
+// What a verdict proves: `stable` and `moving` of a static analysis against limits in closed form, under both laws.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "solver/analysis/analysis.hpp"
+#include "solver/analysis/statics/static_solve.hpp"
+#include "solver/conic/exact_equilibrium.hpp"
+#include "solver/conic/motion_proof.hpp"
+#include "tests/solver/keystone.hpp"
+
+namespace cupola::verdict_test {
+namespace {
+
+constexpr FrictionLaw kLaws[] = {FrictionLaw::associated, FrictionLaw::coulomb};
+constexpr double kPresets[] = {1e-2, 1e-5, 1e-9};  // tolerances of draft and standard, and a fine one
+
+struct Scene {
+  Case input;
+  Assembly assembly;
+  Model model;
+  State rest;
+  ContactSet contacts;
+  ContactMemories memories;
+
+  Scene(const Case& given, Assembly blocks)
+      : input(given),
+        assembly(std::move(blocks)),
+        model(make_model(input, assembly)),
+        rest(state_at_rest(model)),
+        contacts(ContactDetector(assembly, detection_options(input)).update(rest.poses)),
+        memories(match_memories({}, contacts.points)) {}
+  Scene(const Scene&) = delete;
+
+  StaticSolution solve(double tolerance, FrictionLaw law) const {
+    StaticOptions options;
+    options.tolerance = tolerance;
+    options.solve.law = law;
+    return solve_static(model, rest, contacts, memories, options);
+  }
+};
+
+// A ratio of forces to loads is no proof: near the critical friction the forces of the equilibrium grow without bound. Under Coulomb's law
+// compliant joints that open as the keystone sinks carry nothing, so that it falls at any friction. That has no proof.
+TEST(Verdict, KeystoneIsProvenToMoveBelowItsCriticalFrictionOnly) {
+  for (const double slope : {0.1, 0.3, 0.5})
+    for (const double distance : {-1e-2, -1e-3, -1e-4, 1e-4, 1e-3, 2e-3, 1e-2})
+      for (const FrictionLaw law : kLaws) {
+        const Scene scene(testing::make_case(slope * (1.0 + distance), 1e-9, 0.01), testing::keystone(slope));
+        const StaticSolution solution = scene.solve(1e-9, law);
+        const bool moves = solution.outcome == StaticOutcome::moving;
+        EXPECT_EQ(moves && solution.proven, distance < 0.0)
+            << slope << ", " << distance << ", " << to_string(law) << ": " << solution.message;
+        if (law == FrictionLaw::associated) {
+          EXPECT_EQ(moves, distance < 0.0) << slope << ", " << distance << ": " << solution.message;
+        }
+      }
+}
+
+// The tower tips about its base at tan(tilt) = 1 / cubes.
+void expect_no_tower_above_its_limit(int cubes) {
+  for (const FrictionLaw law : kLaws)
+    for (const double tolerance : kPresets) {
+      Case input = testing::make_case(0.7, 1e-9, 0.01);
+      input.loads.gravity = testing::tilted_gravity(1.0005 / cubes);
+      const Scene scene(input, testing::stack_of_cubes(1.0, std::vector(cubes, 1000.0)));
+      const StaticSolution solution = scene.solve(tolerance, law);
+      EXPECT_FALSE(solution.outcome == StaticOutcome::equilibrium && solution.proven)
+          << cubes << ", " << tolerance << ", " << to_string(law) << ": " << solution.message;
+    }
+}
+TEST(Verdict, NoTowerStandsAboveItsLimitAtAnyAccuracy) {
+  for (const int cubes : {50, 200}) expect_no_tower_above_its_limit(cubes);
+}
+TEST(VerdictSlow, NoTowerOf500StandsAboveItsLimitAtAnyAccuracy) {
+  expect_no_tower_above_its_limit(500);
+}
+
+// Half of the limit tilt: no bed opens near its edge, and no joint slides. Elastic sway is far larger than the first settlement.
+TEST(Verdict, SlenderTowerStandsAtHalfOfItsLimit) {
+  for (const double compliance : {1e-9, 1e-8})
+    for (const FrictionLaw law : kLaws) {
+      constexpr int cubes = 500;
+      Case input = testing::make_case(0.7, compliance, 0.01);
+      input.loads.gravity = testing::tilted_gravity(0.5 / cubes);
+      const Scene scene(input, testing::stack_of_cubes(1.0, std::vector(cubes, 2000.0)));
+      const StaticSolution solution = scene.solve(1e-5, law);
+      EXPECT_EQ(solution.outcome, StaticOutcome::equilibrium)
+          << compliance << ", " << to_string(law) << ": " << solution.message;
+      EXPECT_TRUE(solution.proven) << compliance << ", " << to_string(law) << ": " << solution.message;
+    }
+}
+
+// 9 mm are less than 1 % of the block, the default of `contact.margin`: the cube rests on its support in every analysis.
+TEST(Verdict, CubeAboveItsSupportStandsInEveryAnalysis) {
+  const Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true},
+                                                 {.center = {0, 0, 0.509}, .size = {1, 1, 1}}});
+  Case input = testing::make_case(0.5, 1e-9, 0.01);
+  input.analysis.tolerance = 1e-9;
+  input.analysis.type = AnalysisType::static_;
+  const Summary statics = run_static(input, assembly, {});
+  EXPECT_EQ(statics.status, Status::stable) << statics.message;
+  EXPECT_NE(statics.message.find("4 contact points with gaps of up to 9 mm"), std::string::npos)
+      << statics.message;
+  input.analysis.type = AnalysisType::limit;
+  input.analysis.limit.parameter = LimitSearch::Parameter::acceleration;
+  for (const auto method : {LimitSearch::Method::direct, LimitSearch::Method::bisection}) {
+    input.analysis.limit.method = method;
+    const Summary limit = run_limit(input, assembly, {}).value();
+    ASSERT_TRUE(limit.critical) << limit.message;
+    EXPECT_NEAR(limit.critical->value, 0.5, 1e-3 * 0.5) << limit.message;
+    EXPECT_NE(limit.message.find("4 contact points with gaps of up to 9 mm"), std::string::npos)
+        << limit.message;
+  }
+}
+
+// The tower of 200 cubes stood at 1.0008 of its limit in a bracket of 1e-3.
+TEST(Verdict, BracketOfBisectionContainsTheLimit) {
+  constexpr int kCubes = 200;
+  Case input = testing::make_case(0.7, 1e-9, 0.01);
+  input.analysis.type = AnalysisType::limit;
+  input.analysis.limit.parameter = LimitSearch::Parameter::tilt;
+  input.analysis.limit.method = LimitSearch::Method::bisection;
+  input.analysis.limit.low = 0.2;
+  input.analysis.limit.high = 0.4;
+  const double exact = std::atan(1.0 / kCubes) * 180.0 / std::numbers::pi;
+  for (const FrictionLaw law : kLaws) {
+    input.analysis.friction_law = law;
+    const Summary limit =
+        run_limit(input, testing::stack_of_cubes(1.0, std::vector(kCubes, 1000.0)), {}).value();
+    ASSERT_TRUE(limit.critical) << limit.message;
+    EXPECT_LE(limit.critical->stable, exact) << limit.message;
+    EXPECT_GE(limit.critical->moving, exact) << limit.message;
+  }
+}
+
+// A cube of friction 0.5 tilts by 26.57 degrees. The ends of the bracket are said in its unit, and a frame shows what they showed.
+TEST(Verdict, EndsOfALimitWithoutBracketAreShown) {
+  const Assembly box = testing::box_on_floor({1, 1, 0.2});
+  Case input = testing::make_case(0.5, 1e-9, 0.01);
+  input.analysis.type = AnalysisType::limit;
+  input.analysis.limit.parameter = LimitSearch::Parameter::tilt;
+  const auto expect = [&](double low, double high, const std::string& message) {
+    input.analysis.limit.low = low;
+    input.analysis.limit.high = high;
+    int frames = 0;
+    AnalysisSinks sinks;
+    sinks.frame = [&](const Frame&) { ++frames; };
+    const Summary summary = run_limit(input, box, sinks).value();
+    EXPECT_FALSE(summary.critical);
+    EXPECT_NE(summary.message.find(message), std::string::npos) << summary.message;
+    EXPECT_GT(frames, 0) << summary.message;
+  };
+  expect(0.0, 20.0, "stands at both ends of the bracket, 0 and 20");
+  expect(30.0, 60.0, "moves at both ends of the bracket, 30 and 60");
+  input.analysis.limit.parameter = LimitSearch::Parameter::load;
+  expect(0.0, 20.0, "no load depends on the parameter");
+  input.analysis.limit.parameter = LimitSearch::Parameter::friction;
+  expect(0.1, 0.9, "stands at both ends of the bracket, 0.1 and 0.9");
+}
+
+// A cube on four points carries its weight with forces of a quarter each: exact ones exist next to forces that are wrong by 1 %, not next
+// to forces that tip it.
+TEST(ExactEquilibrium, ExistsNextToForcesThatNearlyBalance) {
+  const Scene scene(testing::make_case(0.5, 1e-9, 0.01), testing::box_on_floor({1, 1, 1}));
+  const StepOptions step{.h = 1.0, .time_advance = 0.0};
+  const ContactProblem p =
+      build_step_problem(scene.model, scene.rest, scene.contacts, scene.memories, step).problem;
+  const VecX load = applied_forces(scene.model, scene.rest, 0.0);
+  ASSERT_EQ(p.num_contacts(), 4);
+  VecX gamma = VecX::Zero(12);
+  for (int i = 0; i < 4; ++i) gamma[3 * i] = -0.25 * load[2];
+  EXPECT_TRUE(proves_equilibrium(p, load, gamma));
+  gamma[0] *= 1.01;
+  EXPECT_TRUE(proves_equilibrium(p, load, gamma));
+  gamma = VecX::Zero(12);
+  gamma[0] = -load[2];  // all on one corner
+  EXPECT_FALSE(proves_equilibrium(p, load, gamma));
+  VecX pushed = load;
+  pushed[0] = -0.6 * load[2];  // above the friction of 0.5: no forces exist
+  for (int i = 0; i < 4; ++i) gamma.segment<3>(3 * i) = Vec3(-0.25 * load[2], 0.0, 0.0);
+  EXPECT_FALSE(proves_equilibrium(p, pushed, gamma));
+}
+
+// Sliding resists motion by friction 0.5: a push of 0.49 weights is no proof, one of 0.51 is.
+TEST(MotionProof, SlidingBlockIsProvenToMoveAboveItsFriction) {
+  const Scene scene(testing::make_case(0.5, 1e-9, 0.01), testing::box_on_floor({1, 1, 0.2}));
+  const StepOptions step{.h = 1.0, .time_advance = 0.0};
+  const ContactProblem p =
+      build_step_problem(scene.model, scene.rest, scene.contacts, scene.memories, step).problem;
+  for (const double push : {0.49, 0.51}) {
+    VecX load = applied_forces(scene.model, scene.rest, 0.0);
+    load[0] = -push * load[2];
+    VecX v = VecX::Zero(6);
+    v[0] = 1.0;
+    v[2] = 0.5 * (1.0 + 1e-9);  // slides and dilates
+    EXPECT_EQ(proves_motion(p, load, v), push > 0.5);
+    v[2] = 0.5 * (1.0 - 1e-9);  // a force without limit could resist
+    EXPECT_FALSE(proves_motion(p, load, v));
+    MotionProof proof(p, load);
+    EXPECT_EQ(proof.next_to(v).has_value(), push > 0.5);
+    EXPECT_EQ(proof.search(), push > 0.5 ? MotionProof::Answer::moves : MotionProof::Answer::admissible);
+  }
+}
+
+}  // namespace
+}  // namespace cupola::verdict_test
