@@ -2,6 +2,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/case/case_reader.hpp"
+#include "assembly/case/case_tree.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
 
 namespace cupola::case_error_test {
@@ -250,6 +251,11 @@ TEST(ExtendsChain, IsLimitedToSixteenFiles) {
     EXPECT_NE(std::string(error.what()).find("more than 16 files extend one another"), std::string::npos)
         << error.what();
   }
+}
+
+// Found by random cases: beside a case in the current folder, an empty name was an empty path.
+TEST(MissingFile, AnEmptyNameIsNoFile) {
+  EXPECT_THROW(path_inside("", "case.yaml", "", FileLocation{"case.yaml"}), InputError);
 }
 
 TEST(MissingFile, IsNamedInTheError) {
