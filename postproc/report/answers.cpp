@@ -36,6 +36,8 @@ std::optional<double> value_of_case(const Case& scene) {
     case Parameter::spread:
       return 0.0;
     case Parameter::lantern:
+      if (const auto& lantern = scene.loads.lantern; lantern && lantern->weight + lantern->mass > 0.0)
+        return std::nullopt;  // the limit is a share of the weight
       return scene.loads.lantern ? scene.loads.lantern->weight_fraction : 0.0;
     case Parameter::thickness:
     case Parameter::peak_stress:
