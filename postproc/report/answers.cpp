@@ -1,6 +1,7 @@
 #include "postproc/report/answers.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -140,25 +141,21 @@ bool is_limit(const Evaluation& e) {
 
 }  // namespace
 
-VerdictWords words_of_status(const std::string& status) {
-  static const std::map<std::string, VerdictWords> words{
-      {"stable", {"It stands", true}},       {"stable_unproven", {"It stands, not proven", true}},
-      {"moving", {"It falls", false}},       {"moving_unproven", {"It falls, not proven", false}},
-      {"collapsed", {"It falls", false}},    {"bracketed", {"Undecided", false}},
-      {"unconverged", {"Undecided", false}},
-  };
-  return words.at(status);
+VerdictWords words_of_status(Status status) {
+  std::string words = words_of(status);
+  words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+  return {words, stands(status)};
 }
 
 VerdictWords verdict_words(const Evaluation& e) {
-  if (!is_limit(e) || !e.summary.critical) return words_of_status(to_string(e.summary.status));
+  if (!is_limit(e) || !e.summary.critical) return words_of_status(e.summary.status);
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> own = value_of_case(e.scene);
-  if (!own) return words_of_status(to_string(e.summary.status));
+  if (!own) return words_of_status(e.summary.status);
   const bool upwards = critical.stable < critical.moving;
-  if (upwards ? *own <= critical.stable : *own >= critical.stable) return words_of_status("stable");
-  return words_of_status((upwards ? *own >= critical.moving : *own <= critical.moving) ? "moving"
-                                                                                       : "bracketed");
+  if (upwards ? *own <= critical.stable : *own >= critical.stable) return words_of_status(Status::stable);
+  return words_of_status((upwards ? *own >= critical.moving : *own <= critical.moving) ? Status::moving
+                                                                                       : Status::bracketed);
 }
 
 KeyNumber margin_answer(const Evaluation& e) {
@@ -268,9 +265,11 @@ std::string certain_sentence(const Evaluation& e) {
     return fmt::format("Certain: every state in which it can stand lies inside the ranges. Assumed: {}.",
                        given);
   std::string text = fmt::format(
-      "Certain: forces within the joint laws balance the loads. Assumed: {}, and the stiffness of the "
+      "{}. Assumed: {}, and the stiffness of the "
       "joints, "
       "which selects the forces shown among all that balance the loads.",
+      proven(s.status) ? "Certain: forces within the joint laws balance the loads"
+                       : "Not certain: forces balance the loads to the tolerance, exact ones were not found",
       given);
   if (!s.forces_unique.value) text += " " + to_sentence(s.forces_unique);
   return text;

@@ -15,8 +15,8 @@ struct VerdictWords {
   bool good = false;  ///< false: it falls, or nothing is decided
 };
 
-/// The words of a status, by its name.
-VerdictWords words_of_status(const std::string& status);
+/// The words of a status.
+VerdictWords words_of_status(Status status);
 
 /// The words for the structure under the loads of its case. Of a limit analysis: on which side of the limit the case lies.
 VerdictWords verdict_words(const Evaluation& evaluation);
