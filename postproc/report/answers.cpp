@@ -86,11 +86,11 @@ std::string end_text(const RangeEnd& end, double value, const ForceRange& range)
   return end.outcome == RangeOutcome::unconverged ? text + "?" : text;
 }
 
-/// The supports at which the thrust counts: of an arch those on its left, to which ring 0 belongs.
+/// The supports at which the thrust counts: of an arch those at x > 0, to which ring 0 belongs.
 std::vector<Reaction> thrusting(const Evaluation& e) {
   std::vector<Reaction> at;
   for (const Reaction& r : e.reactions)
-    if (!is_arch(e) || e.assembly.blocks[r.block].centroid.x() < 0.0) at.push_back(r);
+    if (!is_arch(e) || e.assembly.blocks[r.block].centroid.x() > 0.0) at.push_back(r);
   return at;
 }
 

@@ -41,7 +41,7 @@ TEST(Assessment, AnswersOnOnePageAndComputesUnchangedPartsOnce) {
   EXPECT_NE(page.find("certain for every history"), std::string::npos) << "the range of the thrust";
   const std::vector<std::string> margins = rows(folder, "margins.csv");
   ASSERT_EQ(margins.size(), 4u);
-  EXPECT_EQ(margins[0].find("Geometric safety factor,1."), 0u) << margins[0];
+  EXPECT_EQ(margins[0].find("Geometric safety factor,2."), 0u) << margins[0];
   EXPECT_EQ(margins[1].find("Critical friction,"), 0u) << margins[1];
   EXPECT_EQ(margins[2].find("Critical load,"), 0u) << margins[2];
   EXPECT_EQ(margins[3].find("Horizontal acceleration,,0."), 0u) << "without a factor: " << margins[3];
