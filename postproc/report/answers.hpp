@@ -39,6 +39,9 @@ std::string certain_sentence(const Evaluation& evaluation);
 /// Which parts of a structure in several move and which do not; "" for one part, or in an equilibrium.
 std::string parts_sentence(const Evaluation& evaluation);
 
+/// The texts of the first screen as JSON, for the pages of studies: answers.json.
+std::string answers_json(const Evaluation& evaluation);
+
 /// Six lines for the terminal: verdict, margin, weight, thrust, warnings, report.
 std::vector<std::string> terminal_lines(const Evaluation& evaluation, const std::string& report);
 

@@ -83,6 +83,7 @@ Table::Cell cell_of(const StudyColumn& column, const std::string& run, RunCache&
   if (column.text) {
     if (*column.text == RunText::run) return run.substr(run.rfind('/') + 1);
     if (!cache.finished(run)) return std::string("not run");
+    if (*column.text == RunText::verdict) return cache.run(run).answer("verdict.words");
     return *column.text == RunText::status ? cache.run(run).status() : cache.run(run).message();
   }
   if (const std::string flaw = flaw_of(column, run, cache); !flaw.empty()) return flaw;
