@@ -169,7 +169,7 @@ KeyNumber margin_answer(const Evaluation& e) {
                 robust->directions, robust->azimuth_deg, robust->moving_g)};
   if (is_limit(e) && at_rest(e))
     return {"Margin", "no limit", e.summary.message.substr(e.summary.message.rfind(": ") + 2)};
-  if (!at_rest(e.summary))
+  if (!at_rest(e))
     return {
         "Margin", "none",
         "without an equilibrium; a limit analysis finds the friction, load or thickness at which it stands"};
