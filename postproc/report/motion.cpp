@@ -143,7 +143,8 @@ std::string how_sure_of_motion(const Evaluation& e) {
              "(analysis.type: range) shows whether any do.";
     if (!e.scene.joints.have_strength())
       return "It is proven that no forces within the friction cones balance the loads, unless the message "
-             "says `not proven`. The proof holds for Coulomb's law too, which differs only in how joints slide.";
+             "says `not proven`. The proof holds for Coulomb's law too, which differs only in how joints "
+             "slide.";
   }
   if (e.last.frame.role != FrameRole::step) return "";
   if (analysis.time_error)

@@ -350,7 +350,8 @@ TEST(Programs, ResumeAfterAnInterruptionBeforeTheFirstFrame) {
   const std::string set =
       " --set analysis.type=dynamic --set analysis.duration=1000 --set output.frames_every=1000";
   ASSERT_EQ(folder.run("cupola-generate " + kWall + " --output assembly.vtu --quiet" + set).code, 0);
-  const std::string solve = "cupola-solve " + kWall + " --assembly assembly.vtu --output results --verbose" + set;
+  const std::string solve =
+      "cupola-solve " + kWall + " --assembly assembly.vtu --output results --verbose" + set;
   // Ctrl-C after the first steps; the first frame is due after 100,000 steps.
   const auto interrupted = [&folder](const std::string& command) {
     return folder.run("sh -c '" + command + " >log 2>&1 & until grep -q ^step log; do sleep 0.05; done; " +

@@ -128,8 +128,8 @@ TEST(ShellMaps, OfAnArchRunAcrossIt) {
   compute_mass_properties(&a);
   for (Vec3& x : frame.contacts.point) turn(x);
   for (Vec3& x : frame.blocks.position) turn(x);
-  const Evaluation e =
-      test::evaluated(a, {frame}, test::column_summary(a), test::column_case(), test::fresh_folder("results"));
+  const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
+                                       test::fresh_folder("results"));
   const ShellMap map = shell_maps(e).front();
   EXPECT_EQ(shell_table(map).name, "shell_y");
   ASSERT_EQ(map.boxes.size(), 3u);

@@ -91,7 +91,7 @@ TEST(ThrustFigure, DrawsTheEndsOfTheRangeBesideTheChosenLine) {
        {"title 'thrust line (chosen)'", "title 'least thrust'", "title 'greatest thrust'"})
     EXPECT_NE(figure.commands.find(title), std::string::npos) << title;
   Evaluation of_static = e;
-  of_static.summary.analysis = AnalysisType::static_;
+  of_static.summary.ranges.clear();
   MeridianEvaluation plain = e.meridians[0];
   plain.least_thrust.reset();
   plain.greatest_thrust.reset();
