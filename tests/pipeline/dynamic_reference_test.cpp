@@ -183,7 +183,7 @@ TEST(WallMotionSlow, SmallBlocksOnStiffJointsSettleToTheStaticSolution) {
   bond.rings = 100;
   bond.blocks_per_ring = 50;
   bond.slices_per_block = 2;
-  scene.geometry.surface.emplace<WallSurface>(12.0, 6.0, 1.0);
+  scene.geometry.surface = WallSurface{12.0, 6.0, 1.0};
   scene.geometry.bond = bond;
   scene.material.unit_weight = 1800.0 * 9.81;
   scene.joints.compliance = {1e-12, 1e-12, Compliance::Per::point};
