@@ -70,6 +70,10 @@ std::vector<PlausibleRange> surface_checks(const Surface& surface) {
                    checks.push_back(length("width", s.width, kThinnest, kWidest));
                    return checks;
                  },
+                 [&](const VaultSurface& s) {
+                   return std::vector{length("profile.span", s.profile.width(), kNarrowest, kWidest),
+                                      length("thickness", s.thickness, kThinnest, kThickest)};
+                 },
                  [&](const WallSurface& s) {
                    return std::vector{length("length", s.length, kNarrowest, 1e3),
                                       length("height", s.height, kNarrowest, kWidest),

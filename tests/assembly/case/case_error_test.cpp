@@ -157,7 +157,7 @@ const BadCase kBadCases[] = {
     {"MisspeltType", "geometry: {surface: {typ: dome}}\n",
      "bad.yaml:1:21: error: geometry.surface.type is missing and has no default; give one of dome, "
      "octagonal_vault, arch, "
-     "wall; is typ a misspelling of it?"},
+     "wall, vault; is typ a misspelling of it?"},
     {"MissingRequiredNumber", kGood + "loads: {lantern: {}}\n",
      "bad.yaml:6:18: error: loads.lantern.weight_fraction is missing and has no default"},
     {"KeyOfAnotherType", "geometry: {surface: {type: wall, span: 3}}\n",
