@@ -114,7 +114,8 @@ void fields(Visitor&& visit, Is<Summary> auto& s) {
   visit("support_reaction_N", "N", "resultant of the forces of the fixed blocks on the free ones (3)",
         s.support_reaction_N);
   visit("time_step_s", "s", "time step h; in statics, of the step that gives the answer", s.time_step_s);
-  visit("accuracy", "", "the error that decides whether the status is `unconverged`, see below", s.accuracy);
+  visit("accuracy", "",
+        "the error that decides whether the status is `unconverged` or `bracketed`, see below", s.accuracy);
   visit("momentum_residual", "", "largest unbalanced impulse of a block, over the mean block weight times h",
         s.momentum_residual);
   visit("equilibrium_residual", "",
