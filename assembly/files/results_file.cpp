@@ -190,6 +190,11 @@ ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std:
           FileLocation{missing},
           "was removed, so that the run cannot be resumed; remove the checkpoint to start again");
   std::filesystem::remove(in_folder(folder_, kInterrupted));
+  if (times_.empty()) return;
+  // A run that is resumed at its end writes no table again.
+  for (const auto& file : std::filesystem::directory_iterator(folder_))
+    if (file.path().extension() == ".csv")
+      text_files_[file.path().filename()] = hash_text(read_text(file.path()));
 }
 
 void ResultsWriter::write_frame(const Frame& frame) {

@@ -159,7 +159,7 @@ const BadCase kBadCases[] = {
      "octagonal_vault, arch, "
      "wall, vault; is typ a misspelling of it?"},
     {"MissingRequiredNumber", kGood + "loads: {lantern: {}}\n",
-     "bad.yaml:6:18: error: loads.lantern.weight_fraction is missing and has no default"},
+     "bad.yaml:6:18: error: loads.lantern.weight_fraction: give one of weight_fraction, weight (N) and mass"},
     {"KeyOfAnotherType", "geometry: {surface: {type: wall, span: 3}}\n",
      "bad.yaml:1:34: error: geometry.surface.span: unknown key. Valid keys here: type, length, height, "
      "thickness"},
