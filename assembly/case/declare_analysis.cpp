@@ -11,8 +11,7 @@ void declare_thresholds(Section& s, Analysis::Thresholds& thresholds) {
            "a run with a faster block within its last `window` has the status moving");
   s.number("window", thresholds.window, {.unit = "s", .min = 0},
            "a motion is at rest if all blocks are slower than `speed` for this long at its end, and their "
-           "mean velocity "
-           "over this time is below a tenth of it");
+           "mean velocity over this time is below a tenth of it");
   s.number("displacement", thresholds.displacement, {.unit = "m", .above = 0},
            "a run with a block displaced further has the status collapsed");
 }
@@ -41,13 +40,11 @@ void declare_limit(Section& s, LimitSearch& limit) {
   using Parameter = LimitSearch::Parameter;
   s.choice(
       "parameter", limit.parameter,
-      "parameter whose critical value is sought: friction coefficient; tilt of gravity (deg); "
-      "horizontal acceleration (g); factor on loads.forces and loads.faces (load); factor on the shell "
-      "thickness about its middle surface; factor on supports.moves (spread); factor on the extent of every "
-      "joint about its centroid (direct only), whose inverse is the geometric safety of the safest state; "
-      "weight "
-      "of the lantern over that of the blocks; least peak stress of an admissible state (Pa, direct only, "
-      "with "
+      "parameter whose critical value is sought: friction coefficient; tilt of gravity (deg); horizontal "
+      "acceleration (g); factor on loads.forces and loads.faces (load); factor on the shell thickness about "
+      "its middle surface; factor on supports.moves (spread); factor on the extent of every joint about its "
+      "centroid (direct only), whose inverse is the geometric safety of the safest state; weight of the "
+      "lantern over that of the blocks; least peak stress of an admissible state (Pa, direct only, with "
       "compliance per area)");
   s.choice("method", limit.method,
            "direct: conic programmes over all admissible states (associated law, not for spread); bisection: "
@@ -167,8 +164,7 @@ void declare_analysis(Section& s, Analysis& analysis) {
   declare_flow_rule(s, analysis);
   s.integer("cyclic_sectors", analysis.cyclic_sectors, {.min = 1, .max = 100000},
             "static, range: number of equal sectors around the z axis, of which one is solved (a range: for "
-            "quantities "
-            "that repeat around the axis too); 1: solve the whole model");
+            "quantities that repeat around the axis too); 1: solve the whole model");
   s.integer(
       "robustness", analysis.robustness, {.min = 0, .max = 3600},
       "static: horizontal directions in which to find the least acceleration that makes it move; 0: none");
@@ -183,8 +179,7 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.number("time_step", analysis.time_step, {.unit = "s", .above = 0}, "dynamic: time step h");
   s.optional_number("time_error", analysis.time_error, {.unit = "m", .above = 0}, "none: fixed steps",
                     "dynamic: adapt the time step, starting from time_step, so that the estimated error of a "
-                    "displacement in one "
-                    "step stays below this");
+                    "displacement in one step stays below this");
   s.optional_section("adaptive", analysis.adaptive, "dynamic: bounds of the steps that time_error chooses",
                      declare_adaptive);
   s.rule(!analysis.adaptive || analysis.time_error, "adaptive",

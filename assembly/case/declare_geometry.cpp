@@ -53,8 +53,7 @@ void declare_arch(Section& s, ArchSurface& arch) {
   s.number("width", arch.width, {.unit = "m", .above = 0}, "dimension along y");
   s.number("half_embrace_deg", arch.half_embrace_deg, {.unit = "deg", .above = 0, .below = 180},
            "angle at the centre of each arc, from the vertical down to the springing; 90: springings level "
-           "with the "
-           "centre, as of a semicircle");
+           "with the centre, as of a semicircle");
   s.integer("voussoir_segments", arch.voussoir_segments, {.min = 1, .max = 1000},
             "straight segments that approximate the curved faces of a voussoir");
 }

@@ -15,8 +15,7 @@ std::string advice_per() {
                    area = Compliance::default_per(Compliance::Per::area);
   return fmt::format(
       "choose point (normal and tangential in m/N for each contact point, as in the paper, by default {:g} "
-      "and {:g}) "
-      "or area (in m3/N, independent of the number of contact points, by default {:g} and {:g})",
+      "and {:g}) or area (in m3/N, independent of the number of contact points, by default {:g} and {:g})",
       point.normal, point.tangential, area.normal, area.tangential);
 }
 
@@ -116,8 +115,7 @@ void declare_joints(Section& s, Joints& joints) {
   strength.compression = compression.value_or(strength.compression);
   s.choice("failure", joints.failure,
            "where tension or cohesion is exceeded: plastic keeps them, brittle loses both at once, softening "
-           "loses them "
-           "gradually by fracture_energy");
+           "loses them gradually by fracture_energy");
   s.optional_section("fracture_energy", joints.fracture_energy,
                      "softening: work per area that breaks a joint", declare_fracture_energy);
   s.optional_section("bed", joints.bed, "joints between rings", declare_law_change);
@@ -139,8 +137,7 @@ void declare_joints(Section& s, Joints& joints) {
                                                   : "compliance";
   s.rule(!joints.have_strength() || joints.compliance.per == Compliance::Per::area, key,
          "tension, cohesion and compressive_strength require compliance: {per: area}, because only then a "
-         "contact "
-         "point stands for an area of joint");
+         "contact point stands for an area of joint");
   declare_failure_rules(s, joints);
 }
 

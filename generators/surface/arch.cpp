@@ -44,9 +44,8 @@ SurfaceMap arch_surface(const ArchSurface& arch, int rings) {
   if (opening < arch.thickness)
     throw InputError(
         fmt::format("geometry.surface.half_embrace_deg = {}: the springings are {:.3g} m apart, less than "
-                    "the thickness of {} m, which is "
-                    "no vault. The angle counts at the centre of each arc, from the vertical to the "
-                    "springing: 90 for a semicircle",
+                    "the thickness of {} m, which is no vault. The angle counts at the centre of each arc, "
+                    "from the vertical to the springing: 90 for a semicircle",
                     arch.half_embrace_deg, std::max(opening, 0.0), arch.thickness));
 
   SurfaceMap surface;

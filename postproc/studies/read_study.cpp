@@ -92,8 +92,7 @@ Study read_study(const std::string& path, const std::string& case_name) {
       study.figures.empty())
     throw InputError(FileLocation{path},
                      "contains no runs; give `runs`, `tables`, `comparisons`, `tradeoff`, `claims` or "
-                     "`figures`, or a case "
-                     "with a `sweep`");
+                     "`figures`, or a case with a `sweep`");
   return study;
 }
 
