@@ -5,6 +5,10 @@
 
 namespace cupola {
 
+inline constexpr double kThinnest = 0.002, kThickest = 20.0;  // m, plausible thickness
+inline constexpr double kLightest = 3e3,
+                        kHeaviest = 8e4;  // N/m3, plausible weights: aerated concrete to steel
+
 // The keys of each section of the case file, one line per key; see Section. A new key requires a member of
 // the struct, which holds its default, and one line in the declaration.
 

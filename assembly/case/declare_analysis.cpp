@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "assembly/case/declare.hpp"
 
 namespace cupola {
@@ -152,6 +154,15 @@ void declare_accuracy(Section& s, Analysis& analysis) {
   }
 }
 
+void expect_bracket(const Section& s, const LimitSearch& limit) {
+  if (limit.parameter == LimitSearch::Parameter::tilt)
+    s.expect({"limit.high", limit.high, "deg", std::numbers::pi / 2, 90.0, kRadians,
+              "a wall that leans by more than 90 deg lies"});
+  if (limit.parameter == LimitSearch::Parameter::acceleration)
+    s.expect({"limit.high", limit.high, "g", 0.0, 5.0, "",
+              "in m/s2? The horizontal acceleration is a multiple of g"});
+}
+
 }  // namespace
 
 void declare_analysis(Section& s, Analysis& analysis) {
@@ -177,6 +188,9 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.rule(analysis.integrator == TimeIntegrator::euler || analysis.type == AnalysisType::dynamic, "integrator",
          "generalized_alpha applies to dynamic analyses only");
   s.number("time_step", analysis.time_step, {.unit = "s", .above = 0}, "dynamic: time step h");
+  if (analysis.type == AnalysisType::dynamic)
+    s.expect({"time_step", analysis.time_step, "s", 1e-7, 0.5, "too many zeros? Steps are in s",
+              "in ms? Steps are in s"});
   s.optional_number("time_error", analysis.time_error, {.unit = "m", .above = 0}, "none: fixed steps",
                     "dynamic: adapt the time step, starting from time_step, so that the estimated error of a "
                     "displacement in one step stays below this");
@@ -215,6 +229,7 @@ void declare_analysis(Section& s, Analysis& analysis) {
          fmt::format("{} s: must be 0 or >= thresholds.window, {} s, over which rest is judged",
                      analysis.stop.settled_time, analysis.thresholds.window));
   s.section("limit", analysis.limit, "limit: parameter and bracket of the search", declare_limit);
+  if (analysis.type == AnalysisType::limit) expect_bracket(s, analysis.limit);
   s.section("range", analysis.range, "range: quantities sought over all admissible states", declare_range);
   s.section("staged", analysis.staged, "staged: order of the stages, and the fresh mortar", declare_staged);
   s.rule(

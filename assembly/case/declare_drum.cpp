@@ -56,11 +56,14 @@ void check_openings(const Section& s, const Drum& drum) {
 void declare_drum(Section& s, Drum& drum) {
   s.required_number("height", drum.height, {.unit = "m", .above = 0},
                     "height from the fixed base to the springing");
-  if (s.gives("wythes"))
+  s.expect({"height", drum.height, "m", 0.05, 250.0, kKilometres, kMillimetres});
+  if (s.gives("wythes")) {
     s.refuse("thickness", "remove this key: `wythes` gives the thickness of each wythe");
-  else
+  } else {
     s.required_number("thickness", drum.thickness, {.unit = "m", .above = 0},
                       "thickness of the wall, from the inner face of the surface at the springing outwards");
+    s.expect({"thickness", drum.thickness, "m", kThinnest, kThickest, kKilometres, kMillimetres});
+  }
   declare_masonry(s, drum);
   s.list("openings", drum.openings, "windows, each under a lintel in one block", declare_openings);
   for (const Bond* bond : bonds_of(drum))
