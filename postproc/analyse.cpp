@@ -25,26 +25,10 @@
 #include "postproc/tables/post_summary.hpp"
 #include "postproc/tables/result_tables.hpp"
 #include "postproc/viewer/viewer.hpp"
+#include "postproc/written_files.hpp"
 
 namespace cupola {
 namespace {
-
-/// Removes what an earlier run wrote for parts that this one may not have.
-void remove_earlier_output(const std::string& folder) {
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    for (const char* start :
-         {"ranges.csv", "path.csv", "rings.csv", "reactions.csv", "stages.csv", "members.csv", "wythes.csv",
-          "chains.csv", "ties.csv", "shell", "thrust_", "hoop_", "section_", "cut_"})
-      if (name.starts_with(start) && name.ends_with(".csv")) std::filesystem::remove(entry.path(), ignored);
-  }
-  std::filesystem::remove(in_folder(folder, "ties.vtp"), ignored);
-  for (const char* subfolder : {"figures", "pictures"})
-    for (const auto& entry : std::filesystem::directory_iterator(in_folder(folder, subfolder), ignored))
-      for (const char* ending : {".gp", ".log", ".png", ".svg", ".pdf"})
-        if (entry.path().extension() == ending) std::filesystem::remove(entry.path(), ignored);
-}
 
 /// The evaluation of a frame; none if it cannot be read, which is recorded.
 std::optional<FrameEvaluation> frame_at(size_t index, const ResultsReader& results, Evaluation* e) {
@@ -210,7 +194,7 @@ ExitCode analyse(const AnalyseRequest& request) {
   const FolderLock lock(folder);
   // The summary marks the folder as complete: remove the old one before the first file is replaced.
   std::filesystem::remove(in_folder(folder, "summary.json"));
-  remove_earlier_output(folder);
+  const WrittenFiles written(folder);
   std::vector<Table> tables = result_tables(e);
   std::optional<Figure> own;
   const std::optional<StageReport> construction = read_construction(run.results, &e);

@@ -46,6 +46,8 @@ Case read_one_case(const std::string& path, const std::vector<std::string>& set_
   const CaseNode tree = load_case_tree(path, set_options, &the_case.inputs);
   Section root(&tree, "", tree.where, path);
   root.collect_files(&the_case.inputs);
+  std::vector<PlausibleRange> expected;
+  root.collect_expected(&expected);
   declare_case(root, the_case);
   root.finish();
 
@@ -54,7 +56,8 @@ Case read_one_case(const std::string& path, const std::vector<std::string>& set_
   the_case.effective_yaml = to_yaml(root.effective());
   the_case.hash = hash_sections(root.effective(), solver_reads);
   the_case.geometry_hash = hash_sections(root.effective(), generator_reads);
-  the_case.warnings = implausible_values(the_case);
+  the_case.warnings = sentences(expected);
+  for (std::string& unused : unused_tensions(the_case.joints)) the_case.warnings.push_back(std::move(unused));
   return the_case;
 }
 

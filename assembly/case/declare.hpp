@@ -5,14 +5,20 @@
 
 namespace cupola {
 
+inline constexpr double kThinnest = 0.002, kThickest = 20.0;  // m, plausible thickness
+inline constexpr double kLightest = 3e3,
+                        kHeaviest = 8e4;  // N/m3, plausible weights: aerated concrete to steel
+
 // The keys of each section of the case file, one line per key; see Section. A new key requires a member of
 // the struct, which holds its default, and one line in the declaration.
 
 void declare_case(Section& s, Case& the_case);
 void declare_swept_key(Section& s, SweptKey& swept);
 void declare_geometry(Section& s, Geometry& geometry);
-/// The key `thickness` of a surface, which wythes replace.
-void declare_shell_thickness(Section& s, double& thickness, const std::string& meaning);
+/// Warns of a length of the structure (m) in another unit.
+void expect_length(const Section& s, const char* key, double value, double low = 0.05, double high = 250.0);
+/// The key `thickness` of a surface, which wythes replace. Warns above `most`, m.
+void declare_shell_thickness(Section& s, double& thickness, double most, const std::string& meaning);
 void declare_vault(Section& s, VaultSurface& vault);
 void declare_bond(Section& s, Bond& bond);
 /// `bond`, or `wythes` and `bonders`, with the rules between them.

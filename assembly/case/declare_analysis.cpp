@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "assembly/case/declare.hpp"
 
 namespace cupola {
@@ -11,8 +13,7 @@ void declare_thresholds(Section& s, Analysis::Thresholds& thresholds) {
            "a run with a faster block within its last `window` has the status moving");
   s.number("window", thresholds.window, {.unit = "s", .min = 0},
            "a motion is at rest if all blocks are slower than `speed` for this long at its end, and their "
-           "mean velocity "
-           "over this time is below a tenth of it");
+           "mean velocity over this time is below a tenth of it");
   s.number("displacement", thresholds.displacement, {.unit = "m", .above = 0},
            "a run with a block displaced further has the status collapsed");
 }
@@ -41,13 +42,11 @@ void declare_limit(Section& s, LimitSearch& limit) {
   using Parameter = LimitSearch::Parameter;
   s.choice(
       "parameter", limit.parameter,
-      "parameter whose critical value is sought: friction coefficient; tilt of gravity (deg); "
-      "horizontal acceleration (g); factor on loads.forces and loads.faces (load); factor on the shell "
-      "thickness about its middle surface; factor on supports.moves (spread); factor on the extent of every "
-      "joint about its centroid (direct only), whose inverse is the geometric safety of the safest state; "
-      "weight "
-      "of the lantern over that of the blocks; least peak stress of an admissible state (Pa, direct only, "
-      "with "
+      "parameter whose critical value is sought: friction coefficient; tilt of gravity (deg); horizontal "
+      "acceleration (g); factor on loads.forces and loads.faces (load); factor on the shell thickness about "
+      "its middle surface; factor on supports.moves (spread); factor on the extent of every joint about its "
+      "centroid (direct only), whose inverse is the geometric safety of the safest state; weight of the "
+      "lantern over that of the blocks; least peak stress of an admissible state (Pa, direct only, with "
       "compliance per area)");
   s.choice("method", limit.method,
            "direct: conic programmes over all admissible states (associated law, not for spread); bisection: "
@@ -155,6 +154,15 @@ void declare_accuracy(Section& s, Analysis& analysis) {
   }
 }
 
+void expect_bracket(const Section& s, const LimitSearch& limit) {
+  if (limit.parameter == LimitSearch::Parameter::tilt)
+    s.expect({"limit.high", limit.high, "deg", std::numbers::pi / 2, 90.0, kRadians,
+              "a wall that leans by more than 90 deg lies"});
+  if (limit.parameter == LimitSearch::Parameter::acceleration)
+    s.expect({"limit.high", limit.high, "g", 0.0, 5.0, "",
+              "in m/s2? The horizontal acceleration is a multiple of g"});
+}
+
 }  // namespace
 
 void declare_analysis(Section& s, Analysis& analysis) {
@@ -167,8 +175,7 @@ void declare_analysis(Section& s, Analysis& analysis) {
   declare_flow_rule(s, analysis);
   s.integer("cyclic_sectors", analysis.cyclic_sectors, {.min = 1, .max = 100000},
             "static, range: number of equal sectors around the z axis, of which one is solved (a range: for "
-            "quantities "
-            "that repeat around the axis too); 1: solve the whole model");
+            "quantities that repeat around the axis too); 1: solve the whole model");
   s.integer(
       "robustness", analysis.robustness, {.min = 0, .max = 3600},
       "static: horizontal directions in which to find the least acceleration that makes it move; 0: none");
@@ -181,10 +188,12 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.rule(analysis.integrator == TimeIntegrator::euler || analysis.type == AnalysisType::dynamic, "integrator",
          "generalized_alpha applies to dynamic analyses only");
   s.number("time_step", analysis.time_step, {.unit = "s", .above = 0}, "dynamic: time step h");
+  if (analysis.type == AnalysisType::dynamic)
+    s.expect({"time_step", analysis.time_step, "s", 1e-7, 0.5, "too many zeros? Steps are in s",
+              "in ms? Steps are in s"});
   s.optional_number("time_error", analysis.time_error, {.unit = "m", .above = 0}, "none: fixed steps",
                     "dynamic: adapt the time step, starting from time_step, so that the estimated error of a "
-                    "displacement in one "
-                    "step stays below this");
+                    "displacement in one step stays below this");
   s.optional_section("adaptive", analysis.adaptive, "dynamic: bounds of the steps that time_error chooses",
                      declare_adaptive);
   s.rule(!analysis.adaptive || analysis.time_error, "adaptive",
@@ -220,6 +229,7 @@ void declare_analysis(Section& s, Analysis& analysis) {
          fmt::format("{} s: must be 0 or >= thresholds.window, {} s, over which rest is judged",
                      analysis.stop.settled_time, analysis.thresholds.window));
   s.section("limit", analysis.limit, "limit: parameter and bracket of the search", declare_limit);
+  if (analysis.type == AnalysisType::limit) expect_bracket(s, analysis.limit);
   s.section("range", analysis.range, "range: quantities sought over all admissible states", declare_range);
   s.section("staged", analysis.staged, "staged: order of the stages, and the fresh mortar", declare_staged);
   s.rule(

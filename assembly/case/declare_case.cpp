@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include "assembly/case/declare.hpp"
 
@@ -36,6 +39,19 @@ void declare_strength_rules(Section& s, Case& the_case) {
          "joints with tension, cohesion or compressive_strength require method: face_clipping");
 }
 
+/// Not of `load` limits, whose forces are unit loads, which the analysis multiplies.
+void expect_face_loads(const Section& s, const Case& the_case) {
+  const Analysis& analysis = the_case.analysis;
+  if (analysis.type == AnalysisType::limit && analysis.limit.parameter == LimitSearch::Parameter::load)
+    return;
+  for (size_t i = 0; i < the_case.loads.faces.size(); ++i)
+    for (const auto& [key, value] : {std::pair("traction", the_case.loads.faces[i].traction.norm()),
+                                     std::pair("pressure", std::abs(the_case.loads.faces[i].pressure))})
+      if (value > 0.0)
+        s.expect({fmt::format("loads.faces[{}].{}", i, key), value, "N/m2", 5.0, 1e8,
+                  "in kN/m2? Loads are in N/m2", "too many digits? 1e6 N/m2 is 1 MPa"});
+}
+
 }  // namespace
 
 void declare_swept_key(Section& s, SweptKey& swept) {
@@ -60,6 +76,7 @@ void declare_case(Section& s, Case& the_case) {
   s.section("output", the_case.output, "what is written during the analysis", declare_output);
   s.section("postproc", the_case.postproc, "meridians, sections and planes to evaluate", declare_postproc);
   declare_strength_rules(s, the_case);
+  expect_face_loads(s, the_case);
   s.list("sweep", the_case.sweep, "parameter study: keys and the values they take, in all combinations",
          declare_swept_key);
 }

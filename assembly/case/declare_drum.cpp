@@ -33,8 +33,7 @@ void check_openings(const Section& s, const Drum& drum) {
       const double courses = height / course;
       s.rule(std::abs(courses - std::round(courses)) < 1e-6, "openings",
              fmt::format("openings[{}]: {} at {:.6g} m lies between two beds; courses are {:.6g} m high, so "
-                         "that {:.6g} and "
-                         "{:.6g} m are beds",
+                         "that {:.6g} and {:.6g} m are beds",
                          i, what, height, course, course * std::floor(courses), course * std::ceil(courses)));
     };
     s.rule(top < drum.height * (1.0 + 1e-9), "openings",
@@ -43,8 +42,7 @@ void check_openings(const Section& s, const Drum& drum) {
                i, group.sill, group.height, drum.height));
     s.rule(top + lintel < drum.height * (1.0 + 1e-9), "openings",
            fmt::format("openings[{}]: no room for a lintel of {:.6g} m above the opening, which ends {:.6g} "
-                       "m below the top of "
-                       "the drum",
+                       "m below the top of the drum",
                        i, lintel, drum.height - top));
     level("sill", group.sill);
     level("top", top);
@@ -58,11 +56,14 @@ void check_openings(const Section& s, const Drum& drum) {
 void declare_drum(Section& s, Drum& drum) {
   s.required_number("height", drum.height, {.unit = "m", .above = 0},
                     "height from the fixed base to the springing");
-  if (s.gives("wythes"))
+  s.expect({"height", drum.height, "m", 0.05, 250.0, kKilometres, kMillimetres});
+  if (s.gives("wythes")) {
     s.refuse("thickness", "remove this key: `wythes` gives the thickness of each wythe");
-  else
+  } else {
     s.required_number("thickness", drum.thickness, {.unit = "m", .above = 0},
                       "thickness of the wall, from the inner face of the surface at the springing outwards");
+    s.expect({"thickness", drum.thickness, "m", kThinnest, kThickest, kKilometres, kMillimetres});
+  }
   declare_masonry(s, drum);
   s.list("openings", drum.openings, "windows, each under a lintel in one block", declare_openings);
   for (const Bond* bond : bonds_of(drum))

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,24 +13,34 @@ namespace {
 constexpr double kMostCells = 2e7;
 constexpr int kMostRings = 100000;
 
+/// An angle of a vault. Angles in radians are at most pi.
+void expect_angle(const Section& s, const char* key, double value) {
+  s.expect({key, value, "deg", 4.0, 180.0, kRadians, ""});
+}
+
 void declare_dome(Section& s, DomeSurface& dome) {
   s.number("span", dome.span, {.unit = "m", .above = 0}, "inner diameter at the springing");
+  expect_length(s, "span", dome.span);
   s.number("radius_ratio", dome.radius_ratio, {.min = 0.5, .max = 1e3},
            "radius of the intrados over span: 0.5 hemisphere, 0.8 pointed-fifth profile");
-  declare_shell_thickness(s, dome.thickness, "thickness of the shell, measured radially");
+  declare_shell_thickness(s, dome.thickness, 0.5 * dome.span, "thickness of the shell, measured radially");
   s.number("crown_angle_deg", dome.crown_angle_deg, {.unit = "deg", .above = 0, .below = 90},
            "angle of the uppermost bed above the springing plane");
+  expect_angle(s, "crown_angle_deg", dome.crown_angle_deg);
 }
 
 void declare_octagonal_vault(Section& s, OctagonalVault& vault) {
   s.integer("sails", vault.sails, {.min = 3, .max = 1000}, "number of sails, one on each side of the plan");
   s.number("span", vault.span, {.unit = "m", .above = 0},
            "inner distance between opposite corners at the springing");
+  expect_length(s, "span", vault.span);
   s.number("radius_ratio", vault.radius_ratio, {.min = 0.5, .max = 1e3},
            "radius of the corner arc over span: 0.8 pointed-fifth profile");
-  declare_shell_thickness(s, vault.thickness, "thickness of the shell, measured as the key extrados defines");
+  declare_shell_thickness(s, vault.thickness, 0.5 * vault.span,
+                          "thickness of the shell, measured as the key extrados defines");
   s.number("crown_angle_deg", vault.crown_angle_deg, {.unit = "deg", .above = 0, .below = 90},
            "angle of the uppermost bed above the springing plane, at the corner");
+  expect_angle(s, "crown_angle_deg", vault.crown_angle_deg);
   s.choice("construction", vault.construction,
            "beds lie on cones about the axis, in planes normal to each sail, or level");
   s.choice("extrados", vault.extrados,
@@ -39,22 +50,26 @@ void declare_octagonal_vault(Section& s, OctagonalVault& vault) {
 
 void declare_arch(Section& s, ArchSurface& arch) {
   s.number("span", arch.span, {.unit = "m", .above = 0}, "inner span of the full arc at z = 0");
+  expect_length(s, "span", arch.span);
   s.number("radius_ratio", arch.radius_ratio, {.min = 0.5, .max = 1e3},
            "radius of the intrados over span: 0.5 semicircular, above 0.5 pointed");
-  declare_shell_thickness(s, arch.thickness, "thickness, measured radially");
+  declare_shell_thickness(s, arch.thickness, 0.5 * arch.span, "thickness, measured radially");
   s.number("width", arch.width, {.unit = "m", .above = 0}, "dimension along y");
+  expect_length(s, "width", arch.width, kThinnest);
   s.number("half_embrace_deg", arch.half_embrace_deg, {.unit = "deg", .above = 0, .below = 180},
            "angle at the centre of each arc, from the vertical down to the springing; 90: springings level "
-           "with the "
-           "centre, as of a semicircle");
+           "with the centre, as of a semicircle");
+  expect_angle(s, "half_embrace_deg", arch.half_embrace_deg);
   s.integer("voussoir_segments", arch.voussoir_segments, {.min = 1, .max = 1000},
             "straight segments that approximate the curved faces of a voussoir");
 }
 
 void declare_wall(Section& s, WallSurface& wall) {
   s.number("length", wall.length, {.unit = "m", .above = 0}, "dimension along x");
+  expect_length(s, "length", wall.length, 0.05, 1e3);
   s.number("height", wall.height, {.unit = "m", .above = 0}, "dimension along z");
-  declare_shell_thickness(s, wall.thickness, "dimension along y");
+  expect_length(s, "height", wall.height);
+  declare_shell_thickness(s, wall.thickness, kThickest, "dimension along y");
 }
 
 void declare_surface(Section& s, Surface& surface) {
@@ -206,8 +221,13 @@ void declare_chain(Section& s, Chain& chain) {
             "number of equal blocks that replace those of the bond in the course; 0: those of the bond");
   s.number("axial_stiffness", chain.axial_stiffness, {.unit = "N", .above = 0},
            "modulus times section of a bar");
+  s.expect({"axial_stiffness", chain.axial_stiffness, "N", 1e5, 1e12, "in kN? 1 kN is 1000 N",
+            "a modulus in N/m2? It is modulus times section"});
   s.optional_number("yield_force", chain.yield_force, {.unit = "N", .above = 0}, "none",
                     "tension at which a bar elongates plastically");
+  if (chain.yield_force)
+    s.expect({"yield_force", *chain.yield_force, "N", 1e3, 1e10, "in kN? 1 kN is 1000 N",
+              "a strength in N/m2? It is strength times section"});
   s.number("slack", chain.slack, {.unit = "m", .min = 0}, "elongation at which each bar begins to carry");
   s.number("prestress", chain.prestress, {.unit = "N", .min = 0}, "tension as built");
   const bool polygon = chain.type == Chain::Type::polygon;
@@ -230,6 +250,8 @@ void declare_stage(Section& s, Stage& stage) {
 void declare_block_density(Section& s, BlockDensity& change) {
   s.texts("blocks", change.blocks, "names of the blocks");
   s.required_number("density", change.density, {.unit = "kg/m3", .above = 0}, "density of these blocks");
+  s.expect({"density", change.density, "kg/m3", kLightest / 9.81, kHeaviest / 9.81,
+            "in t/m3 or kN/m3? Write 1800", "a unit weight in N/m3? Divide by 9.81"});
 }
 
 void declare_import(Section& s, ImportedBlocks& import) {
@@ -312,6 +334,8 @@ void declare_imperfections(Section& s, Imperfections& imperfections) {
   s.number("gap", imperfections.gap, {.unit = "m", .min = 0}, "open the joints by random amounts up to this");
   s.number("noise", imperfections.noise, {.unit = "m", .min = 0},
            "move faces and corners by random amounts up to this; joints stay closed");
+  for (const auto& [key, value] : {std::pair("gap", imperfections.gap), {"noise", imperfections.noise}})
+    s.expect({key, value, "m", 0.0, 0.05, "", kMillimetres});
   s.integer("seed", imperfections.seed, {.min = 0}, "seed of the random numbers");
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -20,6 +21,26 @@ std::string advice_per() {
       point.normal, point.tangential, area.normal, area.tangential);
 }
 
+void expect_friction(const Section& s, double friction) {
+  s.expect({"friction", friction, "", 0.0, 3.0, "", "an angle in degrees? The coefficient is its tangent"});
+}
+
+void expect_strength(const Section& s, const char* key, double strength) {
+  if (strength != 0.0 && !std::isinf(strength))
+    s.expect({key, strength, "Pa", 50.0, 1e9, "in MPa or kPa? Strengths are in Pa: 2.5 MPa is 2.5e6",
+              "too many digits? Stone carries up to 3e8 Pa"});
+}
+
+/// Joints that are too soft are found by what they do (solver/dynamics/soft_joints.hpp). Zero: rigid.
+void expect_compliance(const Section& s, const std::string& key, double compliance, Compliance::Per per) {
+  if (compliance == 0.0) return;
+  const bool area = per == Compliance::Per::area;
+  s.expect({key, compliance, area ? "m3/N" : "m/N", 1e-17, area ? 1e-6 : 1e-5,
+            "too small for double precision to matter? 0 makes joints rigid",
+            area ? "a stiffness, or in mm3/N? Compliance is its reciprocal, such as 1e-10 m3/N"
+                 : "a stiffness, or in mm/N? Compliance is its reciprocal, such as 1e-8 m/N"});
+}
+
 /// For a case that says nothing: small against any block, and far above rounding.
 constexpr double kRelativeCompliance = 1e-4;
 
@@ -37,6 +58,9 @@ bool declare_relative_compliance(Section& s, Compliance& compliance) {
   if (!relative) s.settled_number("relative", kRelativeCompliance, rule);
   const double unknown = std::numeric_limits<double>::quiet_NaN();  // until the blocks are
   compliance = {unknown, unknown, Compliance::Per::area, relative.value_or(kRelativeCompliance)};
+  s.expect({"relative", *compliance.relative, "", 1e-12, 0.01,
+            "too small for double precision to matter? Compliances of 0 make joints rigid",
+            "in percent? It is the closing of a joint over the size of a block"});
   return true;
 }
 
@@ -54,6 +78,8 @@ void declare_compliance(Section& s, Compliance& compliance) {
            defaults(&Compliance::normal));
   s.number("tangential", compliance.tangential, {.unit = "m/N, m3/N", .min = 0},
            "tangential displacement per unit force", defaults(&Compliance::tangential));
+  expect_compliance(s, "normal", compliance.normal, compliance.per);
+  expect_compliance(s, "tangential", compliance.tangential, compliance.per);
 }
 
 void declare_fracture_energy(Section& s, FractureEnergy& energy) {
@@ -61,6 +87,9 @@ void declare_fracture_energy(Section& s, FractureEnergy& energy) {
                     "work per area that opens a crack until it carries no tension");
   s.required_number("shear", energy.shear, {.unit = "N/m", .above = 0},
                     "work per area that shears a crack until it has no cohesion, without that of friction");
+  for (const auto& [key, value] : {std::pair("tension", energy.tension), {"shear", energy.shear}})
+    s.expect({key, value, "N/m", 0.1, 1e5, "in N/mm? 0.02 N/mm is 20 N/m",
+              "too many digits? Mortar joints break with 1 to 500 N/m"});
 }
 
 void declare_law_change(Section& s, JointLawChange& law) {
@@ -76,6 +105,10 @@ void declare_law_change(Section& s, JointLawChange& law) {
                     "cohesion of these joints");
   s.optional_number("compressive_strength", law.compressive_strength, {.unit = "Pa", .above = 0},
                     "as elsewhere", "compressive strength of these joints");
+  if (law.friction) expect_friction(s, *law.friction);
+  expect_strength(s, "tension", law.tension.value_or(0.0));
+  expect_strength(s, "cohesion", law.cohesion.value_or(0.0));
+  expect_strength(s, "compressive_strength", law.compressive_strength.value_or(0.0));
   s.optional_section("fracture_energy", law.fracture_energy, "fracture energy of these joints",
                      declare_fracture_energy);
 }
@@ -120,10 +153,14 @@ void declare_material(Section& s, Material& material) {
                kStandardGravity,
                {.unit = "kg/m3", .above = 0},
                "mass per unit volume, converted with 9.81 m/s2"}});
+  s.expect({"unit_weight", material.unit_weight, "N/m3", kLightest, kHeaviest,
+            "in kN/m3, or a density in kg/m3? Write 18000, or density: 1800",
+            "too many digits? Stone and brick weigh 15000 to 30000 N/m3"});
 }
 
 void declare_joints(Section& s, Joints& joints) {
   s.number("friction", joints.friction, {.min = 0}, "Coulomb friction coefficient mu");
+  expect_friction(s, joints.friction);
   s.section("compliance", joints.compliance, "elastic displacement of the joints under force",
             declare_compliance);
   JointStrength& strength = joints.strength;
@@ -135,10 +172,12 @@ void declare_joints(Section& s, Joints& joints) {
   s.optional_number("compressive_strength", compression, {.unit = "Pa", .above = 0}, "none",
                     "largest pressure in a joint");
   strength.compression = compression.value_or(strength.compression);
+  expect_strength(s, "tension", strength.tension);
+  expect_strength(s, "cohesion", strength.cohesion);
+  expect_strength(s, "compressive_strength", strength.compression);
   s.choice("failure", joints.failure,
            "where tension or cohesion is exceeded: plastic keeps them, brittle loses both at once, softening "
-           "loses them "
-           "gradually by fracture_energy");
+           "loses them gradually by fracture_energy");
   s.optional_section("fracture_energy", joints.fracture_energy,
                      "softening: work per area that breaks a joint", declare_fracture_energy);
   s.optional_section("bed", joints.bed, "joints between rings", declare_law_change);
@@ -153,6 +192,13 @@ void declare_joints(Section& s, Joints& joints) {
       declare_law_change);
   s.list("rings", joints.rings, "joint laws of particular rings; the last entry that matches a joint applies",
          declare_ring_joints);
+  const auto expect_compliances = [&](const std::string& group, const JointLawChange& law) {
+    expect_compliance(s, group + ".normal", law.normal.value_or(0.0), joints.compliance.per);
+    expect_compliance(s, group + ".tangential", law.tangential.value_or(0.0), joints.compliance.per);
+  };
+  for (const auto& [key, law] : joints.kinds()) expect_compliances(key, *law);
+  for (size_t i = 0; i < joints.rings.size(); ++i)
+    expect_compliances(fmt::format("rings[{}]", i), joints.rings[i].law);
   declare_time(s, "friction_time", joints.friction_time, "factor on every friction coefficient");
   const char* key = strength.tension > 0.0        ? "tension"
                     : strength.cohesion > 0.0     ? "cohesion"
@@ -160,8 +206,7 @@ void declare_joints(Section& s, Joints& joints) {
                                                   : "compliance";
   s.rule(!joints.have_strength() || joints.compliance.per == Compliance::Per::area, key,
          "tension, cohesion and compressive_strength require compliance: {per: area}, because only then a "
-         "contact "
-         "point stands for an area of joint");
+         "contact point stands for an area of joint");
   declare_failure_rules(s, joints);
 }
 

@@ -55,8 +55,16 @@ void declare_face_load(Section& s, FaceLoad& load) {
 
 void declare_loads(Section& s, Loads& loads) {
   s.vector3("gravity", loads.gravity, {.unit = "m/s2"}, "acceleration of gravity, world axes");
+  if (const double g = loads.gravity.norm(); g > 0.0)
+    s.expect({"gravity (its length)", g, "m/s2", 1.5, 1500.0, "a multiple of g? Gravity is in m/s2",
+              "in mm/s2? Gravity is in m/s2"});
+  s.expect({"gravity (z)", loads.gravity.z(), "m/s2", kNoLowerEnd, 0.0, "",
+            "upward? The z axis points up, so that gravity is [0, 0, -9.81]"});
   s.optional_section("lantern", loads.lantern, "vertical load on the top ring of a dome, distributed by area",
                      declare_top_load);
+  if (loads.lantern)
+    s.expect({"lantern.weight_fraction", loads.lantern->weight_fraction, "of the weight", 0.0, 1.0, "",
+              "in per cent? 2 % is 0.02"});
   s.optional_section("top_load", loads.top_load, "vertical load on the top of a wall, distributed by area",
                      declare_top_load);
   declare_time(s, "dead_load_time", loads.dead_load_time, "factor on gravity, lantern and top load");

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "assembly/case/declare.hpp"
 #include "assembly/files/time_table.hpp"
 
@@ -12,6 +15,8 @@ void declare_pair(Section& s, PairTie& tie) {
   s.optional_vector3("point_b", tie.point_b, {.unit = "m"}, "centroid",
                      "anchor on block_b, in the as-built geometry");
   s.number("stiffness", tie.stiffness, {.unit = "N/m", .above = 0}, "force per unit elongation");
+  s.expect({"stiffness", tie.stiffness, "N/m", 1e3, 1e12, "in kN/mm? 1 kN/mm is 1e6 N/m",
+            "a modulus in N/m2? Stiffness is modulus times section over length"});
   s.number("prestress", tie.prestress, {.unit = "N", .min = 0}, "tension as built");
   s.number("slack", tie.slack, {.unit = "m", .min = 0}, "elongation at which the tie begins to carry");
   s.optional_number("yield_force", tie.yield_force, {.unit = "N", .above = 0}, "none",
@@ -25,6 +30,16 @@ void declare_base_motion(Section& s, BaseMotion& motion) {
   s.vector3("direction", motion.direction, {},
             "direction of the motion; its length scales the values of the file");
   s.rule(!motion.file.empty(), "file", "must be given: a file with the columns time and value");
+  if (motion.file.empty()) return;  // while the keys are described
+  double peak = 0.0;
+  for (const double value : read_time_table(motion.file).values) peak = std::max(peak, std::abs(value));
+  peak *= motion.direction.norm();
+  if (motion.quantity == BaseMotion::Quantity::acceleration)
+    s.expect({" (largest acceleration)", peak, "m/s2", 0.1, 50.0, "in g? Multiply direction by 9.81",
+              "in cm/s2 (gal)? Multiply direction by 0.01"});
+  else
+    s.expect({" (largest displacement)", peak, "m", 1e-5, 10.0, kKilometres,
+              "in mm or cm? Multiply direction by 0.001 or 0.01"});
 }
 
 void declare_move(Section& s, SupportMove& move) {

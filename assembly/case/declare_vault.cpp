@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "assembly/case/declare.hpp"
@@ -119,17 +121,22 @@ void declare_profile(Section& s, Profile& profile) {
 
 }  // namespace
 
-void declare_shell_thickness(Section& s, double& thickness, const std::string& meaning) {
+void expect_length(const Section& s, const char* key, double value, double low, double high) {
+  s.expect({key, value, "m", low, high, kKilometres, kMillimetres});
+}
+
+void declare_shell_thickness(Section& s, double& thickness, double most, const std::string& meaning) {
   if (s.parent_gives("wythes"))
-    s.refuse("thickness", "remove this key: geometry.wythes gives the thickness of each wythe");
-  else
-    s.number("thickness", thickness, {.unit = "m", .above = 0}, meaning);
+    return s.refuse("thickness", "remove this key: geometry.wythes gives the thickness of each wythe");
+  s.number("thickness", thickness, {.unit = "m", .above = 0}, meaning);
+  expect_length(s, "thickness", thickness, kThinnest, std::min(kThickest, most));
 }
 
 void declare_vault(Section& s, VaultSurface& vault) {
   s.section("plan", vault.plan, "line over which the vault stands", declare_plan);
   s.section("profile", vault.profile, "section of the vault", declare_profile);
-  declare_shell_thickness(s, vault.thickness, "thickness, normal to the profile");
+  expect_length(s, "profile.span", vault.profile.width());
+  declare_shell_thickness(s, vault.thickness, kThickest, "thickness, normal to the profile");
   s.choice("beds", vault.beds, "plane and normal to the profile, on cones about the axis, or level");
   s.choice("courses", vault.courses, "what is equal from course to course, along the drawn line");
   s.choice("line", vault.line, "what the profile draws");

@@ -31,6 +31,8 @@ void declare_wythe(Section& s, Wythe& wythe) {
   s.rule(!wythe.name.empty(), "name", "is missing: give each wythe a name");
   s.required_number_or_section("thickness", wythe.thickness.values.front(), kWytheThickness, wythe.thickness,
                                "thickness of the wythe", declare_thickness_points);
+  for (const double value : wythe.thickness.values)
+    s.expect({"thickness", value, "m", kThinnest, kThickest, kKilometres, kMillimetres});
   s.optional_section("bond", wythe.bond,
                      "pattern in which the wythe is cut into blocks; without it the wythe is a cavity, empty "
                      "where no bonder crosses it",

@@ -8,12 +8,11 @@
 
 namespace cupola {
 
-/// Values that the case file admits but that masonry hardly has, such as a span of 45000 m: one sentence each with key,
-/// value, unit, the range expected and the likely cause, usually another unit. Of a file that the case names, the
-/// accelerogram of base_motion is read. Throws InputError if it cannot be read.
-std::vector<std::string> implausible_values(const Case& scene);
+/// Tensions that joints never reach, because friction is exhausted before: of all joints, and of those groups whose own law
+/// causes it. Other values that masonry hardly has, such as a span of 45000 m, are declared beside their keys (Section::expect).
+std::vector<std::string> unused_tensions(const Joints& joints);
 
-/// The same for values that must fit the blocks: heights and planes outside the model, loads far smaller than the blocks
+/// Values that must fit the blocks, one sentence each: heights and planes outside the model, loads far smaller than the blocks
 /// are heavy, supports that move further than the model is large, an import in another unit.
 std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembly& assembly);
 

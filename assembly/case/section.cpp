@@ -92,6 +92,12 @@ void Section::fail_without(const std::string& key) const {
                        (near.empty() ? "" : fmt::format("; is {} a misspelling of it?", shown(near))));
 }
 
+void Section::expect(PlausibleRange range) const {
+  if (!expected_) return;
+  range.key = range.key.starts_with(' ') ? path_ + range.key : path_of(range.key);
+  expected_->push_back(std::move(range));
+}
+
 void Section::retired(const std::string& key, const std::string& instead) const {
   refuse(key, "this key no longer exists; " + instead);
 }
@@ -108,6 +114,7 @@ void Section::open(const std::string& key, const std::string& meaning, const Dec
   child.parent_ = this;
   child.schema_ = schema_;
   child.files_ = files_;
+  child.expected_ = expected_;
   declare(child);
   close(child);
   record(key, child.effective());
@@ -136,6 +143,7 @@ void Section::open_list(const std::string& key, Items kind, const std::string& m
       const CaseNode given = named ? map_of_type(node->items[i]) : node->items[i];
       Section item(&given, fmt::format("{}[{}]", path_of(key), i), given.where, case_file_);
       item.files_ = files_;
+      item.expected_ = expected_;
       declare_item(item);
       close(item);
       values.items.push_back(item.effective());

@@ -12,6 +12,7 @@
 
 #include "assembly/base/named_enum.hpp"
 #include "assembly/case/case_node.hpp"
+#include "assembly/case/plausible_range.hpp"
 #include "assembly/case/schema_table.hpp"
 #include "assembly/files/number_text.hpp"
 #include "assembly/model/block_ref.hpp"
@@ -143,6 +144,10 @@ class Section {
   void finish() const;
   /// From now on `files` receives the paths that file() reads.
   void collect_files(std::vector<std::string>* files) { files_ = files; }
+  /// From now on `ranges` receives what expect() is given.
+  void collect_expected(std::vector<PlausibleRange>* ranges) { expected_ = ranges; }
+  /// A value of this section is expected in this range: outside of it the user gets a warning.
+  void expect(PlausibleRange range) const;
   /// The values in force, defaults included, as a map.
   const CaseNode& effective() const { return effective_; }
 
@@ -189,6 +194,7 @@ class Section {
   FileLocation where_;
   std::string case_file_;
   std::vector<std::string>* files_ = nullptr;
+  std::vector<PlausibleRange>* expected_ = nullptr;
   CaseNode effective_;
   std::vector<std::string> known_;
   std::vector<std::pair<FileLocation, std::string>> missing_;  // messages

@@ -1,6 +1,7 @@
 #include "assembly/files/content_hash.hpp"
 
 #include "assembly/files/hash.hpp"
+#include "assembly/records/assembly_record.hpp"
 
 namespace cupola {
 
@@ -22,11 +23,13 @@ std::string content_hash(const Assembly& assembly) {
     hash.add(std::span(assembly.vertex_layers));
     hash.add(std::span(assembly.vertex_depths));
   }
-  for (const BuiltTie& tie : assembly.ties) {
-    hash.add(tie.block_a).add(tie.block_b).add(tie.stiffness).add(tie.length).add(tie.pushes);
-    hash.add(tie.yield_force).add(tie.chain);
-    hash.add(std::span(tie.point_a.data(), 3)).add(std::span(tie.point_b.data(), 3));
-  }
+  const auto add = [&hash]<class M>(const char*, const char*, const char*, const M& member) {
+    if constexpr (std::is_same_v<M, Vec3>)
+      hash.add(std::span(member.data(), 3));
+    else
+      hash.add(member);
+  };
+  for (const BuiltTie& tie : assembly.ties) fields(add, tie);
   return hash.hex();
 }
 

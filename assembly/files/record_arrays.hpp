@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -75,6 +76,45 @@ struct ColumnReader {
     for (std::size_t row = 0; row < rows; ++row) column.push_back(value_at<T>(values, row));
   }
 };
+
+/// Arrays of records that are rows, one array per member.
+template <class Row>
+void add_rows(const std::vector<Row>& rows, std::vector<MeshArray>* arrays) {
+  const std::size_t first = arrays->size();
+  const auto create = [&]<class M>(const char* key, const char*, const char*, const M&) {
+    arrays->push_back({key, kComponents<M>, std::vector<Stored<M>>{}});
+  };
+  const Row prototype{};
+  fields(create, prototype);
+  for (const Row& row : rows) {
+    std::size_t next = first;
+    const auto add = [&]<class M>(const char*, const char*, const char*, const M& member) {
+      append(member, &std::get<std::vector<Stored<M>>>((*arrays)[next++].values));
+    };
+    fields(add, row);
+  }
+}
+
+/// The reverse for a given number of rows. Other members keep their defaults.
+template <class Row>
+std::vector<Row> read_rows(const Mesh& mesh, const std::vector<MeshArray>& arrays, std::size_t number) {
+  std::vector<const MeshArray*> found;
+  const auto find = [&]<class M>(const char* key, const char*, const char*, const M&) {
+    array_of<M>(mesh, arrays, key, number);
+    found.push_back(&*std::ranges::find(arrays, key, &MeshArray::name));
+  };
+  const Row prototype{};
+  fields(find, prototype);
+  std::vector<Row> rows(number);
+  for (std::size_t i = 0; i < number; ++i) {
+    std::size_t next = 0;
+    const auto read = [&]<class M>(const char*, const char*, const char*, M& member) {
+      member = value_at<M>(std::get<std::vector<Stored<M>>>(found[next++]->values), i);
+    };
+    fields(read, rows[i]);
+  }
+  return rows;
+}
 
 inline std::vector<Vec3> points_of(const Mesh& mesh) {
   std::vector<Vec3> points;

@@ -28,8 +28,7 @@ void add_edges_across(const Assembly& assembly, const Part& part, std::map<int, 
       if (const auto [edge, is_new] = extrados_of->emplace(a, b); !is_new && edge->second != b)
         throw InputError(
             "analysis.limit.parameter: thickness: a vertex of the intrados has edges to two vertices of the "
-            "extrados, so "
-            "that the thickness is not defined");
+            "extrados, so that the thickness is not defined");
     }
   }
 }

@@ -25,8 +25,7 @@ void fields(Visitor&& visit, Is<ContactTable> auto& c) {
   visit("slip_m", "m", "accumulated sliding", c.slip);
   visit("law_violation", "",
         "distance of the force from the one that the contact law gives, over the force of the joint, or over "
-        "1 % "
-        "of the mean joint force if that is larger; `nan` where both blocks sleep",
+        "1 % of the mean joint force if that is larger; `nan` where both blocks sleep",
         c.law_violation);
 }
 

@@ -294,8 +294,7 @@ std::string to_text(const ImportReport& r) {
   if (r.flatness.relative_warp >= kRoundedWarp)
     text += fmt::format(
         "faces deviate from planes by up to {:.2g} m, {:.1g} of the size of their block; facet_angle = "
-        "{:.2g} rad and "
-        "snap = {:.2g} m{}: {} moved to common planes\n",
+        "{:.2g} rad and snap = {:.2g} m{}: {} moved to common planes\n",
         r.flatness.warp, r.flatness.relative_warp, r.facet_angle, r.snap,
         r.chosen ? ", chosen from that" : "", counted(r.snapped_facets, "facet"));
   else if (r.snapped_facets > 0)

@@ -99,8 +99,7 @@ std::string points_warning(const std::vector<PostSummary>& runs, const std::vect
   }
   if (most <= (1.0 + kEqual) * fewest) return "";
   return "The compliance is per contact point, so a joint with more points is stiffer. The mean number of "
-         "points of a "
-         "base joint is " +
+         "points of a base joint is " +
          counts +
          ": this alone makes displacements and shares of force differ. Compare runs with "
          "joints.compliance.per: area.";
@@ -131,8 +130,7 @@ const std::vector<Measure>& measures() {
       {"geometric_safety", "", 1.0,
        "The smallest ratio of half the thickness to the eccentricity of the thrust lines is",
        "How far from the faces the thrust lines of these states run; at 1 one touches a face. It is no "
-       "geometric "
-       "safety factor, which belongs to the safest state (analysis.limit.parameter: joint_extent).",
+       "geometric safety factor, which belongs to the safest state (analysis.limit.parameter: joint_extent).",
        "largest", Best::highest, least_safety},
       {"thrust_over_weight", "", 1.0, "The ratio of the outward base thrust to the weight is",
        "How hard the vault pushes outwards on its supports, compared with its weight.", "lowest",

@@ -80,9 +80,8 @@ Figure crack_map(const Evaluation& e, const ShellMap& shell) {
   f.name = fmt::format("map_cracks{}", shell.suffix());
   f.title = fmt::format("Open joints over the {}", mapped_text(shell));
   f.caption = fmt::format(
-      "The joints that are open, at least in part, coloured by their largest gap. The "
-      "open parts of {} extend "
-      "over {} in total; the widest gap is {}.",
+      "The joints that are open, at least in part, coloured by their largest gap. The open parts of {} "
+      "extend over {} in total; the widest gap is {}.",
       counted(cracks, "joint"), length_text(length), length_text(widest));
   f.width = 1100;
   f.height = 640;

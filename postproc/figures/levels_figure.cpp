@@ -66,8 +66,7 @@ Figure levels_figure(const Evaluation& e) {
   f.title = "Resultants across the beds at each level";
   f.caption = fmt::format(
       "Resultant of each block across the beds nearest to the sections, acting on the part above, drawn "
-      "where "
-      "it acts and to one scale (bottom left){}.",
+      "where it acts and to one scale (bottom left){}.",
       upright.empty()
           ? ""
           : ". Blue: blocks laid flat. Orange: upright blocks of a herringbone, several of which share the "

@@ -139,12 +139,9 @@ Figure range_figure(const Evaluation& e) {
   f.title = "Ranges over all admissible states";
   f.caption =
       "Bars: from the smallest to the largest value over all forces that balance the loads within the joint "
-      "laws. "
-      "Every force state in which the blocks can stand lies inside them, whatever its history. Marks: the "
-      "state "
-      "that the compliances choose. An arrow marks an end without limit, a question mark an end whose search "
-      "did "
-      "not converge.";
+      "laws. Every force state in which the blocks can stand lies inside them, whatever its history. Marks: "
+      "the state that the compliances choose. An arrow marks an end without limit, a question mark an end "
+      "whose search did not converge.";
   if (e.summary.ranges.size() > kMostBars)
     f.caption += fmt::format(" The first {} of {} quantities are drawn.", kMostBars, e.summary.ranges.size());
   f.width = 1000;

@@ -60,8 +60,7 @@ std::string caption_of(const Evaluation& e, const SectionEvaluation& section, co
          fmt::format(
              " Arrows: horizontal part of the resultants across the bed of the nearest {} ({}), on the part "
              "above. Bars: norm of the resultant of each block{}. The joints below carry {:.5g} {}, the load "
-             "above is {:.5g} {}, relative difference "
-             "{:.1e}.",
+             "above is {:.5g} {}, relative difference {:.1e}.",
              is_vault(e) ? "ring" : "course", section.ring,
              forces.norms_upright.empty() ? "" : ", orange for upright blocks",
              sum.per_newton * ring.joint_force.dot(e.up), sum.name,
@@ -104,8 +103,7 @@ Figure section_figure(const Evaluation& e, const SectionEvaluation& section) {
   if (!bars.empty())
     f.commands += fmt::format(
         "unset arrow 1\nunset label 1\nset size noratio\nset xlabel '{0}'\nset ylabel 'resultant of a block "
-        "({1})'\nset yrange [0:*]\n{2}"
-        "{3}\n",
+        "({1})'\nset yrange [0:*]\n{2}{3}\n",
         vault ? "azimuth (deg)" : "x (m)", forces.unit.name,
         vault ? "set xrange [-180:180]\nset xtics 45\n" : "", bars);
   f.commands += "unset multiplot\n";

@@ -103,8 +103,7 @@ Figure force_map(const ShellMap& map, const MapScales& scales) {
   f.title += mapped_text(map);
   f.caption = fmt::format(
       "The {}{}{}. Forces per metre from the mean stress of each block, compression positive{}. Grey: the "
-      "force is "
-      "negligible.",
+      "force is negligible.",
       map.vault || map.arch ? "unrolled " : "", mapped_text(map),
       map.vault  ? ""
       : map.arch ? " from the left springing (course 0) to the right"
@@ -133,10 +132,8 @@ Figure utilisation_map(const ShellMap& map, const MapScales& scales) {
   f.title = fmt::format("Utilisation of the joints over the {}", mapped_text(map));
   f.caption =
       "Largest friction use of the joints of each block (100 %: every point is at its limit), and largest "
-      "kern "
-      "use of its bed joints (above 1: part of the joint is unloaded). Grey: no such joint carries more than "
-      "a "
-      "negligible force.";
+      "kern use of its bed joints (above 1: part of the joint is unloaded). Grey: no such joint carries more "
+      "than a negligible force.";
   std::vector<std::string> panels;
   if (scales.friction > 0.0)
     panels.push_back(panel(

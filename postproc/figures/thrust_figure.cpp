@@ -246,8 +246,7 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
   if (!m.wythes.empty())
     f.caption +=
         " Shaded: the blocks that the plane of the meridian cuts. The line of a wythe takes the beds that "
-        "lie in it alone; "
-        "where a bonder rests on another, only the whole thickness has a line.";
+        "lie in it alone; where a bonder rests on another, only the whole thickness has a line.";
   f.width = 1200;
   f.height = arch ? 900 : 560;
   const std::string profile = m.wythes.empty() ? profile_plot(m, e.summary, zones) : wythe_profile(wythes);

@@ -223,16 +223,14 @@ std::string certain_sentence(const Evaluation& e) {
   if (is_limit(e) && s.critical)
     return fmt::format(
         "Certain: which side of the limit stands, whatever the stiffness of the joints and the history; "
-        "under "
-        "Coulomb's law it may fall earlier where joints slide. Assumed: {}.",
+        "under Coulomb's law it may fall earlier where joints slide. Assumed: {}.",
         given);
   if (!s.ranges.empty())
     return fmt::format("Certain: every state in which it can stand lies inside the ranges. Assumed: {}.",
                        given);
   std::string text = fmt::format(
-      "{}. Assumed: {}, and the stiffness of the "
-      "joints, "
-      "which selects the forces shown among all that balance the loads.",
+      "{}. Assumed: {}, and the stiffness of the joints, which selects the forces shown among all that balance "
+      "the loads.",
       proven(s.status) ? "Certain: forces within the joint laws balance the loads"
                        : "Not certain: forces balance the loads to the tolerance, exact ones were not found",
       given);

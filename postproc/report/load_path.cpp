@@ -51,8 +51,7 @@ Figure path_figure(const Table& path) {
   f.title = "Force against displacement";
   f.caption =
       "Every point is an equilibrium. Force and displacement are those of the control block of the case "
-      "along its "
-      "direction; the work is that dissipated in the joints.";
+      "along its direction; the work is that dissipated in the joints.";
   f.width = 900;
   f.height = 620;
   f.commands = plot_style() + data_block("path", rows) +

@@ -86,9 +86,8 @@ void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& hist
   const Farthest farthest = farthest_block(e);
   const size_t bodies = count_bodies(e);
   out->push_back(fmt::format(
-      "At the end, {:.4g} s, the largest displacement is {:.3g} m, of {}; {} of {} moved "
-      "farther than "
-      "{:g} m. The blocks move as {}.",
+      "At the end, {:.4g} s, the largest displacement is {:.3g} m, of {}; {} of {} moved farther than {:g} "
+      "m. The blocks move as {}.",
       e.last.frame.time, farthest.displacement, block_text(e, farthest.block), count_moving(e, threshold),
       counted(e.summary.free_blocks, "free block"), threshold, counted(bodies, "body", "bodies")));
   if (!history.empty() && e.summary.weight_N > 0.0)
@@ -119,8 +118,7 @@ std::vector<std::string> motion_sentences(const Evaluation& e, const std::vector
   if (e.summary.status == Status::unconverged)
     out.push_back(history.empty()
                       ? "Neither forces nor motion are known: the requested accuracy was not reached."
-                      : "The error of the motion is unknown: the requested accuracy was "
-                        "not reached.");
+                      : "The error of the motion is unknown: the requested accuracy was not reached.");
   else if (is_stage(e.last.frame.role))
     out.push_back(
         "The table of stages shows which stages do not stand, the 3-D view how their blocks begin to move.");

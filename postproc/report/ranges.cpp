@@ -116,17 +116,14 @@ std::vector<std::string> range_conditions(const Evaluation& e) {
   if (has_chosen(e.summary.ranges))
     out.push_back(
         "The chosen value belongs to one state of the range, which the compliances of the joints select: "
-        "other "
-        "compliances, another order of construction or a settlement select another.");
+        "other compliances, another order of construction or a settlement select another.");
   if (stands(e.summary.status))
     out.push_back(
         "That it stands means that an admissible state exists. It does not mean that the history of the "
-        "building "
-        "led to one.");
+        "building led to one.");
   out.push_back(
       "All friction laws admit the same forces, and the ranges hold for each of them. Under the associated "
-      "law "
-      "blocks with an admissible state stand; under Coulomb's law they may still fall.");
+      "law blocks with an admissible state stand; under Coulomb's law they may still fall.");
   return out;
 }
 

@@ -130,8 +130,7 @@ std::string verdict_text(const Summary& s, FrameRole shown) {
   if (limit && s.critical->parameter == "peak_stress")
     return fmt::format(
         "In one admissible state no stress exceeds {:.5g} Pa; every other one has a stress of at least "
-        "{:.5g} Pa "
-        "somewhere. The forces below are those of the state found.",
+        "{:.5g} Pa somewhere. The forces below are those of the state found.",
         s.critical->stable, s.critical->moving);
   if (limit && !shows_bracket(*s.critical))
     return fmt::format(

@@ -68,10 +68,8 @@ void require_clean_tree(const std::string& root) {
   const std::string changed = code == 0 ? read_text(log) : "";
   std::filesystem::remove(log);
   if (code != 0)
-    throw InputError(
-        fmt::format("{}: git cannot show whether files are changed, so that no table is written "
-                    "to a page",
-                    root));
+    throw InputError(fmt::format(
+        "{}: git cannot show whether files are changed, so that no table is written to a page", root));
   if (!changed.empty())
     throw InputError(fmt::format("no table is written to a page while files are changed; commit first:\n{}",
                                  changed.substr(0, changed.find_last_not_of('\n') + 1)));

@@ -168,8 +168,7 @@ Study read_study(const std::string& path, const CaseOfStudy& of) {
       study.figures.empty())
     throw InputError(FileLocation{path},
                      "contains no runs; give `runs`, `tables`, `comparisons`, `tradeoff`, `claims` or "
-                     "`figures`, or a case "
-                     "with a `sweep`");
+                     "`figures`, or a case with a `sweep`");
   return study;
 }
 

@@ -103,8 +103,7 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
   f.title = "Results over " + sweep.front().key;
   f.caption =
       "Filled points: the structure stands. Open points, and crosses on the lower edge where there is no "
-      "value: it does "
-      "not, or the run reached no verdict; the table says which.";
+      "value: it does not, or the run reached no verdict; the table says which.";
   for (const std::string& value : sweep.front().values)
     if (double x = 0.0; !read_number(value, &x).empty()) return f;
   const size_t status = column_of(table, "status");
@@ -147,8 +146,7 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
   f.commands = plot_style() + data +
                fmt::format(
                    "set multiplot layout {},1\nunset key\nset y2range [0:1]\nset lmargin 12\nset rmargin "
-                   "{}\nset offsets graph "
-                   "0.03, graph 0.03, graph 0.08, graph 0.08\nset xlabel '{}'\n",
+                   "{}\nset offsets graph 0.03, graph 0.03, graph 0.08, graph 0.08\nset xlabel '{}'\n",
                    columns.size(), curves.size() > 1 ? 24 : 4, gnuplot_text(sweep.front().key)) +
                plots + "unset multiplot\n";
   return f;

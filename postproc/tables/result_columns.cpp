@@ -301,8 +301,7 @@ const Columns<ThrustPoint>& thrust_columns() {
       {"{}_m", "m", "point of the thrust line", &P::point},
       {"position", "",
        "position through the thickness: 0 intrados, 1 extrados; empty: the resultant is negligible or runs "
-       "along "
-       "the bed",
+       "along the bed",
        &P::position},
       {"r_N", "N", "norm of the resultant", &P::r},
       {"v_N", "N", "vertical component of the resultant", &P::v},

@@ -239,8 +239,7 @@ std::vector<std::string> notes_of(const Evaluation& e, const Film& film, bool in
   if (!whole_joints)
     notes.push_back(
         fmt::format("The outlines of the joints and some of their numbers are left out and the others are "
-                    "rounded to seven digits, because there are "
-                    "more than {}; joints.csv holds all of them.",
+                    "rounded to seven digits, because there are more than {}; joints.csv holds all of them.",
                     counted(kMostWholeJoints, "joint")));
   if (film.skipped() > 0)
     notes.push_back(fmt::format("The film shows {} of {}.", film.num_frames(),

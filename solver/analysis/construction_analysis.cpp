@@ -7,6 +7,7 @@
 #include "assembly/base/process.hpp"
 #include "assembly/files/byte_archive.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/records/csv_columns.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/construction/construction.hpp"
 #include "solver/analysis/construction/falling_blocks.hpp"
@@ -17,6 +18,63 @@
 #include "solver/dynamics/memory_archive.hpp"
 
 namespace cupola {
+
+namespace {
+
+/// A stage with its static solve: a row of construction.csv.
+struct StageRow {
+  int number;
+  const LaidBlocks& stage;
+  int free_blocks;
+  const StaticSolution& solution;
+  const LeastSearch::Result& least;
+  std::string note;
+  std::optional<double> head_squeeze = std::nullopt,
+                        displacement = std::nullopt;  // m, of a stage that stands
+};
+
+std::string metres(const std::optional<double>& length) {
+  return length ? fmt::format("{:.6e}", *length) : "";
+}
+
+constexpr CsvColumn<StageRow> kConstructionColumns[] = {
+    {"stage", [](const StageRow& r) { return std::to_string(r.number); }},
+    {"ring", [](const StageRow& r) { return std::to_string(r.stage.ring); }},
+    {"laid", [](const StageRow& r) { return std::to_string(r.stage.blocks.size()); }},
+    {"blocks", [](const StageRow& r) { return std::to_string(r.free_blocks); }},
+    {"verdict", [](const StageRow& r) { return to_string(r.solution.outcome); }},
+    {"speed_ratio", [](const StageRow& r) { return fmt::format("{:.6e}", r.solution.speed_ratio); }},
+    {"least_stands",
+     [](const StageRow& r) -> std::string {
+       if (r.least.bracket.found) return fmt::format("{:.9g}", r.least.bracket.stable.value);
+       return r.least.needs_none ? "0" : "";
+     }},
+    {"least_moves",
+     [](const StageRow& r) {
+       return r.least.bracket.found ? fmt::format("{:.9g}", r.least.bracket.moving.value) : "";
+     }},
+    {"head_squeeze_m", [](const StageRow& r) { return metres(r.head_squeeze); }},
+    {"displacement_m", [](const StageRow& r) { return metres(r.displacement); }},
+    {"note", [](const StageRow& r) { return fmt::format("\"{}\"", r.note); }},
+};
+
+/// A block that leaves its place in a stage: a row of failures.csv.
+struct FailureRow {
+  int stage, ring;
+  const Assembly& assembly;
+  const FallingBlock& falling;
+};
+
+constexpr CsvColumn<FailureRow> kFailureColumns[] = {
+    {"stage", [](const FailureRow& r) { return std::to_string(r.stage); }},
+    {"ring", [](const FailureRow& r) { return std::to_string(r.ring); }},
+    {"block", [](const FailureRow& r) { return block_label(r.assembly, r.falling.block); }},
+    {"course", [](const FailureRow& r) { return std::to_string(r.assembly.blocks[r.falling.block].ring); }},
+    {"how", [](const FailureRow& r) { return to_string(r.falling.mode); }},
+    {"relative_speed", [](const FailureRow& r) { return fmt::format("{:.4f}", r.falling.speed); }},
+};
+
+}  // namespace
 
 /// What the stages so far have shown.
 struct ConstructionProgress {
@@ -100,10 +158,8 @@ ConstructionRun::ConstructionRun(const Case& scene, const Assembly& assembly, co
     throw InputError(fmt::format("analysis.staged.first_ring = {}: must not exceed the last ring, {}",
                                  staged_.first_ring, last));
   stages_ = laying_order(assembly, staged_, staged_.first_ring, last);
-  progress_.stages_csv =
-      "stage,ring,laid,blocks,verdict,speed_ratio,least_stands,least_moves,head_squeeze_m,displacement_m,"
-      "note\n";
-  progress_.failures_csv = "stage,ring,block,course,how,relative_speed\n";
+  progress_.stages_csv = csv_header(kConstructionColumns) + "\n";
+  progress_.failures_csv = csv_header(kFailureColumns) + "\n";
 }
 
 /// The courses below the first stage, as if built at once, with the mortar that they have in that stage. False if they do not
@@ -205,29 +261,29 @@ void ConstructionRun::record(const LaidBlocks& stage, const StaticSolution& solu
     progress_.least_moves = least.bracket.moving.value;
     progress_.least_stage = number;
   }
-  const std::string bracket = least.bracket.found ? fmt::format("{:.9g},{:.9g}", least.bracket.stable.value,
-                                                                least.bracket.moving.value)
-                              : least.needs_none  ? "0,"
-                                                  : ",";
-  const std::string note = least_note(least, staged_.least);
-  progress_.stages_csv +=
-      fmt::format("{},{},{},{},{},{:.6e},{},{},{},\"{}\"\n", number, stage.ring, stage.blocks.size(),
-                  building_.problem().model.num_free(), to_string(solution.outcome), solution.speed_ratio,
-                  bracket, stands ? fmt::format("{:.6e}", building_.head_squeeze(solution)) : "",
-                  stands ? fmt::format("{:.6e}", largest_displacement(frame)) : "", note);
+  StageRow row{.number = number,
+               .stage = stage,
+               .free_blocks = building_.problem().model.num_free(),
+               .solution = solution,
+               .least = least,
+               .note = least_note(least, staged_.least)};
+  if (stands) {
+    row.head_squeeze = building_.head_squeeze(solution);
+    row.displacement = largest_displacement(frame);
+  }
+  progress_.stages_csv += csv_row(kConstructionColumns, row) + "\n";
   sinks_.table("construction.csv", progress_.stages_csv);
-  const std::string line = fmt::format("stage {:5d}  ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}",
-                                       number, stage.ring, building_.problem().model.num_free(),
-                                       to_string(solution.outcome), solution.speed_ratio, note);
+  const std::string line =
+      fmt::format("stage {:5d}  ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}", number, stage.ring,
+                  row.free_blocks, to_string(solution.outcome), solution.speed_ratio, row.note);
   sinks_.log(line);
   sinks_.progress(static_cast<double>(number + 1) / static_cast<double>(stages_.size()), line);
 }
 
 void ConstructionRun::record_failure(const LaidBlocks& stage, const std::vector<FallingBlock>& falling) {
   for (const FallingBlock& block : falling)
-    progress_.failures_csv += fmt::format(
-        "{},{},{},{},{},{:.4f}\n", progress_.next, stage.ring, block_label(assembly_, block.block),
-        assembly_.blocks[block.block].ring, to_string(block.mode), block.speed);
+    progress_.failures_csv +=
+        csv_row(kFailureColumns, FailureRow{progress_.next, stage.ring, assembly_, block}) + "\n";
   sinks_.table("failures.csv", progress_.failures_csv);
 }
 

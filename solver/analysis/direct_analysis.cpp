@@ -8,6 +8,7 @@
 #include "assembly/base/process.hpp"
 #include "assembly/case/limit_parameter.hpp"
 #include "assembly/model/thickness.hpp"
+#include "assembly/records/csv_columns.hpp"
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/record/mechanism.hpp"
 #include "solver/analysis/record/record.hpp"
@@ -19,7 +20,13 @@
 namespace cupola {
 namespace {
 
-const char* const kDirectHistory = "value,admissible,pull,iterations";
+/// history.csv: one row per conic programme.
+constexpr CsvColumn<DirectTrial> kDirectColumns[] = {
+    {"value", [](const DirectTrial& t) { return fmt::format("{:.17g}", t.value); }},
+    {"admissible", [](const DirectTrial& t) { return std::string(t.admissible ? "1" : "0"); }},
+    {"pull", [](const DirectTrial& t) { return t.pull ? fmt::format("{:.2e}", *t.pull) : ""; }},
+    {"iterations", [](const DirectTrial& t) { return std::to_string(t.iterations); }},
+};
 
 double degrees(double tangent) {
   return std::atan(tangent) * 180.0 / std::numbers::pi;
@@ -62,12 +69,11 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
   };
   int trials = 0;
   const auto report = [&](const DirectTrial& trial) {
-    const std::string pull = trial.pull ? fmt::format("{:.2e}", *trial.pull) : "";
-    sinks.log(fmt::format("trial {:3d}  {} {:14.10g}  {:<10}  iterations {:3d}{}{}", ++trials,
+    sinks.log(fmt::format("trial {:3d}  {} {:14.10g}  {:<10}  iterations {:3d}{}", ++trials,
                           to_string(limit.parameter), trial.value, trial.admissible ? "admissible" : "moves",
-                          trial.iterations, trial.pull ? "  pull needed " : "", pull));
-    sinks.history(
-        fmt::format("{:.17g},{},{},{}", trial.value, trial.admissible ? 1 : 0, pull, trial.iterations));
+                          trial.iterations,
+                          trial.pull ? fmt::format("  pull needed {:.2e}", *trial.pull) : ""));
+    sinks.history(csv_row(kDirectColumns, trial));
   };
   using Parameter = LimitSearch::Parameter;
   switch (limit.parameter) {
@@ -162,7 +168,7 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
                                         const AnalysisSinks& sinks) {
   const std::string name = to_string(scene.analysis.limit.parameter);
   const double started = wall_seconds(), asked = bracket_width(scene.analysis);
-  sinks.history(kDirectHistory);
+  sinks.history(csv_header(kDirectColumns));
   const DirectLimit limit = search(scene, assembly, sinks);
 
   Summary summary;

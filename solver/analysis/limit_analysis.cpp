@@ -6,6 +6,7 @@
 #include "assembly/base/process.hpp"
 #include "assembly/case/limit_parameter.hpp"
 #include "assembly/model/thickness.hpp"
+#include "assembly/records/csv_columns.hpp"
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record/mechanism.hpp"
@@ -18,7 +19,20 @@
 namespace cupola {
 namespace {
 
-const char* const kHistoryHeader = "value,verdict,speed_ratio,equilibrium_residual,iterations";
+/// A row of history.csv: a static solve at one value of the parameter.
+struct TrialRow {
+  double value;
+  const StaticSolution& solution;
+};
+
+constexpr CsvColumn<TrialRow> kTrialColumns[] = {
+    {"value", [](const TrialRow& r) { return fmt::format("{:.17g}", r.value); }},
+    {"verdict", [](const TrialRow& r) { return to_string(r.solution.outcome); }},
+    {"speed_ratio", [](const TrialRow& r) { return fmt::format("{:.9e}", r.solution.speed_ratio); }},
+    {"equilibrium_residual",
+     [](const TrialRow& r) { return fmt::format("{:.9e}", r.solution.balance.residual); }},
+    {"iterations", [](const TrialRow& r) { return std::to_string(r.solution.iterations); }},
+};
 
 /// A static solve at one value of the parameter, with the model it was made for.
 struct Probe {
@@ -74,8 +88,7 @@ bool LimitRun::keep(double value, Probe probe) {
   sinks.log(fmt::format("trial {:3d}  {} {:12.8g} {} {:<11}  |v|/(g h) {:9.2e}  iterations {:4d}", num_trials,
                         to_string(parameter), value, limit_unit(to_string(parameter)),
                         to_string(solution.outcome), solution.speed_ratio, solution.iterations));
-  sinks.history(fmt::format("{:.17g},{},{:.9e},{:.9e},{}", value, to_string(solution.outcome),
-                            solution.speed_ratio, solution.balance.residual, solution.iterations));
+  sinks.history(csv_row(kTrialColumns, TrialRow{value, solution}));
   if (solution.outcome == StaticOutcome::equilibrium)
     stable = std::move(probe);
   else if (solution.outcome == StaticOutcome::moving)
@@ -146,7 +159,7 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   const LimitSearch::Parameter parameter = scene.analysis.limit.parameter;
   run.options.log = sinks.log;
   const double started = wall_seconds();
-  sinks.history(kHistoryHeader);
+  sinks.history(csv_header(kTrialColumns));
   const Bracket bracket =
       parameter == LimitSearch::Parameter::spread ? run.follow_spread() : run.search_value();
   if (run.interrupted) return std::nullopt;

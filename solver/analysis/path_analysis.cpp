@@ -8,6 +8,7 @@
 #include "assembly/files/byte_archive.hpp"
 #include "assembly/files/summary_file.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/records/csv_columns.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/record/record_archive.hpp"
@@ -18,6 +19,25 @@
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {
+
+namespace {
+
+/// An equilibrium of the path: a row of path.csv.
+struct PathRow {
+  double time, displacement, force, dissipated, mean_damage;
+  int solves;
+};
+
+constexpr CsvColumn<PathRow> kPathColumns[] = {
+    {"time_s", [](const PathRow& r) { return fmt::format("{:.9g}", r.time); }},
+    {"displacement_m", [](const PathRow& r) { return fmt::format("{:.9g}", r.displacement); }},
+    {"force_N", [](const PathRow& r) { return fmt::format("{:.9g}", r.force); }},
+    {"dissipated_J", [](const PathRow& r) { return fmt::format("{:.9g}", r.dissipated); }},
+    {"mean_damage", [](const PathRow& r) { return fmt::format("{:.6g}", r.mean_damage); }},
+    {"solves", [](const PathRow& r) { return std::to_string(r.solves); }},
+};
+
+}  // namespace
 
 /// What the steps of a path so far have shown.
 struct PathProgress {
@@ -30,7 +50,7 @@ struct PathProgress {
   WorstOfRun worst;
   double worst_balance = 0.0, dissipated = 0.0;
   double largest_force = 0.0, time_of_largest = 0.0, displacement_of_largest = 0.0;
-  std::string table = "time_s,displacement_m,force_N,dissipated_J,mean_damage,solves\n";
+  std::string table = csv_header(kPathColumns) + "\n";
 };
 
 template <class Archive>
@@ -183,8 +203,9 @@ void PathRun::tabulate(const Frame& frame, const StaticSolution& solution) {
     area += frame.contacts.area[i];
   }
   const double mean_damage = area > 0.0 ? damage / area : 0.0;
-  progress_.table += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{}\n", path_.value(), displacement(),
-                                 force, progress_.dissipated, mean_damage, path_.solves());
+  progress_.table += csv_row(kPathColumns, PathRow{path_.value(), displacement(), force, progress_.dissipated,
+                                                   mean_damage, path_.solves()}) +
+                     "\n";
   sinks_.table("path.csv", progress_.table);
   const std::string line =
       fmt::format("time {:9.4g} s  displacement {:11.4e} m  force {:11.4e} N  damage {:6.4f}  {}",

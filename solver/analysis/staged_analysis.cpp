@@ -5,6 +5,7 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
+#include "assembly/records/csv_columns.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
@@ -113,16 +114,28 @@ std::string note(const StageResult& stage) {
   return stage.critical ? stage.critical->message : "";
 }
 
-std::string row(const StageResult& stage) {
-  const bool found = stage.critical && stage.critical->found;
-  return fmt::format(
-      "{},{},{:.9g},{},{:.6e},{},\"{}\"\n", stage.ring, stage.blocks, stage.weight, to_string(stage.outcome),
-      stage.speed_ratio,
-      found ? fmt::format("{:.9g},{:.9g}", stage.critical->stable.value, stage.critical->moving.value)
-      : stage.needs_none ? "0,"
-                         : ",",
-      note(stage));
+const Bracket* bracket_of(const StageResult& stage) {
+  return stage.critical && stage.critical->found ? &*stage.critical : nullptr;
 }
+
+constexpr CsvColumn<StageResult> kStageColumns[] = {
+    {"ring", [](const StageResult& s) { return std::to_string(s.ring); }},
+    {"blocks", [](const StageResult& s) { return std::to_string(s.blocks); }},
+    {"weight_N", [](const StageResult& s) { return fmt::format("{:.9g}", s.weight); }},
+    {"verdict", [](const StageResult& s) { return to_string(s.outcome); }},
+    {"speed_ratio", [](const StageResult& s) { return fmt::format("{:.6e}", s.speed_ratio); }},
+    {"critical_stands",
+     [](const StageResult& s) -> std::string {
+       if (const Bracket* bracket = bracket_of(s)) return fmt::format("{:.9g}", bracket->stable.value);
+       return s.needs_none ? "0" : "";
+     }},
+    {"critical_moves",
+     [](const StageResult& s) -> std::string {
+       const Bracket* bracket = bracket_of(s);
+       return bracket ? fmt::format("{:.9g}", bracket->moving.value) : "";
+     }},
+    {"note", [](const StageResult& s) { return fmt::format("\"{}\"", note(s)); }},
+};
 
 void judge(const std::vector<StageResult>& stages, double fresh_friction, Summary* summary) {
   const StageResult *worst = nullptr, *failed = nullptr;
@@ -173,7 +186,7 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
   std::vector<StageResult> results;
   WorstOfRun worst;
   double worst_balance = 0.0;
-  std::string table = "ring,blocks,weight_N,verdict,speed_ratio,critical_stands,critical_moves,note\n";
+  std::string table = csv_header(kStageColumns) + "\n";
   const double started = wall_seconds();
   for (int ring = staged.first_ring; ring <= last; ++ring) {
     StageRun run(scene, assembly, ring, sinks.log);
@@ -193,7 +206,7 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
                   largest_violation(frame));
     if (!(summary.accuracy.reached <= worst_balance)) worst_balance = summary.accuracy.reached;
     if (staged.critical_friction) search_critical_friction(scene, &run, &stage);
-    table += row(stage);
+    table += csv_row(kStageColumns, stage) + "\n";
     results.push_back(stage);
     sinks.table("stages.csv", table);
     sinks.log(fmt::format("ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}", ring, stage.blocks,

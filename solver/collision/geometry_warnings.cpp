@@ -125,8 +125,7 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
   }
   for (const auto& [block, thinnest] : thin)
     warnings.push_back(fmt::format(
-        "block {}: a part is only {:.3g} m thick, thinner than contact.margin = {:.3g} m; reduce the "
-        "margin",
+        "block {}: a part is only {:.3g} m thick, thinner than contact.margin = {:.3g} m; reduce the margin",
         label(block), thinnest, detector.margin()));
   return warnings;
 }

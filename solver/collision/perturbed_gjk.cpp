@@ -51,8 +51,7 @@ ConvexBody make_core(const CollisionModel& model, const CollisionPart& part, dou
   const Polytope core = inset_polytope(planes, margin, 1e-9 * model.smallest_block + 16.0 * model.rounding);
   if (core.vertices.empty())
     throw InputError(
-        fmt::format("block {}: a part is thinner than twice contact.margin = {} m; reduce the "
-                    "margin",
+        fmt::format("block {}: a part is thinner than twice contact.margin = {} m; reduce the margin",
                     part.block, margin));
   return ConvexBody(core);
 }

@@ -317,9 +317,8 @@ int block_jacobi_iterations(const BlockPattern& pattern, const BlockMatrix& H, c
 void threads() {
   fmt::print(
       "blocks,\"assembly, 1 thread\",\"assembly, 2 threads\",\"factor, 1 thread\",\"factor, 2 "
-      "threads\",bits,solve,"
-      "block Jacobi: CG iterations,block Jacobi: s,multigrid: set-up s,multigrid: CG iterations,multigrid: "
-      "s\n");
+      "threads\",bits,solve,block Jacobi: CG iterations,block Jacobi: s,multigrid: set-up s,multigrid: CG "
+      "iterations,multigrid: s\n");
   for (const int refine : {2, 4}) {
     scenes::DomeShape shape;
     shape.rings = 40 * refine;

@@ -55,12 +55,11 @@ TEST(DiskFaults, FilesAboveTheLimitGiveTheReason) {
 TEST(DiskFaults, TwoRunsDoNotShareAFolder) {
   const WallFolder folder;
   // The first run solves until it is stopped.
-  const ProgramRun run = folder.run("sh -c '" + folder.solve +
-                                    "results --set analysis.duration=100 & first=$!; "
-                                    "until [ -e results/checkpoint ]; do sleep 0.02; done; " +
-                                    folder.solve +
-                                    "results; code=$?; kill -9 $first; "
-                                    "echo process $first >&2; exit $code'");
+  const ProgramRun run =
+      folder.run("sh -c '" + folder.solve +
+                 "results --set analysis.duration=100 & first=$!; "
+                 "until [ -e results/checkpoint ]; do sleep 0.02; done; " +
+                 folder.solve + "results; code=$?; kill -9 $first; echo process $first >&2; exit $code'");
   EXPECT_EQ(run.code, 1);
   const size_t at = run.err.find("results: process ");
   ASSERT_NE(at, std::string::npos) << run.err;
@@ -95,9 +94,8 @@ TEST(DiskFaults, FilesOfKilledRunsAreRemoved) {
   const WallFolder folder;
   const std::string part = ".contacts_0099.$!.part.vtp";  // $!: a process that has ended
   const ProgramRun run = folder.run(
-      "sh -c 'true & wait; mkdir -p post/figures results; "
-      "for f in . results post; do touch $f/" +
-      part + "; done; cupola-generate wall.yaml --output a.vtu && " + folder.solve +
+      "sh -c 'true & wait; mkdir -p post/figures results; for f in . results post; do touch $f/" + part +
+      "; done; cupola-generate wall.yaml --output a.vtu && " + folder.solve +
       "results && cupola-post analyse wall.yaml --assembly a.vtu --results results --output post --tables'");
   ASSERT_EQ(run.code, 0) << run.err;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.file("")))

@@ -170,8 +170,7 @@ TEST(Programs, RefuseADamagedAssemblyAndLeaveAllFiles) {
   expect_one_line(solve("none.vtu"), "none.vtu: error: does not exist");
   expect_one_line(solve("results"), "results: error: ");
   expect_one_line(folder.run("cupola-solve " + kWall +
-                             " --assembly assembly.vtu --output results "
-                             "--set geometry.bond.rings=3"),
+                             " --assembly assembly.vtu --output results --set geometry.bond.rings=3"),
                   "was not made from");
   EXPECT_EQ(folder.contents(), before);
 }

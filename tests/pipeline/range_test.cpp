@@ -67,8 +67,7 @@ void expect_bounded(const Summary& summary) {
 TEST(RangeOfDomes, OneSectorGivesTheRangesOfTheWholeModel) {
   const std::string quantities =
       "analysis.range.quantities=[thrust, {type: hoop_force, ring: 2}, {type: reaction, block: 1}, {type: "
-      "all_joints, "
-      "sectors: 8}]";
+      "all_joints, sectors: 8}]";
   const Case whole = small_dome({quantities}), sector = small_dome({quantities, "analysis.cyclic_sectors=8"});
   const Assembly dome = generate(whole);
   const Summary a = run_range(whole, dome, {}).value(), b = run_range(sector, dome, {}).value();

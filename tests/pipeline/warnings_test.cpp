@@ -27,8 +27,7 @@ const std::string kSentence = "material.unit_weight = 18 N/m3: 3000 to 80000 N/m
 void write_wall(const ProgramFolder& folder, const std::string& rest) {
   std::ofstream(folder.file("wall.yaml"))
       << "geometry: {surface: {type: wall, length: 2, height: 1, thickness: 0.3}, bond: {type: running, "
-         "rings: 3, "
-         "blocks_per_ring: 2}}\njoints: {friction: 0.6, compliance: {per: area}}\n"
+         "rings: 3, blocks_per_ring: 2}}\njoints: {friction: 0.6, compliance: {per: area}}\n"
       << rest;
 }
 

@@ -155,11 +155,9 @@ Document write_manual(const std::vector<ManualRow>& rows) {
   out.heading(1, "Verification manual");
   out.paragraph(
       "Why should you believe a number that Cupola prints? Each row below compares a result with a value "
-      "that this program did "
-      "not produce. `make -f Makefile.cases verification` computes the rows and writes this page; reference "
-      "values, sources and "
-      "tolerances are in `tests/verification/references.yaml`. Every row is also a test (`ctest -R "
-      "verification/`).");
+      "that this program did not produce. `make -f Makefile.cases verification` computes the rows and writes "
+      "this page; reference values, sources and tolerances are in `tests/verification/references.yaml`. "
+      "Every row is also a test (`ctest -R verification/`).");
   out.table(counts(rows));
   write_failures(rows, &out);
   for (const auto& [chapter, title] : chapters()) {

@@ -28,8 +28,7 @@ DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportT
   if (scene.joints.compliance.per != Compliance::Per::area)
     throw InputError(
         "analysis.limit.parameter: peak_stress requires joints.compliance.per: area, with which contact "
-        "points "
-        "stand for areas");
+        "points stand for areas");
   const ConicProblem problem = stress_problem(rigid);
   const ConicSolution solution = solve_conic(problem);
   DirectLimit limit;

@@ -5,30 +5,39 @@
 #include <fmt/format.h>
 
 #include "assembly/files/number_text.hpp"
+#include "assembly/records/csv_columns.hpp"
 
 namespace cupola {
 namespace {
 
-const char* const kRangeTable =
-    "quantity,unit,min,max,min_bound,max_bound,chosen,min_outcome,max_outcome,min_frame,max_frame,block_a,"
-    "block_b\n";
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{:.17g}", *value) : "";
+}
+std::string number(const std::optional<int>& value) {
+  return value ? std::to_string(*value) : "";
+}
+
+constexpr CsvColumn<ForceRange> kRangeColumns[] = {
+    {"quantity", [](const ForceRange& r) { return fmt::format("\"{}\"", r.quantity); }},
+    {"unit", [](const ForceRange& r) { return r.unit; }},
+    {"min", [](const ForceRange& r) { return number(r.min.value); }},
+    {"max", [](const ForceRange& r) { return number(r.max.value); }},
+    {"min_bound", [](const ForceRange& r) { return number(r.min.bound); }},
+    {"max_bound", [](const ForceRange& r) { return number(r.max.bound); }},
+    {"chosen", [](const ForceRange& r) { return number(r.chosen); }},
+    {"min_outcome", [](const ForceRange& r) { return to_string(r.min.outcome); }},
+    {"max_outcome", [](const ForceRange& r) { return to_string(r.max.outcome); }},
+    {"min_frame", [](const ForceRange& r) { return number(r.min.frame); }},
+    {"max_frame", [](const ForceRange& r) { return number(r.max.frame); }},
+    {"block_a", [](const ForceRange& r) { return r.joint ? std::to_string(r.joint->first) : ""; }},
+    {"block_b", [](const ForceRange& r) { return r.joint ? std::to_string(r.joint->second) : ""; }},
+};
 
 }  // namespace
 
 std::string ranges_csv(const std::vector<ForceRange>& ranges) {
-  const auto number = [](const auto& value) {
-    return value ? fmt::format("{:.17g}", *value) : std::string();
-  };
-  const auto frame = [](const std::optional<int>& value) { return value ? std::to_string(*value) : ""; };
-  const auto block = [](const auto& joint, int side) {
-    return joint ? std::to_string(side == 0 ? joint->first : joint->second) : std::string();
-  };
-  std::string csv = kRangeTable;
-  for (const ForceRange& r : ranges)
-    csv += fmt::format("\"{}\",{},{},{},{},{},{},{},{},{},{},{},{}\n", r.quantity, r.unit,
-                       number(r.min.value), number(r.max.value), number(r.min.bound), number(r.max.bound),
-                       number(r.chosen), to_string(r.min.outcome), to_string(r.max.outcome),
-                       frame(r.min.frame), frame(r.max.frame), block(r.joint, 0), block(r.joint, 1));
+  std::string csv = csv_header(kRangeColumns) + "\n";
+  for (const ForceRange& range : ranges) csv += csv_row(kRangeColumns, range) + "\n";
   return csv;
 }
 

@@ -32,8 +32,7 @@ void require_friction_with_cohesion(const ContactProblem& problem) {
     if (problem.strength[i].cohesion > 0.0 && problem.mu[i] == 0.0)
       throw InputError(
           "joints.cohesion: ranges and direct limits require friction > 0 in joints with cohesion; give "
-          "joints.friction, "
-          "or analysis.limit.method: bisection");
+          "joints.friction, or analysis.limit.method: bisection");
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "assembly/records/csv_columns.hpp"
+
 namespace cupola {
 namespace {
 
@@ -14,11 +16,6 @@ struct HistoryStep {
   const StepReport& report;
   const Snapshot& now;
   const RunEnergy& energy;
-};
-
-struct HistoryColumn {
-  const char* key;
-  std::string (*cell)(const HistoryStep&);
 };
 
 std::string exact(double x) {
@@ -31,7 +28,7 @@ double largest_tie_force(const StepReport& report) {
   return largest;
 }
 
-constexpr HistoryColumn kHistoryColumns[] = {
+constexpr CsvColumn<HistoryStep> kHistoryColumns[] = {
     {"time_s", [](const HistoryStep& s) { return exact(s.time); }},
     {"contacts", [](const HistoryStep& s) { return std::to_string(s.report.forces.contacts.size()); }},
     {"iterations", [](const HistoryStep& s) { return std::to_string(s.report.solve.iterations); }},
@@ -94,21 +91,11 @@ std::optional<double> RunEnergy::relative_error() const {
 }
 
 std::string history_header() {
-  std::string header;
-  for (const HistoryColumn& column : kHistoryColumns) {
-    if (!header.empty()) header += ',';
-    header += column.key;
-  }
-  return header;
+  return csv_header(kHistoryColumns);
 }
 
 std::string history_row(double time, const StepReport& report, const Snapshot& now, const RunEnergy& energy) {
-  std::string row;
-  for (const HistoryColumn& column : kHistoryColumns) {
-    if (!row.empty()) row += ',';
-    row += column.cell({time, report, now, energy});
-  }
-  return row;
+  return csv_row(kHistoryColumns, HistoryStep{time, report, now, energy});
 }
 
 std::string log_line(int step, double time, const StepReport& report, const Snapshot& now) {

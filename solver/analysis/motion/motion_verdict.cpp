@@ -18,8 +18,7 @@ std::string missed_text(const Analysis& analysis, const RunProgress& progress, c
   if (const auto& violation = progress.worst.violation; violation && violation->value > analysis.tolerance)
     text += fmt::format(
         "; at {:.4g} s a force between blocks {} and {} violates the contact law by {:.2g} times the force "
-        "of "
-        "its joint (or 1 % of the mean joint force, if larger)",
+        "of its joint (or 1 % of the mean joint force, if larger)",
         violation->time, violation->block_a, violation->block_b, violation->value);
   text += ". Try a shorter `analysis.time_step` or a larger `analysis.tolerance`";
   return analysis.max_iterations > 0 ? text + ", or raise `analysis.max_iterations`" : text;
@@ -39,8 +38,7 @@ void judge_rest(const Analysis::Thresholds& thresholds, const RestWindow& rest, 
   } else if (rest.drift() > RestWindow::largest_drift(thresholds)) {
     summary->message = fmt::format(
         "a block moves slowly in one direction: {:.3g} m/s on average over the last {:.3g} s, more than a "
-        "tenth of "
-        "the threshold {:.3g} m/s",
+        "tenth of the threshold {:.3g} m/s",
         rest.drift(), thresholds.window, thresholds.speed);
   } else {
     summary->status = Status::stable;

@@ -8,6 +8,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
+#include "assembly/records/csv_columns.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/contact/problem/cone.hpp"
 
@@ -124,23 +125,59 @@ void write_mechanism(const Model& model, const State& start, const ContactSet& c
   sinks.table("mechanism_joints.csv", mechanism_joints_csv(mechanism));
 }
 
+namespace {
+
+/// The velocity of a free block of a mechanism, the first three m/s, the others rad/s.
+struct MovingBlock {
+  const Block& block;
+  int number, group;
+  Eigen::Matrix<double, 6, 1> v;
+};
+
+template <int component>
+std::string speed(const MovingBlock& moving) {
+  return fmt::format("{:.9g}", moving.v[component]);
+}
+
+constexpr CsvColumn<MovingBlock> kBlockColumns[] = {
+    {"block", [](const MovingBlock& b) { return std::to_string(b.number); }},
+    {"ring", [](const MovingBlock& b) { return std::to_string(b.block.ring); }},
+    {"slot", [](const MovingBlock& b) { return std::to_string(b.block.slot); }},
+    {"group", [](const MovingBlock& b) { return std::to_string(b.group); }},
+    {"v_x", speed<0>},
+    {"v_y", speed<1>},
+    {"v_z", speed<2>},
+    {"omega_x", speed<3>},
+    {"omega_y", speed<4>},
+    {"omega_z", speed<5>},
+};
+
+constexpr CsvColumn<MovingJoint> kJointColumns[] = {
+    {"block_a", [](const MovingJoint& j) { return std::to_string(j.block_a); }},
+    {"block_b", [](const MovingJoint& j) { return std::to_string(j.block_b); }},
+    {"kind", [](const MovingJoint& j) { return to_string(j.kind); }},
+    {"ring", [](const MovingJoint& j) { return std::to_string(j.ring); }},
+    {"motion", [](const MovingJoint& j) { return to_string(j.motion); }},
+    {"opening", [](const MovingJoint& j) { return fmt::format("{:.9g}", j.opening); }},
+    {"sliding", [](const MovingJoint& j) { return fmt::format("{:.9g}", j.sliding); }},
+};
+
+}  // namespace
+
 std::string mechanism_blocks_csv(const Model& model, const Mechanism& mechanism) {
-  std::string text = "block,ring,slot,group,v_x,v_y,v_z,omega_x,omega_y,omega_z\n";
+  std::string text = csv_header(kBlockColumns) + "\n";
   for (int i = 0; i < model.num_free(); ++i) {
-    const int block = model.free_blocks[i];
-    const auto v = mechanism.v.segment<6>(6 * i);
-    text += fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", block,
-                        model.assembly->blocks[block].ring, model.assembly->blocks[block].slot,
-                        mechanism.group[block], v[0], v[1], v[2], v[3], v[4], v[5]);
+    const int number = model.free_blocks[i];
+    text += csv_row(kBlockColumns, MovingBlock{model.assembly->blocks[number], number,
+                                               mechanism.group[number], mechanism.v.segment<6>(6 * i)}) +
+            "\n";
   }
   return text;
 }
 
 std::string mechanism_joints_csv(const Mechanism& mechanism) {
-  std::string text = "block_a,block_b,kind,ring,motion,opening,sliding\n";
-  for (const MovingJoint& joint : mechanism.joints)
-    text += fmt::format("{},{},{},{},{},{:.9g},{:.9g}\n", joint.block_a, joint.block_b, to_string(joint.kind),
-                        joint.ring, to_string(joint.motion), joint.opening, joint.sliding);
+  std::string text = csv_header(kJointColumns) + "\n";
+  for (const MovingJoint& joint : mechanism.joints) text += csv_row(kJointColumns, joint) + "\n";
   return text;
 }
 

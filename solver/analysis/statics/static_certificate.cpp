@@ -120,8 +120,7 @@ StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, 
     }
     certificate.force_error = {largest,
                                "relative error of the wrench on any joint that carries more than 1 % of the "
-                               "mean joint force, against "
-                               "the exact static solution of this model"};
+                               "mean joint force, against the exact static solution of this model"};
   };
   bound_force_error();
   certificate.exact_forces = projection.proves_equilibrium(x);

@@ -86,8 +86,7 @@ const BadCase kBadCases[] = {
      "bad.yaml:6:3: error: joints.mu: unknown key; did you mean joints.friction or joints.bed.friction"},
     {"RetiredWeld", "geometry: {import: {weld: 1e-3}}\n",
      "bad.yaml:1:27: error: geometry.import.weld = 1e-3: this key no longer exists; remove it: vertices "
-     "closer "
-     "than 1e-6 of the block size are merged"},
+     "closer than 1e-6 of the block size are merged"},
     {"RetiredSettledSpeed", kGood + "analysis: {stop: {settled_speed: 1e-3}}\n",
      "bad.yaml:6:34: error: analysis.stop.settled_speed = 1e-3: this key no longer exists; remove it"},
     {"RetiredKey", "geometry: {import: {most_overlap: 1e-3}}\n",
@@ -156,8 +155,7 @@ const BadCase kBadCases[] = {
      "bad.yaml:1:21: error: geometry.surface.type is missing and has no default; give one of dome, "},
     {"MisspeltType", "geometry: {surface: {typ: dome}}\n",
      "bad.yaml:1:21: error: geometry.surface.type is missing and has no default; give one of dome, "
-     "octagonal_vault, arch, "
-     "wall, vault; is typ a misspelling of it?"},
+     "octagonal_vault, arch, wall, vault; is typ a misspelling of it?"},
     {"MissingRequiredNumber", kGood + "loads: {lantern: {}}\n",
      "bad.yaml:6:18: error: loads.lantern.weight_fraction: give one of weight_fraction, weight (N) and mass"},
     {"KeyOfAnotherType", "geometry: {surface: {type: wall, span: 3}}\n",
@@ -169,8 +167,7 @@ const BadCase kBadCases[] = {
      "bad.yaml:1:64: error: geometry.bond.rings = 3.5: must be a whole number"},
     {"OddSlices", "geometry: {surface: {type: dome}, bond: {type: running, slices_per_block: 3}}\n",
      "bad.yaml:1:75: error: geometry.bond.slices_per_block = 3: must be even, because odd rings are shifted "
-     "by half "
-     "a block"},
+     "by half a block"},
     {"TooManyCells",
      "geometry: {surface: {type: dome}, bond: {type: running, rings: 100000, blocks_per_ring: 9999}}\n",
      "bad.yaml:1:89: error: geometry.bond.blocks_per_ring = 9999: rings x blocks_per_ring x slices x "

@@ -128,8 +128,7 @@ TEST(ImplausibleValues, AccelerogramsInOtherUnits) {
   ASSERT_EQ(warnings("acceleration").size(), 1u);
   EXPECT_EQ(warnings("acceleration").front(),
             "supports.base_motion (largest acceleration) = 0.08 m/s2: 0.1 to 50 m/s2 expected; in g? "
-            "Multiply direction by "
-            "9.81");
+            "Multiply direction by 9.81");
   EXPECT_TRUE(warnings("acceleration, direction: [9.81, 0, 0]").empty());
   EXPECT_EQ(warnings("acceleration, direction: [981, 0, 0]").size(), 1u);
   EXPECT_TRUE(warnings("displacement").empty());

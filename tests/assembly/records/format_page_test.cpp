@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "assembly/records/assembly_record.hpp"
 #include "assembly/records/frame_record.hpp"
 #include "assembly/records/summary_record.hpp"
 
@@ -35,16 +36,26 @@ TEST(FormatPage, HasTheTablesOfTheRecords) {
   const ContactTable contacts;
   PageTable strength("array");
   strength_fields(strength, contacts);
-  for (const std::string& table :
-       {table_of(contacts, "array"), strength.text, table_of(BlockTable(), "array"),
-        table_of(TieTable(), "array"), table_of(Interruption(), "key"), table_of(Summary(), "key"),
-        table_of(Accuracy(), "key of `accuracy`"), table_of(ForcesUnique(), "key of `forces_unique`"),
-        table_of(LawViolation(), "key of `largest_law_violation`"),
-        table_of(ForceCertificate{1.0, ""}, "key of `certified_force_error`"),
-        table_of(WorstSteps(), "key of `worst_steps`"),
-        table_of(RunStep(), "key of an entry of `worst_steps`"),
-        table_of(Robustness(), "key of `robustness`"), table_of(ForceRange(), "key of an entry of `ranges`"),
-        table_of(RangeEnd(), "key of `min` and `max`")})
+  for (const std::string& table : {table_of(Part(), "array"),
+                                   table_of(Block(), "array"),
+                                   table_of(BuiltTie(), "array"),
+                                   table_of(BuiltChain(), "array"),
+                                   table_of(Sheet(), "array"),
+                                   table_of(contacts, "array"),
+                                   strength.text,
+                                   table_of(BlockTable(), "array"),
+                                   table_of(TieTable(), "array"),
+                                   table_of(Interruption(), "key"),
+                                   table_of(Summary(), "key"),
+                                   table_of(Accuracy(), "key of `accuracy`"),
+                                   table_of(ForcesUnique(), "key of `forces_unique`"),
+                                   table_of(LawViolation(), "key of `largest_law_violation`"),
+                                   table_of(ForceCertificate{1.0, ""}, "key of `certified_force_error`"),
+                                   table_of(WorstSteps(), "key of `worst_steps`"),
+                                   table_of(RunStep(), "key of an entry of `worst_steps`"),
+                                   table_of(Robustness(), "key of `robustness`"),
+                                   table_of(ForceRange(), "key of an entry of `ranges`"),
+                                   table_of(RangeEnd(), "key of `min` and `max`")})
     EXPECT_NE(page.str().find("\n" + table + "\n"), std::string::npos)
         << "assembly/FORMAT.md must have this table:\n"
         << table;

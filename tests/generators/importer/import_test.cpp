@@ -185,6 +185,29 @@ TEST_F(Import, ReadsDensityFlagsAndPartsOfBricks) {
   EXPECT_TRUE(model.blocks[0].fixed);
 }
 
+TEST_F(Import, SpringsAndRodsConnectBricks) {
+  const std::string left = "0,0,0,1,0,0,1,1,0,0,1,0,0,0,1,1,0,1,1,1,1,0,1,1";
+  const std::string right = "2,0,0,3,0,0,3,1,0,2,1,0,2,0,1,3,0,1,3,1,1,2,1,1";
+  ImportedBlocks source;
+  source.path =
+      write("bricks.csv", "7,1,1,0,2500,0,0,0,0,0,0," + left + "\n8,0,1,0,2500,0,0,0,0,0,0," + right + "\n");
+  source.springs = write("springs.csv", "1,7,1,0.5,0.25,8,2,0.5,0.25,5000,0.9\n");
+  source.rods = write("rods.csv", "2,7,1,0.5,0.75,8,2,0.5,0.75\n");
+  const Assembly model = import_blocks(source, 1.0);
+  ASSERT_EQ(model.ties.size(), 2u);
+  const BuiltTie &spring = model.ties[0], &rod = model.ties[1];
+  EXPECT_DOUBLE_EQ(spring.stiffness, 5000.0);
+  EXPECT_DOUBLE_EQ(spring.length, 0.9);
+  EXPECT_FALSE(spring.pushes);
+  EXPECT_EQ(spring.block_a, 0);
+  EXPECT_EQ(spring.block_b, 1);
+  EXPECT_EQ(spring.point_a, Vec3(1, 0.5, 0.25));
+  EXPECT_EQ(spring.point_b, Vec3(2, 0.5, 0.25));
+  EXPECT_TRUE(std::isinf(rod.stiffness));
+  EXPECT_DOUBLE_EQ(rod.length, 1.0);
+  EXPECT_TRUE(rod.pushes);
+}
+
 TEST_F(Import, NamesTheDefectOfInvalidInput) {
   const std::string box = obj_box("a", 0, 0, 1);
   std::string open = box.substr(0, box.rfind("f "));

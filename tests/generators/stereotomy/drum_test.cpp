@@ -256,8 +256,7 @@ std::string message_of(const Case& c) {
 TEST(Drum, RefusesOpeningsWithoutRoomForTheirLintels) {
   const std::string corner = message_of(with_windows(openings(3.2, 1.0, 1.0)));
   EXPECT_NE(corner.find("geometry.drum.openings[0].width = 3.2: with a bearing of 0.4 m on each side the "
-                        "lintel is 4 m long, but "
-                        "there are only 3.82683 m"),
+                        "lintel is 4 m long, but there are only 3.82683 m"),
             std::string::npos)
       << corner;
   EXPECT_EQ(message_of(with_windows(openings(3.0, 1.0, 1.0))), "");  // 3.8 m

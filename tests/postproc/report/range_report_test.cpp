@@ -27,8 +27,7 @@ TEST(RangeSentence, StatesCertainLimitsAndTheChosenValue) {
       "limit; the compliances of this case choose 0.1 MN.");
   EXPECT_EQ(range_sentence(ranges[2]),
             "The share of the ribs lies between 0 and 1 for every history of the building that the friction "
-            "admits; "
-            "the compliances of this case choose 0.43.")
+            "admits; the compliances of this case choose 0.43.")
       << "rounding errors are no limits";
 }
 
@@ -38,8 +37,7 @@ TEST(RangeSentence, NamesUnconvergedEndsAndLooseBounds) {
       range_sentence(test::some_ranges()[3]),
       "The normal force of joint 12-13 is at most 4.8 kN for every history of the building that the friction "
       "admits; it has an unknown minimum, because the search did not converge beyond a state with 0.15 kN; "
-      "it "
-      "attains 4 kN in the state found for the maximum.");
+      "it attains 4 kN in the state found for the maximum.");
 }
 
 TEST(RangeSentence, UnboundedAndUnknownQuantities) {
@@ -65,8 +63,7 @@ TEST(RangeSentence, ANarrowRangeIsOneCertainValue) {
                    test::bounded_end(100.01e3, 100.01e3, 2), 100e3};
   EXPECT_EQ(range_sentence(range),
             "The vertical reaction of block 5 is 0.1 MN for every history of the building that the friction "
-            "admits, "
-            "to within 0.1 %; the compliances of this case choose 0.1 MN.");
+            "admits, to within 0.1 %; the compliances of this case choose 0.1 MN.");
   range.chosen = 130e3;
   EXPECT_NE(range_sentence(range).find("choose 0.13 MN, outside the range"), std::string::npos);
 }

@@ -275,6 +275,8 @@ TEST(Report, HistoryHasEveryStepAndNotOnlyTheFrames) {
 TEST(Report, RemovesTablesAndFiguresOfAnEarlierRun) {
   const std::string post = analysed_column("column");
   write_text_atomically(post + "/section_7m.csv", "of a section that the case no longer has\n");
+  write_text_atomically(post + "/.written", read_text(post + "/.written") + "section_7m.csv\n");
+  write_text_atomically(post + "/section_mine.csv", "of the user\n");
   const std::string folder = std::filesystem::path(post).parent_path().string();
   const Assembly a = test::column(3);
   Summary summary = test::column_summary(a);
@@ -290,6 +292,7 @@ TEST(Report, RemovesTablesAndFiguresOfAnEarlierRun) {
                      .quiet = true}),
             ExitCode::done);
   EXPECT_FALSE(std::filesystem::exists(post + "/section_7m.csv"));
+  EXPECT_TRUE(std::filesystem::exists(post + "/section_mine.csv"));
   EXPECT_FALSE(std::filesystem::exists(post + "/figures/rings.gp"));
   EXPECT_TRUE(std::filesystem::exists(post + "/joints.csv"));
 }

@@ -28,8 +28,7 @@ TEST(SoftJoints, WarnWhereTheTopOfAStackSinksByAHundredthOfItsHeight) {
   const std::vector<std::string> found = warnings_of(per_area(1.9e-7), stack);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].starts_with(
-      "joints.compliance.normal = 1.9e-07 m3/N lets the model sink by about 0.021 m, 1 % of "
-      "its height; "))
+      "joints.compliance.normal = 1.9e-07 m3/N lets the model sink by about 0.021 m, 1 % of its height; "))
       << found[0];
   EXPECT_TRUE(warnings_of(per_area(0.0), stack).empty()) << "rigid joints";
 }

@@ -1,0 +1,114 @@
+// Every key of the schema is set by a shipped case or variant, or listed here.
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "assembly/case/bundled.hpp"
+#include "assembly/case/case_reader.hpp"
+#include "assembly/case/case_tree.hpp"
+
+namespace cupola::shipped_keys_test {
+namespace {
+
+/// The key paths below a node, with [] for the items of lists.
+void add_keys(const CaseNode& node, const std::string& path, std::set<std::string>* keys) {
+  if (!path.empty()) keys->insert(path);
+  for (const CaseNode& item : node.items)
+    if (item.kind == CaseNode::Kind::map || item.kind == CaseNode::Kind::list)
+      add_keys(item, path + "[]", keys);
+  for (const CaseNode::Entry& entry : node.entries)
+    add_keys(entry.value, path.empty() ? entry.key : path + "." + entry.key, keys);
+}
+
+std::set<std::string> shipped_keys() {
+  std::set<std::string> keys;
+  const std::string folder = bundled_folder();
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".yaml") add_keys(load_case_tree(entry.path().string(), {}), "", &keys);
+  std::ifstream variants(folder + "/variants.txt");
+  for (std::string line; std::getline(variants, line);) {
+    if (line.empty() || line.front() == '#') continue;
+    std::istringstream words(line);
+    std::string name, base;
+    words >> name >> base;
+    std::vector<std::string> settings;
+    for (std::string word; words >> word;)
+      if (!word.starts_with("--")) settings.push_back(word);
+    add_keys(load_case_tree(folder + "/" + base + ".yaml", settings), "", &keys);
+  }
+  return keys;
+}
+
+/// One declaration may serve several sections: it counts as set where one of them is.
+std::string declaration_of(const SchemaRow& row) {
+  return row.path.substr(row.path.find_last_of('.') + 1) + "|" + row.type + "|" + row.unit + "|" + row.range +
+         "|" + row.meaning;
+}
+
+// Keys without a shipped case. Give each one a case, or retire it; add none.
+const std::set<std::string> kWithoutCase = {"analysis.max_iterations",
+                                            "analysis.path.length",
+                                            "analysis.range.quantities[].ring",
+                                            "analysis.range.quantities[].sectors",
+                                            "analysis.staged.allow_associated",
+                                            "analysis.staged.curing[].normal",
+                                            "analysis.staged.curing[].tangential",
+                                            "analysis.staged.fresh.compliance",
+                                            "analysis.staged.fresh.compliance.normal",
+                                            "analysis.staged.fresh.compliance.tangential",
+                                            "analysis.staged.sequence",
+                                            "contact.file",
+                                            "contact.perturbations",
+                                            "geometry.bond.embedment",
+                                            "geometry.bond.narrowest",
+                                            "geometry.bond.widest",
+                                            "geometry.chains[].long_blocks",
+                                            "geometry.drum.bond.embedment",
+                                            "geometry.drum.bond.narrowest",
+                                            "geometry.drum.bond.widest",
+                                            "geometry.drum.openings[].at",
+                                            "geometry.drum.openings[].per_ring",
+                                            "geometry.drum.wythes[].bond.embedment",
+                                            "geometry.drum.wythes[].bond.narrowest",
+                                            "geometry.drum.wythes[].bond.widest",
+                                            "geometry.drum.wythes[].from_height",
+                                            "geometry.import.rods",
+                                            "geometry.import.springs",
+                                            "geometry.wythes[].bond.embedment",
+                                            "geometry.wythes[].bond.narrowest",
+                                            "geometry.wythes[].bond.widest",
+                                            "geometry.wythes[].from_height",
+                                            "joints.friction_time.file",
+                                            "loads.dead_load_time.file",
+                                            "loads.faces[].time.file",
+                                            "loads.forces[].time",
+                                            "loads.forces[].time.file",
+                                            "supports.base_motion",
+                                            "supports.base_motion.direction",
+                                            "supports.base_motion.file",
+                                            "supports.base_motion.quantity",
+                                            "supports.moves[].time.file",
+                                            "ties.rod_stiffness"};
+
+TEST(Schema, EveryKeyIsSetByAShippedCase) {
+  const std::set<std::string> shipped = shipped_keys();
+  const SchemaTable schema = case_schema_table();
+  std::set<std::string> set_declarations, without_case;
+  for (const SchemaRow& row : schema.rows)
+    if (shipped.contains(row.path)) set_declarations.insert(declaration_of(row));
+  for (const SchemaRow& row : schema.rows)
+    if (!set_declarations.contains(declaration_of(row))) without_case.insert(row.path);
+  for (const std::string& key : without_case)
+    EXPECT_TRUE(kWithoutCase.contains(key))
+        << key << " is set by no shipped case: add one, or retire the key";
+  for (const std::string& key : kWithoutCase)
+    EXPECT_TRUE(without_case.contains(key)) << key << " has a shipped case: remove it from the list";
+}
+
+}  // namespace
+}  // namespace cupola::shipped_keys_test
