@@ -113,6 +113,9 @@ Json to_value(const Robustness& robustness) {
 Json to_value(const ForcesUnique& unique) {
   return {{"value", unique.value}, {"reason", unique.reason}};
 }
+Json to_value(const PartVerdict& part) {
+  return {{"first_block", part.first_block}, {"blocks", part.blocks}, {"status", to_string(part.status)}};
+}
 
 Json to_value(const RangeEnd& end) {
   Json json = {{"outcome", to_string(end.outcome)}};
@@ -200,6 +203,11 @@ void from_value(const Json& json, Robustness* robustness) {
   from_value(json.at("moving_g"), &robustness->moving_g);
   from_value(json.at("azimuth_deg"), &robustness->azimuth_deg);
 }
+void from_value(const Json& json, PartVerdict* part) {
+  from_value(json.at("first_block"), &part->first_block);
+  from_value(json.at("blocks"), &part->blocks);
+  from_value(json.at("status"), &part->status);
+}
 template <class T>
 void read_optional(const Json& json, const char* key, std::optional<T>* value) {
   if (json.contains(key)) from_value(json.at(key), &value->emplace());
@@ -237,6 +245,7 @@ std::string to_json(const Summary& summary) {
     json["bracket"] = {critical->stable, critical->moving};
   }
   for (const ForceRange& range : summary.ranges) json["ranges"].push_back(to_value(range));
+  for (const PartVerdict& part : summary.parts) json["parts"].push_back(to_value(part));
   json["text_files"] = summary.text_files;
   return json.dump(2) + "\n";
 }
@@ -295,6 +304,12 @@ Summary summary_from_json(const std::string& text, const std::string& file) {
       from_value(range, &summary.ranges.emplace_back());
   } catch (const std::exception&) {
     throw InputError(FileLocation{file}, "ranges: a key is missing or has the wrong type");
+  }
+  try {
+    for (const Json& part : json.value("parts", Json::array()))
+      from_value(part, &summary.parts.emplace_back());
+  } catch (const std::exception&) {
+    throw InputError(FileLocation{file}, "parts: a key is missing or has the wrong type");
   }
   try {
     if (json.contains("text_files")) json["text_files"].get_to(summary.text_files);

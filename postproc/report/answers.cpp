@@ -62,14 +62,11 @@ KeyNumber critical_answer(const Evaluation& e) {
   return {"Critical " + critical.parameter, value, detail};
 }
 
-/// How to compute a margin of this case.
+/// How to compute the margins of this case.
 std::string command_for_margins(const Evaluation& e) {
-  const std::string file =
-      e.scene.file.empty() ? "CASE.yaml" : std::filesystem::path(e.scene.file).filename().string();
-  const std::string solve = fmt::format("cupola-solve {} ... --set ", file);
-  if (e.scene.joints.have_strength())
-    return solve + "analysis.type=limit analysis.limit.parameter=acceleration";
-  return solve + "analysis.type=static analysis.robustness=8";
+  const std::filesystem::path file(e.scene.file.empty() ? "CASE.yaml" : e.scene.file);
+  return fmt::format("make -f Makefile.cases {}_assessment, or cupola assess {}", file.stem().string(),
+                     file.filename().string());
 }
 
 const ForceRange* range_of_thrust(const Evaluation& e) {
@@ -100,6 +97,16 @@ std::string per_metre(double thrust, double length) {
   return fmt::format("{}/m over {} of support", force_text(thrust / length), length_text(length));
 }
 
+/// The parts that a static analysis solved one by one, by the words of their verdicts.
+std::map<std::string, std::vector<PartVerdict>> parts_by_verdict(const Evaluation& e) {
+  std::map<std::string, std::vector<PartVerdict>> found;
+  for (const PartVerdict& part : e.summary.parts) {
+    const VerdictWords words = words_of_status(to_string(part.status));
+    found[words.good || words.words == "Undecided" ? words.words : "It falls"].push_back(part);
+  }
+  return found;
+}
+
 bool is_limit(const Evaluation& e) {
   return e.summary.analysis == AnalysisType::limit;
 }
@@ -117,6 +124,10 @@ VerdictWords words_of_status(const std::string& status) {
 }
 
 VerdictWords verdict_words(const Evaluation& e) {
+  if (const auto parts = parts_by_verdict(e); at_rest(e) && parts.size() > 1)
+    return {parts.contains("It falls") ? "It stands, except a part that falls"
+                                       : "It stands, except an undecided part",
+            false};
   if (!is_limit(e) || !e.summary.critical) return words_of_status(to_string(e.summary.status));
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> own = value_of_case(e.scene);
@@ -140,8 +151,7 @@ KeyNumber margin_answer(const Evaluation& e) {
     return {
         "Margin", "none",
         "without an equilibrium; a limit analysis finds the friction, load or thickness at which it stands"};
-  return {"Margin", "not computed",
-          command_for_margins(e) + " computes the horizontal acceleration that it bears"};
+  return {"Margin", "not computed", command_for_margins(e) + ", computes all margins"};
 }
 
 std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
@@ -205,14 +215,14 @@ std::optional<KeyNumber> crack_answer(const Evaluation& e) {
 }
 
 std::string reason_for_verdict(const Evaluation& e) {
-  std::string text = verdict_text(e.summary, e.last.frame.role);
+  std::string text = at_rest(e) && !e.summary.parts.empty() ? "" : verdict_text(e.summary, e.last.frame.role);
   double farthest = 0.0;
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
     if (e.assembly.blocks[b].fixed && at_rest(e))
       farthest = std::max(farthest, e.last.frame.blocks.displacement[b].norm());
   if (farthest > e.last.joints.floor.length)
     text += fmt::format(" Its supports have moved by up to {}.", length_text(farthest));
-  if (const std::string parts = parts_sentence(e); !parts.empty()) text += " " + parts;
+  if (const std::string parts = parts_sentence(e); !parts.empty()) text += (text.empty() ? "" : " ") + parts;
   return text;
 }
 
@@ -241,7 +251,35 @@ std::string certain_sentence(const Evaluation& e) {
   return text;
 }
 
+namespace {
+
+/// "1 block, number 7" or "12 blocks".
+std::string blocks_of(const std::vector<PartVerdict>& parts) {
+  int blocks = 0;
+  for (const PartVerdict& part : parts) blocks += part.blocks;
+  return counted(blocks, "block") +
+         (blocks == 1 ? fmt::format(", number {}", parts.front().first_block) : "");
+}
+
+/// Of a run that solved its parts one by one: "Of 2 unconnected parts one falls (1 block, number 4), one stands (3 blocks)."
+std::string sentence_of_verdicts(const Evaluation& e) {
+  std::string text;
+  for (const auto& [words, parts] : parts_by_verdict(e)) {
+    const bool one = parts.size() == 1;
+    const std::string verb = words == "It falls"    ? (one ? "falls" : "fall")
+                             : words == "Undecided" ? (one ? "is undecided" : "are undecided")
+                                                    : (one ? "stands" : "stand");
+    text += fmt::format("{}{} {} ({})", text.empty() ? "" : ", ", one ? "one" : std::to_string(parts.size()),
+                        verb, blocks_of(parts));
+  }
+  return fmt::format("Of {} unconnected parts {}.{}", e.summary.parts.size(), text,
+                     at_rest(e) ? " The numbers belong to what stands." : "");
+}
+
+}  // namespace
+
 std::string parts_sentence(const Evaluation& e) {
+  if (!e.summary.parts.empty()) return sentence_of_verdicts(e);
   if (at_rest(e) || e.summary.status == Status::unconverged || e.parts.empty()) return "";
   constexpr double kMoves = 1e-3;  // of the fastest block
   const std::vector<Vec3>& v =
