@@ -67,7 +67,6 @@ Json json_of(const T& value) {
     return value;
   }
 }
-
 /// Throws std::exception for a missing key, a wrong type or an unknown name.
 template <class T>
 void read_value(const Json& json, T* value) {

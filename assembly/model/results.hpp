@@ -195,6 +195,12 @@ std::string critical_text(const CriticalValue& critical);
 /// A value of the parameter with its name and unit: "a tilt of 6.9873 degrees".
 std::string phrase(const std::string& parameter, double value);
 
+/// A part of the structure that no contact connects with the rest.
+struct PartVerdict {
+  int first_block = 0, blocks = 0;  ///< its block of the lowest number, the number of its free blocks
+  Status status = Status::unconverged;
+};
+
 /// results/summary.json: what was solved, how it ended and how accurate it is. Defined in assembly/FORMAT.md.
 struct Summary {
   Status status = Status::unconverged;
@@ -232,9 +238,10 @@ struct Summary {
   double cpu_time_seconds = 0.0;  ///< of the whole process; unaffected by the load of the machine
   std::int64_t peak_memory_bytes = 0;
   int threads = 1;
-  std::optional<CriticalValue> critical;          ///< limit analysis only
-  std::vector<ForceRange> ranges;                 ///< range analysis only
-  std::optional<Robustness> robustness;           ///< static analysis, on request
+  std::optional<CriticalValue> critical;  ///< limit analysis only
+  std::vector<ForceRange> ranges;         ///< range analysis only
+  std::optional<Robustness> robustness;   ///< static analysis, on request
+  std::vector<PartVerdict> parts;  ///< static analysis without an equilibrium of the whole: the largest first
   std::vector<std::string> warnings;              ///< about the case and the blocks, one sentence each
   std::map<std::string, std::string> text_files;  ///< text files of the results folder: name to hash
 };

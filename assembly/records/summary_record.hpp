@@ -77,6 +77,13 @@ void fields(Visitor&& visit, Is<ForceRange> auto& r) {
 }
 
 template <class Visitor>
+void fields(Visitor&& visit, Is<PartVerdict> auto& p) {
+  visit("first_block", "", "its block of the lowest number", p.first_block);
+  visit("blocks", "", "number of its free blocks", p.blocks);
+  visit("status", "", "of the part alone", p.status);
+}
+
+template <class Visitor>
 void fields(Visitor&& visit, Is<Interruption> auto& i) {
   visit("program_version", "", "version of the program", i.program_version);
   visit("case_hash", "", "hash of the case", i.case_hash);
@@ -154,6 +161,10 @@ void fields(Visitor&& visit, Is<Summary> auto& s) {
   visit("robustness", "", "static analysis with `analysis.robustness`, see below", s.robustness);
   visit("warnings", "", "doubts about the case and the blocks, one sentence each", s.warnings);
   visit("ranges", "", "range analysis only: one entry per quantity, see below", s.ranges);
+  visit("parts", "",
+        "static analysis without an equilibrium of the whole, of several parts that no contact connects, see "
+        "below",
+        s.parts);
   visit("text_files", "", "`run.yaml` and the `.csv` files of this run: name to XXH3-128 hash of the bytes",
         s.text_files);
 }

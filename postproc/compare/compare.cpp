@@ -210,6 +210,7 @@ ExitCode compare(const std::vector<std::string>& post_folders, const std::string
   const std::vector<std::string> problems = draw_figures(figure_folder, drawn);
   write_text_atomically((fs::path(output_folder) / "comparison.csv").string(),
                         to_csv(comparison_table(runs)));
+  write_text_atomically((fs::path(output_folder) / "comparison.tex").string(), to_latex(plain_table(runs)));
   write_text_atomically(
       (fs::path(output_folder) / "comparison.html").string(),
       comparison_html(runs, post_folders, output_folder, figures, maps, figure_folder, problems));

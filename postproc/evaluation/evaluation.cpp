@@ -79,6 +79,7 @@ Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
 void add_status_warnings(Evaluation* e) {
   const FrameRole shown = e->last.frame.role;
   const auto warn = [e](const char* text) { e->warnings.emplace_back(text); };
+  if (at_rest(*e) && !e->summary.parts.empty()) return;  // the verdict says what does not stand
   if (e->summary.status == Status::unconverged && !e->summary.ranges.empty())
     warn("not all ends of the ranges were found to the requested accuracy");
   else if (e->summary.status == Status::bracketed ||

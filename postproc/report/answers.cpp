@@ -63,14 +63,11 @@ KeyNumber critical_answer(const Evaluation& e) {
   return {"Critical " + critical.parameter, value, detail};
 }
 
-/// How to compute a margin of this case.
+/// How to compute the margins of this case.
 std::string command_for_margins(const Evaluation& e) {
-  const std::string file =
-      e.scene.file.empty() ? "CASE.yaml" : std::filesystem::path(e.scene.file).filename().string();
-  const std::string solve = fmt::format("cupola-solve {} ... --set ", file);
-  if (e.scene.joints.have_strength())
-    return solve + "analysis.type=limit analysis.limit.parameter=acceleration";
-  return solve + "analysis.type=static analysis.robustness=8";
+  const std::filesystem::path file(e.scene.file.empty() ? "CASE.yaml" : e.scene.file);
+  return fmt::format("make -f Makefile.cases {}_assessment, or cupola assess {}", file.stem().string(),
+                     file.filename().string());
 }
 
 const ForceRange* range_of_thrust(const Evaluation& e) {
@@ -101,6 +98,15 @@ std::string per_metre(double thrust, double length) {
   return fmt::format("{}/m over {} of support", force_text(thrust / length), length_text(length));
 }
 
+/// The parts that a static analysis solved one by one, by what they do, proven or not.
+std::map<std::string, std::vector<PartVerdict>> parts_by_verdict(const Evaluation& e) {
+  std::map<std::string, std::vector<PartVerdict>> found;
+  for (const PartVerdict& part : e.summary.parts) {
+    found[stands(part.status) ? "It stands" : moves(part.status) ? "It falls" : "Undecided"].push_back(part);
+  }
+  return found;
+}
+
 bool is_limit(const Evaluation& e) {
   return e.summary.analysis == AnalysisType::limit;
 }
@@ -114,6 +120,10 @@ VerdictWords words_of_status(Status status) {
 }
 
 VerdictWords verdict_words(const Evaluation& e) {
+  if (const auto parts = parts_by_verdict(e); at_rest(e) && parts.size() > 1)
+    return {parts.contains("It falls") ? "It stands, except a part that falls"
+                                       : "It stands, except an undecided part",
+            false};
   if (!is_limit(e) || !e.summary.critical) return words_of_status(e.summary.status);
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> own = value_of_case(e.scene);
@@ -137,8 +147,7 @@ KeyNumber margin_answer(const Evaluation& e) {
     return {
         "Margin", "none",
         "without an equilibrium; a limit analysis finds the friction, load or thickness at which it stands"};
-  return {"Margin", "not computed",
-          command_for_margins(e) + " computes the horizontal acceleration that it bears"};
+  return {"Margin", "not computed", command_for_margins(e) + ", computes all margins"};
 }
 
 std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
@@ -202,14 +211,14 @@ std::optional<KeyNumber> crack_answer(const Evaluation& e) {
 }
 
 std::string reason_for_verdict(const Evaluation& e) {
-  std::string text = verdict_text(e.summary, e.last.frame.role);
+  std::string text = at_rest(e) && !e.summary.parts.empty() ? "" : verdict_text(e.summary, e.last.frame.role);
   double farthest = 0.0;
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
     if (e.assembly.blocks[b].fixed && at_rest(e))
       farthest = std::max(farthest, e.last.frame.blocks.displacement[b].norm());
   if (farthest > e.last.joints.floor.length)
     text += fmt::format(" Its supports have moved by up to {}.", length_text(farthest));
-  if (const std::string parts = parts_sentence(e); !parts.empty()) text += " " + parts;
+  if (const std::string parts = parts_sentence(e); !parts.empty()) text += (text.empty() ? "" : " ") + parts;
   return text;
 }
 
@@ -229,7 +238,8 @@ std::string certain_sentence(const Evaluation& e) {
     return fmt::format("Certain: every state in which it can stand lies inside the ranges. Assumed: {}.",
                        given);
   std::string text = fmt::format(
-      "{}. Assumed: {}, and the stiffness of the joints, which selects the forces shown among all that balance "
+      "{}. Assumed: {}, and the stiffness of the joints, which selects the forces shown among all that "
+      "balance "
       "the loads.",
       proven(s.status) ? "Certain: forces within the joint laws balance the loads"
                        : "Not certain: forces balance the loads to the tolerance, exact ones were not found",
@@ -238,7 +248,35 @@ std::string certain_sentence(const Evaluation& e) {
   return text;
 }
 
+namespace {
+
+/// "1 block, number 7" or "12 blocks".
+std::string blocks_of(const std::vector<PartVerdict>& parts) {
+  int blocks = 0;
+  for (const PartVerdict& part : parts) blocks += part.blocks;
+  return counted(blocks, "block") +
+         (blocks == 1 ? fmt::format(", number {}", parts.front().first_block) : "");
+}
+
+/// Of a run that solved its parts one by one: "Of 2 unconnected parts one falls (1 block, number 4), one stands (3 blocks)."
+std::string sentence_of_verdicts(const Evaluation& e) {
+  std::string text;
+  for (const auto& [words, parts] : parts_by_verdict(e)) {
+    const bool one = parts.size() == 1;
+    const std::string verb = words == "It falls"    ? (one ? "falls" : "fall")
+                             : words == "Undecided" ? (one ? "is undecided" : "are undecided")
+                                                    : (one ? "stands" : "stand");
+    text += fmt::format("{}{} {} ({})", text.empty() ? "" : ", ", one ? "one" : std::to_string(parts.size()),
+                        verb, blocks_of(parts));
+  }
+  return fmt::format("Of {} unconnected parts {}.{}", e.summary.parts.size(), text,
+                     at_rest(e) ? " The numbers belong to what stands." : "");
+}
+
+}  // namespace
+
 std::string parts_sentence(const Evaluation& e) {
+  if (!e.summary.parts.empty()) return sentence_of_verdicts(e);
   if (at_rest(e) || e.summary.status == Status::unconverged || e.parts.empty()) return "";
   constexpr double kMoves = 1e-3;  // of the fastest block
   const std::vector<Vec3>& v =

@@ -72,6 +72,7 @@ dt { color: var(--soft); } dd { margin: 0; }
 std::string report_link(const std::string& text, const std::string& post_folder,
                         const std::string& page_folder) {
   const std::filesystem::path report = std::filesystem::absolute(post_folder) / "report.html";
+  if (!std::filesystem::exists(report)) return markup_text(text);
   const std::string relative =
       report.lexically_normal()
           .lexically_relative(std::filesystem::absolute(page_folder).lexically_normal())

@@ -114,7 +114,8 @@ ExitCode measure(const Study& study, const StudyRequest& request) {
   StudyPage page(study.title.empty() ? study.name : study.title, request.output_folder);
   std::string text;
   if (study.answers.verdict.empty() && !missing.empty())
-    page.add_paragraph(fmt::format("Not run: {}.", fmt::join(missing, ", ")));
+    page.add(fmt::format("<p class=\"warning\"><strong>Not run:</strong> {}.</p>\n",
+                         markup_text(fmt::format("{}", fmt::join(missing, ", ")))));
   text += add_answers(study.answers, study.left_out, request.runs_folder, runs, &page);
   if (!study.sweep.empty()) text += add_sweep(study.sweep, study.runs, request.runs_folder, &page);
   const std::vector<MeasuredTable> tables = add_tables(study, runs, &page, &text);

@@ -61,6 +61,8 @@ void StudyPage::add_report_links(const std::vector<StudyRun>& runs, const std::s
 
 void StudyPage::write_csv(const Table& table) const {
   write_text_atomically(fmt::format("{}/{}.csv", folder_, table.name), to_csv(table));
+  write_text_atomically(fmt::format("{}/{}.tex", folder_, table.name),
+                        to_latex(without_empty_columns(table)));
 }
 
 void StudyPage::add_table(const Table& table) {

@@ -23,7 +23,7 @@ class StudyPage {
   void add_table(const Table& table);
   /// Links to the reports of the runs that have one.
   void add_report_links(const std::vector<StudyRun>& runs, const std::string& runs_folder);
-  void write_csv(const Table& table) const;  ///< NAME.csv
+  void write_csv(const Table& table) const;  ///< NAME.csv, and NAME.tex for LaTeX
   void write() const;                        ///< study.html
   const std::string& folder() const { return folder_; }
 

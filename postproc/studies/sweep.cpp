@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "postproc/report/html.hpp"
+#include "postproc/report/first_screen.hpp"
 #include "postproc/studies/sweep_figure.hpp"
 
 namespace cupola {
@@ -23,14 +23,25 @@ std::string endings(const Table& table) {
   return text;
 }
 
+/// "2 of 8 members" that have no results or did not reach their accuracy; "" for none.
+std::string failures(const Table& table) {
+  size_t failed = 0;
+  for (const auto& row : table.rows)
+    for (size_t k = 0; k < row.size(); ++k)
+      if (table.columns[k].key == "status")
+        failed += to_display(row[k]) == "missing" || to_display(row[k]) == "unconverged";
+  return failed == 0 ? "" : fmt::format("{} of {}", failed, counted(table.rows.size(), "member"));
+}
+
 }  // namespace
 
 std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<StudyRun>& members,
                       const std::string& runs_folder, StudyPage* page) {
   const Table table = sweep_table(sweep, members, runs_folder);
   const std::string ended = endings(table);
-  page->add(fmt::format("<p class=\"verdict\"><strong>{}.</strong> <small>{}.</small></p>\n", ended,
-                        counted(members.size(), "member")));
+  const std::string failed = failures(table);
+  page->add(verdict_html(failed.empty() ? ended + "." : failed + " failed",
+                         fmt::format("{}: {}.", counted(members.size(), "member"), ended), failed.empty()));
   if (const Figure figure = sweep_figure(sweep, table); !figure.commands.empty()) page->add_figures({figure});
   page->add_table(table);
   page->add_report_links(members, runs_folder);

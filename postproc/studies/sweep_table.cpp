@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/results.hpp"
 #include "postproc/studies/sweep.hpp"
 #include "postproc/tables/csv_file.hpp"
 #include "postproc/tables/range_values.hpp"
@@ -21,6 +22,30 @@ Table::Cell number_or_empty(RunFiles& run, const std::string& key) {
   } catch (const InputError&) {
     return std::string();
   }
+}
+
+/// A result of the solver or of the postprocessor. The latter lack it if the member was not evaluated.
+Table::Cell result_of(RunFiles& run, const std::string& key) {
+  if (key == "margin_factor" || key == "widest_crack_m" || key == "thrust_N") {
+    try {
+      if (key != "thrust_N") return run.number("post." + key);
+      return run.number("post.thrust_over_weight") * run.number("post.weight_N");
+    } catch (const InputError&) {
+      return std::string();
+    }
+  }
+  return number_or_empty(run, "results." + key);
+}
+
+/// The unit of the critical values; "" if they have none, or no member has one.
+std::string unit_of_limit(const std::vector<StudyRun>& members, const std::string& runs_folder) {
+  for (const StudyRun& member : members) {
+    try {
+      return limit_unit(RunFiles(runs_folder + "/" + member.name).text_of_results("critical_parameter"));
+    } catch (const InputError&) {  // not finished, or no limit analysis
+    }
+  }
+  return "";
 }
 
 /// The last stage that a missing member completed, and what to do.
@@ -65,9 +90,13 @@ Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<StudyRun
   t.columns.push_back({"status", "", "how the run ended"});
   t.columns.push_back({"remark", "", "how far a missing member got"});
   const std::vector<Table::Column> numbers = {
-      {"equilibrium_residual", "", "largest unbalanced force over the mean block weight"},
+      {"critical_value", unit_of_limit(members, runs_folder),
+       "critical value of a limit analysis: middle of the bracket"},
+      {"margin_factor", "", "margin: factor of the case from its limit"},
+      {"thrust_N", "N", "outward thrust"},
+      {"widest_crack_m", "m", "widest crack"},
       {"max_displacement_m", "m", "largest displacement of a block"},
-      {"critical_value", "", "critical value of a limit analysis: middle of the bracket"},
+      {"equilibrium_residual", "", "largest unbalanced force over the mean block weight"},
       {"cpu_time_seconds", "s", "processor time of cupola-solve"}};
   t.columns.insert(t.columns.end(), numbers.begin(), numbers.end());
   std::vector<std::vector<ForceRange>> ranges;
@@ -81,8 +110,7 @@ Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<StudyRun
       RunFiles run(folder);
       row.emplace_back(run.status());
       row.emplace_back(std::string());
-      for (const Table::Column& column : numbers)
-        row.push_back(number_or_empty(run, "results." + column.key));
+      for (const Table::Column& column : numbers) row.push_back(result_of(run, column.key));
     } else {
       row.emplace_back(std::string(kMissing));
       row.emplace_back(progress(folder));

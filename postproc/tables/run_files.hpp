@@ -17,8 +17,9 @@ class RunFiles {
   explicit RunFiles(std::string folder);
   ~RunFiles();
 
-  std::string status();    ///< of results/summary.json
-  std::string message();   ///< of results/summary.json: why the run ended with this status
+  std::string status();   ///< of results/summary.json
+  std::string message();  ///< of results/summary.json: why the run ended with this status
+  std::string text_of_results(const std::string& key);  ///< of results/summary.json; InputError without it
   std::string revision();  ///< of cupola-solve, from the `program_version` in results/summary.json
   /// Text of post/answers.json, e.g. `verdict.words`; "" if the run has no such answer.
   std::string answer(const std::string& key);
@@ -30,7 +31,6 @@ class RunFiles {
   std::vector<std::string> table_names(const std::string& start) const;
 
  private:
-  std::string text_of_results(const std::string& key);
   double number_of_case(const std::string& key);
 
   struct Summaries;

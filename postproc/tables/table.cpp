@@ -1,6 +1,8 @@
 #include "postproc/tables/table.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -16,6 +18,22 @@ std::string csv_cell(const Table::Cell& cell) {
   return csv_text(std::get<std::string>(cell));
 }
 
+/// With what LaTeX would interpret escaped.
+std::string latex_text(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '\\') {
+      out += "\\textbackslash{}";
+    } else if (c == '~' || c == '^') {
+      out += fmt::format("\\{}{{}}", c);
+    } else {
+      if (std::string_view("&%$#_{}").find(c) != std::string_view::npos) out += '\\';
+      out += c;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string to_csv(const Table& table) {
@@ -28,6 +46,26 @@ std::string to_csv(const Table& table) {
     for (size_t i = 0; i < row.size(); ++i)
       fmt::format_to(std::back_inserter(out), "{}{}", csv_cell(row[i]), end_of(i, row.size()));
   return fmt::to_string(out);
+}
+
+std::string to_latex(const Table& table) {
+  std::string kinds, head, body;
+  for (size_t i = 0; i < table.columns.size(); ++i) {
+    const Table::Column& column = table.columns[i];
+    const bool text = std::ranges::any_of(
+        table.rows, [i](const auto& row) { return std::holds_alternative<std::string>(row[i]); });
+    kinds += text ? 'l' : 'r';
+    head += fmt::format("{}{}{}", i > 0 ? " & " : "",
+                        latex_text(column.meaning.empty() ? column.key : column.meaning),
+                        column.unit.empty() ? "" : " (" + latex_text(column.unit) + ")");
+  }
+  for (const auto& row : table.rows) {
+    for (size_t i = 0; i < row.size(); ++i)
+      body += fmt::format("{}{}", i > 0 ? " & " : "", latex_text(to_display(row[i], table.columns[i].floor)));
+    body += " \\\\\n";
+  }
+  return fmt::format("\\begin{{tabular}}{{{}}}\n\\hline\n{} \\\\\n\\hline\n{}\\hline\n\\end{{tabular}}\n",
+                     kinds, head, body);
 }
 
 std::string to_display(const Table::Cell& cell, double floor) {

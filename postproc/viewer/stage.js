@@ -110,26 +110,41 @@ class Stage {
                         below: [0.25, -0.45, -1]};
     const [x, y, z] = this.axes(), d = directions[name];
     const direction = new THREE.Vector3().addScaledVector(x, d[0]).addScaledVector(y, d[1]).addScaledVector(z, d[2]).normalize();
-    const middle = this.middle(), camera = this.camera;
-    camera.position.copy(middle).add(direction);
-    camera.lookAt(middle);
-    camera.updateMatrixWorld();
-    const slope = Math.tan(camera.fov * Math.PI / 360), inverse = new THREE.Matrix4().getInverse(camera.matrixWorld);
-    const p = new THREE.Vector3(), size = this.box[0].distanceTo(middle);
-    let distance = 0;
-    for (let i = 0; i < this.outline.length; i += 3) {
-      p.set(this.outline[i], this.outline[i + 1], this.outline[i + 2]).applyMatrix4(inverse);
-      const wide = Math.max(Math.abs(p.x) / (slope * camera.aspect), Math.abs(p.y) / slope);
-      distance = Math.max(distance, wide + p.z + 1);
+    const camera = this.camera, size = this.box[0].distanceTo(this.middle());
+    let target = this.middle(), distance = 0;
+    for (let pass = 0; pass < 4; ++pass) {  // each centres what the one before shows
+      const view = this.enclosing(target, direction);
+      distance = view.distance, target = view.centre;
     }
-    this.reach = 1.08 * distance;
-    camera.position.copy(middle).addScaledVector(direction, this.reach);
+    this.reach = 1.04 * distance;
+    camera.position.copy(target).addScaledVector(direction, this.reach);
     camera.near = size / 200, camera.far = 50 * size;
     camera.updateProjectionMatrix();
-    this.controls.target.copy(middle);
+    this.controls.target.copy(target);
     this.standard = name, this.moved = false;
     this.controls.update();
     this.invalidate();
+  }
+
+  /** The distance from the target at which the picture encloses the outline, and the point that is then in its middle. */
+  enclosing(target, direction) {
+    const camera = this.camera, slope = Math.tan(camera.fov * Math.PI / 360), p = new THREE.Vector3();
+    camera.position.copy(target).add(direction);
+    camera.lookAt(target);
+    camera.updateMatrixWorld();
+    const inverse = new THREE.Matrix4().getInverse(camera.matrixWorld), {outline} = this;
+    const each = (visit) => {
+      for (let i = 0; i < outline.length; i += 3) visit(p.set(outline[i], outline[i + 1], outline[i + 2]).applyMatrix4(inverse));
+    };
+    let distance = 0;
+    each(({x, y, z}) => { distance = Math.max(distance, Math.max(Math.abs(x) / (slope * camera.aspect), Math.abs(y) / slope) + z + 1); });
+    const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    each(({x, y, z}) => [x, y].forEach((value, k) => {
+      const place = value / (distance - z - 1);
+      low[k] = Math.min(low[k], place), high[k] = Math.max(high[k], place);
+    }));
+    const [right, upward] = [0, 1].map((k) => new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, k).multiplyScalar(0.5 * distance * (low[k] + high[k])));
+    return {distance, centre: target.clone().add(right).add(upward)};
   }
 
   /** Takes the view of another stage, in proportion to the sizes of the two models. */

@@ -1,7 +1,7 @@
 // The 3-D view of a report: builds the controls and connects them with the model.
 
 const kMarkup = `
-  <div class="picture"><canvas tabindex="0" aria-label="Model in three dimensions: drag to turn it, click a block or joint for its numbers"></canvas>
+  <div class="picture"><canvas tabindex="0" role="application" aria-label="Model in three dimensions. Arrow keys turn it, plus and minus zoom, Home shows it as at the start, N and P go to the next and the previous block with its numbers"></canvas>
     <canvas class="printed" aria-hidden="true"></canvas><div class="legend"></div><div class="part-names" hidden></div><div class="forces-legend"></div><div class="ties-legend" hidden></div>
     <div class="film" hidden><button class="play" type="button">Play</button><input class="frame" type="range" min="0" step="1" value="0" aria-label="Frame"><output></output></div>
   </div>
@@ -20,7 +20,7 @@ const kMarkup = `
       <label class="of-wythes">Wythes apart <input class="wythes-apart" type="range" min="0" max="1" step="0.01" value="0"></label>
       <label>Pull apart <input class="apart" type="range" min="0" max="1" step="0.01" value="0"></label>
     </details>
-    <div class="numbers" aria-live="polite"><p class="hint">Drag: turn. Right drag or two fingers: move. Wheel or pinch: zoom. Click a block, an arrow or a coloured joint: its numbers.</p></div>
+    <div class="numbers" aria-live="polite"><p class="hint">Drag: turn. Right drag or two fingers: move. Wheel or pinch: zoom. Click a block, an arrow or a coloured joint: its numbers. Keys: arrows, + and -, Home; N and P: next and previous block.</p></div>
     <p class="notes"></p>
   </div>`;
 
@@ -52,7 +52,7 @@ class Viewer {
   addControls() {
     const views = {outside: "Outside", below: "Below", front: "Front", side: "Side", top: "Top"};
     for (const [name, text] of Object.entries(views)) this.addButton(text, () => this.stage.look(name));
-    this.addButton("Save PNG", () => this.savePicture());
+    this.addButton("Save PNG", () => savePicture(this));
     this.find(".colour").innerHTML = this.colouring.choices().filter(([, list]) => list.length).map(([group, list]) =>
       `<optgroup label="${group}">` + list.map(([value, label]) => `<option value="${value}">${escaped(label)}</option>`).join("") + "</optgroup>").join("");
     this.on(".colour", "change", (e) => this.setColour(e.target.value));
@@ -258,6 +258,7 @@ class Viewer {
       const box = canvas.getBoundingClientRect();
       this.select(this.model.at(e.clientX - box.left, e.clientY - box.top));
     });
+    canvas.addEventListener("keydown", (e) => this.stepBlocks({n: 1, p: -1}[e.key.toLowerCase()] || 0));
     document.addEventListener("click", (e) => {
       const link = e.target.closest("[data-joint],[data-block]");
       if (!link) return;
@@ -268,8 +269,19 @@ class Viewer {
     });
   }
 
+  /** The canvas that *Save PNG* saves, and what stands below the picture on it. */
+  printed() { return {canvas: printedPicture(this), rows: legendRows(this)}; }
+
+  /** Selects the next (1) or the previous (-1) block by number. */
+  stepBlocks(step) {
+    if (!step) return;
+    const count = this.model.pose.blocks, old = this.chosen && this.chosen.what === "block" ? this.chosen.index : step > 0 ? -1 : count;
+    this.select({what: "block", index: (old + step + count) % count, set: this.model.sets[0]});
+  }
+
   /** Marks a block or joint and shows its numbers; null: nothing. */
   select(choice) {
+    this.chosen = choice;
     this.model.select(choice);
     this.find(".numbers").innerHTML = choice ? this.numbers.html(choice) : "<p class=\"hint\">Click a block, an arrow or a coloured joint for its numbers.</p>";
   }
@@ -286,26 +298,6 @@ class Viewer {
       printed.getContext("2d").drawImage(gl, 0, 0);
       for (const name of Object.keys(paper)) style.removeProperty(name);
       this.stage.theme();
-    });
-  }
-
-  /** The picture as a PNG with title and legend. */
-  savePicture() {
-    this.stage.draw();
-    const gl = this.stage.canvas, out = document.createElement("canvas"), pen = out.getContext("2d");
-    const unit = gl.width / gl.clientWidth, bottom = 56 * unit, style = getComputedStyle(this.host);
-    out.width = gl.width, out.height = gl.height + bottom;
-    pen.fillStyle = style.getPropertyValue("--picture"), pen.fillRect(0, 0, out.width, out.height);
-    pen.drawImage(gl, 0, 0);
-    pen.fillStyle = style.getPropertyValue("--ink"), pen.font = `${14 * unit}px sans-serif`;
-    const text = (selector) => this.find(selector).hidden ? "" : this.find(selector).innerText.replace(/\s+/g, " ").trim();
-    pen.fillText(this.header.title, 12 * unit, gl.height + 18 * unit, out.width - 24 * unit);
-    pen.fillText([text(".legend"), text(".forces-legend"), text(".ties-legend"), text(".film output")].filter(Boolean).join("   "), 12 * unit, gl.height + 42 * unit, out.width - 24 * unit);
-    out.toBlob((blob) => {
-      const link = document.createElement("a");
-      link.href = URL.createObjectURL(blob), link.download = "cupola.png";
-      link.click();
-      URL.revokeObjectURL(link.href);
     });
   }
 }

@@ -9,6 +9,7 @@
 #include "solver/analysis/admissible/robustness.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
+#include "solver/analysis/statics/static_parts.hpp"
 #include "solver/analysis/statics/static_record.hpp"
 #include "solver/analysis/statics/static_solve.hpp"
 #include "solver/dynamics/scene_options.hpp"
@@ -105,6 +106,9 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
     summary.message += summary.robustness ? describe(*summary.robustness)
                                           : "; no horizontal acceleration was found that makes it move";
   }
+  if (solution.outcome != StaticOutcome::equilibrium && !symmetry && !wrench_error)
+    if (const auto parts = solve_by_parts(model, rest, contacts, memories, options))
+      add_parts(*parts, model, options, &summary, sinks);
   solution.step = {};  // for a large model as large as the frame, whose writing takes as much memory again
   sinks.frame(frame);
   return summary;

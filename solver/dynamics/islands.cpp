@@ -18,7 +18,8 @@ bool varies(const TimeFunction& time) {
   return !std::holds_alternative<ConstantInTime>(time);
 }
 
-/// The part of the scene whose free blocks have chosen == which.
+}  // namespace
+
 ScenePart part_of(const Model& model, const State& state, const ContactSet& contacts,
                   const ContactMemories& memories, const std::vector<char>& chosen, char which) {
   ScenePart part{model, state, {}, {}, {}};
@@ -43,8 +44,6 @@ ScenePart part_of(const Model& model, const State& state, const ContactSet& cont
   }
   return part;
 }
-
-}  // namespace
 
 std::vector<int> islands_of(const Model& model, const ContactSet& contacts) {
   std::vector<int> parent(model.num_free());

@@ -36,6 +36,10 @@ struct ScenePart {
   std::vector<int> contact_rows;  ///< index of each contact in the whole scene
 };
 
+/// The part of a scene whose free blocks have chosen == which (num_free), all of which form whole islands.
+ScenePart part_of(const Model& model, const State& state, const ContactSet& contacts,
+                  const ContactMemories& memories, const std::vector<char>& chosen, char which);
+
 /// A scene in which some islands sleep. It is valid until a block falls asleep or wakes, or until contacts
 /// are detected again. Until then a sleeping block costs only the detection of approaching blocks.
 struct ReducedScene {

@@ -55,7 +55,8 @@ TEST(FormatPage, HasTheTablesOfTheRecords) {
                                    table_of(RunStep(), "key of an entry of `worst_steps`"),
                                    table_of(Robustness(), "key of `robustness`"),
                                    table_of(ForceRange(), "key of an entry of `ranges`"),
-                                   table_of(RangeEnd(), "key of `min` and `max`")})
+                                   table_of(RangeEnd(), "key of `min` and `max`"),
+                                   table_of(PartVerdict(), "key of an entry of `parts`")})
     EXPECT_NE(page.str().find("\n" + table + "\n"), std::string::npos)
         << "assembly/FORMAT.md must have this table:\n"
         << table;

@@ -3,11 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/files/atomic_file.hpp"
 #include "postproc/studies/sweep_figure.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
 
 namespace cupola::sweep_test {
 namespace {
+
+Table::Cell cell_of(const Table& table, size_t row, const std::string& key) {
+  for (size_t k = 0; k < table.columns.size(); ++k)
+    if (table.columns[k].key == key) return table.rows[row][k];
+  return "no column " + key;
+}
 
 TEST(SweepTable, ReportsMissingMembersAndHowFarTheyGot) {
   const ScratchFolder scratch;
@@ -23,10 +30,45 @@ TEST(SweepTable, ReportsMissingMembersAndHowFarTheyGot) {
   ASSERT_EQ(table.rows.size(), 4u);
   EXPECT_EQ(table.columns[2].key, "status");
   EXPECT_EQ(table.rows[0][2], Table::Cell(std::string("stable")));
-  EXPECT_EQ(table.rows[0][5], Table::Cell(0.5));
+  EXPECT_EQ(cell_of(table, 0, "max_displacement_m"), Table::Cell(0.5));
+  EXPECT_EQ(cell_of(table, 0, "thrust_N"), Table::Cell(std::string())) << "not evaluated";
   EXPECT_EQ(to_display(table.rows[1][3]), "no results: see the output of the run");
   EXPECT_EQ(to_display(table.rows[2][3]), "interrupted: repeat the command to resume");
   EXPECT_EQ(to_display(table.rows[3][3]), "no assembly: see the output of the run");
+}
+
+// Thrust, margin, crack and critical value, each with its unit; failed members in an amber banner, no link to a report that does not
+// exist, and the table for LaTeX.
+TEST(SweepTable, HasTheResultsOfTheMembers) {
+  const ScratchFolder scratch;
+  const std::vector<SweptKey> sweep = {{"joints.friction", {"0.1", "0.2"}}};
+  std::vector<StudyRun> members;
+  for (const SweepMember& member : members_of(sweep, "dome"))
+    members.push_back({member.name, "dome", member.settings});
+  scratch.write("dome_friction0.1/results/summary.json",
+                R"({"status": "stable", "critical_value": 0.3, "critical_parameter": "acceleration"})");
+  scratch.write(
+      "dome_friction0.1/post/summary.json",
+      R"({"thrust_over_weight": 0.25, "weight_N": 800, "margin_factor": 1.5, "widest_crack_m": 0.002})");
+  scratch.write("dome_friction0.1/post/report.html", "");
+  const Table table = sweep_table(sweep, members, scratch.folder());
+  EXPECT_EQ(cell_of(table, 0, "thrust_N"), Table::Cell(200.0));
+  EXPECT_EQ(cell_of(table, 0, "margin_factor"), Table::Cell(1.5));
+  EXPECT_EQ(cell_of(table, 0, "widest_crack_m"), Table::Cell(0.002));
+  for (const Table::Column& column : table.columns)
+    if (column.key == "critical_value") {
+      EXPECT_EQ(column.unit, "g");
+    }
+  StudyPage page("Sweep", scratch.file("page"));
+  add_sweep(sweep, members, scratch.folder(), &page);
+  page.write();
+  const std::string html = read_text(scratch.file("page/study.html"));
+  EXPECT_NE(html.find("<p class=\"verdict bad\"><strong>1 of 2 members failed</strong>"), std::string::npos);
+  EXPECT_NE(html.find("dome_friction0.1/post/report.html\""), std::string::npos);
+  EXPECT_EQ(html.find("dome_friction0.2/post/report.html\""), std::string::npos);
+  const std::string latex = read_text(scratch.file("page/sweep.tex"));
+  EXPECT_NE(latex.find("outward thrust (N)"), std::string::npos) << latex;
+  EXPECT_NE(latex.find("dome\\_friction0.1 & 0.1 & stable"), std::string::npos) << latex;
 }
 
 /// A sweep over friction and thickness of four members with a critical value each.

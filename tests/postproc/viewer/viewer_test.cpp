@@ -197,6 +197,77 @@ TEST(Viewer, PrintsThePictureOnWhite) {
       << "the screen stays dark";
 }
 
+// The PNG is wide enough for print, and the row below the picture has the colours and the ends of the scale.
+TEST(Viewer, SavesAPictureForPrintWithItsLegend) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  Browser browser;
+  open_view(column_at_rest(), &browser);
+  browser.value("view.setColour('joint.normal_force_N')");
+  const auto saved = browser.value(R"js((() => {
+    const before = view.stage.canvas.width, {canvas: c, rows} = view.printed(), pen = c.getContext("2d");
+    const top = Math.ceil(c.width * view.stage.canvas.clientHeight / view.stage.canvas.clientWidth) + 1;
+    const strip = pen.getImageData(0, top, c.width, c.height - top).data, found = new Set();
+    for (let i = 0; i < strip.length; i += 4) found.add(strip[i] << 16 | strip[i + 1] << 8 | strip[i + 2]);
+    return {width: c.width, colours: found.size, rows, restored: view.stage.canvas.width === before};
+  })())js");
+  EXPECT_GE(saved["width"].get<int>(), 2400);
+  EXPECT_GT(saved["colours"].get<int>(), 50) << "the gradient";
+  EXPECT_EQ(saved["restored"], true);
+  const auto& scale = saved["rows"][1];
+  EXPECT_NE(scale["text"].get<std::string>().find("ormal force"), std::string::npos) << saved["rows"].dump();
+  EXPECT_GE(scale["ends"].size(), 2u);
+}
+
+// In every standard view the model touches two opposite edges of the picture, but for 4 %, and lies in its middle.
+TEST(Viewer, TheModelFillsThePicture) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  Browser browser;
+  open_view(column_at_rest(), &browser);
+  for (const char* view : {"outside", "below", "front", "side", "top"}) {
+    const auto reach = browser.value(fmt::format(R"js((() => {{
+      const s = view.stage, low = [1, 1], high = [-1, -1];
+      s.look("{}");
+      s.camera.updateMatrixWorld();
+      for (let i = 0; i < s.outline.length; i += 3) {{
+        const p = new THREE.Vector3(s.outline[i], s.outline[i + 1], s.outline[i + 2]).project(s.camera);
+        [p.x, p.y].forEach((v, k) => {{ low[k] = Math.min(low[k], v); high[k] = Math.max(high[k], v); }});
+      }}
+      return [high[0] - low[0], high[1] - low[1], high[0] + low[0], high[1] + low[1]];
+    }})())js",
+                                                 view));
+    EXPECT_GT(std::max(reach[0].get<double>(), reach[1].get<double>()), 2 * 0.9) << view;
+    EXPECT_LT(std::max(reach[0].get<double>(), reach[1].get<double>()), 2.0) << view;
+    for (const int k : {2, 3}) EXPECT_NEAR(reach[k].get<double>(), 0.0, 0.05) << view;
+  }
+}
+
+// Everything that a pointer does, keys do: turn, zoom, go from block to block.
+TEST(Viewer, IsUsableByKeyboard) {
+  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  Browser browser;
+  open_view(column_at_rest(), &browser);
+  const auto press = [&browser](const std::string& key) {
+    browser.value("view.stage.canvas.dispatchEvent(new KeyboardEvent('keydown', {key: '" + key + "'}))");
+  };
+  const char* place = "view.stage.camera.position.toArray()";
+  const auto start = browser.value(place);
+  press("ArrowLeft");
+  const auto turned = browser.value(place);
+  EXPECT_NE(start, turned);
+  press("+");
+  EXPECT_NE(browser.value(place), turned);
+  press("Home");
+  EXPECT_EQ(browser.value("view.stage.standard"), "outside");
+  const char* heading = "document.querySelector('#view .numbers h3').textContent";
+  press("n");
+  const std::string first = browser.value(heading);
+  press("n");
+  EXPECT_NE(browser.value(heading), first);
+  press("p");
+  EXPECT_EQ(browser.value(heading), first);
+  EXPECT_EQ(browser.value("view.stage.canvas.tabIndex"), 0);
+}
+
 // A comparison has one camera, one scale of colours and one of forces.
 TEST(Viewer, LinksTheViewsOfAComparison) {
   if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";

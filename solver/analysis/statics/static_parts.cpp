@@ -1,0 +1,91 @@
+#include "solver/analysis/statics/static_parts.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "solver/analysis/statics/static_record.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr size_t kMostParts = 100;
+
+/// One part, marked in the blocks of the model.
+struct OnePart {
+  std::vector<char> chosen;  // (num_free)
+  PartVerdict verdict;
+  bool stands = false;
+};
+
+std::vector<OnePart> parts_of(const Model& model, const std::vector<int>& islands) {
+  std::map<int, OnePart> found;
+  for (int i = 0; i < model.num_free(); ++i) {
+    OnePart& part = found[islands[i]];
+    part.chosen.resize(static_cast<size_t>(model.num_free()));
+    part.chosen[i] = 1;
+    if (part.verdict.blocks++ == 0) part.verdict.first_block = model.free_blocks[i];
+  }
+  std::vector<OnePart> parts;
+  for (auto& [first, part] : found) parts.push_back(std::move(part));
+  std::ranges::stable_sort(parts, std::ranges::greater(),
+                           [](const OnePart& part) { return part.verdict.blocks; });
+  return parts;
+}
+
+StaticSolution solve_part(const ScenePart& part, const StaticOptions& options) {
+  return solve_static(part.model, part.state, part.contacts, part.memories, options);
+}
+
+Status status_of(const ScenePart& part, const StaticSolution& solution, const StaticOptions& options) {
+  Summary summary;
+  const Frame frame = static_frame(part.model, part.state, part.contacts, part.memories, solution, options);
+  summarize_static(solution, frame, part.model, options.tolerance, &summary);
+  return summary.status;
+}
+
+}  // namespace
+
+std::optional<StaticParts> solve_by_parts(const Model& model, const State& start, const ContactSet& contacts,
+                                          const ContactMemories& memories, const StaticOptions& options) {
+  if (!model.ties.empty()) return std::nullopt;
+  std::vector<OnePart> parts = parts_of(model, islands_of(model, contacts));
+  if (parts.size() < 2 || parts.size() > kMostParts) return std::nullopt;
+  StaticParts out;
+  std::vector<char> standing(static_cast<size_t>(model.num_free()));
+  for (OnePart& part : parts) {
+    const ScenePart scene = part_of(model, start, contacts, memories, part.chosen, 1);
+    const StaticSolution solution = solve_part(scene, options);
+    part.verdict.status = status_of(scene, solution, options);
+    part.stands = solution.outcome == StaticOutcome::equilibrium;
+    for (size_t i = 0; i < standing.size() && part.stands; ++i) standing[i] |= part.chosen[i];
+    out.verdicts.push_back(part.verdict);
+  }
+  if (!parts.front().stands) return out;
+  out.standing = part_of(model, start, contacts, memories, standing, 1);
+  out.solution = solve_part(*out.standing, options);
+  if (out.solution.outcome != StaticOutcome::equilibrium) out.standing.reset();
+  return out;
+}
+
+void add_parts(const StaticParts& parts, const Model& model, const StaticOptions& options, Summary* summary,
+               const AnalysisSinks& sinks) {
+  const Status whole = summary->status;
+  const std::string message = summary->message;
+  summary->parts = parts.verdicts;
+  if (!parts.standing) return;
+  const ScenePart& standing = *parts.standing;
+  const Frame frame = static_frame(standing.model, standing.state, standing.contacts, standing.memories,
+                                   parts.solution, options);
+  summarize_static(parts.solution, frame, model, options.tolerance, summary);
+  const int blocks = standing.model.num_free();
+  const std::string stands = fmt::format("of {} unconnected parts those with {} stand: {}",
+                                         parts.verdicts.size(), counted(blocks, "block"), summary->message);
+  summary->status = whole;
+  summary->message = fmt::format("{}; the rest: {}", stands, message);
+  sinks.frame(frame);
+}
+
+}  // namespace cupola
