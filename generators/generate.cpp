@@ -31,7 +31,7 @@ CutOptions cut_options(const Case& input) {
 /// breaks no extrapolation follows.
 std::optional<double> smooth_volume(const Storey& shell) {
   const SurfaceMap& surface = shell.surface;
-  if (std::ranges::count(shell.bond.block_of, kVoid) > 0 ||
+  if (std::ranges::count(shell.bond.block_of, kVoid) > 0 || surface.key_stone ||
       !std::ranges::all_of(surface.wythes, &Thickness::constant))
     return std::nullopt;
   return surface.shell_volume ? *surface.shell_volume : extrapolated_shell_volume(surface);

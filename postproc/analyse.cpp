@@ -226,6 +226,7 @@ ExitCode analyse(const AnalyseRequest& request) {
   const std::vector<HistoryRow> history = read_history(run.results, &e);
   Drawn drawn;
   if (!request.tables_only) drawn = draw(request, run.results, own, history, &e);
+  write_text_atomically(in_folder(folder, "answers.json"), answers_json(e));
   write_text_atomically(in_folder(folder, "summary.json"), post_summary_json(e));
   if (!request.tables_only) write_report(request, tables, construction, drawn, history, run_yaml, e);
 

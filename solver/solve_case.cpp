@@ -124,14 +124,14 @@ void print_forces(const Summary& summary) {
 }
 
 void print_summary(const Summary& summary, bool verbose) {
-  const Colour colour = summary.status == Status::stable        ? Colour::green
-                        : summary.status == Status::unconverged ? Colour::red
-                                                                : Colour::yellow;
+  const Colour colour = stands(summary.status)    ? Colour::green
+                        : reached(summary.status) ? Colour::yellow
+                                                  : Colour::red;
   // A limit that was found leads with the critical value, not with the status of one end of its bracket.
-  if (summary.critical && summary.status == Status::stable)
+  if (summary.critical && summary.analysis == AnalysisType::limit && reached(summary.status))
     fmt::print("{}\n", in_colour(summary.message, colour, stdout));
   else
-    fmt::print("{}: {}\n", in_colour(to_string(summary.status), colour, stdout), summary.message);
+    fmt::print("{}: {}\n", in_colour(words_of(summary.status), colour, stdout), summary.message);
   if (!verbose) {
     fmt::print("  {}, weight {}; {:.3g} s; --verbose prints steps and residuals\n",
                counted(summary.free_blocks, "free block"), readable_force(summary.weight_N),
@@ -141,7 +141,7 @@ void print_summary(const Summary& summary, bool verbose) {
   fmt::print("  {}, {}, {}, {}\n", counted(summary.free_blocks, "free block"),
              counted(summary.joints, "joint"), counted(summary.contacts, "contact"),
              counted(summary.unknowns, "unknown"));
-  if (summary.status != Status::moving || summary.max_speed_m_per_s)
+  if (!moves(summary.status) || summary.max_speed_m_per_s)
     print_forces(summary);  // those of a static solve that found a motion balance nothing
   else
     fmt::print("  weight {}; law: {}\n", readable_force(summary.weight_N), to_string(summary.friction_law));
@@ -296,7 +296,7 @@ ExitCode solve_case(SolveRequest request) {
   if (!run.history.empty()) writer.write_text("history.csv", run.history);
   writer.write_summary(*summary);
   if (!request.quiet) print_summary(*summary, request.verbose);
-  return summary->status == Status::unconverged ? ExitCode::accuracy_not_reached : ExitCode::done;
+  return reached(summary->status) ? ExitCode::done : ExitCode::accuracy_not_reached;
 }
 
 std::string explain_case(SolveRequest request) {

@@ -25,7 +25,8 @@ fs::path identity_of(const fs::path& path) {
 
 /// Maps in which the `type` decides which other keys exist. The keys of `analysis` are common to all types.
 bool type_owns_keys(const std::string& path) {
-  return path == "geometry.surface" || (path.starts_with("geometry.") && path.ends_with(".bond"));
+  return path == "geometry.surface" || path == "geometry.surface.plan" ||
+         path == "geometry.surface.profile" || (path.starts_with("geometry.") && path.ends_with(".bond"));
 }
 
 /// The item that `key` names, as `wythes[0]`, in a list of `map`; nullptr: the key names no item of a list.

@@ -11,6 +11,9 @@ namespace cupola {
 void declare_case(Section& s, Case& the_case);
 void declare_swept_key(Section& s, SweptKey& swept);
 void declare_geometry(Section& s, Geometry& geometry);
+/// The key `thickness` of a surface, which wythes replace.
+void declare_shell_thickness(Section& s, double& thickness, const std::string& meaning);
+void declare_vault(Section& s, VaultSurface& vault);
 void declare_bond(Section& s, Bond& bond);
 /// `bond`, or `wythes` and `bonders`, with the rules between them.
 void declare_masonry(Section& s, Masonry& masonry);

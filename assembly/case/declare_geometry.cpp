@@ -12,14 +12,6 @@ namespace {
 constexpr double kMostCells = 2e7;
 constexpr int kMostRings = 100000;
 
-/// The key `thickness` of a surface, which wythes replace.
-void declare_shell_thickness(Section& s, double& thickness, const std::string& meaning) {
-  if (s.parent_gives("wythes"))
-    s.refuse("thickness", "remove this key: geometry.wythes gives the thickness of each wythe");
-  else
-    s.number("thickness", thickness, {.unit = "m", .above = 0}, meaning);
-}
-
 void declare_dome(Section& s, DomeSurface& dome) {
   s.number("span", dome.span, {.unit = "m", .above = 0}, "inner diameter at the springing");
   s.number("radius_ratio", dome.radius_ratio, {.min = 0.5, .max = 1e3},
@@ -72,7 +64,8 @@ void declare_surface(Section& s, Surface& surface) {
        alternative<Surface>("octagonal_vault", "cloister vault of cylindrical sails over a regular polygon",
                             declare_octagonal_vault),
        alternative<Surface>("arch", "arch or barrel vault of two arcs", declare_arch),
-       alternative<Surface>("wall", "plane wall", declare_wall)},
+       alternative<Surface>("wall", "plane wall", declare_wall),
+       alternative<Surface>("vault", "any profile along any plan", declare_vault)},
       "shape of the masonry shell");
 }
 
@@ -190,6 +183,11 @@ void declare_window(Section& s, Window& window) {
   s.rule(window.ends == Window::Ends::free || sector < 360, "ends", "held requires a sector below 360 deg");
 }
 
+void declare_affine(Section& s, Affine& affine) {
+  s.vector3("scale", affine.scale, {.above = 0}, "factors along x, y and z");
+  s.number("rake", affine.rake, {}, "rise along the axis of a barrel, per length");
+}
+
 void declare_chain(Section& s, Chain& chain) {
   s.text("name", chain.name, "name in tables and figures; by default its number");
   s.choice("type", chain.type,
@@ -270,6 +268,7 @@ void declare_geometry(Section& s, Geometry& geometry) {
   s.section("surface", geometry.surface, "shape of the masonry shell", declare_surface);
   declare_masonry(s, geometry);
   s.optional_section("drum", geometry.drum, "vertical wall on which a dome or vault stands", declare_drum);
+  s.optional_section("affine", geometry.affine, "stretch or shear the finished masonry", declare_affine);
   s.optional_section(
       "window", geometry.window,
       "cut only some courses over a sector of the shell; bond.rings and bond.blocks_per_ring are "
@@ -298,6 +297,9 @@ void declare_geometry(Section& s, Geometry& geometry) {
   const bool whole = !geometry.window && closed;
   s.rule(geometry.chains.empty() || whole, "chains", "requires a whole dome or octagonal vault");
   s.rule(!geometry.drum || whole, "drum", "requires a whole dome or octagonal vault");
+  s.rule(!geometry.affine || !geometry.window, "affine", "requires a whole vault without a window");
+  s.rule(!geometry.affine || geometry.affine->rake == 0.0 || !closed, "affine",
+         "rake requires an arch or barrel, whose first bed stays plane");
   s.rule(geometry.base_blocks == 1 || whole, "base_blocks", "requires a whole dome or octagonal vault");
   for (const Chain& chain : geometry.chains)
     s.rule(chain.course < rings, "chains", "course must be < bond.rings");

@@ -4,16 +4,39 @@ namespace cupola {
 namespace {
 
 void declare_top_load(Section& s, TopLoad& load) {
-  s.required_number("weight_fraction", load.weight_fraction, {.min = 0},
-                    "load over the total weight of the free blocks");
+  int given = 0;
+  const auto one_of = [&](const char* key, double& value, const char* unit, const char* meaning) {
+    std::optional<double> number;
+    s.optional_number(key, number, {.unit = unit, .min = 0}, "none", meaning);
+    value = number.value_or(0.0);
+    given += number.has_value();
+  };
+  one_of("weight_fraction", load.weight_fraction, "", "load over the total weight of the free blocks");
+  one_of("weight", load.weight, "N", "instead: the load");
+  one_of("mass", load.mass, "kg", "instead: the mass, whose weight follows from `gravity`");
+  s.rule(given == 1, "weight_fraction", "give one of weight_fraction, weight (N) and mass (kg)");
+}
+
+void declare_sharing_blocks(Section& s, SharingBlocks& over) {
+  s.integer("course", over.course, {.min = -1}, "ring of the blocks; -1: any");
+  s.text("member", over.member, "wythe, drum or group of bonders; empty: any");
 }
 
 void declare_block_force(Section& s, BlockForce& load) {
-  s.required_block("block", load.block, "number or name of the loaded block");
+  std::optional<BlockRef> block;
+  s.optional_block("block", block, "that of the point", "number or name of the loaded block");
+  load.block = block.value_or(BlockForce::kAtPoint);
   s.optional_vector3("point", load.point, {.unit = "m"}, "centroid",
-                     "point of application, in the as-built geometry");
+                     "point of application, in the as-built geometry; without a block it chooses the block");
+  s.optional_section("over", load.over, "instead of a block: free blocks that share the force by volume",
+                     declare_sharing_blocks);
+  s.rule(block || load.over || load.point, "block", "give the loaded block, a point or `over`");
+  s.rule(!load.over || (!block && !load.point), "over",
+         "shares the force among blocks: leave out block and point");
   s.vector3("force", load.force, {.unit = "N"}, "force, of constant direction");
-  declare_time(s, "time", load.time, "factor on the force");
+  s.optional_vector3("moment", load.moment, {.unit = "N m"}, "none", "moment on the block, right-handed");
+  s.rule(!load.over || !load.moment, "moment", "acts on one block: give `block` instead of `over`");
+  declare_time(s, "time", load.time, "factor on force and moment");
 }
 
 void declare_face_load(Section& s, FaceLoad& load) {
@@ -37,7 +60,7 @@ void declare_loads(Section& s, Loads& loads) {
   s.optional_section("top_load", loads.top_load, "vertical load on the top of a wall, distributed by area",
                      declare_top_load);
   declare_time(s, "dead_load_time", loads.dead_load_time, "factor on gravity, lantern and top load");
-  s.list("forces", loads.forces, "forces on single blocks", declare_block_force);
+  s.list("forces", loads.forces, "forces and moments on blocks", declare_block_force);
   s.list("faces", loads.faces, "loads on all faces of one kind", declare_face_load);
 }
 

@@ -24,7 +24,7 @@ struct SurfaceTraits {
 /// Dome of revolution with the pointed-fifth profile: two arcs of radius `radius_ratio * span`, centred
 /// beyond the axis so that the springing lies `span / 2` from it.
 struct DomeSurface {
-  static constexpr SurfaceTraits traits{.closed = true, .thrust_lines = Sheet::ThrustLines::by_azimuth};
+  SurfaceTraits traits() const { return {.closed = true, .thrust_lines = Sheet::ThrustLines::by_azimuth}; }
 
   double span = 45.0;             ///< m, > 0, clear diameter at the springing
   double radius_ratio = 0.8;      ///< intrados radius over span, >= 0.5 (0.5: hemisphere, 0.8: pointed fifth)
@@ -37,7 +37,7 @@ struct DomeSurface {
 
 /// Plane wall, x along the length, y across, z up.
 struct WallSurface {
-  static constexpr SurfaceTraits traits{.closed = false, .thrust_lines = Sheet::ThrustLines::none};
+  SurfaceTraits traits() const { return {.closed = false, .thrust_lines = Sheet::ThrustLines::none}; }
 
   double length = 12.0;    ///< m, > 0
   double height = 6.0;     ///< m, > 0
@@ -47,7 +47,7 @@ struct WallSurface {
 /// Cloister vault over a regular polygon (an octagon by default): each sail is a cylinder, and the section
 /// through two opposite corners is the pointed-fifth profile of the dome.
 struct OctagonalVault {
-  static constexpr SurfaceTraits traits{.closed = true, .thrust_lines = Sheet::ThrustLines::by_azimuth};
+  SurfaceTraits traits() const { return {.closed = true, .thrust_lines = Sheet::ThrustLines::by_azimuth}; }
 
   /// Beds on cones about the axis, as Brunelleschi laid them; in planes normal to each sail; level.
   enum class Construction : std::uint8_t { circular, planar_radial, planar_horizontal };
@@ -76,7 +76,7 @@ constexpr auto enum_names(OctagonalVault::Extrados) {
 /// Barrel arch of two arcs with radial joints, from one springing over the crown (x = 0) to the other; its
 /// axis is y. A pointed arch (radius_ratio > 0.5) has a joint in the crown plane.
 struct ArchSurface {
-  static constexpr SurfaceTraits traits{.closed = false, .thrust_lines = Sheet::ThrustLines::one};
+  SurfaceTraits traits() const { return {.closed = false, .thrust_lines = Sheet::ThrustLines::one}; }
 
   double span = 10.0;              ///< m, > 0, clear span of the full arc at z = 0: 2 R when semicircular
   double radius_ratio = 0.5;       ///< intrados radius over span, >= 0.5 (0.5: one circle)
@@ -91,10 +91,97 @@ struct ArchSurface {
   double center_offset() const { return radius() - span / 2; }  ///< e, m
 };
 
-using Surface = std::variant<DomeSurface, OctagonalVault, ArchSurface, WallSurface>;
+/// The line over which a surface stands, seen from above.
+struct Plan {
+  enum class Kind : std::uint8_t { line, circle, polygon, corners };
+  /// Section of a regular polygon that the profile draws: through a corner, or through the middle of a side.
+  enum class MeasuredAt : std::uint8_t { corner, side };
+  enum class Axis : std::uint8_t { y, x };
+
+  Kind kind = Kind::circle;
+  double length = 1.0;  ///< m, > 0, of a line
+  Axis axis = Axis::y;  ///< of a line; with x the profile lies in the y-z plane, its outside towards -y
+  int sides = 8;        ///< >= 3, of a regular polygon
+  MeasuredAt measured_at = MeasuredAt::corner;
+  std::vector<double> x, y;  ///< m, corners of a convex polygon, counter-clockwise
+
+  bool closed() const { return kind != Kind::line; }
+};
+constexpr auto enum_names(Plan::MeasuredAt) {
+  return std::array{"corner", "side"};
+}
+
+/// The section of a surface, from the springing at r = span / 2, z = 0 upwards.
+struct Profile {
+  enum class Kind : std::uint8_t {
+    semicircle,
+    segmental,
+    pointed,
+    basket,
+    horseshoe,
+    ellipse,
+    parabola,
+    catenary,
+    straight,
+    chain
+  };
+
+  Kind kind = Kind::semicircle;
+  double span = 10.0;          ///< m, > 0
+  double rise = 4.0;           ///< m, > 0, of a segmental, basket, elliptic, parabolic or catenary profile
+  double radius_ratio = 0.8;   ///< > 0.5, radius over span of a pointed profile
+  double haunch_radius = 2.0;  ///< m, > 0, of the lower arcs of a basket profile
+  double below_deg = 30.0;     ///< in (0, 90), by which a horseshoe continues below its centre
+  double height = 5.0;         ///< m, > 0, of a straight profile
+  double batter = 0.0;         ///< by which a straight profile leans inwards per height
+  std::vector<double> r, z;    ///< m, points of a chain
+  std::vector<double>
+      radius;  ///< m, of the arc to the next point, positive where it turns towards r = 0; 0: line
+
+  /// m, about which its coordinates are rounded.
+  double width() const { return kind == Kind::chain && !r.empty() ? 2.0 * r.front() : span; }
+};
+
+/// Any profile carried along any plan.
+struct VaultSurface {
+  /// Plane normal to the profile; cones about the axis; level.
+  enum class Beds : std::uint8_t { normal, conical, level };
+  /// What is equal from course to course.
+  enum class Courses : std::uint8_t { length, height };
+  /// The line that the profile draws.
+  enum class Line : std::uint8_t { intrados, middle, extrados };
+
+  Plan plan;
+  Profile profile;
+  double thickness = 1.0;  ///< m, > 0, normal to the profile
+  Beds beds = Beds::normal;
+  Courses courses = Courses::length;
+  Line line = Line::intrados;
+  double eye = 0.0;           ///< m, >= 0, r of the last bed on the drawn line; 0: the end of the profile
+  bool key_stone = false;     ///< one stone closes the eye
+  int voussoir_segments = 1;  ///< >= 1, as of an arch
+
+  SurfaceTraits traits() const {
+    return {.closed = plan.closed(),
+            .thrust_lines = plan.closed()                             ? Sheet::ThrustLines::by_azimuth
+                            : profile.kind == Profile::Kind::straight ? Sheet::ThrustLines::none
+                                                                      : Sheet::ThrustLines::one};
+  }
+};
+constexpr auto enum_names(VaultSurface::Beds) {
+  return std::array{"normal", "conical", "level"};
+}
+constexpr auto enum_names(VaultSurface::Courses) {
+  return std::array{"length", "height"};
+}
+constexpr auto enum_names(VaultSurface::Line) {
+  return std::array{"intrados", "middle", "extrados"};
+}
+
+using Surface = std::variant<DomeSurface, OctagonalVault, ArchSurface, WallSurface, VaultSurface>;
 
 inline SurfaceTraits traits_of(const Surface& surface) {
-  return std::visit([](const auto& kind) { return std::decay_t<decltype(kind)>::traits; }, surface);
+  return std::visit([](const auto& kind) { return kind.traits(); }, surface);
 }
 
 // Every bond has `refine`, which splits each course into that many courses and each block into that many
@@ -278,6 +365,13 @@ constexpr auto enum_names(Chain::Type) {
   return std::array{"polygon", "clamps"};
 }
 
+/// A map of all points of the masonry, which keeps planes and convexity: elliptic domes, raking barrels. Thicknesses and
+/// angles are those before the map.
+struct Affine {
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< along the axes, > 0
+  double rake = 0.0;                                ///< rise of z per m of y, of a barrel
+};
+
 struct Stage {
   int rings = 0;  ///< rings built so far, >= 1
 };
@@ -329,6 +423,7 @@ struct Geometry : Masonry {
   std::optional<ImportedBlocks> imported;  ///< if set, surface, bond and stage are ignored
   Surface surface = DomeSurface{};
   std::optional<Drum> drum;
+  std::optional<Affine> affine;
   std::optional<Window> window;
   std::optional<Stage> stage;
   std::vector<Chain> chains;

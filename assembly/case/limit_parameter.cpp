@@ -51,7 +51,10 @@ Case case_at(const Case& scene, double value) {
       at.loads.gravity += value * g * horizontal(scene);
       break;
     case LimitSearch::Parameter::load:
-      for (BlockForce& load : at.loads.forces) load.force *= value;
+      for (BlockForce& load : at.loads.forces) {
+        load.force *= value;
+        if (load.moment) *load.moment *= value;
+      }
       for (FaceLoad& load : at.loads.faces) {
         load.traction *= value;
         load.pressure *= value;

@@ -70,6 +70,10 @@ std::vector<PlausibleRange> surface_checks(const Surface& surface) {
                    checks.push_back(length("width", s.width, kThinnest, kWidest));
                    return checks;
                  },
+                 [&](const VaultSurface& s) {
+                   return std::vector{length("profile.span", s.profile.width(), kNarrowest, kWidest),
+                                      length("thickness", s.thickness, kThinnest, kThickest)};
+                 },
                  [&](const WallSurface& s) {
                    return std::vector{length("length", s.length, kNarrowest, 1e3),
                                       length("height", s.height, kNarrowest, kWidest),
@@ -160,7 +164,7 @@ void add_load_checks(const Case& scene, std::vector<PlausibleRange>* checks) {
                        "a multiple of g? Gravity is in m/s2", "in mm/s2? Gravity is in m/s2"});
   checks->push_back({"loads.gravity (z)", loads.gravity.z(), "m/s2", kNoLowerEnd, 0.0, "",
                      "upward? The z axis points up, so that gravity is [0, 0, -9.81]"});
-  if (loads.lantern)
+  if (loads.lantern && loads.lantern->weight_fraction > 0.0)
     checks->push_back({"loads.lantern.weight_fraction", loads.lantern->weight_fraction, "of the weight", 0.0,
                        1.0, "", "in per cent? 2 % is 0.02"});
   // Under `load` the forces are unit loads, which the analysis multiplies.

@@ -57,9 +57,11 @@ std::string suggestion_for(const CaseNode& map, const std::string& key, const st
   const auto other = std::ranges::find_if(kOtherNames, [&](const auto& pair) { return key == pair.first; });
   const std::string meant = other == kOtherNames.end() ? key : other->second;
   constexpr size_t kMost = 3;
+  const auto& rows = case_schema_table().rows;
+  if (std::ranges::find(rows, path, &SchemaRow::path) != rows.end()) return {};  // a key of another type
   std::vector<std::string> paths;
-  for (const SchemaRow& row : case_schema_table().rows)
-    if (last_part(row.path) == meant && row.path != path && std::ranges::find(paths, row.path) == paths.end())
+  for (const SchemaRow& row : rows)
+    if (last_part(row.path) == meant && std::ranges::find(paths, row.path) == paths.end())
       paths.push_back(row.path);
   std::ranges::stable_sort(paths, {}, [](const std::string& p) { return std::ranges::count(p, '.'); });
   if (paths.size() > kMost) paths.resize(kMost);

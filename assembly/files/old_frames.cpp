@@ -8,7 +8,7 @@ namespace cupola {
 namespace {
 
 FrameRole role_of_solve(Status status) {
-  if (status == Status::stable) return FrameRole::equilibrium;
+  if (stands(status)) return FrameRole::equilibrium;
   return status == Status::unconverged ? FrameRole::unconverged : FrameRole::mechanism;
 }
 

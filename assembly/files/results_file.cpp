@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -12,7 +13,9 @@
 #include "assembly/files/hash.hpp"
 #include "assembly/files/mesh_file.hpp"
 #include "assembly/files/old_frames.hpp"
+#include "assembly/files/record_arrays.hpp"
 #include "assembly/files/summary_file.hpp"
+#include "assembly/records/frame_record.hpp"
 
 namespace cupola {
 namespace {
@@ -21,23 +24,6 @@ constexpr std::int32_t kFrameFormatVersion = 3, kOldestFrameFormat = 2;
 
 std::string frame_file(const char* what, int index) {
   return fmt::format("{}_{:04}.vtp", what, index);
-}
-
-template <class Vector>
-std::vector<double> flat(const std::vector<Vector>& vectors) {
-  std::vector<double> values;
-  values.reserve(vectors.size() * Vector::SizeAtCompileTime);
-  for (const Vector& v : vectors) values.insert(values.end(), v.begin(), v.end());
-  return values;
-}
-
-template <class Vector>
-std::vector<Vector> unflat(const std::vector<double>& values) {
-  std::vector<Vector> vectors;
-  vectors.reserve(values.size() / Vector::SizeAtCompileTime);
-  for (size_t i = 0; i < values.size(); i += Vector::SizeAtCompileTime)
-    vectors.emplace_back(values.data() + i);
-  return vectors;
 }
 
 /// What every file of a frame says about its run.
@@ -57,81 +43,46 @@ std::vector<MeshArray> frame_fields(const Frame& frame, const RunOfFrame& run) {
   return fields;
 }
 
-/// Adds one vertex cell per point, so that ParaView shows the points.
-Mesh point_mesh(const std::vector<Vec3>& points, const Frame& frame, const RunOfFrame& run) {
+Mesh frame_mesh(const std::vector<Vec3>& points, const Frame& frame, const RunOfFrame& run) {
   Mesh mesh;
-  mesh.points = flat(points);
-  for (int i = 0; i < mesh.num_points(); ++i) mesh.add_cell(Mesh::CellType::vertex, {i});
+  for (const Vec3& p : points) mesh.add_point(p.x(), p.y(), p.z());
   mesh.field_data = frame_fields(frame, run);
   return mesh;
 }
 
+/// Adds one vertex cell per point, so that ParaView shows the points.
+Mesh point_mesh(const std::vector<Vec3>& points, const Frame& frame, const RunOfFrame& run) {
+  Mesh mesh = frame_mesh(points, frame, run);
+  for (int i = 0; i < mesh.num_points(); ++i) mesh.add_cell(Mesh::CellType::vertex, {i});
+  return mesh;
+}
+
 Mesh contacts_mesh(const Frame& frame, const RunOfFrame& run) {
-  const ContactTable& c = frame.contacts;
-  [[maybe_unused]] const std::size_t n = c.joint.size();
-  CUPOLA_ASSERT(c.block_a.size() == n && c.block_b.size() == n && c.kind.size() == n && c.ring.size() == n &&
-                c.point.size() == n && c.normal.size() == n && c.gap.size() == n && c.force.size() == n &&
-                c.normal_force.size() == n && c.friction_use.size() == n && c.area.size() == n &&
-                c.slip.size() == n && c.law_violation.size() == n &&
-                (c.strength_use.empty() || c.strength_use.size() == n) &&
-                c.damage.size() == c.strength_use.size() && c.crack_opening.size() == c.strength_use.size());
-  Mesh mesh = point_mesh(c.point, frame, run);
-  std::vector<std::uint8_t> kinds;
-  for (const JointKind kind : c.kind) kinds.push_back(static_cast<std::uint8_t>(kind));
-  mesh.point_data = {{"joint", 1, c.joint},
-                     {"block_a", 1, c.block_a},
-                     {"block_b", 1, c.block_b},
-                     {"kind", 1, std::move(kinds)},
-                     {"ring", 1, c.ring},
-                     {"normal", 3, flat(c.normal)},
-                     {"gap_m", 1, c.gap},
-                     {"force_N", 3, flat(c.force)},
-                     {"normal_force_N", 1, c.normal_force},
-                     {"friction_use", 1, c.friction_use},
-                     {"area_m2", 1, c.area},
-                     {"slip_m", 1, c.slip},
-                     {"law_violation", 1, c.law_violation}};
-  if (!c.strength_use.empty()) {
-    mesh.point_data.push_back({"strength_use", 1, c.strength_use});
-    mesh.point_data.push_back({"damage", 1, c.damage});
-    mesh.point_data.push_back({"crack_opening_m", 1, c.crack_opening});
-  }
+  Mesh mesh = point_mesh(frame.contacts.point, frame, run);
+  const ColumnWriter write{frame.contacts.point.size(), &mesh.point_data};
+  fields(write, frame.contacts);
+  if (!frame.contacts.strength_use.empty()) strength_fields(write, frame.contacts);
   return mesh;
 }
 
 Mesh blocks_mesh(const Frame& frame, const RunOfFrame& run) {
-  const BlockTable& b = frame.blocks;
-  const std::size_t n = b.position.size();
-  CUPOLA_ASSERT(b.quaternion_wxyz.size() == n && b.velocity.size() == n && b.angular_velocity.size() == n &&
-                b.displacement.size() == n);
-  Mesh mesh = point_mesh(b.position, frame, run);
-  std::vector<std::int32_t> ids(n);
-  for (size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int32_t>(i);
-  mesh.point_data = {{"block", 1, std::move(ids)},
-                     {"quaternion_wxyz", 4, flat(b.quaternion_wxyz)},
-                     {"velocity_m_per_s", 3, flat(b.velocity)},
-                     {"angular_velocity_rad_per_s", 3, flat(b.angular_velocity)},
-                     {"displacement_m", 3, flat(b.displacement)}};
+  Mesh mesh = point_mesh(frame.blocks.position, frame, run);
+  std::vector<std::int32_t> ids(frame.blocks.position.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  mesh.point_data = {{"block", 1, std::move(ids)}};
+  fields(ColumnWriter{frame.blocks.position.size(), &mesh.point_data}, frame.blocks);
   return mesh;
 }
 
 /// One segment per tie.
 Mesh ties_mesh(const Frame& frame, const RunOfFrame& run) {
-  const TieTable& t = frame.ties;
-  [[maybe_unused]] const std::size_t n = t.force.size();
-  CUPOLA_ASSERT(t.chain.size() == n && t.block_a.size() == n && t.block_b.size() == n &&
-                t.point_a.size() == n && t.point_b.size() == n && t.yield_force.size() == n &&
-                t.yielded.size() == n && t.strut.size() == n);
-  Mesh mesh;
-  mesh.field_data = frame_fields(frame, run);
-  for (int i = 0; i < t.size(); ++i) {
-    const int a = mesh.add_point(t.point_a[i].x(), t.point_a[i].y(), t.point_a[i].z());
-    const int b = mesh.add_point(t.point_b[i].x(), t.point_b[i].y(), t.point_b[i].z());
-    mesh.add_cell(Mesh::CellType::polyline, {a, b});
-  }
-  mesh.cell_data = {{"chain", 1, t.chain},   {"block_a", 1, t.block_a},           {"block_b", 1, t.block_b},
-                    {"force_N", 1, t.force}, {"yield_force_N", 1, t.yield_force}, {"yielded_m", 1, t.yielded},
-                    {"strut", 1, t.strut}};
+  const TieTable& ties = frame.ties;
+  CUPOLA_ASSERT(ties.point_a.size() == ties.force.size() && ties.point_b.size() == ties.force.size());
+  std::vector<Vec3> ends;
+  for (int i = 0; i < ties.size(); ++i) ends.insert(ends.end(), {ties.point_a[i], ties.point_b[i]});
+  Mesh mesh = frame_mesh(ends, frame, run);
+  for (int i = 0; i < ties.size(); ++i) mesh.add_cell(Mesh::CellType::polyline, {2 * i, 2 * i + 1});
+  fields(ColumnWriter{ties.force.size(), &mesh.cell_data}, ties);
   return mesh;
 }
 
@@ -162,67 +113,32 @@ void read_role(const Mesh& mesh, Frame* frame) {
 }
 
 ContactTable read_contacts(const Mesh& mesh) {
-  const auto ints = [&mesh](const char* name) { return mesh.array<std::int32_t>(mesh.point_data, name, 1); };
-  const auto doubles = [&mesh](const char* name) { return mesh.array<double>(mesh.point_data, name, 1); };
-  const auto vectors = [&mesh](const char* name) {
-    return unflat<Vec3>(mesh.array<double>(mesh.point_data, name, 3));
-  };
-  ContactTable c;
-  c.joint = ints("joint");
-  c.block_a = ints("block_a");
-  c.block_b = ints("block_b");
-  for (const std::uint8_t kind : mesh.array<std::uint8_t>(mesh.point_data, "kind", 1)) {
-    if (kind > static_cast<std::uint8_t>(JointKind::wythe))
-      throw InputError(FileLocation{mesh.file}, fmt::format("joint kind {} is unknown", kind));
-    c.kind.push_back(static_cast<JointKind>(kind));
-  }
-  c.ring = ints("ring");
-  c.point = unflat<Vec3>(mesh.points);
-  c.normal = vectors("normal");
-  c.gap = doubles("gap_m");
-  c.force = vectors("force_N");
-  c.normal_force = doubles("normal_force_N");
-  c.friction_use = doubles("friction_use");
-  c.area = doubles("area_m2");
-  c.slip = doubles("slip_m");
-  c.law_violation = doubles("law_violation");
-  if (!mesh.has(mesh.point_data, "strength_use")) return c;
-  c.strength_use = doubles("strength_use");
-  c.damage = doubles("damage");
-  c.crack_opening = doubles("crack_opening_m");
-  return c;
+  ContactTable contacts;
+  contacts.point = points_of(mesh);
+  const ColumnReader read{contacts.point.size(), mesh, mesh.point_data};
+  fields(read, contacts);
+  if (mesh.has(mesh.point_data, "strength_use")) strength_fields(read, contacts);
+  return contacts;
 }
 
 BlockTable read_blocks(const Mesh& mesh) {
-  const auto vectors = [&mesh](const char* name) {
-    return unflat<Vec3>(mesh.array<double>(mesh.point_data, name, 3));
-  };
-  BlockTable b;
-  b.position = unflat<Vec3>(mesh.points);
-  b.quaternion_wxyz = unflat<Eigen::Vector4d>(mesh.array<double>(mesh.point_data, "quaternion_wxyz", 4));
-  b.velocity = vectors("velocity_m_per_s");
-  b.angular_velocity = vectors("angular_velocity_rad_per_s");
-  b.displacement = vectors("displacement_m");
-  return b;
+  BlockTable blocks;
+  blocks.position = points_of(mesh);
+  fields(ColumnReader{blocks.position.size(), mesh, mesh.point_data}, blocks);
+  return blocks;
 }
 
 TieTable read_ties(const Mesh& mesh) {
-  TieTable t;
-  t.chain = mesh.array<std::int32_t>(mesh.cell_data, "chain", 1);
-  t.block_a = mesh.array<std::int32_t>(mesh.cell_data, "block_a", 1);
-  t.block_b = mesh.array<std::int32_t>(mesh.cell_data, "block_b", 1);
-  t.force = mesh.array<double>(mesh.cell_data, "force_N", 1);
-  t.yield_force = mesh.array<double>(mesh.cell_data, "yield_force_N", 1);
-  t.yielded = mesh.array<double>(mesh.cell_data, "yielded_m", 1);
-  t.strut = mesh.array<std::uint8_t>(mesh.cell_data, "strut", 1);
-  const std::vector<Vec3> points = unflat<Vec3>(mesh.points);
-  if (points.size() != 2 * t.force.size())
+  TieTable ties;
+  const std::vector<Vec3> points = points_of(mesh);
+  if (points.size() != 2 * mesh.cell_types.size())
     throw InputError(FileLocation{mesh.file}, "has other than two points per tie");
+  fields(ColumnReader{points.size() / 2, mesh, mesh.cell_data}, ties);
   for (size_t i = 0; i < points.size(); i += 2) {
-    t.point_a.push_back(points[i]);
-    t.point_b.push_back(points[i + 1]);
+    ties.point_a.push_back(points[i]);
+    ties.point_b.push_back(points[i + 1]);
   }
-  return t;
+  return ties;
 }
 
 /// Joint and block numbers are used as indices by later stages: they must be in range.
@@ -236,6 +152,8 @@ void check_frame(const Frame& frame, const std::string& path) {
       throw InputError(
           FileLocation{path},
           fmt::format("contact {} between blocks {} and {} of joint {} is invalid", i, a, b, joint));
+    if (frame.contacts.kind[i] > JointKind::wythe)
+      throw InputError(FileLocation{path}, fmt::format("the kind of contact {} is unknown", i));
     if (!frame.contacts.force[i].allFinite() || !frame.contacts.point[i].allFinite())
       throw InputError(FileLocation{path}, fmt::format("contact {} is not finite", i));
   }
@@ -272,6 +190,11 @@ ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std:
           FileLocation{missing},
           "was removed, so that the run cannot be resumed; remove the checkpoint to start again");
   std::filesystem::remove(in_folder(folder_, kInterrupted));
+  if (times_.empty()) return;
+  // A run that is resumed at its end writes no table again.
+  for (const auto& file : std::filesystem::directory_iterator(folder_))
+    if (file.path().extension() == ".csv")
+      text_files_[file.path().filename()] = hash_text(read_text(file.path()));
 }
 
 void ResultsWriter::write_frame(const Frame& frame) {

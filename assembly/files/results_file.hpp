@@ -13,7 +13,7 @@ namespace cupola {
 class ResultsWriter {
  public:
   /// Creates the folder. Every frame gets `assembly_hash` and, if given, `case_hash`, by which a reader knows the frames of one run.
-  /// `times` (s): frames that exist already when a run is resumed; InputError if one is missing.
+  /// `times` (s): frames that exist already when a run is resumed, as do its tables; InputError if a frame is missing.
   ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times = {},
                 std::string case_hash = {});
   /// SystemError if an earlier frame was removed.

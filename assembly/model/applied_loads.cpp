@@ -1,6 +1,7 @@
 #include "assembly/model/applied_loads.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -52,16 +53,76 @@ void add_top_load(const Assembly& assembly, double weight, const Vec3& down, con
     forces->push_back({face.block, face.centroid, weight * face.area / total_area * down});
 }
 
-PointForce block_force(const BlockForce& load, const Assembly& assembly, int time) {
+/// How far a point lies outside the faces of a convex part, m; negative inside.
+double distance_outside(const Assembly& assembly, const Part& part, const Vec3& point) {
+  double outside = -std::numeric_limits<double>::infinity();
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+    const auto plane = polygon_plane(face_points(assembly, f));
+    outside = std::max(outside, plane.normal.dot(point) - plane.offset);
+  }
+  return outside;
+}
+
+/// The free block that contains the point, or whose faces it is least beyond.
+int block_at(const Assembly& assembly, const Vec3& point) {
+  int nearest = BlockForce::kAtPoint;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Part& part : assembly.parts) {
+    const double outside = distance_outside(assembly, part, point);
+    if (assembly.blocks[part.block].fixed || outside >= least) continue;
+    least = outside;
+    nearest = part.block;
+  }
+  if (nearest == BlockForce::kAtPoint)
+    throw InputError("loads.forces: the assembly has no free block to carry a force");
+  return nearest;
+}
+
+void add_shared_force(const BlockForce& load, const Assembly& assembly, int time,
+                      std::vector<PointForce>* forces) {
+  const SharingBlocks& over = *load.over;
+  const auto carries = [&](const Block& block) {
+    return !block.fixed && (over.course < 0 || block.ring == over.course) &&
+           is_of_member(assembly, block, over.member);
+  };
+  double volume = 0.0;
+  for (const Block& block : assembly.blocks)
+    if (carries(block)) volume += block.volume;
+  if (volume == 0.0)
+    throw InputError(fmt::format("loads.forces: no free block{}{} to carry the force",
+                                 over.course >= 0 ? fmt::format(" in course {}", over.course) : "",
+                                 over.member.empty() ? "" : " of member " + over.member));
+  for (size_t b = 0; b < assembly.blocks.size(); ++b)
+    if (const Block& block = assembly.blocks[b]; carries(block))
+      forces->push_back({static_cast<int>(b), block.centroid, block.volume / volume * load.force, time});
+}
+
+/// Two couples at right angles, of equal share. Together they have no symmetric moment, which would pass for stress.
+void add_moment(const Vec3& moment, int number, const Block& block, int time,
+                std::vector<PointForce>* forces) {
+  if (moment.norm() == 0.0) return;
+  const double arm = 0.5 * std::cbrt(block.volume), force = moment.norm() / (4.0 * arm);  // m, N
+  const Vec3 axis = moment.normalized(), u = axis.unitOrthogonal(), v = axis.cross(u);
+  for (const double sign : {1.0, -1.0}) {
+    forces->push_back({number, block.centroid + sign * arm * u, sign * force * v, time});
+    forces->push_back({number, block.centroid + sign * arm * v, -sign * force * u, time});
+  }
+}
+
+void add_block_force(const BlockForce& load, const Assembly& assembly, int time,
+                     std::vector<PointForce>* forces) {
+  if (load.over) return add_shared_force(load, assembly, time, forces);
+  const int number =
+      load.block == BlockForce::kAtPoint ? block_at(assembly, load.point.value()) : load.block.number;
   const int num_blocks = static_cast<int>(assembly.blocks.size());
-  if (load.block >= num_blocks)
+  if (number >= num_blocks)
     throw InputError(
-        fmt::format("loads.forces: block {}: the assembly has blocks 0 to {}", load.block, num_blocks - 1));
-  const Block& block = assembly.blocks[load.block];
+        fmt::format("loads.forces: block {}: the assembly has blocks 0 to {}", number, num_blocks - 1));
+  const Block& block = assembly.blocks[number];
   if (block.fixed)
-    throw InputError(
-        fmt::format("loads.forces: block {} is fixed; apply the force to a free block", load.block));
-  return {load.block, load.point.value_or(block.centroid), load.force, time};
+    throw InputError(fmt::format("loads.forces: block {} is fixed; apply the force to a free block", number));
+  forces->push_back({number, load.point.value_or(block.centroid), load.force, time});
+  if (load.moment) add_moment(*load.moment, number, block, time, forces);
 }
 
 void add_face_load(const FaceLoad& load, const Assembly& assembly, int time,
@@ -85,13 +146,14 @@ std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assemb
   const double weight = free_weight(assembly, g);
   const Vec3 down = g > 0.0 ? Vec3(loads.gravity / g) : Vec3(-Vec3::UnitZ());
   const auto add_top = [&](const std::optional<TopLoad>& load, const char* key) {
-    if (load && load->weight_fraction != 0.0)  // negative in the derivative of a limit analysis
-      add_top_load(assembly, load->weight_fraction * weight, down, key, &forces);
+    const double total =
+        load ? load->total(weight, g) : 0.0;  // negative in the derivative of a limit analysis
+    if (total != 0.0) add_top_load(assembly, total, down, key, &forces);
   };
   add_top(loads.lantern, "lantern");
   add_top(loads.top_load, "top_load");
   int time = 0;
-  for (const BlockForce& load : loads.forces) forces.push_back(block_force(load, assembly, time++));
+  for (const BlockForce& load : loads.forces) add_block_force(load, assembly, time++, &forces);
   for (const FaceLoad& load : loads.faces) add_face_load(load, assembly, time++, &forces);
   return forces;
 }

@@ -17,14 +17,32 @@ constexpr int kLastRing = 1 << 20;
 /// dome or the load on top of a wall.
 struct TopLoad {
   double weight_fraction = 0.0;  ///< of the weight of the free blocks, >= 0
+  double weight = 0.0;           ///< N, >= 0, in addition
+  double mass = 0.0;             ///< kg, >= 0, in addition
+
+  /// N, with the weight of the free blocks (N) under gravity `g` (m/s2).
+  double total(double free_weight, double g) const {
+    return weight_fraction * free_weight + weight + mass * g;
+  }
 };
 
-/// A force of constant direction at a point of a block.
+/// Free blocks that share a force in proportion to their volumes.
+struct SharingBlocks {
+  int course = -1;     ///< first ring of the blocks; -1: any
+  std::string member;  ///< see Assembly::members; empty: any
+};
+
+/// A force of constant direction, and a moment, on a block; or a force shared by many.
 struct BlockForce {
-  BlockRef block;
+  static constexpr int kAtPoint = -1;
+  BlockRef block;             ///< kAtPoint: the free block that contains `point`, or the nearest
   std::optional<Vec3> point;  ///< m, world, as built; none: the centroid
   Vec3 force = Vec3::Zero();  ///< N
   TimeFunction time;
+  /// N m. Couples of forces of constant direction at points that move with the block, so that it falls with the cosine of the
+  /// block's rotation about it.
+  std::optional<Vec3> moment = {};
+  std::optional<SharingBlocks> over = {};  ///< instead of block, point and moment
 };
 
 /// A traction of constant direction, or a pressure normal to the as-built faces, on all faces of one kind.

@@ -11,6 +11,7 @@
 #include "assembly/model/accuracy.hpp"
 #include "assembly/model/assembly.hpp"
 #include "assembly/model/choices.hpp"
+#include "assembly/model/status.hpp"
 
 namespace cupola {
 
@@ -132,11 +133,6 @@ void set_role(FrameRole role, const std::string& owner, Frame* frame);
 /// The joints of a frame, indexed by ContactTable::joint.
 std::vector<Joint> joints_of(const ContactTable& contacts);
 
-enum class Status { stable, moving, collapsed, unconverged };
-constexpr auto enum_names(Status) {
-  return std::array{"stable", "moving", "collapsed", "unconverged"};
-}
-
 /// What an interrupted run had reached: interrupted.json.
 struct Interruption {
   std::string program_version, case_hash, assembly_hash;
@@ -214,7 +210,7 @@ struct Summary {
   Vec3 applied_load_N = Vec3::Zero();      ///< all loads on the free blocks, weight included
   Vec3 support_reaction_N = Vec3::Zero();  ///< force of the fixed blocks on the free ones
   double time_step_s = 0.0;
-  Accuracy accuracy;  ///< decides whether the status is `unconverged`
+  Accuracy accuracy;  ///< decides whether the accuracy asked for was reached
   /// Of a dynamic or staged run: the worst over its steps. Absent if no state was found that they describe.
   std::optional<double> momentum_residual, contact_law_residual, friction_cone_violation;
   std::optional<LawViolation> largest_law_violation;

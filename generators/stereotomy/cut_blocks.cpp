@@ -1,6 +1,7 @@
 #include "generators/stereotomy/cut_blocks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -51,6 +52,32 @@ Block make_block(const CellGrid& grid, int bond_block, double density) {
   return block;
 }
 
+/// Appends the stone that closes the eye of a closed surface: a prism over the whole last bed, whose facets are its sides.
+void add_key_stone(const CellGrid& grid, int member, double density, GridPoints* points, Assembly* assembly) {
+  const int ring = grid.ring_of(grid.num_rows);
+  Block block;
+  block.density = density;
+  block.ring = ring;
+  block.member = member;
+  assembly->blocks.push_back(block);
+  assembly->parts.push_back({.block = static_cast<int>(assembly->blocks.size()) - 1,
+                             .ring = ring,
+                             .slice = 0,
+                             .face_start = assembly->num_faces()});
+  std::vector<int> inner, outer;
+  for (int cut = 0; cut < grid.num_slices; ++cut) {
+    inner.push_back(points->vertex(grid.num_rows, cut, 0, assembly));
+    outer.push_back(points->vertex(grid.num_rows, cut, grid.num_wythes, assembly));
+  }
+  for (int i = 0; i < grid.num_slices; ++i) {
+    const int j = (i + 1) % grid.num_slices;
+    assembly->add_face(std::array{inner[j], outer[j], outer[i], inner[i]}, FaceKind::bed);
+  }
+  assembly->add_face(outer, FaceKind::extrados);
+  std::ranges::reverse(inner);
+  assembly->add_face(inner, FaceKind::intrados);
+}
+
 /// Drops the grid corners that no face uses because cells were merged.
 void drop_unused_vertices(Assembly* assembly) {
   const bool has_layers = !assembly->vertex_layers.empty();
@@ -84,7 +111,7 @@ void add_storey(const Storey& shell, const CutOptions& options, Assembly* assemb
   const std::vector<double>& cuts = shell.bond.cuts;
   const CellGrid grid = make_cell_grid(surface, shell.bond, shell.stage_rings);
   GridPoints points(grid, options.imperfections);
-  if (surface.footing != Footing::masonry && surface.footing != Footing::drum)
+  if (surface.first_bed_held && !surface.first_row_held)
     add_base_support(surface, cuts, options.support_width, options.base_blocks, options.density, assembly);
   const int first_member = static_cast<int>(assembly->members.size());
   assembly->members.insert(assembly->members.end(), shell.members.begin(), shell.members.end());
@@ -98,10 +125,11 @@ void add_storey(const Storey& shell, const CutOptions& options, Assembly* assemb
     points.start_block(bond_block);
     for (const CellRange& range : convex_ranges(grid, bond_block)) add_parts(grid, range, &points, assembly);
   }
-  if (surface.footing == Footing::both_springings)
-    add_far_support(surface, cuts, options.support_width, options.density, assembly);
-  assembly->num_rings = surface.rings_below + surface.num_rings();
-  assembly->sheets.push_back({shell.name, surface.rings_below, surface.num_rings(), surface.closed,
+  if (surface.key_stone) add_key_stone(grid, first_member, options.density, &points, assembly);
+  if (surface.last_bed_held) add_far_support(surface, cuts, options.support_width, options.density, assembly);
+  const int num_rings = surface.num_rings() + (surface.key_stone ? 1 : 0);
+  assembly->num_rings = surface.rings_below + num_rings;
+  assembly->sheets.push_back({shell.name, surface.rings_below, num_rings, surface.closed,
                               surface.thrust_lines, num_sails_of(surface)});
 }
 

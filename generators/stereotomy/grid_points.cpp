@@ -23,6 +23,8 @@ GridPoints::GridPoints(const CellGrid& grid, const std::optional<Imperfections>&
       num_layers_(grid.num_wythes + 1) {
   if (grid.num_wythes > 1 && (gap_ > 0.0 || noise_ > 0.0))
     throw InputError("imperfections: not available for a shell with wythes; remove this section");
+  if (grid.surface.key_stone && (gap_ > 0.0 || noise_ > 0.0))
+    throw InputError("imperfections: not available for a shell with a key stone; remove this section");
   bed_noise_.assign(grid.num_rows + 1, 0.0);
   cut_noise_.assign(num_columns_, 0.0);
   skin_noise_.assign(static_cast<size_t>(grid.num_rows + 1) * num_columns_ * num_layers_, 0.0);

@@ -35,6 +35,16 @@ BondPattern with_supports(const BondPattern& bond, double held_end) {
   return out;
 }
 
+/// Maps all points of a surface. Heights change with them, depths do not.
+void apply(const Affine& affine, SurfaceMap* surface) {
+  surface->at = [affine, at = surface->at](double bed, double abscissa, double depth) -> Vec3 {
+    Vec3 p = affine.scale.cwiseProduct(at(bed, abscissa, depth));
+    p.z() += affine.rake * p.y();
+    return p;
+  };
+  if (surface->shell_volume) *surface->shell_volume *= affine.scale.prod();
+}
+
 /// m above the datum of the surface, of the middle of each course.
 std::vector<double> course_heights(const SurfaceMap& surface) {
   std::vector<double> heights;
@@ -64,6 +74,7 @@ Storey make_shell(const Geometry& geometry) {
                            ? window_surface(geometry.surface, thicknesses(geometry.wythes), *geometry.window,
                                             courses, stage > 0 ? stage : courses, geometry.support_width)
                            : make_surface(geometry.surface, courses, thicknesses(geometry.wythes));
+  if (geometry.affine) apply(*geometry.affine, &surface);
   const BondGrid grid{surface.num_rings(),         surface.closed, surface.extent, surface.corners,
                       geometry.window.has_value(), stage};
   BondPattern bond = lay_masonry(geometry, surface, grid);
@@ -75,7 +86,7 @@ Storey make_shell(const Geometry& geometry) {
   if (geometry.window) bond = with_supports(bond, surface.held_end);
   std::vector<std::string> members = member_names(geometry);
   if (geometry.drum) {
-    surface.footing = Footing::drum;
+    surface.first_bed_held = false;
     surface.rings_below = rings_of(*finest_bond(*geometry.drum));
     if (members.empty()) members = {"shell"};
   }

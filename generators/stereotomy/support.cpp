@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -61,20 +62,38 @@ std::vector<double> cuts_of_blocks(const SurfaceMap& surface, const std::vector<
   return all;
 }
 
+/// The inner and the outer end of the ring at a cut, on the line of the first bed.
+std::pair<Vec3, Vec3> top_corners(const SurfaceMap& surface, double cut, double width) {
+  const Vec3 base = surface.intrados(0, cut), back = surface.extrados(0, cut);
+  const double inner = base.head<2>().norm(), inside = std::max(inner - width, inner / 2.0);
+  if (base.z() == back.z()) {
+    const Vec3 radial(base.x() / inner, base.y() / inner, 0.0), height(0.0, 0.0, base.z());
+    return {inside * radial + height, (back.head<2>().norm() + width) * radial + height};
+  }
+  const Vec3 along = (back - base) / (back - base).head<2>().norm();
+  return {base - (inner - inside) * along, back + width * along};
+}
+
+/// z of the lower face of the ring, `width` below the lowest point of its top, m.
+double floor_below_bed(const SurfaceMap& surface, const std::vector<double>& cuts, double width) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const double cut : cuts) {
+    const auto [inner, outer] = top_corners(surface, cut, width);
+    lowest = std::min({lowest, inner.z(), outer.z()});
+  }
+  return lowest - width;
+}
+
 void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double width, int num_blocks,
               double density, Assembly* assembly) {
   const int num_slices = static_cast<int>(cuts.size()) - 1;
   std::vector<std::array<int, 4>> corners;  // per cut: inner top, outer top, outer bottom, inner bottom
+  const double floor = floor_below_bed(surface, cuts, width);
   for (int s = 0; s < num_slices; ++s) {
-    const Vec3 base = surface.intrados(0, cuts[s]);
-    const double inner = base.head<2>().norm();
-    const double outer = surface.extrados(0, cuts[s]).head<2>().norm() + width;
-    const Vec3 radial(base.x() / inner, base.y() / inner, 0.0);
-    const double inside = std::max(inner - width, inner / 2.0);
-    const Vec3 top(0.0, 0.0, base.z()), bottom(0.0, 0.0, base.z() - width);
-    corners.push_back(
-        {add_vertex(inside * radial + top, assembly), add_vertex(outer * radial + top, assembly),
-         add_vertex(outer * radial + bottom, assembly), add_vertex(inside * radial + bottom, assembly)});
+    const auto [inner, outer] = top_corners(surface, cuts[s], width);
+    corners.push_back({add_vertex(inner, assembly), add_vertex(outer, assembly),
+                       add_vertex({outer.x(), outer.y(), floor}, assembly),
+                       add_vertex({inner.x(), inner.y(), floor}, assembly)});
   }
   const auto block_of = [&](int slice) {
     const double middle = 0.5 * (cuts[slice] + cuts[slice + 1]) - cuts.front();
@@ -110,7 +129,7 @@ void add_plate(const SurfaceMap& surface, const std::vector<double>& cuts, int b
   // Two supports that face each other leave at least half of the clear span between them.
   const int other_end = bed == 0 ? surface.num_rows : 0;
   const double clear = (surface.intrados(other_end, cuts.front()) - a).norm();
-  const double inner = surface.footing == Footing::both_springings ? std::min(width, clear / 4.0) : width;
+  const double inner = surface.last_bed_held ? std::min(width, clear / 4.0) : width;
 
   std::array<Vec3, 4> corners{a - width * along - inner * across, d + width * (across - along),
                               c + width * (along + across), b + width * along - inner * across};
@@ -127,7 +146,7 @@ void add_plate(const SurfaceMap& surface, const std::vector<double>& cuts, int b
 
 void add_base_support(const SurfaceMap& surface, const std::vector<double>& cuts, double width,
                       int num_blocks, double density, Assembly* assembly) {
-  if (surface.footing == Footing::ring) {
+  if (surface.closed) {
     add_ring(surface, num_blocks == 1 ? cuts : cuts_of_blocks(surface, cuts, num_blocks), width, num_blocks,
              density, assembly);
     return;

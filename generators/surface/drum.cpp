@@ -21,7 +21,6 @@ SurfaceMap drum_surface(const SurfaceMap& shell, double height, std::vector<Thic
   drum.datum = -height;
   drum.flat_slices = !shell.corners.empty();
   drum.flat_rings = std::ranges::all_of(drum.wythes, &Thickness::constant);
-  drum.footing = Footing::ring;
   drum.carries = true;
   drum.at = [=, plan = shell.at](double bed, double abscissa, double depth) {
     Vec3 point = plan(0.0, abscissa, depth);

@@ -6,12 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "assembly/base/error.hpp"
-#include "assembly/base/variant.hpp"
-#include "generators/surface/arch.hpp"
-#include "generators/surface/dome.hpp"
-#include "generators/surface/vault_circular.hpp"
-#include "generators/surface/vault_planar.hpp"
-#include "generators/surface/wall.hpp"
+#include "generators/surface/drawings.hpp"
 
 namespace cupola {
 namespace {
@@ -69,15 +64,8 @@ SurfaceMap make_surface(Surface surface, int rings, std::vector<Thickness> wythe
     wythes = {{{}, {std::visit([](const auto& s) { return s.thickness; }, surface)}}};
   else
     std::visit([&](auto& s) { s.thickness = total_thickness(wythes, 0.0); }, surface);
-  SurfaceMap map = std::visit(Overloaded{[&](const DomeSurface& dome) { return dome_surface(dome, rings); },
-                                         [&](const OctagonalVault& vault) {
-                                           return vault.construction == OctagonalVault::Construction::circular
-                                                      ? circular_vault_surface(vault, rings)
-                                                      : planar_vault_surface(vault, rings);
-                                         },
-                                         [&](const ArchSurface& arch) { return arch_surface(arch, rings); },
-                                         [&](const WallSurface& wall) { return wall_surface(wall, rings); }},
-                              surface);
+  SurfaceMap map =
+      std::visit([&](const auto& kind) { return drawn_surface(drawing_of(kind), rings); }, surface);
   map.closed = traits_of(surface).closed;
   map.thrust_lines = traits_of(surface).thrust_lines;
   map.wythes = std::move(wythes);

@@ -9,15 +9,6 @@
 
 namespace cupola {
 
-/// The fixed support under the first bed and, in an arch, behind the last bed.
-enum class Footing {
-  ring,             ///< horizontal ring below z = 0, for closed surfaces
-  plate,            ///< one box below z = 0, for walls
-  both_springings,  ///< one box behind the first bed and one behind the last, for arches
-  masonry,          ///< the first row of cells, and with `held_end` slices beyond both ends, for windows
-  drum,             ///< none: the first bed lies on the last one of a drum
-};
-
 /// A masonry surface as a map from (bed, abscissa, layer) to a point. It knows nothing about blocks.
 ///
 /// Layer l lies between wythes l - 1 and l: layer 0 is the intrados and layer num_wythes() the extrados. In a bed,
@@ -42,10 +33,13 @@ struct SurfaceMap {
   bool flat_slices = false;     ///< the cells of one ring and one facet form an exactly convex solid
   bool flat_rings = false;      ///< so do the cells of one facet in successive rings
   bool flat_skins = true;       ///< the four corners of a cell on one skin are coplanar
-  Footing footing = Footing::ring;
-  bool carries = false;  ///< a support or another surface lies on the last bed
-  double datum = 0.0;    ///< m, z from which heights count: the springing, or the foot of a drum
-  int rings_below = 0;   ///< courses of the drum below the first bed
+  bool first_bed_held = true;   ///< a fixed support stands behind the first bed
+  bool last_bed_held = false;   ///< and behind the last
+  bool first_row_held = false;  ///< the first row of cells is fixed masonry instead, as in a window
+  bool key_stone = false;       ///< one stone lies on the whole last bed
+  bool carries = false;         ///< a support, a key stone or another surface lies on the last bed
+  double datum = 0.0;           ///< m, z from which heights count: the springing, or the foot of a drum
+  int rings_below = 0;          ///< courses of the drum below the first bed
   std::optional<double> shell_volume;  ///< m3, of the smooth shell, if a closed form is known
 
   int num_wythes() const { return static_cast<int>(wythes.size()); }
@@ -57,7 +51,7 @@ struct SurfaceMap {
   Vec3 intrados(double bed, double abscissa) const { return at(bed, abscissa, 0.0); }
   Vec3 extrados(double bed, double abscissa) const { return point(bed, abscissa, num_wythes()); }
   /// Ring of the first row among those of the surface: -1 if the first row is a support.
-  int first_ring() const { return footing == Footing::masonry ? -1 : 0; }
+  int first_ring() const { return first_row_held ? -1 : 0; }
   int num_rings() const { return num_rows / rows_per_ring + first_ring(); }
 };
 

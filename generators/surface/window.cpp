@@ -56,7 +56,7 @@ SurfaceMap window_surface(const Surface& surface, std::vector<Thickness> wythes,
 
   SurfaceMap map = whole;
   map.closed = false;
-  map.footing = Footing::masonry;
+  map.first_row_held = true;
   map.shell_volume.reset();
   map.num_rows = courses + 1;
   const double from = window.from_deg * pi / 180.0;

@@ -7,6 +7,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
+#include "assembly/model/status.hpp"
 #include "postproc/tables/table.hpp"
 
 namespace cupola {
@@ -69,7 +70,7 @@ ClaimResult evaluate(const Claim& claim, RunCache& cache) {
     for (const std::string& name : runs_of(*quantity)) {
       if (!cache.finished(name))
         missing.insert(name);
-      else if (cache.run(name).status() == "unconverged")
+      else if (missed(cache.run(name).status()))
         unsolved.insert(name);
     }
   ClaimResult result;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/status.hpp"
 #include "postproc/compare/range_findings.hpp"
 #include "postproc/tables/range_values.hpp"
 
@@ -158,7 +159,7 @@ std::vector<std::string> findings(const std::vector<PostSummary>& runs) {
   const std::vector<std::string> labels = run_labels(runs.size());
   std::vector<std::string> sentences;
   for (size_t i = 0; i < runs.size(); ++i)
-    if (runs[i].status != "stable")
+    if (!stands(runs[i].status))
       sentences.push_back(
           fmt::format("{} ended with the status `{}`{}.", labels[i], runs[i].status,
                       runs[i].largest_friction_use ? "" : ": it has no equilibrium to compare"));

@@ -81,8 +81,9 @@ void add_status_warnings(Evaluation* e) {
   const auto warn = [e](const char* text) { e->warnings.emplace_back(text); };
   if (e->summary.status == Status::unconverged && !e->summary.ranges.empty())
     warn("not all ends of the ranges were found to the requested accuracy");
-  else if (e->summary.status == Status::unconverged &&
-           (shown == FrameRole::equilibrium || shown == FrameRole::mechanism))
+  else if (e->summary.status == Status::bracketed ||
+           (e->summary.status == Status::unconverged &&
+            (shown == FrameRole::equilibrium || shown == FrameRole::mechanism)))
     warn("the critical value was not bracketed to the requested width");
   else if (e->summary.status == Status::unconverged)
     warn("the solver did not reach the requested accuracy: do not use its forces");
@@ -226,7 +227,7 @@ bool at_rest(const Evaluation& e) {
       return true;
     case FrameRole::step:
     case FrameRole::stage:
-      return e.summary.status == Status::stable;
+      return stands(e.summary.status);
     case FrameRole::failed_stage:
     case FrameRole::mechanism:
     case FrameRole::self_stress:

@@ -1,6 +1,7 @@
 #include "postproc/mechanics/reactions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -8,6 +9,18 @@
 #include "assembly/model/outward.hpp"
 
 namespace cupola {
+
+namespace {
+
+/// m: area over the thickness of the shell along the joint, which leans by the angle between its line through the thickness
+/// and the normal of the shell.
+double length_of(const PlanarHull& joint, const ShellAxes& shell) {
+  if (!shell.exists || !(shell.thickness > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  const Vec3 through = shell.t.cross(joint.plane.normal).normalized();
+  return joint.area * std::abs(through.dot(shell.n)) / shell.thickness;
+}
+
+}  // namespace
 
 std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWrenches& joints,
                                         const std::vector<ShellAxes>& axes, bool arch) {
@@ -22,8 +35,7 @@ std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWre
     reaction.block = support;
     reaction.force += force;
     reaction.outward += force.dot(outward_at(joint.patch.centroid, arch));
-    reaction.length += shell.exists && shell.thickness > 0.0 ? joint.patch.area / shell.thickness
-                                                             : std::numeric_limits<double>::quiet_NaN();
+    reaction.length += length_of(joint.patch, shell);
   }
   std::vector<Reaction> reactions;
   for (const auto& [block, reaction] : found) reactions.push_back(reaction);

@@ -1,6 +1,7 @@
 #include "postproc/report/answers.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "postproc/evaluation/margin.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/figures/range_text.hpp"
 #include "postproc/mechanics/cracks.hpp"
@@ -19,39 +21,6 @@
 
 namespace cupola {
 namespace {
-
-using Parameter = LimitSearch::Parameter;
-
-/// The value of the limit parameter that the case itself has; none if it has none.
-std::optional<double> value_of_case(const Case& scene) {
-  const LimitSearch& limit = scene.analysis.limit;
-  switch (limit.parameter) {
-    case Parameter::friction:
-      return limit.joints ? std::nullopt : std::optional(scene.joints.friction);
-    case Parameter::load:
-    case Parameter::joint_extent:
-      return 1.0;
-    case Parameter::tilt:
-    case Parameter::acceleration:
-    case Parameter::spread:
-      return 0.0;
-    case Parameter::lantern:
-      return scene.loads.lantern ? scene.loads.lantern->weight_fraction : 0.0;
-    case Parameter::thickness:
-    case Parameter::peak_stress:
-      break;
-  }
-  return std::nullopt;
-}
-
-/// How far the case is from its limit, as a factor: 2 if half the friction or twice the load is still borne. None where the
-/// case has no value to compare.
-std::optional<double> factor_of_safety(const Evaluation& e) {
-  const CriticalValue& critical = *e.summary.critical;
-  const std::optional<double> own = value_of_case(e.scene);
-  if (!own || *own == 0.0 || critical.stable == 0.0) return std::nullopt;
-  return critical.stable < critical.moving ? critical.stable / *own : *own / critical.stable;
-}
 
 /// "4 joints hinge, 12 slide"; "" without a mechanism.
 std::string what_gives_way(const Evaluation& e) {
@@ -82,12 +51,12 @@ KeyNumber critical_answer(const Evaluation& e) {
                         0.5 * std::abs(critical.stable - critical.moving) / std::abs(critical.value));
   if (const std::string decides = what_gives_way(e); !decides.empty())
     detail = fmt::format("beyond it {}; {}", decides, detail);
-  const std::optional<double> margin = factor_of_safety(e);
+  const std::optional<double> margin = factor_of_safety(e.scene, e.summary);
   if (critical.parameter == "joint_extent" && margin)
     return {"Geometric safety factor", fmt::format("{:.4g}", *margin),
             fmt::format("Heyman's, of the safest state: forces exist that stay inside joints of {:.4g} times "
-                        "their extent, and none inside joints of {:.4g} times",
-                        critical.stable, critical.moving)};
+                        "their extent, and none inside smaller ones",
+                        critical.stable)};
   if (margin && critical.parameter != "load")
     detail = fmt::format("factor {:.3g} from the {:.4g} of the case; {}", *margin, *value_of_case(e.scene),
                          detail);
@@ -118,11 +87,11 @@ std::string end_text(const RangeEnd& end, double value, const ForceRange& range)
   return end.outcome == RangeOutcome::unconverged ? text + "?" : text;
 }
 
-/// The supports at which the thrust counts: of an arch those on its left, to which ring 0 belongs.
+/// The supports at which the thrust counts: of an arch those at x > 0, to which ring 0 belongs.
 std::vector<Reaction> thrusting(const Evaluation& e) {
   std::vector<Reaction> at;
   for (const Reaction& r : e.reactions)
-    if (!is_arch(e) || e.assembly.blocks[r.block].centroid.x() < 0.0) at.push_back(r);
+    if (!is_arch(e) || e.assembly.blocks[r.block].centroid.x() > 0.0) at.push_back(r);
   return at;
 }
 
@@ -138,37 +107,32 @@ bool is_limit(const Evaluation& e) {
 
 }  // namespace
 
-VerdictWords words_of_status(const std::string& status) {
-  static const std::map<std::string, VerdictWords> words{
-      {"stable", {"It stands", true}},       {"stable_unproven", {"It stands, not proven", true}},
-      {"moving", {"It falls", false}},       {"moving_unproven", {"It falls, not proven", false}},
-      {"collapsed", {"It falls", false}},    {"bracketed", {"Undecided", false}},
-      {"unconverged", {"Undecided", false}},
-  };
-  return words.at(status);
+VerdictWords words_of_status(Status status) {
+  std::string words = words_of(status);
+  words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+  return {words, stands(status)};
 }
 
 VerdictWords verdict_words(const Evaluation& e) {
-  if (!is_limit(e) || !e.summary.critical) return words_of_status(to_string(e.summary.status));
+  if (!is_limit(e) || !e.summary.critical) return words_of_status(e.summary.status);
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> own = value_of_case(e.scene);
-  if (!own) return words_of_status(to_string(e.summary.status));
+  if (!own) return words_of_status(e.summary.status);
   const bool upwards = critical.stable < critical.moving;
-  if (upwards ? *own <= critical.stable : *own >= critical.stable) return words_of_status("stable");
-  return words_of_status((upwards ? *own >= critical.moving : *own <= critical.moving) ? "moving"
-                                                                                       : "bracketed");
+  if (upwards ? *own <= critical.stable : *own >= critical.stable) return words_of_status(Status::stable);
+  return words_of_status((upwards ? *own >= critical.moving : *own <= critical.moving) ? Status::moving
+                                                                                       : Status::bracketed);
 }
 
 KeyNumber margin_answer(const Evaluation& e) {
   if (e.summary.critical) return critical_answer(e);
   if (const auto& robust = e.summary.robustness)
-    return {"Margin", fmt::format("{:.3g} g", robust->acceleration_g),
-            fmt::format(
-                "horizontal acceleration that it bears in the weakest of {} directions, {:.4g} degrees; it "
-                "moves at {:.3g} g",
-                robust->directions, robust->azimuth_deg, robust->moving_g)};
+    return {"Horizontal acceleration", fmt::format("{:.3g} g", robust->acceleration_g),
+            fmt::format("borne in the weakest of {} directions, towards {:.4g} degrees", robust->directions,
+                        robust->azimuth_deg)};
   if (is_limit(e) && at_rest(e))
-    return {"Margin", "no limit", e.summary.message.substr(e.summary.message.rfind(": ") + 2)};
+    return {"Critical " + std::string(to_string(e.scene.analysis.limit.parameter)), "no limit",
+            e.summary.message.substr(e.summary.message.rfind(": ") + 2)};
   if (!at_rest(e))
     return {
         "Margin", "none",
@@ -266,9 +230,11 @@ std::string certain_sentence(const Evaluation& e) {
     return fmt::format("Certain: every state in which it can stand lies inside the ranges. Assumed: {}.",
                        given);
   std::string text = fmt::format(
-      "Certain: forces within the joint laws balance the loads. Assumed: {}, and the stiffness of the "
+      "{}. Assumed: {}, and the stiffness of the "
       "joints, "
       "which selects the forces shown among all that balance the loads.",
+      proven(s.status) ? "Certain: forces within the joint laws balance the loads"
+                       : "Not certain: forces balance the loads to the tolerance, exact ones were not found",
       given);
   if (!s.forces_unique.value) text += " " + to_sentence(s.forces_unique);
   return text;
@@ -305,7 +271,7 @@ std::vector<std::string> terminal_lines(const Evaluation& e, const std::string& 
   };
   std::vector<std::string> out{fmt::format("{}: {}", verdict_words(e).words, reason_for_verdict(e))};
   KeyNumber margin = margin_answer(e);
-  if (e.summary.critical) margin.value = margin.name + " " + margin.value;
+  if (margin.name != "Margin") margin.value = margin.name + " " + margin.value;
   out.push_back(line("margin", margin));
   out.push_back(fmt::format("  {:<9} {}", "weight", force_text(e.summary.weight_N)));
   if (const auto thrust = thrust_answer(e))

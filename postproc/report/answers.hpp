@@ -15,8 +15,8 @@ struct VerdictWords {
   bool good = false;  ///< false: it falls, or nothing is decided
 };
 
-/// The words of a status, by its name.
-VerdictWords words_of_status(const std::string& status);
+/// The words of a status.
+VerdictWords words_of_status(Status status);
 
 /// The words for the structure under the loads of its case. Of a limit analysis: on which side of the limit the case lies.
 VerdictWords verdict_words(const Evaluation& evaluation);
@@ -38,6 +38,9 @@ std::string certain_sentence(const Evaluation& evaluation);
 
 /// Which parts of a structure in several move and which do not; "" for one part, or in an equilibrium.
 std::string parts_sentence(const Evaluation& evaluation);
+
+/// The texts of the first screen as JSON, for the pages of studies: answers.json.
+std::string answers_json(const Evaluation& evaluation);
 
 /// Six lines for the terminal: verdict, margin, weight, thrust, warnings, report.
 std::vector<std::string> terminal_lines(const Evaluation& evaluation, const std::string& report);

@@ -88,7 +88,10 @@ std::string how_sure(const Evaluation& e) {
   return fmt::format("{}: {}{} is at most {:.1e}.", lead, article, certificate.bounds, *certificate.value);
 }
 
-namespace {
+std::string verdict_html(const std::string& words, const std::string& reason, bool good) {
+  return fmt::format("<p class=\"verdict{}\"><strong>{}</strong> <small>{}</small></p>\n", good ? "" : " bad",
+                     markup_text(words), markup_text(reason));
+}
 
 std::string numbers_html(const std::vector<KeyNumber>& numbers) {
   std::string out = "<div class=\"key-numbers\">\n";
@@ -97,8 +100,6 @@ std::string numbers_html(const std::vector<KeyNumber>& numbers) {
                        markup_text(n.name), markup_text(n.value), markup_text(n.detail));
   return out + "</div>\n";
 }
-
-}  // namespace
 
 std::vector<KeyNumber> key_numbers(const Evaluation& e, const std::vector<HistoryRow>& history) {
   constexpr size_t kMost = 4;
@@ -121,9 +122,7 @@ std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& his
   for (const std::string& warning : notices(e))
     out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
   const VerdictWords verdict = verdict_words(e);
-  out +=
-      fmt::format("<p class=\"verdict{}\"><strong>{}</strong> <small>{}</small></p>\n",
-                  verdict.good ? "" : " bad", markup_text(verdict.words), markup_text(reason_for_verdict(e)));
+  out += verdict_html(verdict.words, reason_for_verdict(e), verdict.good);
   std::vector<KeyNumber> numbers = key_numbers(e, history);
   if (construction)
     numbers.insert(numbers.begin(),

@@ -22,6 +22,9 @@ std::vector<KeyNumber> key_numbers(const Evaluation& evaluation, const std::vect
 /// How exact the forces are, in words: "proven to 9 digits".
 std::string how_sure(const Evaluation& evaluation);
 
+std::string verdict_html(const std::string& words, const std::string& reason, bool good);
+std::string numbers_html(const std::vector<KeyNumber>& numbers);
+
 /// What answers the first questions, as HTML: warnings, verdict, key numbers, what is certain, 3-D view, worst joints. `construction`: the stages
 /// of a staged run, else null.
 std::string first_screen(const Evaluation& evaluation, const std::vector<HistoryRow>& history,

@@ -138,13 +138,12 @@ std::string how_sure_of_motion(const Evaluation& e) {
   const Analysis& analysis = e.scene.analysis;
   if (s.status == Status::unconverged) return "";
   if (s.analysis == AnalysisType::static_) {
-    if (s.friction_law != FrictionLaw::associated)
-      return "A motion was found, but other contact forces might balance the loads; a range analysis "
-             "(analysis.type: range) shows whether any do.";
-    if (!e.scene.joints.have_strength())
-      return "It is proven that no forces within the friction cones balance the loads, unless the message "
-             "says `not proven`. The proof holds for Coulomb's law too, which differs only in how joints "
-             "slide.";
+    return proven(s.status)
+               ? "It is proven that no forces within the limits of the joints balance the loads. The proof "
+                 "holds "
+                 "for every friction law: they differ only in how joints slide."
+               : "A motion was found, but other contact forces might balance the loads; a range analysis "
+                 "(analysis.type: range) shows whether any do.";
   }
   if (e.last.frame.role != FrameRole::step) return "";
   if (analysis.time_error)

@@ -118,9 +118,9 @@ std::vector<std::string> range_conditions(const Evaluation& e) {
         "The chosen value belongs to one state of the range, which the compliances of the joints select: "
         "other "
         "compliances, another order of construction or a settlement select another.");
-  if (e.summary.status == Status::stable)
+  if (stands(e.summary.status))
     out.push_back(
-        "The status \"stable\" says that an admissible state exists. It does not say that the history of the "
+        "That it stands means that an admissible state exists. It does not mean that the history of the "
         "building "
         "led to one.");
   out.push_back(

@@ -143,21 +143,24 @@ std::string verdict_text(const Summary& s, FrameRole shown) {
     return fmt::format(
         "The structure stands at {} and moves at {:.5g}. The forces below are those at {:.5g}.",
         phrase(s.critical->parameter, s.critical->stable), s.critical->moving, s.critical->stable);
-  if (!s.ranges.empty() && s.status == Status::stable)
+  if (!s.ranges.empty() && stands(s.status))
     return "Forces exist that balance the loads within the joint laws.";
   if (!s.ranges.empty())
     return "Forces exist that balance the loads, but not all ends of the ranges reached the requested "
            "accuracy.";
-  if (s.analysis == AnalysisType::range && s.status == Status::moving)
+  if (s.analysis == AnalysisType::range && moves(s.status))
     return "The structure moves: no forces balance the loads within the joint laws.";
   switch (s.status) {
     case Status::stable:
+    case Status::stable_unproven:
       return stages ? "Every stage of the construction stands." : "The structure is at rest.";
     case Status::moving:
+    case Status::moving_unproven:
       return stages ? "Not every stage of the construction stands."
                     : "The structure is moving: no equilibrium was found.";
     case Status::collapsed:
       return "The structure has collapsed.";
+    case Status::bracketed:
     case Status::unconverged:
       return "No verdict: the requested accuracy was not reached.";
   }
@@ -199,10 +202,11 @@ std::vector<std::string> quality_sentences(const Evaluation& e) {
             : fmt::format("Sliding joints open by {:g} times the friction coefficient times the slip.",
                           s.dilatancy.value_or(1.0)));
     if (equilibrium) add("The equilibrium found need not be the only one.");
-    if (s.status == Status::moving && s.analysis == AnalysisType::static_)
-      add("That blocks move is proven only where the message says that no equilibrium exists.");
     add(fmt::format("Contacts that slip: {} of {}.", s.slipping_contacts, s.contacts));
   }
+  if (!proven(s.status))
+    add(stands(s.status) ? "Forces balance the loads to the tolerance; that exact ones exist is not proven."
+                         : "That no forces balance the loads is not proven.");
   if (equilibrium || in_time)
     add(fmt::format("The largest penetration at a contact is {:.3g} mm.", 1e3 * s.max_penetration_m));
   return out;

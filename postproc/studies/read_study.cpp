@@ -2,13 +2,17 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "assembly/base/error.hpp"
 #include "assembly/case/case_reader.hpp"
 #include "assembly/case/case_tree.hpp"
+#include "assembly/files/assembly_file.hpp"
 #include "postproc/studies/study.hpp"
+#include "postproc/studies/support_groups.hpp"
 
 namespace cupola {
 namespace {
@@ -23,15 +27,58 @@ void declare_comparison(Section& s, Comparison& comparison) {
   s.rule(comparison.runs.size() > 1, "runs", "must name at least two runs");
 }
 
-void declare_study(Section& root, Study& study, const CaseNode& tree, std::string case_name) {
+std::string name_of(const CaseOfStudy& of) {
+  const fs::path path(of.name);
+  return path.extension() == ".yaml" ? path.stem().string() : of.name;
+}
+
+/// Writes the name of the case for {case} in every text.
+void fill_in_case(CaseNode* node, const std::string& name) {
+  node->text = filled(node->text, "{case}", name);
+  for (CaseNode& item : node->items) fill_in_case(&item, name);
+  for (CaseNode::Entry& entry : node->entries) fill_in_case(&entry.value, name);
+}
+
+bool gives(const CaseNode& tree, const std::string& key) {
+  const CaseNode* node = &tree;
+  for (size_t start = 0; node && start <= key.size();) {
+    const size_t dot = std::min(key.find('.', start), key.size());
+    node = node->find(key.substr(start, dot - start));
+    start = dot + 1;
+  }
+  return node && node->kind != CaseNode::Kind::empty;
+}
+
+/// Why the runs of a group do not apply to the case; "": they do.
+std::string reason_to_leave_out(const RunGroup& group, const CaseOfStudy& of) {
+  if (group.needs.empty()) return "";
+  const CaseNode tree = load_case_tree(of.name, {});
+  if (std::ranges::any_of(group.needs, [&tree](const std::string& key) { return gives(tree, key); }))
+    return "";
+  return fmt::format("the case has no `{}`", fmt::join(group.needs, "` and no `"));
+}
+
+void add_runs(const RunGroup& group, const CaseOfStudy& of, Study* study) {
+  std::string reason = reason_to_leave_out(group, of);
+  std::vector<StudyRun> runs;
+  if (reason.empty() && group.settle > 0.0) {
+    if (of.assembly.empty()) return;
+    runs = settlement_runs(group, study->name, read_case(of.name), read_assembly(of.assembly), &reason);
+  } else if (reason.empty()) {
+    runs = runs_of(group, study->name);
+  }
+  if (!reason.empty()) study->left_out.push_back({group.name, reason});
+  for (StudyRun& run : runs) study->runs.push_back(std::move(run));
+}
+
+void declare_study(Section& root, Study& study, const CaseNode& tree, const CaseOfStudy& of) {
   root.text("title", study.title, "what the study shows, and how long it takes");
   std::string own_case;
   root.text("case", own_case, "case of the trade-off");
-  if (case_name.empty()) case_name = own_case;
+  const std::string case_name = of.name.empty() ? own_case : name_of(of);
   std::vector<RunGroup> groups;
   root.list("runs", groups, "runs of the study", declare_run_group);
-  for (const RunGroup& group : groups)
-    for (StudyRun& run : runs_of(group, study.name)) study.runs.push_back(std::move(run));
+  for (const RunGroup& group : groups) add_runs(group, of, &study);
   root.text("script", study.script, "in tests/benchmark; prints the rows of the tables without columns");
   root.rule(study.script.empty() || is_plain_name(study.script), "script", "must be the name of a file");
   root.list("tables", study.tables, "one entry per table", declare_study_table);
@@ -41,6 +88,8 @@ void declare_study(Section& root, Study& study, const CaseNode& tree, std::strin
   root.rule(knobs.empty() == own_case.empty(), "case", "must be given with `tradeoff`, and only then");
   root.list("claims", study.claims, "statements with a number and a verdict", declare_claim);
   root.list("figures", study.figures, "pictures of the runs", declare_figure);
+  if (root.gives("answers"))
+    root.section("answers", study.answers, "which runs answer which question", declare_answers);
   root.finish();
   if (!knobs.empty())
     study.tradeoff =
@@ -51,9 +100,29 @@ void declare_study(Section& root, Study& study, const CaseNode& tree, std::strin
   }
 }
 
-/// Cases and variants that the runs of a study may name: those of the folder above studies/, or else of its own.
-std::set<std::string> known_runs(const fs::path& study_path) {
-  fs::path folder = study_path.parent_path();
+/// Names with * at the end are replaced by the runs of the study that begin so, those of runs left out by none.
+void expand_names(const Study& study, std::vector<std::string>* names) {
+  std::vector<std::string> expanded;
+  for (const std::string& name : *names) {
+    if (!name.ends_with('*')) expanded.push_back(name);
+    for (const StudyRun& run : study.runs)
+      if (name.ends_with('*') && run.name.starts_with(name.substr(0, name.size() - 1)))
+        expanded.push_back(run.name);
+  }
+  *names = std::move(expanded);
+}
+
+/// Drops runs of groups that were left out.
+void drop_left_out(const Study& study, std::vector<std::string>* names) {
+  std::erase_if(*names, [&study](const std::string& name) {
+    return std::ranges::any_of(
+        study.left_out, [&](const NotComputed& group) { return name == study.name + "/" + group.what; });
+  });
+}
+
+/// Cases and variants that runs may name: those of the folder of this file, or above it if that is studies/.
+std::set<std::string> known_runs(const fs::path& path) {
+  fs::path folder = path.parent_path();
   if (folder.filename() == "studies") folder /= "..";
   if (folder.empty()) folder = ".";
   std::set<std::string> names;
@@ -67,10 +136,14 @@ std::set<std::string> known_runs(const fs::path& study_path) {
 
 }  // namespace
 
-Study read_study(const std::string& path, const std::string& case_name) {
-  const CaseNode tree = load_case_tree(path, {});
+Study read_study(const std::string& path, const CaseOfStudy& of) {
+  CaseNode tree = load_case_tree(path, {});
   Study study;
   study.name = fs::path(path).stem().string();
+  if (!of.name.empty() && !tree.find("case")) {
+    study.name = name_of(of) + "_" + study.name;
+    fill_in_case(&tree, name_of(of));
+  }
   if (tree.find("sweep")) {
     const Case scene = read_case(path, {});
     study.title = scene.title;
@@ -80,9 +153,12 @@ Study read_study(const std::string& path, const std::string& case_name) {
     return study;
   }
   Section root(&tree, "", tree.where, path);
-  declare_study(root, study, tree, case_name);
+  declare_study(root, study, tree, of);
+  expand_names(study, &study.answers.causes);
+  drop_left_out(study, &study.answers.margins);
+  for (StudyTable& table : study.tables) expand_names(study, &table.runs);
   for (StudyTable& table : study.tables)
-    if (table.runs.empty())
+    if (table.runs.empty() && study.answers.verdict.empty())
       for (const StudyRun& run : study.runs) table.runs.push_back(run.name);
   for (const StudyTable& table : study.tables)
     if (table.columns.empty() && study.script.empty())
@@ -110,14 +186,14 @@ std::vector<StudyRun> members_of(const Study& study) {
   return members;
 }
 
-std::string members_text(const std::vector<StudyRun>& members, const std::string& study_path) {
-  const std::set<std::string> known = known_runs(study_path);
+std::string members_text(const std::vector<StudyRun>& members, const std::string& path) {
+  const std::set<std::string> known = known_runs(path);
   std::string out;
   for (const StudyRun& member : members) {
     const std::string& name = member.case_name.empty() ? member.name : member.case_name;
     if (!known.contains(name)) {
       const std::string near = nearest_name(name, known);
-      throw InputError(FileLocation{study_path},
+      throw InputError(FileLocation{path},
                        fmt::format("{}: no case and no variant has this name{}", name,
                                    near.empty() ? "" : fmt::format("; did you mean {}?", near)));
     }

@@ -5,6 +5,7 @@
 
 #include "assembly/case/sweep.hpp"
 #include "postproc/claims/claim.hpp"
+#include "postproc/studies/study_answers.hpp"
 #include "postproc/studies/study_table.hpp"
 #include "postproc/studies/tradeoff_runs.hpp"
 
@@ -31,18 +32,26 @@ struct Study {
   std::vector<Claim> claims;
   std::vector<ClaimFigure> figures;
   std::vector<SweptKey> sweep;  ///< of a case
+  StudyAnswers answers;
+  std::vector<NotComputed> left_out;  ///< groups of runs that do not apply to the case
 };
 
-/// Reads a study with the strict reader of case files; throws InputError with line and key. `case_name`, if not empty,
-/// replaces the key `case` of a trade-off.
-Study read_study(const std::string& path, const std::string& case_name = "");
+/// The case of a study that is made for any case: {case} in its file.
+struct CaseOfStudy {
+  std::string name;      ///< or the path of its file, NAME.yaml
+  std::string assembly;  ///< file with its blocks, for groups with `settle`; empty: they are left out
+};
+
+/// Reads a study with the strict reader of case files; throws InputError with line and key. `of`, if not empty, replaces
+/// the key `case` of a trade-off; in other studies it stands for {case}, and the study is named CASE_STUDY.
+Study read_study(const std::string& path, const CaseOfStudy& of = {});
 
 /// Every run that the study reads, each once: those that it defines first.
 std::vector<StudyRun> members_of(const Study& study);
 
 /// One line per run: NAME for a run that exists as case or variant, NAME CASE key.path=value ... for the others, in the
-/// format of cases/variants.txt. Throws InputError for a name that is neither a case nor a variant beside the study's
-/// folder.
-std::string members_text(const std::vector<StudyRun>& members, const std::string& study_path);
+/// format of cases/variants.txt. Throws InputError for a name that is neither a case nor a variant of the folder of
+/// `path`, or above it if that is studies/.
+std::string members_text(const std::vector<StudyRun>& members, const std::string& path);
 
 }  // namespace cupola

@@ -23,7 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct StudyRequest {
-  std::string study_path, case_name, members_file, runs_folder, output_folder, pages_folder;
+  std::string study_path, members_file, runs_folder, output_folder, pages_folder;
+  CaseOfStudy of;
   bool quiet = false;
 };
 
@@ -112,17 +113,21 @@ ExitCode measure(const Study& study, const StudyRequest& request) {
     if (!runs.finished(member.name)) missing.push_back(member.name);
   StudyPage page(study.title.empty() ? study.name : study.title, request.output_folder);
   std::string text;
-  if (!missing.empty()) page.add_paragraph(fmt::format("Not run: {}.", fmt::join(missing, ", ")));
+  if (study.answers.verdict.empty() && !missing.empty())
+    page.add_paragraph(fmt::format("Not run: {}.", fmt::join(missing, ", ")));
+  text += add_answers(study.answers, study.left_out, request.runs_folder, runs, &page);
   if (!study.sweep.empty()) text += add_sweep(study.sweep, study.runs, request.runs_folder, &page);
   const std::vector<MeasuredTable> tables = add_tables(study, runs, &page, &text);
   add_comparisons(study, request, runs, &page);
   add_tradeoff(study, request.runs_folder, &page, &text);
   add_claims(study, request.runs_folder, &page, &text);
+  if (!study.answers.verdict.empty()) page.add_report_links(study.runs, request.runs_folder);
   page.write();
   if (!request.quiet) fmt::print("{}\nopen {}/study.html\n", text, page.folder());
   if (!missing.empty()) {
     fmt::print(stderr, "cupola-post: not run: {}\n", fmt::join(missing, " "));
-    return ExitCode::failed;
+    // A page of answers says what was not computed and why.
+    return runs.finished(study.answers.verdict) ? ExitCode::done : ExitCode::failed;
   }
   if (!request.pages_folder.empty()) write_pages(study, tables, request, runs);
   return ExitCode::done;
@@ -142,15 +147,20 @@ ExitCode run_study(int argc, const char* const* argv) {
       ->type_name("FOLDER");
   app.add_option("--pages", request.pages_folder, "write the tables of the pages below this folder")
       ->type_name("FOLDER");
-  app.add_option("--case", request.case_name, "case of a trade-off")->type_name("NAME");
+  app.add_option("--case", request.of.name, "case of a trade-off, or of a study with {case}: its file")
+      ->type_name("CASE");
+  app.add_option("--assembly", request.of.assembly, "assembly of the case, for runs with settled supports")
+      ->type_name("FILE");
   app.add_flag("--quiet", request.quiet, "print errors only");
   app.footer("Sample runs:\n  cupola-post study cases/studies/chains.yaml --runs out/ --output out/chains/");
   if (const auto ended = parse_arguments(app, argc, argv)) return *ended;
 
   // 2. Runs
-  const Study study = read_study(request.study_path, request.case_name);
+  const Study study = read_study(request.study_path, request.of);
+  const bool own_case = request.of.name.ends_with(".yaml");
   if (!request.members_file.empty()) {
-    write_text_atomically(request.members_file, members_text(members_of(study), request.study_path));
+    write_text_atomically(request.members_file,
+                          members_text(members_of(study), own_case ? request.of.name : request.study_path));
     return ExitCode::done;
   }
   if (request.runs_folder.empty() || request.output_folder.empty())

@@ -1,6 +1,7 @@
 #include "postproc/studies/study_page.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -45,6 +46,17 @@ void StudyPage::add_figures(const std::vector<Figure>& figures) {
         !picture.empty())
       body_ += fmt::format("<figure>\n{}\n<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n",
                            picture, markup_text(figure.title), markup_text(figure.caption));
+}
+
+void StudyPage::add_report_links(const std::vector<StudyRun>& runs, const std::string& runs_folder) {
+  std::string links;
+  for (const StudyRun& run : runs) {
+    const std::string post = runs_folder + "/" + run.name + "/post";
+    if (std::filesystem::exists(post + "/report.html"))
+      links +=
+          (links.empty() ? "" : ", ") + report_link(run.name.substr(run.name.rfind('/') + 1), post, folder_);
+  }
+  if (!links.empty()) body_ += "<p>Reports: " + links + ".</p>\n";
 }
 
 void StudyPage::write_csv(const Table& table) const {

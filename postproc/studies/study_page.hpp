@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "postproc/figures/gnuplot.hpp"
+#include "postproc/studies/study_run.hpp"
 #include "postproc/tables/table.hpp"
 
 namespace cupola {
@@ -20,6 +21,8 @@ class StudyPage {
   void add_figures(const std::vector<Figure>& figures);
   /// Writes NAME.csv and shows the table without columns in which all cells are empty.
   void add_table(const Table& table);
+  /// Links to the reports of the runs that have one.
+  void add_report_links(const std::vector<StudyRun>& runs, const std::string& runs_folder);
   void write_csv(const Table& table) const;  ///< NAME.csv
   void write() const;                        ///< study.html
   const std::string& folder() const { return folder_; }

@@ -48,6 +48,7 @@ void declare_names(Section& s, const std::string& key, std::vector<std::string>&
                              [](std::string name) {
                                for (const char* placeholder : {"{run}", "{case}"})
                                  name = filled(name, placeholder, "x");
+                               if (name.ends_with('*')) name.pop_back();
                                // A run of a study is in the folder of the study.
                                const size_t slash = name.find('/');
                                return slash == std::string::npos ? is_plain_name(name)
@@ -63,6 +64,11 @@ void declare_run_group(Section& s, RunGroup& group) {
   s.text("name", group.name, "name of a run; {case} stands for its case");
   declare_settings(s, group.settings, "key.path=value of all these runs, separated by spaces");
   s.list("sweep", group.sweep, "keys and the values they take, in all combinations", declare_swept_key);
+  declare_names(s, "needs", group.needs, "keys of which the case must give one; else the runs are left out");
+  s.number("settle", group.settle, {.min = 0, .max = 0.1},
+           "one run per support, which sinks by this share of the span of the model");
+  s.rule(group.settle == 0.0 || (group.cases.size() == 1 && group.sweep.empty()), "settle",
+         "requires one case and no `sweep`");
   s.rule(group.names.empty() != group.cases.empty(), "cases", "give either `cases` or `names`");
   s.rule(group.names.empty() || (group.settings.empty() && group.sweep.empty()), "names",
          "runs that exist take no `set` and no `sweep`; use `cases`");

@@ -21,6 +21,8 @@ struct RunGroup {
   std::vector<std::string> cases, settings;
   std::string name = "{case}";  ///< of a run; {case} stands for its case; swept keys are appended
   std::vector<SweptKey> sweep;
+  std::vector<std::string> needs;  ///< keys of which the case must give one; else the group is left out
+  double settle = 0.0;  ///< one run per support, which sinks by this share of the span; 0: no such runs
 };
 void declare_run_group(Section& s, RunGroup& group);
 

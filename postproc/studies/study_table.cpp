@@ -8,6 +8,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/files/number_text.hpp"
+#include "assembly/model/status.hpp"
 #include "postproc/studies/study_run.hpp"
 
 namespace cupola {
@@ -73,7 +74,7 @@ std::string flaw_of(const StudyColumn& column, const std::string& run, RunCache&
   for (const Quantity& quantity : quantities_of(column, run))
     for (const std::string& name : runs_of(quantity)) {
       if (!cache.finished(name)) return "not run";
-      if (cache.run(name).status() == "unconverged") flaw = "unconverged";
+      if (missed(cache.run(name).status())) flaw = cache.run(name).status();
     }
   return flaw;
 }
@@ -82,6 +83,7 @@ Table::Cell cell_of(const StudyColumn& column, const std::string& run, RunCache&
   if (column.text) {
     if (*column.text == RunText::run) return run.substr(run.rfind('/') + 1);
     if (!cache.finished(run)) return std::string("not run");
+    if (*column.text == RunText::verdict) return cache.run(run).answer("verdict.words");
     return *column.text == RunText::status ? cache.run(run).status() : cache.run(run).message();
   }
   if (const std::string flaw = flaw_of(column, run, cache); !flaw.empty()) return flaw;
@@ -197,7 +199,7 @@ std::string to_markdown(const StudyTable& table, const Table& measured) {
   std::string out;
   for (size_t i = 0; i < lines.size(); ++i) {
     out += fmt::format("| {} |\n", fmt::join(lines[i], " | "));
-    if (i == 0) out += "|" + filled(std::string(lines[0].size(), 'x'), "x", "---|") + "\n";
+    if (i == 0) out += fmt::format("|{}\n", filled(std::string(lines[0].size(), 'x'), "x", "---|"));
   }
   return out;
 }

@@ -12,9 +12,9 @@
 namespace cupola {
 
 /// A text of the run of a row.
-enum class RunText : std::uint8_t { run, status, message };
+enum class RunText : std::uint8_t { run, status, message, verdict };
 constexpr auto enum_names(RunText) {
-  return std::array{"run", "status", "message"};
+  return std::array{"run", "status", "message", "verdict"};
 }
 
 /// A column of a table. Its cells are either given (`texts`), or a text of the run (`text`), or the cells of a column of the

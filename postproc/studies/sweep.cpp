@@ -33,11 +33,7 @@ std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<Stud
                         counted(members.size(), "member")));
   if (const Figure figure = sweep_figure(sweep, table); !figure.commands.empty()) page->add_figures({figure});
   page->add_table(table);
-  std::string links;
-  for (const StudyRun& member : members)
-    links += (links.empty() ? "" : ", ") +
-             report_link(member.name, runs_folder + "/" + member.name + "/post", page->folder());
-  page->add("<p>Reports: " + links + ".</p>\n");
+  page->add_report_links(members, runs_folder);
   return fmt::format("{}\n{}: {}\n", aligned_text(table), counted(members.size(), "member"), ended);
 }
 

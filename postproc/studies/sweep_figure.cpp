@@ -11,6 +11,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/files/number_text.hpp"
+#include "assembly/model/status.hpp"
 #include "postproc/figures/plot_style.hpp"
 
 namespace cupola {
@@ -82,12 +83,12 @@ std::map<std::string, std::vector<size_t>> curves_of(const Table& table, size_t 
   return curves;
 }
 
-/// Members that have not ended stable, on the lower edge of the panels.
+/// Members that do not stand, on the lower edge of the panels.
 Rows without_equilibrium(const Table& table, size_t status) {
   Rows rows;
   for (const auto& row : table.rows) {
     double x = 0.0;
-    if (text_of(row[status]) != "stable" && text_of(row[status]) != "missing" &&
+    if (!stands(text_of(row[status])) && text_of(row[status]) != "missing" &&
         read_number(text_of(row[1]), &x).empty())
       rows.push_back({x, 0.03});
   }
@@ -125,8 +126,8 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
       for (const size_t r : members) {
         double x = 0.0;
         read_number(text_of(table.rows[r][1]), &x);
-        rows.push_back({x, factor * number_of(table.rows[r][k]),
-                        text_of(table.rows[r][status]) == "stable" ? 7.0 : 6.0});
+        rows.push_back(
+            {x, factor * number_of(table.rows[r][k]), stands(text_of(table.rows[r][status])) ? 7.0 : 6.0});
       }
       std::sort(rows.begin(), rows.end());
       const std::string block = fmt::format("column{}_{}", k, n);

@@ -22,7 +22,7 @@ struct TradeoffRow {
 
   bool finished() const { return summary.has_value(); }
   /// False if the run did not reach its requested accuracy.
-  bool reached() const { return finished() && summary->status != Status::unconverged; }
+  bool reached() const { return finished() && cupola::reached(summary->status); }
   /// The error used for ranking: of the critical value if there is one, otherwise wrench_rms.
   double error() const { return critical_error.value_or(errors.wrench_rms); }
   /// True if the run sets --threads: threads reduce the wall time, not the processor time.

@@ -12,6 +12,7 @@
 #include "assembly/base/process.hpp"
 #include "assembly/base/variant.hpp"
 #include "assembly/files/atomic_file.hpp"
+#include "postproc/evaluation/margin.hpp"
 #include "postproc/mechanics/cracks.hpp"
 #include "postproc/tables/result_columns.hpp"
 
@@ -54,6 +55,7 @@ void for_each_field(SummaryType& s, Visit visit) {
   visit("max_displacement_m", s.max_displacement_m);
   visit("critical_value", s.critical_value);
   visit("critical_unit", s.critical_unit);
+  visit("margin_factor", s.margin_factor);
 }
 
 Json to_value(const std::optional<double>& value) {
@@ -211,6 +213,7 @@ PostSummary post_summary(const Evaluation& e) {
   if (const auto& critical = e.summary.critical) {
     s.critical_value = critical->value;
     s.critical_unit = limit_unit(critical->parameter);
+    s.margin_factor = factor_of_safety(e.scene, e.summary);
   }
   s.max_displacement_m = e.summary.max_displacement_m;
   s.compliance_per = to_string(e.scene.joints.compliance.per);

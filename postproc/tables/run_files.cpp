@@ -59,7 +59,7 @@ std::string near_key(const UnorderedJson& root, const std::string& key) {
 }  // namespace
 
 struct RunFiles::Summaries {
-  std::optional<UnorderedJson> results, post;
+  std::optional<UnorderedJson> results, post, answers;
 };
 
 RunFiles::RunFiles(std::string folder)
@@ -80,6 +80,12 @@ std::string RunFiles::status() {
 
 std::string RunFiles::message() {
   return text_of_results("message");
+}
+
+std::string RunFiles::answer(const std::string& key) {
+  if (!summaries_->answers) summaries_->answers = read_json(folder_ + "/post/answers.json");
+  const UnorderedJson* text = descend(*summaries_->answers, key);
+  return text && text->is_string() ? text->get<std::string>() : "";
 }
 
 std::string RunFiles::revision() {

@@ -30,6 +30,7 @@ struct ConstructionProgress {
   std::optional<std::pair<double, double>> last_bracket;  // of the search
   std::string first_failure;  // stage and message of the first one that does not stand
   bool unconverged = false, ended = false;
+  bool all_proven = true, motion_proven = false;  // one motion is enough to refute the construction
   std::string stages_csv, failures_csv;
 };
 
@@ -37,7 +38,7 @@ template <class Archive>
 void visit(Archive& archive, ConstructionProgress& x) {
   archive(x.next, x.ring, x.solved, x.standing, x.need_none, x.undecided, x.iterations, x.worst_balance,
           x.worst, x.least_stands, x.least_moves, x.least_stage, x.last_bracket, x.first_failure,
-          x.unconverged, x.ended, x.stages_csv, x.failures_csv);
+          x.unconverged, x.ended, x.all_proven, x.motion_proven, x.stages_csv, x.failures_csv);
 }
 template <class Archive>
 void visit(Archive& archive, BuiltContact& x) {
@@ -191,6 +192,9 @@ void ConstructionRun::record(const LaidBlocks& stage, const StaticSolution& solu
   progress_.standing += stands;
   progress_.need_none += least.needs_none;
   progress_.unconverged = progress_.unconverged || solution.outcome == StaticOutcome::unconverged;
+  progress_.all_proven = progress_.all_proven && solution.proven;
+  progress_.motion_proven =
+      progress_.motion_proven || (solution.outcome == StaticOutcome::moving && solution.proven);
   if (!stands && progress_.first_failure.empty())
     progress_.first_failure = fmt::format("stage {} in course {} (block {}): {}", number, stage.ring,
                                           block_label(assembly_, stage.blocks.front()), solution.message);
@@ -231,8 +235,8 @@ void ConstructionRun::judge() {
   const ConstructionProgress& p = progress_;
   const auto total = static_cast<int>(stages_.size());
   summary_.status = p.unconverged         ? Status::unconverged
-                    : p.standing == total ? Status::stable
-                                          : Status::moving;
+                    : p.standing == total ? standing(p.all_proven)
+                                          : motion(p.motion_proven);
   summary_.message =
       fmt::format("stages that stand with the mortar of the case: {} of {}", p.standing, p.solved);
   if (!p.first_failure.empty()) summary_.message += "; the first that does not is " + p.first_failure;

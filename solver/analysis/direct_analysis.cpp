@@ -188,9 +188,10 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
     summary.accuracy.reached = summary.accuracy.worst_over_run = width;
     // Recomputed from points and world forces: what the solver calls admissible must balance.
     const bool balanced = summary.equilibrium_residual.value() <= kOutcomeTolerance;
-    if (width <= asked && balanced) summary.status = Status::stable;
+    if (balanced) summary.status = width <= asked ? Status::stable : Status::bracketed;
     summary.critical = CriticalValue{name, limit.middle(), limit.admissible, limit.moving};
     summary.message = bounds_text(*summary.critical, limit, balanced) + mechanism + bound_for_coulomb(limit);
+    if (width > asked) summary.message += missed_width(width, asked);
   }
   summary.message += gaps_note(limit.at_admissible.contacts, assembly);
   summary.solve_time_seconds = wall_seconds() - started;

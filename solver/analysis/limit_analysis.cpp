@@ -153,7 +153,7 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
 
   Summary summary;
   const std::string mechanism = write_frames(run, &summary);
-  summary.status = bracket.narrow ? Status::stable : Status::unconverged;
+  summary.status = bracket.narrow ? Status::stable : bracket.found ? Status::bracketed : Status::unconverged;
   if (bracket.found)
     summary.critical =
         CriticalValue{to_string(parameter), bracket.middle(), bracket.stable.value, bracket.moving.value};
@@ -173,9 +173,7 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   if (bracket.found) {
     const double width = std::abs(bracket.stable.value - bracket.moving.value) / std::abs(bracket.middle());
     summary.accuracy.reached = summary.accuracy.worst_over_run = width;
-    if (!bracket.narrow)
-      summary.message += fmt::format("; bracket width {:.1e} of the middle > {:.1e} requested", width,
-                                     bracket_width(scene.analysis));
+    if (!bracket.narrow) summary.message += missed_width(width, bracket_width(scene.analysis));
   }
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;

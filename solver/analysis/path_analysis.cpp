@@ -26,6 +26,7 @@ struct PathProgress {
   double time_step = 0.0;           // s, change of the time in the last one
   double first_displacement = 0.0;  // m, of the control at time 0
   int equilibria = 0, iterations = 0;
+  bool proven = true;  // all equilibria
   WorstOfRun worst;
   double worst_balance = 0.0, dissipated = 0.0;
   double largest_force = 0.0, time_of_largest = 0.0, displacement_of_largest = 0.0;
@@ -34,7 +35,7 @@ struct PathProgress {
 
 template <class Archive>
 void visit(Archive& archive, PathProgress& x) {
-  archive(x.next, x.step, x.time_step, x.first_displacement, x.equilibria, x.iterations, x.worst,
+  archive(x.next, x.step, x.time_step, x.first_displacement, x.equilibria, x.iterations, x.proven, x.worst,
           x.worst_balance, x.dissipated, x.largest_force, x.time_of_largest, x.displacement_of_largest,
           x.table);
 }
@@ -86,7 +87,7 @@ class PathRun {
   Summary summary_;
   PathProgress progress_;
   std::string last_failure_;
-  StaticOutcome last_outcome_ = StaticOutcome::equilibrium;
+  Status last_status_ = Status::stable;
 };
 
 PathRun::PathRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks)
@@ -133,7 +134,7 @@ bool PathRun::advance(double parameter) {
     solution = path_.advance(options_.length ? 0.0 : parameter);
   }
   progress_.iterations += solution.iterations;
-  last_outcome_ = solution.outcome;
+  last_status_ = status_of(solution.outcome, solution.proven);
   if (solution.outcome == StaticOutcome::equilibrium) {
     if (path_.value() != time) progress_.time_step = std::abs(path_.value() - time);
     record(solution);
@@ -161,6 +162,7 @@ void PathRun::record(const StaticSolution& solution) {
   progress_.worst.include(solution.residuals, summary_.certified_force_error, summary_.forces_unique,
                           largest_violation(frame));
   progress_.worst_balance = std::max(progress_.worst_balance, summary_.accuracy.reached);
+  progress_.proven = progress_.proven && solution.proven;
   progress_.dissipated += joint_dissipation(solution.step, solution.step_solution);
   if (progress_.equilibria++ == 0) progress_.first_displacement = displacement();
   tabulate(frame, solution);
@@ -219,7 +221,8 @@ void PathRun::judge(double started) {
                   options_.length ? "m" : "s", block_label(*model_.assembly, control_.block));
   const std::string reached =
       options_.length ? fmt::format("{:.6g} m", displacement()) : fmt::format("{:.6g} s", path_.value());
-  if (last_outcome_ == StaticOutcome::equilibrium) {
+  if (stands(last_status_)) {
+    summary_.status = standing(progress_.proven);
     summary_.message = fmt::format(
         "{} up to {}; {}", counted(progress_.equilibria, "equilibrium", "equilibria"), reached, largest);
     if (options_.length && at_end_of_time())
@@ -227,7 +230,7 @@ void PathRun::judge(double started) {
                                       options_.end, *options_.length);
     return;
   }
-  summary_.status = last_outcome_ == StaticOutcome::moving ? Status::moving : Status::unconverged;
+  summary_.status = last_status_;
   summary_.message = fmt::format("the path ends at {}; {}; {}", reached, largest, last_failure_);
 }
 

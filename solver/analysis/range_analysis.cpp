@@ -14,6 +14,8 @@
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/analysis/statics/static_record.hpp"
+#include "solver/conic/exact_equilibrium.hpp"
+#include "solver/conic/motion_proof.hpp"
 #include "solver/conic/solve_conic.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/runtime/threads.hpp"
@@ -144,6 +146,7 @@ bool write_start(const RigidScene& rigid, const ChosenState& chosen, const Analy
     sinks.frame(chosen.frame);
     summarize_frame(chosen.frame, rigid.model, summary);
     summarize_balance(chosen.solution.balance, summary);
+    summary->status = standing(chosen.solution.proven);
     return true;
   }
   const ConicSolution any = solve_conic(rigid.problem);
@@ -155,15 +158,21 @@ bool write_start(const RigidScene& rigid, const ChosenState& chosen, const Analy
     const size_t nc = rigid.contacts.points.size();
     write_mechanism(rigid.model, rigid.start, rigid.contacts, rigid.memories, mechanism,
                     {std::vector<Vec3>(nc, Vec3::Zero()), {}}, std::vector<double>(nc, 0.0), "", sinks);
-    summary->status = Status::moving;
-    summary->message = "no admissible state exists: " + describe(mechanism);
+    summary->status =
+        motion(MotionProof(rigid.problem.contacts, rigid.problem.load).next_to(any.v).has_value());
+    summary->message = fmt::format("no admissible state {}: {}",
+                                   proven(summary->status) ? "exists" : "was found", describe(mechanism));
     return false;
   }
-  if (any.outcome != ConicOutcome::optimal) set_role(FrameRole::unconverged, "", &frame);
+  const bool found = any.outcome == ConicOutcome::optimal;
+  if (found)
+    summary->status = standing(proves_equilibrium(rigid.problem.contacts, rigid.problem.load, any.gamma));
+  else
+    set_role(FrameRole::unconverged, "", &frame);
   sinks.frame(frame);
   summarize_balance(balance_of(rigid, any.gamma), summary);
   summary->message = fmt::format("the search for an admissible state ended {}", to_string(any.outcome));
-  return any.outcome == ConicOutcome::optimal;
+  return found;
 }
 
 }  // namespace
@@ -198,7 +207,7 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
         complete = complete && end->outcome != RangeOutcome::unconverged;
     }
     summary.accuracy.reached = summary.accuracy.worst_over_run = gap;
-    summary.status = complete && gap <= kGap ? Status::stable : Status::unconverged;
+    if (!complete || gap > kGap) summary.status = Status::unconverged;
     summary.message = describe(summary.ranges);
     if (const int sectors = scene.analysis.cyclic_sectors; sectors > 1)
       summary.message +=

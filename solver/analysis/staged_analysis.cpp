@@ -24,6 +24,7 @@ struct StageResult {
   int blocks = 0;
   double weight = 0.0;  // N
   StaticOutcome outcome = StaticOutcome::unconverged;
+  bool proven = false;
   double speed_ratio = 0.0;
   std::string message;              // of the static solve
   std::optional<Bracket> critical;  // of the fresh friction
@@ -126,16 +127,21 @@ std::string row(const StageResult& stage) {
 void judge(const std::vector<StageResult>& stages, double fresh_friction, Summary* summary) {
   const StageResult *worst = nullptr, *failed = nullptr;
   int moving = 0, unconverged = 0, need_none = 0;
+  bool all_proven = true, motion_proven = false;  // one motion is enough to refute the construction
   for (const StageResult& stage : stages) {
     moving += stage.outcome == StaticOutcome::moving;
     unconverged += stage.outcome == StaticOutcome::unconverged;
+    all_proven = all_proven && stage.proven;
+    motion_proven = motion_proven || (stage.outcome == StaticOutcome::moving && stage.proven);
     need_none += stage.needs_none;
     if (stage.outcome == StaticOutcome::unconverged) failed = &stage;
     if (stage.critical && stage.critical->found &&
         (worst == nullptr || stage.critical->stable.value > worst->critical->stable.value))
       worst = &stage;
   }
-  summary->status = unconverged > 0 ? Status::unconverged : moving > 0 ? Status::moving : Status::stable;
+  summary->status = unconverged > 0 ? Status::unconverged
+                    : moving > 0    ? motion(motion_proven)
+                                    : standing(all_proven);
   summary->message = fmt::format("stages that do not stand with a fresh friction of {:g}: {} of {}",
                                  fresh_friction, moving, stages.size());
   if (failed)
@@ -177,6 +183,7 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
     stage.blocks = run.model().num_free();
     stage.weight = run.model().free_weight;
     stage.outcome = solution.outcome;
+    stage.proven = solution.proven;
     stage.speed_ratio = solution.speed_ratio;
     stage.message = solution.message;
     const Frame frame = run.frame(solution, assembly);

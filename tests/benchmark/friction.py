@@ -111,7 +111,7 @@ def verdicts(bin_folder, work, count, models):
         cells, stands = [f"mu {critical:.5f}"], []
         for factor in factors:
             summary, seconds = model.static("coulomb", factor * critical)
-            stands.append(summary["status"] == "stable")
+            stands.append(summary["status"].startswith("stable"))
             cells.append(f"{summary['status']}; {seconds:.1f} s")
             if stands[-1] and factor * critical < moving:
                 wrong.append(f"{name} stands at {factor} times the critical friction of the associated law")
@@ -136,10 +136,10 @@ def gaps(bin_folder, work, count, models):
             above.append((associated, model.static("coulomb", 1.05 * critical)))
             ratios.append(above[-1][1][1] / associated[1])
             below.append(model.static("coulomb", 0.95 * critical))
-            if below[-1][0]["status"] == "stable":
+            if below[-1][0]["status"].startswith("stable"):
                 wrong.append(f"{name}, seed {seed}, stands at 0.95 times the critical friction of the associated law")
-        stand = sum(coulomb[0]["status"] == "stable" for _, coulomb in above)
-        move = sum(summary["status"] == "moving" for summary, _ in below)
+        stand = sum(coulomb[0]["status"].startswith("stable") for _, coulomb in above)
+        move = sum(summary["status"].startswith("moving") for summary, _ in below)
         print(f"{name},mu {critical:.5f},{stand} of {count},"
               f"{statistics.median(a[1] for a, _ in above):.2f},{statistics.median(c[1] for _, c in above):.2f},"
               f"{max(ratios):.1f},{move} of {count},{max(seconds for _, seconds in below):.2f}")

@@ -70,10 +70,8 @@ void check_statics(const LimitModel& model, double limit, Table* table) {
         if (const double seconds = cpu_seconds() - started; seconds > kSlow)
           fmt::print("{}, {}, {:.0e} at {:g}: {:.1f} s; {}\n", model.name, to_string(law), tolerance, factor,
                      seconds, summary.message);
-        const bool unproven = summary.message.find("not proven") != std::string::npos;
-        const bool stands = summary.status == Status::stable && !unproven;
-        const bool proven = summary.status == Status::moving && !unproven;
-        const bool moves = summary.status == Status::moving;
+        const bool stands = summary.status == Status::stable, proven = summary.status == Status::moving;
+        const bool moves = cupola::moves(summary.status);
         const bool associated = law == FrictionLaw::associated;
         const bool below = factor < 1.0;
         if (associated && !below) table->moving += 1, table->proven += proven;
@@ -99,7 +97,7 @@ void check_range(const LimitModel& model, double limit, Table* table) {
     scene.analysis.type = AnalysisType::range;
     scene.analysis.range.quantities = {first_joint(model)};
     const Summary summary = run_range(scene, model.scene.assembly, {}).value();
-    const bool stands = summary.status == Status::stable, moves = summary.status == Status::moving;
+    const bool stands = summary.status == Status::stable, moves = cupola::moves(summary.status);
     table->add("range", factor, model.name, !stands && !moves, factor < 1.0 ? moves : stands,
                summary.message);
   }
@@ -121,8 +119,7 @@ void check_bisection(const LimitModel& model, double limit, Table* table) {
       wrong = beyond(summary.critical->stable) > kReference ||
               (law == FrictionLaw::associated && beyond(summary.critical->moving) < -kReference);
     }
-    table->add(fmt::format("bisection, {}", to_string(law)), 1.0, model.name,
-               summary.status != Status::stable, wrong,
+    table->add(fmt::format("bisection, {}", to_string(law)), 1.0, model.name, !reached(summary.status), wrong,
                fmt::format("limit {:.8g}; {}", limit, summary.message));
   }
 }

@@ -94,8 +94,8 @@ namespace {
 TrueError balances_as_a_whole(const Scene&, const Summary& summary, const Frame&) {
   TrueError error;
   const double missing = (summary.support_reaction_N + summary.applied_load_N).norm();
-  if (summary.status == Status::stable && missing > summary.weight_N * summary.equilibrium_residual.value() +
-                                                        1e-13 * summary.applied_load_N.norm())
+  if (stands(summary.status) && missing > summary.weight_N * summary.equilibrium_residual.value() +
+                                              1e-13 * summary.applied_load_N.norm())
     error.refuted = fmt::format("reaction and loads differ by {:.2e} N", missing);
   return error;
 }

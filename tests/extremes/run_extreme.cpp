@@ -20,11 +20,14 @@ namespace {
 Ending ending_of(Status status) {
   switch (status) {
     case Status::stable:
+    case Status::stable_unproven:
       return Ending::stable;
     case Status::moving:
+    case Status::moving_unproven:
       return Ending::moving;
     case Status::collapsed:
       return Ending::collapsed;
+    case Status::bracketed:
     case Status::unconverged:
       break;
   }

@@ -94,7 +94,7 @@ std::string refuted_balance(const Scene& scene, const Summary& summary, const Kn
 TrueError compare(const Scene& scene, const Summary& summary, const Frame& frame,
                   const std::vector<KnownForce>& known) {
   TrueError error;
-  if (summary.status != Status::stable) return error;
+  if (!stands(summary.status)) return error;
   const bool certifies_wrenches = scene.input.analysis.type == AnalysisType::static_;
   const std::vector<Wrench> wrenches = joint_wrenches(frame.contacts, frame.contacts.force);
   double mean = 0.0;
@@ -155,7 +155,7 @@ TrueError carries_weight_above(const Scene& scene, const Summary& summary, const
 TrueError equals_exact_statics(const Scene& scene, const Summary& summary, const Frame& frame) {
   const ExactStatics exact = solve_exact_statics(scene.input, scene.assembly);
   TrueError error;
-  if (summary.status == Status::moving) {
+  if (moves(summary.status)) {
     if (exact.found)
       error.refuted = fmt::format("moving, but forces in equilibrium exist: residual {:.1e}", exact.residual);
     return error;

@@ -10,8 +10,8 @@ cd "$(dirname "$0")/../.." || exit 1
 targets="dome dome_motion dome_adaptive dome_range dome_limit dome_staged dome_carried wall_path wall_sweep"
 
 run() { make -f Makefile.run $targets BIN="$build/bin" FOLDER=tests/net OUT="$work/$1" POST=--tables > "$work/log" 2>&1; }
-# The table of a sweep contains processor times.
-files_of() { contents "$work/$1" | grep -v wall_sweep/sweep; }
+# The table of a sweep and its page contain processor times.
+files_of() { contents "$work/$1" | grep -v -e wall_sweep/sweep -e wall_sweep/study.html; }
 
 start=$(date +%s%N)
 run reference || { cat "$work/log"; exit 1; }

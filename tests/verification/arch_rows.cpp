@@ -1,8 +1,10 @@
-// Arches of plane-faced voussoirs with a centreline radius of 1 m.
+// Arches of plane-faced voussoirs, with a centreline radius of 1 m unless a profile is named.
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
+#include "generators/generate.hpp"
 #include "tests/solver/motion_scenes.hpp"
 #include "tests/verification/one_step.hpp"
 #include "tests/verification/solve.hpp"
@@ -20,6 +22,51 @@ double least_thickness(ArchSpec arch, double friction, double expected) {
   arch.thickness = 1.1 * expected;
   return arch.thickness *
          critical_value(limit_case(Parameter::thickness, 0.6, 1.4, friction), make_arch(arch));
+}
+
+Profile::Kind profile_named(const std::string& name) {
+  using enum Profile::Kind;
+  for (const auto& [word, kind] : {std::pair{"semicircle", semicircle},
+                                   {"segmental", segmental},
+                                   {"pointed", pointed},
+                                   {"ellipse", ellipse},
+                                   {"parabola", parabola},
+                                   {"catenary", catenary}})
+    if (name == word) return kind;
+  throw std::runtime_error("no profile " + name);
+}
+
+/// An arch that a profile draws on its middle line, 12 m wide.
+Assembly drawn_arch(const std::string& profile, double rise, double radius_ratio, double thickness,
+                    int voussoirs) {
+  VaultSurface arch;
+  arch.plan.kind = Plan::Kind::line;
+  arch.profile.kind = profile_named(profile);
+  arch.profile.span = 12.0;
+  arch.profile.rise = rise;
+  arch.profile.radius_ratio = radius_ratio;
+  arch.thickness = thickness;
+  arch.line = VaultSurface::Line::middle;
+  Case scene;
+  scene.geometry.surface = arch;
+  scene.geometry.bond = StackBond{.rings = voussoirs, .blocks_per_ring = 1, .slices_per_block = 1};
+  return generate(scene);
+}
+
+constexpr double kNoSliding = 2.0;  // friction
+
+double least_thickness_of_profile(const ReferenceRow& row) {
+  const double drawn = 1.1 * row.expected();
+  const Assembly arch =
+      drawn_arch(row.text("profile"), row.has("rise_m") ? row.number("rise_m") : 6.0,
+                 row.has("radius_ratio") ? row.number("radius_ratio") : 1.0, drawn, row.integer("voussoirs"));
+  return drawn * critical_value(limit_case(Parameter::thickness, 0.6, 1.4, kNoSliding), arch);
+}
+
+double thin_catenary_stands(const ReferenceRow&) {
+  Case scene = limit_case(Parameter::thickness, 0.6, 1.4, kNoSliding);
+  scene.analysis.type = AnalysisType::static_;
+  return stands(scene, drawn_arch("catenary", 6.0, 1.0, 0.012, 32)) ? 1.0 : 0.0;
 }
 
 double least_friction(const ReferenceRow& row) {
@@ -77,6 +124,8 @@ void add_arch_rows(Computations* all) {
   rows["continuous_arch"] = [](const ReferenceRow& row) {
     return least_thickness({.voussoirs = 100}, 0.8, row.expected());
   };
+  rows["vault_thickness"] = least_thickness_of_profile;
+  rows["thin_catenary"] = thin_catenary_stands;
   rows["arch_friction"] = least_friction;
   rows["continuous_arch_friction"] = least_friction;
   rows["arch_acceleration"] = critical_acceleration;

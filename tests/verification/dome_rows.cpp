@@ -194,10 +194,11 @@ double least_friction_of_dome(const ReferenceRow& row) {
   return critical_value(scene, generate(scene));
 }
 
-double least_thickness_of_hemisphere(const ReferenceRow&) {
+double least_thickness_of_hemisphere(const ReferenceRow& row) {
   Case scene;
   scene.geometry.surface = dome_of("hemisphere to the crown", 0.06);
-  scene.geometry.bond = StackBond{.rings = 20, .blocks_per_ring = 96, .slices_per_block = 2};
+  scene.geometry.bond =
+      StackBond{.rings = row.integer("rings"), .blocks_per_ring = 96, .slices_per_block = 2};
   scene.joints.friction = 1.0;
   scene.analysis.type = AnalysisType::limit;
   scene.analysis.limit.parameter = LimitSearch::Parameter::thickness;

@@ -23,14 +23,14 @@ Equilibrium run(const Case& scene, const Assembly& assembly) {
 
 Equilibrium solve_equilibrium(const Case& scene, const Assembly& assembly) {
   Equilibrium result = run(scene, assembly);
-  if (result.summary.status != Status::stable) throw std::runtime_error(result.summary.message);
+  if (!stands(result.summary.status)) throw std::runtime_error(result.summary.message);
   return result;
 }
 
 bool stands(const Case& scene, const Assembly& assembly) {
   const Summary summary = run(scene, assembly).summary;
   if (summary.status == Status::unconverged) throw std::runtime_error(summary.message);
-  return summary.status == Status::stable;
+  return stands(summary.status);
 }
 
 double critical_value(const Case& scene, const Assembly& assembly) {

@@ -1,5 +1,6 @@
 // Walls of equal blocks.
 
+#include <cmath>
 #include <stdexcept>
 
 #include "generators/generate.hpp"
@@ -42,6 +43,28 @@ double critical_load(int courses, bool whole_first) {
                         testing::ferris_wall(courses, whole_first));
 }
 
+/// Wall 3 of Ferris and Tin-Loi (2001): courses from the bottom, lengths in blocks of 0.4 m, an opening negative.
+Assembly wall_with_window() {
+  constexpr double kLength = 0.4, kHeight = 0.175;  // m
+  using Course = std::vector<double>;
+  const Course fe{1, 1, 1, 1}, fu{0.5, 1, 1, 1, 0.5}, we{1, 0.5, -1, 0.5, 1}, wu{0.5, 1, -1, 1, 0.5};
+  std::vector<testing::BoxSpec> boxes{{.center = {0.8, 0.5, -0.5}, .size = {6, 2, 1}, .fixed = true}};
+  int ring = 0;
+  for (const Course* course : {&fe, &fu, &fe, &wu, &we, &wu, &we, &wu, &fe, &fu, &fe}) {
+    double low = 0.0;
+    for (const double length : *course) {
+      const double high = low + kLength * std::abs(length);
+      if (length > 0.0)
+        boxes.push_back({.center = {0.5 * (low + high), 0.5, (ring + 0.5) * kHeight},
+                         .size = {high - low, 1, kHeight},
+                         .ring = ring});
+      low = high;
+    }
+    ++ring;
+  }
+  return testing::make_boxes(boxes);
+}
+
 }  // namespace
 
 void add_wall_rows(Computations* all) {
@@ -53,6 +76,10 @@ void add_wall_rows(Computations* all) {
   };
   rows["ferris_wall"] = [](const ReferenceRow& row) {
     return critical_load(row.integer("courses"), row.text("first_course") == "whole blocks");
+  };
+  rows["ferris_window"] = [](const ReferenceRow&) {
+    return critical_value(limit_case(LimitSearch::Parameter::acceleration, 0.1, 0.9, 0.65),
+                          wall_with_window());
   };
   rows["two_leaf_wall"] = [](const ReferenceRow& row) {
     const Case scene = repository_case(row.text("case"));

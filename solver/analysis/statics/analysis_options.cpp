@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {
@@ -43,6 +45,10 @@ double bracket_width(const Analysis& analysis) {
   if (analysis.limit.relative_width) return *analysis.limit.relative_width;
   if (!uses_direct_limit(analysis)) return 1e-3;
   return changes_joints(analysis.limit.parameter) ? 1e-4 : 1e-6;
+}
+
+std::string missed_width(double width, double asked) {
+  return fmt::format("; bracket width {:.1e} of the middle > {:.1e} requested", width, asked);
 }
 
 double step_limit(const Case& scene, double time) {

@@ -18,6 +18,8 @@ bool uses_direct_limit(const Analysis& analysis);
 bool changes_joints(LimitSearch::Parameter parameter);
 /// The relative width of the final bracket of a limit analysis, given or by default.
 double bracket_width(const Analysis& analysis);
+/// A clause for the message of a limit analysis whose bracket is wider than asked.
+std::string missed_width(double width, double asked);
 
 /// Longest step of a dynamic analysis from `time`, s. Adaptive steps end at the times of frames and at the
 /// end of the analysis.

@@ -147,10 +147,9 @@ std::string ProximalPoint::acceleration_text() const {
 }
 
 StaticSolution ProximalPoint::finish_moving(const std::string& way) {
-  return finish(
-      StaticOutcome::moving,
-      fmt::format("a steady motion was found: {}{}; not proven: other contact forces might balance the loads",
-                  acceleration_text(), way));
+  return finish(StaticOutcome::moving,
+                fmt::format("a steady motion was found: {}{}; other contact forces might balance the loads",
+                            acceleration_text(), way));
 }
 
 StaticSolution ProximalPoint::give_up() {

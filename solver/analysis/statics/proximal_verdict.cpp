@@ -71,7 +71,7 @@ std::optional<StaticSolution> ComingToRest::judge_motion(double contraction) {
           StaticOutcome::moving,
           fmt::format(
               "no equilibrium was found: {}; contact forces that balance the loads would have to be at "
-              "least {} times as large as the loads; not proven",
+              "least {} times as large as the loads",
               acceleration_text(), times_text(required)));
   }
   if (!moves_steadily(contraction, kUnproven)) return {};

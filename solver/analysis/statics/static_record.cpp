@@ -12,18 +12,6 @@
 namespace cupola {
 namespace {
 
-Status status_of(StaticOutcome outcome) {
-  switch (outcome) {
-    case StaticOutcome::equilibrium:
-      return Status::stable;
-    case StaticOutcome::moving:
-      return Status::moving;
-    case StaticOutcome::unconverged:
-      break;
-  }
-  return Status::unconverged;
-}
-
 FrameRole role_of(StaticOutcome outcome) {
   switch (outcome) {
     case StaticOutcome::equilibrium:
@@ -46,6 +34,18 @@ Accuracy force_balance_accuracy(const StaticSolution& solution, double tolerance
 }
 
 }  // namespace
+
+Status status_of(StaticOutcome outcome, bool proven) {
+  switch (outcome) {
+    case StaticOutcome::equilibrium:
+      return standing(proven);
+    case StaticOutcome::moving:
+      return motion(proven);
+    case StaticOutcome::unconverged:
+      break;
+  }
+  return Status::unconverged;
+}
 
 std::vector<double> static_violations(const ContactSet& contacts, const StaticSolution& solution,
                                       const FlowRule& law) {
@@ -102,7 +102,7 @@ FrameRole stage_role(StaticOutcome outcome) {
 void summarize_static(const StaticSolution& solution, const Frame& frame, const Model& model,
                       double tolerance, Summary* summary) {
   summarize_frame(frame, model, summary);
-  summary->status = status_of(solution.outcome);
+  summary->status = status_of(solution.outcome, solution.proven);
   summary->message = solution.message;
   summary->accuracy = force_balance_accuracy(solution, tolerance);
   summary->iterations = solution.iterations;

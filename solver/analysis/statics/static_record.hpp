@@ -7,6 +7,8 @@
 
 namespace cupola {
 
+Status status_of(StaticOutcome outcome, bool proven);
+
 /// law_violations() of a static solve.
 std::vector<double> static_violations(const ContactSet& contacts, const StaticSolution& solution,
                                       const FlowRule& law);

@@ -58,7 +58,7 @@ void decide(const Model& model, const State& start, const VecX& loads, const Sta
       break;
   }
   if (!solution->proven && solution->outcome == StaticOutcome::equilibrium)
-    solution->message += "; not proven: forces in exact equilibrium were not found";
+    solution->message += "; forces in exact equilibrium were not found";
 }
 
 StaticCertificate unsolved() {

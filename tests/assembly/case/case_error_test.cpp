@@ -157,9 +157,9 @@ const BadCase kBadCases[] = {
     {"MisspeltType", "geometry: {surface: {typ: dome}}\n",
      "bad.yaml:1:21: error: geometry.surface.type is missing and has no default; give one of dome, "
      "octagonal_vault, arch, "
-     "wall; is typ a misspelling of it?"},
+     "wall, vault; is typ a misspelling of it?"},
     {"MissingRequiredNumber", kGood + "loads: {lantern: {}}\n",
-     "bad.yaml:6:18: error: loads.lantern.weight_fraction is missing and has no default"},
+     "bad.yaml:6:18: error: loads.lantern.weight_fraction: give one of weight_fraction, weight (N) and mass"},
     {"KeyOfAnotherType", "geometry: {surface: {type: wall, span: 3}}\n",
      "bad.yaml:1:34: error: geometry.surface.span: unknown key. Valid keys here: type, length, height, "
      "thickness"},

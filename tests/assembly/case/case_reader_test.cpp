@@ -287,7 +287,7 @@ TEST(Schema, AsJsonSaysWhatAnEditorChecks) {
   EXPECT_EQ(joints.at("properties").at("friction").at("description"),
             "Coulomb friction coefficient mu; default 0.4");
   const auto& surface = keys.at("geometry").at("properties").at("surface").at("properties");
-  EXPECT_EQ(surface.at("type").at("enum").size(), 4u);
+  EXPECT_EQ(surface.at("type").at("enum").size(), 5u);
   EXPECT_EQ(surface.at("crown_angle_deg").at("exclusiveMaximum"), 90.0);
   const auto& wythe = keys.at("geometry").at("properties").at("wythes").at("items").at("properties");
   EXPECT_EQ(wythe.at("thickness").at("anyOf").size(), 2u) << "a number, or heights and values";

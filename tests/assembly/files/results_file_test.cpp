@@ -224,6 +224,18 @@ TEST(ResultsFile, TextFilesThatChangedAreRefused) {
   EXPECT_NE(error_of("stages.csv").find("is not listed in summary.json"), std::string::npos);
 }
 
+// A kill between the last step and summary.json: the run that is resumed has no step left that would write the table.
+TEST(ResultsFile, ARunResumedAtItsEndKeepsItsTables) {
+  const std::string folder = test::fresh_folder("results"), hash = example_summary().assembly_hash;
+  {
+    ResultsWriter killed(folder, hash);
+    killed.write_frame(two_block_frame(0.0));
+    killed.write_text("path.csv", "time_s\n0\n");
+  }
+  ResultsWriter(folder, hash, {0.0}).write_summary(example_summary());
+  EXPECT_EQ(ResultsReader(folder, hash).read_text_file("path.csv"), "time_s\n0\n");
+}
+
 TEST(ResultsFile, JointsOfAFrameAreIndexedByJointNumber) {
   const auto joints = joints_of(two_block_frame(0.0).contacts);
   ASSERT_EQ(joints.size(), 2u);

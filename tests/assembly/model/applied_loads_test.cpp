@@ -30,6 +30,35 @@ TEST(AppliedLoads, TopLoadIsDistributedByArea) {
   EXPECT_LE((forces[0].force - expected).norm(), 1e-15 * expected.norm());
 }
 
+TEST(AppliedLoads, ALanternWeighsItsNewtonsOrItsMass) {
+  const Assembly assembly = test::two_block_assembly();
+  Loads loads;
+  loads.gravity = {0.0, 0.0, -5.0};
+  loads.lantern = TopLoad{.weight = 120.0};
+  EXPECT_EQ(applied_loads(loads, assembly).at(0).force.z(), -120.0);
+  loads.lantern = TopLoad{.mass = 120.0};
+  EXPECT_EQ(applied_loads(loads, assembly).at(0).force.z(), -600.0);
+}
+
+// A moment must move no centroid, and have no symmetric part: the mean stress of a block is the symmetric part of sum x f^T.
+TEST(AppliedLoads, AMomentIsAPureCouple) {
+  const Assembly assembly = test::two_block_assembly();
+  Loads loads;
+  loads.forces.push_back(
+      {.block = 1, .point = {}, .force = {0, 0, 0}, .time = {}, .moment = Vec3(3.0, -4.0, 12.0)});
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  Mat3 virial = Mat3::Zero();
+  for (const PointForce& f : applied_loads(loads, assembly)) {
+    const Vec3 arm = f.point - assembly.blocks[1].centroid;
+    force += f.force;
+    moment += arm.cross(f.force);
+    virial += arm * f.force.transpose();
+  }
+  EXPECT_LE(force.norm(), 1e-14);
+  EXPECT_LE((moment - Vec3(3.0, -4.0, 12.0)).norm(), 1e-14);
+  EXPECT_LE((virial + virial.transpose()).norm(), 1e-14);
+}
+
 TEST(AppliedLoads, PressureActsIntoTheBlock) {
   const Assembly assembly = test::two_block_assembly();
   Loads loads;

@@ -54,6 +54,20 @@ HerringboneBond wall_diagonal() {
   return bond;
 }
 
+VaultSurface drawn(Plan::Kind plan, Profile::Kind profile) {
+  VaultSurface v;
+  v.plan.kind = plan;
+  v.plan.length = 4.0;
+  v.plan.x = {8, -8, -8, 8};
+  v.plan.y = {6, 6, -6, -6};
+  v.profile.kind = profile;
+  v.profile.span = 12.0;
+  v.profile.haunch_radius = 2.5;
+  if (plan != Plan::Kind::line && profile != Profile::Kind::straight) v.eye = 2.0;
+  v.key_stone = plan == Plan::Kind::circle && v.eye > 0.0;
+  return v;
+}
+
 class EveryModel : public testing::TestWithParam<std::tuple<Model, int>> {
  protected:
   static Case scene() {
@@ -133,6 +147,23 @@ INSTANTIATE_TEST_SUITE_P(
                                      Model{"wall_herringbone", WallSurface{32.0, 24.0, 2.4},
                                            wall_diagonal()}),
                      testing::Values(0)),
+    [](const auto& test) { return std::string(std::get<0>(test.param).name); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Drawings, EveryModel,
+    testing::Combine(
+        testing::Values(
+            Model{"bridge", drawn(Plan::Kind::line, Profile::Kind::segmental), RunningBond{15, 4, 2}},
+            Model{"basket", drawn(Plan::Kind::line, Profile::Kind::basket), RunningBond{15, 4, 2}},
+            Model{"horseshoe", drawn(Plan::Kind::line, Profile::Kind::horseshoe), RunningBond{15, 4, 2}},
+            Model{"catenary", drawn(Plan::Kind::line, Profile::Kind::catenary), StackBond{15, 4, 2}},
+            Model{"parabola_dome", drawn(Plan::Kind::circle, Profile::Kind::parabola), RunningBond{8, 16, 2}},
+            Model{"ellipse_dome", drawn(Plan::Kind::circle, Profile::Kind::ellipse),
+                  HerringboneBond{8, 16, 4}},
+            Model{"tower", drawn(Plan::Kind::circle, Profile::Kind::straight), RunningBond{8, 16, 2}},
+            Model{"cloister", drawn(Plan::Kind::corners, Profile::Kind::semicircle), RunningBond{8, 28, 4}},
+            Model{"hexagon", drawn(Plan::Kind::polygon, Profile::Kind::pointed), RunningBond{8, 16, 4}}),
+        testing::Values(0)),
     [](const auto& test) { return std::string(std::get<0>(test.param).name); });
 
 }  // namespace

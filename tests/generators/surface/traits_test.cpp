@@ -9,10 +9,13 @@
 namespace cupola::traits_test {
 namespace {
 
-/// One surface of each kind with its default dimensions.
+/// One surface of each kind with its default dimensions, and an eye where there must be one.
 template <size_t... I>
 std::vector<Surface> every_kind(std::index_sequence<I...>) {
-  return {Surface(std::variant_alternative_t<I, Surface>{})...};
+  std::vector<Surface> kinds{Surface(std::variant_alternative_t<I, Surface>{})...};
+  for (Surface& kind : kinds)
+    if (auto* vault = std::get_if<VaultSurface>(&kind)) vault->eye = 1.0;
+  return kinds;
 }
 
 // 1e-12 m covers the rounding of coordinates of 50 m; open surfaces are at least 1 m long.

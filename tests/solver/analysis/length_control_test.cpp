@@ -113,7 +113,7 @@ TEST(LengthControl, FollowsTheSnapBackOfASofteningBedOnASoftBase) {
   const double friction = kFriction * kWeight, peak = kCohesion * kArea;
   for (const int steps : {7, 20, 50}) {
     const PathResult result = run(soft_couplet_case(steps), assembly);
-    ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
+    ASSERT_TRUE(stands(result.summary.status)) << result.summary.message;
     ASSERT_EQ(result.rows.size(), static_cast<size_t>(steps) + 1);
     double slipped = 0.0, upper = 0.0, farthest = 0.0;
     for (size_t k = 1; k < result.rows.size(); ++k) {
@@ -150,7 +150,7 @@ TEST(LengthControl, FollowsTheSofteningOfAShearedBedUnderItsOwnForce) {
     const double friction = kFriction * (pressure * kArea + kWeight);
     for (const int steps : {7, 20, 50}) {
       const PathResult result = run(pushed_case(steps, pressure, 1.2 * kBroken), assembly);
-      ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
+      ASSERT_TRUE(stands(result.summary.status)) << result.summary.message;
       double slipped = 0.0;
       for (size_t k = 1; k < result.rows.size(); ++k) {
         const double force = kFullLoad * result.rows[k][0];
@@ -180,7 +180,7 @@ TEST(LengthControl, FollowsABlockThatTiltsToItsUnstableBalance) {
   scene.analysis.path.length = 0.2;
   scene.analysis.path.control = LoadPath::Control{BlockRef{1}, {}, Vec3::UnitX()};
   const PathResult result = run(scene, assembly);
-  ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
+  ASSERT_TRUE(stands(result.summary.status)) << result.summary.message;
   for (size_t k = 1; k < result.rows.size(); ++k) {
     const double arm = 0.25 - result.rows[k - 1][1];
     EXPECT_NEAR(result.rows[k][2], weight * arm / std::sqrt(radius * radius - arm * arm), 5e-3 * weight) << k;

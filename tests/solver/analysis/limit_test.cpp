@@ -156,6 +156,23 @@ TEST(Limit, ReportsABracketWithoutACriticalValue) {
   EXPECT_NE(summary.message.find("stands at both ends of the bracket"), std::string::npos);
 }
 
+// Narrower than two doubles: both ends are given, and the status says that the width was missed.
+TEST(Limit, GivesBothEndsOfABracketThatMissedItsWidth) {
+  for (const auto method : {LimitSearch::Method::bisection, LimitSearch::Method::direct}) {
+    Case scene = limit_case(LimitSearch::Parameter::acceleration, 0.0, 1.0, 0.4);
+    scene.analysis.limit.relative_width = 1e-17;
+    scene.analysis.limit.method = method;
+    const Summary summary = run(scene, testing::box_on_floor({1, 1, 0.2}));
+    EXPECT_EQ(summary.status, Status::bracketed) << summary.message;
+    EXPECT_FALSE(reached(summary.status)) << "exit code 3";
+    ASSERT_TRUE(summary.critical) << summary.message;
+    EXPECT_LE(summary.critical->stable, 0.4);
+    EXPECT_GE(summary.critical->moving, 0.4);
+    EXPECT_GT(summary.accuracy.reached, summary.accuracy.asked);
+    EXPECT_NE(summary.message.find("> 1.0e-17 requested"), std::string::npos) << summary.message;
+  }
+}
+
 // The accuracy is that of the critical value. Displacement and speed of a limit run would be those of a
 // mechanism, whose amplitude means nothing.
 TEST(LimitSummary, GivesTheBracketAsItsAccuracyAndNoDisplacement) {

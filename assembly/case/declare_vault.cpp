@@ -1,0 +1,155 @@
+#include <fmt/format.h>
+
+#include "assembly/case/declare.hpp"
+
+namespace cupola {
+namespace {
+
+/// The corners of a convex polygon, counter-clockwise about the z axis.
+void check_corners(const Section& s, const Plan& plan) {
+  const size_t n = plan.x.size();
+  s.rule(n == plan.y.size(), "y", "must have as many numbers as x");
+  s.rule(n == 0 || n >= 3, "x", "must have at least 3 corners");
+  for (size_t i = 0; i < n && n == plan.y.size(); ++i) {
+    const size_t j = (i + 1) % n, k = (i + 2) % n;
+    const auto turn = [](double ax, double ay, double bx, double by) { return ax * by - ay * bx; };
+    s.rule(turn(plan.x[j] - plan.x[i], plan.y[j] - plan.y[i], plan.x[k] - plan.x[j], plan.y[k] - plan.y[j]) >
+               0.0,
+           "x",
+           fmt::format("must be the corners of a convex polygon, counter-clockwise: it does not turn left at "
+                       "({:g}, {:g})",
+                       plan.x[j], plan.y[j]));
+    s.rule(
+        turn(plan.x[i], plan.y[i], plan.x[j], plan.y[j]) > 0.0, "x",
+        fmt::format("must surround the z axis: the side from ({:g}, {:g}) does not", plan.x[i], plan.y[i]));
+  }
+}
+
+void declare_plan(Section& s, Plan& plan) {
+  using Kind = Plan::Kind;
+  const auto kind = [](Kind which, const std::string& name, const std::string& meaning,
+                       void (*keys)(Section&, Plan&)) {
+    return Section::Alternative<Plan>{name, meaning, [which, keys](Section& section, Plan& p) {
+                                        p.kind = which;
+                                        keys(section, p);
+                                      }};
+  };
+  s.variant<Plan>(
+      "type", plan,
+      {kind(Kind::line, "line", "arch or barrel along y",
+            [](Section& section, Plan& p) {
+              section.number("length", p.length, {.unit = "m", .above = 0}, "length of the barrel");
+            }),
+       kind(Kind::circle, "circle", "revolution about the z axis", [](Section&, Plan&) {}),
+       kind(Kind::polygon, "polygon", "cloister vault over a regular polygon",
+            [](Section& section, Plan& p) {
+              section.integer("sides", p.sides, {.min = 3, .max = 1000}, "number of sides");
+              section.choice("measured_at", p.measured_at,
+                             "the profile is the section through a corner, or through the middle of a side");
+            }),
+       kind(Kind::corners, "corners", "cloister vault over a convex polygon",
+            [](Section& section, Plan& p) {
+              section.numbers("x", p.x, {.unit = "m"}, "corners, counter-clockwise");
+              section.numbers("y", p.y, {.unit = "m"}, "corners, counter-clockwise");
+              check_corners(section, p);
+            })},
+      "line over which the vault stands");
+}
+
+void declare_profile(Section& s, Profile& profile) {
+  using Kind = Profile::Kind;
+  using Keys = void (*)(Section&, Profile&);
+  constexpr Keys span = [](Section& section, Profile& p) {
+    section.number("span", p.span, {.unit = "m", .above = 0}, "span, or diameter, at the springing");
+  };
+  constexpr Keys span_and_rise = [](Section& section, Profile& p) {
+    section.number("span", p.span, {.unit = "m", .above = 0}, "span, or diameter, at the springing");
+    section.number("rise", p.rise, {.unit = "m", .above = 0}, "height of the crown above the springing");
+  };
+  const auto kind = [](Kind which, const std::string& name, const std::string& meaning, Keys shared,
+                       Keys own = nullptr) {
+    return Section::Alternative<Profile>{name, meaning, [=](Section& section, Profile& p) {
+                                           p.kind = which;
+                                           if (shared) shared(section, p);
+                                           if (own) own(section, p);
+                                         }};
+  };
+  s.variant<Profile>(
+      "type", profile,
+      {kind(Kind::semicircle, "semicircle", "half a circle", span),
+       kind(Kind::segmental, "segmental", "one arc, at most half a circle", span_and_rise,
+            [](Section& section, Profile& p) {
+              section.rule(p.rise <= 0.5 * p.span, "rise", "must be at most half the span");
+            }),
+       kind(Kind::pointed, "pointed", "two arcs that meet at a point", span,
+            [](Section& section, Profile& p) {
+              section.number("radius_ratio", p.radius_ratio, {.above = 0.5, .max = 1e3},
+                             "radius over span: 0.8 pointed fifth, 1 equilateral");
+            }),
+       kind(Kind::basket, "basket", "three arcs that meet smoothly", span_and_rise,
+            [](Section& section, Profile& p) {
+              section.number("haunch_radius", p.haunch_radius, {.unit = "m", .above = 0},
+                             "radius of the two lower arcs");
+            }),
+       kind(Kind::horseshoe, "horseshoe", "a circle that continues below its centre", span,
+            [](Section& section, Profile& p) {
+              section.number("below_deg", p.below_deg, {.unit = "deg", .above = 0, .below = 90},
+                             "angle by which it continues; the span is the diameter");
+            }),
+       kind(Kind::ellipse, "ellipse", "half an ellipse", span_and_rise),
+       kind(Kind::parabola, "parabola", "a parabola", span_and_rise),
+       kind(Kind::catenary, "catenary", "the shape of a hanging chain", span_and_rise),
+       kind(Kind::straight, "straight", "a wall, pier or drum", span,
+            [](Section& section, Profile& p) {
+              section.number("height", p.height, {.unit = "m", .above = 0}, "height");
+              section.number("batter", p.batter, {.min = -5, .max = 5}, "lean inwards, over the height");
+            }),
+       kind(Kind::chain, "chain", "lines and arcs from point to point", nullptr,
+            [](Section& section, Profile& p) {
+              section.numbers("r", p.r, {.unit = "m"},
+                              "points from the springing upwards: distance from the axis");
+              section.numbers("z", p.z, {.unit = "m"}, "points from the springing upwards: height");
+              section.numbers("radius", p.radius, {.unit = "m"},
+                              "radius from each point to the next, positive where it turns towards the axis; "
+                              "0, or none: a straight line");
+              section.rule(p.r.size() == p.z.size(), "z", "must have as many numbers as r");
+            })},
+      "section of the vault");
+}
+
+}  // namespace
+
+void declare_shell_thickness(Section& s, double& thickness, const std::string& meaning) {
+  if (s.parent_gives("wythes"))
+    s.refuse("thickness", "remove this key: geometry.wythes gives the thickness of each wythe");
+  else
+    s.number("thickness", thickness, {.unit = "m", .above = 0}, meaning);
+}
+
+void declare_vault(Section& s, VaultSurface& vault) {
+  s.section("plan", vault.plan, "line over which the vault stands", declare_plan);
+  s.section("profile", vault.profile, "section of the vault", declare_profile);
+  declare_shell_thickness(s, vault.thickness, "thickness, normal to the profile");
+  s.choice("beds", vault.beds, "plane and normal to the profile, on cones about the axis, or level");
+  s.choice("courses", vault.courses, "what is equal from course to course, along the drawn line");
+  s.choice("line", vault.line, "what the profile draws");
+  s.number("eye", vault.eye, {.unit = "m", .min = 0},
+           "distance of the last bed from the axis, on the drawn line; 0: the end of the profile");
+  s.flag("key_stone", vault.key_stone, "close the eye by one stone");
+  s.integer("voussoir_segments", vault.voussoir_segments, {.min = 1, .max = 1000},
+            "straight segments that approximate the curved faces of a block");
+  const bool on_line = vault.plan.kind == Plan::Kind::line;
+  s.rule(vault.beds != VaultSurface::Beds::conical ||
+             (vault.plan.kind == Plan::Kind::polygon && vault.plan.measured_at == Plan::MeasuredAt::corner),
+         "beds", "conical requires plan: {type: polygon, measured_at: corner}");
+  s.rule(vault.eye == 0.0 || !on_line, "eye", "requires a closed plan");
+  s.rule(!vault.key_stone || (vault.eye > 0.0 && vault.plan.kind == Plan::Kind::circle), "key_stone",
+         "requires plan: {type: circle} and an eye");
+  s.rule(!vault.key_stone || !s.parent_gives("wythes"), "key_stone", "requires a shell without wythes");
+  s.rule(vault.profile.kind != Profile::Kind::chain || vault.profile.r.size() >= 2, "profile",
+         "a chain has at least 2 points");
+  s.rule(vault.line == VaultSurface::Line::intrados || !s.parent_gives("wythes"), "line",
+         "requires a shell without wythes");
+}
+
+}  // namespace cupola

@@ -1,0 +1,278 @@
+#include "generators/surface/drawn_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "generators/surface/secant.hpp"
+
+namespace cupola {
+namespace {
+
+using std::numbers::pi;
+using enum OctagonalVault::Extrados;
+using Beds = VaultSurface::Beds;
+
+/// Outwards of a profile that is drawn from the springing upwards.
+Vec2 outward_normal(const Vec2& derivative) {
+  return Vec2(derivative.y(), -derivative.x()).normalized();
+}
+
+/// The sections of a sail: the corner section is (corner r, z), the section normal to the side (middle r, z).
+struct Section {
+  std::shared_ptr<const ProfileBeds> beds;
+  double corner = 1.0, middle = 1.0;  // factors on r
+  OctagonalVault::Extrados extrados = normal;
+  double drawn_depth = 0.0;
+
+  Vec2 corner_point(double place) const { return scaled(beds->point(place), corner); }
+  Vec2 corner_normal(double bed, double place) const { return normal_of(bed, place, corner); }
+  /// Normal of the section with a factor on r; at a kink the bisector.
+  Vec2 normal_of(double bed, double place, double factor) const {
+    const Vec2 n = outward_normal(scaled(beds->derivative(place), factor));
+    if (!beds->is_kink(bed)) return n;
+    return (n + outward_normal(scaled(beds->derivative_above(place), factor))).normalized();
+  }
+  /// On the section normal to the side, at a depth (m) behind the intrados.
+  Vec2 layer(double place, double from_intrados) const {
+    const auto [piece, t] = beds->piece_at(place);
+    return layer(beds->pieces()[piece], t, from_intrados);
+  }
+  Vec2 layer(const ProfilePiece& piece, double t, double from_intrados) const {
+    const double depth = from_intrados - drawn_depth;
+    const Vec2 p = piece.at(t), d = piece.derivative(t);
+    if (depth == 0.0) return scaled(p, middle);
+    if (extrados == normal) return scaled(p, middle) + depth * outward_normal(scaled(d, middle));
+    if (extrados == bed) return scaled(p, middle) + Vec2(depth, 0.0);
+    const double along = extrados == midsail ? depth * corner / middle : depth;
+    return scaled(scaled(p, corner) + along * outward_normal(scaled(d, corner)), middle / corner);
+  }
+  static Vec2 scaled(const Vec2& v, double factor) { return {factor * v.x(), v.y()}; }
+};
+
+/// Where f is zero near a place.
+template <class Function>
+double place_where(const Function& f, double place) {
+  return f(place) == 0.0 ? place : secant_root(f, place, place + 1e-3);
+}
+
+/// The point of a bed that is plane in each sail.
+Vec2 plane_bed_point(const Section& section, Beds beds, double bed, double depth) {
+  const double place = section.beds->place(bed);
+  const Vec2 on_line = Section::scaled(section.beds->point(place), section.middle);
+  if (beds == Beds::level) {
+    if (section.extrados == OctagonalVault::Extrados::bed) return section.layer(place, depth);
+    const auto above = [&](double u) { return section.layer(u, depth).y() - on_line.y(); };
+    return {section.layer(place_where(above, place), depth).x(), on_line.y()};
+  }
+  if (!section.beds->is_kink(bed)) return section.layer(place, depth);
+  const Vec2 along = section.normal_of(bed, place, section.middle);
+  const ProfilePiece& below = section.beds->pieces()[section.beds->piece_at(place).first];
+  const auto beside = [&](double t) {  // of the lower run, continued beyond the kink
+    const Vec2 p = section.layer(below, t, depth) - on_line;
+    return p.x() * along.y() - p.y() * along.x();
+  };
+  return section.layer(below, place_where(beside, 1.0), depth);
+}
+
+/// The point of a conical bed at q = 1 / cos psi: its distance from the axis and its height.
+Vec2 conical_bed_point(const Section& section, double bed, double depth, double q) {
+  const double place = section.beds->place(bed);
+  const Vec2 on_corner = section.corner_point(place), n = section.corner_normal(bed, place);
+  const auto beside = [&](double u) {
+    const Vec2 p = section.layer(u, depth);
+    return (q * p.x() - on_corner.x()) * n.y() - (p.y() - on_corner.y()) * n.x();
+  };
+  const Vec2 p = section.layer(place_where(beside, place), depth);
+  const double rho = q * p.x();
+  return {rho, std::abs(n.x()) < 0.1 ? p.y() : on_corner.y() + (rho - on_corner.x()) * n.y() / n.x()};
+}
+
+/// A convex polygon whose sides move inwards by equal distances.
+class MovingPolygon {
+ public:
+  explicit MovingPolygon(std::vector<Vec2> corners) : corners_(std::move(corners)) {
+    const size_t n = corners_.size();
+    for (size_t i = 0; i < n; ++i) {
+      const Vec2 a = normal(i), b = normal((i + n - 1) % n);
+      moves_.push_back((a + b) / (1.0 + a.dot(b)));
+    }
+  }
+  Vec2 corner(size_t i, double inwards) const {
+    const size_t k = i % corners_.size();
+    return corners_[k] + inwards * moves_[k];
+  }
+  Vec2 point(size_t side, double share, double inwards) const {
+    return (1.0 - share) * corner(side, inwards) + share * corner(side + 1, inwards);
+  }
+  size_t size() const { return corners_.size(); }
+  /// m, of side i after the move; negative if it has turned round.
+  double side(size_t i, double inwards) const {
+    const Vec2 along = corners_[(i + 1) % size()] - corners_[i];
+    return (corner(i + 1, inwards) - corner(i, inwards)).dot(along.normalized());
+  }
+
+ private:
+  Vec2 normal(size_t i) const {
+    const Vec2 along = corners_[(i + 1) % corners_.size()] - corners_[i];
+    return Vec2(-along.y(), along.x()).normalized();
+  }
+  std::vector<Vec2> corners_;  // counter-clockwise
+  std::vector<Vec2> moves_;    // of each corner per m
+};
+
+std::vector<Vec2> corners_of(const Plan& plan, const Vec2& first) {
+  std::vector<Vec2> corners;
+  if (plan.kind == Plan::Kind::corners) {
+    for (size_t i = 0; i < plan.x.size(); ++i) corners.emplace_back(plan.x[i], plan.y[i]);
+    return corners;
+  }
+  for (int i = 0; i < plan.sides; ++i)
+    corners.emplace_back(first.x() * std::cos(2.0 * pi * i / plan.sides),
+                         first.x() * std::sin(2.0 * pi * i / plan.sides));
+  return corners;
+}
+
+/// Abscissae of the corners: equal for a regular polygon, otherwise in proportion to the sides.
+std::vector<double> abscissae_of(const Plan& plan, const MovingPolygon& polygon) {
+  const size_t n = polygon.size();
+  std::vector<double> at{0.0};
+  double whole = 0.0, before = 0.0;
+  for (size_t i = 0; i < n; ++i) whole += polygon.side(i, 0.0);
+  for (size_t i = 0; i + 1 < n; ++i) {
+    before += polygon.side(i, 0.0);
+    at.push_back(2.0 * pi *
+                 (plan.kind == Plan::Kind::polygon ? (i + 1.0) / static_cast<double>(n) : before / whole));
+  }
+  return at;
+}
+
+/// Volume of the smooth shell per m of a barrel or of revolution; see the header.
+double smooth_volume(const Drawing& drawing, double depth_from, double depth_to) {
+  constexpr std::array kNodes{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
+  constexpr std::array kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                0.1012285362903763};
+  const double width = depth_to - depth_from;
+  const double square = (depth_to * depth_to - depth_from * depth_from) / 2.0;
+  const double cube = (depth_to * depth_to * depth_to - depth_from * depth_from * depth_from) / 3.0;
+  double volume = 0.0;
+  for (const ProfilePiece& piece : drawing.profile)
+    for (size_t i = 0; i < kNodes.size(); ++i)
+      for (const double side : {-0.5, 0.5}) {
+        const double t = 0.5 + side * kNodes[i];
+        const Vec2 d = piece.derivative(t);
+        const double area = d.norm() * width + piece.turn * square;
+        const double first = d.norm() * square + piece.turn * cube;  // moment about the drawn line
+        const bool round = drawing.plan.kind == Plan::Kind::circle;
+        volume += 0.5 * kWeights[i] *
+                  (round ? 2.0 * pi * (piece.at(t).x() * area + outward_normal(d).x() * first)
+                         : drawing.plan.length * area);
+      }
+  return volume;
+}
+
+SurfaceMap along_line(const Drawing& drawing, const Section& section, SurfaceMap surface) {
+  surface.extent = drawing.plan.length;
+  surface.flat_slices = true;
+  const bool along_x = drawing.plan.axis == Plan::Axis::x;
+  surface.at = [=, beds = drawing.beds](double bed, double abscissa, double depth) {
+    const Vec2 p = plane_bed_point(section, beds, bed, depth);
+    return along_x ? Vec3(abscissa, -p.x(), p.y()) : Vec3(p.x(), abscissa, p.y());
+  };
+  return surface;
+}
+
+SurfaceMap round_circle(const Drawing& drawing, const Section& section, SurfaceMap surface) {
+  surface.at = [=, beds = drawing.beds](double bed, double azimuth, double depth) {
+    const Vec2 p = plane_bed_point(section, beds, bed, depth);
+    return Vec3(p.x() * std::cos(azimuth), p.x() * std::sin(azimuth), p.y());
+  };
+  return surface;
+}
+
+SurfaceMap over_polygon(const Drawing& drawing, const Section& section, SurfaceMap surface) {
+  const Plan& plan = drawing.plan;
+  const MovingPolygon polygon(corners_of(plan, section.corner_point(0.0)));
+  surface.corners = abscissae_of(plan, polygon);
+  if (plan.kind == Plan::Kind::polygon) surface.sail_width = 2.0 * pi / plan.sides;
+  if (drawing.beds == Beds::conical) {
+    surface.flat_skins = false;
+    surface.at = [=, sail = surface.sail_width](double bed, double azimuth, double depth) {
+      const double psi = azimuth - (std::floor(azimuth / sail) + 0.5) * sail;
+      const Vec2 p = conical_bed_point(section, bed, depth, 1.0 / std::cos(psi));
+      return Vec3(p.x() * std::cos(azimuth), p.x() * std::sin(azimuth), p.y());
+    };
+    return surface;
+  }
+  const double first = section.middle * section.beds->point(0.0).x();
+  const auto inwards = [=, beds = drawing.beds](double bed, double depth) {
+    return first - plane_bed_point(section, beds, bed, depth).x();
+  };
+  const double most = inwards(surface.num_rows, 0.0);
+  for (size_t i = 0; i < polygon.size(); ++i)
+    if (polygon.side(i, most) <= 0.0)
+      throw InputError(fmt::format(
+          "geometry.surface.plan: side {} vanishes before the last bed, which lies {:.6g} m inside the plan; "
+          "choose a larger eye",
+          i, most));
+  surface.flat_slices = true;
+  surface.at = [=, corners = surface.corners, beds = drawing.beds](double bed, double abscissa,
+                                                                   double depth) {
+    const double a = abscissa - 2.0 * pi * std::floor(abscissa / (2.0 * pi));
+    const auto above = std::ranges::upper_bound(corners, a);
+    const auto side = static_cast<size_t>(above - corners.begin()) - 1;
+    const double end = above == corners.end() ? 2.0 * pi : *above;
+    const Vec2 section_point = plane_bed_point(section, beds, bed, depth);
+    const Vec2 p =
+        polygon.point(side, (a - corners[side]) / (end - corners[side]), first - section_point.x());
+    return Vec3(p.x(), p.y(), section_point.y());
+  };
+  return surface;
+}
+
+}  // namespace
+
+SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
+  const Plan& plan = drawing.plan;
+  const bool is_line = plan.kind == Plan::Kind::line, is_round = plan.kind == Plan::Kind::circle;
+  Section section;
+  section.beds = std::make_shared<ProfileBeds>(drawing.profile, rings, drawing.rows_per_ring, drawing.courses,
+                                               drawing.mirrored);
+  section.extrados = drawing.extrados;
+  section.drawn_depth = drawing.drawn_depth;
+  if (plan.kind == Plan::Kind::polygon)
+    (plan.measured_at == Plan::MeasuredAt::corner ? section.middle : section.corner) =
+        plan.measured_at == Plan::MeasuredAt::corner ? std::cos(pi / plan.sides)
+                                                     : 1.0 / std::cos(pi / plan.sides);
+  SurfaceMap surface;
+  surface.rows_per_ring = drawing.rows_per_ring;
+  surface.num_rows = rings * drawing.rows_per_ring;
+  surface.extent = 2.0 * pi;
+  surface.last_bed_held = is_line && drawing.profile.back().derivative(1.0).y() < 0.0;
+  surface.key_stone = drawing.key_stone;
+  surface.carries = surface.last_bed_held || surface.key_stone;
+  const bool even = std::ranges::all_of(drawing.profile, &ProfilePiece::even);
+  if ((is_line || is_round) && drawing.beds == Beds::normal && section.beds->num_runs() == 1 && even)
+    surface.shell_volume =
+        smooth_volume(drawing, -drawing.drawn_depth, drawing.thickness - drawing.drawn_depth);
+  surface.flat_rings = !is_round && drawing.beds != Beds::conical && drawing.profile.size() == 1 && even &&
+                       drawing.profile.front().turn == 0.0;
+  surface = is_line    ? along_line(drawing, section, std::move(surface))
+            : is_round ? round_circle(drawing, section, std::move(surface))
+                       : over_polygon(drawing, section, std::move(surface));
+  const double last = surface.num_rows;
+  constexpr double kFlattest = 0.05;  // rise of the sides of a key stone over the thickness
+  if (drawing.key_stone && surface.at(last, 0.0, drawing.thickness).z() - surface.at(last, 0.0, 0.0).z() <
+                               kFlattest * drawing.thickness)
+    throw InputError(
+        "geometry.surface.key_stone = true: the last bed is level there, so that nothing would hold the "
+        "stone");
+  return surface;
+}
+
+}  // namespace cupola

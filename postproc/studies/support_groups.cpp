@@ -1,0 +1,121 @@
+#include "postproc/studies/support_groups.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/case/case_reader.hpp"
+
+namespace cupola {
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+constexpr int kMostSupports = 16;
+constexpr int kBaseBlocks = 8;  // of a dome whose base is one block
+
+std::vector<Box> boxes_of(const Assembly& assembly) {
+  std::vector<Box> boxes(assembly.blocks.size());
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      for (const int v : assembly.face(f)) boxes[part.block].extend(assembly.vertices[v]);
+  return boxes;
+}
+
+/// Joins groups that follow each other by azimuth.
+std::vector<std::vector<int>> joined_by_azimuth(std::vector<std::vector<int>> groups,
+                                                const Assembly& assembly) {
+  const auto place = [&assembly](const std::vector<int>& group) {
+    return assembly.blocks[group[0]].centroid;
+  };
+  Vec3 middle = Vec3::Zero();
+  for (const auto& group : groups) middle += place(group) / static_cast<double>(groups.size());
+  std::ranges::stable_sort(groups, {}, [&](const std::vector<int>& group) {
+    const Vec3 arm = place(group) - middle;
+    return std::atan2(arm.y(), arm.x());
+  });
+  std::vector<std::vector<int>> joined(kMostSupports);
+  for (size_t i = 0; i < groups.size(); ++i) {
+    std::vector<int>& into = joined[i * kMostSupports / groups.size()];
+    into.insert(into.end(), groups[i].begin(), groups[i].end());
+  }
+  for (auto& group : joined) std::ranges::sort(group);
+  return joined;
+}
+
+/// True if the base of the case can be divided into several blocks.
+bool divides_base(const Case& scene, const std::string& setting) {
+  try {
+    read_case(scene.file, {setting});
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> support_groups(const Assembly& assembly) {
+  constexpr double kTouch = 1e-3;  // of the size of a block: supports closer than this touch
+  const std::vector<Box> boxes = boxes_of(assembly);
+  std::vector<int> fixed, group(assembly.blocks.size());
+  std::iota(group.begin(), group.end(), 0);
+  for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b)
+    if (assembly.blocks[b].fixed) fixed.push_back(b);
+  const auto root = [&group](int b) {
+    while (group[b] != b) b = group[b] = group[group[b]];
+    return b;
+  };
+  for (const int a : fixed)
+    for (const int b : fixed)
+      if (a < b && boxes[a].exteriorDistance(boxes[b]) <= kTouch * boxes[a].diagonal().norm())
+        group[std::max(root(a), root(b))] = std::min(root(a), root(b));
+  std::map<int, std::vector<int>> found;
+  for (const int b : fixed) found[root(b)].push_back(b);
+  if (found.size() == 1)
+    for (const int b : fixed) found[b] = {b};
+  std::vector<std::vector<int>> groups;
+  for (auto& [first, blocks] : found) groups.push_back(std::move(blocks));
+  return groups.size() > kMostSupports ? joined_by_azimuth(std::move(groups), assembly) : groups;
+}
+
+std::vector<StudyRun> settlement_runs(const RunGroup& group, const std::string& study, const Case& scene,
+                                      const Assembly& assembly, std::string* reason) {
+  if (!scene.supports.moves.empty()) {
+    *reason = "the case moves its supports itself (`supports.moves`)";
+    return {};
+  }
+  std::vector<std::vector<int>> groups = support_groups(assembly);
+  std::vector<std::string> settings = group.settings;
+  const std::string divided = fmt::format("geometry.base_blocks={}", kBaseBlocks);
+  if (groups.size() == 1 && groups[0].size() == 1 && divides_base(scene, divided)) {
+    settings.push_back(divided);
+    groups.assign(kBaseBlocks, {0});
+    for (int k = 0; k < kBaseBlocks; ++k) groups[k] = {k};
+  }
+  if (groups.size() < 2) {
+    *reason = "a single support carries everything, and its settlement opens no joint";
+    return {};
+  }
+  const std::vector<Box> boxes = boxes_of(assembly);
+  Box extent;
+  for (size_t b = 0; b < boxes.size(); ++b)
+    if (!assembly.blocks[b].fixed) extent.extend(boxes[b]);
+  const double depth = group.settle * std::max(extent.sizes().x(), extent.sizes().y());
+  std::vector<StudyRun> runs;
+  for (const std::vector<int>& blocks : groups) {
+    runs.push_back({fmt::format("{}/{}_{}", study, group.name, blocks[0]), group.cases[0], settings});
+    runs.back().settings.push_back(
+        fmt::format("supports.moves=[{{\"blocks\":[{}],\"displacement\":[0,0,{:.6g}]}}]",
+                    fmt::join(blocks, ","), -depth));
+  }
+  return runs;
+}
+
+}  // namespace cupola

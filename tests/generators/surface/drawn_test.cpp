@@ -1,0 +1,289 @@
+// Profiles carried along plans: volumes against closed forms, shapes against their equations, errors.
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "generators/generate.hpp"
+#include "generators/surface/make_surface.hpp"
+#include "tests/generators/models.hpp"
+
+namespace cupola::drawn_test {
+namespace {
+
+using std::numbers::pi;
+using Kind = Profile::Kind;
+
+Profile profile_of(Kind kind, double span = 10.0, double rise = 4.0) {
+  Profile p;
+  p.kind = kind;
+  p.span = span;
+  p.rise = rise;
+  return p;
+}
+
+Profile chain_of(std::vector<double> r, std::vector<double> z, std::vector<double> radius = {}) {
+  Profile p = profile_of(Kind::chain);
+  p.r = std::move(r);
+  p.z = std::move(z);
+  p.radius = std::move(radius);
+  return p;
+}
+
+VaultSurface vault_on(Plan::Kind plan, const Profile& profile, double thickness = 0.5) {
+  VaultSurface v;
+  v.plan.kind = plan;
+  v.profile = profile;
+  v.thickness = thickness;
+  if (plan != Plan::Kind::line && profile.kind != Kind::straight) v.eye = 1.0;
+  if (plan == Plan::Kind::corners) {
+    v.plan.x = {6, -6, -6, 6};
+    v.plan.y = {5, 4, -5, -5};
+  }
+  return v;
+}
+
+Case case_of(const VaultSurface& surface, int rings = 8, int blocks = 16) {
+  Case c;
+  c.geometry.surface = surface;
+  c.geometry.bond = RunningBond{rings, blocks, 2};
+  return c;
+}
+
+double free_volume(const Case& scene) {
+  double volume = 0.0;
+  for (const Block& block : cut_assembly(scene).blocks) volume += block.fixed ? 0.0 : block.volume;
+  return volume;
+}
+
+/// Area (m2) and first moment (m3) about r = 0 of the section that the courses cut out.
+std::pair<double, double> section_sums(const SurfaceMap& map, const std::function<double(const Vec3&)>& r) {
+  double area = 0.0, moment = 0.0;
+  for (int k = 0; k < map.num_rows; ++k) {
+    const auto at = [&](int bed, int layer) {
+      const Vec3 p = map.point(bed, map.corners.size() > 1 ? 0.5 * map.corners[1] : 0.0, layer);
+      return Eigen::Vector2d(r(p), p.z());
+    };
+    const std::array<Eigen::Vector2d, 4> q{at(k, 0), at(k, 1), at(k + 1, 1), at(k + 1, 0)};
+    for (size_t i = 0; i < 4; ++i) {
+      const Eigen::Vector2d &a = q[i], &b = q[(i + 1) % 4];
+      const double twice = a.x() * b.y() - b.x() * a.y();
+      area += twice / 2;
+      moment += twice * (a.x() + b.x()) / 6;
+    }
+  }
+  return {area, moment};
+}
+
+const auto kRadial = [](const Vec3& p) { return std::hypot(p.x(), p.y()); };
+
+// Sum of the parts against the integral over the section; 1e-12: rounding of some hundred parts.
+TEST(DrawnVolume, OfRevolution) {
+  for (const Kind kind : {Kind::semicircle, Kind::segmental, Kind::pointed, Kind::basket, Kind::horseshoe,
+                          Kind::ellipse, Kind::parabola, Kind::catenary, Kind::straight}) {
+    const VaultSurface v = vault_on(Plan::Kind::circle, profile_of(kind));
+    const int n = 32;  // slices
+    const double expected = n * std::sin(2 * pi / n) * section_sums(make_surface(v, 8), kRadial).second;
+    EXPECT_NEAR(free_volume(case_of(v)), expected, 1e-12 * expected) << static_cast<int>(kind);
+  }
+}
+
+TEST(DrawnVolume, OfCloistersOverRegularPolygons) {
+  for (const auto beds : {VaultSurface::Beds::normal, VaultSurface::Beds::level})
+    for (const auto measured : {Plan::MeasuredAt::corner, Plan::MeasuredAt::side}) {
+      VaultSurface v = vault_on(Plan::Kind::polygon, profile_of(Kind::ellipse));
+      v.plan.sides = 6;
+      v.plan.measured_at = measured;
+      v.beds = beds;
+      v.eye = 2.5;
+      const double expected = 12 * std::tan(pi / 6) * section_sums(make_surface(v, 8), kRadial).second;
+      EXPECT_NEAR(free_volume(case_of(v, 8, 24)), expected, 1e-12 * expected);
+    }
+}
+
+// At a distance w inside the plan its circumference is P - 2 w sum tan(exterior angle / 2).
+TEST(DrawnVolume, OfCloistersOverConvexPolygons) {
+  const VaultSurface v = vault_on(Plan::Kind::corners, profile_of(Kind::semicircle, 8.0));
+  double around = 0.0, turn = 0.0;
+  const auto corner = [&](size_t i) { return Eigen::Vector2d(v.plan.x[i % 4], v.plan.y[i % 4]); };
+  for (size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector2d a = corner(i + 1) - corner(i), b = corner(i + 2) - corner(i + 1);
+    around += a.norm();
+    turn += std::tan(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)) / 2);
+  }
+  const SurfaceMap map = make_surface(v, 8);
+  const Eigen::Vector2d along = (corner(1) - corner(0)).normalized(), inwards(-along.y(), along.x());
+  const auto [area, moment] =
+      section_sums(map, [&](const Vec3& p) { return -inwards.dot(p.head<2>() - corner(0)); });
+  const double expected = around * area + 2 * turn * moment;
+  EXPECT_NEAR(free_volume(case_of(v)), expected, 1e-12 * expected);
+}
+
+TEST(DrawnVolume, OfStretchedDomesAndRakingBarrels) {
+  Case dome = case_of(vault_on(Plan::Kind::circle, profile_of(Kind::ellipse)));
+  const double round = free_volume(dome);
+  dome.geometry.affine = Affine{{1.5, 1.0, 0.8}, 0.0};
+  EXPECT_NEAR(free_volume(dome), 1.2 * round, 1e-12 * round);
+  Case barrel = case_of(vault_on(Plan::Kind::line, profile_of(Kind::semicircle)));
+  const double level = free_volume(barrel);
+  barrel.geometry.affine = Affine{{1, 1, 1}, 0.5};
+  EXPECT_NEAR(free_volume(barrel), level, 1e-12 * level);
+}
+
+// A frustum over an n-gon: h / 3 (A + B + sqrt(A B)).
+TEST(DrawnVolume, OfTheKeyStone) {
+  Case scene = case_of(vault_on(Plan::Kind::circle, profile_of(Kind::semicircle)));
+  std::get<VaultSurface>(scene.geometry.surface).key_stone = true;
+  ModelReport report;
+  const Assembly assembly = check_and_report(scene, &report);
+  EXPECT_EQ(report.num_blocks, 8 * 16 + 1);
+  EXPECT_EQ(assembly.num_rings, 9);
+  EXPECT_EQ(report.islands, 1);
+  EXPECT_LT(report.max_overlap, 2e-11 * 10.0);
+  const double h = 0.5 * std::sqrt(1.0 - 0.2 * 0.2), inner = 1.0, outer = 1.1;
+  const double polygon = 0.5 * 32 * std::sin(2 * pi / 32);
+  EXPECT_EQ(assembly.blocks.back().ring, 8);
+  EXPECT_NEAR(assembly.blocks.back().volume,
+              h / 3 * polygon * (inner * inner + outer * outer + inner * outer), 1e-13);
+}
+
+// Steiner: the area between a curve of length L and its parallel at t is L t + phi t^2 / 2, phi the angle by which the
+// normal turns. The extrapolated volume of the barrel is exact to 1e-8.
+TEST(DrawnProfile, HasTheAreaOfItsEquation) {
+  const double a = 5.0, h = 4.0, t = 0.5, R = (a * a + h * h) / (2 * h);
+  double c = 4.0;  // of the catenary, by Newton
+  for (int i = 0; i < 50; ++i) {
+    const double f = c * (std::cosh(a / c) - 1) - h;
+    c -= f / (std::cosh(a / c) - 1 - a / c * std::sinh(a / c));
+  }
+  const double slope = 2 * h / a;
+  struct Row {
+    Kind kind;
+    double length, turn;
+  };
+  const double segment = 2 * std::asin(a / R);
+  for (const Row& row : {Row{Kind::semicircle, pi * a, pi}, Row{Kind::segmental, segment * R, segment},
+                         Row{Kind::horseshoe, (pi + pi / 3) * a, pi + pi / 3},
+                         Row{Kind::ellipse, 2 * a * std::comp_ellint_2(std::sqrt(1 - h * h / (a * a))), pi},
+                         Row{Kind::parabola, a * (std::sqrt(1 + slope * slope) + std::asinh(slope) / slope),
+                             2 * std::atan(slope)},
+                         Row{Kind::catenary, 2 * c * std::sinh(a / c), 2 * std::atan(std::sinh(a / c))}}) {
+    const SurfaceMap map = make_surface(vault_on(Plan::Kind::line, profile_of(row.kind), t), 16);
+    const double expected = row.length * t + row.turn * t * t / 2;
+    EXPECT_NEAR(extrapolated_shell_volume(map), expected, 1e-8 * expected) << static_cast<int>(row.kind);
+    EXPECT_NEAR(map.intrados(8, 0).z(), row.kind == Kind::semicircle || row.kind == Kind::horseshoe ? a : h,
+                1e-12);
+    EXPECT_NEAR(map.intrados(8, 0).x(), 0.0, 1e-12);
+  }
+}
+
+TEST(DrawnProfile, BasketsMeetSmoothlyAndReachTheirRise) {
+  Profile basket = profile_of(Kind::basket, 12.0, 4.0);
+  basket.haunch_radius = 2.5;
+  const SurfaceMap map = make_surface(vault_on(Plan::Kind::line, basket), 9);
+  EXPECT_NEAR(map.intrados(4.5, 0).z(), 4.0, 1e-12);
+  EXPECT_NEAR(map.intrados(0, 0).x(), 6.0, 1e-12);
+  // Equal courses, although two radii meet: a chord is shorter than its arc s by s^3 / (24 r^2) = 0.036 m at most.
+  for (int k = 0; k + 1 < 9; ++k)
+    EXPECT_NEAR((map.intrados(k + 1, 0) - map.intrados(k, 0)).norm(),
+                (map.intrados(1, 0) - map.intrados(0, 0)).norm(), 0.036);
+}
+
+TEST(DrawnProfile, AKinkIsABedInTheBisector) {
+  const SurfaceMap map = make_surface(vault_on(Plan::Kind::line, chain_of({3, 3, 0}, {0, 3, 6}), 0.4), 10);
+  const Vec3 in = map.intrados(2, 0), out = map.extrados(2, 0);
+  EXPECT_LT((in - Vec3(3, 0, 3)).norm(), 1e-14);
+  // The normals are (1, 0) and (1, 1) / sqrt 2; the bed is 0.4 / cos(22.5 deg) wide.
+  EXPECT_LT((out - in - 0.4 / std::cos(pi / 8) * Vec3(std::cos(pi / 8), 0, std::sin(pi / 8))).norm(), 1e-14);
+}
+
+// The kinds with names are drawings: the same points to rounding.
+TEST(DrawnProfile, DrawsTheNamedKinds) {
+  const DomeSurface dome{10.0, 0.5, 0.6, 60.0};
+  VaultSurface drawn = vault_on(Plan::Kind::circle, profile_of(Kind::semicircle), 0.6);
+  drawn.eye = 2.5;
+  const SurfaceMap a = make_surface(dome, 7), b = make_surface(drawn, 7);
+  const OctagonalVault octagon{};
+  VaultSurface sails = vault_on(Plan::Kind::polygon, profile_of(Kind::pointed, 45.0), 2.2);
+  sails.beds = VaultSurface::Beds::conical;
+  sails.eye = 36.0 * 0.5 - 13.5;
+  const SurfaceMap c = make_surface(octagon, 7), d = make_surface(sails, 7);
+  for (int bed = 0; bed <= 7; ++bed)
+    for (const double azimuth : {0.0, 0.3, 2.0, 5.5})
+      for (const int layer : {0, 1}) {
+        EXPECT_LT((a.point(bed, azimuth, layer) - b.point(bed, azimuth, layer)).norm(), 1e-13);
+        EXPECT_LT((c.point(bed, azimuth, layer) - d.point(bed, azimuth, layer)).norm(), 1e-12);
+      }
+}
+
+std::string error_of(const VaultSurface& surface, int rings = 8) {
+  try {
+    generate(case_of(surface, rings));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(DrawnErrors, NameTheKeyAndThePlace) {
+  VaultSurface open = vault_on(Plan::Kind::circle, profile_of(Kind::semicircle));
+  open.eye = 0.0;
+  EXPECT_NE(error_of(open).find("geometry.surface.eye = 0: the profile reaches the axis at z = 5 m"),
+            std::string::npos);
+  VaultSurface folds = vault_on(Plan::Kind::line, profile_of(Kind::semicircle, 1.0), 1.0);
+  folds.line = VaultSurface::Line::extrados;
+  EXPECT_NE(error_of(folds).find("has a radius of 0.5 m"), std::string::npos);
+  EXPECT_NE(error_of(vault_on(Plan::Kind::line, chain_of({3, 3, 0}, {0, 0.1, 3})), 4).find("too few"),
+            std::string::npos);
+  EXPECT_NE(error_of(vault_on(Plan::Kind::line, profile_of(Kind::pointed)), 9).find("must be even"),
+            std::string::npos);
+  EXPECT_NE(error_of(vault_on(Plan::Kind::line, chain_of({3, 3, 3}, {0, 1, 1}))).find("points 1 and 2"),
+            std::string::npos);
+  VaultSurface narrow = vault_on(Plan::Kind::corners, profile_of(Kind::semicircle, 20.0));
+  EXPECT_NE(error_of(narrow).find("vanishes before the last bed"), std::string::npos);
+}
+
+// Whatever is drawn is laid without gaps and overlaps, or refused with its key.
+void expect_laid_or_refused(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
+  };
+  int laid = 0;
+  for (int i = 0; i < count; ++i) {
+    VaultSurface v = vault_on(static_cast<Plan::Kind>(random() % 4),
+                              profile_of(static_cast<Kind>(random() % 9), between(4, 12), between(1, 7)),
+                              between(0.2, 1.0));
+    v.plan.sides = 3 + static_cast<int>(random() % 6);
+    v.profile.haunch_radius = between(0.5, 3.0);
+    v.profile.batter = between(-0.2, 0.2);
+    v.line = static_cast<VaultSurface::Line>(random() % 3);
+    if (v.plan.closed()) v.eye = between(0.5, 2.0);
+    if (v.plan.kind == Plan::Kind::polygon && random() % 2 == 0) v.beds = VaultSurface::Beds::conical;
+    v.key_stone = v.plan.kind == Plan::Kind::circle && random() % 2 == 0;
+    Case scene = case_of(v, 6, 8 + static_cast<int>(random() % 8));
+    if (random() % 3 == 0) scene.geometry.affine = Affine{{between(0.7, 1.5), between(0.7, 1.5), 1.0}, 0.0};
+    try {
+      ModelReport report;
+      check_and_report(scene, &report);
+      EXPECT_EQ(report.islands, 1) << i;
+      ++laid;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("geometry."), std::string::npos) << i << ": " << error.what();
+    }
+  }
+  EXPECT_GT(laid, count / 2);
+}
+
+TEST(DrawnErrors, RandomDrawingsAreLaidOrRefused) {
+  expect_laid_or_refused(20, 7);
+}
+TEST(DrawnSlow, RandomDrawingsAreLaidOrRefused) {
+  expect_laid_or_refused(500, 8);
+}
+
+}  // namespace
+}  // namespace cupola::drawn_test

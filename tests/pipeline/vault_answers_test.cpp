@@ -1,0 +1,185 @@
+// Answers about arches and barrels that follow from statics and geometry alone.
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "assembly/case/case_reader.hpp"
+#include "assembly/files/summary_file.hpp"
+#include "postproc/mechanics/cracks.hpp"
+#include "tests/pipeline/static_run.hpp"
+
+namespace cupola::vault_answers_test {
+namespace {
+
+constexpr double kGravity = 9.81, kDensity = 2000.0;
+using Vec2 = Eigen::Vector2d;
+
+/// A semicircular arch of n plane voussoirs, in the plane x-z.
+struct Arch {
+  int n;  // counted from x < 0; the generator counts its blocks from x > 0
+  double inner, outer;
+
+  Vec2 at(int joint, bool extrados) const {
+    const double angle = std::numbers::pi * (1.0 - static_cast<double>(joint) / n);
+    return (extrados ? outer : inner) * Vec2(std::cos(angle), std::sin(angle));
+  }
+  /// Area and centroid of a voussoir, by the shoelace formula.
+  double area(int block, Vec2* centroid = nullptr) const {
+    const std::array<Vec2, 4> p{at(block, false), at(block, true), at(block + 1, true), at(block + 1, false)};
+    double twice = 0.0;
+    Vec2 moment = Vec2::Zero();
+    for (size_t i = 0; i < 4; ++i) {
+      const Vec2 &a = p[i], &b = p[(i + 1) % 4];
+      const double cross = a.x() * b.y() - a.y() * b.x();
+      twice += cross;
+      moment += cross * (a + b) / 3.0;
+    }
+    if (centroid) *centroid = moment / twice;
+    return 0.5 * std::abs(twice);
+  }
+};
+
+std::string arch_case(const Arch& arch, double width, int blocks_per_ring, const std::string& rest) {
+  return fmt::format(
+      "geometry:\n  surface: {{type: arch, span: {}, radius_ratio: 0.5, thickness: {}, width: {}}}\n"
+      "  bond: {{type: stack, rings: {}, blocks_per_ring: {}}}\nmaterial: {{density: {}}}\n"
+      "loads: {{gravity: [0, 0, {}]{}",
+      2.0 * arch.inner, arch.outer - arch.inner, width, arch.n, blocks_per_ring, kDensity, -kGravity, rest);
+}
+
+Case read(const ProgramFolder& folder, const std::string& text) {
+  std::ofstream(folder.file("case.yaml")) << text;
+  return read_case(folder.file("case.yaml"));
+}
+
+/// A rigid body turns about a point: the velocity at x for an angular velocity of 1, counterclockwise.
+Vec2 turned(const Vec2& arm) {
+  return {-arm.y(), arm.x()};
+}
+
+// The right springing sinks by d. The two blocks turn together about the inner edge A of the left springing and the outer
+// edge B of the right one, by d / AB, because both edges lie at the same height; the crown stays closed. Each springing opens at
+// its other edge, a thickness away: t d / (inner + outer radius). The angle of 3e-4 is the relative error of first-order
+// geometry, and stiff joints add 1e-4.
+TEST(VaultAnswers, ASettledTwoBlockArchOpensAtItsSpringings) {
+  const Arch arch{2, 3.0, 3.8};
+  const double sinks = 2e-3;
+  const ProgramFolder folder;
+  const Case scene = read(folder, arch_case(arch, 1.0, 1,
+                                            fmt::format(R"(}}
+joints: {{friction: 0.8, compliance: {{per: area, normal: 1e-13, tangential: 1e-13}}}}
+supports: {{moves: [{{blocks: [3], displacement: [0, 0, {}]}}]}}
+)",
+                                                        -sinks)));
+  const Evaluation e = solve_and_evaluate(scene, folder);
+  const std::vector<Crack> cracks = cracks_of(e.last.frame.contacts, e.last.joints);
+  ASSERT_EQ(cracks.size(), 2u);
+  const double expected = (arch.outer - arch.inner) * sinks / (arch.inner + arch.outer);
+  for (const Crack& crack : cracks) {
+    const JointWrench& joint = e.last.joints.wrenches[crack.joint];
+    EXPECT_TRUE(e.assembly.blocks[joint.block_a].fixed || e.assembly.blocks[joint.block_b].fixed);
+    EXPECT_NEAR(crack.widest_gap, expected, 1e-3 * expected);
+  }
+}
+
+/// The load factor of one mechanism of four hinges, `edges`: bit set, hinge at the extrados. None where joints would overlap, or
+/// where the load does no work.
+std::optional<double> factor_of(const Arch& arch, const std::array<int, 4>& joints, unsigned edges,
+                                const Vec2& load_at, double load) {
+  std::array<Vec2, 4> hinge;
+  for (unsigned i = 0; i < 4; ++i) hinge[i] = arch.at(joints[i], (edges >> i) & 1u);
+  // Velocities: w0 (h1 - h0) + w1 (h2 - h1) + w2 (h3 - h2) = 0, each turned by a right angle, with w0 = +-1.
+  Eigen::Matrix2d a;
+  a << turned(hinge[2] - hinge[1]), turned(hinge[3] - hinge[2]);
+  if (std::abs(a.determinant()) < 1e-9) return std::nullopt;
+  for (const double first : {1.0, -1.0}) {
+    const Vec2 others = a.inverse() * (-first * turned(hinge[1] - hinge[0]));
+    const std::array<double, 5> w{0.0, first, others[0], others[1], 0.0};
+    // A joint turns counterclockwise about its outer edge, clockwise about its inner one.
+    bool opens = true;
+    for (unsigned i = 0; i < 4; ++i)
+      opens = opens && (w[i + 1] - w[i]) * ((edges >> i) & 1u ? 1.0 : -1.0) > 1e-9;
+    if (!opens) continue;
+    const auto sinking = [&](int body, const Vec2& x) {
+      Vec2 v = Vec2::Zero();
+      for (int i = 1; i <= body; ++i) v += w[i] * turned((i == body ? x : hinge[i]) - hinge[i - 1]);
+      return -v.y();
+    };
+    double dead = 0.0, live = 0.0;
+    for (int body = 1; body <= 3; ++body)
+      for (int block = joints[body - 1]; block < joints[body]; ++block) {
+        Vec2 centroid;
+        const double weight = kDensity * kGravity * arch.area(block, &centroid);
+        dead += weight * sinking(body, centroid);
+        const double low = arch.at(block, true).x(), high = arch.at(block + 1, true).x();
+        if (low < load_at.x() && load_at.x() < high) live += load * sinking(body, load_at);
+      }
+    if (live > 1e-9) return -dead / live;
+  }
+  return std::nullopt;
+}
+
+// The kinematic theorem: of all mechanisms the one with the least factor decides. Friction is high enough to exclude sliding.
+TEST(VaultAnswers, TheLoadFactorAtTheQuarterIsThatOfFourHinges) {
+  const Arch arch{10, 3.0, 3.8};
+  const double load = 1000.0;
+  const Vec2 at = 3.4 * Vec2(-0.5, std::sqrt(0.75));  // between joints at 126 and 108 degrees
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= arch.n; ++i)
+    for (int j = i + 1; j <= arch.n; ++j)
+      for (int k = j + 1; k <= arch.n; ++k)
+        for (int l = k + 1; l <= arch.n; ++l)
+          for (unsigned edges = 0; edges < 16; ++edges)
+            if (const auto factor = factor_of(arch, {i, j, k, l}, edges, at, load))
+              least = std::min(least, *factor);
+  ASSERT_LT(least, 1e6);
+
+  const ProgramFolder folder;
+  std::ofstream(folder.file("case.yaml")) << arch_case(
+      arch, 1.0, 1,
+      fmt::format(R"(, forces: [{{block: 7, point: [{:.17g}, 0.5, {:.17g}], force: [0, 0, {}]}}]}}
+joints: {{friction: 3, compliance: {{per: area}}}}
+analysis: {{type: limit, limit: {{parameter: load, low: 0, high: 10000}}}}
+)",
+                  at.x(), at.y(), -load));
+  ASSERT_EQ(folder.run("cupola-generate case.yaml --output a.vtu").code, 0);
+  ASSERT_EQ(folder.run("cupola-solve case.yaml --assembly a.vtu --output results").code, 0);
+  const Summary summary = summary_from_json(slurp(folder.file("results/summary.json")), "summary.json");
+  ASSERT_TRUE(summary.critical);
+  EXPECT_NEAR(summary.critical->value, least, 1e-5 * least);  // ten times the width of the bracket
+  // The answer of the report is the same factor.
+  ASSERT_EQ(
+      folder.run("cupola-post analyse case.yaml --assembly a.vtu --results results --output post --tables")
+          .code,
+      0);
+  EXPECT_NE(slurp(folder.file("post/answers.json"))
+                .find(fmt::format("\"Critical load\",\n    \"value\": \"{:.4g}", summary.critical->value)),
+            std::string::npos)
+      << slurp(folder.file("post/answers.json"));
+}
+
+// Each springing of a barrel carries half its weight: per metre half of density, gravity and the area of the section.
+TEST(VaultAnswers, ABarrelRestsOnItsSpringingsByHalfItsWeightPerMetre) {
+  const Arch arch{12, 3.0, 3.6};
+  const double length = 5.0;
+  const ProgramFolder folder;
+  const Case scene =
+      read(folder, arch_case(arch, length, 4, "}\njoints: {friction: 0.7, compliance: {per: area}}\n"));
+  const Evaluation e = solve_and_evaluate(scene, folder);
+  double area = 0.0;
+  for (int block = 0; block < arch.n; ++block) area += arch.area(block);
+  ASSERT_EQ(e.reactions.size(), 2u);
+  for (const Reaction& reaction : e.reactions) {
+    EXPECT_NEAR(reaction.length, length, 1e-9 * length)
+        << "the thickness along the bed, not across the voussoir";
+    EXPECT_NEAR(-reaction.force.z() / length, 0.5 * kDensity * kGravity * area,
+                1e-6 * kDensity * kGravity * area);
+    EXPECT_NEAR(reaction.outward, e.reactions[0].outward, 1e-6 * std::abs(reaction.force.z()));
+  }
+}
+
+}  // namespace
+}  // namespace cupola::vault_answers_test

@@ -1,0 +1,97 @@
+// Studies of any case: groups of supports, groups of runs that do not apply, and answers of handwritten runs.
+
+#include <gtest/gtest.h>
+
+#include "postproc/studies/study.hpp"
+#include "postproc/studies/support_groups.hpp"
+#include "tests/assembly/case/case_scratch.hpp"
+#include "tests/postproc/models.hpp"
+
+namespace cupola::assessment_study_test {
+namespace {
+
+using Groups = std::vector<std::vector<int>>;
+
+/// Fixed cubes of 1 m at these places along x, in a row if `step` is 1.
+Assembly cubes(const std::vector<double>& places) {
+  Assembly a;
+  for (int b = 0; b < static_cast<int>(places.size()); ++b) {
+    a.blocks.emplace_back();
+    a.blocks.back().fixed = true;
+    a.blocks.back().centroid = {places[b] + 0.5, 0.5, 0.5};
+    test::add_box(&a, b, -1, {places[b], 0, 0}, {places[b] + 1, 1, 1}, FaceKind::bed);
+  }
+  return a;
+}
+
+TEST(SupportGroups, BlocksThatTouchSettleTogether) {
+  EXPECT_EQ(support_groups(cubes({0, 1, 6, 7, 12})), (Groups{{0, 1}, {2, 3}, {4}}));
+}
+
+TEST(SupportGroups, EachBlockOfARingSettlesByItself) {
+  EXPECT_EQ(support_groups(cubes({0, 1, 2})), (Groups{{0}, {1}, {2}}));
+}
+
+TEST(SupportGroups, AreSixteenAtMost) {
+  std::vector<double> places;
+  for (int i = 0; i < 40; ++i) places.push_back(2.0 * i);
+  const Groups groups = support_groups(cubes(places));
+  EXPECT_EQ(groups.size(), 16u);
+  size_t blocks = 0;
+  for (const auto& group : groups) blocks += group.size();
+  EXPECT_EQ(blocks, places.size());
+}
+
+// Runs of the study "safe" of the case "a"; b failed, and the case gives no lantern.
+struct Page {
+  ScratchFolder scratch;
+  std::string text;
+
+  Page() {
+    scratch.write("a.yaml", "geometry: {surface: {type: wall}}\n");
+    write_run("verdict", "null", "It stands", "yes");
+    write_run("small", "1.5", "It stands", "yes");
+    write_run("large", "12.0", "It stands", "yes");
+    write_run("none", "null", "It stands", "yes");
+    scratch.write("a_safe/b/errors.txt",
+                  "a.yaml:1: warning: odd\na.yaml:7:3: error: not with this key\nmake: *** Error 2\n");
+    const Study study = read_study(scratch.write("per_case/safe.yaml", R"(
+runs:
+  - {cases: "{case}", name: verdict}
+  - {cases: "{case}", name: large}
+  - {cases: "{case}", name: lantern, needs: loads.lantern}
+answers:
+  verdict: "{case}_safe/verdict"
+  margins: "{case}_safe/none {case}_safe/large {case}_safe/small {case}_safe/b {case}_safe/lantern"
+)"),
+                                   {scratch.file("a.yaml"), ""});
+    RunCache runs(scratch.folder());
+    StudyPage page("Safe", scratch.file("page"));
+    text = add_answers(study.answers, study.left_out, scratch.folder(), runs, &page);
+  }
+
+  void write_run(const std::string& name, const std::string& factor, const std::string& words,
+                 const std::string& stands) const {
+    scratch.write("a_safe/" + name + "/results/summary.json", R"({"status": "stable"})");
+    scratch.write("a_safe/" + name + "/post/summary.json", "{\"margin_factor\": " + factor + "}");
+    scratch.write("a_safe/" + name + "/post/answers.json",
+                  R"({"verdict": {"words": ")" + words + R"(", "reason": "because", "stands": ")" + stands +
+                      R"("}, "margin": {"name": ")" + name + R"(", "value": "1 N", "detail": "hinges"}})");
+  }
+};
+
+TEST(StudyAnswers, SortMarginsAndSayWhatWasNotComputed) {
+  const Page page;
+  EXPECT_EQ(page.text.find("It stands: because\n"), 0u) << page.text;
+  const size_t small = page.text.find("\nsmall"), large = page.text.find("\nlarge"),
+               none = page.text.find("\nnone");
+  EXPECT_LT(small, large) << page.text;
+  EXPECT_LT(large, none) << page.text;
+  EXPECT_NE(page.text.find("Least margin: small: factor 1.5"), std::string::npos) << page.text;
+  EXPECT_NE(page.text.find("not computed: lantern: the case has no `loads.lantern`\n"), std::string::npos)
+      << page.text;
+  EXPECT_NE(page.text.find("not computed: b: not with this key\n"), std::string::npos) << page.text;
+}
+
+}  // namespace
+}  // namespace cupola::assessment_study_test
