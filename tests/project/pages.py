@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+"""Checks what links_test.cpp does not: widths, revisions of tables, and numbers in prose that come from tables.
+
+    pages.py REPOSITORY
+
+- Lines of the documentation have at most 120 columns, except tables, code and the pages that programs write.
+- Every table between `<!-- table NAME -->` and `<!-- end -->` names the revision that measured it, neither unknown
+  nor dirty. Tables of REMEASURE are still to be measured again; none may be added.
+- `0.408<!--= docs/data/ranges.md ranges brunelleschi_range_0.4 "max"-->`: page, table, row and heading of the cell
+  that the number before the comment quotes, rounded to its digits. Parts with spaces stand in quotes, the first
+  cells of a row are joined by "|", and a fifth part multiplies the cell.
+"""
+import pathlib
+import re
+import shlex
+import sys
+
+WIDTH = 120
+GENERATED = {"docs/columns.md", "docs/data/verification.md"}
+REMEASURE = {
+    "docs/walls.md walls", "docs/strength.md mortar", "docs/strength.md ranges", "docs/data/accuracy.md features",
+    "docs/data/ranges.md ranges", "docs/data/ranges.md limits"}
+BLOCK = re.compile(r"^<!-- table (\S+) -->$(.*?)^<!-- end -->$", re.S | re.M)
+QUOTE = re.compile(r"([-+]?\d[\d,]*\.?\d*(?:[eE][-+]?\d+)?)<!--=\s*(.*?)-->", re.S)
+
+
+def prose(text):
+    """The lines outside code and tables, with their numbers; comments that quote a cell are left out."""
+    fenced = False
+    for number, line in enumerate(text.split("\n"), 1):
+        if line.lstrip().startswith("```"):
+            fenced = not fenced
+        elif not fenced and not line.startswith(("|", "    ")):
+            yield number, re.sub(r"<!--=.*?-->", "", line)
+
+
+def wide_lines(name, text):
+    return [f"{name}:{number}: {len(line)} columns, more than {WIDTH}" for number, line in prose(text)
+            if len(line) > WIDTH and " " in line.strip("-*> ")]
+
+
+def revisions(name, text, remeasure):
+    faults = []
+    for block in BLOCK.finditer(text):
+        table = f"{name} {block[1]}"
+        found = re.search(r"^Measured .* at revision (\S+)", block[2], re.M)
+        clean = found is not None and re.fullmatch(r"[0-9a-f]{7,40}", found[1]) is not None
+        if clean and table in remeasure:
+            faults.append(f"{table}: has been measured again; remove it from REMEASURE of pages.py")
+        elif not clean and table not in remeasure:
+            faults.append(f"{table}: revision {found[1] if found else 'missing'}; measure it from a clean tree")
+    return faults
+
+
+def cells(line):
+    return [cell.strip() for cell in line.strip().strip("|").split("|")]
+
+
+def cell_of(text, table, row, heading):
+    """The number in the row that begins with the cells of `row`, under the heading."""
+    block = next((block[2] for block in BLOCK.finditer(text) if block[1] == table), None)
+    if block is None:
+        raise LookupError(f"no table {table}")
+    lines = [cells(line) for line in block.split("\n") if line.startswith("|")]
+    if heading not in lines[0]:
+        raise LookupError(f"table {table} has no column {heading}")
+    key = cells(row)
+    rows = [line for line in lines[2:] if line[:len(key)] == key]
+    if len(rows) != 1:
+        raise LookupError(f"{len(rows)} rows of table {table} begin with {row}")
+    number = re.search(r"[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?", rows[0][lines[0].index(heading)])
+    if number is None:
+        raise LookupError(f"no number in row {row} of table {table}")
+    return float(number[0])
+
+
+def quoted_numbers(root, name, text):
+    faults = []
+    for quote in QUOTE.finditer(text):
+        number, source = quote[1].replace(",", ""), " ".join(quote[2].split())
+        try:
+            page, table, row, heading, *factor = shlex.split(source)
+            value = cell_of((root / page).read_text(), table, row, heading) * float((factor or ["1"])[0])
+        except (LookupError, OSError, ValueError) as fault:
+            faults.append(f"{name}: {number} ({source}): {fault}")
+            continue
+        mantissa, _, power = number.lower().partition("e")
+        unit = 10.0 ** (int(power or 0) - len(mantissa.partition(".")[2]))
+        if abs(float(number) - value) > 0.5001 * unit:
+            faults.append(f"{name}: {number}, but the table has {value:g} ({source})")
+    if text.count("<!--=") != len(QUOTE.findall(text)):
+        faults.append(f"{name}: a comment <!--= does not follow a number")
+    return faults
+
+
+def faults_of(root, remeasure):
+    faults = []
+    pages = sorted([*root.glob("docs/*.md"), *root.glob("docs/data/*.md"), root / "README.md", root / "cases/README.md"])
+    for page in pages:
+        name, text = str(page.relative_to(root)), page.read_text()
+        faults += [] if name in GENERATED else wide_lines(name, text)
+        faults += revisions(name, text, remeasure) + quoted_numbers(root, name, text)
+    return faults
+
+
+def check_the_checks(root):
+    """Each check sees its fault."""
+    table = "<!-- table t -->\n\n| run | max |\n|---|---|\n| a | 0.408 |\n\nMeasured 2026 at revision {}\n\n<!-- end -->"
+    assert not wide_lines("p", "a " * 60) and wide_lines("p", "a " * 61) and not wide_lines("p", "| " + "a " * 90)
+    assert not revisions("p", table.format("fffe37b"), set())
+    assert all(revisions("p", table.format(bad), set()) for bad in ("unknown", "fffe37b-dirty"))
+    assert revisions("p", table.format("fffe37b"), {"p t"}) and not revisions("p", table.format("f-dirty"), {"p t"})
+    assert cell_of(table, "t", "a", "max") == 0.408
+    page = 'docs/data/ranges.md ranges brunelleschi_range_0.4 max'
+    assert not quoted_numbers(root, "p", f"0.41<!--= {page}-->") and quoted_numbers(root, "p", f"0.42<!--= {page}-->")
+    assert quoted_numbers(root, "p", f"0.41<!--= {page} x-->") and quoted_numbers(root, "p", "word<!--= x-->")
+
+
+if __name__ == "__main__":
+    repository = pathlib.Path(sys.argv[1])
+    check_the_checks(repository)
+    found = faults_of(repository, REMEASURE)
+    print("\n".join(found))
+    sys.exit(1 if found else 0)
