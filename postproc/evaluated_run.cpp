@@ -7,6 +7,7 @@
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/content_hash.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/model/relative_compliance.hpp"
 #include "assembly/program/warnings.hpp"
 
 namespace cupola {
@@ -34,6 +35,7 @@ EvaluatedRun evaluate_run(const RunInput& input) {
   check_provenance(input, assembly, results.summary());
   Case scene = input.scene;
   resolve_block_names(assembly, &scene.loads, &scene.ties, &scene.supports);
+  resolve_compliance(assembly, scene.loads.gravity, &scene.joints.compliance);
   std::vector<std::string> doubts =
       united({results.summary().warnings, scene.warnings, implausible_for_blocks(scene, assembly)});
   report_warnings("cupola-post", doubts, results.summary().warnings, input.strict);

@@ -92,7 +92,10 @@ std::string active_features(const Case& scene, const ModelCounts& counts) {
   line("compliance",
        fmt::format("{:g} normal and {:g} tangential per {}", scene.joints.compliance.normal,
                    scene.joints.compliance.tangential,
-                   scene.joints.compliance.per == Compliance::Per::area ? "area (m3/N)" : "point (m/N)"));
+                   scene.joints.compliance.per == Compliance::Per::area ? "area (m3/N)" : "point (m/N)") +
+           (scene.joints.compliance.relative
+                ? fmt::format(", {:g} of a block's size", *scene.joints.compliance.relative)
+                : ""));
   if (scene.joints.have_strength()) {
     const JointStrength& strength = scene.joints.strength;
     line("strength", fmt::format("tension {:g}, cohesion {:g}, compression {:g} Pa, {}; {} of each joint",

@@ -17,6 +17,7 @@
 #include "assembly/files/number_text.hpp"
 #include "assembly/files/results_file.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/model/relative_compliance.hpp"
 #include "assembly/program/terminal.hpp"
 #include "assembly/program/warnings.hpp"
 #include "solver/analysis/analysis.hpp"
@@ -46,6 +47,7 @@ Assembly read_matching_assembly(SolveRequest* asked, std::vector<std::string>* d
   refuse_keys_without_effect(request.scene, assembly);
   resolve_block_names(assembly, &request.scene.loads, &request.scene.ties, &request.scene.supports);
   resolve_block_names(assembly, &request.scene.analysis.range.quantities);
+  resolve_compliance(assembly, request.scene.loads.gravity, &request.scene.joints.compliance);
   if (auto& control = request.scene.analysis.path.control) {
     resolve_block_name(assembly, "analysis.path.control", &control->block);
     if (control->relative_to)

@@ -162,6 +162,7 @@ CaseNode parse_set_option(const std::string& option) {
 
 std::string path_inside(const std::string& root_folder, const std::string& from_file, const std::string& name,
                         const FileLocation& where) {
+  if (name.empty()) throw InputError(where, "must name a file, and is empty");
   const fs::path path = fs::path(from_file).parent_path() / name;
   std::error_code error;
   if (fs::status(path, error).type() == fs::file_type::none)  // too long, circular links, no permission

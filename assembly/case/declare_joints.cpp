@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -15,12 +16,32 @@ std::string advice_per() {
                    area = Compliance::default_per(Compliance::Per::area);
   return fmt::format(
       "choose point (normal and tangential in m/N for each contact point, as in the paper, by default {:g} "
-      "and {:g}) "
-      "or area (in m3/N, independent of the number of contact points, by default {:g} and {:g})",
+      "and {:g}) or area (in m3/N, independent of the number of contact points, by default {:g} and {:g})",
       point.normal, point.tangential, area.normal, area.tangential);
 }
 
+/// For a case that says nothing: small against any block, and far above rounding.
+constexpr double kRelativeCompliance = 1e-4;
+
+/// True if the section is left out or relative.
+bool declare_relative_compliance(Section& s, Compliance& compliance) {
+  const NumberRule rule{.above = 0};
+  std::optional<double> relative;
+  s.optional_number(
+      "relative", relative, rule, fmt::format("{:g} if the section is left out", kRelativeCompliance),
+      "closing of a joint under the mean weight of a block on the square of its size, over that size; "
+      "stands alone, per area");
+  if (!relative && !s.is_empty()) return false;
+  for (const char* key : {"per", "normal", "tangential"})
+    s.refuse(key, "`relative` stands alone: leave out either it or per, normal and tangential");
+  if (!relative) s.settled_number("relative", kRelativeCompliance, rule);
+  const double unknown = std::numeric_limits<double>::quiet_NaN();  // until the blocks are
+  compliance = {unknown, unknown, Compliance::Per::area, relative.value_or(kRelativeCompliance)};
+  return true;
+}
+
 void declare_compliance(Section& s, Compliance& compliance) {
+  if (declare_relative_compliance(s, compliance)) return;
   s.required_choice("per", compliance.per, "compliance per contact point (m/N) or per area of joint (m3/N)",
                     advice_per());
   compliance = Compliance::default_per(compliance.per);

@@ -140,8 +140,14 @@ void add_joint_checks(const Joints& joints, std::vector<PlausibleRange>* checks)
   strength("joints.cohesion", joints.strength.cohesion);
   strength("joints.compressive_strength", joints.strength.compression);
   energy("joints.", joints.fracture_energy);
-  compliance("joints.compliance.normal", joints.compliance.normal);
-  compliance("joints.compliance.tangential", joints.compliance.tangential);
+  if (const std::optional<double>& relative = joints.compliance.relative) {
+    checks->push_back({"joints.compliance.relative", *relative, "", 1e-12, 0.01,
+                       "too small for double precision to matter? Compliances of 0 make joints rigid",
+                       "in percent? It is the closing of a joint over the size of a block"});
+  } else {
+    compliance("joints.compliance.normal", joints.compliance.normal);
+    compliance("joints.compliance.tangential", joints.compliance.tangential);
+  }
   for (const auto& [key, law] : joints.kinds()) change(fmt::format("joints.{}.", key), *law);
   for (size_t i = 0; i < joints.rings.size(); ++i)
     change(fmt::format("joints.rings[{}].", i), joints.rings[i].law);

@@ -157,6 +157,10 @@ bool Section::gives(const std::string& key) const {
   return node && (node->kind != CaseNode::Kind::list || !node->items.empty());
 }
 
+bool Section::is_empty() const {
+  return !describing() && (!node_ || node_->entries.empty());
+}
+
 void Section::rule(bool holds, const std::string& key, const std::string& text) const {
   if (holds || describing()) return;
   const CaseNode* node = node_ ? node_->find(key) : nullptr;

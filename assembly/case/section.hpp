@@ -131,6 +131,8 @@ class Section {
 
   /// True if the file gives the key, with an item if it is a list.
   bool gives(const std::string& key) const;
+  /// True if the file gives no key of this section. False while the schema is described.
+  bool is_empty() const;
   /// True if the file gives the key in the map that contains this one.
   bool parent_gives(const std::string& key) const { return parent_ && parent_->gives(key); }
   /// Checks a rule between several keys; the message refers to `key`.

@@ -14,16 +14,18 @@ namespace cupola {
 /// Elastic displacement of a contact point per unit force, or of a joint per unit traction.
 struct Compliance {
   enum class Per { point, area };
-  double normal = 1e-8;      ///< m/N per contact point, or m3/N per area, >= 0
-  double tangential = 1e-8;  ///< same unit, >= 0
-  Per per = Per::point;      ///< the case must say which
+  double normal = 1e-8;                 ///< m/N per contact point, or m3/N per area, >= 0
+  double tangential = 1e-8;             ///< same unit, >= 0
+  Per per = Per::point;                 ///< the case must say which
+  std::optional<double> relative = {};  ///< see resolve_compliance(), which finds the others from it
 
   /// The defaults. Per point: 1e-8 m/N in all directions, as in the paper (section 3). Per area: joints of 1e10 N/m3,
   /// which is a layer of 1 cm with a modulus of 0.1 GPa, and of 1 / (2 (1 + nu)) times that in shear with nu = 0.2; the
   /// soft end of lime mortar. Micro-models of brickwork use 8.2e10 and 3.6e10 N/m3 (P. B. Lourenco, 1996, wall J4D).
   static Compliance default_per(Per per) {
-    return per == Per::point ? Compliance{} : Compliance{1e-10, 2.4e-10, per};
+    return per == Per::point ? Compliance{} : Compliance{1e-10, kTangential * 1e-10, per, {}};
   }
+  static constexpr double kTangential = 2.4;  ///< over the normal compliance per area: 2 (1 + nu)
 };
 constexpr auto enum_names(Compliance::Per) {
   return std::array{"point", "area"};

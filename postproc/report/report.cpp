@@ -70,7 +70,9 @@ std::string case_section(const Evaluation& e) {
   row("Unit weight", fmt::format("{:g} kN/m³", 1e-3 * e.scene.material.unit_weight));
   const Compliance& c = e.scene.joints.compliance;
   const char* unit = c.per == Compliance::Per::point ? "m/N per contact point" : "m³/N per joint area";
-  row("Joint compliance", fmt::format("normal {:g}, tangential {:g} {}", c.normal, c.tangential, unit));
+  row("Joint compliance",
+      fmt::format("normal {:g}, tangential {:g} {}", c.normal, c.tangential, unit) +
+          (c.relative ? fmt::format(": {:g} of a block's size under its weight", *c.relative) : ""));
   if (!s.ranges.empty())
     row("State shown",
         has_chosen(s.ranges) ? "the one that the compliances choose" : "one of the admissible ones");

@@ -59,14 +59,19 @@ std::vector<std::string> soft_joints(const Case& scene, const Assembly& assembly
   const double height = height_of_free_blocks(assembly);
   const double sinking = load.norm() / stiffness * 0.5 * (joint_levels(assembly, height) + 1.0);
   if (!(sinking > kMostSinking * height)) return {};
-  const bool area = scene.joints.compliance.per == Compliance::Per::area;
-  const Compliance usual = Compliance::default_per(scene.joints.compliance.per);
+  const Compliance& compliance = scene.joints.compliance;
+  const std::string sinks = fmt::format("lets the model sink by about {:.2g} m, {:.2g} % of its height",
+                                        sinking, 100.0 * sinking / height);
+  if (compliance.relative)
+    return {fmt::format("joints.compliance.relative = {:g} {}; a smaller value is stiffer",
+                        *compliance.relative, sinks)};
+  const bool area = compliance.per == Compliance::Per::area;
   return {
-      fmt::format("joints.compliance.normal = {:g} {} lets the model sink by about {:.2g} m, {:.2g} % of its "
-                  "height; a stiffness "
-                  "instead of a compliance, or per {} meant? Without the key it is {:g} {}",
-                  scene.joints.compliance.normal, area ? "m3/N" : "m/N", sinking, 100.0 * sinking / height,
-                  area ? "point" : "area", usual.normal, area ? "m3/N" : "m/N")};
+      fmt::format("joints.compliance.normal = {:g} {} {}; a stiffness instead of a compliance, or per {} "
+                  "meant? Without the key it is "
+                  "{:g} {}",
+                  compliance.normal, area ? "m3/N" : "m/N", sinks, area ? "point" : "area",
+                  Compliance::default_per(compliance.per).normal, area ? "m3/N" : "m/N")};
 }
 
 }  // namespace cupola

@@ -109,9 +109,12 @@ Table counts(const std::vector<ManualRow>& rows) {
 void write_problem(const Reference& problem, const std::vector<ManualRow>& rows, Document* out) {
   out->heading(4, problem.title);
   out->paragraph(problem.statement);
-  out->paragraph("Quantity: " + problem.quantity + ". Reference: " + problem.source + ".");
-  out->paragraph(
-      fmt::format("Tolerance: {:g} ({}). Reason: {}.", problem.tolerance, problem.error, problem.reason));
+  Table about{"about", "", {{"about", "", ""}, {"text", "", ""}}, {}};
+  about.rows = {{std::string("quantity"), problem.quantity},
+                {std::string("reference"), problem.source},
+                {std::string("tolerance"),
+                 fmt::format("{:g} ({}): {}", problem.tolerance, problem.error, problem.reason)}};
+  out->table(about);
   Table t{"rows",
           "",
           {{"row", "", "row"},
@@ -181,9 +184,14 @@ ExitCode make_manual(bool quick, const std::string& folder, const std::string& p
   const double start = wall_seconds();
   const std::vector<ManualRow> rows = compute_rows(quick);
   Document manual = write_manual(rows);
-  if (!page.empty()) write_text_atomically(page, manual.markdown());
   manual.paragraph(
       fmt::format("Written by {}{}.", program_version(), quick ? ", without the slow rows" : ""));
+  if (!page.empty()) {
+    // A page says which sources its numbers come from, so they must be sources that somebody else can get.
+    if (program_version().ends_with("-dirty)"))
+      throw InputError(FileLocation{page}, "not written: the sources are changed; commit them first");
+    write_text_atomically(page, manual.markdown());
+  }
   make_folder(folder);
   write_text_atomically(folder + "/verification.html", manual.html("Verification manual of Cupola"));
   const auto failed = std::count_if(rows.begin(), rows.end(), [](const ManualRow& r) { return r.failed(); });

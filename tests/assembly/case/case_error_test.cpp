@@ -2,6 +2,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/case/case_reader.hpp"
+#include "assembly/case/case_tree.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
 
 namespace cupola::case_error_test {
@@ -29,7 +30,7 @@ const std::string kGood =
     "joints:\n"
     "  compliance: {per: point}\n";
 
-/// Without the required key joints.compliance.per.
+/// The least that makes a case.
 const std::string kDome = "geometry: {surface: {type: dome}, bond: {type: running}}\n";
 
 struct BadCase {
@@ -145,9 +146,12 @@ const BadCase kBadCases[] = {
      "bad.yaml:6:25: error: material.unit_weight = 0: must be > 0"},
     {"TwoGravityNumbers", kGood + "loads: {gravity: [0, 1]}\n",
      "bad.yaml:6:18: error: loads.gravity = [...]: must be a list of three numbers, [x, y, z]"},
-    {"MissingPer", kDome,
-     "bad.yaml:1:1: error: joints.compliance.per is missing and has no default; choose point (normal "
+    {"MissingPer", kDome + "joints: {compliance: {normal: 1e-9}}\n",
+     "bad.yaml:2:22: error: joints.compliance.per is missing and has no default; choose point (normal "
      "and tangential in m/N for each contact point, as in the paper, by default 1e-08 and 1e-08) or area"},
+    {"RelativeAndPer", kDome + "joints: {compliance: {relative: 1e-4, per: area}}\n",
+     "bad.yaml:2:44: error: joints.compliance.per = area: `relative` stands alone: leave out either it or "
+     "per"},
     {"MissingSurfaceType", "geometry: {surface: {span: 3}}\n",
      "bad.yaml:1:21: error: geometry.surface.type is missing and has no default; give one of dome, "},
     {"MisspeltType", "geometry: {surface: {typ: dome}}\n",
@@ -247,6 +251,11 @@ TEST(ExtendsChain, IsLimitedToSixteenFiles) {
     EXPECT_NE(std::string(error.what()).find("more than 16 files extend one another"), std::string::npos)
         << error.what();
   }
+}
+
+// Found by random cases: beside a case in the current folder, an empty name was an empty path.
+TEST(MissingFile, AnEmptyNameIsNoFile) {
+  EXPECT_THROW(path_inside("", "case.yaml", "", FileLocation{"case.yaml"}), InputError);
 }
 
 TEST(MissingFile, IsNamedInTheError) {

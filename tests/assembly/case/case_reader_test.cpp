@@ -156,6 +156,19 @@ TEST(ReadCase, TextRoundTripsThroughTheEffectiveYaml) {
   EXPECT_EQ(read_case(scratch.write("b.yaml", first.effective_yaml)).title, first.title);
 }
 
+// A run from run.yaml must be the same run: the default is written there as relative, and nothing else is.
+TEST(ReadCase, LeftOutComplianceIsRelative) {
+  const ScratchFolder scratch;
+  const std::string wall =
+      "geometry: {surface: {type: wall, length: 3}, bond: {type: running, rings: 2, blocks_per_ring: 2}}\n";
+  const Case c = read_case(scratch.write("wall.yaml", wall));
+  EXPECT_EQ(c.joints.compliance.relative, 1e-4);
+  EXPECT_EQ(c.joints.compliance.per, Compliance::Per::area);
+  EXPECT_NE(c.effective_yaml.find("relative: 0.0001"), std::string::npos) << c.effective_yaml;
+  EXPECT_EQ(c.effective_yaml.find("per:"), std::string::npos) << c.effective_yaml;
+  EXPECT_EQ(read_case(scratch.write("again.yaml", c.effective_yaml)).hash, c.hash);
+}
+
 TEST(ReadCase, DensityIsUnitWeightOverStandardGravity) {
   const ScratchFolder scratch;
   const std::string path = scratch.write("wall.yaml", kWall);
