@@ -46,7 +46,9 @@ std::string length_text(double metres) {
   if (metres == 0.0) return "negligible";
   if (std::abs(metres) >= 1e3) return fmt::format("{:.0f} m", metres);
   if (std::abs(metres) < 1e-6) return fmt::format("{:.2g} µm", 1e6 * metres);
-  return std::abs(metres) < 1.0 ? fmt::format("{:.3g} mm", 1e3 * metres) : fmt::format("{:.3g} m", metres);
+  constexpr double kRoundsToOne = 0.9995;  // to three digits
+  return std::abs(metres) < kRoundsToOne ? fmt::format("{:.3g} mm", 1e3 * metres)
+                                         : fmt::format("{:.3g} m", metres);
 }
 
 std::string describe(const ThrustLine& line) {

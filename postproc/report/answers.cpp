@@ -42,6 +42,7 @@ KeyNumber critical_answer(const Evaluation& e) {
   std::string unit = limit_unit(critical.parameter);
   double factor = 1.0;
   if (unit == "Pa") factor = critical.value < 1e6 ? 1e-3 : 1e-6, unit = critical.value < 1e6 ? "kPa" : "MPa";
+  if (unit == "factor") unit = "times";
   const std::string value = fmt::format("{:.4g}{}", factor * critical.value, unit.empty() ? "" : " " + unit);
   std::string detail =
       shows_bracket(critical) || critical.value == 0.0

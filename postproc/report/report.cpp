@@ -38,6 +38,12 @@ std::string list_section(const std::string& heading, const std::vector<std::stri
   return out + "</ul>\n";
 }
 
+/// Every page needs a title: that of the case, else the name of its file.
+std::string title_of(const Case& scene) {
+  if (!scene.title.empty()) return scene.title;
+  return scene.file.empty() ? "Case without a title" : std::filesystem::path(scene.file).stem().string();
+}
+
 /// The title, and below it the settings that it names: "Dome (with joints.friction=0.3)".
 std::string heading(const std::string& title) {
   const size_t settings = title.find(" (with ");
@@ -189,7 +195,8 @@ std::string run_section(const ReportInput& input) {
 
 std::string report_html(const ReportInput& input) {
   const Evaluation& e = *input.evaluation;
-  std::string body = heading(e.scene.title);
+  const std::string title = title_of(e.scene);
+  std::string body = heading(title);
   body += first_screen(e, input.history, input.construction ? &*input.construction : nullptr, input.viewer);
   body += ranges_section(e, range_picture(input));
   body += at_rest(e) ? list_section(findings_heading(e.summary), finding_sentences(e))
@@ -207,7 +214,7 @@ std::string report_html(const ReportInput& input) {
   body += case_section(e);
   body += files_section(at_rest(e), e.last.frame.ties.size() > 0, !input.picture_folder.empty());
   body += run_section(input);
-  return html_page(e.scene.title, body);
+  return html_page(title, body);
 }
 
 }  // namespace cupola

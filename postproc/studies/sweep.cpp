@@ -41,7 +41,8 @@ std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<Stud
   const std::string ended = endings(table);
   const std::string failed = failures(table);
   page->add(verdict_html(failed.empty() ? ended + "." : failed + " failed",
-                         fmt::format("{}: {}.", counted(members.size(), "member"), ended), failed.empty()));
+                         failed.empty() ? counted(members.size(), "member") + "." : ended + ".",
+                         failed.empty()));
   if (const Figure figure = sweep_figure(sweep, table); !figure.commands.empty()) page->add_figures({figure});
   page->add_table(table);
   page->add_report_links(members, runs_folder);

@@ -120,6 +120,18 @@ TEST(FirstScreen, SaysWhetherTheVerdictIsProven) {
   EXPECT_TRUE(certain_sentence(e).starts_with("Not certain: forces")) << certain_sentence(e);
 }
 
+// Readers of a screen hear the title first: a case without one lends the name of its file.
+TEST(FirstScreen, EveryReportHasATitle) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.scene.title.clear();
+  e.scene.file = "cases/my_dome.yaml";
+  ReportInput input{};
+  input.evaluation = &e;
+  const std::string html = report_html(input);
+  EXPECT_NE(html.find("<title>my_dome</title>"), std::string::npos);
+  EXPECT_NE(html.find("<h1>my_dome</h1>"), std::string::npos);
+}
+
 // The lowest of three blocks has lost its joint with the two above, which hang in the air and fall.
 TEST(FirstScreen, SaysWhichPartMoves) {
   const Assembly a = test::column(3);
