@@ -50,6 +50,7 @@ TEST(FirstScreen, NegligibleJointsAreNeverTheWorst) {
 
 TEST(FirstScreen, ALimitAnalysisBeginsWithItsCriticalValue) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.analysis = AnalysisType::limit;
   e.summary.critical = CriticalValue{"tilt", 9.4623222, 9.4623221, 9.4623223};
   const std::vector<KeyNumber> numbers = key_numbers(e, {});
   ASSERT_EQ(numbers.size(), 1u) << "rigid joints have no cracks, and a column has no thrust";
