@@ -85,7 +85,8 @@ void add_status_warnings(Evaluation* e) {
   else if (e->summary.status == Status::bracketed ||
            (e->summary.status == Status::unconverged &&
             (shown == FrameRole::equilibrium || shown == FrameRole::mechanism)))
-    warn("the critical value was not bracketed to the requested width");
+    warn(e->summary.critical ? "the critical value was not bracketed to the requested width"
+                             : "no critical value was found");
   else if (e->summary.status == Status::unconverged)
     warn("the solver did not reach the requested accuracy: do not use its forces");
   else if (!at_rest(*e) && e->summary.analysis == AnalysisType::range)

@@ -130,8 +130,9 @@ VerdictWords verdict_words(const Evaluation& e) {
   const std::optional<double> own = value_of_case(e.scene);
   if (!own) return words_of_status(e.summary.status);
   const bool upwards = critical.stable < critical.moving;
+  const bool proven = e.summary.friction_law == FrictionLaw::associated;
   if (upwards ? *own <= critical.stable : *own >= critical.stable) return words_of_status(Status::stable);
-  return words_of_status((upwards ? *own >= critical.moving : *own <= critical.moving) ? Status::moving
+  return words_of_status((upwards ? *own >= critical.moving : *own <= critical.moving) ? motion(proven)
                                                                                        : Status::bracketed);
 }
 

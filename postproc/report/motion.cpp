@@ -145,7 +145,7 @@ std::string how_sure_of_motion(const Evaluation& e) {
   }
   if (e.last.frame.role != FrameRole::step) return "";
   if (analysis.time_error)
-    return fmt::format("The motion was followed with an estimated error of at most {} per step.",
+    return fmt::format("The motion was followed with an estimated error of about {} per step.",
                        length_text(*analysis.time_error));
   return fmt::format(
       "The motion was followed in steps of {:g} s. How much a shorter step changes it is not known: compare "

@@ -161,7 +161,7 @@ std::string verdict_text(const Summary& s, FrameRole shown) {
       return "The structure has collapsed.";
     case Status::bracketed:
     case Status::unconverged:
-      return "No verdict: the requested accuracy was not reached.";
+      return fmt::format("No verdict: {}.", s.message);
   }
   return "";
 }

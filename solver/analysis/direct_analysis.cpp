@@ -15,6 +15,7 @@
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/analysis/statics/static_record.hpp"
 #include "solver/analysis/statics/static_solve.hpp"
+#include "solver/conic/conic_bounds.hpp"
 #include "solver/conic/solve_conic.hpp"
 
 namespace cupola {
@@ -134,13 +135,24 @@ std::string write_ends(const DirectLimit& limit, const std::string& parameter, d
   return "; " + describe(mechanism);
 }
 
+/// Writes the assembly without forces: the search showed nothing.
+void write_nothing_found(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks,
+                         Summary* summary) {
+  const RigidScene own =
+      rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));
+  Frame frame = admissible_frame(own, VecX::Zero(own.problem.cost.size()), own.start.time);
+  set_role(FrameRole::unconverged, "", &frame);
+  sinks.frame(frame);
+  summarize_frame(frame, own.model, summary);
+}
+
 /// Writes an admissible state under the loads of the case, if there is one: without a limit no value stands out.
 void write_state_of_case(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks,
                          Summary* summary) {
   DirectLimit own;
   own.at_admissible = rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));
   const ConicSolution any = solve_conic(own.at_admissible.problem);
-  if (any.outcome != ConicOutcome::optimal) return;
+  if (any.outcome != ConicOutcome::optimal) return write_nothing_found(scene, assembly, sinks, summary);
   own.gamma = any.gamma;
   write_ends(own, to_string(scene.analysis.limit.parameter), scene.loads.gravity.norm(), sinks, summary);
 }
@@ -150,8 +162,12 @@ std::string bounds_text(const CriticalValue& critical, const DirectLimit& limit,
   const std::string state =
       fmt::format("{} at {:.8g}", balanced ? "an admissible state" : "forces that do not balance the loads",
                   limit.admissible);
+  const std::string unproven =
+      fmt::format("{} forces of up to {:g} times those found",
+                  limit.mechanism.size() > 0 ? " against" : " among", kLargestForces);
   const std::string other =
-      fmt::format("{} {:.8g}", limit.mechanism.size() > 0 ? "a mechanism at" : "none below", limit.moving);
+      fmt::format("{} {:.8g}{}", limit.mechanism.size() > 0 ? "a mechanism at" : "none below", limit.moving,
+                  limit.motion_proven ? "" : unproven);
   return fmt::format("{}; {}, {} (relative width {:.1e}){}", critical_text(critical), state, other,
                      limit.relative_width(), limit.message);
 }
@@ -188,6 +204,8 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
     write_ends(limit, name, scene.loads.gravity.norm(), sinks, &summary);
   else if (!limit.found && limit.mechanism.size() > 0)
     write_motion(limit, name, sinks, &summary);
+  else if (!limit.found)
+    write_nothing_found(scene, assembly, sinks, &summary);
   if (limit.found) {
     const std::string mechanism = write_ends(limit, name, scene.loads.gravity.norm(), sinks, &summary);
     const double width = limit.relative_width();

@@ -119,6 +119,12 @@ void DynamicRun::include_accuracy(double time) {
   progress_.missed_steps += missed ? 1 : 0;
   progress_.rounded_steps += !missed && solve.reached > analysis_.tolerance ? 1 : 0;
 
+  if (analysis_.adaptive && report_.h <= analysis_.adaptive->smallest &&
+      report_.time_error > analysis_.adaptive->displacement_error) {
+    ++progress_.coarse_steps;
+    progress_.worst_time_error = std::max(progress_.worst_time_error, report_.time_error);
+  }
+
   const ContactSet& contacts = simulation_.contacts();
   std::optional<LawViolation> violation = progress_.worst.violation;
   std::optional<std::size_t> worst;

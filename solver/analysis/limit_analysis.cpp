@@ -19,6 +19,8 @@
 namespace cupola {
 namespace {
 
+constexpr double kImmense = 1e6;
+
 /// A row of history.csv: a static solve at one value of the parameter.
 struct TrialRow {
   double value;
@@ -50,7 +52,7 @@ struct LimitRun {
   const Assembly& assembly;
   const AnalysisSinks& sinks;
   StaticOptions options;
-  std::optional<Probe> stable, moving;
+  std::optional<Probe> stable = {}, moving = {}, undecided_probe = {};
   std::string undecided = {};  ///< why the last trial that did not converge failed
   int iterations = 0;
   int num_trials = 0;
@@ -74,9 +76,11 @@ Probe LimitRun::probe_at(double value) const {
   probe.contacts = detector.update(probe.start.poses);
   probe.memories = match_memories({}, probe.contacts.points);
   probe.solution = solve_static(probe.model, probe.start, probe.contacts, probe.memories, options);
-  // Forces that balance the loads to a tolerance do not decide a limit.
-  if (probe.solution.outcome == StaticOutcome::equilibrium && !probe.solution.proven)
-    probe.solution.outcome = StaticOutcome::unconverged;
+  // Neither forces that balance the loads to a tolerance decide a limit, nor a motion without proof that forces of less than kImmense
+  // times the loads might prevent. Coulomb's law has no proof of a motion that the associated law does not have.
+  const bool stands = probe.solution.outcome == StaticOutcome::equilibrium;
+  const bool doubtful = options.solve.law.is_associated() && probe.solution.forces_over_loads < kImmense;
+  if (!probe.solution.proven && (stands || doubtful)) probe.solution.outcome = StaticOutcome::unconverged;
   return probe;
 }
 
@@ -93,8 +97,10 @@ bool LimitRun::keep(double value, Probe probe) {
     stable = std::move(probe);
   else if (solution.outcome == StaticOutcome::moving)
     moving = std::move(probe);
-  else
+  else {
     undecided = fmt::format("at {:.6g}: {}", value, solution.message);
+    undecided_probe = std::move(probe);
+  }
   interrupted = sinks.interrupted();
   return !interrupted;
 }
@@ -140,6 +146,14 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
     summary->certified_force_error.bounds = "no equilibrium was found";
     summary->forces_unique = {false, "no equilibrium was found"};
   }
+  if (!run.stable && !run.moving && run.undecided_probe) {
+    const Probe& probe = *run.undecided_probe;
+    const Frame frame =
+        static_frame(probe.model, probe.start, probe.contacts, probe.memories, probe.solution, run.options);
+    summarize_static(probe.solution, frame, probe.model, run.options.tolerance, summary);
+    summary->weight_N = free_weight(*probe.model.assembly, run.scene.loads.gravity.norm());
+    run.sinks.frame(frame);
+  }
   if (!run.moving) return "";
   const Probe& probe = *run.moving;
   const StaticSolution& solution = probe.solution;
@@ -155,7 +169,7 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
 
 std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
   if (uses_direct_limit(scene.analysis)) return run_direct_limit(scene, assembly, sinks);
-  LimitRun run{scene, assembly, sinks, verdict_options(scene.analysis), {}, {}};
+  LimitRun run{scene, assembly, sinks, verdict_options(scene.analysis)};
   const LimitSearch::Parameter parameter = scene.analysis.limit.parameter;
   run.options.log = sinks.log;
   const double started = wall_seconds();
@@ -178,6 +192,11 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
       summary.message += gaps_note((*probe)->contacts, assembly);
       break;
     }
+  if (run.moving && !run.moving->solution.proven)
+    summary.message +=
+        run.moving->solution.forces_over_loads > 0.0
+            ? fmt::format("; forces of more than {:g} times the loads might prevent the motion", kImmense)
+            : "; the motion is not proven: other forces might balance the loads";
   if (!bracket.narrow && !run.undecided.empty()) summary.message += "; " + run.undecided;
   summary.steps = run.num_trials;
   summary.iterations = run.iterations;

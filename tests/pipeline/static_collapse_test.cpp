@@ -61,6 +61,20 @@ TEST(StaticCollapse, CriticalFrictionIsLowestUnderTheAssociatedLaw) {
     EXPECT_GE(bracket(dilatancy).stable, associated.moving) << dilatancy;
 }
 
+// Heads of 1e7 times the compliance of the beds.
+TEST(StaticCollapseSlow, DomeWithSoftHeadsStandsUnderBothLaws) {
+  Case scene = dome(0.4);
+  scene.geometry.bond = RunningBond{.rings = 6, .blocks_per_ring = 12, .slices_per_block = 2};
+  scene.joints.compliance = {1e-12, 1e-12, Compliance::Per::point};
+  scene.joints.head = JointLawChange{};
+  scene.joints.head->normal = scene.joints.head->tangential = 1e-5;
+  for (const FrictionLaw law : {FrictionLaw::associated, FrictionLaw::coulomb}) {
+    scene.analysis.friction_law = law;
+    const Summary summary = statics_of(scene);
+    EXPECT_EQ(summary.status, Status::stable) << to_string(law) << ": " << summary.message;
+  }
+}
+
 TEST(StaticCollapse, ArchMovesBelowItsMinimumThicknessAndStandsAboveIt) {
   for (const auto& [ratio, expected] : {std::pair{0.99, Status::moving}, {1.01, Status::stable}}) {
     const double thickness = ratio * 0.10672;  // minimum for 27 polygonal voussoirs, centreline radius 1 m

@@ -25,6 +25,9 @@ struct DirectLimit {
   bool unlimited = false;  ///< not found because the structure stands at every value in one direction
   bool no_state = false;   ///< not found because a mechanism moves at every value
   double admissible = 0.0, moving = 0.0;
+  /// Just beyond `moving` the mechanism proves in exact arithmetic that no forces balance the loads (motion_proof.hpp). Otherwise
+  /// none do of up to 1000 times those found (conic_bounds.hpp).
+  bool motion_proven = false;
   RigidScene at_admissible, at_moving;
   VecX gamma;      ///< N: the admissible state, or one without limit (3 nc)
   VecX mechanism;  ///< its velocities prove the motion (6 nb); empty for a stress

@@ -6,6 +6,7 @@
 
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/admissible/pull_solve.hpp"
+#include "solver/conic/motion_proof.hpp"
 
 namespace cupola {
 namespace {
@@ -177,6 +178,8 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
   limit.mechanism = search.moving.solution.v;
   limit.at_admissible = std::move(search.admissible.scene);
   limit.at_moving = std::move(search.moving.scene);
+  const ConicProblem& moving = limit.at_moving.problem;
+  limit.motion_proven = MotionProof(moving.contacts, moving.load).next_to(limit.mechanism).has_value();
   return limit;
 }
 

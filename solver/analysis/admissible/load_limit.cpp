@@ -5,6 +5,7 @@
 
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/conic/conic_bounds.hpp"
+#include "solver/conic/motion_proof.hpp"
 #include "solver/conic/opening_motion.hpp"
 #include "solver/conic/solve_conic.hpp"
 
@@ -136,6 +137,12 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
   if (!limit.found) return not_found(fmt::format("no convergence after {} linearisations", kMaxIterations));
   limit.at_admissible = scene_at(limit.admissible);
   limit.at_moving = scene_at(limit.moving);
+  // At the bound itself the loads do no work on the mechanism.
+  constexpr double kBeyond = 1e-9;
+  const double scale = std::max(std::abs(limit.moving), std::abs(limit.admissible));
+  const RigidScene beyond = scene_at(limit.moving + towards * kBeyond * scale);
+  limit.motion_proven =
+      MotionProof(beyond.problem.contacts, beyond.problem.load).next_to(limit.mechanism).has_value();
   return limit;
 }
 

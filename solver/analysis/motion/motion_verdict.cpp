@@ -24,6 +24,16 @@ std::string missed_text(const Analysis& analysis, const RunProgress& progress, c
   return analysis.max_iterations > 0 ? text + ", or raise `analysis.max_iterations`" : text;
 }
 
+/// Why the motion is not as exact as asked although the contact problems were solved.
+std::string coarse_text(const Analysis& analysis, const RunProgress& progress) {
+  return fmt::format(
+      "{} of {} missed `analysis.time_error`, {:.1e} m, although no longer than "
+      "`analysis.adaptive.smallest`, {:.1e} s; "
+      "the worst had {:.2e} m. Try a smaller `analysis.adaptive.smallest` or a larger `analysis.time_error`",
+      progress.coarse_steps, counted(progress.steps, "step"), analysis.adaptive->displacement_error,
+      analysis.adaptive->smallest, progress.worst_time_error);
+}
+
 /// `speed`: m/s, largest at the end; `displacement`: m, largest, below its threshold.
 void judge_rest(const Analysis::Thresholds& thresholds, const RestWindow& rest, double displacement,
                 double speed, Summary* summary) {
@@ -61,6 +71,9 @@ void judge_motion(const Analysis& analysis, const RunProgress& progress, const S
   if (progress.missed_steps > 0) {
     summary->status = Status::unconverged;
     summary->message = missed_text(analysis, progress, last);
+  } else if (progress.coarse_steps > 0) {
+    summary->status = Status::unconverged;
+    summary->message = coarse_text(analysis, progress);
   } else if (displacement > analysis.thresholds.displacement) {
     summary->status = Status::collapsed;
     summary->message = fmt::format("largest displacement {:.3g} m > threshold {:.3g} m", displacement,

@@ -10,9 +10,11 @@ namespace cupola {
 struct RunProgress {
   int steps = 0;
   int iterations = 0;
-  int missed_steps = 0;      // steps whose solve missed the tolerance
-  int rounded_steps = 0;     // steps accepted above the tolerance because of rounding
-  double worst_error = 0.0;  // of the solves in their measure; of the missed steps if there are any
+  int missed_steps = 0;           // steps whose solve missed the tolerance
+  int rounded_steps = 0;          // steps accepted above the tolerance because of rounding
+  int coarse_steps = 0;           // shortest steps allowed that missed the time error
+  double worst_time_error = 0.0;  // m, of those
+  double worst_error = 0.0;       // of the solves in their measure; of the missed steps if there are any
   ErrorMeasure measure = ErrorMeasure::momentum;  // of the worst error
   WorstOfRun worst;
   RunEnergy energy;
@@ -32,8 +34,8 @@ void visit(Archive& archive, RunEnergy& x) {
 
 template <class Archive>
 void visit(Archive& archive, RunProgress& x) {
-  archive(x.steps, x.iterations, x.missed_steps, x.rounded_steps, x.worst_error, x.measure, x.worst, x.energy,
-          x.rest, x.calm_since);
+  archive(x.steps, x.iterations, x.missed_steps, x.rounded_steps, x.coarse_steps, x.worst_time_error,
+          x.worst_error, x.measure, x.worst, x.energy, x.rest, x.calm_since);
 }
 
 /// Sets status, accuracy and message. `last`: the solve of the last step.

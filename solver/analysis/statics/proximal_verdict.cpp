@@ -66,13 +66,16 @@ std::optional<StaticSolution> ComingToRest::judge_motion(double contraction) {
       answer.proven = true;
       return answer;
     }
-    if (motion_proof_->search() != MotionProof::Answer::admissible)
-      return finish(
+    if (motion_proof_->search() != MotionProof::Answer::admissible) {
+      StaticSolution answer = finish(
           StaticOutcome::moving,
           fmt::format(
               "no equilibrium was found: {}; contact forces that balance the loads would have to be at "
               "least {} times as large as the loads",
               acceleration_text(), times_text(required)));
+      answer.forces_over_loads = required;
+      return answer;
+    }
   }
   if (!moves_steadily(contraction, kUnproven)) return {};
   return finish(

@@ -51,6 +51,8 @@ struct StaticSolution {
   /// Of an equilibrium: forces in exact equilibrium inside the limits of the joints exist (exact_equilibrium.hpp). Of a motion: no
   /// forces balance the loads (motion_proof.hpp).
   bool proven = false;
+  /// Of a motion without proof under the associated law: forces in equilibrium would have to be at least so many times the loads.
+  double forces_over_loads = 0.0;
   std::string message;
   double h = 0.0;                 ///< s, step of the proximal-point iteration
   double time_advance = 0.0;      ///< s, that of the options or found by the control

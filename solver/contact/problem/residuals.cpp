@@ -100,7 +100,9 @@ ForceCertificate certificate(const ContactProblem& problem, const ContactSolutio
   if (!(cone_violation <= kRounding)) return {{}, "some impulses exceed the limits of their joints"};
   const double norm = compliance_norm(problem, solution.gamma);
   if (!(norm > 0.0)) return {{}, "no contact is loaded"};
-  return {force_error_bound(problem, solution) / norm,
+  const double bound = force_error_bound(problem, solution) / norm;
+  if (!std::isfinite(bound)) return {{}, "the solution is too far from an equilibrium to bound its error"};
+  return {bound,
           "the distance of the impulses of a step from the exact solution of its contact problem, in the "
           "norm of the compliance, relative to the impulses"};
 }

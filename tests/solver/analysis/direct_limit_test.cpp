@@ -245,6 +245,19 @@ TEST(DirectLimit, IsChosenWhereItApplies) {
   EXPECT_FALSE(uses_direct_limit(analysis));
 }
 
+// Sliding of a block opens its contacts: the motion beyond the limit is proven for forces of any size.
+TEST(DirectLimit, ProvesTheMotionBeyondTheLimit) {
+  Case scene = limit_case(Parameter::acceleration, 0.0, 1.0, 0.4);
+  const Summary of_load = run_limit(scene, testing::box_on_floor({1, 1, 0.2}), {}).value();
+  EXPECT_NE(of_load.message.find("a mechanism at 0.4"), std::string::npos) << of_load.message;
+  EXPECT_EQ(of_load.message.find("1000 times"), std::string::npos) << of_load.message;
+  scene = limit_case(Parameter::friction, 0.1, 0.8, 0.7);
+  const Summary of_joints =
+      run_limit(scene, testing::make_arch({.voussoirs = 12, .thickness = 0.16}), {}).value();
+  EXPECT_NE(of_joints.message.find("a mechanism at"), std::string::npos) << of_joints.message;
+  EXPECT_EQ(of_joints.message.find("1000 times"), std::string::npos) << of_joints.message;
+}
+
 // The state at the critical value balances the loads, and the mechanism moves against no joint.
 TEST(DirectLimit, GivesAnAdmissibleStateAndAMechanism) {
   std::vector<Frame> frames;

@@ -317,6 +317,23 @@ TEST(Accuracy, IsTheWorstOfTheRun) {
   EXPECT_LT(worst.certified_force_error.value().step, s.steps);
 }
 
+// A block that falls by 0.1 m: with steps of no less than 20 ms the impact misses 1 um, with short ones it does not.
+TEST(Accuracy, SaysThatTheTimeErrorWasMissed) {
+  const Assembly assembly = testing::make_boxes(
+      {{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true}, {.center = {0, 0, 0.6}}});
+  for (const double smallest : {0.02, 1e-7}) {
+    Case scene = make_case(0.4, 1e-8, 0.02);
+    scene.analysis.duration = 0.3;
+    scene.analysis.time_error = 1e-6;
+    scene.analysis.adaptive = AdaptiveStep{.smallest = smallest, .largest = 0.02, .displacement_error = 1e-6};
+    const Summary s = run(scene, assembly).summary;
+    const bool missed = smallest > 1e-3;
+    EXPECT_EQ(s.status == Status::unconverged, missed) << s.message;
+    EXPECT_EQ(s.message.find("missed `analysis.time_error`, 1.0e-06 m") != std::string::npos, missed)
+        << s.message;
+  }
+}
+
 // A block in free flight has no contact forces: its steps do not spoil what is certified of the others.
 TEST(Accuracy, IgnoresStepsWithoutLoadedContacts) {
   Case scene = make_case(0.4, 1e-8, 0.01);

@@ -135,6 +135,41 @@ TEST(Verdict, BracketOfBisectionContainsTheLimit) {
   }
 }
 
+// A keystone stands from the slope of its walls on. Near it an equilibrium needs large forces, which is no proof that none exists.
+TEST(Verdict, BisectionOfAKeystoneTakesNoLargeForcesForAMotion) {
+  for (const double slope : {0.1, 0.5}) {
+    Case input = testing::make_case(0.5, 1e-9, 0.01);
+    input.analysis.type = AnalysisType::limit;
+    input.analysis.limit.parameter = LimitSearch::Parameter::friction;
+    input.analysis.limit.method = LimitSearch::Method::bisection;
+    input.analysis.limit.low = 0.0;
+    input.analysis.limit.high = 3.0;
+    input.analysis.limit.relative_width = 1e-4;
+    const Summary limit = run_limit(input, testing::keystone(slope), {}).value();
+    ASSERT_TRUE(limit.critical) << limit.message;
+    EXPECT_GE(limit.critical->stable, slope) << limit.message;
+    EXPECT_LE(limit.critical->moving, slope) << limit.message;
+  }
+}
+
+// A solve of few iterations shows nothing: the frame is that of an unfinished solve, which the postprocessor reports.
+TEST(Verdict, LimitThatShowsNothingHasAFrame) {
+  Case input = testing::make_case(0.5, 1e-9, 0.01);
+  input.analysis.type = AnalysisType::limit;
+  input.analysis.limit.parameter = LimitSearch::Parameter::acceleration;
+  input.analysis.limit.method = LimitSearch::Method::bisection;
+  input.analysis.limit.low = 0.25;
+  input.analysis.limit.high = 0.3;
+  input.analysis.max_iterations = 1;
+  int frames = 0;
+  AnalysisSinks sinks;
+  sinks.frame = [&](const Frame& frame) { frames += frame.role == FrameRole::unconverged; };
+  const Summary summary =
+      run_limit(input, testing::stack_of_cubes(1.0, std::vector(5, 1000.0)), sinks).value();
+  EXPECT_EQ(summary.status, Status::unconverged) << summary.message;
+  EXPECT_EQ(frames, 1) << summary.message;
+}
+
 // A cube of friction 0.5 tilts by 26.57 degrees. The ends of the bracket are said in its unit, and a frame shows what they showed.
 TEST(Verdict, EndsOfALimitWithoutBracketAreShown) {
   const Assembly box = testing::box_on_floor({1, 1, 0.2});
