@@ -1,6 +1,7 @@
 // Cross-checks of verdicts on random models: static analysis, range, bisection and direct limit answer the same question.
 //
-//   extremes_verdicts OUTPUT COUNT FIRST_SEED      writes OUTPUT/verdicts.md
+//   extremes_verdicts COUNT FIRST_SEED      prints a table of the methods
+//   extremes_verdicts towers                prints a table of towers of cubes, whose limit is known
 //
 // Fails if two verdicts contradict each other, or if more static analyses than largest_undecided() are undecided.
 //
@@ -8,8 +9,6 @@
 // a structure may move below it, but that can not be proven.
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <map>
 
 #include <fmt/format.h>
@@ -21,6 +20,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "tests/extremes/limit_models.hpp"
+#include "tests/extremes/tower_table.hpp"
 
 namespace {
 
@@ -32,7 +32,7 @@ constexpr double kTolerances[] = {1e-2, 1e-5, 1e-9};
 constexpr double kSlow = 2.0;  // s: static analyses that take longer are printed
 
 struct Count {
-  int all = 0, undecided = 0, contradictions = 0;
+  int all = 0, undecided = 0, unproven = 0, contradictions = 0;
 };
 
 struct Table {
@@ -41,14 +41,15 @@ struct Table {
   int models = 0, without_limit = 0;
   int proven = 0, moving = 0;  ///< motions of the associated law
 
-  void add(const std::string& row, double factor, const std::string& model, bool undecided, bool contradicts,
-           const std::string& message) {
+  void add(const std::string& row, double factor, const std::string& model, bool undecided, bool unproven,
+           bool contradicts, const std::string& message) {
     Count& count = rows[row][factor];
     ++count.all;
     count.undecided += undecided;
+    count.unproven += unproven;
     count.contradictions += contradicts;
     if (contradicts) contradictions.push_back(fmt::format("{}, {} at {:g}: {}", model, row, factor, message));
-    if (contradicts) fmt::print("{}\n", contradictions.back());
+    if (contradicts) fmt::print(stderr, "{}\n", contradictions.back());
   }
 };
 
@@ -68,15 +69,16 @@ void check_statics(const LimitModel& model, double limit, Table* table) {
         const double started = cpu_seconds();
         const Summary summary = run_static(scene, model.scene.assembly, {});
         if (const double seconds = cpu_seconds() - started; seconds > kSlow)
-          fmt::print("{}, {}, {:.0e} at {:g}: {:.1f} s; {}\n", model.name, to_string(law), tolerance, factor,
-                     seconds, summary.message);
+          fmt::print(stderr, "{}, {}, {:.0e} at {:g}: {:.1f} s; {}\n", model.name, to_string(law), tolerance,
+                     factor, seconds, summary.message);
         const bool stands = summary.status == Status::stable, proven = summary.status == Status::moving;
         const bool moves = cupola::moves(summary.status);
         const bool associated = law == FrictionLaw::associated;
         const bool below = factor < 1.0;
         if (associated && !below) table->moving += 1, table->proven += proven;
-        table->add(fmt::format("static, {}, {:.0e}", to_string(law), tolerance), factor, model.name,
-                   !stands && !moves, below ? (associated ? moves : proven) : stands, summary.message);
+        table->add(fmt::format("static,{},{:g}", to_string(law), tolerance), factor, model.name,
+                   !stands && !moves, moves && !proven, below ? (associated ? moves : proven) : stands,
+                   summary.message);
       }
 }
 
@@ -98,8 +100,8 @@ void check_range(const LimitModel& model, double limit, Table* table) {
     scene.analysis.range.quantities = {first_joint(model)};
     const Summary summary = run_range(scene, model.scene.assembly, {}).value();
     const bool stands = summary.status == Status::stable, moves = cupola::moves(summary.status);
-    table->add("range", factor, model.name, !stands && !moves, factor < 1.0 ? moves : stands,
-               summary.message);
+    table->add("range,,", factor, model.name, !stands && !moves, summary.status == Status::moving_unproven,
+               factor < 1.0 ? moves : stands, summary.message);
   }
 }
 
@@ -108,8 +110,8 @@ void check_bisection(const LimitModel& model, double limit, Table* table) {
     Case scene = model.scene.input;
     scene.analysis.friction_law = law;
     scene.analysis.limit.method = LimitSearch::Method::bisection;
-    scene.analysis.limit.low = value_at(model, limit, model.stands_above ? 1.9 : 0.2);
-    scene.analysis.limit.high = value_at(model, limit, model.stands_above ? 0.2 : 1.9);
+    scene.analysis.limit.low = value_at(model, limit, model.stands_above ? 1.5 : 0.5);
+    scene.analysis.limit.high = value_at(model, limit, model.stands_above ? 0.5 : 1.5);
     const Summary summary = run_limit(scene, model.scene.assembly, {}).value();
     bool wrong = false;
     constexpr double kReference = 1e-5;  // default width of the direct limit
@@ -119,8 +121,8 @@ void check_bisection(const LimitModel& model, double limit, Table* table) {
       wrong = beyond(summary.critical->stable) > kReference ||
               (law == FrictionLaw::associated && beyond(summary.critical->moving) < -kReference);
     }
-    table->add(fmt::format("bisection, {}", to_string(law)), 1.0, model.name, !reached(summary.status), wrong,
-               fmt::format("limit {:.8g}; {}", limit, summary.message));
+    table->add(fmt::format("bisection,{},", to_string(law)), 1.0, model.name, !reached(summary.status), false,
+               wrong, fmt::format("limit {:.8g}; {}", limit, summary.message));
   }
 }
 
@@ -129,7 +131,7 @@ void check(const LimitModel& model, Table* table) {
   ++table->models;
   if (!direct.critical) {
     ++table->without_limit;
-    fmt::print("{}: {}\n", model.name, direct.message);
+    fmt::print(stderr, "{}: {}\n", model.name, direct.message);
     return;
   }
   check_statics(model, direct.critical->value, table);
@@ -137,23 +139,27 @@ void check(const LimitModel& model, Table* table) {
   check_bisection(model, direct.critical->value, table);
 }
 
-std::string to_markdown(const Table& table) {
-  std::string text =
-      "| method | factor on the limit | cases | undecided | contradictions |\n|---|---|---|---|---|\n";
-  for (const auto& [row, counts] : table.rows)
-    for (const auto& [factor, count] : counts)
-      text += fmt::format("| {} | {:g} | {} | {} | {} |\n", row, factor, count.all, count.undecided,
-                          count.contradictions);
-  return text + fmt::format(
-                    "\n{} models, {} of them without a limit. {} of {} motions under the associated law are "
-                    "proven.\n",
-                    table.models, table.without_limit, table.proven, table.moving);
-}
-
 /// Share of the static analyses that may be undecided at a factor on the limit.
 double largest_undecided(double factor) {
   const double distance = std::abs(factor - 1.0);
   return distance > 0.05 ? 0.02 : distance > 0.005 ? 0.1 : 0.5;
+}
+
+/// Comma-separated; static analyses have a largest share of undecided ones.
+void print(const Table& table) {
+  fmt::print(stderr,
+             "{} models, {} of them without a limit. {} of {} motions under the associated law are proven.\n",
+             table.models, table.without_limit, table.proven, table.moving);
+  fmt::print(
+      "method,law,tolerance,factor on the limit,cases,undecided,allowed,motions without "
+      "proof,contradictions\n");
+  for (const auto& [row, counts] : table.rows)
+    for (const auto& [factor, count] : counts)
+      fmt::print("{},{:g},{},{},{},{},{}\n", row, factor, count.all, count.undecided,
+                 row.starts_with("static")
+                     ? fmt::format("{:g}", std::floor(largest_undecided(factor) * count.all))
+                     : "",
+                 count.unproven, count.contradictions);
 }
 
 bool decides_enough(const Table& table) {
@@ -163,19 +169,16 @@ bool decides_enough(const Table& table) {
   return true;
 }
 
-ExitCode run(const std::string& folder, int count, std::uint64_t first) {
+ExitCode run(int count, std::uint64_t first) {
   Table table;
   for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(count); ++seed) {
     const double started = cpu_seconds();
     const LimitModel model = limit_model(seed);
     check(model, &table);
-    fmt::print("{:12} {:3d} blocks {:7.2f} s\n", model.name, model.scene.assembly.blocks.size(),
+    fmt::print(stderr, "{:12} {:3d} blocks {:7.2f} s\n", model.name, model.scene.assembly.blocks.size(),
                cpu_seconds() - started);
-    std::fflush(stdout);
   }
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder + "/verdicts.md") << to_markdown(table);
-  fmt::print("{}", to_markdown(table));
+  print(table);
   return table.contradictions.empty() && decides_enough(table) ? ExitCode::done : ExitCode::failed;
 }
 
@@ -183,7 +186,8 @@ ExitCode run(const std::string& folder, int count, std::uint64_t first) {
 
 int main(int argc, char** argv) {
   return run_program("extremes_verdicts", [&] {
-    if (argc != 4) throw InputError("usage: extremes_verdicts OUTPUT COUNT FIRST_SEED");
-    return run(argv[1], std::stoi(argv[2]), std::stoull(argv[3]));
+    if (argc == 2 && std::string(argv[1]) == "towers") return print_towers();
+    if (argc != 3) throw InputError("usage: extremes_verdicts COUNT FIRST_SEED, or extremes_verdicts towers");
+    return run(std::stoi(argv[1]), std::stoull(argv[2]));
   });
 }

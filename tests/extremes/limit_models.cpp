@@ -32,7 +32,7 @@ LimitModel pushed(std::string name, Assembly assembly, double friction, Dice* di
 /// Running bond of random courses.
 LimitModel wall(Dice* dice) {
   std::vector<testing::BoxSpec> boxes{{.center = {2, 0, -0.5}, .size = {8, 3, 1}, .fixed = true}};
-  const int courses = dice->integer(2, 8), blocks = dice->integer(1, 5);
+  const int courses = dice->integer(2, 6), blocks = dice->integer(1, 4);
   const double length = 4.0 / blocks, depth = dice->uniform(0.2, 0.6);
   double z = 0.0;
   for (int course = 0; course < courses; ++course) {
@@ -50,7 +50,7 @@ LimitModel wall(Dice* dice) {
 }
 
 LimitModel tower(Dice* dice) {
-  const int cubes = dice->integer(2, 60);
+  const int cubes = dice->integer(2, 50);
   LimitModel model =
       pushed("tower", pile(std::vector<Vec3>(cubes, Vec3::Ones())), dice->uniform(0.6, 1.0), dice);
   model.scene.input.analysis.limit.direction = {1, 0, 0};
@@ -59,7 +59,7 @@ LimitModel tower(Dice* dice) {
 
 LimitModel arch(Dice* dice) {
   return pushed(
-      "arch", testing::make_arch({.voussoirs = dice->integer(5, 30), .thickness = dice->uniform(0.13, 0.3)}),
+      "arch", testing::make_arch({.voussoirs = dice->integer(5, 25), .thickness = dice->uniform(0.13, 0.3)}),
       dice->uniform(0.5, 0.9), dice);
 }
 
@@ -82,7 +82,7 @@ LimitModel dome(Dice* dice) {
   Case scene = limit_case(Parameter::acceleration, 0.0, 3.0, dice->uniform(0.3, 0.7));
   scene.geometry.surface = DomeSurface{dice->uniform(4.0, 12.0), dice->uniform(0.5, 0.8),
                                        dice->uniform(0.5, 1.0), dice->uniform(50.0, 70.0)};
-  scene.geometry.bond = RunningBond{dice->integer(3, 6), dice->integer(6, 12), 2};
+  scene.geometry.bond = RunningBond{dice->integer(2, 5), dice->integer(6, 10), 2};
   Assembly assembly = generate(scene);
   return {"dome", {scene, std::move(assembly)}};
 }
