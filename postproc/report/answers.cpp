@@ -204,12 +204,12 @@ std::optional<KeyNumber> crack_answer(const Evaluation& e) {
     return a.widest_gap < b.widest_gap;
   });
   const JointWrench& joint = e.last.joints.wrenches[widest.joint];
-  return KeyNumber{
-      "Widest crack", length_text(widest.widest_gap),
-      fmt::format("in the {} joint between blocks {} and {}; {} open over {} in total",
-                  joint.kind == JointKind::other ? "" : to_string(joint.kind), joint.block_a, joint.block_b,
-                  counted(cracks.size(), "joint") + (cracks.size() == 1 ? " is" : " are"),
-                  length_text(total))};
+  return KeyNumber{"Widest crack", length_text(widest.widest_gap),
+                   fmt::format("in the {}joint between blocks {} and {}; {} open over {} in total",
+                               joint.kind == JointKind::other ? "" : std::string(to_string(joint.kind)) + " ",
+                               joint.block_a, joint.block_b,
+                               counted(cracks.size(), "joint") + (cracks.size() == 1 ? " is" : " are"),
+                               length_text(total))};
 }
 
 std::string reason_for_verdict(const Evaluation& e) {

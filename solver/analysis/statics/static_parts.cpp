@@ -81,8 +81,9 @@ void add_parts(const StaticParts& parts, const Model& model, const StaticOptions
                                    parts.solution, options);
   summarize_static(parts.solution, frame, model, options.tolerance, summary);
   const int blocks = standing.model.num_free();
-  const std::string stands = fmt::format("of {} unconnected parts those with {} stand: {}",
-                                         parts.verdicts.size(), counted(blocks, "block"), summary->message);
+  const std::string stands =
+      fmt::format("of {} those with {} stand: {}", counted(parts.verdicts.size(), "unconnected part"),
+                  counted(blocks, "block"), summary->message);
   summary->status = whole;
   summary->message = fmt::format("{}; the rest: {}", stands, message);
   sinks.frame(frame);
