@@ -18,12 +18,12 @@ constexpr const char* kRadians = "in radians? Keys that end in _deg are in degre
 
 /// A length of the structure, m.
 PlausibleRange length(const std::string& key, double value, double low, double high) {
-  return {"geometry.surface." + key, value, "m", low, high, "in kilometres? Lengths are in m", kMillimetres};
+  return {"surface." + key, value, "m", low, high, "in kilometres? Lengths are in m", kMillimetres};
 }
 
 /// An angle of a vault, deg. Angles in radians are at most pi.
 PlausibleRange vault_angle(const std::string& key, double value) {
-  return {"geometry.surface." + key, value, "deg", 4.0, 180.0, kRadians, ""};
+  return {"surface." + key, value, "deg", 4.0, 180.0, kRadians, ""};
 }
 
 /// With wythes the thickness of the surface is not in use.
@@ -33,17 +33,6 @@ std::vector<PlausibleRange> wythe_checks(const std::vector<Wythe>& wythes, const
     for (const double value : wythes[i].thickness.values)
       checks.push_back({fmt::format("{}.wythes[{}].thickness", where, i), value, "m", 0.002, 20.0,
                         "in kilometres? Lengths are in m", kMillimetres});
-  return checks;
-}
-
-std::vector<PlausibleRange> drum_checks(const Drum& drum) {
-  std::vector<PlausibleRange> checks = wythe_checks(drum.wythes, "geometry.drum");
-  const auto add = [&](const std::string& key, double value, double low, double high) {
-    checks.push_back(
-        {"geometry.drum." + key, value, "m", low, high, "in kilometres? Lengths are in m", kMillimetres});
-  };
-  add("height", drum.height, 0.05, 250.0);
-  if (drum.wythes.empty()) add("thickness", drum.thickness, 0.002, 20.0);
   return checks;
 }
 
@@ -239,17 +228,23 @@ std::vector<std::string> unused_tensions(const Joints& joints) {
   return found;
 }
 
+std::vector<PlausibleRange> member_checks(const Member& member, const std::string& key) {
+  std::vector<PlausibleRange> checks = surface_checks(member.surface);
+  if (!member.wythes.empty())
+    std::erase_if(checks, [](const PlausibleRange& c) { return c.key == "surface.thickness"; });
+  for (PlausibleRange& check : checks) check.key = key + "." + check.key;
+  for (PlausibleRange& check : wythe_checks(member.wythes, key)) checks.push_back(std::move(check));
+  return checks;
+}
+
 }  // namespace
 
 std::vector<std::string> implausible_values(const Case& scene) {
-  std::vector<PlausibleRange> checks =
-      scene.geometry.imported ? std::vector<PlausibleRange>{} : surface_checks(scene.geometry.surface);
-  if (!scene.geometry.wythes.empty())
-    std::erase_if(checks, [](const PlausibleRange& c) { return c.key == "geometry.surface.thickness"; });
-  for (PlausibleRange& check : wythe_checks(scene.geometry.wythes, "geometry"))
-    checks.push_back(std::move(check));
-  if (scene.geometry.drum)
-    for (PlausibleRange& check : drum_checks(*scene.geometry.drum)) checks.push_back(std::move(check));
+  std::vector<PlausibleRange> checks;
+  const std::vector<const Member*> members = members_of(scene.geometry);
+  for (size_t i = 0; i < members.size() && !scene.geometry.imported; ++i)
+    for (PlausibleRange& check : member_checks(*members[i], key_of_member(scene.geometry, i)))
+      checks.push_back(std::move(check));
   for (PlausibleRange& check : material_checks(scene)) checks.push_back(std::move(check));
   add_joint_checks(scene.joints, &checks);
   add_load_checks(scene, &checks);

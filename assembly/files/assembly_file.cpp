@@ -235,6 +235,10 @@ void add_sheet_arrays(const Assembly& assembly, std::vector<MeshArray>* arrays) 
   arrays->push_back(column<B>("sheet_closed", sheets, [](const Sheet& s) { return s.closed; }));
   arrays->push_back(column<B>("sheet_thrust_lines", sheets, [](const Sheet& s) { return s.thrust_lines; }));
   arrays->push_back(column<I>("sheet_sails", sheets, [](const Sheet& s) { return s.sails; }));
+  arrays->push_back(column<B>("sheet_on_previous", sheets, [](const Sheet& s) { return s.on_previous; }));
+  arrays->push_back(column<double>(
+      "sheet_origin", sheets, [](const Sheet& s) { return s.origin; }, 3));
+  arrays->push_back(column<double>("sheet_turn", sheets, [](const Sheet& s) { return s.turn; }));
 }
 
 /// The sheet of a file of version 0.2, which does not state it: those programs put one box below a wall and two behind the
@@ -268,9 +272,14 @@ void read_sheets(const Columns& fields, Assembly* assembly) {
   const auto& closed = fields.get<std::uint8_t>("sheet_closed", n);
   const auto& thrust_lines = fields.get<std::uint8_t>("sheet_thrust_lines", n);
   const auto& sails = fields.get<std::int32_t>("sheet_sails", n);
+  const auto& on_previous = fields.get<std::uint8_t>("sheet_on_previous", n);
+  const auto& origin = fields.get<double>("sheet_origin", n, 3);
+  const auto& turn = fields.get<double>("sheet_turn", n);
   for (size_t i = 0; i < n; ++i)
     assembly->sheets.push_back({name[i], first_ring[i], num_rings[i], closed[i] != 0,
-                                static_cast<Sheet::ThrustLines>(thrust_lines[i]), sails[i]});
+                                static_cast<Sheet::ThrustLines>(thrust_lines[i]), sails[i],
+                                on_previous[i] != 0,
+                                Vec3(origin[3 * i], origin[3 * i + 1], origin[3 * i + 2]), turn[i]});
 }
 
 void read_ties(const Mesh& mesh, const Columns& fields, Assembly* assembly) {
@@ -341,6 +350,7 @@ void check(const Assembly& assembly, const std::string& path) {
     const int first = i == 0 ? 0 : assembly.sheets[i - 1].first_ring + assembly.sheets[i - 1].num_rings;
     require(sheet.first_ring == first && sheet.num_rings > 0 &&
                 sheet.num_rings <= assembly.num_rings - first && sheet.sails > 0 &&
+                sheet.origin.allFinite() && std::isfinite(sheet.turn) && !(i == 0 && sheet.on_previous) &&
                 sheet.thrust_lines <= Sheet::ThrustLines::by_azimuth,
             "sheet", i);
   }
