@@ -70,12 +70,12 @@ struct Run {
   double start = 0.0, end = 0.0;  // abscissae
 };
 
-/// The level of one chain on its surface.
+/// The level of one chain in its member.
 class Level {
  public:
-  Level(const Chain& chain, std::string key, int refinement, const SurfaceMap& surface)
-      : chain_(chain), key_(std::move(key)), surface_(surface) {
-    if (chain.course >= 0) bed_ = (chain.course + 0.5) * refinement * surface.rows_per_ring;
+  Level(const Chain& chain, std::string key, int refinement, const Storey& shell)
+      : chain_(chain), key_(std::move(key)), shell_(shell) {
+    if (chain.course >= 0) bed_ = (chain.course + 0.5) * refinement * shell.surface.rows_per_ring;
   }
   Vec3 point(double abscissa) const { return at(bed(abscissa), abscissa, chain_.place); }
   int block(double abscissa, const BlockFinder& blocks) const {
@@ -91,7 +91,7 @@ class Level {
   }
   double bed(double abscissa) const {
     if (bed_) return *bed_;
-    double low = 0.0, high = surface_.num_rows;
+    double low = 0.0, high = shell_.surface.num_rows;
     const double height = *chain_.height, bottom = at(low, abscissa, chain_.place).z(),
                  top = at(high, abscissa, chain_.place).z();
     if (height <= bottom || height >= top)
@@ -106,12 +106,14 @@ class Level {
 
  private:
   Vec3 at(double bed, double abscissa, double place) const {
-    return (1.0 - place) * surface_.intrados(bed, abscissa) + place * surface_.extrados(bed, abscissa);
+    const SurfaceMap& surface = shell_.surface;
+    return shell_.placement *
+           Vec3((1.0 - place) * surface.intrados(bed, abscissa) + place * surface.extrados(bed, abscissa));
   }
 
   const Chain& chain_;
   std::string key_;
-  const SurfaceMap& surface_;
+  const Storey& shell_;
   std::optional<double> bed_;
 };
 
@@ -194,7 +196,7 @@ void add_chains(const std::vector<Chain>& chains, int refinement, const Storey& 
   for (size_t c = 0; c < chains.size(); ++c) {
     const Chain& chain = chains[c];
     const std::string key = fmt::format("geometry.chains[{}]", c);
-    const Level level(chain, key, refinement, shell.surface);
+    const Level level(chain, key, refinement, shell);
     const double top = level.bed(0.0) / shell.surface.rows_per_ring;
     if (shell.stage_rings > 0 && std::floor(top) >= shell.stage_rings) continue;
     std::vector<std::pair<Anchor, Anchor>> bars;

@@ -31,7 +31,7 @@ CutOptions cut_options(const Case& input) {
 /// breaks no extrapolation follows.
 std::optional<double> smooth_volume(const Storey& shell) {
   const SurfaceMap& surface = shell.surface;
-  if (std::ranges::count(shell.bond.block_of, kVoid) > 0 || surface.key_stone ||
+  if (std::ranges::count(shell.bond.block_of, kVoid) > 0 || surface.key_stone || !shell.cuts.empty() ||
       !std::ranges::all_of(surface.wythes, &Thickness::constant))
     return std::nullopt;
   return surface.shell_volume ? *surface.shell_volume : extrapolated_shell_volume(surface);
@@ -46,6 +46,24 @@ std::optional<double> smooth_volume(const std::vector<Storey>& storeys) {
     *sum += *volume;
   }
   return sum;
+}
+
+bool has_cuts(const Geometry& geometry) {
+  return std::ranges::any_of(members_of(geometry),
+                             [](const Member* member) { return !member->cuts.empty(); });
+}
+
+/// Refuses a member, or what cuts leave of it, that stands on nothing.
+void refuse_floating(const Geometry& geometry, const Assembly& assembly, const ModelReport& report) {
+  if (!report.floating || (members_of(geometry).size() == 1 && !has_cuts(geometry))) return;
+  const Block& block = assembly.blocks[*report.floating];
+  const Sheet* sheet = assembly.sheet_of(block.ring);
+  throw InputError(
+      fmt::format("geometry: a part of the member {} floats: block {} about ({:.4g}, {:.4g}, {:.4g}) m has "
+                  "no joint with a "
+                  "support or with blocks that have one",
+                  sheet ? sheet->name : "", *report.floating, block.centroid.x(), block.centroid.y(),
+                  block.centroid.z()));
 }
 
 /// The assembly with what the checks found and what is doubtful about its case.
@@ -63,7 +81,8 @@ Assembly with_report(Assembly assembly, const GenerateReport& report, const Case
 Assembly cut_assembly(const Case& input) {
   const std::vector<Storey> storeys = make_storeys(input.geometry);
   Assembly assembly = cut_blocks(storeys, cut_options(input));
-  add_chains(input.geometry.chains, refinement_of(*finest_bond(input.geometry)), storeys.back(), &assembly);
+  add_chains(input.geometry.chains, refinement_of(*finest_bond(last_member(input.geometry))), storeys.back(),
+             &assembly);
   assembly.title = input.title;
   assembly.geometry_hash = input.geometry_hash;
   return assembly;
@@ -99,7 +118,9 @@ Assembly generate(const Case& input, GenerateReport* report) {
     tolerances.joint_width = rule.min_width;
     tolerances.joint_angle = rule.max_angle;
   }
+  tolerances.part_by_part = has_cuts(geometry);
   report->model = check_model(assembly, tolerances);
+  refuse_floating(geometry, assembly, report->model);
   if (!geometry.stage) report->model.shell_volume = smooth_volume(make_storeys(geometry));
   return with_report(std::move(assembly), *report, input);
 }

@@ -1,6 +1,7 @@
 #include "assembly/case/case_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <system_error>
 
@@ -25,8 +26,9 @@ fs::path identity_of(const fs::path& path) {
 
 /// Maps in which the `type` decides which other keys exist. The keys of `analysis` are common to all types.
 bool type_owns_keys(const std::string& path) {
-  return path == "geometry.surface" || path == "geometry.surface.plan" ||
-         path == "geometry.surface.profile" || (path.starts_with("geometry.") && path.ends_with(".bond"));
+  constexpr std::array kMaps{".surface", ".plan", ".profile", ".bond"};
+  return path.starts_with("geometry.") &&
+         std::ranges::any_of(kMaps, [&](const char* map) { return path.ends_with(map); });
 }
 
 /// The item that `key` names, as `wythes[0]`, in a list of `map`; nullptr: the key names no item of a list.

@@ -23,7 +23,14 @@ void declare_vault(Section& s, VaultSurface& vault);
 void declare_bond(Section& s, Bond& bond);
 /// `bond`, or `wythes` and `bonders`, with the rules between them.
 void declare_masonry(Section& s, Masonry& masonry);
-void declare_drum(Section& s, Drum& drum);
+void declare_surface(Section& s, Surface& surface);
+/// One of `geometry.members`.
+void declare_member(Section& s, Member& member);
+/// What all members have in common, that which the geometry is itself included.
+void declare_shape(Section& s, Member& member);
+void check_closed_bonds(const Section& s, const Member& member);
+/// The rules between members.
+void check_members(const Section& s, const Geometry& geometry);
 void declare_imperfections(Section& s, Imperfections& imperfections);
 void declare_material(Section& s, Material& material);
 void declare_joints(Section& s, Joints& joints);

@@ -72,6 +72,8 @@ void declare_wall(Section& s, WallSurface& wall) {
   declare_shell_thickness(s, wall.thickness, kThickest, "dimension along y");
 }
 
+}  // namespace
+
 void declare_surface(Section& s, Surface& surface) {
   s.variant<Surface>(
       "type", surface,
@@ -81,8 +83,10 @@ void declare_surface(Section& s, Surface& surface) {
        alternative<Surface>("arch", "arch or barrel vault of two arcs", declare_arch),
        alternative<Surface>("wall", "plane wall", declare_wall),
        alternative<Surface>("vault", "any profile along any plan", declare_vault)},
-      "shape of the masonry shell");
+      "shape of the masonry");
 }
+
+namespace {
 
 void declare_grid(Section& s, int& rings, int& blocks_per_ring, int& refine) {
   s.integer("rings", rings, {.min = 1, .max = kMostRings},
@@ -287,9 +291,18 @@ void declare_geometry(Section& s, Geometry& geometry) {
   s.optional_section("import", geometry.imported, "import blocks cut elsewhere, instead of surface and bond",
                      declare_import);
   if (geometry.imported) return;
-  s.section("surface", geometry.surface, "shape of the masonry shell", declare_surface);
-  declare_masonry(s, geometry);
-  s.optional_section("drum", geometry.drum, "vertical wall on which a dome or vault stands", declare_drum);
+  s.retired("drum", "give it as one of geometry.members, and `on: drum` for the dome (docs/cases.md)");
+  s.list("members", geometry.members, "further walls, drums and vaults, or all of them", declare_member);
+  geometry.has_shell = geometry.members.empty() || s.gives("surface");
+  if (geometry.has_shell) {
+    declare_shape(s, geometry);
+  } else {
+    for (const char* key : {"on", "at", "bond", "wythes", "bonders", "openings"})
+      s.refuse(
+          key,
+          "remove this key: geometry has no surface of its own, and each of geometry.members has this key");
+  }
+  check_members(s, geometry);
   s.optional_section("affine", geometry.affine, "stretch or shear the finished masonry", declare_affine);
   s.optional_section(
       "window", geometry.window,
@@ -308,17 +321,15 @@ void declare_geometry(Section& s, Geometry& geometry) {
       "equal fixed blocks into which the base of a dome or vault is divided, so that one may settle; the "
       "first lies about the first corner");
 
-  const bool closed = traits_of(geometry.surface).closed;
-  const int rings = std::visit([](const auto& bond) { return bond.rings; }, *finest_bond(geometry));
+  const Member& member = last_member(geometry);
+  const bool closed = traits_of(member.surface).closed;
+  const int rings = std::visit([](const auto& bond) { return bond.rings; }, *finest_bond(member));
   s.rule(!geometry.stage || geometry.stage->rings <= rings, "stage", "stage.rings must be <= bond.rings");
-  s.rule(!geometry.window || closed, "window", "requires a dome or an octagonal vault");
-  for (const Bond* bond : bonds_of(geometry))
-    s.rule(
-        geometry.window || !closed || std::visit([](const auto& b) { return b.blocks_per_ring; }, *bond) >= 3,
-        geometry.wythes.empty() ? "bond" : "wythes", "bond.blocks_per_ring must be >= 3 on a closed ring");
+  s.rule(!geometry.window || (closed && members_of(geometry).size() == 1), "window",
+         "requires a dome or an octagonal vault, and no members");
+  if (!geometry.window && geometry.has_shell) check_closed_bonds(s, geometry);
   const bool whole = !geometry.window && closed;
   s.rule(geometry.chains.empty() || whole, "chains", "requires a whole dome or octagonal vault");
-  s.rule(!geometry.drum || whole, "drum", "requires a whole dome or octagonal vault");
   s.rule(!geometry.affine || !geometry.window, "affine", "requires a whole vault without a window");
   s.rule(!geometry.affine || geometry.affine->rake == 0.0 || !closed, "affine",
          "rake requires an arch or barrel, whose first bed stays plane");
@@ -326,7 +337,7 @@ void declare_geometry(Section& s, Geometry& geometry) {
   for (const Chain& chain : geometry.chains)
     s.rule(chain.course < rings, "chains", "course must be < bond.rings");
   for (const Chain& chain : geometry.chains)
-    s.rule(chain.long_blocks == 0 || geometry.wythes.empty(), "chains",
+    s.rule(chain.long_blocks == 0 || member.wythes.empty(), "chains",
            "long_blocks requires a shell without wythes");
 }
 

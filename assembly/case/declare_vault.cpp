@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "assembly/case/declare.hpp"
+#include "assembly/files/profile_table.hpp"
 
 namespace cupola {
 namespace {
@@ -108,6 +109,17 @@ void declare_profile(Section& s, Profile& profile) {
             }),
        kind(Kind::chain, "chain", "lines and arcs from point to point", nullptr,
             [](Section& section, Profile& p) {
+              section.file("file", p.file,
+                           "CSV with the columns r, z and perhaps radius, instead of these keys");
+              if (!p.file.empty()) {
+                for (const char* key : {"r", "z", "radius"})
+                  section.refuse(key, "remove this key, or `file`, which gives the points");
+                const ProfileTable table = read_profile_table(p.file);
+                p.r = table.r;
+                p.z = table.z;
+                p.radius = table.radius;
+                return;
+              }
               section.numbers("r", p.r, {.unit = "m"},
                               "points from the springing upwards: distance from the axis");
               section.numbers("z", p.z, {.unit = "m"}, "points from the springing upwards: height");

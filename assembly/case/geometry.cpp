@@ -2,7 +2,16 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace cupola {
+
+VaultSurface::VaultSurface() = default;
+VaultSurface::VaultSurface(const VaultSurface&) = default;
+VaultSurface::VaultSurface(VaultSurface&&) noexcept = default;
+VaultSurface& VaultSurface::operator=(const VaultSurface&) = default;
+VaultSurface& VaultSurface::operator=(VaultSurface&&) noexcept = default;
+VaultSurface::~VaultSurface() = default;
 
 double Thickness::at(double height) const {
   if (constant() || height <= heights.front()) return values.front();
@@ -11,6 +20,17 @@ double Thickness::at(double height) const {
   const auto i = static_cast<size_t>(above - heights.begin());
   const double fraction = (height - heights[i - 1]) / (heights[i] - heights[i - 1]);
   return values[i - 1] + fraction * (values[i] - values[i - 1]);
+}
+
+std::vector<const Member*> members_of(const Geometry& geometry) {
+  std::vector<const Member*> members;
+  for (const Member& member : geometry.members) members.push_back(&member);
+  if (geometry.has_shell || members.empty()) members.push_back(&geometry);
+  return members;
+}
+
+std::string key_of_member(const Geometry& geometry, size_t i) {
+  return i == geometry.members.size() ? "geometry" : fmt::format("geometry.members[{}]", i);
 }
 
 std::vector<const Bond*> bonds_of(const Masonry& masonry) {

@@ -134,6 +134,7 @@ struct Profile {
   double below_deg = 30.0;     ///< in (0, 90), by which a horseshoe continues below its centre
   double height = 5.0;         ///< m, > 0, of a straight profile
   double batter = 0.0;         ///< by which a straight profile leans inwards per height
+  std::string file;            ///< CSV with the columns r, z and perhaps radius; "": the numbers below
   std::vector<double> r, z;    ///< m, points of a chain
   std::vector<double>
       radius;  ///< m, of the arc to the next point, positive where it turns towards r = 0; 0: line
@@ -160,6 +161,14 @@ struct VaultSurface {
   double eye = 0.0;           ///< m, >= 0, r of the last bed on the drawn line; 0: the end of the profile
   bool key_stone = false;     ///< one stone closes the eye
   int voussoir_segments = 1;  ///< >= 1, as of an arch
+
+  // Not inline: GCC 12 takes an inlined destructor of an alternative that a std::variant does not hold for a use of its members.
+  VaultSurface();
+  VaultSurface(const VaultSurface&);
+  VaultSurface(VaultSurface&&) noexcept;
+  VaultSurface& operator=(const VaultSurface&);
+  VaultSurface& operator=(VaultSurface&&) noexcept;
+  ~VaultSurface();
 
   SurfaceTraits traits() const {
     return {.closed = plan.closed(),
@@ -307,24 +316,57 @@ struct Masonry {
   std::vector<Bonders> bonders;
 };
 
-/// Rectangular openings of a drum, all of one size. Their jambs are head planes of the surface, and a lintel in one block
-/// through the whole thickness covers each.
+/// Rectangular openings of a closed, upright member, all of one size. Their jambs are head planes of the surface, and a lintel in
+/// one block through the whole thickness covers each.
 struct Openings {
   int per_ring = 0;             ///< of each position in `at`; 0: one on each side of the plan
   std::vector<double> at{0.5};  ///< middles, in spacings from abscissa 0 (the first corner), in [0, 1)
   double width = 0.0;           ///< m, > 0, on the intrados
   double height = 0.0;          ///< m, > 0
-  double sill = 0.0;            ///< m, >= 0, height of the lower edge above the foot of the drum
+  double sill = 0.0;            ///< m, >= 0, height of the lower edge above the first bed
   double lintel = 0.0;          ///< m, >= 0, height of the lintel; 0: one course
   double bearing = 0.5;         ///< m, > 0, of the lintel beyond each jamb, on the intrados
 };
 
-/// A vertical wall below the springing of a dome or vault, over the plan of its springing. Its inner faces are flush.
-/// Heights of its wythes and bonders count from its foot.
-struct Drum : Masonry {
-  double height = 0.0;     ///< m, > 0
-  double thickness = 0.0;  ///< m, > 0, measured as that of the surface
+/// A convex body that a member loses: a half-space, or a prism.
+struct Cut {
+  enum class Kind : std::uint8_t { plane, prism, cylinder };
+  enum class Axis : std::uint8_t { x, y, z };
+  /// What lies behind the faces of the cut: nothing, or a fixed support.
+  enum class As : std::uint8_t { free, held };
+
+  Kind kind = Kind::plane;
+  As as = As::free;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< m, of a plane
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< not 0, into what is lost
+  Axis axis = Axis::y;                                ///< along a prism or cylinder
+  std::vector<double> u,
+      v;  ///< m, corners of the convex outline of a prism: (y, z), (x, z) or (x, y) across its axis
+  double centre_u = 0.0, centre_v = 0.0, radius = 1.0;  ///< m, of a cylinder, a prism over a regular polygon
+  int sides = 16;                                       ///< >= 3, of that polygon
+  std::optional<double> from, to;                       ///< m, along the axis; none: without end
+};
+constexpr auto enum_names(Cut::Axis) {
+  return std::array{"x", "y", "z"};
+}
+constexpr auto enum_names(Cut::As) {
+  return std::array{"free", "held"};
+}
+
+/// Where a member stands.
+struct Place {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m
+  double rotate_deg = 0.0;                           ///< about the vertical through the origin
+};
+
+/// A surface with its bond: a wall, a drum, a dome. Heights of its wythes, bonders and openings count from its springing.
+struct Member : Masonry {
+  std::string name = "shell";
+  std::string on;           ///< name of the member on whose last bed it stands; "": on supports of its own
+  std::optional<Place> at;  ///< none: at the origin, or on the axis of the member below
+  Surface surface = DomeSurface{};
   std::vector<Openings> openings;
+  std::vector<Cut> cuts;  ///< in its own coordinates, before `at`
 };
 
 /// A part of a dome or vault, of which only some courses over a sector are cut: masonry at the scale of bricks.
@@ -419,10 +461,11 @@ constexpr auto enum_names(ImportedBlocks::UpAxis) {
   return std::array{"z", "y"};
 }
 
-struct Geometry : Masonry {
-  std::optional<ImportedBlocks> imported;  ///< if set, surface, bond and stage are ignored
-  Surface surface = DomeSurface{};
-  std::optional<Drum> drum;
+/// What is built: `members`, and behind them the one member that this is itself.
+struct Geometry : Member {
+  std::optional<ImportedBlocks> imported;  ///< if set, all that follows is ignored
+  std::vector<Member> members;             ///< a member follows the one on which it stands
+  bool has_shell = true;                   ///< false: all members are in the list
   std::optional<Affine> affine;
   std::optional<Window> window;
   std::optional<Stage> stage;
@@ -432,6 +475,14 @@ struct Geometry : Masonry {
   int base_blocks =
       1;  ///< >= 1: equal parts of the fixed ring, which may move separately; the first about the first corner
 };
+
+/// All members, in the order of their courses; `window`, `stage` and `chains` belong to the last.
+std::vector<const Member*> members_of(const Geometry& geometry);
+/// "geometry.members[i]", or "geometry" behind them.
+std::string key_of_member(const Geometry& geometry, size_t i);
+inline const Member& last_member(const Geometry& geometry) {
+  return *members_of(geometry).back();
+}
 
 /// The bond of the masonry, or those of its wythes.
 std::vector<const Bond*> bonds_of(const Masonry& masonry);

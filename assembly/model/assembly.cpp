@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/outward.hpp"
 
 namespace cupola {
 namespace {
@@ -55,6 +56,25 @@ const Vec3& first_vertex(const Assembly& assembly, const Part& part) {
 const Sheet* Assembly::sheet_of(int ring) const {
   const auto found = std::ranges::find_if(sheets, [&](const Sheet& sheet) { return sheet.has_ring(ring); });
   return found == sheets.end() ? nullptr : &*found;
+}
+
+std::pair<int, int> Assembly::stack_of(int ring) const {
+  std::pair<int, int> stack{0, num_rings};
+  for (const Sheet& sheet : sheets) {
+    if (sheet.on_previous) continue;
+    if (sheet.first_ring > ring) {
+      stack.second = sheet.first_ring;
+      break;
+    }
+    stack.first = sheet.first_ring;
+  }
+  return stack;
+}
+
+Vec3 Assembly::outward(int ring, const Vec3& point) const {
+  const Sheet* sheet = sheet_of(ring);
+  const std::optional<Vec3> direction = sheet ? sheet->outward(point) : std::nullopt;
+  return direction ? *direction : outward_at(point, false);
 }
 
 void Assembly::add_face(std::span<const int> vertex_ids, FaceKind kind) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -116,6 +117,11 @@ struct Assembly {
   }
   /// The sheet to which a course belongs; null if there is none.
   const Sheet* sheet_of(int ring) const;
+  /// Rings [first, second) of the stack of sheets to which a course belongs; all rings without sheets.
+  std::pair<int, int> stack_of(int ring) const;
+  /// Horizontal unit vector outwards at a point (m) of a course, see Sheet::outward; of walls and imported blocks away from the
+  /// z axis.
+  Vec3 outward(int ring, const Vec3& point) const;
   /// Appends a face to the last part. A new part starts with `face_start = num_faces()`.
   void add_face(std::span<const int> vertex_ids, FaceKind kind);
 };

@@ -60,16 +60,19 @@ void fields(Visitor&& visit, Is<BuiltChain> auto& c) {
 
 template <class Visitor>
 void fields(Visitor&& visit, Is<Sheet> auto& s) {
-  visit("sheet_name", "", "`shell` or `drum`", s.name);
+  visit("sheet_name", "", "of the member; `shell` if it has none", s.name);
   visit("sheet_first_ring", "", "first of its courses; those of the next sheet follow", s.first_ring);
   visit("sheet_num_rings", "", "number of its courses", s.num_rings);
   visit("sheet_closed", "", "1: the last block of a course meets the first", s.closed);
   visit(
       "sheet_thrust_lines", "",
-      "where thrust lines are drawn, and what is outwards: 0 nowhere (a wall), 1 in the x-z plane (an arch), "
-      "2 at any azimuth about the z axis",
+      "where thrust lines are drawn, and what is outwards: 0 nowhere (a wall), 1 in its x-z plane (an arch), "
+      "2 at any azimuth about its axis",
       s.thrust_lines);
-  visit("sheet_sails", "", "equal parts about the z axis", s.sails);
+  visit("sheet_sails", "", "equal parts about its axis", s.sails);
+  visit("sheet_on_previous", "", "1: its first bed lies on the last bed of the sheet before", s.on_previous);
+  visit("sheet_origin", "m", "a point of its vertical axis (3)", s.origin);
+  visit("sheet_turn", "rad", "about that axis, from the x axis of the world to its own", s.turn);
 }
 
 }  // namespace cupola

@@ -9,6 +9,7 @@
 #include "assembly/base/error.hpp"
 #include "generators/stereotomy/cell_grid.hpp"
 #include "generators/stereotomy/cell_parts.hpp"
+#include "generators/stereotomy/cut_bodies.hpp"
 #include "generators/stereotomy/grid_points.hpp"
 #include "generators/stereotomy/support.hpp"
 
@@ -105,10 +106,19 @@ void drop_unused_vertices(Assembly* assembly) {
   for (int& v : assembly->face_vertices) v = new_id[v];
 }
 
+/// Moves the vertices from `first` on.
+void place(const Eigen::Isometry3d& placement, size_t first, Assembly* assembly) {
+  if (placement.matrix() == Eigen::Matrix4d::Identity()) return;  // to the bit
+  for (size_t v = first; v < assembly->vertices.size(); ++v)
+    assembly->vertices[v] = placement * assembly->vertices[v];
+}
+
 /// Appends the blocks of a storey, with the supports between which it stands.
 void add_storey(const Storey& shell, const CutOptions& options, Assembly* assembly) {
   const SurfaceMap& surface = shell.surface;
   const std::vector<double>& cuts = shell.bond.cuts;
+  const size_t first_vertex = assembly->vertices.size();
+  const MemberStart start{assembly->blocks.size(), assembly->parts.size()};
   const CellGrid grid = make_cell_grid(surface, shell.bond, shell.stage_rings);
   GridPoints points(grid, options.imperfections);
   if (surface.first_bed_held && !surface.first_row_held)
@@ -127,10 +137,13 @@ void add_storey(const Storey& shell, const CutOptions& options, Assembly* assemb
   }
   if (surface.key_stone) add_key_stone(grid, first_member, options.density, &points, assembly);
   if (surface.last_bed_held) add_far_support(surface, cuts, options.support_width, options.density, assembly);
-  const int num_rings = surface.num_rings() + (surface.key_stone ? 1 : 0);
-  assembly->num_rings = surface.rings_below + num_rings;
-  assembly->sheets.push_back({shell.name, surface.rings_below, num_rings, surface.closed,
-                              surface.thrust_lines, num_sails_of(surface)});
+  cut_bodies(shell.cuts, start, options.support_width, options.density, shell.key + ".cuts", assembly);
+  place(shell.placement, first_vertex, assembly);
+  assembly->num_rings = surface.rings_below + shell.num_rings();
+  const Vec3 x_axis = shell.placement.linear().col(0);
+  assembly->sheets.push_back({shell.name, surface.rings_below, shell.num_rings(), surface.closed,
+                              surface.thrust_lines, num_sails_of(surface), shell.stands_on_previous,
+                              shell.placement.translation(), std::atan2(x_axis.y(), x_axis.x())});
 }
 
 }  // namespace

@@ -125,6 +125,19 @@ struct Islands {
   std::vector<int> parent;
 };
 
+/// Of two blocks of different members, which these are and where the blocks lie.
+std::string places_of_members(const Assembly& assembly, int a, int b) {
+  if (assembly.sheets.size() < 2) return {};
+  const auto name = [&](int block) {
+    const Sheet* sheet = assembly.sheet_of(assembly.blocks[block].ring);
+    return sheet ? "the member " + sheet->name : std::string("a support");
+  };
+  if (name(a) == name(b) && !assembly.blocks[a].fixed) return {};
+  const Vec3& p = assembly.blocks[b].centroid;
+  return fmt::format(" ({} and {}) about ({:.4g}, {:.4g}, {:.4g}) m; move a member (`at`)", name(a), name(b),
+                     p.x(), p.y(), p.z());
+}
+
 void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shapes,
                  const ModelTolerances& tolerances, const Names& names, ModelReport* report) {
   std::vector<std::pair<int, int>> joints, touching;  // pairs of blocks; touching: at an edge or a corner
@@ -140,8 +153,9 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
     report->max_overlap = std::max(report->max_overlap, depth);
     if (depth > tolerances.overlap)
       names.fail(
-          a, fmt::format("blocks {} and {} overlap by {:.3g} m{}", names.name(a), names.with_source(b), depth,
-                         tolerances.part_by_part
+          a, fmt::format("blocks {} and {} overlap by {:.3g} m{}{}", names.name(a), names.with_source(b),
+                         depth, places_of_members(assembly, a, b),
+                         tolerances.part_by_part && !names.origins.empty()
                              ? fmt::format(", more than contact.margin = {:.3g} m: correct the geometry or "
                                            "increase contact.margin",
                                            tolerances.overlap)
@@ -173,8 +187,12 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
     has_joint[tie.block_a] = has_joint[tie.block_b] = 1;
     islands.join(tie.block_a, tie.block_b);
   }
+  std::vector<char> is_held(assembly.blocks.size(), 0);
+  for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b)
+    if (assembly.blocks[b].fixed) is_held[islands.root(b)] = 1;
   for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b) {
     if (islands.root(b) == b) ++report->islands;
+    if (!report->floating && is_held[islands.root(b)] == 0) report->floating = b;
     if (!has_joint[b]) report->blocks_without_joint.push_back(b);
   }
 }

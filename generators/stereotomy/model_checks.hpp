@@ -34,6 +34,7 @@ struct ModelReport {
   double shortest_edge = 0.0;
   int islands = 0;                         ///< connected components of the graph of joints and ties
   std::vector<int> blocks_without_joint;   ///< and without tie
+  std::optional<int> floating;             ///< first block of an island without a support
   std::vector<NarrowJoint> narrow_joints;  ///< ignored by contact detection
 };
 

@@ -1,11 +1,16 @@
 #include "generators/stereotomy/shell.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "generators/bond/long_blocks.hpp"
 #include "generators/bond/make_bond.hpp"
 #include "generators/bond/wythe_bond.hpp"
-#include "generators/stereotomy/drum.hpp"
+#include "generators/stereotomy/opening_places.hpp"
 #include "generators/surface/make_surface.hpp"
 #include "generators/surface/window.hpp"
 
@@ -53,8 +58,6 @@ std::vector<double> course_heights(const SurfaceMap& surface) {
   return heights;
 }
 
-}  // namespace
-
 std::vector<Thickness> thicknesses(const std::vector<Wythe>& wythes) {
   std::vector<Thickness> out;
   for (const Wythe& wythe : wythes) out.push_back(wythe.thickness);
@@ -66,36 +69,111 @@ BondPattern lay_masonry(const Masonry& masonry, const SurfaceMap& surface, const
                                 : make_wythe_bond(masonry, grid, course_heights(surface));
 }
 
-Storey make_shell(const Geometry& geometry) {
-  const Bond& bond_of_courses = *finest_bond(geometry);
-  const int courses = rings_of(bond_of_courses);
-  const int stage = geometry.stage ? geometry.stage->rings * refinement_of(bond_of_courses) : 0;
-  SurfaceMap surface = geometry.window
-                           ? window_surface(geometry.surface, thicknesses(geometry.wythes), *geometry.window,
-                                            courses, stage > 0 ? stage : courses, geometry.support_width)
-                           : make_surface(geometry.surface, courses, thicknesses(geometry.wythes));
-  if (geometry.affine) apply(*geometry.affine, &surface);
-  const BondGrid grid{surface.num_rings(),         surface.closed, surface.extent, surface.corners,
-                      geometry.window.has_value(), stage};
-  BondPattern bond = lay_masonry(geometry, surface, grid);
-  const int refinement = refinement_of(bond_of_courses);
+/// Names of what lays blocks. In a model of several members, the wythes of all but the last carry the name of their member.
+std::vector<std::string> names_of(const Geometry& geometry, const Member& member) {
+  std::vector<std::string> names = member_names(member);
+  if (&member != &last_member(geometry))
+    for (std::string& name : names) name = member.name + " " + name;
+  const bool alone = members_of(geometry).size() == 1 && member.openings.empty();
+  if (names.empty() && !alone) names = {member.name};
+  return names;
+}
+
+void lay_chains(const Geometry& geometry, const BondGrid& grid, int refinement, BondPattern* bond) {
   for (size_t c = 0; c < geometry.chains.size(); ++c)
     if (const Chain& chain = geometry.chains[c]; chain.long_blocks > 0)
       lay_long_blocks(grid, chain.course * refinement, (chain.course + 1) * refinement - 1, chain.long_blocks,
-                      fmt::format("geometry.chains[{}]", c), &bond);
-  if (geometry.window) bond = with_supports(bond, surface.held_end);
-  std::vector<std::string> members = member_names(geometry);
-  if (geometry.drum) {
-    surface.first_bed_held = false;
-    surface.rings_below = rings_of(*finest_bond(*geometry.drum));
-    if (members.empty()) members = {"shell"};
-  }
-  return {"shell", std::move(surface), std::move(bond), std::move(members), stage};
+                      fmt::format("geometry.chains[{}]", c), bond);
 }
 
+/// A member in its own coordinates, as if it stood alone.
+Storey make_member(const Geometry& geometry, const Member& member, const std::string& key) {
+  const bool last = &member == &last_member(geometry);
+  const Bond& bond_of_courses = *finest_bond(member);
+  const int courses = rings_of(bond_of_courses), refinement = refinement_of(bond_of_courses);
+  const int stage = last && geometry.stage ? geometry.stage->rings * refinement : 0;
+  SurfaceMap surface = geometry.window
+                           ? window_surface(member.surface, thicknesses(member.wythes), *geometry.window,
+                                            courses, stage > 0 ? stage : courses, geometry.support_width)
+                           : make_surface(member.surface, courses, thicknesses(member.wythes));
+  if (geometry.affine) apply(*geometry.affine, &surface);
+  const BondGrid grid{surface.num_rings(),         surface.closed, surface.extent, surface.corners,
+                      geometry.window.has_value(), stage};
+  BondPattern bond = lay_masonry(member, surface, grid);
+  std::vector<std::string> names = names_of(geometry, member);
+  if (last) lay_chains(geometry, grid, refinement, &bond);
+  if (!member.openings.empty()) {
+    lay_openings(grid, opening_places(member.openings, surface, key + ".openings"),
+                 static_cast<int>(names.size()), &bond);
+    names.push_back(member.name + " lintel");
+  }
+  if (geometry.window) bond = with_supports(bond, surface.held_end);
+  return {member.name, std::move(surface), std::move(bond), std::move(names), stage};
+}
+
+/// Bonds and surfaces do not know where they are laid, and their errors name keys of the geometry itself.
+Storey named_member(const Geometry& geometry, size_t i) {
+  const Member& member = *members_of(geometry)[i];
+  const std::string key = key_of_member(geometry, i);
+  if (&member == &geometry) return make_member(geometry, member, key);
+  try {
+    return make_member(geometry, member, key);
+  } catch (const InputError& error) {
+    const std::string text = error.what();  // begins with "error: "
+    throw InputError("in " + key + ": " + text.substr(text.find(' ') + 1));
+  }
+}
+
+/// z of a bed that is level, m. `what` names it in the message if it is not.
+double level_of(const SurfaceMap& surface, double bed, const std::string& what) {
+  const double z = surface.intrados(bed, surface.first_corner).z();
+  double farthest = 0.0;
+  constexpr int kSteps = 8;
+  for (int i = 0; i <= kSteps; ++i)
+    for (const int layer : {0, surface.num_wythes()})
+      farthest = std::max(farthest, std::abs(surface.point(bed, surface.extent * i / kSteps, layer).z() - z));
+  const double size = (surface.intrados(bed, 0.0) - surface.extrados(bed, 0.0)).norm();
+  if (farthest > 1e-9 * size)
+    throw InputError(fmt::format(
+        "{} is not level: it rises or falls by {:.3g} m; a member stands on a level bed", what, farthest));
+  return z;
+}
+
+/// Puts a member on the one below it, whose last bed must be as level as its own first.
+void stand_on(const std::string& key, Storey* lower, Storey* storey) {
+  const std::string on = fmt::format("{}.on = {}: ", key, lower->name);
+  if (lower->surface.carries)
+    throw InputError(on + "nothing can stand on its last bed, behind which a support or a key stone lies");
+  const double top = level_of(lower->surface, lower->surface.num_rows, on + "its last bed");
+  const double foot = level_of(storey->surface, 0.0, on + "the first bed of " + storey->name);
+  storey->placement = lower->placement * Eigen::Translation3d(0.0, 0.0, top - foot);
+  storey->stands_on_previous = true;
+  storey->surface.first_bed_held = false;
+  lower->surface.carries = true;
+}
+
+Eigen::Isometry3d isometry(const Place& place) {
+  constexpr double kRadians = std::numbers::pi / 180.0;
+  return Eigen::Translation3d(place.origin) *
+         Eigen::AngleAxisd(place.rotate_deg * kRadians, Eigen::Vector3d::UnitZ());
+}
+
+}  // namespace
+
 std::vector<Storey> make_storeys(const Geometry& geometry) {
-  std::vector<Storey> storeys{make_shell(geometry)};
-  if (geometry.drum) storeys.insert(storeys.begin(), make_drum(*geometry.drum, storeys.front().surface));
+  const std::vector<const Member*> members = members_of(geometry);
+  std::vector<Storey> storeys;
+  int rings = 0;
+  for (size_t i = 0; i < members.size(); ++i) {
+    storeys.push_back(named_member(geometry, i));
+    Storey& storey = storeys.back();
+    storey.cuts = members[i]->cuts;
+    storey.key = key_of_member(geometry, i);
+    storey.surface.rings_below = rings;
+    rings += storey.num_rings();
+    if (members[i]->at) storey.placement = isometry(*members[i]->at);
+    if (!members[i]->on.empty()) stand_on(key_of_member(geometry, i), &storeys[i - 1], &storey);
+  }
   return storeys;
 }
 

@@ -1,29 +1,31 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "assembly/case/geometry.hpp"
 #include "generators/bond/bond_pattern.hpp"
 #include "generators/surface/surface_map.hpp"
 
 namespace cupola {
 
-/// A surface and the bond laid on it.
+/// A member: a surface and the bond laid on it.
 struct Storey {
-  std::string name;  ///< of the member
+  std::string name;
   SurfaceMap surface;
   BondPattern bond;  ///< with the support of a window as blocks of its own, below and beside the courses
   std::vector<std::string> members;  ///< of the bond's labels: wythes and groups of bonders; none: one wythe
   int stage_rings = 0;               ///< of the stage; 0: the complete model
+  Eigen::Isometry3d placement =
+      Eigen::Isometry3d::Identity();  ///< from the coordinates of the surface to the world
+  bool stands_on_previous = false;
+  std::vector<Cut> cuts = {};
+  std::string key = {};  ///< of the member, for messages
+
+  int num_rings() const { return surface.num_rings() + (surface.key_stone ? 1 : 0); }
 };
 
-/// The shell of a case, without the drum on which it stands. Throws InputError if surface, bond and window do not fit each
-/// other.
-Storey make_shell(const Geometry& geometry);
-
-/// The drum, if there is one, and the shell, from below.
+/// The members of a case, in the order of their courses. Throws InputError if surface, bond, openings and window of a member do
+/// not fit each other, or if it stands on a bed that is not level.
 std::vector<Storey> make_storeys(const Geometry& geometry);
-
-std::vector<Thickness> thicknesses(const std::vector<Wythe>& wythes);
-/// Lays the bond or the wythes of a surface.
-BondPattern lay_masonry(const Masonry& masonry, const SurfaceMap& surface, const BondGrid& grid);
 
 }  // namespace cupola

@@ -116,7 +116,7 @@ void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double
 
 /// Adds a box behind bed `bed`, on the side away from the neighbouring bed `inside`.
 void add_plate(const SurfaceMap& surface, const std::vector<double>& cuts, int bed, int inside, double width,
-               Assembly* assembly) {
+               double density, Assembly* assembly) {
   const Vec3 a = surface.intrados(bed, cuts.front());
   const Vec3 b = surface.intrados(bed, cuts.back());
   const Vec3 c = surface.extrados(bed, cuts.back());
@@ -134,15 +134,20 @@ void add_plate(const SurfaceMap& surface, const std::vector<double>& cuts, int b
   std::array<Vec3, 4> corners{a - width * along - inner * across, d + width * (across - along),
                               c + width * (along + across), b + width * along - inner * across};
   if (flipped) std::swap(corners[1], corners[3]);  // counter-clockwise seen from the shell
+  add_box_support(corners, -width * up, density, assembly);
+}
+
+}  // namespace
+
+void add_box_support(const std::array<Vec3, 4>& top, const Vec3& depth, double density, Assembly* assembly) {
+  start_support_block(density, assembly);
   std::array<int, 4> top_ids{}, bottom_ids{};
-  for (int i = 0; i < 4; ++i) top_ids[i] = add_vertex(corners[i], assembly);
-  for (int i = 0; i < 4; ++i) bottom_ids[i] = add_vertex(corners[i] - width * up, assembly);
+  for (int i = 0; i < 4; ++i) top_ids[i] = add_vertex(top[i], assembly);
+  for (int i = 0; i < 4; ++i) bottom_ids[i] = add_vertex(top[i] + depth, assembly);
   start_part(static_cast<int>(assembly->blocks.size()) - 1, 0, assembly);
   constexpr FaceKind kFree = FaceKind::free;
   add_hexahedron(top_ids, bottom_ids, {kFree, kFree, kFree, kFree}, assembly);
 }
-
-}  // namespace
 
 void add_base_support(const SurfaceMap& surface, const std::vector<double>& cuts, double width,
                       int num_blocks, double density, Assembly* assembly) {
@@ -151,14 +156,12 @@ void add_base_support(const SurfaceMap& surface, const std::vector<double>& cuts
              density, assembly);
     return;
   }
-  start_support_block(density, assembly);
-  add_plate(surface, cuts, 0, 1, width, assembly);
+  add_plate(surface, cuts, 0, 1, width, density, assembly);
 }
 
 void add_far_support(const SurfaceMap& surface, const std::vector<double>& cuts, double width, double density,
                      Assembly* assembly) {
-  start_support_block(density, assembly);
-  add_plate(surface, cuts, surface.num_rows, surface.num_rows - 1, width, assembly);
+  add_plate(surface, cuts, surface.num_rows, surface.num_rows - 1, width, density, assembly);
 }
 
 }  // namespace cupola

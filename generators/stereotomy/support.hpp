@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "assembly/model/assembly.hpp"
@@ -19,5 +20,8 @@ void add_base_support(const SurfaceMap& surface, const std::vector<double>& cuts
 /// Appends the fixed block behind the last bed of an arch, the mirror image of the first.
 void add_far_support(const SurfaceMap& surface, const std::vector<double>& cuts, double width, double density,
                      Assembly* assembly);
+
+/// Appends a fixed box. `top` is counter-clockwise seen from outside; the box extends from it by `depth` (m).
+void add_box_support(const std::array<Vec3, 4>& top, const Vec3& depth, double density, Assembly* assembly);
 
 }  // namespace cupola

@@ -126,8 +126,29 @@ ProfilePiece catenary(double a, double h) {
       });
 }
 
+/// Throws where a chain crosses itself: two of its chords that are not neighbours meet.
+void check_crossings(const std::vector<double>& r, const std::vector<double>& z) {
+  const auto point = [&](size_t i) { return Vec2(r[i], z[i]); };
+  const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
+  for (size_t i = 0; i + 1 < r.size(); ++i)
+    for (size_t j = i + 2; j + 1 < r.size(); ++j) {
+      const Vec2 a = point(i), along = point(i + 1) - a, b = point(j), other = point(j + 1) - b;
+      const double sine = cross(along, other);
+      if (sine == 0.0) continue;
+      const double s = cross(b - a, other) / sine, t = cross(b - a, along) / sine;
+      if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) continue;
+      const Vec2 meet = a + s * along;
+      throw InputError(
+          fmt::format("geometry.surface.profile: crosses itself at ({:.6g}, {:.6g}) m, between the points {} "
+                      "and {} and the points "
+                      "{} and {}, counted from 0",
+                      meet.x(), meet.y(), i, i + 1, j, j + 1));
+    }
+}
+
 std::vector<ProfilePiece> polyline(const std::vector<double>& r, const std::vector<double>& z,
                                    const std::vector<double>& radius) {
+  check_crossings(r, z);
   std::vector<ProfilePiece> pieces;
   for (size_t i = 0; i + 1 < r.size(); ++i) {
     const Vec2 a(r[i], z[i]), b(r[i + 1], z[i + 1]);

@@ -195,13 +195,20 @@ SurfaceMap round_circle(const Drawing& drawing, const Section& section, SurfaceM
   return surface;
 }
 
+/// True for a vertical wall, on which conical beds are level and all facets plane.
+bool is_upright(const Drawing& drawing) {
+  return std::ranges::all_of(drawing.profile, [](const ProfilePiece& piece) {
+    return piece.even && piece.turn == 0.0 && piece.derivative(0.5).x() == 0.0;
+  });
+}
+
 SurfaceMap over_polygon(const Drawing& drawing, const Section& section, SurfaceMap surface) {
   const Plan& plan = drawing.plan;
   const MovingPolygon polygon(corners_of(plan, section.corner_point(0.0)));
   surface.corners = abscissae_of(plan, polygon);
   if (plan.kind == Plan::Kind::polygon) surface.sail_width = 2.0 * pi / plan.sides;
   if (drawing.beds == Beds::conical) {
-    surface.flat_skins = false;
+    surface.flat_skins = surface.flat_slices = is_upright(drawing);
     surface.at = [=, sail = surface.sail_width](double bed, double azimuth, double depth) {
       const double psi = azimuth - (std::floor(azimuth / sail) + 0.5) * sail;
       const Vec2 p = conical_bed_point(section, bed, depth, 1.0 / std::cos(psi));
@@ -260,8 +267,8 @@ SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
   if ((is_line || is_round) && drawing.beds == Beds::normal && section.beds->num_runs() == 1 && even)
     surface.shell_volume =
         smooth_volume(drawing, -drawing.drawn_depth, drawing.thickness - drawing.drawn_depth);
-  surface.flat_rings = !is_round && drawing.beds != Beds::conical && drawing.profile.size() == 1 && even &&
-                       drawing.profile.front().turn == 0.0;
+  surface.flat_rings = drawing.profile.size() == 1 && even && drawing.profile.front().turn == 0.0 &&
+                       (is_upright(drawing) || (!is_round && drawing.beds != Beds::conical));
   surface = is_line    ? along_line(drawing, section, std::move(surface))
             : is_round ? round_circle(drawing, section, std::move(surface))
                        : over_polygon(drawing, section, std::move(surface));

@@ -241,7 +241,8 @@ bool at_rest(const Evaluation& e) {
 
 bool is_vault(const Evaluation& e) {
   return e.shell.num_rings() > 0 && !e.assembly.sheets.empty() &&
-         e.assembly.sheets.back().thrust_lines == Sheet::ThrustLines::by_azimuth;
+         e.assembly.sheets.back().thrust_lines == Sheet::ThrustLines::by_azimuth &&
+         e.assembly.sheets.back().is_central();
 }
 
 bool is_arch(const Evaluation& e) {
@@ -317,8 +318,8 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.last = evaluate_frame(e, std::move(shown));
   const std::vector<bool> left_out = blocks_left_out(e);
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
-                      e.last.frame.ties, left_out, is_arch(e));
-  e.reactions = support_reactions(e.assembly, e.last.joints, e.axes, is_arch(e));
+                      e.last.frame.ties, left_out);
+  e.reactions = support_reactions(e.assembly, e.last.joints, e.axes);
   e.parts = connected_parts(e.assembly, e.last.joints);
   find_what_gives_way(results, &e);
   e.chains = chain_forces(e.assembly.chains, e.last.frame.ties);
@@ -335,7 +336,8 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
         plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads, e.last.frame.ties));
   const std::optional<double> rib = meridian_named("rib", e), mid_sail = meridian_named("mid_sail", e);
   if (rib && mid_sail && e.assembly.members.empty())  // its beds follow the period of one bond
-    e.rib_over_mid_sail = rib_ratio(thrust_input(e, e.last), scene.geometry.bond, *rib, *mid_sail);
+    e.rib_over_mid_sail =
+        rib_ratio(thrust_input(e, e.last), last_member(scene.geometry).bond, *rib, *mid_sail);
   return e;
 }
 

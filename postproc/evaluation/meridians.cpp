@@ -14,18 +14,32 @@ namespace {
 struct Drawn {
   std::string name;
   std::optional<double> azimuth_deg;
+  int ring = 0;  // of its stack
 };
 
-std::vector<Drawn> drawn_meridians(const Evaluation& e) {
+/// The meridians of the stack that ends with a sheet. In a model of several stacks their names begin with that of the sheet.
+std::vector<Drawn> drawn_meridians(const Evaluation& e, const Sheet& sheet, bool alone) {
   using enum Sheet::ThrustLines;
-  if (e.shell.num_rings() == 0 || e.assembly.sheets.empty()) return {};
-  const Sheet::ThrustLines drawn = e.assembly.sheets.back().thrust_lines;
+  const auto name = [&](const std::string& own) { return alone ? own : sheet.name + " " + own; };
+  if (sheet.thrust_lines == one) return {{alone ? "arch" : sheet.name, std::nullopt, sheet.first_ring}};
+  if (sheet.thrust_lines == none || !sheet.is_central()) return {};
   std::vector<Drawn> meridians;
-  if (drawn == one) meridians.push_back({"arch", std::nullopt});
-  if (drawn != by_azimuth) return meridians;
   for (const Meridian& meridian : e.scene.postproc.meridians)
-    meridians.push_back({meridian.name, meridian.azimuth_deg});
-  if (meridians.empty()) meridians = {{"x", 0.0}, {"y", 90.0}};  // every vault has its thrust lines
+    meridians.push_back({name(meridian.name), meridian.azimuth_deg, sheet.first_ring});
+  if (meridians.empty())  // every vault has its thrust lines
+    meridians = {{name("x"), 0.0, sheet.first_ring}, {name("y"), 90.0, sheet.first_ring}};
+  return meridians;
+}
+
+std::vector<Drawn> drawn_meridians(const Evaluation& e) {
+  std::vector<Drawn> meridians;
+  if (e.shell.num_rings() == 0) return meridians;
+  const std::vector<Sheet>& sheets = e.assembly.sheets;
+  const bool alone =
+      std::count_if(sheets.begin(), sheets.end(), [](const Sheet& s) { return !s.on_previous; }) == 1;
+  for (size_t i = 0; i < sheets.size(); ++i)
+    if (i + 1 == sheets.size() || !sheets[i + 1].on_previous)
+      for (Drawn& drawn : drawn_meridians(e, sheets[i], alone)) meridians.push_back(std::move(drawn));
   return meridians;
 }
 
@@ -35,7 +49,7 @@ std::vector<ThrustLine> wythe_lines(const Evaluation& e, const ThrustInput& inpu
   for (int wythe = 0; wythe < e.shell.num_wythes; ++wythe) {
     if (e.shell.is_alone(wythe)) continue;  // the whole thickness
     const std::string name = fmt::format("{}_{}", meridian.name, in_file_names(e.assembly.members[wythe]));
-    ThrustLine line = thrust_line(input, name, meridian.azimuth_deg, wythe);
+    ThrustLine line = thrust_line(input, name, meridian.azimuth_deg, wythe, meridian.ring);
     if (!line.points.empty()) lines.push_back(std::move(line));
   }
   return lines;
@@ -50,7 +64,8 @@ void add_end(const ResultsReader& results, const RangeEnd& end,
     const ThrustInput input = thrust_input(*e, frame);
     const std::vector<Drawn> meridians = drawn_meridians(*e);
     for (size_t i = 0; i < meridians.size(); ++i)
-      e->meridians[i].*member = thrust_line(input, meridians[i].name, meridians[i].azimuth_deg);
+      e->meridians[i].*member =
+          thrust_line(input, meridians[i].name, meridians[i].azimuth_deg, std::nullopt, meridians[i].ring);
   } catch (const InputError& error) {
     leave_out(fmt::format("frame {}", *end.frame), error.what(), e);
   }
@@ -72,11 +87,12 @@ std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {
   std::vector<MeridianEvaluation> meridians;
   const ThrustInput input = thrust_input(e, e.last);
   for (const Drawn& drawn : drawn_meridians(e)) {
-    meridians.push_back({.thrust = thrust_line(input, drawn.name, drawn.azimuth_deg),
-                         .wythes = wythe_lines(e, input, drawn),
-                         .hoop = {},
-                         .least_thrust = {},
-                         .greatest_thrust = {}});
+    meridians.push_back(
+        {.thrust = thrust_line(input, drawn.name, drawn.azimuth_deg, std::nullopt, drawn.ring),
+         .wythes = wythe_lines(e, input, drawn),
+         .hoop = {},
+         .least_thrust = {},
+         .greatest_thrust = {}});
     if (drawn.azimuth_deg)
       meridians.back().hoop = hoop_forces(e.assembly, e.last.joints, *drawn.azimuth_deg, e.last.frame.ties);
   }

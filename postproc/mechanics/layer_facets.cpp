@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "assembly/base/error.hpp"
-
 namespace cupola {
 namespace {
 
@@ -60,7 +58,7 @@ void LayerFacets::add_to(Shell* shell) const {
     std::vector<Vec3> inner, outer;
     for (const int v : cell.corners)
       (depth(v) == depth(low) ? inner : outer).push_back(assembly_.vertices[v]);
-    CUPOLA_ASSERT(inner.size() == 2 && outer.size() == 2);
+    if (inner.size() != 2 || outer.size() != 2) continue;  // of a stone that was cut
     const double parallel = (inner[0] - outer[0]).norm() + (inner[1] - outer[1]).norm();
     const double crossed = (inner[0] - outer[1]).norm() + (inner[1] - outer[0]).norm();
     if (crossed < parallel) std::swap(outer[0], outer[1]);

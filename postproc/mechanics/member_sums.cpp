@@ -36,7 +36,8 @@ std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches
     const int upper = ring_a > ring_b ? joint.block_a : joint.block_b;
     const Vec3 force = wrench_on(joint, upper).force;
     const Vec3 centroid = joint.patch.centroid - joint.patch.centroid.dot(up) * up;
-    for (int k = std::min(ring_a, ring_b) + 1; k <= std::max(ring_a, ring_b); ++k) {
+    const int top = std::max(ring_a, ring_b), base = assembly.stack_of(top).first;
+    for (int k = std::max(std::min(ring_a, ring_b) + 1, base); k <= top; ++k) {
       MemberSum& sum = at(k, assembly.blocks[upper].member);
       sum.vertical_force += force.dot(up);
       sum.outward_force -= force.dot(centroid.stableNormalized());

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "assembly/model/outward.hpp"
+#include "postproc/mechanics/ring_sums.hpp"
 
 namespace cupola {
 
@@ -23,18 +23,20 @@ double length_of(const PlanarHull& joint, const ShellAxes& shell) {
 }  // namespace
 
 std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWrenches& joints,
-                                        const std::vector<ShellAxes>& axes, bool arch) {
+                                        const std::vector<ShellAxes>& axes) {
   std::map<int, Reaction> found;
   for (const JointWrench& joint : joints.wrenches) {
     const bool a_fixed = assembly.blocks[joint.block_a].fixed;
     if (a_fixed == assembly.blocks[joint.block_b].fixed) continue;
     const int support = a_fixed ? joint.block_a : joint.block_b;
-    const ShellAxes& shell = axes[a_fixed ? joint.block_b : joint.block_a];
+    const int carried = a_fixed ? joint.block_b : joint.block_a;
+    const ShellAxes& shell = axes[carried];
     const Vec3 force = wrench_on(joint, support).force;
     Reaction& reaction = found[support];
     reaction.block = support;
     reaction.force += force;
-    reaction.outward += force.dot(outward_at(joint.patch.centroid, arch));
+    reaction.outward +=
+        force.dot(assembly.outward(ring_above_support(assembly.blocks[carried]), joint.patch.centroid));
     reaction.length += length_of(joint.patch, shell);
   }
   std::vector<Reaction> reactions;

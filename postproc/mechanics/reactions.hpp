@@ -11,14 +11,14 @@ namespace cupola {
 struct Reaction {
   int block = 0;
   Vec3 force = Vec3::Zero();  ///< N, of its joints on the support
-  double outward = 0.0;       ///< N, sum of its joints along outward_at() the centroid of each
+  double outward = 0.0;       ///< N, sum of its joints along Assembly::outward of the centroid of each
   double length =
       0.0;  ///< m, of its joints along the course: area over the thickness of the shell; NaN without one
 };
 
 /// In the order of the blocks.
 std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWrenches& joints,
-                                        const std::vector<ShellAxes>& axes, bool arch);
+                                        const std::vector<ShellAxes>& axes);
 
 /// Per block, the part of the structure to which it belongs: free blocks that joints connect without passing a support. The
 /// largest part is 0; -1 for supports.

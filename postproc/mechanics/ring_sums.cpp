@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "assembly/base/error.hpp"
-#include "assembly/model/outward.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
 
 namespace cupola {
@@ -15,9 +14,11 @@ int ring_above_support(const Block& block) {
 
 namespace {
 
-/// Turns the load of each ring into the load above each cut.
-void accumulate_downwards(std::vector<RingSum>* rings) {
-  for (size_t k = rings->size(); k-- > 1;) (*rings)[k - 1].load_above += (*rings)[k].load_above;
+/// Turns the load of each ring into the load above each cut of its stack.
+void accumulate_downwards(const Assembly& assembly, std::vector<RingSum>* rings) {
+  for (size_t k = rings->size(); k-- > 1;)
+    if (assembly.stack_of(static_cast<int>(k)).first != static_cast<int>(k))
+      (*rings)[k - 1].load_above += (*rings)[k].load_above;
 }
 
 void add_loads(const Assembly& assembly, const Vec3& gravity, const std::vector<PointForce>& loads,
@@ -35,26 +36,34 @@ void add_loads(const Assembly& assembly, const Vec3& gravity, const std::vector<
     if (!counts(static_cast<size_t>(load.block))) continue;
     (*rings)[ring_above_support(assembly.blocks[load.block])].load_above += load.force;
   }
-  accumulate_downwards(rings);
+  accumulate_downwards(assembly, rings);
 }
 
-/// Sums the joint forces across each cut. A joint between blocks of first rings p < q crosses the cuts p + 1
-/// .. q, so its force is added at p + 1, removed at q + 1, and the changes are summed from the base upwards.
+/// Sums the joint forces across each cut: those on the blocks above it in its stack. A joint between blocks of first rings
+/// p < q of one stack crosses the cuts p + 1 .. q, so its force is added at p + 1, removed at q + 1, and the changes are summed
+/// from the base upwards. A joint between two stacks crosses all cuts below each of its blocks.
 void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, const TieTable& ties,
                       std::vector<RingSum>* rings) {
-  std::vector<Vec3> change(rings->size() + 1, Vec3::Zero());
+  std::vector<Vec3> change(rings->size(), Vec3::Zero());
+  const auto add_to_cuts = [&](int from, int to, const Vec3& force) {
+    change[from] += force;
+    if (to + 1 < static_cast<int>(change.size()) && assembly.stack_of(to + 1).first != to + 1)
+      change[to + 1] -= force;
+  };
   const auto add = [&](int block_a, int block_b, const Vec3& force_on_b) {
     const int a = ring_above_support(assembly.blocks[block_a]),
               b = ring_above_support(assembly.blocks[block_b]);
     if (a == b) return;
     const Vec3 on_upper = b > a ? force_on_b : Vec3(-force_on_b);
-    change[std::min(a, b) + 1] += on_upper;
-    change[std::max(a, b) + 1] -= on_upper;
+    const int lower = std::min(a, b), upper = std::max(a, b), base = assembly.stack_of(upper).first;
+    add_to_cuts(std::max(lower + 1, base), upper, on_upper);
+    if (lower >= 0 && lower < base) add_to_cuts(assembly.stack_of(lower).first, lower, -on_upper);
   };
   for (const JointWrench& joint : joints.wrenches) add(joint.block_a, joint.block_b, joint.wrench.force);
   for (int i = 0; i < ties.size(); ++i) add(ties.block_a[i], ties.block_b[i], tie_force_on_b(ties, i));
   Vec3 force = Vec3::Zero();
   for (size_t k = 0; k < rings->size(); ++k) {
+    if (assembly.stack_of(static_cast<int>(k)).first == static_cast<int>(k)) force.setZero();
     force += change[k];
     (*rings)[k].joint_force = force;
   }
@@ -62,7 +71,7 @@ void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, con
 
 /// Fills in how evenly the blocks of each ring are loaded.
 void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
-                    const std::vector<Wrench>& from_below, bool arch, std::vector<RingSum>* rings) {
+                    const std::vector<Wrench>& from_below, std::vector<RingSum>* rings) {
   std::vector<double> normal_force(from_below.size(), 0.0), area(from_below.size(), 0.0);
   std::vector<double> ring_area(rings->size(), 0.0);
   for (const JointWrench& joint : joints.wrenches) {
@@ -75,7 +84,7 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
     ring_area[k] += joint.patch.area;
     ring.largest_friction_use = std::fmax(ring.largest_friction_use, joint.friction_use);  // skips NaN
     ring.largest_kern = std::fmax(ring.largest_kern, joint.kern);
-    ring.radial_thrust -= outward_at(joint.patch.centroid, arch).dot(wrench_on(joint, joint.upper).force);
+    ring.radial_thrust -= assembly.outward(k, joint.patch.centroid).dot(wrench_on(joint, joint.upper).force);
   }
   std::vector<std::vector<double>> resultants(rings->size()), pressures(rings->size());
   for (size_t b = 0; b < from_below.size(); ++b) {
@@ -113,7 +122,7 @@ double coefficient_of_variation(const std::vector<double>& values) {
 std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
                                const std::vector<PointForce>& loads, const TieTable& ties,
-                               const std::vector<bool>& left_out, bool arch) {
+                               const std::vector<bool>& left_out) {
   CUPOLA_ASSERT(from_below.size() == assembly.blocks.size());
   int num_rings = 0;
   if (assembly.num_rings > 0)
@@ -124,7 +133,7 @@ std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& jo
   for (int k = 0; k < num_rings; ++k) rings[k].ring = k;
   add_loads(assembly, gravity, loads, left_out, &rings);
   add_joint_forces(assembly, joints, ties, &rings);
-  add_uniformity(assembly, joints, from_below, arch, &rings);
+  add_uniformity(assembly, joints, from_below, &rings);
   for (RingSum& ring : rings) {
     if (ring.blocks == 0 && !left_out.empty()) ring = {.ring = ring.ring};
     const double load = ring.load_above.norm();

@@ -29,11 +29,11 @@ struct RingSum {
 };
 
 /// One cut per ring, from the base upwards; empty for blocks without rings. `left_out`: per block, true if it does not take
-/// part, as before it is laid; empty: all take part. `arch`: what is outwards, see outward_at().
+/// part, as before it is laid; empty: all take part. Each stack of sheets has cuts of its own.
 std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
                                const std::vector<PointForce>& loads, const TieTable& ties = {},
-                               const std::vector<bool>& left_out = {}, bool arch = false);
+                               const std::vector<bool>& left_out = {});
 
 /// Standard deviation over |mean|; 0 for fewer than two values or a mean of zero.
 double coefficient_of_variation(const std::vector<double>& values);

@@ -36,7 +36,9 @@ std::vector<Vec3> progress_directions(const Assembly& assembly, int num_rings, c
   for (size_t k = 0; k < centroid.size(); ++k) centroid[k] /= volume[k];
   std::vector<Vec3> progress(centroid.size(), up);
   for (size_t k = 0; k < centroid.size() && centroid.size() > 1; ++k) {
-    const Vec3 d = centroid[std::min(k + 1, centroid.size() - 1)] - centroid[k > 0 ? k - 1 : 0];
+    const auto [first, end] = assembly.stack_of(static_cast<int>(k));
+    const size_t last = std::min(static_cast<size_t>(end), centroid.size()) - 1;
+    const Vec3 d = centroid[std::min(k + 1, last)] - centroid[k > static_cast<size_t>(first) ? k - 1 : k];
     if (d.norm() > 0.0) progress[k] = d.normalized();
   }
   return progress;
@@ -181,6 +183,7 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
       if (along > kSideways && joint && part.ring == num_rings - 1) add(part, f, num_rings);
       if (has_layers && joint && std::abs(along) > kSideways)
         for (const int v : assembly.face(f)) {
+          if (assembly.vertex_layers[v] < 0) continue;  // of a cut
           double& share = shell.layers[part.ring + (along > 0.0 ? 1 : 0)][assembly.vertex_layers[v]];
           if (along < 0.0 || std::isnan(share))
             share = assembly.vertex_depths[v];  // a drum may be as wide below

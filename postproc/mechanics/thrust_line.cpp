@@ -272,6 +272,12 @@ std::optional<Vec3> meeting(const ThrustPoint& p, const ThrustPoint& q, const Ve
   return meet;
 }
 
+/// rad, about the vertical, of the plane of an arch.
+double turn_of(const Assembly& assembly, int ring) {
+  const Sheet* sheet = assembly.sheet_of(ring);
+  return sheet ? sheet->turn : 0.0;
+}
+
 }  // namespace
 
 double ThrustLine::largest_couple_length() const {
@@ -299,7 +305,7 @@ Wrench wrench_at_bed(const ThrustInput& in, int block, int bed) {
 }
 
 ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg,
-                       std::optional<int> wythe) {
+                       std::optional<int> wythe, int ring) {
   CUPOLA_ASSERT(input.from_below.size() == input.assembly->blocks.size());
   CUPOLA_ASSERT(input.shell->num_rings() == 0 ||
                 static_cast<int>(input.shell->beds.size()) == input.shell->num_rings() + 1);
@@ -312,7 +318,9 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
   const Route route{meridian, wythe, BedJoints(input)};
   std::optional<WytheRange> wythes;
   if (wythe) wythes = WytheRange{*wythe, *wythe + 1};
-  for (int bed = 0; bed <= input.shell->num_rings(); ++bed) {
+  const auto [first, end] = input.assembly->stack_of(ring);
+  const int last = end < input.shell->num_rings() ? end - 1 : input.shell->num_rings();
+  for (int bed = first; bed <= last; ++bed) {
     ThrustPoint point;
     point.bed = bed;
     const std::optional<Layers> layers = layers_of(*input.shell, bed, wythes);
@@ -332,7 +340,9 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
     line.least_face_distance = std::min(line.least_face_distance, point.face_distance);
     line.least_geometric_safety = std::min(line.least_geometric_safety, point.geometric_safety);
   }
-  const Vec3 outwards = meridian ? Vec3(std::cos(*meridian), std::sin(*meridian), 0.0) : Vec3::UnitX();
+  const Vec3 outwards = meridian ? Vec3(std::cos(*meridian), std::sin(*meridian), 0.0)
+                                 : Vec3(std::cos(turn_of(*input.assembly, first)),
+                                        std::sin(turn_of(*input.assembly, first)), 0.0);
   for (size_t i = 1; i < line.points.size(); ++i) {
     if (!line.points[i - 1].is_placed() || !line.points[i].is_placed()) continue;
     if (const auto meet = meeting(line.points[i - 1], line.points[i], outwards))

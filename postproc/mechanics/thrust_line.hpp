@@ -84,8 +84,8 @@ struct ThrustInput {
 Wrench wrench_at_bed(const ThrustInput& input, int block, int bed);
 
 /// Thrust line along a meridian of a vault about the z axis. Without azimuth: along an arch, where the strip
-/// is the full width. Without wythe: of the whole thickness.
+/// is the full width. Without wythe: of the whole thickness. In a model of several stacks: of that with the course `ring`.
 ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg,
-                       std::optional<int> wythe = std::nullopt);
+                       std::optional<int> wythe = std::nullopt, int ring = 0);
 
 }  // namespace cupola

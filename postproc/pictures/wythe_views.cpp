@@ -11,15 +11,15 @@ namespace cupola {
 namespace {
 
 /// What a block is in the thickness of its drum or shell.
-enum class Place : std::uint8_t { inner, middle, outer, bonder };
+enum class WythePlace : std::uint8_t { inner, middle, outer, bonder };
 
-Place place_in_thickness(const Evaluation& e, int b) {
+WythePlace place_in_thickness(const Evaluation& e, int b) {
   const Block& block = e.assembly.blocks[b];
   const WytheRange& range = e.shell.wythes[b];
-  if (range != WytheRange{block.member, block.member + 1}) return Place::bonder;
-  if (e.shell.innermost[range.from] == range.from) return Place::inner;
+  if (range != WytheRange{block.member, block.member + 1}) return WythePlace::bonder;
+  if (e.shell.innermost[range.from] == range.from) return WythePlace::inner;
   const bool outer = range.to == e.shell.num_wythes || e.shell.innermost[range.to] == range.to;
-  return outer ? Place::outer : Place::middle;
+  return outer ? WythePlace::outer : WythePlace::middle;
 }
 
 Colour place_colour(const Evaluation& e, int b) {
@@ -73,8 +73,8 @@ bool draw_cut_open(const Pictured& run, Painter* painter) {
   for (size_t b = 0; b < run.blocks.size(); ++b) {
     const Block& block = e.assembly.blocks[b];
     const double place = place_of(e, block, half_length);
-    const Place layer = place_in_thickness(e, static_cast<int>(b));
-    const bool gone = layer == Place::inner || layer == Place::bonder
+    const WythePlace layer = place_in_thickness(e, static_cast<int>(b));
+    const bool gone = layer == WythePlace::inner || layer == WythePlace::bonder
                           ? is_vault(e) && place > kInnerEnd && place < kRightEnd
                           : place > kOuterEnd && place < kRightEnd;
     if (block.fixed || !gone) blocks.add(run.blocks[b], place_colour(e, static_cast<int>(b)));

@@ -30,7 +30,7 @@ SMALL = {  # values that keep a model tiny or sensible, by the end of the key; o
     "slices_per_vertical": [1, 2], "spirals": [1, 2], "rings_per_vertical": [1, 2, 3], "verticals_per_block": [1, 2, 3],
     "sails": [3, 4, 8], "voussoir_segments": [1, 3], "base_blocks": [1, 2], "span": [4, 10, 45], "radius_ratio": [0.5, 0.8, 1],
     "crown_angle_deg": [30, 60, 80], "half_embrace_deg": [60, 90], "geometry.surface.thickness": [0.3, 1, 2.2],
-    "wythes[].thickness": [0.2, 0.5, 1], "drum.thickness": [2, 3], "drum.height": [1, 4], "per_ring": [1, 2, 3],
+    "wythes[].thickness": [0.2, 0.5, 1], "per_ring": [1, 2, 3],
     "openings[].width": [0.3, 1], "openings[].height": [0.5, 1], "sill": [0.3, 1], "lintel": [0, 0.3], "bearing": [0.1, 0.5],
     "course": [0, 1, 2], "links": [0, 3, 8], "clamp_length": [0.1, 0.3], "long_blocks": [0, 1], "window.course": [0.1, 0.5],
     "window.height": [0.5, 2], "stage.rings": [1, 2], "duration": [0.03, 0.06], "time_step": [0.005, 0.01, 0.02],
@@ -137,15 +137,17 @@ def add_companions(case, key, rng):
     if path.startswith("geometry.import") and "import" not in geometry:
         geometry.clear()
         geometry["import"] = {"file": "blocks.obj", "supports": ["ground"]}
-    vault = path.startswith(("geometry.drum", "geometry.chains", "geometry.window", "geometry.base_blocks", "geometry.stage"))
+    vault = path.startswith(("geometry.members", "geometry.chains", "geometry.window", "geometry.base_blocks", "geometry.stage"))
     if vault and geometry.get("surface", {}).get("type") not in ("dome", "octagonal_vault"):
         geometry.clear()
         geometry |= {"surface": {"type": rng.choice(["dome", "octagonal_vault"])}, "bond": tiny_bond(rng)}
-    if path.startswith("geometry.drum") and "drum" not in geometry:
-        geometry["drum"] = {"height": 4, "thickness": 3, "bond": tiny_bond(rng) | {"rings": 4}}
+    if path.startswith("geometry.members") and "members" not in geometry:
+        drum = {"type": "vault", "plan": {"type": "polygon"}, "profile": {"type": "straight", "span": 45, "height": 4}, "thickness": 3}
+        geometry["members"] = [{"name": "drum", "at": {"origin": [0, 0, -4]}, "surface": drum, "bond": tiny_bond(rng) | {"rings": 4}}]
+        geometry["on"] = "drum"
         if "openings" in path:
-            geometry["drum"]["openings"] = [{"per_ring": 2, "width": 1, "height": 1, "sill": 1, "lintel": 1}]
-    for owner, name in ((geometry, "geometry."), (geometry.get("drum", {}), "geometry.drum.")):
+            geometry["members"][0]["openings"] = [{"per_ring": 2, "width": 1, "height": 1, "sill": 1, "lintel": 1}]
+    for owner, name in ((geometry, "geometry."), (geometry.get("members", [{}])[0], "geometry.members[].")):
         if path.startswith((name + "wythes", name + "bonders")) and "wythes" not in owner:
             if name == "geometry.":
                 geometry.clear()

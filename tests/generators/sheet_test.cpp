@@ -1,5 +1,7 @@
 // What the assembly says about its sheets, so that no other program asks how they were drawn.
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "assembly/files/assembly_file.hpp"
@@ -20,11 +22,8 @@ Case with_surface(const Surface& surface) {
 
 Case with_drum() {
   Case c = with_surface(OctagonalVault{});
-  Drum drum;
-  drum.bond = StackBond{3, 16, 1, {}};
-  drum.height = 5.0;
-  drum.thickness = 3.0;
-  c.geometry.drum = drum;
+  c.geometry.members = {octagonal_drum(45.0, 5.0, 3.0, StackBond{3, 16, 1, {}})};
+  c.geometry.on = "drum";
   return c;
 }
 
@@ -44,7 +43,9 @@ std::vector<Model> models() {
           {with_surface(OctagonalVault{}), {{"shell", 0, 6, true, by_azimuth, 8}}},
           {with_surface(ArchSurface{}), {{"shell", 0, 6, false, one, 1}}},
           {with_surface(WallSurface{}), {{"shell", 0, 6, false, none, 1}}},
-          {with_drum(), {{"drum", 0, 3, true, by_azimuth, 8}, {"shell", 3, 6, true, by_azimuth, 8}}},
+          {with_drum(),
+           {{"drum", 0, 3, true, by_azimuth, 8, false, {0.0, 0.0, -5.0}},
+            {"shell", 3, 6, true, by_azimuth, 8, true}}},
           {with_window(), {{"shell", 0, 6, false, by_azimuth, 1}}}};
 }
 
@@ -79,7 +80,13 @@ TEST(Sheets, KnowWhatIsOutwards) {
   EXPECT_FALSE(sheet.outward(point));
   sheet.thrust_lines = one;
   EXPECT_EQ(sheet.outward(point), -Vec3::UnitX());
+  sheet.origin = Vec3(-5.0, 0.0, 0.0);
+  EXPECT_EQ(sheet.outward(point), Vec3::UnitX());
+  sheet.turn = std::numbers::pi;
+  EXPECT_LT((sheet.outward(point).value() - Vec3::UnitX()).norm(), 1e-15);
   sheet.thrust_lines = by_azimuth;
+  EXPECT_LT((sheet.outward(point).value() - Vec3(2.0, 4.0, 0.0).normalized()).norm(), 1e-15);
+  sheet.origin.setZero();
   EXPECT_LT((sheet.outward(point).value() - Vec3(-0.6, 0.8, 0.0)).norm(), 1e-15);  // rounding
 }
 

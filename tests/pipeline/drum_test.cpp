@@ -7,6 +7,7 @@
 
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "tests/generators/models.hpp"
 #include "tests/pipeline/static_run.hpp"
 
 namespace cupola::drum_test {
@@ -26,15 +27,13 @@ Case vault_on_drum() {
   vault.thickness = 0.6;
   scene.geometry.surface = vault;
   scene.geometry.bond = RunningBond{5, 24, 2};
-  Drum drum;
-  drum.height = 3.0;
-  drum.thickness = 1.0;
-  drum.bond = RunningBond{6, 24, 2};
+  Member drum = octagonal_drum(10.0, 3.0, 1.0, RunningBond{6, 24, 2});
   drum.openings.emplace_back();
   drum.openings[0].width = 1.2;
   drum.openings[0].height = 1.0;
   drum.openings[0].sill = 1.0;
-  scene.geometry.drum = drum;
+  scene.geometry.members = {drum};
+  scene.geometry.on = "drum";
   scene.geometry.base_blocks = 8;
   scene.joints.friction = 0.6;
   scene.joints.compliance = Compliance::default_per(Compliance::Per::area);

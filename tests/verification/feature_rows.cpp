@@ -7,6 +7,7 @@
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "tests/csv_numbers.hpp"
+#include "tests/generators/models.hpp"
 #include "tests/verification/motion.hpp"
 #include "tests/verification/solve.hpp"
 #include "tests/verification/verification_row.hpp"
@@ -147,10 +148,7 @@ double drum_volume(const ReferenceRow& row) {
   vault.thickness = 0.6;
   scene.geometry.surface = vault;
   scene.geometry.bond = RunningBond{8, 24, 2};
-  Drum drum;
-  drum.bond = RunningBond{6, 24, 2};
-  drum.height = 3.0;
-  drum.thickness = 1.0;
+  Member drum = octagonal_drum(10.0, 3.0, 1.0, RunningBond{6, 24, 2});
   if (const double width = row.number("opening_m"); width > 0.0) {
     Openings group;
     group.width = width;
@@ -159,7 +157,8 @@ double drum_volume(const ReferenceRow& row) {
     group.bearing = 0.4;
     drum.openings = {group};
   }
-  scene.geometry.drum = drum;
+  scene.geometry.members = {drum};
+  scene.geometry.on = "drum";
   const Assembly assembly = generate(scene);
   double sum = 0.0;
   for (const Block& block : assembly.blocks)
@@ -169,7 +168,8 @@ double drum_volume(const ReferenceRow& row) {
 
 /// Factor on a lantern of 800 kN at which the vault on its drum falls.
 double drum_lantern(const ReferenceRow& row) {
-  const Case scene = repository_case("pavilion_window", {"geometry.drum.thickness=" + row.text("drum_m")});
+  const Case scene =
+      repository_case("pavilion_window", {"geometry.members[0].surface.thickness=" + row.text("drum_m")});
   const Assembly assembly = generate(scene);
   return critical_value(scene, assembly) * free_weight(assembly, kG) / 800e3;
 }

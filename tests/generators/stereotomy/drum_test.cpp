@@ -38,17 +38,16 @@ Case vault_on_drum(Construction construction = Construction::circular) {
   vault.construction = construction;
   c.geometry.surface = vault;
   c.geometry.bond = RunningBond{8, 24, 2};
-  Drum drum;
-  drum.bond = RunningBond{6, 24, 2};
-  drum.height = kHeight;
-  drum.thickness = kThickness;
-  c.geometry.drum = drum;
+  const bool cones = construction == Construction::circular;
+  c.geometry.members = {octagonal_drum(kSpan, kHeight, kThickness, RunningBond{6, 24, 2},
+                                       cones ? VaultSurface::Beds::conical : VaultSurface::Beds::normal)};
+  c.geometry.on = "drum";
   return c;
 }
 
 Case with_windows(const Openings& group) {
   Case c = vault_on_drum();
-  c.geometry.drum->openings = {group};
+  c.geometry.members[0].openings = {group};
   return c;
 }
 
@@ -102,7 +101,8 @@ TEST_P(DrumOf, FillsAPrismBelowTheSpringing) {
   EXPECT_EQ(count(assembly, "drum"), 6 * 24);
   EXPECT_NEAR(volume_of(assembly, "drum") / wall_volume(), 1.0, kSums);
   Case shell = c;
-  shell.geometry.drum.reset();
+  shell.geometry.members.clear();
+  shell.geometry.on.clear();
   const Assembly alone = cut_assembly(shell);
   double volume = 0.0;
   for (const Block& block : alone.blocks) volume += block.fixed ? 0.0 : block.volume;
@@ -123,6 +123,8 @@ TEST(Drum, OfADomeIsAPolygonalRing) {
   dome.span = kSpan;
   dome.thickness = 0.6;
   c.geometry.surface = dome;
+  std::get<VaultSurface>(c.geometry.members[0].surface).plan.kind = Plan::Kind::circle;
+  std::get<VaultSurface>(c.geometry.members[0].surface).beds = VaultSurface::Beds::normal;
   Assembly assembly;
   expect_sound(c, &assembly);
   const double outer = 0.5 * kSpan + kThickness, inner = 0.5 * kSpan;
@@ -163,7 +165,7 @@ TEST(Drum, HasAnOpeningWhereItIsPlaced) {
 // A narrow opening on a wide one: the lintel of the wide one becomes two corbels, and only the upper lintel is whole.
 TEST(Drum, StepsOpeningsThatStandOnEachOther) {
   Case c = with_windows(openings(1.6, 1.0, 0.5));
-  c.geometry.drum->openings.push_back(openings(0.8, 1.5, 0.5));
+  c.geometry.members[0].openings.push_back(openings(0.8, 1.5, 0.5));
   Assembly assembly;
   expect_sound(c, &assembly);
   const double missing =
@@ -174,7 +176,7 @@ TEST(Drum, StepsOpeningsThatStandOnEachOther) {
 
 TEST(Drum, HasWythesOfItsOwn) {
   Case c = with_windows(openings(1.2, 1.0, 1.0));
-  Drum& drum = *c.geometry.drum;
+  Member& drum = c.geometry.members[0];
   const RunningBond bond{6, 24, 2};
   drum.wythes = {{"inner", {{}, {0.4}}, bond, {}}, {"outer", {{0.0, kHeight}, {0.8, 0.6}}, bond, {}}};
   drum.bonders.emplace_back();
@@ -255,9 +257,10 @@ std::string message_of(const Case& c) {
 
 TEST(Drum, RefusesOpeningsWithoutRoomForTheirLintels) {
   const std::string corner = message_of(with_windows(openings(3.2, 1.0, 1.0)));
-  EXPECT_NE(corner.find("geometry.drum.openings[0].width = 3.2: with a bearing of 0.4 m on each side the "
-                        "lintel is 4 m long, but there are only 3.82683 m"),
-            std::string::npos)
+  EXPECT_NE(
+      corner.find("geometry.members[0].openings[0].width = 3.2: with a bearing of 0.4 m on each side the "
+                  "lintel is 4 m long, but there are only 3.82683 m"),
+      std::string::npos)
       << corner;
   EXPECT_EQ(message_of(with_windows(openings(3.0, 1.0, 1.0))), "");  // 3.8 m
   Openings close = openings(1.2, 1.0, 1.0);
@@ -265,6 +268,8 @@ TEST(Drum, RefusesOpeningsWithoutRoomForTheirLintels) {
   EXPECT_NE(message_of(with_windows(close)).find("the next opening"), std::string::npos);
   Case round = with_windows(openings(1.2, 1.0, 1.0));
   round.geometry.surface = DomeSurface{kSpan, 0.8, 0.6};
+  std::get<VaultSurface>(round.geometry.members[0].surface).plan.kind = Plan::Kind::circle;
+  std::get<VaultSurface>(round.geometry.members[0].surface).beds = VaultSurface::Beds::normal;
   EXPECT_NE(message_of(round).find("a round plan has no sides"), std::string::npos);
 }
 
@@ -273,9 +278,9 @@ TEST(Drum, SaysThatItsOwnBondDoesNotFit) {
   HerringboneBond bond;
   bond.rings = 6;
   bond.blocks_per_ring = 3;
-  c.geometry.drum->bond = bond;
+  c.geometry.members[0].bond = bond;
   const std::string message = message_of(c);
-  EXPECT_TRUE(message.starts_with("error: in geometry.drum: geometry.bond.spirals = 8: ")) << message;
+  EXPECT_TRUE(message.starts_with("error: in geometry.members[0]: geometry.bond.spirals = 8: ")) << message;
 }
 
 }  // namespace

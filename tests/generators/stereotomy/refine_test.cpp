@@ -108,7 +108,7 @@ double nearest_joint_to_a_corner(const Bond& bond) {
   Geometry geometry;
   geometry.surface = vault(OctagonalVault::Construction::circular);
   geometry.bond = bond;
-  const auto shell = make_shell(geometry);
+  const auto shell = make_storeys(geometry).back();
   const SurfaceMap& surface = shell.surface;
   const BondPattern& pattern = shell.bond;
   double nearest = surface.extent;
@@ -141,7 +141,7 @@ TEST(Refinement, KeepsTheBandsOfUprightBlocksInPlace) {
     bond.refine = n;
     Geometry geometry;
     geometry.bond = bond;
-    const BondPattern pattern = make_shell(geometry).bond;
+    const BondPattern pattern = make_storeys(geometry).back().bond;
     std::map<int, std::vector<double>> edges;  // per unrefined ring: where bands begin and end
     for (int ring = 0; ring < pattern.num_rings; ++ring) {
       const auto upright = [&](int s) {

@@ -232,7 +232,8 @@ TEST(Window, LeftIsTheMirrorImageOfRight) {
 // Where spirals cross, the cells of uprights are those of the right-hand ones and those of the left-hand ones.
 TEST(Window, CrossingPairCoversTheCellsOfBothHands) {
   const auto upright = [](Chirality chirality) {
-    const BondPattern bond = make_shell(window_case(octagon(), brick_herringbone(chirality)).geometry).bond;
+    const BondPattern bond =
+        make_storeys(window_case(octagon(), brick_herringbone(chirality)).geometry).back().bond;
     std::vector<bool> cells;
     for (int block : bond.block_of) cells.push_back(bond.blocks[block].kind == BlockKind::herringbone);
     return cells;
@@ -280,7 +281,7 @@ TEST(Window, WithoutHeldEndsHasFreeHeadsThere) {
 
 void expect_error(const Case& c, const std::string& phrase) {
   try {
-    make_shell(c.geometry);
+    make_storeys(c.geometry);
     FAIL() << "no error: " << phrase;
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find(phrase), std::string::npos) << error.what();

@@ -1,0 +1,125 @@
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "assembly/case/declare.hpp"
+
+namespace cupola {
+namespace {
+
+void declare_openings(Section& s, Openings& openings) {
+  s.integer("per_ring", openings.per_ring, {.min = 0, .max = 1000000},
+            "number of openings at each position of `at`, equally spaced; 0: one on each side of the plan");
+  s.numbers("at", openings.at, {.min = 0, .below = 1},
+            "middles of the openings, in spacings from the first corner");
+  s.required_number("width", openings.width, {.unit = "m", .above = 0}, "width on the inner face");
+  s.required_number("height", openings.height, {.unit = "m", .above = 0}, "height of the opening");
+  s.required_number("sill", openings.sill, {.unit = "m", .min = 0},
+                    "height of its lower edge above the springing of the member");
+  s.number("lintel", openings.lintel, {.unit = "m", .min = 0},
+           "height of the block that covers the opening; 0: one course");
+  s.number("bearing", openings.bearing, {.unit = "m", .above = 0},
+           "length on which the lintel rests beyond each side of the opening, on the inner face");
+}
+
+void declare_along(Section& s, Cut& cut) {
+  s.choice("axis", cut.axis, "direction of the body: its outline lies in the other two coordinates");
+  s.optional_number("from", cut.from, {.unit = "m"}, "without end", "where it begins along its axis");
+  s.optional_number("to", cut.to, {.unit = "m"}, "without end", "where it ends along its axis");
+  s.rule(!cut.from || !cut.to || *cut.from < *cut.to, "to", "must be above from");
+}
+
+void declare_plane_cut(Section& s, Cut& cut) {
+  cut.kind = Cut::Kind::plane;
+  s.vector3("point", cut.point, {}, "point of the plane");
+  s.vector3("normal", cut.normal, {}, "direction into what is taken away");
+  s.rule(cut.normal.norm() > 0.0, "normal", "must not be zero");
+  s.choice("as", cut.as, "what lies behind the faces of the cut: nothing, or a fixed support");
+}
+
+void declare_prism_cut(Section& s, Cut& cut) {
+  cut.kind = Cut::Kind::prism;
+  declare_along(s, cut);
+  s.numbers("u", cut.u, {.unit = "m"}, "corners of the convex outline: y of an axis x, else x");
+  s.numbers("v", cut.v, {.unit = "m"}, "their z, or y of an axis z");
+  const size_t n = cut.u.size();
+  s.rule(n >= 3 && n == cut.v.size(), "u", "u and v must have the same number of corners, at least 3");
+  int left = 0, right = 0;
+  for (size_t i = 0; i < n && n == cut.v.size(); ++i) {
+    const size_t j = (i + 1) % n, k = (i + 2) % n;
+    const double turn =
+        (cut.u[j] - cut.u[i]) * (cut.v[k] - cut.v[j]) - (cut.v[j] - cut.v[i]) * (cut.u[k] - cut.u[j]);
+    ++(turn > 0.0 ? left : right);
+  }
+  s.rule(left == 0 || right == 0, "u",
+         "the outline must be convex: give an outline with re-entrant corners as several cuts");
+}
+
+void declare_cylinder_cut(Section& s, Cut& cut) {
+  cut.kind = Cut::Kind::cylinder;
+  declare_along(s, cut);
+  s.number("centre_u", cut.centre_u, {.unit = "m"}, "y of an axis x, else x");
+  s.number("centre_v", cut.centre_v, {.unit = "m"}, "z, or y of an axis z");
+  s.number("radius", cut.radius, {.unit = "m", .above = 0}, "radius of its corners");
+  s.integer("sides", cut.sides, {.min = 3, .max = 1000}, "number of its plane sides");
+}
+
+void declare_cut(Section& s, Cut& cut) {
+  s.variant<Cut>("type", cut,
+                 {{"plane", "all on one side of a plane", declare_plane_cut},
+                  {"prism", "a door, a window, a sector: a prism over a convex polygon", declare_prism_cut},
+                  {"cylinder", "a round window: a prism over a regular polygon", declare_cylinder_cut}},
+                 "body that is taken away");
+}
+
+void declare_place(Section& s, Place& place) {
+  s.vector3("origin", place.origin, {}, "point to which the origin of the member moves");
+  s.number("rotate_deg", place.rotate_deg, {.unit = "deg", .min = -360, .max = 360},
+           "turn about the vertical through it, counter-clockwise seen from above");
+}
+
+}  // namespace
+
+void check_closed_bonds(const Section& s, const Member& member) {
+  for (const Bond* bond : bonds_of(member))
+    s.rule(!traits_of(member.surface).closed ||
+               std::visit([](const auto& b) { return b.blocks_per_ring; }, *bond) >= 3,
+           member.wythes.empty() ? "bond" : "wythes", "bond.blocks_per_ring must be >= 3 on a closed ring");
+}
+
+void declare_member(Section& s, Member& member) {
+  member.name.clear();
+  s.text("name", member.name, "name in tables and for `on`");
+  s.rule(!member.name.empty(), "name", "is missing: give each member a name");
+  declare_shape(s, member);
+  check_closed_bonds(s, member);
+}
+
+void declare_shape(Section& s, Member& member) {
+  s.text("on", member.on, "member on whose last bed this one stands; without it, on supports of its own");
+  s.optional_section("at", member.at, "where the member stands, without `on`; by default at the origin",
+                     declare_place);
+  s.rule(!member.at || member.on.empty(), "at",
+         fmt::format("a member that stands on {} lies on its axis; move that one", member.on));
+  s.section("surface", member.surface, "shape of the masonry", declare_surface);
+  declare_masonry(s, member);
+  s.list("openings", member.openings, "windows in a closed member, each under a lintel in one block",
+         declare_openings);
+  s.list("cuts", member.cuts, "convex bodies that are taken away, in coordinates of the member before `at`",
+         declare_cut);
+}
+
+void check_members(const Section& s, const Geometry& geometry) {
+  const std::vector<const Member*> members = members_of(geometry);
+  for (size_t i = 0; i < members.size(); ++i) {
+    const std::string &name = members[i]->name, &on = members[i]->on;
+    const std::string key = members[i] == &geometry ? "on" : "members";
+    for (size_t k = 0; k < i; ++k)
+      s.rule(members[k]->name != name, "members", fmt::format("two members are called {}", name));
+    s.rule(on.empty() || (i > 0 && members[i - 1]->name == on), key,
+           fmt::format("{} must be the member before {} in the list{}", on, name,
+                       i > 0 ? ", which is " + members[i - 1]->name : ""));
+  }
+}
+
+}  // namespace cupola

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "assembly/model/assembly.hpp"
+
+namespace cupola {
+
+/// A convex polyhedron over the vertices of an assembly, with faces as in Assembly.
+struct ConvexPiece {
+  struct Face {
+    std::vector<int> vertices;  // counter-clockwise seen from outside
+    FaceKind kind = FaceKind::free;
+    int plane = -1;  ///< of the body that cut it, or -1
+  };
+  std::vector<Face> faces;
+};
+
+ConvexPiece piece_of(const Assembly& assembly, const Part& part);
+
+/// Cuts convex pieces by the planes of one convex body. Neighbouring pieces share their edges, and so the vertices in which a plane
+/// meets them: joints stay closed. Vertices nearer to a plane than `rounding` (m) lie on it.
+class ConvexClip {
+ public:
+  /// The body: n.x <= offset for all its planes.
+  ConvexClip(std::vector<Plane> body, double rounding, Assembly* assembly);
+
+  /// The part of a piece outside the body, as convex pieces; the piece itself if they do not overlap.
+  std::vector<ConvexPiece> outside(const ConvexPiece& piece);
+  const std::vector<Plane>& planes() const { return body_; }
+
+ private:
+  /// The part with n.x <= offset, or with n.x >= offset; no faces if there is none.
+  ConvexPiece half(const ConvexPiece& piece, int plane, bool below);
+  double height(int vertex, int plane) const;
+  /// The vertex where a plane meets an edge.
+  int meeting(int a, int b, int plane);
+
+  std::vector<Plane> body_;
+  double rounding_;
+  Assembly* assembly_;
+  std::map<std::array<int, 3>, int> meetings_;
+};
+
+}  // namespace cupola

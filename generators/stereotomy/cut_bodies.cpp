@@ -1,0 +1,329 @@
+#include "generators/stereotomy/cut_bodies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "generators/stereotomy/convex_clip.hpp"
+#include "generators/stereotomy/separation.hpp"
+#include "generators/stereotomy/support.hpp"
+
+namespace cupola {
+namespace {
+
+/// The point with the coordinates u and v across an axis.
+Vec3 on_axis(Cut::Axis axis, double u, double v, double along) {
+  switch (axis) {
+    case Cut::Axis::x:
+      return {along, u, v};
+    case Cut::Axis::y:
+      return {u, along, v};
+    case Cut::Axis::z:
+      break;
+  }
+  return {u, v, along};
+}
+
+std::vector<Eigen::Vector2d> outline_of(const Cut& cut) {
+  std::vector<Eigen::Vector2d> corners;
+  if (cut.kind == Cut::Kind::prism)
+    for (size_t i = 0; i < cut.u.size(); ++i) corners.emplace_back(cut.u[i], cut.v[i]);
+  else
+    for (int i = 0; i < cut.sides; ++i) {
+      const double angle = 2.0 * std::numbers::pi * (i + 0.5) / cut.sides;
+      corners.emplace_back(cut.centre_u + cut.radius * std::cos(angle),
+                           cut.centre_v + cut.radius * std::sin(angle));
+    }
+  return corners;
+}
+
+/// The body that a cut takes: n.x <= offset for all planes.
+std::vector<Plane> body_of(const Cut& cut) {
+  if (cut.kind == Cut::Kind::plane) {
+    const Vec3 lost = cut.normal.normalized();
+    return {{-lost, -lost.dot(cut.point)}};
+  }
+  std::vector<Plane> planes;
+  const std::vector<Eigen::Vector2d> corners = outline_of(cut);
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& corner : corners) middle += corner / static_cast<double>(corners.size());
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % corners.size()],
+                          along = (b - a).normalized();
+    Eigen::Vector2d normal(along.y(), -along.x());
+    if (normal.dot(middle - a) > 0.0) normal = -normal;
+    planes.push_back({on_axis(cut.axis, normal.x(), normal.y(), 0.0), normal.dot(a)});
+  }
+  const Vec3 axis = on_axis(cut.axis, 0.0, 0.0, 1.0);
+  if (cut.from) planes.push_back({-axis, -*cut.from});
+  if (cut.to) planes.push_back({axis, *cut.to});
+  return planes;
+}
+
+/// A convex piece of a block, with the part from which it was cut.
+struct Cell {
+  Part part;
+  ConvexPiece piece;
+  int block = 0;
+  bool is_changed = false;
+};
+
+std::vector<Vec3> points_of(const Assembly& assembly, const ConvexPiece::Face& face) {
+  std::vector<Vec3> points;
+  for (const int v : face.vertices) points.push_back(assembly.vertices[v]);
+  return points;
+}
+
+double volume_of(const Assembly& assembly, const ConvexPiece& piece) {
+  const Vec3& origin = assembly.vertices[piece.faces.front().vertices.front()];
+  double six_volumes = 0.0;
+  for (const ConvexPiece::Face& face : piece.faces) {
+    const std::vector<Vec3> p = points_of(assembly, face);
+    for (size_t i = 1; i + 1 < p.size(); ++i)
+      six_volumes += (p[0] - origin).dot((p[i] - origin).cross(p[i + 1] - origin));
+  }
+  return six_volumes / 6.0;
+}
+
+/// m, least width of the widest patch that two pieces share; 0 if they do not meet.
+double shared_width(const Assembly& assembly, const ConvexPiece& a, const ConvexPiece& b, double rounding) {
+  double widest = 0.0;
+  for (const ConvexPiece::Face& f : a.faces) {
+    const std::vector<Vec3> of_a = points_of(assembly, f);
+    const Plane plane = polygon_plane(of_a);
+    for (const ConvexPiece::Face& g : b.faces) {
+      const std::vector<Vec3> of_b = points_of(assembly, g);
+      constexpr double kOpposed = -1.0 + 1e-9;
+      if (plane.normal.dot(polygon_plane(of_b).normal) > kOpposed) continue;
+      if (std::abs(plane.normal.dot(of_b.front()) - plane.offset) > 10.0 * rounding) continue;
+      widest = std::max(widest, overlap_width(of_a, of_b, plane.normal));
+    }
+  }
+  return widest > 1e3 * rounding ? widest : 0.0;
+}
+
+/// The work on one member.
+class Carving {
+ public:
+  Carving(const MemberStart& start, Assembly* assembly) : start_(start), assembly_(assembly) {
+    Eigen::AlignedBox3d box;
+    for (size_t p = start.part; p < assembly->parts.size(); ++p) {
+      const Part& part = assembly->parts[p];
+      cells_.push_back({part, piece_of(*assembly, part), part.block, false});
+      for (const ConvexPiece::Face& face : cells_.back().piece.faces)
+        for (const int v : face.vertices) box.extend(assembly->vertices[v]);
+    }
+    rounding_ = 1e-12 * box.diagonal().norm();
+    for (size_t b = start.block; b < assembly->blocks.size(); ++b) volumes_.push_back(0.0);
+    for (const Cell& cell : cells_) volumes_[cell.block - start.block] += volume_of(*assembly, cell.piece);
+  }
+
+  /// Takes a body from all pieces; the faces of the cut, by their planes.
+  std::vector<std::vector<Vec3>> take(const Cut& cut, const std::string& key) {
+    ConvexClip clip(body_of(cut), rounding_, assembly_);
+    std::vector<Cell> left;
+    std::vector<std::vector<Vec3>> faces;
+    bool any = false;
+    for (Cell& cell : cells_) {
+      std::vector<ConvexPiece> pieces = clip.outside(cell.piece);
+      const bool whole =
+          pieces.size() == 1 && pieces.front().faces.size() == cell.piece.faces.size() &&
+          std::ranges::none_of(pieces.front().faces, [](const auto& f) { return f.plane >= 0; });
+      any = any || !whole;
+      for (ConvexPiece& piece : pieces) {
+        if (volume_of(*assembly_, piece) <= std::pow(1e3 * rounding_, 3)) continue;
+        for (ConvexPiece::Face& face : piece.faces) {
+          if (face.plane >= 0 && !assembly_->blocks[cell.block].fixed)
+            faces.push_back(points_of(*assembly_, face));
+          face.plane = -1;
+        }
+        left.push_back({cell.part, std::move(piece), cell.block, cell.is_changed || !whole});
+      }
+      if (!whole) touched_.push_back(cell.block);
+    }
+    cells_ = std::move(left);
+    if (!any)
+      throw InputError(key +
+                       ": the cut takes nothing; its coordinates, in m, are those of the member before `at`");
+    if (std::ranges::none_of(cells_, [&](const Cell& c) { return !assembly_->blocks[c.block].fixed; }))
+      throw InputError(key + ": the cut takes all blocks");
+    return faces;
+  }
+
+  /// Gives the pieces of cut blocks to blocks, and writes all.
+  void write() {
+    std::ranges::sort(touched_);
+    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    for (size_t i = 0; i < cells_.size(); ++i) {
+      of_block_[cells_[i].block].push_back(i);
+      of_ring_[assembly_->blocks[cells_[i].block].ring].push_back(i);
+    }
+    for (const int block : touched_) separate(block);
+    for (const int block : touched_) join_if_small(block);
+    std::vector<Block> blocks(assembly_->blocks.begin(),
+                              assembly_->blocks.begin() + static_cast<std::ptrdiff_t>(start_.block));
+    std::ranges::stable_sort(cells_, {}, [&](const Cell& c) { return std::pair(origin(c.block), c.block); });
+    assembly_->parts.resize(start_.part);
+    const int first_face = start_face_;
+    assembly_->face_kinds.resize(first_face);
+    assembly_->face_vertices.resize(assembly_->face_vertex_start[first_face]);
+    assembly_->face_vertex_start.resize(first_face + 1);
+    int before = -1;
+    for (const Cell& cell : cells_) {
+      if (cell.block != before) {
+        Block block = assembly_->blocks[origin(cell.block)];
+        block.truncated = block.truncated || (cell.is_changed && !block.fixed);
+        const bool follows = !blocks.empty() && blocks.back().ring == block.ring && !blocks.back().fixed;
+        block.slot = block.fixed ? block.slot : follows ? blocks.back().slot + 1 : 0;
+        blocks.push_back(block);
+        before = cell.block;
+      }
+      Part part = cell.part;
+      part.block = static_cast<int>(blocks.size()) - 1;
+      part.face_start = assembly_->num_faces();
+      part.num_faces = 0;
+      assembly_->parts.push_back(part);
+      for (const ConvexPiece::Face& face : cell.piece.faces) assembly_->add_face(face.vertices, face.kind);
+    }
+    assembly_->blocks = std::move(blocks);
+  }
+
+ private:
+  /// The block as laid from which a block was separated.
+  int origin(int block) const {
+    const int laid = static_cast<int>(assembly_->blocks.size());
+    return block < laid ? block : separated_[block - laid];
+  }
+  const std::vector<size_t>& cells_of(int block) const {
+    static const std::vector<size_t> kNone;
+    const auto found = of_block_.find(block);
+    return found == of_block_.end() ? kNone : found->second;
+  }
+  double volume(int block) const {
+    double sum = 0.0;
+    for (const size_t i : cells_of(block)) sum += volume_of(*assembly_, cells_[i].piece);
+    return sum;
+  }
+
+  /// Gives the pieces that do not touch the first ones numbers of new blocks.
+  void separate(int block) {
+    const std::vector<size_t> cells = cells_of(block);  // a copy: they move
+    of_block_.erase(block);
+    std::vector<int> group(cells.size());
+    std::iota(group.begin(), group.end(), 0);
+    for (size_t i = 0; i < cells.size(); ++i)
+      for (size_t j = 0; j < i; ++j) {
+        const int of_i = group[i], of_j = group[j];
+        if (of_i != of_j &&
+            shared_width(*assembly_, cells_[cells[i]].piece, cells_[cells[j]].piece, rounding_) > 0.0)
+          std::ranges::replace(group, of_i, of_j);
+      }
+    std::vector<std::pair<int, int>> numbers;  // group, block
+    for (size_t i = 0; i < cells.size(); ++i) {
+      const auto known = std::ranges::find(numbers, group[i], &std::pair<int, int>::first);
+      if (known == numbers.end()) {
+        int number = block;
+        if (!numbers.empty()) {
+          number = static_cast<int>(assembly_->blocks.size() + separated_.size());
+          separated_.push_back(block);
+          added_.push_back(number);
+        }
+        numbers.emplace_back(group[i], number);
+        cells_[cells[i]].block = number;
+      } else {
+        cells_[cells[i]].block = known->second;
+      }
+      of_block_[cells_[cells[i]].block].push_back(cells[i]);
+    }
+  }
+
+  void join_if_small(int block) {
+    std::vector<int> blocks{block};
+    for (const int number : added_)
+      if (origin(number) == block) blocks.push_back(number);
+    for (const int number : blocks) join_small(number);
+  }
+
+  void join_small(int block) {
+    constexpr double kLeast = 0.1;  // of the block as laid
+    const Block& laid = assembly_->blocks[origin(block)];
+    const std::vector<size_t> own = cells_of(block);
+    if (laid.fixed || own.empty() || volume(block) >= kLeast * volumes_[origin(block) - start_.block]) return;
+    std::optional<int> widest;
+    double width = 0.0;
+    for (const int ring : {laid.ring, laid.ring - 1, laid.ring + 1}) {
+      for (const size_t k : of_ring_[ring]) {
+        const Cell& other = cells_[k];
+        if (other.block == block || assembly_->blocks[origin(other.block)].fixed) continue;
+        for (const size_t i : own)
+          if (const double w = shared_width(*assembly_, cells_[i].piece, other.piece, rounding_); w > width) {
+            width = w;
+            widest = other.block;
+          }
+      }
+      if (widest) break;
+    }
+    if (!widest) return;
+    for (const size_t i : own) {
+      cells_[i].block = *widest;
+      cells_[i].is_changed = true;
+      of_block_[*widest].push_back(i);
+    }
+    of_block_.erase(block);
+  }
+
+  MemberStart start_;
+  Assembly* assembly_;
+  double rounding_ = 0.0;                                  // m
+  std::vector<Cell> cells_;                                // by block
+  std::map<int, std::vector<size_t>> of_block_, of_ring_;  // cells
+  std::vector<double> volumes_;                            // m3, of the blocks as laid
+  std::vector<int> touched_;                               // blocks as laid
+  std::vector<int> separated_;                             // origins of the blocks numbered behind those laid
+  std::vector<int> added_;                                 // these numbers
+  int start_face_ = start_.part < assembly_->parts.size() ? assembly_->parts[start_.part].face_start : 0;
+};
+
+/// A box behind a plane, over the rectangle around the faces that lie in it.
+void add_support(const Cut& cut, const std::vector<std::vector<Vec3>>& faces, double width, double density,
+                 Assembly* assembly) {
+  const Vec3 lost = cut.normal.normalized();
+  const bool is_level = lost.head<2>().norm() < 1e-9;
+  const Vec3 across = is_level ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitZ().cross(lost).normalized());
+  const Vec3 up = lost.cross(across);
+  Eigen::AlignedBox2d box;
+  for (const std::vector<Vec3>& face : faces)
+    for (const Vec3& p : face) box.extend(Eigen::Vector2d(across.dot(p - cut.point), up.dot(p - cut.point)));
+  const auto corner = [&](double u, double v) -> Vec3 { return cut.point + u * across + v * up; };
+  add_box_support({corner(box.min().x(), box.min().y()), corner(box.min().x(), box.max().y()),
+                   corner(box.max().x(), box.max().y()), corner(box.max().x(), box.min().y())},
+                  width * lost, density, assembly);
+}
+
+}  // namespace
+
+void cut_bodies(const std::vector<Cut>& cuts, const MemberStart& start, double support_width, double density,
+                const std::string& key, Assembly* assembly) {
+  if (cuts.empty()) return;
+  if (!assembly->vertex_layers.empty()) {
+    assembly->vertex_layers.resize(assembly->vertices.size(), -1);  // corners of supports
+    assembly->vertex_depths.resize(assembly->vertices.size(), 0.0);
+  }
+  Carving carving(start, assembly);
+  std::vector<std::vector<std::vector<Vec3>>> faces;
+  for (size_t i = 0; i < cuts.size(); ++i)
+    faces.push_back(carving.take(cuts[i], fmt::format("{}[{}]", key, i)));
+  carving.write();
+  for (size_t i = 0; i < cuts.size(); ++i)
+    if (cuts[i].as == Cut::As::held) add_support(cuts[i], faces[i], support_width, density, assembly);
+}
+
+}  // namespace cupola

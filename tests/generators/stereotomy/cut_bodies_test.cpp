@@ -1,0 +1,169 @@
+// Bodies cut from members: volumes against closed forms, which pieces become blocks, and what is refused.
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "tests/generators/models.hpp"
+
+namespace cupola::cut_bodies_test {
+namespace {
+
+constexpr double kLength = 4.0, kHeight = 3.0, kThickness = 0.5;  // m
+constexpr double kInner = 5.0;                                    // m, x of the inner face
+
+/// A wall along y.
+Case wall(std::vector<Cut> cuts) {
+  VaultSurface surface;
+  surface.plan.kind = Plan::Kind::line;
+  surface.plan.length = kLength;
+  surface.profile.kind = Profile::Kind::straight;
+  surface.profile.height = kHeight;
+  surface.thickness = kThickness;
+  Case c;
+  c.geometry.surface = surface;
+  c.geometry.bond = RunningBond{6, 4, 2};
+  c.geometry.cuts = std::move(cuts);
+  return c;
+}
+
+Cut plane(const Vec3& point, const Vec3& normal, Cut::As as = Cut::As::free) {
+  Cut cut;
+  cut.point = point;
+  cut.normal = normal;
+  cut.as = as;
+  return cut;
+}
+
+Cut prism(std::vector<double> y, std::vector<double> z) {
+  Cut cut;
+  cut.kind = Cut::Kind::prism;
+  cut.axis = Cut::Axis::x;
+  cut.u = std::move(y);
+  cut.v = std::move(z);
+  return cut;
+}
+
+/// m3, checked.
+double volume_of(const Case& c, ModelReport* report) {
+  check_and_report(c, report);
+  EXPECT_LT(report->max_convexity_error, 1e-13);
+  EXPECT_LT(report->max_overlap, 1e-10);
+  EXPECT_NEAR(report->parts_volume, report->volume, 1e-12 * report->volume);
+  return report->volume;
+}
+
+constexpr double kWhole = kLength * kHeight * kThickness;
+
+TEST(CutBodies, APlaneLeavesOneSide) {
+  ModelReport report;
+  // Half of the wall: the plane passes through the middle, inclined.
+  const Case c = wall({plane({0.0, kLength / 2, kHeight / 2}, {0.0, 1.0, 0.7})});
+  EXPECT_NEAR(volume_of(c, &report), kWhole / 2, 1e-13);
+  EXPECT_EQ(report.islands, 1);
+}
+
+TEST(CutBodies, ADoorIsAPrism) {
+  ModelReport report;
+  const Case c = wall({prism({1.3, 2.1, 2.1, 1.7, 1.3}, {-1.0, -1.0, 1.6, 2.0, 1.6})});
+  const double door = 0.8 * 1.6 + 0.5 * 0.8 * 0.4;
+  EXPECT_NEAR(volume_of(c, &report), kWhole - door * kThickness, 1e-13);
+}
+
+TEST(CutBodies, ARoundWindowIsAPolygon) {
+  Cut round;
+  round.kind = Cut::Kind::cylinder;
+  round.axis = Cut::Axis::x;
+  round.centre_u = 2.1;
+  round.centre_v = 1.4;
+  round.radius = 0.6;
+  round.sides = 12;
+  ModelReport report;
+  const double polygon = 0.5 * 12 * std::sin(2.0 * std::numbers::pi / 12) * 0.36;
+  EXPECT_NEAR(volume_of(wall({round}), &report), kWhole - polygon * kThickness, 1e-13);
+  EXPECT_EQ(report.islands, 1);
+  round.from = kInner + 0.2;  // a niche from outside
+  EXPECT_NEAR(volume_of(wall({round}), &report), kWhole - polygon * (kThickness - 0.2), 1e-13);
+}
+
+TEST(CutBodies, WhatIsSeparatedBecomesABlock) {
+  // A slot of 0.2 m in the first course, through the middle of a block of 1 m, which both halves survive.
+  ModelReport whole, cut;
+  volume_of(wall({}), &whole);
+  volume_of(wall({prism({1.4, 1.6, 1.6, 1.4}, {-1.0, -1.0, 0.5, 0.5})}), &cut);
+  EXPECT_EQ(cut.num_blocks, whole.num_blocks + 1);
+  EXPECT_EQ(cut.islands, 1);
+}
+
+TEST(CutBodies, SmallRestsJoinTheirNeighbours) {
+  // Blocks are 1 m long and 0.5 m high: the plane leaves 0.05 m of those at 3 m.
+  ModelReport report;
+  const Case c = wall({plane({0.0, 3.05, 0.0}, {0.0, 1.0, 0.0})});
+  volume_of(c, &report);
+  EXPECT_GT(report.smallest_block, 0.2 * 1.0 * 0.5 * kThickness);
+}
+
+TEST(CutBodies, AHeldCutHasASupport) {
+  ModelReport report;
+  const Case c = wall({plane({0.0, 3.3, 0.0}, {0.0, 1.0, 0.0}, Cut::As::held)});
+  const Assembly assembly = check_and_report(c, &report);
+  EXPECT_EQ(report.num_supports, 2);
+  ASSERT_TRUE(assembly.blocks.back().fixed);
+  EXPECT_NEAR(assembly.blocks.back().volume, kThickness * kHeight * 1.0, 1e-13) << "support_width is 1 m";
+  EXPECT_GT(assembly.blocks.back().centroid.y(), 3.3);
+}
+
+// A hemisphere over a square: the volume between two spheres inside the square, by quadrature over the square.
+TEST(CutBodies, ASailVaultStandsOverASquare) {
+  VaultSurface dome;
+  dome.profile.span = 14.0;
+  dome.thickness = 0.5;
+  dome.eye = 0.6;
+  dome.key_stone = true;
+  Case c;
+  c.geometry.surface = dome;
+  c.geometry.bond = RunningBond{48, 96, 2};
+  for (const double x : {1.0, -1.0}) {
+    c.geometry.cuts.push_back(plane({5.15 * x, 0.0, 0.0}, {x, 0.0, 0.0}));
+    c.geometry.cuts.push_back(plane({0.0, 5.15 * x, 0.0}, {0.0, x, 0.0}));
+  }
+  ModelReport report;
+  const Assembly assembly = check_and_report(c, &report);
+  EXPECT_EQ(report.islands, 1);
+  for (const Block& block : assembly.blocks)
+    EXPECT_LT(block.centroid.head<2>().lpNorm<Eigen::Infinity>(), 5.15);
+  double expected = 0.0;
+  constexpr int n = 2000;
+  const auto height = [](double square) { return square > 0.0 ? std::sqrt(square) : 0.0; };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double x = 5.15 * (i + 0.5) / n, y = 5.15 * (j + 0.5) / n, rr = x * x + y * y;
+      expected += 4.0 * 5.15 * 5.15 / (n * n) * (height(7.5 * 7.5 - rr) - height(7.0 * 7.0 - rr));
+    }
+  // The facets of 48 courses and 192 slices, and the level crown of the key stone: below (pi / 96)^2 / 2.
+  EXPECT_NEAR(report.volume / expected, 1.0, 2e-3);
+}
+
+std::string message_of(const Case& c) {
+  try {
+    generate(c);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CutBodies, AreRefusedIfTheyTakeNothingOrAll) {
+  EXPECT_NE(message_of(wall({plane({0, 9, 0}, {0, 1, 0})})).find("geometry.cuts[0]: the cut takes nothing"),
+            std::string::npos);
+  EXPECT_NE(
+      message_of(wall({plane({0, -9, 0}, {0, 1, 0})})).find("geometry.cuts[0]: the cut takes all blocks"),
+      std::string::npos);
+  EXPECT_NE(message_of(wall({prism({-1, 5, 5, -1}, {1.2, 1.2, 1.3, 1.3})})).find("shell floats"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace cupola::cut_bodies_test
