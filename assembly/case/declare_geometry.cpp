@@ -292,8 +292,7 @@ void declare_geometry(Section& s, Geometry& geometry) {
                      declare_import);
   if (geometry.imported) return;
   s.retired("drum", "give it as one of geometry.members, and `on: drum` for the dome (docs/cases.md)");
-  s.list("members", geometry.members, "further walls, drums and vaults, or all of them", declare_member);
-  geometry.has_shell = geometry.members.empty() || s.gives("surface");
+  geometry.has_shell = !s.gives("members") || s.gives("surface");
   if (geometry.has_shell) {
     declare_shape(s, geometry);
   } else {
@@ -302,6 +301,7 @@ void declare_geometry(Section& s, Geometry& geometry) {
           key,
           "remove this key: geometry has no surface of its own, and each of geometry.members has this key");
   }
+  s.list("members", geometry.members, "further walls, drums and vaults, or all of them", declare_member);
   check_members(s, geometry);
   s.optional_section("affine", geometry.affine, "stretch or shear the finished masonry", declare_affine);
   s.optional_section(
