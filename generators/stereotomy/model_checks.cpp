@@ -134,8 +134,8 @@ std::string places_of_members(const Assembly& assembly, int a, int b) {
   };
   if (name(a) == name(b) && !assembly.blocks[a].fixed) return {};
   const Vec3& p = assembly.blocks[b].centroid;
-  return fmt::format(" ({} and {}) about ({:.4g}, {:.4g}, {:.4g}) m; move a member (`at`)", name(a), name(b),
-                     p.x(), p.y(), p.z());
+  return fmt::format(" ({} and {}) about ({:.4g}, {:.4g}, {:.4g}) m; geometry.members: move one by `at`",
+                     name(a), name(b), p.x(), p.y(), p.z());
 }
 
 void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shapes,

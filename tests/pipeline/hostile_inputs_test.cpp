@@ -124,6 +124,21 @@ TEST(HostileInputs, SweepsFinishTheirFirstMembersFirst) {
   EXPECT_LT(written("0.3", "/.drawn"), written("0.8", "/.generated"));
 }
 
+// A member without settings of its own is a case: its rules must not be made twice.
+TEST(Studies, RunTheCasesThatTheyName) {
+  const ProgramFolder folder;
+  std::ofstream(folder.file("wall.yaml")) << kWall;
+  std::filesystem::create_directory(folder.file("studies"));
+  std::ofstream(folder.file("studies/forces.yaml"))
+      << "title: Forces\nclaims:\n"
+         "  - {source: none, says: The wall has weight., number: mean resultant of a block,\n"
+         "     value: {runs: wall, table: blocks, column: resultant_N, take: mean}, ours: {at_least: 1, "
+         "reason: in N}}\n";
+  const ProgramRun run = folder.run(kMake + "run BIN=" CUPOLA_BIN_DIR " POST=--tables forces");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.file("out/wall/.drawn"))) << run.out << run.err;
+}
+
 TEST(HostileInputs, MeridiansOfBlocksWithoutCoursesAreLeftOut) {
   const ProgramFolder folder;
   std::ofstream(folder.file("two.obj")) << R"(o ground

@@ -92,7 +92,7 @@ TEST(Members, AreRefusedWithTheirNames) {
   wide.on = "low";
   EXPECT_NE(message_of(members_case({low, wide})).find("the member wide floats"), std::string::npos);
   beside.at = Place{{8.0, 0.0, 0.0}, 0.0};
-  EXPECT_NE(message_of(members_case({low, beside})).find("move a member"), std::string::npos);
+  EXPECT_NE(message_of(members_case({low, beside})).find("geometry.members: move one"), std::string::npos);
   Member cap = tower("cap", 10.0);
   cap.on = "low";
   VaultSurface segment;
