@@ -191,10 +191,10 @@ ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std:
           "was removed, so that the run cannot be resumed; remove the checkpoint to start again");
   std::filesystem::remove(in_folder(folder_, kInterrupted));
   if (times_.empty()) return;
-  // A run that is resumed at its end writes no table again.
+  // A run that is resumed at its end writes no table again. Hidden files are parts that a killed run left.
   for (const auto& file : std::filesystem::directory_iterator(folder_))
-    if (file.path().extension() == ".csv")
-      text_files_[file.path().filename()] = hash_text(read_text(file.path()));
+    if (const std::string name = file.path().filename(); name.ends_with(".csv") && !name.starts_with('.'))
+      text_files_[name] = hash_text(read_text(file.path()));
 }
 
 void ResultsWriter::write_frame(const Frame& frame) {

@@ -232,7 +232,9 @@ TEST(ResultsFile, ARunResumedAtItsEndKeepsItsTables) {
     killed.write_frame(two_block_frame(0.0));
     killed.write_text("path.csv", "time_s\n0\n");
   }
+  write_text_atomically(folder + "/.path.1.part.csv", "time_s\n");  // of another run that was killed
   ResultsWriter(folder, hash, {0.0}).write_summary(example_summary());
+  EXPECT_THROW(ResultsReader(folder, hash).read_text_file(".path.1.part.csv"), InputError);
   EXPECT_EQ(ResultsReader(folder, hash).read_text_file("path.csv"), "time_s\n0\n");
 }
 
