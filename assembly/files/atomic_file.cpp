@@ -40,8 +40,14 @@ int process_of_part(const std::string& name) {
   return error == std::errc() && stop == name.data() + end ? process : 0;
 }
 
+/// Also true of a process that was killed and for which nobody has waited yet.
 bool has_ended(int process) {
-  return ::kill(process, 0) != 0 && errno == ESRCH;
+  if (::kill(process, 0) != 0) return errno == ESRCH;
+  std::ifstream status(fmt::format("/proc/{}/stat", process));
+  std::string text;
+  std::getline(status, text);
+  const size_t name_end = text.rfind(')');
+  return name_end != std::string::npos && text.compare(name_end, 3, ") Z") == 0;
 }
 
 /// Removes temporary files of processes that have ended, if their names begin with `start`.

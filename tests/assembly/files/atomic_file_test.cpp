@@ -66,6 +66,20 @@ TEST(FolderLock, RemovesTemporaryFilesOfKilledRunsOnly) {
   EXPECT_TRUE(fs::exists(folder / "x.12.part"));
 }
 
+// A make that was killed waits for none of its programs.
+TEST(FolderLock, RemovesTemporaryFilesOfProcessesThatNobodyWaitsFor) {
+  const fs::path folder = test::fresh_folder("lock_zombie");
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  siginfo_t info{};
+  ASSERT_EQ(::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT), 0);
+  const fs::path part = folder / (".blocks_0000." + std::to_string(child) + ".part.vtp");
+  std::ofstream(part) << "text";
+  const FolderLock lock(folder.string());
+  EXPECT_FALSE(fs::exists(part));
+  ::waitpid(child, nullptr, 0);
+}
+
 TEST(FolderLock, RefusesASecondOwnerAndNamesTheFirst) {
   const fs::path folder = test::fresh_folder("lock_two");
   {
