@@ -81,7 +81,9 @@ Bracket bisect(double low, double high, const BracketWidth& required, const TryV
     bracket.narrow = width() <= enough;
     if (bracket.narrow) break;
     const double value = next_value(bracket, undecided);
-    if (value == bracket.stable.value || value == bracket.moving.value) break;  // adjacent doubles
+    // Between adjacent doubles the middle is one of them.
+    if (value == bracket.stable.value || value == bracket.moving.value) break;
+    if (undecided && (value == undecided->to_stable || value == undecided->to_moving)) break;
     const double nearest =
         std::min(std::abs(value - bracket.stable.value), std::abs(value - bracket.moving.value));
     if (undecided && nearest < 0.25 * enough) break;

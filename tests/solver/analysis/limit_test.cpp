@@ -67,6 +67,22 @@ TEST(Bisect, KeepsUndecidedValuesInsideTheBracket) {
   EXPECT_NE(bracket.message.find("undecided from 0.30"), std::string::npos) << bracket.message;
 }
 
+// A width below the spacing of doubles cannot be reached. The middle of adjacent doubles is either of them, by the
+// parity of their last bits, so several intervals are tried.
+TEST(Bisect, EndsAtAdjacentDoublesBesideUndecidedValues) {
+  for (int k = 0; k < 20; ++k) {
+    const double low = 0.3 + 0.001 * k, high = low + 1e-6;
+    int trials = 0;
+    const Bracket bracket = bisect(0.0, 1.0, {1e-30, 0.0}, [&](double x) -> std::optional<LimitTrial> {
+      if (++trials > 200) return std::nullopt;  // two bisections take at most 60 trials each
+      if (x >= low && x <= high) return LimitTrial{x, StaticOutcome::unconverged, 0.0};
+      return LimitTrial{x, x < low ? StaticOutcome::moving : StaticOutcome::equilibrium, 0.0};
+    });
+    EXPECT_TRUE(bracket.found) << bracket.message;
+    EXPECT_FALSE(bracket.narrow);
+  }
+}
+
 // Both laws admit the same forces, so that what the associated law proves to move moves under Coulomb's law too. The direct
 // method and the bisection share no search.
 TEST(Limit, NoArchStandsUnderCoulombsLawBelowTheAssociatedCriticalFriction) {
