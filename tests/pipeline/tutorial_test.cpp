@@ -1,5 +1,7 @@
 // The numbers of the tutorials, docs/getting-started.md and docs/import.md, against the runs that they describe (slow).
 
+#include <regex>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -31,8 +33,12 @@ std::string shipped(const std::string& name) {
   return CUPOLA_SOURCE_DIR "/cases/" + name + ".yaml";
 }
 
+/// The page without the comments that name the cells of its numbers, and without its line breaks.
 void expect_in(const std::string& document, const std::string& phrase) {
-  EXPECT_NE(slurp(CUPOLA_SOURCE_DIR "/docs/" + document).find(phrase), std::string::npos)
+  static const std::regex comment("<!--[^>]*-->"), blanks("\\s+");
+  const std::string page =
+      std::regex_replace(slurp(CUPOLA_SOURCE_DIR "/docs/" + document), comment, "");
+  EXPECT_NE(std::regex_replace(page, blanks, " ").find(phrase), std::string::npos)
       << document << " does not say: " << phrase;
 }
 
@@ -65,7 +71,7 @@ TEST(TutorialSlow, NumbersOfTheDomesAreThoseOfTheRuns) {
   expect_in(page, "the dome is `moving` at 0.08 and `stable` at 0.1");
   const auto [spirals, spirals_post] =
       summaries(folder, shipped("dome_circular_herringbone"), " --set loads.lantern.weight_fraction=0");
-  expect_in(page, fmt::format("the outward thrust from {:.3f} to {:.3f} of the weight",
+  expect_in(page, fmt::format("raise the outward thrust from {:.3f} to {:.3f} of the weight",
                               dome_post["thrust_over_weight"].get<double>(),
                               spirals_post["thrust_over_weight"].get<double>()));
   expect_in(page, fmt::format("displacements of {:.3f} m are not small",
@@ -80,7 +86,7 @@ TEST(TutorialSlow, NumbersOfTheImportedBlocksAreThoseOfTheRuns) {
   const auto critical = [](const Json& run) { return run["critical_value"].get<double>(); };
   expect_in("getting-started.md", fmt::format("at which the portal overturns, {:.3g} g.",
                                               critical(summaries(folder, shipped("portal")).first)));
-  expect_in("import.md", fmt::format("The wall falls over at {:.2f} degrees.",
+  expect_in("import.md", fmt::format("find the tilt at which they fall, {:.2f} degrees here",
                                      critical(summaries(folder, shipped("wall_window")).first)));
   const std::string wall = shipped("wall_window");
   for (const std::string& command :
@@ -93,7 +99,7 @@ TEST(TutorialSlow, NumbersOfTheImportedBlocksAreThoseOfTheRuns) {
   }
   const std::string push =
       " --set 'loads.forces=[{block: lintel, force: [0, 500, 0]}]'";  // as typed in section 4
-  expect_in("import.md", fmt::format("the wall falls earlier, at {:.2f} degrees.",
+  expect_in("import.md", fmt::format("The wall now falls at {:.2f} degrees.",
                                      critical(summaries(folder, shipped("wall_window"), push).first)));
 }
 

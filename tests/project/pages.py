@@ -6,7 +6,7 @@
 - Lines of the documentation have at most 120 columns, except tables, code and the pages that programs write.
 - Every table between `<!-- table NAME -->` and `<!-- end -->` names the revision that measured it, neither unknown
   nor dirty. Tables of REMEASURE are still to be measured again; none may be added.
-- `0.408<!--= docs/data/ranges.md ranges brunelleschi_range_0.4 "max"-->`: page, table, row and heading of the cell
+- `0.408<!--= docs/data/ranges.md ranges brunelleschi_friction0.4 "max"-->`: page, table, row and heading of the cell
   that the number before the comment quotes, rounded to its digits. Parts with spaces stand in quotes, the first
   cells of a row are joined by "|", and a fifth part multiplies the cell.
 """
@@ -111,7 +111,7 @@ def check_the_checks(root):
     assert all(revisions("p", table.format(bad), set()) for bad in ("unknown", "fffe37b-dirty"))
     assert revisions("p", table.format("fffe37b"), {"p t"}) and not revisions("p", table.format("f-dirty"), {"p t"})
     assert cell_of(table, "t", "a", "max") == 0.408
-    page = 'docs/data/ranges.md ranges brunelleschi_range_0.4 max'
+    page = 'docs/data/ranges.md ranges brunelleschi_friction0.4 max'
     assert not quoted_numbers(root, "p", f"0.41<!--= {page}-->") and quoted_numbers(root, "p", f"0.42<!--= {page}-->")
     assert quoted_numbers(root, "p", f"0.41<!--= {page} x-->") and quoted_numbers(root, "p", "word<!--= x-->")
 
