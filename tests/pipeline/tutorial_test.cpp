@@ -36,8 +36,7 @@ std::string shipped(const std::string& name) {
 /// The page without the comments that name the cells of its numbers, and without its line breaks.
 void expect_in(const std::string& document, const std::string& phrase) {
   static const std::regex comment("<!--[^>]*-->"), blanks("\\s+");
-  const std::string page =
-      std::regex_replace(slurp(CUPOLA_SOURCE_DIR "/docs/" + document), comment, "");
+  const std::string page = std::regex_replace(slurp(CUPOLA_SOURCE_DIR "/docs/" + document), comment, "");
   EXPECT_NE(std::regex_replace(page, blanks, " ").find(phrase), std::string::npos)
       << document << " does not say: " << phrase;
 }

@@ -19,7 +19,9 @@ WIDTH = 120
 GENERATED = {"docs/columns.md", "docs/data/verification.md"}
 REMEASURE = {
     "docs/walls.md walls", "docs/strength.md mortar", "docs/strength.md ranges", "docs/data/accuracy.md features",
-    "docs/data/ranges.md ranges", "docs/data/ranges.md limits"}
+    "docs/data/ranges.md ranges", "docs/data/ranges.md limits",
+    *(f"tests/benchmark/README.md {table}" for table in (
+        "detection", "methods", "gaps", "stepping", "blocks", "threads", "siconos", "scale", "refinement"))}
 BLOCK = re.compile(r"^<!-- table (\S+) -->$(.*?)^<!-- end -->$", re.S | re.M)
 QUOTE = re.compile(r"([-+]?\d[\d,]*\.?\d*(?:[eE][-+]?\d+)?)<!--=\s*(.*?)-->", re.S)
 
@@ -43,8 +45,8 @@ def revisions(name, text, remeasure):
     faults = []
     for block in BLOCK.finditer(text):
         table = f"{name} {block[1]}"
-        found = re.search(r"^Measured .* at revision (\S+)", block[2], re.M)
-        clean = found is not None and re.fullmatch(r"[0-9a-f]{7,40}", found[1]) is not None
+        found = re.search(r"^Measured .*? revision (\S+)", block[2], re.M)
+        clean = found is not None and re.fullmatch(r"(v[0-9.]+-\d+-g)?[0-9a-f]{7,40}", found[1]) is not None
         if clean and table in remeasure:
             faults.append(f"{table}: has been measured again; remove it from REMEASURE of pages.py")
         elif not clean and table not in remeasure:
@@ -95,7 +97,8 @@ def quoted_numbers(root, name, text):
 
 def faults_of(root, remeasure):
     faults = []
-    pages = sorted([*root.glob("docs/*.md"), *root.glob("docs/data/*.md"), root / "README.md", root / "cases/README.md"])
+    pages = sorted([*root.glob("docs/*.md"), *root.glob("docs/data/*.md"), root / "tests/benchmark/README.md",
+                    *(root / folder / "README.md" for folder in (".", "cases", "postproc"))])
     for page in pages:
         name, text = str(page.relative_to(root)), page.read_text()
         faults += [] if name in GENERATED else wide_lines(name, text)
@@ -108,6 +111,7 @@ def check_the_checks(root):
     table = "<!-- table t -->\n\n| run | max |\n|---|---|\n| a | 0.408 |\n\nMeasured 2026 at revision {}\n\n<!-- end -->"
     assert not wide_lines("p", "a " * 60) and wide_lines("p", "a " * 61) and not wide_lines("p", "| " + "a " * 90)
     assert not revisions("p", table.format("fffe37b"), set())
+    assert not revisions("p", table.replace("at revision", "by the programs of revision").format("v0.2.0-13-g02420a8"), set())
     assert all(revisions("p", table.format(bad), set()) for bad in ("unknown", "fffe37b-dirty"))
     assert revisions("p", table.format("fffe37b"), {"p t"}) and not revisions("p", table.format("f-dirty"), {"p t"})
     assert cell_of(table, "t", "a", "max") == 0.408
