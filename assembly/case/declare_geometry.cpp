@@ -170,6 +170,36 @@ void declare_fill_bond(Section& s, FillBond& bond) {
   check_cells(s, bond, bond.slices_per_block);
 }
 
+void declare_drawn_bond(Section& s, DrawnBond& bond) {
+  s.integer("rings", bond.rings, {.min = 1, .max = kMostRings}, "number of courses");
+  s.texts("rows", bond.rows,
+          "the drawing, seen from outside, the uppermost course first: cells of one letter that touch form a "
+          "block, a "
+          "point is empty");
+  s.required_number("letter_length", bond.letter_length, {.unit = "m", .above = 0},
+                    "length of a letter along the first bed, on the intrados");
+  s.integer("shift", bond.shift, {.min = -100000, .max = 100000},
+            "letters by which the drawing moves along where it is repeated above itself");
+  s.optional_number("phase", bond.phase, {.min = 0, .max = 100000}, kNoPhase,
+                    "letters from the first corner, or the end of a wall, to the drawing");
+  s.integer(
+      "refine", bond.refine, {.min = 1, .max = 1000},
+      "split each course into this many courses and each block into this many blocks, in the same bond");
+  s.rule(!bond.rows.empty() && !bond.rows.front().empty(), "rows",
+         "is missing: give the rows of the drawing, for example [aaaabbbb, ccddddcc]");
+  size_t cells = 0;
+  for (size_t i = 0; i < bond.rows.size(); ++i) {
+    const std::string& row = bond.rows[i];
+    cells += row.size();
+    s.rule(row.size() == bond.rows.front().size(), "rows",
+           fmt::format("all rows must have the same number of letters: row {} has {}, the first {}", i,
+                       row.size(), bond.rows.front().size()));
+    s.rule(std::ranges::all_of(row, [](char c) { return c > ' ' && c <= '~'; }), "rows",
+           fmt::format("row {} has a blank or a letter outside ASCII", i));
+  }
+  s.rule(cells <= kMostCells / 20, "rows", "a drawing has at most 1e6 letters");
+}
+
 }  // namespace
 
 void declare_bond(Section& s, Bond& bond) {
@@ -181,7 +211,8 @@ void declare_bond(Section& s, Bond& bond) {
                          "herringbone bond: upright blocks climb through whole blocks laid flat",
                          declare_herringbone_bond),
        alternative<Bond>("fill", "blocks of unequal width whose head joints avoid those of the ring below",
-                         declare_fill_bond)},
+                         declare_fill_bond),
+       alternative<Bond>("drawn", "a bond drawn in letters, repeated over the surface", declare_drawn_bond)},
       "how the shell is cut into blocks");
 }
 

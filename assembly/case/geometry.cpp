@@ -13,6 +13,15 @@ VaultSurface& VaultSurface::operator=(const VaultSurface&) = default;
 VaultSurface& VaultSurface::operator=(VaultSurface&&) noexcept = default;
 VaultSurface::~VaultSurface() = default;
 
+char DrawnBond::letter(int column, int row) const {
+  const auto floor_division = [](int a, int b) { return (a >= 0 ? a : a - b + 1) / b; };
+  const int num_rows = static_cast<int>(rows.size()), num_columns = static_cast<int>(rows.front().size());
+  const int period = floor_division(row, num_rows);
+  const int moved = column - shift * period;
+  return rows[static_cast<size_t>(num_rows - 1 - (row - num_rows * period))]
+             [static_cast<size_t>(moved - num_columns * floor_division(moved, num_columns))];
+}
+
 double Thickness::at(double height) const {
   if (constant() || height <= heights.front()) return values.front();
   const auto above = std::ranges::upper_bound(heights, height);

@@ -266,7 +266,23 @@ struct FillBond {
   int refine = 1;            ///< >= 1
 };
 
-using Bond = std::variant<RunningBond, StackBond, HerringboneBond, FillBond>;
+/// A bond drawn in letters. Cell (c, r) of the infinite pattern, r upwards from the first course, has the letter
+/// rows[R - 1 - r mod R][(c - shift * floor(r / R)) mod C] of the R rows of C letters, as seen from outside. The cells of one
+/// letter that are connected through their faces form a block; `.` is empty.
+struct DrawnBond {
+  int rings = 40;
+  std::vector<std::string> rows;  ///< the uppermost course first, all of one length
+  double letter_length = 0.1;     ///< m, > 0, along the intrados of the first bed
+  int shift = 0;  ///< letters by which the drawing moves along where it is repeated above itself
+  std::optional<double> phase =
+      {};          ///< letters from the first corner, or the end of a wall, to the drawing; none: 1/2 on
+                   ///< a vault with corners, so that no joint lies on a corner, else 0
+  int refine = 1;  ///< >= 1
+
+  char letter(int column, int row) const;  ///< of a cell of the infinite pattern
+};
+
+using Bond = std::variant<RunningBond, StackBond, HerringboneBond, FillBond, DrawnBond>;
 
 /// A thickness that varies over the height: values between `heights`, constant beyond both ends.
 struct Thickness {

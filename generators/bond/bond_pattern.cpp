@@ -12,7 +12,7 @@ void cut_at_seam(BondPattern* pattern) {
   std::vector<int> left_part(pattern->blocks.size(), -1);
   for (int ring = 0; ring < pattern->num_rings; ++ring) {
     const int block = pattern->at(ring, 0);
-    if (pattern->at(ring, last) != block) continue;
+    if (block == kVoid || pattern->at(ring, last) != block) continue;
     int end = 0;
     while (end <= last && pattern->at(ring, end) == block) ++end;
     if (end > last) continue;  // the whole ring is one block

@@ -14,7 +14,9 @@ struct BondGrid {
   std::vector<double> corners;  ///< abscissae that must be cuts
   /// A part of a ring: the bond is laid as on a ring of this extent, and cut where its ends meet.
   bool window = false;
-  int built = 0;  ///< rings of the stage; 0: all
+  int built = 0;           ///< rings of the stage; 0: all
+  double length = 0.0;     ///< m, of the first bed, on the intrados
+  double thickness = 0.0;  ///< m, of the first course, between its beds on the intrados
 };
 
 /// Instead of a block: an empty cell.
@@ -27,6 +29,7 @@ struct BondBlock {
       false;        ///< cut: an upright that is shorter, or a flat block that is not as wide as a whole one
   int spiral = -1;  ///< of an upright block; -1 for none
   int member = 0;   ///< what laid it: a wythe, or behind these a group of bonders
+  char letter = 0;  ///< of a drawn bond
 };
 
 /// A bond: the cuts between slices along the abscissa, and the block of each cell of the (rings x slices x

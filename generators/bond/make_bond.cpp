@@ -5,25 +5,28 @@
 #include "assembly/base/error.hpp"
 #include "assembly/base/variant.hpp"
 #include "generators/bond/courses.hpp"
+#include "generators/bond/drawn.hpp"
 #include "generators/bond/fill.hpp"
 #include "generators/bond/herringbone.hpp"
 
 namespace cupola {
 namespace {
 
-/// Every cell of the grid has a block, and the cuts are ascending.
+/// Every cell of the grid has a block or is empty, and the cuts are ascending.
 [[maybe_unused]] bool is_complete(const BondPattern& pattern, const BondGrid& grid) {
   const int num_blocks = static_cast<int>(pattern.blocks.size());
   return pattern.num_rings == grid.num_rings && std::ranges::is_sorted(pattern.cuts) &&
          pattern.block_of.size() == static_cast<size_t>(pattern.num_rings) * pattern.num_slices() &&
-         std::ranges::all_of(pattern.block_of, [&](int block) { return block >= 0 && block < num_blocks; });
+         std::ranges::all_of(pattern.block_of,
+                             [&](int block) { return block >= kVoid && block < num_blocks; });
 }
 
 BondPattern lay(const Bond& bond, const BondGrid& grid) {
   return std::visit(Overloaded{[&](const RunningBond& b) { return running_bond(b, grid); },
                                [&](const StackBond& b) { return stack_bond(b, grid); },
                                [&](const HerringboneBond& b) { return herringbone_bond(b, grid); },
-                               [&](const FillBond& b) { return fill_bond(b, grid); }},
+                               [&](const FillBond& b) { return fill_bond(b, grid); },
+                               [&](const DrawnBond& b) { return drawn_bond(b, grid); }},
                     bond);
 }
 

@@ -92,7 +92,7 @@ void separate_rests(bool closed, const std::vector<int>& laid, BondPattern* patt
         const int block = pattern->at(ring, slice, wythe);
         if (block == kVoid || numbering.is_numbered(seed)) continue;
         const std::vector<Cell> cells = numbering.fill(seed, true);
-        if (is_box(cells)) {
+        if (static_cast<int>(cells.size()) == laid[block] || is_box(cells)) {
           add(block, cells);
           continue;
         }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "generators/bond/drawing.hpp"
 #include "generators/bond/make_bond.hpp"
 #include "generators/bond/rests.hpp"
 
@@ -118,6 +120,56 @@ void lay_bonders(const BonderPlaces& places, int member, int from, int to, const
   }
 }
 
+/// What lays the blocks that drawings of neighbouring wythes have in common.
+constexpr const char* kHeaders = "headers";
+
+/// Drawn wythes side by side, which may share letters.
+std::vector<std::vector<const DrawnBond*>> groups_of_drawings(const Masonry& masonry) {
+  std::vector<std::vector<const DrawnBond*>> groups(1);
+  for (const Wythe& wythe : masonry.wythes) {
+    const auto* drawn = wythe.bond ? std::get_if<DrawnBond>(&*wythe.bond) : nullptr;
+    if (drawn)
+      groups.back().push_back(drawn);
+    else if (!groups.back().empty())
+      groups.emplace_back();
+  }
+  std::erase_if(groups, [](const auto& group) { return group.size() < 2; });
+  return groups;
+}
+
+bool has_drawn_headers(const Masonry& masonry) {
+  return std::ranges::any_of(groups_of_drawings(masonry), [](const auto& group) {
+    const Drawing drawing(group);
+    return std::ranges::any_of(drawing.blocks(), [](const DrawnBlock& block) { return block.wythes > 1; });
+  });
+}
+
+/// Makes one block of those that have the same letter at one place in two wythes.
+void join_headers(int member, BondPattern* pattern) {
+  std::vector<int> joined(pattern->blocks.size());
+  std::iota(joined.begin(), joined.end(), 0);
+  const auto root = [&](int block) {
+    while (joined[block] != block) block = joined[block] = joined[joined[block]];
+    return block;
+  };
+  const auto letter = [&](int block) { return block == kVoid ? char{0} : pattern->blocks[block].letter; };
+  for (int ring = 0; ring < pattern->num_rings; ++ring)
+    for (int slice = 0; slice < pattern->num_slices(); ++slice)
+      for (int wythe = 1; wythe < pattern->num_wythes; ++wythe) {
+        const int inner = pattern->at(ring, slice, wythe - 1), outer = pattern->at(ring, slice, wythe);
+        if (letter(inner) == 0 || letter(inner) != letter(outer)) continue;
+        const int a = root(inner), b = root(outer);
+        joined[std::max(a, b)] = std::min(a, b);
+        for (const int block : {inner, outer}) pattern->blocks[block].member = member;
+      }
+  for (int& block : pattern->block_of) {
+    if (block == kVoid) continue;
+    const int first = root(block);
+    if (pattern->blocks[block].truncated) pattern->blocks[first].truncated = true;
+    block = first;
+  }
+}
+
 int index_of(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<int>(std::ranges::find(names, name) - names.begin());
 }
@@ -140,6 +192,7 @@ void check_members(const std::vector<std::string>& names, const Masonry& masonry
 std::vector<std::string> member_names(const Masonry& masonry) {
   std::vector<std::string> names;
   for (const Wythe& wythe : masonry.wythes) names.push_back(wythe.name);
+  if (has_drawn_headers(masonry)) names.emplace_back(kHeaders);
   for (const Bonders& bonders : masonry.bonders)
     if (std::ranges::find(names, bonders.name) == names.end()) names.push_back(bonders.name);
   return names;
@@ -166,8 +219,9 @@ BondPattern make_wythe_bond(const Masonry& masonry, const BondGrid& grid,
   size_t next = 0;
   for (size_t i = 0; i < wythes.size(); ++i)
     if (wythes[i].bond) lay_wythe(wythes[i], own[next++], static_cast<int>(i), grid, heights, &pattern);
-  std::vector<int> laid = cells_per_block(pattern);
   const std::vector<std::string> names = member_names(masonry);  // those of the wythes first
+  join_headers(index_of(names, kHeaders), &pattern);
+  std::vector<int> laid = cells_per_block(pattern);
   for (const BonderPlaces& group : places)
     lay_bonders(group, index_of(names, group.bonders.name), index_of(names, group.bonders.from),
                 index_of(names, group.bonders.to), heights, &pattern);

@@ -58,6 +58,26 @@ std::vector<double> course_heights(const SurfaceMap& surface) {
   return heights;
 }
 
+/// m, of the first bed, on the intrados.
+double length_of_first_bed(const SurfaceMap& surface) {
+  constexpr int kSteps = 1000;  // beside the corners; the chords of a circle are 2e-6 too short
+  std::vector<double> abscissae = surface.corners;
+  for (int i = 0; i <= kSteps; ++i) abscissae.push_back(surface.extent * i / kSteps);
+  std::ranges::sort(abscissae);
+  double length = 0.0;
+  for (size_t i = 1; i < abscissae.size(); ++i)
+    length += (surface.intrados(0, abscissae[i]) - surface.intrados(0, abscissae[i - 1])).norm();
+  return length;
+}
+
+/// m, between the beds of the first course, on the intrados.
+double thickness_of_first_course(const SurfaceMap& surface) {
+  const double first = surface.first_row_held ? 1.0 : 0.0;
+  return (surface.intrados(first + surface.rows_per_ring, surface.first_corner) -
+          surface.intrados(first, surface.first_corner))
+      .norm();
+}
+
 std::vector<Thickness> thicknesses(const std::vector<Wythe>& wythes) {
   std::vector<Thickness> out;
   for (const Wythe& wythe : wythes) out.push_back(wythe.thickness);
@@ -97,8 +117,14 @@ Storey make_member(const Geometry& geometry, const Member& member, const std::st
                                             courses, stage > 0 ? stage : courses, geometry.support_width)
                            : make_surface(member.surface, courses, thicknesses(member.wythes));
   if (geometry.affine) apply(*geometry.affine, &surface);
-  const BondGrid grid{surface.num_rings(),         surface.closed, surface.extent, surface.corners,
-                      geometry.window.has_value(), stage};
+  const BondGrid grid{surface.num_rings(),
+                      surface.closed,
+                      surface.extent,
+                      surface.corners,
+                      geometry.window.has_value(),
+                      stage,
+                      length_of_first_bed(surface),
+                      thickness_of_first_course(surface)};
   BondPattern bond = lay_masonry(member, surface, grid);
   std::vector<std::string> names = names_of(geometry, member);
   if (last) lay_chains(geometry, grid, refinement, &bond);

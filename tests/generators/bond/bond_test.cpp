@@ -10,6 +10,7 @@
 #include "generators/bond/courses.hpp"
 #include "generators/bond/fill.hpp"
 #include "generators/bond/herringbone.hpp"
+#include "generators/bond/make_bond.hpp"
 #include "generators/generate.hpp"
 #include "tests/generators/models.hpp"
 #include "tests/test_names.hpp"
@@ -54,15 +55,7 @@ class OctagonBond : public testing::TestWithParam<Bond> {};
 // With 32 blocks per ring a quarter of a block is 2.8 deg and a sixth 1.9 deg.
 TEST_P(OctagonBond, HasNoJointOnACorner) {
   const BondGrid grid = octagon_grid(40);
-  const BondPattern bond = std::visit(
-      [&](const auto& b) {
-        using T = std::decay_t<decltype(b)>;
-        if constexpr (std::is_same_v<T, RunningBond>) return running_bond(b, grid);
-        if constexpr (std::is_same_v<T, StackBond>) return stack_bond(b, grid);
-        if constexpr (std::is_same_v<T, HerringboneBond>) return herringbone_bond(b, grid);
-        if constexpr (std::is_same_v<T, FillBond>) return fill_bond(b, grid);
-      },
-      GetParam());
+  const BondPattern bond = make_bond(GetParam(), grid);
   const double width = 2 * pi / 32;
   for (int ring = 0; ring < 40; ++ring)
     for (double joint : joints_of_ring(bond, ring, grid.extent))

@@ -1,0 +1,156 @@
+#include "generators/bond/drawn.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "generators/bond/drawing.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kMostCellsOfDrawing = 2e7;
+
+/// Number of letters along a course.
+int letters_of(const DrawnBond& bond, const BondGrid& grid) {
+  constexpr double kLargestError = 0.05;  // of the length of a letter
+  const double wanted = bond.letter_length / bond.refine;
+  const int unit = grid.closed ? static_cast<int>(bond.rows.front().size()) : 1;
+  const double units = std::max(1.0, std::round(grid.length / (unit * wanted)));
+  const double letters = units * unit, length = grid.length / letters;
+  if (letters * grid.num_rings > kMostCellsOfDrawing)
+    throw InputError(
+        fmt::format("geometry.bond.letter_length = {}: gives {:.3g} letters, more than 2e7; make it longer",
+                    bond.letter_length, letters * grid.num_rings));
+  if (std::abs(length / wanted - 1.0) > kLargestError)
+    throw InputError(fmt::format(
+        "geometry.bond.letter_length = {}: a course of {:.4g} m takes {} of {} letters, of {:.4g} m each; "
+        "write "
+        "letter_length: {:.4g}, or change the drawing",
+        bond.letter_length, grid.length, unit > 1 ? fmt::format("{:.0f} drawings", units) : "a whole number",
+        unit > 1 ? unit : static_cast<int>(letters), length, length * bond.refine));
+  return static_cast<int>(letters);
+}
+
+/// Letters from abscissa 0 to the drawing.
+double phase_of(const DrawnBond& bond, const BondGrid& grid) {
+  constexpr double kCornerPhase = 0.5;
+  const double phase = bond.phase.value_or(grid.closed && !grid.corners.empty() ? kCornerPhase : 0.0);
+  if (!grid.closed && phase != std::floor(phase))
+    throw InputError(
+        fmt::format("geometry.bond.phase = {}: must be a whole number of letters on an open surface", phase));
+  return phase;
+}
+
+/// The drawing on the cells of a course, which it covers from slice 0 on.
+class Laying {
+ public:
+  Laying(const DrawnBond& bond, const BondGrid& grid, int num_letters)
+      : grid_(grid), drawing_({&bond}), num_letters_(num_letters) {
+    const double phase = phase_of(bond, grid);
+    offset_ = static_cast<int>(std::floor(phase));
+    pattern_.num_rings = grid.num_rings;
+    pattern_.cuts = equal_cuts(grid.extent, grid.closed ? grid.extent * (phase - offset_) / num_letters : 0.0,
+                               num_letters);
+    pattern_.block_of.assign(static_cast<size_t>(grid.num_rings) * num_letters, kVoid);
+  }
+
+  BondPattern lay() && {
+    check_ring();
+    for (int ring = 0; ring < grid_.num_rings; ++ring)
+      for (int slice = 0; slice < num_letters_; ++slice)
+        if (pattern_.at(ring, slice) == kVoid && kind_at(ring, slice) >= 0) lay_block(ring, slice);
+    if (!grid_.closed) join_narrow_ends();
+    return std::move(pattern_);
+  }
+
+ private:
+  int kind_at(int ring, int slice) const { return drawing_.block_of(slice - offset_, ring, 0); }
+  int wrap(int slice) const { return grid_.closed ? (slice + num_letters_) % num_letters_ : slice; }
+
+  void check_ring() const {
+    for (const DrawnBlock& block : drawing_.blocks())
+      if (grid_.closed && block.width >= num_letters_)
+        throw InputError(
+            fmt::format("geometry.bond.rows: a block of {} letters {} does not fit into a ring of {}; make "
+                        "letter_length shorter",
+                        block.width, block.letter, num_letters_));
+  }
+
+  void lay_block(int ring, int slice) {
+    const int kind = kind_at(ring, slice), id = static_cast<int>(pattern_.blocks.size());
+    std::vector<std::pair<int, int>> cells{{ring, slice}};
+    pattern_.at(ring, slice) = id;
+    for (size_t i = 0; i < cells.size(); ++i) {
+      const auto [r, s] = cells[i];
+      for (const auto& [nr, ns] : {std::pair(r, wrap(s - 1)), {r, wrap(s + 1)}, {r - 1, s}, {r + 1, s}}) {
+        if (nr < 0 || nr >= grid_.num_rings || ns < 0 || ns >= num_letters_) continue;
+        if (pattern_.at(nr, ns) != kVoid || !same_block(r, s, nr, ns)) continue;
+        pattern_.at(nr, ns) = id;
+        cells.emplace_back(nr, ns);
+      }
+    }
+    const DrawnBlock& whole = drawing_.blocks()[static_cast<size_t>(kind)];
+    const double width = whole.width * grid_.length / num_letters_, height = whole.height * grid_.thickness;
+    BondBlock block{.truncated = static_cast<int>(cells.size()) < whole.cells, .letter = whole.letter};
+    if (height > width && whole.height > 1) block.kind = BlockKind::herringbone;
+    pattern_.blocks.push_back(block);
+    whole_width_.push_back(whole.width);
+  }
+
+  /// Neighbouring cells of one letter belong to one block, because they touch.
+  bool same_block(int ring, int slice, int other_ring, int other_slice) const {
+    const int a = kind_at(ring, slice), b = kind_at(other_ring, other_slice);
+    return a >= 0 && a == b;
+  }
+
+  /// Pieces at the two ends of a wall.
+  void join_narrow_ends() {
+    constexpr double kLeast = 0.25;  // of the width of the whole block
+    for (const int step : {1, -1})
+      for (int ring = 0; ring < grid_.num_rings; ++ring) {
+        const int end = step > 0 ? 0 : num_letters_ - 1, piece = pattern_.at(ring, end);
+        if (piece == kVoid || !pattern_.blocks[static_cast<size_t>(piece)].truncated) continue;
+        int width = 0;
+        while (width < num_letters_ && pattern_.at(ring, end + step * width) == piece) ++width;
+        if (width >= kLeast * whole_width_[static_cast<size_t>(piece)] || width == num_letters_) continue;
+        const int neighbour = pattern_.at(ring, end + step * width);
+        if (neighbour == kVoid) continue;
+        for (int i = 0; i < width; ++i) pattern_.at(ring, end + step * i) = neighbour;
+      }
+    drop_empty_blocks();
+  }
+
+  void drop_empty_blocks() {
+    std::vector<int> new_id(pattern_.blocks.size(), kVoid);
+    std::vector<BondBlock> kept;
+    for (int& block : pattern_.block_of) {
+      if (block == kVoid) continue;
+      int& id = new_id[static_cast<size_t>(block)];
+      if (id == kVoid) {
+        id = static_cast<int>(kept.size());
+        kept.push_back(pattern_.blocks[static_cast<size_t>(block)]);
+      }
+      block = id;
+    }
+    pattern_.blocks = std::move(kept);
+  }
+
+  const BondGrid& grid_;
+  Drawing drawing_;
+  int num_letters_, offset_ = 0;
+  BondPattern pattern_;
+  std::vector<int> whole_width_;  // letters, of each block as drawn
+};
+
+}  // namespace
+
+BondPattern drawn_bond(const DrawnBond& bond, const BondGrid& grid) {
+  BondPattern pattern = Laying(bond, grid, letters_of(bond, grid)).lay();
+  split_at_corners(grid, &pattern);
+  return pattern;
+}
+
+}  // namespace cupola
