@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
-#include "assembly/base/process.hpp"
 #include "assembly/export/export.hpp"
 #include "assembly/program/command_line.hpp"
 #include "postproc/analyse.hpp"
@@ -93,7 +92,7 @@ ExitCode run(int argc, char** argv) {
     return ExitCode::done;
   }
   if (command == "--version") {
-    fmt::print("cupola-post {}\n", program_version());
+    fmt::print("{}\n", version_line("cupola-post"));
     return ExitCode::done;
   }
   if (command == "--help" || command == "-h") {

@@ -48,6 +48,12 @@ std::vector<const char*> with_set_before_each_pair(int argc, const char* const* 
 
 }  // namespace
 
+std::string version_line(const std::string& program) {
+  return fmt::format(
+      "{} {}; binary: GPL-3.0-or-later, because the programs link CGAL and CHOLMOD; source: BSD-3-Clause",
+      program, program_version());
+}
+
 std::optional<ExitCode> parse_arguments(CLI::App& app, int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
@@ -64,7 +70,7 @@ CommandLine::CommandLine(const std::string& name, const std::string& description
                          const std::string& sample_runs)
     : app_(std::make_unique<CLI::App>(description, name)) {
   app_->footer("Sample runs:\n" + sample_runs);
-  app_->set_version_flag("--version", name + " " + program_version());
+  app_->set_version_flag("--version", version_line(name));
   // parse() checks the required options, because --schema needs none of them.
   app_->add_option("CASE", case_path_, "case file (.yaml)");
   app_->add_option("--set", set_options_,

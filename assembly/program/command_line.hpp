@@ -15,6 +15,9 @@ class App;
 
 namespace cupola {
 
+/// What --version prints: name, version and revision of this build, and under which licences it and its source are.
+std::string version_line(const std::string& program);
+
 /// Parses the arguments. Returns an exit code if the program is to stop: --help and --version print and
 /// return `done`. Throws InputError that names the option for bad usage.
 std::optional<ExitCode> parse_arguments(CLI::App& app, int argc, const char* const* argv);

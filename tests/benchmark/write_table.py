@@ -43,7 +43,7 @@ def revision_of(source):
     if len(versions) != 1:
         sys.exit(f"{path}: runs of {len(versions)} revisions; run them again:\n"
                  + "\n".join(f"  {version}: {' '.join(names)}" for version, names in versions.items()))
-    revision = next(iter(versions)).rpartition("(")[2].rstrip(")")
+    revision = next(iter(versions)).partition("(")[2].partition(")")[0]
     if revision.endswith("-dirty") or revision.startswith("unknown"):
         sys.exit(f"{path}: measured with changed or unknown sources (revision {revision}); commit, build and run again")
     return revision
