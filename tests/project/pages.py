@@ -8,7 +8,8 @@
   nor dirty. Tables of REMEASURE are still to be measured again; none may be added.
 - `0.408<!--= docs/data/ranges.md ranges brunelleschi_friction0.4 "max"-->`: page, table, row and heading of the cell
   that the number before the comment quotes, rounded to its digits. Parts with spaces stand in quotes, the first
-  cells of a row are joined by "|", and a fifth part multiplies the cell.
+  cells of a row are joined by "|", and a fifth part multiplies the cell. `114<!--= PAGE count right verdict-->` counts
+  the rows of all tables of the page with that text under that heading; "*" is any text.
 """
 import pathlib
 import re
@@ -77,13 +78,29 @@ def cell_of(text, table, row, heading):
     return float(number[0])
 
 
+def count_of(text, value, heading):
+    """Number of rows of all tables with the text under the heading; "*" is any text."""
+    total, header = 0, None
+    for line in text.split("\n"):
+        row = cells(line)
+        if not line.startswith("|"):
+            header = None
+        elif header is None:
+            header = row
+        elif heading in header and not set(line) <= set("|-: ") and value in ("*", row[header.index(heading)]):
+            total += 1
+    return total
+
+
 def quoted_numbers(root, name, text):
     faults = []
     for quote in QUOTE.finditer(text):
         number, source = quote[1].replace(",", ""), " ".join(quote[2].split())
         try:
             page, table, row, heading, *factor = shlex.split(source)
-            value = cell_of((root / page).read_text(), table, row, heading) * float((factor or ["1"])[0])
+            source_text = (root / page).read_text()
+            value = count_of(source_text, row, heading) if table == "count" else cell_of(source_text, table, row, heading)
+            value *= float((factor or ["1"])[0])
         except (LookupError, OSError, ValueError) as fault:
             faults.append(f"{name}: {number} ({source}): {fault}")
             continue
@@ -116,6 +133,7 @@ def check_the_checks(root):
     assert all(revisions("p", table.format(bad), set()) for bad in ("unknown", "fffe37b-dirty"))
     assert revisions("p", table.format("fffe37b"), {"p t"}) and not revisions("p", table.format("f-dirty"), {"p t"})
     assert cell_of(table, "t", "a", "max") == 0.408
+    assert count_of(table, "*", "max") == 1 and count_of(table, "a", "run") == 1 and count_of(table, "b", "run") == 0
     page = 'docs/data/ranges.md ranges brunelleschi_friction0.4 max'
     assert not quoted_numbers(root, "p", f"0.41<!--= {page}-->") and quoted_numbers(root, "p", f"0.42<!--= {page}-->")
     assert quoted_numbers(root, "p", f"0.41<!--= {page} x-->") and quoted_numbers(root, "p", "word<!--= x-->")
