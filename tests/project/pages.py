@@ -6,6 +6,8 @@
 - Lines of the documentation have at most 120 columns, except tables, code and the pages that programs write.
 - Every table between `<!-- table NAME -->` and `<!-- end -->` names the revision that measured it, neither unknown
   nor dirty. Tables of REMEASURE are still to be measured again; none may be added.
+- What `make -f Makefile.cases` runs on a page is a target, a case, a variant or a study; names that begin with my_ are
+  the reader's.
 - `0.408<!--= docs/data/ranges.md ranges brunelleschi_friction0.4 "max"-->`: page, table, row and heading of the cell
   that the number before the comment quotes, rounded to its digits. Parts with spaces stand in quotes, the first
   cells of a row are joined by "|", and a fifth part multiplies the cell. `114<!--= PAGE count right verdict-->` counts
@@ -25,6 +27,7 @@ REMEASURE = {
     *(f"tests/benchmark/README.md {table}" for table in (
         "detection", "methods", "gaps", "stepping", "blocks", "threads", "siconos", "scale", "refinement"))}
 BLOCK = re.compile(r"^<!-- table (\S+) -->$(.*?)^<!-- end -->$", re.S | re.M)
+COMMAND = re.compile(r"make -f (?:[~\w./]*/)?Makefile\.cases((?: +[\w.=\'/-]+)+)")
 QUOTE = re.compile(r"([-+]?\d[\d,]*\.?\d*(?:[eE][-+]?\d+)?)<!--=\s*(.*?)-->", re.S)
 
 
@@ -54,6 +57,20 @@ def revisions(name, text, remeasure):
         elif not clean and table not in remeasure:
             faults.append(f"{table}: revision {found[1] if found else 'missing'}; measure it from a clean tree")
     return faults
+
+
+def names_of_make(root):
+    names = {file.stem for folder in ("cases", "cases/studies") for file in (root / folder).glob("*.yaml")}
+    names |= {line.split()[0] for line in (root / "cases/variants.txt").read_text().split("\n") if line[:1].isalnum()}
+    targets = re.search(r"^TARGETS := (.*)$", (root / "Makefile.cases").read_text(), re.M)[1]
+    return names | set(targets.split())
+
+
+def dead_commands(name, text, known):
+    words = [word for command in COMMAND.finditer(text) for word in command[1].split()]
+    return [f"{name}: make {word}: no target, case, variant or study" for word in words
+            if not (word.startswith(("-", "my_", "mine")) or "=" in word or word.isupper() or word.startswith("NAME")
+                    or word.removesuffix("_assessment") in known)]
 
 
 def cells(line):
@@ -114,13 +131,14 @@ def quoted_numbers(root, name, text):
 
 
 def faults_of(root, remeasure):
-    faults = []
+    faults, known = [], names_of_make(root)
     pages = sorted([*root.glob("docs/*.md"), *root.glob("docs/data/*.md"), root / "tests/benchmark/README.md",
                     *(root / folder / "README.md" for folder in (".", "cases", "postproc"))])
     for page in pages:
         name, text = str(page.relative_to(root)), page.read_text()
         faults += [] if name in GENERATED else wide_lines(name, text)
         faults += revisions(name, text, remeasure) + quoted_numbers(root, name, text)
+        faults += dead_commands(name, text, known)
     return faults
 
 
@@ -133,6 +151,8 @@ def check_the_checks(root):
     assert all(revisions("p", table.format(bad), set()) for bad in ("unknown", "fffe37b-dirty"))
     assert revisions("p", table.format("fffe37b"), {"p t"}) and not revisions("p", table.format("f-dirty"), {"p t"})
     assert cell_of(table, "t", "a", "max") == 0.408
+    assert dead_commands("p", "`make -f Makefile.cases dome`", {"arch"})
+    assert not dead_commands("p", "`make -f ~/c/Makefile.cases -j2 A=1 arch my_b`, make -f Makefile.cases NAME", {"arch"})
     assert count_of(table, "*", "max") == 1 and count_of(table, "a", "run") == 1 and count_of(table, "b", "run") == 0
     page = 'docs/data/ranges.md ranges brunelleschi_friction0.4 max'
     assert not quoted_numbers(root, "p", f"0.41<!--= {page}-->") and quoted_numbers(root, "p", f"0.42<!--= {page}-->")
