@@ -52,7 +52,6 @@ std::string declaration_of(const SchemaRow& row) {
 
 // Keys without a shipped case. Give each one a case, or retire it; add none.
 const std::set<std::string> kWithoutCase = {"analysis.max_iterations",
-                                            "analysis.path.length",
                                             "analysis.range.quantities[].ring",
                                             "analysis.range.quantities[].sectors",
                                             "analysis.staged.allow_associated",
@@ -86,7 +85,6 @@ const std::set<std::string> kWithoutCase = {"analysis.max_iterations",
                                             "joints.friction_time.file",
                                             "loads.dead_load_time.file",
                                             "loads.faces[].time.file",
-                                            "loads.forces[].time",
                                             "loads.forces[].time.file",
                                             "supports.base_motion",
                                             "supports.base_motion.direction",
