@@ -24,7 +24,7 @@ Case octagon(std::vector<std::string> more) {
 Case imported(Case scene) {
   const std::string path = test::fresh_folder("imported_courses") + "/octagon.obj";
   write_export(path, {cut_assembly(scene), {}, {}});
-  scene.geometry = {};
+  scene.geometry = Geometry{};
   scene.geometry.imported.emplace();
   scene.geometry.imported->path = path;
   scene.geometry.imported->fixed_by = ImportedBlocks::SupportRule::lowest;

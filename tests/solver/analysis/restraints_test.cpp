@@ -64,6 +64,7 @@ TEST(Restraints, HoldTheHeadOfAWallAlongAPath) {
   Case scene = pushed_wall(weight);
   scene.loads.forces[0].time = RampInTime{};
   scene.analysis.type = AnalysisType::path;
+  scene.analysis.tolerance = 1e-8;
   scene.analysis.path.steps = 20;
   scene.analysis.path.end = 0.2;
   scene.analysis.path.control = LoadPath::Control{BlockRef{1}, {}, Vec3::UnitY()};
