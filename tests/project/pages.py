@@ -133,7 +133,7 @@ def quoted_numbers(root, name, text):
 def faults_of(root, remeasure):
     faults, known = [], names_of_make(root)
     pages = sorted([*root.glob("docs/*.md"), *root.glob("docs/data/*.md"), root / "tests/benchmark/README.md",
-                    *(root / folder / "README.md" for folder in (".", "cases", "postproc"))])
+                    *(root / folder / "README.md" for folder in (".", "cases", "generators", "solver", "postproc"))])
     for page in pages:
         name, text = str(page.relative_to(root)), page.read_text()
         faults += [] if name in GENERATED else wide_lines(name, text)
