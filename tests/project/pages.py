@@ -23,7 +23,7 @@ GENERATED = {"docs/columns.md", "docs/data/verification.md"}
 REMEASURE = {
     "docs/walls.md walls", "docs/strength.md mortar", "docs/strength.md ranges", "docs/data/accuracy.md features",
     "docs/data/ranges.md ranges", "docs/data/ranges.md limits",
-    "docs/data/ranges.md spirals_64", "docs/data/ranges.md spirals_160",
+    "docs/data/ranges.md spirals_160",
     *(f"tests/benchmark/README.md {table}" for table in (
         "detection", "methods", "gaps", "stepping", "blocks", "threads", "siconos", "scale", "refinement"))}
 BLOCK = re.compile(r"^<!-- table (\S+) -->$(.*?)^<!-- end -->$", re.S | re.M)
