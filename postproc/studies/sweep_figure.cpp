@@ -54,12 +54,17 @@ bool is_positive(const Table& table, size_t column) {
                       [column](const auto& row) { return number_of(row[column]) < 0.0; });
 }
 
-/// The unit of a panel and its factor: lengths below one metre in mm.
+/// The unit of a panel and its factor: lengths below one metre in mm, forces in kN or MN.
 std::pair<double, std::string> readable_unit(const Table& table, size_t column) {
   const std::string& unit = table.columns[column].unit;
   const bool small = std::none_of(table.rows.begin(), table.rows.end(), [column](const auto& row) {
     return std::abs(number_of(row[column])) >= 1.0;
   });
+  double largest = 0.0;
+  for (const auto& row : table.rows)
+    if (const double v = std::abs(number_of(row[column])); std::isfinite(v)) largest = std::max(largest, v);
+  if (unit == "N")
+    return largest < 1e6 ? std::pair(1e-3, std::string("kN")) : std::pair(1e-6, std::string("MN"));
   return unit == "m" && small ? std::pair(1e3, std::string("mm")) : std::pair(1.0, unit);
 }
 
