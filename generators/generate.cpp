@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/case/keys_without_effect.hpp"
 #include "assembly/case/plausibility.hpp"
@@ -100,13 +99,18 @@ Assembly generate(const Case& input, GenerateReport* report) {
     assembly.title = input.title;
     assembly.geometry_hash = input.geometry_hash;
     Case resolved = input;
-    refuse_keys_without_effect(input, assembly);
     resolve_block_names(assembly, &resolved.loads, &resolved.ties, &resolved.supports);
-    report->model =
-        check_model(assembly,
-                    imported_tolerances(assembly, report->import->facet_angle,
-                                        joint_rule(smallest_block_size(assembly), input.contact.margin)),
-                    report->import->origins);
+    const auto check = [&] {
+      report->model =
+          check_model(assembly,
+                      imported_tolerances(assembly, report->import->facet_angle,
+                                          joint_rule(smallest_block_size(assembly), input.contact.margin)),
+                      report->import->origins);
+    };
+    check();
+    if (fix_ends(*geometry.imported, report->model.joint_faces, &assembly) > 0) check();
+    report->import->courses = set_courses(report->model.joint_faces, geometry.imported->axis, &assembly);
+    refuse_keys_without_effect(input, assembly);
     return with_report(std::move(assembly), *report, resolved);
   }
   Assembly assembly = cut_assembly(input);
@@ -133,10 +137,7 @@ std::string to_text(const GenerateReport& report) {
 std::vector<std::string> warnings_of(const GenerateReport& report) {
   if (!report.import) return warnings_of(report.model);
   std::vector<std::string> warnings = warnings_of(report.model, report.import->origins);
-  if (report.import->sliver_parts > 0)
-    warnings.push_back(
-        fmt::format("{}, thinner than 1e-3 of the size",
-                    counted(report.import->sliver_parts, "part is a sliver", "parts are slivers")));
+  for (std::string& text : warnings_of(*report.import)) warnings.push_back(std::move(text));
   return warnings;
 }
 

@@ -93,6 +93,11 @@ std::string report_json(const Assembly& assembly, const GenerateReport& report) 
                     {"snapped_facets", i.snapped_facets},
                     {"sliver_parts", i.sliver_parts},
                     {"largest_volume_error", i.largest_volume_error},
+                    {"doubled_faces", i.doubled_faces},
+                    {"volume_m3", i.volume_of_parts},
+                    {"drawn_volume_m3", i.drawn_volume},
+                    {"courses", i.courses.courses},
+                    {"courses_refused", i.courses.refusal},
                     {"ties", i.ties}};
   for (size_t b = 0; b < i.origins.size(); ++b)
     json["import"]["parts_per_block"].push_back({{"block", i.origins[b].name}, {"parts", i.parts[b]}});

@@ -27,6 +27,8 @@ struct ContactDetection {
   /// which the shrunk shapes are swept. 0: 1 % of the size (cube root of the volume) of the smallest free
   /// block.
   double margin = 0.0;
+  enum class InitialGaps { keep, ignore };
+  InitialGaps initial_gaps = InitialGaps::keep;  ///< ignore: joints are closed and free of stress as drawn
   int subdivide =
       1;  ///< >= 1: the contact points of compliance per area are those of subdivide^2 pieces of a joint
 
@@ -41,6 +43,9 @@ struct ContactDetection {
 
   std::string file;  ///< file of contact points, for method `file`
 };
+constexpr auto enum_names(ContactDetection::InitialGaps) {
+  return std::array{"keep", "ignore"};
+}
 constexpr auto enum_names(ContactDetection::Method) {
   return std::array{"face_clipping", "perturbed_gjk", "file"};
 }

@@ -73,6 +73,8 @@ void declare_case(Section& s, Case& the_case) {
   s.section("ties", the_case.ties, "ties between two blocks", declare_ties);
   s.section("supports", the_case.supports, "motion imposed on fixed blocks", declare_supports);
   s.section("analysis", the_case.analysis, "type of analysis, method and accuracy", declare_analysis);
+  s.rule(the_case.supports.restraints.empty() || the_case.analysis.type != AnalysisType::staged, "supports",
+         "restraints are not part of the stages of construction: remove supports.restraints");
   s.section("output", the_case.output, "what is written during the analysis", declare_output);
   s.section("postproc", the_case.postproc, "meridians, sections and planes to evaluate", declare_postproc);
   declare_strength_rules(s, the_case);

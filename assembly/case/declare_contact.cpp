@@ -10,6 +10,10 @@ void declare_contact(Section& s, ContactDetection& contact) {
   s.number("margin", contact.margin, {.unit = "m", .min = 0},
            "faces up to this far apart make contacts; perturbed_gjk also rounds edges by this radius; 0: 1 % "
            "of the smallest block's size");
+  s.choice(
+      "initial_gaps", contact.initial_gaps,
+      "`ignore`: gaps and overlaps up to the margin are errors of the drawing; joints are closed and free "
+      "of stress as drawn");
   s.integer(
       "subdivide", contact.subdivide, {.min = 1, .max = 64},
       "compliance per area: cut each joint into this number squared of pieces with contact points each; "

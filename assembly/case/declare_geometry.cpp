@@ -294,13 +294,18 @@ void declare_import(Section& s, ImportedBlocks& import) {
   s.choice("format", import.format,
            "format of the file; automatic: chosen by the file name extension (.json: compas, .csv and .txt: "
            "bricks)");
-  s.number("metres_per_unit", import.metres_per_unit, {.unit = "m", .above = 0},
-           "length of the file's unit in metres");
+  s.optional_number("metres_per_unit", import.metres_per_unit, {.unit = "m", .above = 0}, "1",
+                    "length of the file's unit in metres; required if the model would be larger than 1 km or "
+                    "smaller than 50 mm");
   s.choice("up", import.up, "axis of the file that points upward");
   s.texts("supports", import.supports, "names of the blocks to fix");
   s.flag("flagged_supports", import.flagged_supports, "fix the blocks that the file marks as fixed");
   s.optional_number("fixed_below", import.fixed_below, {.unit = "m"}, "none",
                     "fix the blocks whose centroid lies below this height");
+  s.choice("fixed_by", import.fixed_by,
+           "fix the blocks with a corner in the lowest plane of the model, or those with a single neighbour");
+  s.optional_vector3("axis", import.axis, {.unit = "m"}, "through the centroid of the supports",
+                     "a point of the vertical axis from which `outward` points");
   s.list("densities", import.densities, "densities of particular blocks", declare_block_density);
   s.file("springs", import.springs, "file of springs that carry tension only (brick CSV)");
   s.file("rods", import.rods, "file of rigid rods (brick CSV)");

@@ -101,10 +101,22 @@ void declare_ties(Section& s, Ties& ties) {
            "stiffness that replaces the infinite one of imported rigid rods");
 }
 
+void declare_restraint(Section& s, Restraint& restraint) {
+  s.required_block("block", restraint.block, "number or name of the block");
+  s.optional_vector3("point", restraint.point, {.unit = "m"}, "centroid",
+                     "held point, in the as-built geometry");
+  s.vector3("direction", restraint.direction, {},
+            "direction in which it is held, both ways; across it the point moves freely");
+  s.rule(restraint.direction.norm() > 0.0, "direction", "must not be zero");
+  s.number("stiffness", restraint.stiffness, {.unit = "N/m", .above = 0}, "of the restraint");
+}
+
 void declare_supports(Section& s, Supports& supports) {
   s.optional_section("base_motion", supports.base_motion, "ground motion, followed by all fixed blocks",
                      declare_base_motion);
   s.list("moves", supports.moves, "displacements imposed on fixed blocks", declare_move);
+  s.list("restraints", supports.restraints,
+         "points held in one direction, without friction: rollers and props", declare_restraint);
 }
 
 }  // namespace cupola

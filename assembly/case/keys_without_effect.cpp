@@ -17,7 +17,7 @@ class Refusal {
   void unless(bool holds, const std::string& message) const {
     if (!holds) throw InputError(FileLocation{file_}, message);
   }
-  /// For a key that selects courses from `ring` upwards. Imported blocks have one course, 0.
+  /// For a key that selects courses from `ring` upwards. Imported blocks without courses have one, 0.
   void course(const std::string& key, int ring) const {
     const int last = std::max(0, assembly_.num_rings - 1);
     unless(ring <= last,
@@ -74,7 +74,7 @@ void refuse_keys_without_effect(const Case& scene, const Assembly& assembly) {
   if (analysis.type != AnalysisType::staged) return;
   refuse.unless(
       assembly.num_rings > 0,
-      "analysis.type: staged requires blocks in courses, which imported blocks are not; use type: static");
+      "analysis.type: staged requires blocks in courses, and the import found none; use type: static");
   check_sequence(analysis.staged.sequence, assembly, refuse);
 }
 

@@ -187,10 +187,10 @@ void check(const Assembly& assembly, const std::string& path) {
   for (size_t i = 0; i < assembly.sheets.size(); ++i) {
     const Sheet& sheet = assembly.sheets[i];
     const int first = i == 0 ? 0 : assembly.sheets[i - 1].first_ring + assembly.sheets[i - 1].num_rings;
-    require(sheet.first_ring == first && sheet.num_rings > 0 &&
+    require(sheet.first_ring == first && (sheet.num_rings > 0 || assembly.num_rings == 0) &&
                 sheet.num_rings <= assembly.num_rings - first && sheet.sails > 0 &&
                 sheet.origin.allFinite() && std::isfinite(sheet.turn) && !(i == 0 && sheet.on_previous) &&
-                sheet.thrust_lines <= Sheet::ThrustLines::by_azimuth,
+                sheet.thrust_lines <= Sheet::ThrustLines::radial,
             "sheet", i);
   }
   for (size_t k = 0; k < assembly.ties.size(); ++k) {

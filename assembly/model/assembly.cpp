@@ -72,7 +72,7 @@ std::pair<int, int> Assembly::stack_of(int ring) const {
 }
 
 Vec3 Assembly::outward(int ring, const Vec3& point) const {
-  const Sheet* sheet = sheet_of(ring);
+  const Sheet* sheet = num_rings == 0 && !sheets.empty() ? &sheets.front() : sheet_of(ring);
   const std::optional<Vec3> direction = sheet ? sheet->outward(point) : std::nullopt;
   return direction ? *direction : outward_at(point, false);
 }

@@ -80,6 +80,7 @@ void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Sup
     names.resolve("ties.pairs", &pair.block_a);
     names.resolve("ties.pairs", &pair.block_b);
   }
+  for (Restraint& restraint : supports->restraints) names.resolve("supports.restraints", &restraint.block);
   for (SupportMove& move : supports->moves)
     for (BlockRef& block : move.blocks) names.resolve("supports.moves", &block);
 }

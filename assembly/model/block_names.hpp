@@ -24,6 +24,6 @@ void resolve_block_name(const Assembly& assembly, const char* key, BlockRef* blo
 
 /// What to do about an imported model without supports.
 inline constexpr const char* kNoBlockIsFixed =
-    "no block is fixed: set geometry.import.supports, flagged_supports or fixed_below";
+    "no block is fixed: set geometry.import.supports, flagged_supports, fixed_by or fixed_below";
 
 }  // namespace cupola

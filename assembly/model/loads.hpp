@@ -102,9 +102,18 @@ struct SupportMove {
   TimeFunction time;
 };
 
+/// Holds a point of a block in one direction, both ways and without friction, against the ground.
+struct Restraint {
+  BlockRef block;
+  std::optional<Vec3> point;       ///< m, world, as built; none: the centroid
+  Vec3 direction = Vec3::UnitX();  ///< not zero; its length does not matter
+  double stiffness = 1e10;         ///< N/m, > 0
+};
+
 struct Supports {
   std::optional<BaseMotion> base_motion;
   std::vector<SupportMove> moves;
+  std::vector<Restraint> restraints;
   bool moving() const { return base_motion.has_value() || !moves.empty(); }
 };
 

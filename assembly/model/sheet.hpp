@@ -12,8 +12,9 @@ namespace cupola {
 /// each other in the order of their numbers. The courses of several sheets have different numbers. Sheets on each other are a
 /// stack.
 struct Sheet {
-  /// Where thrust lines are drawn: nowhere, in the x-z plane of an arch, or at any azimuth about the z axis.
-  enum class ThrustLines : std::uint8_t { none, one, by_azimuth };
+  /// Where thrust lines are drawn: nowhere, in the x-z plane of an arch, or at any azimuth about the z axis. `radial`: nowhere,
+  /// but outwards is away from the axis, as in a vault on several springers.
+  enum class ThrustLines : std::uint8_t { none, one, by_azimuth, radial };
 
   std::string name;
   int first_ring = 0;   ///< number of its first course

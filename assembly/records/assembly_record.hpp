@@ -67,7 +67,7 @@ void fields(Visitor&& visit, Is<Sheet> auto& s) {
   visit(
       "sheet_thrust_lines", "",
       "where thrust lines are drawn, and what is outwards: 0 nowhere (a wall), 1 in its x-z plane (an arch), "
-      "2 at any azimuth about its axis",
+      "2 at any azimuth about its axis, 3 nowhere, but outwards is away from its axis",
       s.thrust_lines);
   visit("sheet_sails", "", "equal parts about its axis", s.sails);
   visit("sheet_on_previous", "", "1: its first bed lies on the last bed of the sheet before", s.on_previous);

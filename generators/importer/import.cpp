@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
@@ -80,7 +82,7 @@ std::vector<RawBlock> read_all(const ImportedBlocks& source) {
 /// Converts a point from the units and axes of the file to metres with z up.
 Vec3 to_world(const ImportedBlocks& source, const Vec3& p) {
   const Vec3 turned = source.up == ImportedBlocks::UpAxis::y ? Vec3(p.x(), -p.z(), p.y()) : p;
-  return source.metres_per_unit * turned;
+  return source.metres_per_unit.value_or(1.0) * turned;
 }
 
 /// Throws InputError for a name that no block has.
@@ -114,19 +116,41 @@ void place_in_world(const ImportedBlocks& source, std::vector<RawBlock>* blocks)
   }
 }
 
+/// Measures the model. Throws InputError if it has the size of no structure and the case does not state the unit.
+void measure_extents(const ImportedBlocks& source, const std::vector<RawBlock>& blocks,
+                     ImportReport* report) {
+  constexpr double kSmallest = 0.05, kLargest = 1e3;  // m
+  Eigen::AlignedBox3d box;
+  for (const RawBlock& block : blocks) {
+    for (const Vec3& v : block.mesh.vertices) box.extend(v);
+    for (const auto& part : block.point_parts)
+      for (const Vec3& v : part) box.extend(v);
+  }
+  report->low = box.min();
+  report->high = box.max();
+  const double size = box.sizes().maxCoeff();
+  if (source.metres_per_unit || (size >= kSmallest && size <= kLargest)) return;
+  throw InputError(
+      FileLocation{source.path},
+      fmt::format("the model is {:.3g} m large{}: set geometry.import.metres_per_unit, 1 if these are metres",
+                  size, size > kLargest ? "; is it drawn in millimetres (metres_per_unit: 0.001)?" : ""));
+}
+
 /// Repaired surfaces. A block given by point clouds has one per part, other blocks have one.
 struct Surfaces {
   std::vector<TriangleMesh> meshes;
   std::vector<int> block;  // per mesh
 };
 
-Surfaces repair_all(const std::vector<RawBlock>& blocks) {
+Surfaces repair_all(const std::vector<RawBlock>& blocks, ImportReport* report) {
   constexpr double kWeld = 1e-6;  // of the block size: vertices closer than this are merged
   Surfaces surfaces;
   for (size_t b = 0; b < blocks.size(); ++b) {
     const RawBlock& raw = blocks[b];
     if (raw.point_parts.empty()) {
-      surfaces.meshes.push_back(repair_mesh(raw, kWeld));
+      int doubled = 0;
+      surfaces.meshes.push_back(repair_mesh(raw, kWeld, &doubled));
+      report->doubled_faces += doubled;
       surfaces.block.push_back(static_cast<int>(b));
     }
     for (const auto& points : raw.point_parts) {
@@ -207,35 +231,97 @@ void append_blocks(const std::vector<RawBlock>& raw, const Surfaces& surfaces,
   }
 }
 
-/// Computes volume, mass and inertia of blocks from their surfaces, which the parts fill only within the
-/// unevenness of the facets.
-void weigh_surfaces(const std::vector<RawBlock>& raw, const Surfaces& surfaces, Assembly* assembly) {
-  for (size_t m = 0; m < surfaces.meshes.size(); ++m) {
-    if (!raw[surfaces.block[m]].point_parts.empty()) continue;
-    Assembly surface;
-    surface.vertices = surfaces.meshes[m].vertices;
-    surface.parts.emplace_back();
-    for (const auto& triangle : surfaces.meshes[m].triangles) surface.add_face(triangle, FaceKind::free);
-    const SolidProperties solid = solid_properties(surface, surface.parts.front());
-    Block& block = assembly->blocks[surfaces.block[m]];
-    block.volume = solid.volume;
-    block.mass = block.density * solid.volume;
-    block.centroid = solid.centroid;
-    block.inertia = block.density * solid.inertia;
+/// m3, of a surface as drawn: each polygon as a fan about the mean of its corners, which for four corners bounds the volume of
+/// the bilinear face.
+double drawn_volume(const TriangleMesh& mesh) {
+  const Vec3 origin = mesh.vertices.front();
+  double volume = 0.0;
+  const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    volume += (a - origin).dot((b - origin).cross(c - origin)) / 6.0;
+  };
+  for (std::vector<int>& triangles : triangles_of_polygons(mesh)) {
+    std::vector<int> loop;
+    if (triangles.size() > 1) loop = facet_loop(mesh, mean_facet(mesh, triangles));
+    Vec3 mean = Vec3::Zero();
+    for (const int v : loop) mean += mesh.vertices[v] / static_cast<double>(loop.size());
+    for (size_t i = 0; i < loop.size(); ++i)
+      add(mean, mesh.vertices[loop[i]], mesh.vertices[loop[(i + 1) % loop.size()]]);
+    if (loop.empty())
+      for (const int t : triangles) add(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  }
+  return volume;
+}
+
+std::vector<double> drawn_volumes(const Surfaces& surfaces, size_t num_blocks) {
+  std::vector<double> volumes(num_blocks, 0.0);
+  for (size_t m = 0; m < surfaces.meshes.size(); ++m)
+    volumes[surfaces.block[m]] += drawn_volume(surfaces.meshes[m]);
+  return volumes;
+}
+
+/// Compares the volumes of the blocks, which are those of their parts, with those of their drawings.
+void compare_volumes(const std::vector<double>& drawn, const Assembly& assembly, ImportReport* report) {
+  for (size_t b = 0; b < drawn.size(); ++b) {
+    const double volume = assembly.blocks[b].volume;
+    report->drawn_volume += drawn[b];
+    report->volume_of_parts += volume;
+    const double change = volume / drawn[b] - 1.0;
+    if (std::abs(change) <= std::abs(report->most_changed)) continue;
+    report->most_changed = change;
+    report->most_changed_block = static_cast<int>(b);
   }
 }
 
-void fix_supports(const ImportedBlocks& source, const std::vector<RawBlock>& raw, Assembly* assembly) {
+void fix(int block, Assembly* assembly) {
+  assembly->blocks[block].fixed = true;
+  assembly->blocks[block].kind = BlockKind::support;
+  assembly->blocks[block].ring = -1;
+  for (Part& part : assembly->parts)
+    if (part.block == block) part.ring = -1;
+}
+
+/// Per block, the z of its lowest corner, m.
+std::vector<double> lowest_corners(const Assembly& assembly) {
+  std::vector<double> lowest(assembly.blocks.size(), std::numeric_limits<double>::infinity());
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      for (const int v : assembly.face(f))
+        lowest[part.block] = std::min(lowest[part.block], assembly.vertices[v].z());
+  return lowest;
+}
+
+void fix_supports(const ImportedBlocks& source, const std::vector<RawBlock>& raw, const ImportReport& report,
+                  Assembly* assembly) {
+  constexpr double kSamePlane = 1e-3;  // of the height of the model
   const std::set<std::string> named(source.supports.begin(), source.supports.end());
-  for (size_t b = 0; b < raw.size(); ++b) {
-    Block& block = assembly->blocks[b];
-    block.fixed = named.contains(raw[b].name) || (source.flagged_supports && raw[b].fixed) ||
-                  (source.fixed_below && block.centroid.z() < *source.fixed_below);
+  const std::vector<double> lowest = lowest_corners(*assembly);
+  const double plane = report.low.z() + kSamePlane * (report.high.z() - report.low.z());
+  for (size_t b = 0; b < raw.size(); ++b)
+    if (named.contains(raw[b].name) || (source.flagged_supports && raw[b].fixed) ||
+        (source.fixed_below && assembly->blocks[b].centroid.z() < *source.fixed_below) ||
+        (source.fixed_by == ImportedBlocks::SupportRule::lowest && lowest[b] <= plane))
+      fix(static_cast<int>(b), assembly);
+}
+
+/// If the supports lie at the lower end of the file's y axis and not at that of z, y is probably upward.
+std::string doubt_of_axes(const ImportedBlocks& source, const ImportReport& report,
+                          const Assembly& assembly) {
+  constexpr double kBottom = 0.15, kMiddle = 0.25;  // of the extents
+  const Vec3 extents = report.high - report.low;
+  Vec3 mean = Vec3::Zero();
+  double highest = 0.0;
+  int count = 0;
+  for (const Block& block : assembly.blocks) {
     if (!block.fixed) continue;
-    block.kind = BlockKind::support;
-    block.ring = -1;
+    const Vec3 share = (block.centroid - report.low).cwiseQuotient(extents);
+    mean += share;
+    highest = std::max(highest, share.y());
+    ++count;
   }
-  for (Part& part : assembly->parts) part.ring = assembly->blocks[part.block].ring;
+  if (count == 0 || source.up == ImportedBlocks::UpAxis::y || highest > kBottom) return {};
+  if (mean.z() / count < kMiddle) return {};
+  return "all supports lie at the lower end of y, and not at that of z: if y is upward in the file, set "
+         "geometry.import.up: y";
 }
 
 std::vector<BuiltTie> read_ties(const ImportedBlocks& source, const std::vector<RawBlock>& raw) {
@@ -250,8 +336,8 @@ std::vector<BuiltTie> read_ties(const ImportedBlocks& source, const std::vector<
     for (const std::string& name : {row.block_a, row.block_b})
       if (!block_of.contains(name)) throw InputError(row.where, fmt::format("no block is named '{}'", name));
     ties.push_back({block_of[row.block_a], block_of[row.block_b], to_world(source, row.point_a),
-                    to_world(source, row.point_b), row.stiffness, row.length * source.metres_per_unit,
-                    row.pushes});
+                    to_world(source, row.point_b), row.stiffness,
+                    row.length * source.metres_per_unit.value_or(1.0), row.pushes});
   }
   return ties;
 }
@@ -263,18 +349,60 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
   if (!report) report = &unused;
   std::vector<RawBlock> raw = read_all(source);
   place_in_world(source, &raw);
-  Surfaces surfaces = repair_all(raw);
+  measure_extents(source, raw, report);
+  Surfaces surfaces = repair_all(raw, report);
+  const std::vector<double> drawn = drawn_volumes(surfaces, raw.size());
   const DecompositionOptions options = choose_tolerances(source, surfaces.meshes, report);
   if (report->snap > 0.0) report->snapped_facets = snap_facets(&surfaces.meshes, options, report->snap);
 
   Assembly assembly;
   append_blocks(raw, surfaces, options, density, &assembly, report);
   compute_mass_properties(&assembly);
-  weigh_surfaces(raw, surfaces, &assembly);
-  fix_supports(source, raw, &assembly);
+  compare_volumes(drawn, assembly, report);
+  fix_supports(source, raw, *report, &assembly);
+  report->doubt_of_axes = doubt_of_axes(source, *report, assembly);
   assembly.ties = read_ties(source, raw);
   report->ties = static_cast<int>(assembly.ties.size());
   return assembly;
+}
+
+int fix_ends(const ImportedBlocks& source, std::span<const FacePair> joints, Assembly* assembly) {
+  if (source.fixed_by != ImportedBlocks::SupportRule::one_neighbour) return 0;
+  std::vector<std::set<int>> neighbours(assembly->blocks.size());
+  for (const FacePair& joint : joints) {
+    const int a = assembly->parts[joint.part_a].block, b = assembly->parts[joint.part_b].block;
+    neighbours[a].insert(b);
+    neighbours[b].insert(a);
+  }
+  int ends = 0;
+  for (size_t b = 0; b < neighbours.size(); ++b) {
+    if (neighbours[b].size() != 1 || assembly->blocks[b].fixed) continue;
+    fix(static_cast<int>(b), assembly);
+    ++ends;
+  }
+  return ends;
+}
+
+std::vector<std::string> warnings_of(const ImportReport& r) {
+  constexpr double kNoticeable = 0.01;  // of a volume
+  std::vector<std::string> warnings;
+  if (r.sliver_parts > 0)
+    warnings.push_back(fmt::format("{}, thinner than 1e-3 of the size",
+                                   counted(r.sliver_parts, "part is a sliver", "parts are slivers")));
+  if (r.doubled_faces > 0)
+    warnings.push_back(counted(r.doubled_faces, "face repeats", "faces repeat") +
+                       " another one of the same block; the repetition is dropped");
+  if (r.drawn_volume > 0.0 && std::abs(r.volume_of_parts / r.drawn_volume - 1.0) > kNoticeable)
+    warnings.push_back(fmt::format(
+        "the blocks have {:.4g} m3, and their drawing {:.4g} m3: warped faces were split into plane ones",
+        r.volume_of_parts, r.drawn_volume));
+  if (std::abs(r.most_changed) > kNoticeable)
+    warnings.push_back(fmt::format(
+        "block {} has {:.1f} % {} volume than its drawing: its warped faces were split into plane ones",
+        r.origins[static_cast<size_t>(r.most_changed_block)].name, 100.0 * std::abs(r.most_changed),
+        r.most_changed > 0.0 ? "more" : "less"));
+  if (!r.doubt_of_axes.empty()) warnings.push_back(r.doubt_of_axes);
+  return warnings;
 }
 
 std::string to_text(const ImportReport& r) {
@@ -283,6 +411,14 @@ std::string to_text(const ImportReport& r) {
       "{} by Nef polyhedra; largest relative volume error {:.1e}\n",
       counted(r.origins.size(), "block"), counted(r.already_convex, "piece"), r.by_planes, r.as_prisms,
       r.by_nef, r.largest_volume_error);
+  text += fmt::format(
+      "extents x {:.4g} to {:.4g} m, y {:.4g} to {:.4g} m, z {:.4g} to {:.4g} m; volume {:.6g} m3, as drawn "
+      "{:.6g} m3\n",
+      r.low.x(), r.high.x(), r.low.y(), r.high.y(), r.low.z(), r.high.z(), r.volume_of_parts, r.drawn_volume);
+  if (r.courses.courses > 0)
+    text += fmt::format("{} found: {}\n", counted(r.courses.courses, "course"), r.courses.kind);
+  else if (!r.courses.refusal.empty())
+    text += fmt::format("no courses: {}\n", r.courses.refusal);
   constexpr int kListed = 10;
   int several = 0;
   for (size_t b = 0; b < r.origins.size(); ++b)

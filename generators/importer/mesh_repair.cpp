@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -81,6 +82,17 @@ PolygonMesh weld_vertices(const PolygonMesh& mesh, double distance) {
   return welded;
 }
 
+/// Drops the faces that have the corners of an earlier one. Returns how many.
+int drop_doubled_faces(PolygonMesh* mesh) {
+  std::set<std::vector<int>> known;
+  const auto is_new = [&](const std::vector<int>& face) {
+    std::vector<int> corners = face;
+    std::ranges::sort(corners);
+    return known.insert(std::move(corners)).second;
+  };
+  return static_cast<int>(std::erase_if(mesh->faces, [&](const auto& face) { return !is_new(face); }));
+}
+
 /// The surface as a soup of triangles. A face that triangulate_polygon() cannot split remains a polygon.
 struct Soup {
   Polygons polygons;
@@ -124,10 +136,12 @@ TriangleMesh to_triangles(const SurfaceMesh& surface) {
 
 }  // namespace
 
-TriangleMesh repair_mesh(const RawBlock& block, double weld) {
+TriangleMesh repair_mesh(const RawBlock& block, double weld, int* doubled) {
   for (const Vec3& v : block.mesh.vertices)
     if (!v.allFinite()) fail(block, "a coordinate is not finite");
-  const PolygonMesh welded = weld_vertices(block.mesh, weld * extent(block.mesh.vertices));
+  PolygonMesh welded = weld_vertices(block.mesh, weld * extent(block.mesh.vertices));
+  const int dropped = drop_doubled_faces(&welded);
+  if (doubled) *doubled = dropped;
   if (welded.faces.empty()) fail(block, "all faces have zero area");
   std::vector<Point> points;
   for (const Vec3& v : welded.vertices) points.emplace_back(v.x(), v.y(), v.z());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -91,6 +92,7 @@ void measure_shape(const Assembly& assembly, const ConvexShape& shape, double bo
 struct Meeting {
   double gap = 0.0;    // m, between their planes
   double width = 0.0;  // m, of their overlap
+  int face_a = 0, face_b = 0;
 };
 
 /// The widest overlap of two opposed faces within the gap of a joint, or none.
@@ -108,7 +110,7 @@ std::optional<Meeting> meeting_of(const Assembly& assembly, const ConvexShape& a
       const double gap = std::abs(p.normal.dot(polygon_centroid(face_b)) - p.offset);
       if (gap > tolerances.joint_gap) continue;
       const double width = overlap_width(face_a, face_b, p.normal);
-      if (!widest || width > widest->width) widest = {gap, width};
+      if (!widest || width > widest->width) widest = {gap, width, a.faces[i], b.faces[j]};
       if (widest->width > tolerances.joint_width) return widest;
     }
   return widest;
@@ -138,10 +140,39 @@ std::string places_of_members(const Assembly& assembly, int a, int b) {
                      name(a), name(b), p.x(), p.y(), p.z());
 }
 
+/// Pairs of blocks that overlap by more than the bound, and by how much (m).
+using Overlaps = std::map<std::pair<int, int>, double>;
+
+/// Names all pairs at once, the deepest first, and the margin that admits them.
+[[noreturn]] void refuse_overlaps(const Assembly& assembly, const Overlaps& overlaps,
+                                  const ModelTolerances& tolerances, const Names& names) {
+  constexpr size_t kListed = 20;
+  std::vector<std::pair<double, std::pair<int, int>>> deepest;
+  for (const auto& [pair, depth] : overlaps) deepest.emplace_back(-depth, pair);
+  std::ranges::sort(deepest);
+  const auto [a, b] = deepest.front().second;
+  const double largest = -deepest.front().first;
+  std::string text = fmt::format("blocks {} and {} overlap by {:.3g} m{}", names.name(a),
+                                 names.with_source(b), largest, places_of_members(assembly, a, b));
+  if (tolerances.part_by_part && !names.origins.empty())
+    text += fmt::format(
+        ", more than contact.margin = {:.3g} m: correct the geometry or increase contact.margin to {:.2g} m",
+        tolerances.overlap, 1.05 * largest);
+  if (deepest.size() > 1)
+    text +=
+        fmt::format("; {} overlap by more than that, the deepest first:", counted(deepest.size(), "pair"));
+  for (size_t i = 0; deepest.size() > 1 && i < std::min(kListed, deepest.size()); ++i)
+    text += fmt::format("\n  {} and {}: {:.3g} m", names.name(deepest[i].second.first),
+                        names.name(deepest[i].second.second), -deepest[i].first);
+  if (deepest.size() > kListed) text += fmt::format("\n  and {} more", deepest.size() - kListed);
+  names.fail(a, text);
+}
+
 void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shapes,
                  const ModelTolerances& tolerances, const Names& names, ModelReport* report) {
   std::vector<std::pair<int, int>> joints, touching;  // pairs of blocks; touching: at an edge or a corner
   std::vector<NarrowJoint> narrow;
+  Overlaps overlaps;
   Islands islands(assembly.blocks.size());
   const double good_enough = std::min(tolerances.overlap, generated_tolerances(assembly).overlap);
   report->max_overlap = -std::numeric_limits<double>::infinity();
@@ -151,26 +182,24 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
     if (a == b) return;
     const double depth = overlap_depth(shapes[p], shapes[q], good_enough);
     report->max_overlap = std::max(report->max_overlap, depth);
-    if (depth > tolerances.overlap)
-      names.fail(
-          a, fmt::format("blocks {} and {} overlap by {:.3g} m{}{}", names.name(a), names.with_source(b),
-                         depth, places_of_members(assembly, a, b),
-                         tolerances.part_by_part && !names.origins.empty()
-                             ? fmt::format(", more than contact.margin = {:.3g} m: correct the geometry or "
-                                           "increase contact.margin",
-                                           tolerances.overlap)
-                             : ""));
+    if (depth > tolerances.overlap) {
+      double& deepest = overlaps[{a, b}];
+      deepest = std::max(deepest, depth);
+      return;
+    }
     if (depth < -tolerances.joint_gap) return;
     const std::optional<Meeting> meeting = meeting_of(assembly, shapes[p], shapes[q], tolerances);
     if (meeting && meeting->width > tolerances.joint_width) {
       report->max_joint_gap = std::max(report->max_joint_gap, meeting->gap);
       joints.emplace_back(a, b);
+      if (tolerances.part_by_part) report->joint_faces.push_back({p, q, meeting->face_a, meeting->face_b});
     } else if (meeting && meeting->width > kNoWidth * tolerances.joint_width) {
       narrow.push_back({a, b, meeting->width});
     } else if (!meeting && tolerances.part_by_part) {
       touching.emplace_back(a, b);
     }
   });
+  if (!overlaps.empty()) refuse_overlaps(assembly, overlaps, tolerances, names);
   std::ranges::sort(joints);
   joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
   report->num_joints = static_cast<int>(joints.size());

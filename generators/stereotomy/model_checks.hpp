@@ -17,6 +17,12 @@ struct NarrowJoint {
   double width = 0.0;  ///< m
 };
 
+/// Faces of two parts of different blocks that form a joint.
+struct FacePair {
+  int part_a = 0, part_b = 0;
+  int face_a = 0, face_b = 0;  ///< of the assembly
+};
+
 /// Measurements of a model. Lengths in m, volumes in m3.
 struct ModelReport {
   int num_blocks = 0;  ///< without supports
@@ -36,6 +42,7 @@ struct ModelReport {
   std::vector<int> blocks_without_joint;   ///< and without tie
   std::optional<int> floating;             ///< first block of an island without a support
   std::vector<NarrowJoint> narrow_joints;  ///< ignored by contact detection
+  std::vector<FacePair> joint_faces;       ///< one pair per two parts that meet; only if checked part by part
 };
 
 /// Name and source of an imported block, for messages. Generated blocks are named by their number.

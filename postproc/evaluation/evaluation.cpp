@@ -312,8 +312,9 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.loads = applied_loads(e.acting, e.assembly);
   e.shell = shell_of(e.assembly, e.up);
   e.axes = shell_axes(e.assembly, e.shell);
-  if (!e.assembly.ties.empty() || !scene.ties.pairs.empty())
-    e.warnings.push_back("wrenches on blocks and thrust lines count joints only, not the forces in ties");
+  if (!e.assembly.ties.empty() || !scene.ties.pairs.empty() || !scene.supports.restraints.empty())
+    e.warnings.push_back(
+        "wrenches on blocks and thrust lines count joints only, not the forces in ties and restraints");
 
   e.last = evaluate_frame(e, std::move(shown));
   const std::vector<bool> left_out = blocks_left_out(e);
@@ -335,7 +336,8 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
     e.planes.push_back(
         plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads, e.last.frame.ties));
   const std::optional<double> rib = meridian_named("rib", e), mid_sail = meridian_named("mid_sail", e);
-  if (rib && mid_sail && e.assembly.members.empty())  // its beds follow the period of one bond
+  if (rib && mid_sail && e.assembly.members.empty() &&
+      !scene.geometry.imported)  // beds follow the period of one bond
     e.rib_over_mid_sail =
         rib_ratio(thrust_input(e, e.last), last_member(scene.geometry).bond, *rib, *mid_sail);
   return e;

@@ -82,7 +82,8 @@ double standard_width(const Assembly& assembly, const Shell& shell) {
   for (const auto& bed : shell.beds)
     for (const BedFacet& facet : bed)
       if (!facet.internal && &bed != &shell.beds.back() &&
-          assembly.blocks[facet.block].kind == BlockKind::standard)
+          (assembly.blocks[facet.block].kind == BlockKind::standard ||
+           assembly.blocks[facet.block].kind == BlockKind::imported))
         widths[facet.block] += std::abs(wrapped(azimuth(facet.intrados_b) - azimuth(facet.intrados_a)));
   std::vector<double> values;
   for (const auto& [block, width] : widths) values.push_back(width);

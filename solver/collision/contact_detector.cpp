@@ -106,6 +106,10 @@ ContactDetector::ContactDetector(const Assembly& assembly, const DetectionOption
   narrow_.min_width = rule.min_width;
   narrow_.max_angle = rule.max_angle;
   narrow_.tolerance = std::max(kCornerTolerance * model_.smallest_block, 16.0 * model_.rounding);
+  if (options_.ignore_initial_gaps) {
+    const std::size_t num_contacts = update(initial_poses(assembly)).points.size();
+    set_gaps(std::vector<double>(num_contacts, 0.0));
+  }
 }
 
 const ContactSet& ContactDetector::update(std::span<const Pose> poses, std::span<const double> travel) {

@@ -29,6 +29,9 @@ struct DetectionOptions {
   /// Plane scene (see plane_scene.hpp): two points that differ only in y are merged into one between them.
   bool plane = false;
 
+  /// The joints as built count as closed: gaps are measured from those of the assembly as built.
+  bool ignore_initial_gaps = false;
+
   /// File of contact points (see contact_file.hpp), which are carried along and never detected; empty: none.
   std::string contact_file;
 

@@ -102,7 +102,8 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
   });
   PairValues overlaps, slivers;
   for (const BadJoints& chunk : chunks) {
-    for (const auto& [pair, depth] : chunk.overlaps) keep_largest(&overlaps, pair, depth);
+    if (!options.ignore_initial_gaps)
+      for (const auto& [pair, depth] : chunk.overlaps) keep_largest(&overlaps, pair, depth);
     for (const auto& [pair, width] : chunk.slivers) keep_largest(&slivers, pair, width);
   }
 

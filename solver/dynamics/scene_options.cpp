@@ -35,6 +35,7 @@ DetectionOptions detection_options(const Case& scene) {
   options.sampling.subdivide = scene.contact.subdivide;
   options.margin = scene.contact.margin;
   options.contact_file = scene.contact.file;
+  options.ignore_initial_gaps = scene.contact.initial_gaps == ContactDetection::InitialGaps::ignore;
   options.plane = scene.analysis.plane;
   if (!options.contact_file.empty() && scene.analysis.type != AnalysisType::static_)
     throw InputError(FileLocation{scene.file}, "contact.method: file requires analysis.type: static");

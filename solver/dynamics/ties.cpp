@@ -1,5 +1,6 @@
 #include "solver/dynamics/ties.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/block_names.hpp"
 
 namespace cupola {
 namespace {
@@ -39,7 +41,8 @@ Tie make_tie(const Assembly& assembly, BuiltTie tie, const char* key) {
           1.0 / tie.stiffness,
           false,
           tie.yield_force,
-          tie.chain};
+          tie.chain,
+          Vec3::Zero()};
 }
 
 /// A tie that carries `prestress` as generated: its natural length is shorter by prestress / stiffness, or longer by `slack`.
@@ -63,6 +66,38 @@ Tie pair_tie(const Assembly& assembly, const PairTie& pair) {
   return make_tie(assembly, tie, key);
 }
 
+/// The bar of a restraint: from the ground, at the distance of a block, to the held point.
+Tie restraint_bar(const Assembly& assembly, const Restraint& restraint) {
+  constexpr const char* key = "supports.restraints";
+  check_block(assembly, restraint.block, key);
+  const Block& block = assembly.blocks[restraint.block];
+  if (block.fixed)
+    throw InputError(fmt::format("{}: block {} is fixed already; remove this restraint", key,
+                                 block_label(assembly, restraint.block)));
+  const auto ground = std::ranges::find_if(assembly.blocks, &Block::fixed);
+  if (ground == assembly.blocks.end())
+    throw InputError(fmt::format("{}: no block is fixed, against which a point could be held", key));
+  const Vec3 direction = restraint.direction.normalized();
+  BuiltTie bar;
+  bar.block_a = static_cast<int>(ground - assembly.blocks.begin());
+  bar.block_b = restraint.block;
+  bar.point_b = restraint.point.value_or(block.centroid);
+  bar.length = std::cbrt(block.volume);
+  bar.point_a = bar.point_b - bar.length * direction;
+  bar.stiffness = restraint.stiffness;
+  Tie tie = make_tie(assembly, bar, key);
+  tie.direction = tie.block_a == bar.block_a ? direction : Vec3(-direction);
+  return tie;
+}
+
+/// Adds a bar that carries tension and compression.
+void add_both_signs(const Tie& tie, std::vector<Tie>* ties) {
+  ties->push_back(tie);
+  ties->push_back(tie);
+  ties->back().strut = true;
+  ties->back().yield_force = std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses) {
@@ -71,12 +106,16 @@ TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses) {
   const Vec3 r_a = a.q_WB * tie.p_AP_A;
   const Vec3 r_b = b.q_WB * tie.p_BP_B;
   const Vec3 along = (b.p_WB - a.p_WB) + (r_b - r_a);
-  const double length = along.norm();
+  const bool turns = tie.direction.isZero();
+  const double length = turns ? along.norm() : tie.direction.dot(along);
   TieGeometry geometry;
   geometry.point_a = a.p_WB + r_a;
   geometry.point_b = b.p_WB + r_b;
   const double sign = tie.strut ? 1.0 : -1.0;
-  if (length > 0.0) geometry.normal = sign / length * along;
+  if (!turns)
+    geometry.normal = sign * tie.direction;
+  else if (length > 0.0)
+    geometry.normal = sign / length * along;
   geometry.gap = sign * (length - tie.natural_length);
   CUPOLA_ASSERT(std::abs(geometry.normal.squaredNorm() - 1.0) < 1e-9);
   return geometry;
@@ -87,12 +126,14 @@ std::vector<Tie> make_ties(const Case& scene, const Assembly& assembly) {
   for (const PairTie& pair : scene.ties.pairs) ties.push_back(pair_tie(assembly, pair));
   for (BuiltTie built : assembly.ties) {
     if (std::isinf(built.stiffness)) built.stiffness = scene.ties.rod_stiffness;
-    ties.push_back(make_tie(assembly, built, "tie of the assembly"));
-    if (!built.pushes) continue;
-    ties.push_back(ties.back());
-    ties.back().strut = true;
-    ties.back().yield_force = std::numeric_limits<double>::infinity();
+    const Tie tie = make_tie(assembly, built, "tie of the assembly");
+    if (built.pushes)
+      add_both_signs(tie, &ties);
+    else
+      ties.push_back(tie);
   }
+  for (const Restraint& restraint : scene.supports.restraints)
+    add_both_signs(restraint_bar(assembly, restraint), &ties);
   return ties;
 }
 

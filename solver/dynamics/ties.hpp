@@ -14,6 +14,7 @@ namespace cupola {
 ///
 /// compliance 1/stiffness and, as compressive strength, the yield force: `yielded` is the plastic elongation so far.
 /// A strut has phi = L - L0, pushes when it is shorter than L0, and does not yield.
+/// A restraint is a tie and a strut whose direction does not turn with its ends: L is the distance of the ends along it.
 struct Tie {
   int block_a = 0, block_b = 0;                       ///< a < b
   Vec3 p_AP_A = Vec3::Zero(), p_BP_B = Vec3::Zero();  ///< m, from the centroids, axes of the blocks
@@ -22,6 +23,7 @@ struct Tie {
   bool strut = false;                                 ///< resists shortening instead of lengthening
   double yield_force = std::numeric_limits<double>::infinity();  ///< N, > 0, largest tension
   int chain = -1;                                                ///< index into Assembly::chains; -1: none
+  Vec3 direction = Vec3::Zero();  ///< unit, world, of a restraint, from a to b; zero: along its ends
 };
 
 /// Position of a tie: its ends, and the direction of its force on b.
@@ -33,8 +35,9 @@ struct TieGeometry {
 };
 TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses);
 
-/// The ties of the case and of the assembly. A rigid rod gives a tie and a strut. Throws InputError for
-/// blocks that do not exist, and for ends that coincide.
+/// The ties of the case and of the assembly, and its restraints, which end on the first fixed block. A rigid rod gives a tie and a
+/// strut. Throws InputError for blocks that do not exist, for ends that coincide, and for restraints of fixed blocks or
+/// without one.
 std::vector<Tie> make_ties(const Case& scene, const Assembly& assembly);
 
 }  // namespace cupola

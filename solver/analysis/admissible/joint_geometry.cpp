@@ -63,7 +63,7 @@ Vec3 JointGeometry::outward(const Vec3& point) const {
   throw InputError(fmt::format(
       "analysis.range.quantities: {} no axis, so that `thrust` and `outward` are not defined; give "
       "a reaction or joint a `direction`",
-      imported ? "imported blocks have" : "a wall has"));
+      imported ? "give geometry.import.axis: these imported blocks have" : "a wall has"));
 }
 
 }  // namespace cupola

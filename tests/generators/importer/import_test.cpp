@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
@@ -259,6 +260,100 @@ TEST_F(Import, NamesTheDefectOfInvalidInput) {
   EXPECT_NE(complaint(write("cut.json", "{\"data\": {\"graph\":")).find("cut.json:1: error: not valid JSON"),
             std::string::npos);
   EXPECT_NE(complaint((folder_ / "missing.obj").string()).find("no such file"), std::string::npos);
+}
+
+// Boxes on each other: the second reaches 0.02 m into the first, and the third 0.05 m into the second.
+TEST_F(Import, NamesAllOverlapsAtOnceWithTheMarginThatAdmitsThem) {
+  const std::string text = obj_box("a", 0, 0, 1) + obj_box("b", 0, 0.98, 9) + obj_box("c", 0, 1.93, 17);
+  const std::string found = complaint(write("three.obj", text));
+  for (const char* expected : {"blocks b and c (", "overlap by 0.05 m", "2 pairs overlap by more than that",
+                               "a and b: 0.02 m", "increase contact.margin to 0.053 m"})
+    EXPECT_NE(found.find(expected), std::string::npos) << expected << " in: " << found;
+}
+
+TEST_F(Import, DropsDoubledFacesWithAWarning) {
+  const std::string box = obj_box("a", 0, 0, 1);
+  const std::string again = box.substr(box.rfind("f "));
+  const std::string reversed = "f 1 2 3 4\n";
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path = write("doubled.obj", box + again + reversed);
+  GenerateReport report;
+  const Assembly model = generate(scene, &report);
+  EXPECT_NEAR(model.blocks.at(0).volume, 1.0, 1e-15);
+  EXPECT_EQ(report.import->doubled_faces, 2);
+  EXPECT_NE(fmt::format("{}", fmt::join(warnings_of(report), "|")).find("2 faces repeat another one"),
+            std::string::npos);
+}
+
+// A box of 1 m drawn in millimetres, and one of 2 km: nobody can know, so the unit is asked for.
+TEST_F(Import, AsksForTheUnitOfModelsThatAreNoStructures) {
+  std::string large = obj_box("a", 0, 0, 1);
+  for (size_t at = large.find("v 1.000000"); at != std::string::npos; at = large.find("v 1.000000"))
+    large.replace(at, 10, "v 2000.0");
+  const std::string path = write("large.obj", large);
+  EXPECT_NE(complaint(path).find("set geometry.import.metres_per_unit"), std::string::npos)
+      << complaint(path);
+  ImportedBlocks source;
+  source.path = path;
+  source.metres_per_unit = 1e-3;
+  EXPECT_NO_THROW(import_blocks(source, 1000.0));
+  source.metres_per_unit = 1.0;
+  EXPECT_NO_THROW(import_blocks(source, 1000.0));
+}
+
+TEST_F(Import, FixesTheLowestBlocks) {
+  ImportedBlocks source;
+  source.path = write("tower.obj", obj_box("a", 0, 0, 1) + obj_box("b", 0, 1, 9) + obj_box("c", 0, 2, 17));
+  source.fixed_by = ImportedBlocks::SupportRule::lowest;
+  const Assembly model = import_blocks(source, 1000.0);
+  EXPECT_TRUE(model.blocks[0].fixed);
+  EXPECT_FALSE(model.blocks[1].fixed);
+  EXPECT_FALSE(model.blocks[2].fixed);
+}
+
+// A tower along the file's y axis, whose base is the only support.
+TEST_F(Import, SuspectsThatYIsUpward) {
+  std::string lying, upright;
+  for (int i = 0; i < 4; ++i) upright += obj_box(fmt::format("{}", i), 0, i, 8 * i + 1);
+  for (size_t start = 0; start < upright.size();) {
+    const size_t end = upright.find('\n', start) + 1;
+    const std::string line = upright.substr(start, end - start);
+    double x = 0.0, y = 0.0, z = 0.0;
+    lying += std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3  // a turn about x
+                 ? fmt::format("v {:f} {:f} {:f}\n", x, z, -y)
+                 : line;
+    start = end;
+  }
+  ImportedBlocks source;
+  source.supports = {"0"};
+  ImportReport report;
+  source.path = write("upright.obj", upright);
+  import_blocks(source, 1000.0, &report);
+  EXPECT_EQ(report.doubt_of_axes, "");
+  source.path = write("lying.obj", lying);
+  import_blocks(source, 1000.0, &report);
+  EXPECT_NE(report.doubt_of_axes.find("geometry.import.up: y"), std::string::npos);
+  source.up = ImportedBlocks::UpAxis::y;
+  import_blocks(source, 1000.0, &report);
+  EXPECT_EQ(report.doubt_of_axes, "");
+}
+
+// Two faces of the block are warped by 0.1 m. The bilinear surface through four corners halves the difference of the volumes
+// with either diagonal: each raised corner lifts the top by a quarter on average.
+TEST_F(Import, ComparesTheVolumeWithTheDrawing) {
+  std::string text = obj_box("a", 0, 0, 1);
+  text.replace(text.find("v 1.000000 1 1.000000"), 21, "v 1.000000 1 1.100000");
+  ImportedBlocks source;
+  source.path = write("warped.obj", text);
+  ImportReport report;
+  const Assembly model = import_blocks(source, 1000.0, &report);
+  EXPECT_NEAR(report.drawn_volume, 1.025, 1e-12);
+  EXPECT_NEAR(report.volume_of_parts, model.blocks[0].volume, 1e-15);
+  double parts = 0.0;
+  for (const Part& part : model.parts) parts += part.volume;
+  EXPECT_NEAR(model.blocks[0].volume, parts, 1e-12);
+  EXPECT_NEAR(model.blocks[0].mass, 1000.0 * parts, 1e-9);
 }
 
 TEST_F(Import, RejectsLinksToFilesOutsideTheFolder) {

@@ -1,0 +1,127 @@
+// Courses, rings and faces of imported blocks, found from their joints alone.
+
+#include "generators/importer/courses.hpp"
+
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/case/case_reader.hpp"
+#include "assembly/export/export.hpp"
+#include "generators/generate.hpp"
+#include "tests/fresh_folder.hpp"
+#include "tests/generators/models.hpp"
+
+namespace cupola::courses_test {
+namespace {
+
+using SupportRule = ImportedBlocks::SupportRule;
+
+/// A model that comes back from a file without its names, courses and kinds of faces.
+Assembly imported(const std::string& folder, const Assembly& original, SupportRule rule,
+                  GenerateReport* report) {
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path = test::fresh_folder(folder) + "/model.obj";
+  scene.geometry.imported->fixed_by = rule;
+  write_export(scene.geometry.imported->path, {original, {}, {}});
+  return generate(scene, report);
+}
+
+/// m2, of the faces of a kind, per course of their block.
+std::vector<double> areas(const Assembly& assembly, FaceKind kind) {
+  std::vector<double> areas(static_cast<size_t>(assembly.num_rings), 0.0);
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      if (!assembly.blocks[part.block].fixed && assembly.face_kinds[f] == kind)
+        areas[part.ring] += polygon_area(face_points(assembly, f));
+  return areas;
+}
+
+void expect_same_courses(const Assembly& original, const Assembly& found) {
+  constexpr double kRounding = 1e-9;  // of sums of areas, from coordinates that were written with 17 digits
+  ASSERT_EQ(found.num_rings, original.num_rings);
+  ASSERT_EQ(found.sheets.size(), 1u);
+  const Sheet &a = original.sheets.front(), &b = found.sheets.front();
+  EXPECT_EQ(b.closed, a.closed);
+  EXPECT_EQ(b.thrust_lines, a.thrust_lines);
+  EXPECT_TRUE(b.is_central());
+  for (size_t i = 0; i < original.blocks.size(); ++i)
+    ASSERT_EQ(found.blocks[i].ring, original.blocks[i].ring) << i;
+  for (const FaceKind kind : {FaceKind::bed, FaceKind::head, FaceKind::intrados, FaceKind::extrados}) {
+    const std::vector<double> expected = areas(original, kind), is = areas(found, kind);
+    for (size_t k = 0; k < expected.size(); ++k)
+      EXPECT_NEAR(is[k], expected[k], kRounding * std::max(1.0, expected[k])) << to_string(kind) << " " << k;
+  }
+}
+
+TEST(Courses, OfAnOctagonAreThoseItWasGeneratedWith) {
+  const Case scene = read_case(CUPOLA_SOURCE_DIR "/cases/octagon_circular.yaml",
+                               {"geometry.bond.rings=10", "geometry.bond.blocks_per_ring=16"});
+  const Assembly original = cut_assembly(scene);
+  GenerateReport report;
+  const Assembly found = imported("octagon", original, SupportRule::lowest, &report);
+  EXPECT_EQ(report.import->courses.kind, "rings about a vertical axis") << report.import->courses.refusal;
+  expect_same_courses(original, found);
+}
+
+// The springings have one neighbour each, and the courses run from the first to the second.
+TEST(Courses, OfAnArchRunFromOneSpringingToTheOther) {
+  const Assembly original = cut_assembly(read_case(CUPOLA_SOURCE_DIR "/cases/arch.yaml", {}));
+  GenerateReport report;
+  const Assembly found = imported("arch", original, SupportRule::one_neighbour, &report);
+  EXPECT_EQ(report.import->courses.kind, "an arch") << report.import->courses.refusal;
+  expect_same_courses(original, found);
+}
+
+TEST(Courses, OfAWallAreThoseItWasGeneratedWith) {
+  const Assembly original = cut_assembly(wall_case(4, 3));
+  GenerateReport report;
+  const Assembly found = imported("wall", original, SupportRule::lowest, &report);
+  EXPECT_EQ(report.import->courses.kind, "a wall") << report.import->courses.refusal;
+  ASSERT_EQ(found.num_rings, 4);
+  for (size_t i = 0; i < original.blocks.size(); ++i)
+    EXPECT_EQ(found.blocks[i].ring, original.blocks[i].ring) << i;
+  EXPECT_FALSE(found.sheets.front().outward(Vec3(1.0, 0.0, 0.0)).has_value());
+}
+
+// The upright blocks of herringbone spirals reach through several courses.
+TEST(Courses, AreRefusedForHerringboneWithTheStonesThatBreakThem) {
+  Case spirals = dome_case();
+  HerringboneBond herringbone;
+  herringbone.rings = 9;
+  spirals.geometry.bond = herringbone;
+  const Assembly original = cut_assembly(spirals);
+  GenerateReport report;
+  const Assembly found = imported("spirals", original, SupportRule::lowest, &report);
+  EXPECT_EQ(report.import->courses.courses, 0);
+  EXPECT_EQ(found.num_rings, 0);
+  EXPECT_NE(report.import->courses.refusal.find("stones "), std::string::npos)
+      << report.import->courses.refusal;
+  const bool names_an_upright = std::ranges::any_of(original.blocks, [&](const Block& block) {
+    const auto number = fmt::format(" {}", &block - original.blocks.data());
+    return block.kind == BlockKind::herringbone &&
+           report.import->courses.refusal.find(number) != std::string::npos;
+  });
+  EXPECT_TRUE(names_an_upright) << report.import->courses.refusal;
+}
+
+TEST(Courses, OutwardIsAwayFromAGivenAxis) {
+  const Assembly original = cut_assembly(wall_case(4, 3));
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path = test::fresh_folder("axis") + "/model.obj";
+  scene.geometry.imported->fixed_by = SupportRule::lowest;
+  scene.geometry.imported->axis = Eigen::Vector3d(0.0, -3.0, 7.0);
+  write_export(scene.geometry.imported->path, {original, {}, {}});
+  const Assembly found = generate(scene);
+  ASSERT_EQ(found.sheets.size(), 1u);
+  const std::optional<Vec3> outward = found.sheets.front().outward(Vec3(0.0, 1.0, 2.0));
+  ASSERT_TRUE(outward.has_value());
+  EXPECT_NEAR((*outward - Vec3::UnitY()).norm(), 0.0, 1e-15);
+}
+
+}  // namespace
+}  // namespace cupola::courses_test
