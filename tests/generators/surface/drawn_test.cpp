@@ -27,9 +27,9 @@ Profile profile_of(Kind kind, double span = 10.0, double rise = 4.0) {
 
 Profile chain_of(std::vector<double> r, std::vector<double> z, std::vector<double> radius = {}) {
   Profile p = profile_of(Kind::chain);
-  p.r = std::move(r);
-  p.z = std::move(z);
-  p.radius = std::move(radius);
+  p.points.r = std::move(r);
+  p.points.z = std::move(z);
+  p.points.radius = std::move(radius);
   return p;
 }
 
