@@ -172,8 +172,11 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
                      detail};
   }
   if (!at_rest(e) || !(is_vault(e) || is_arch(e)) || e.rings.empty()) return std::nullopt;
-  const std::vector<Reaction> supports = thrusting(e);
-  const double thrust = e.rings.front().radial_thrust;
+  const Sheet& shell = e.assembly.sheets.back();
+  const auto [first_ring, end] = e.assembly.stack_of(shell.first_ring);
+  const bool alone = first_ring == 0;  // no supports of other stacks
+  const std::vector<Reaction> supports = alone ? thrusting(e) : std::vector<Reaction>{};
+  const double thrust = e.rings.at(first_ring).radial_thrust;
   if (thrust == 0.0 && is_stage(e.last.frame.role))
     return std::nullopt;  // the course laid last rests on others
   double length = 0.0, lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -185,6 +188,7 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   // Joints of a smaller extent do not have the length of the supports.
   const bool shrunk = e.summary.critical && e.summary.critical->parameter == "joint_extent";
   std::string detail = shrunk ? "" : per_metre(thrust, length);
+  if (!alone) detail = "of the stack of " + shell.name;
   if (supports.size() > 1 && highest - lowest <= 1e-3 * std::abs(highest))
     detail += fmt::format("{}{} on each of {}", detail.empty() ? "" : "; ", force_text(highest),
                           counted(supports.size(), "support"));
