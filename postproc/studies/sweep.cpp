@@ -9,9 +9,6 @@
 #include "postproc/studies/sweep_figure.hpp"
 
 namespace cupola {
-namespace {
-
-/// How the members ended: "6 stable, 2 moving".
 std::string endings(const Table& table) {
   std::map<std::string, int> count;
   for (const auto& row : table.rows)
@@ -23,7 +20,6 @@ std::string endings(const Table& table) {
   return text;
 }
 
-/// "2 of 8 members" that have no results or did not reach their accuracy; "" for none.
 std::string failures(const Table& table) {
   size_t failed = 0;
   for (const auto& row : table.rows)
@@ -33,11 +29,11 @@ std::string failures(const Table& table) {
   return failed == 0 ? "" : fmt::format("{} of {}", failed, counted(table.rows.size(), "member"));
 }
 
-}  // namespace
-
 std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<StudyRun>& members,
                       const std::string& runs_folder, StudyPage* page) {
-  const Table table = sweep_table(sweep, members, runs_folder);
+  std::vector<std::string> keys;
+  for (const SweptKey& swept : sweep) keys.push_back(swept.key);
+  const Table table = sweep_table(keys, members, runs_folder);
   const std::string ended = endings(table);
   const std::string failed = failures(table);
   page->add(verdict_html(failed.empty() ? ended + "." : failed + " failed",
