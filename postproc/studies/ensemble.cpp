@@ -106,9 +106,8 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
     good = good && failed.empty();
     if (!failed.empty())
       sentences.push_back(fmt::format("{}: {} failed: {}.", one.name, failed, endings(one.members)));
-    if (!one.have_critical_values()) sentences.push_back(collapse_sentence(one));
+    sentences.push_back(result_sentence(one));
   }
-  if (sentences.empty()) sentences.push_back(counted(all.front().members.rows.size(), "member") + ".");
   add_headline(sentences, good, page);
   std::string text = fmt::format("{}\n", fmt::join(sentences, "\n"));
   page->add_paragraph("Intervals are those of 95 %.");

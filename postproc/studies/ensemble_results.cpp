@@ -17,10 +17,10 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Column of the status in a table of members.
-size_t status_column(const Table& members) {
+/// Column of a table of members that has it.
+size_t member_column(const Table& members, const std::string& key) {
   size_t column = 0;
-  while (members.columns[column].key != "status") ++column;
+  while (members.columns[column].key != key) ++column;
   return column;
 }
 
@@ -53,8 +53,8 @@ void add_estimate(const IntervalEstimate& estimate, std::vector<Table::Cell>* ro
 
 void add_estimate_columns(const std::string& key, const std::string& meaning, Table* table) {
   table->columns.push_back({key, "", meaning});
-  table->columns.push_back({key + "_low", "", "low end of its 95 % interval"});
-  table->columns.push_back({key + "_high", "", "high end of its 95 % interval"});
+  table->columns.push_back({key + "_low", "", "95 % low"});
+  table->columns.push_back({key + "_high", "", "95 % high"});
 }
 
 /// A number of a sentence.
@@ -83,7 +83,8 @@ void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
     only_a += a.falls[i] > b.falls[i];
     only_b += a.falls[i] < b.falls[i];
   }
-  if (!a.have_critical_values() && both > 0) {
+  const bool some_fall = std::ranges::count(a.falls, 1) + std::ranges::count(b.falls, 1) > 0;
+  if (some_fall && both > 0) {
     const double p = mcnemar(only_a, only_b);
     table->rows.push_back(
         {pair, std::string("falls"), both, static_cast<double>(only_a - only_b) / both, kNone, kNone, p});
@@ -111,6 +112,17 @@ void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
   }
 }
 
+/// How far the members of a limit analysis stand.
+std::string critical_sentence(const EnsembleResults& ensemble) {
+  const size_t column = member_column(ensemble.members, "critical_value");
+  const DrawnValues drawn = ensemble.values(column);
+  const std::string& unit = ensemble.members.columns[column].unit;
+  return fmt::format(
+      "{}: critical value {}{}{} in the median; 5 % of the members lie below {}, 5 % above {}.",
+      ensemble.name, short_number(quantile_of(drawn, 0.5).value), unit.empty() ? "" : " ", unit,
+      short_number(quantile_of(drawn, 0.05).value), short_number(quantile_of(drawn, 0.95).value));
+}
+
 }  // namespace
 
 int EnsembleResults::replicates() const {
@@ -135,12 +147,13 @@ EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_
       ensemble.name, &ensemble, sweep_table(ensemble.samples.keys, ensemble.runs, runs_folder), {}};
   out.members.name = ensemble.name;
   out.members.title = "The members of the ensemble";
-  const size_t status = status_column(out.members);
+  const size_t status = member_column(out.members, "status");
   for (const auto& row : out.members.rows) out.falls.push_back(verdict_of(to_display(row[status])));
   return out;
 }
 
-std::string collapse_sentence(const EnsembleResults& ensemble) {
+std::string result_sentence(const EnsembleResults& ensemble) {
+  if (ensemble.have_critical_values()) return critical_sentence(ensemble);
   const int n = static_cast<int>(ensemble.falls.size());
   const int fall = static_cast<int>(std::ranges::count(ensemble.falls, 1));
   const int unknown = static_cast<int>(std::ranges::count(ensemble.falls, -1));
@@ -182,8 +195,9 @@ Table inputs_table(const EnsembleResults& ensemble) {
                {"rank_correlation", "", "Rank correlation"},
                {"first_order_index", "", "First-order Sobol index"},
                {"noise", "", "Noise: two standard errors of the index of an input without influence"}};
-  const size_t status = status_column(ensemble.members);
+  const size_t status = member_column(ensemble.members, "status");
   for (size_t input = 1; input < status; ++input) {
+    if (ensemble.members.columns[input].key.ends_with("seed")) continue;  // their order means nothing
     const std::vector<double> x = column_of_numbers(ensemble.members, input);
     for (const size_t column : ensemble.results) {
       const std::vector<double> y = column_of_numbers(ensemble.members, column);
@@ -206,7 +220,7 @@ Table ends_table(const EnsembleResults& ensemble) {
   constexpr size_t kEach = 3;
   Table t{ensemble.name + "_ends", "Members at the ends", {}, {}};
   t.columns = {{"why", "", "Why"}, {"value", "", "Value"}};
-  const size_t status = status_column(ensemble.members);
+  const size_t status = member_column(ensemble.members, "status");
   for (size_t k = 0; k <= status; ++k) t.columns.push_back(ensemble.members.columns[k]);
   const auto add = [&](const std::string& why, const Table::Cell& value, size_t member) {
     std::vector<Table::Cell> row = {why, value};

@@ -27,13 +27,13 @@ struct EnsembleResults {
 
 EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_folder);
 
-/// How many fall: "12 of 200 members fall: probability 6 % (3.1 to 10.2 %)". Members without a verdict widen the interval both ways.
-std::string collapse_sentence(const EnsembleResults& ensemble);
+/// Of limit analyses the median and two quantiles of the critical value; else how many fall: "12 of 200 members fall: probability 6 % (3.1 to 10.2 %)". Members without a verdict widen the interval both ways.
+std::string result_sentence(const EnsembleResults& ensemble);
 
 /// A row per result: mean, standard deviation and quantiles, each with its interval.
 Table statistics_table(const EnsembleResults& ensemble);
 
-/// A row per input that is a number, and result: rank correlation and first-order Sobol index.
+/// A row per input that is a number and no seed, and result: rank correlation and first-order Sobol index.
 Table inputs_table(const EnsembleResults& ensemble);
 
 /// The members with the three smallest and the three largest values of each result, and the first three that fall.
