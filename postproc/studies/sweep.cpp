@@ -24,7 +24,8 @@ std::vector<std::string> texts_of(const Table& table, const std::string& key) {
   return texts;
 }
 
-/// How the members ended: "6 stable, 2 moving".
+}  // namespace
+
 std::string endings(const Table& table) {
   std::map<std::string, int> count;
   for (const std::string& status : texts_of(table, "status")) ++count[status];
@@ -34,13 +35,14 @@ std::string endings(const Table& table) {
   return text;
 }
 
-/// "2 of 8 members" that have no results or did not reach their accuracy; "" for none.
 std::string failures(const Table& table) {
   const auto failed = std::ranges::count_if(texts_of(table, "status"), [](const std::string& status) {
     return status == "missing" || status == "unconverged";
   });
   return failed == 0 ? "" : fmt::format("{} of {}", failed, counted(table.rows.size(), "member"));
 }
+
+namespace {
 
 bool falls(const std::string& status) {
   return status.starts_with("moving") || status == "collapsed";
@@ -98,7 +100,9 @@ std::string banner(const std::vector<SweptKey>& sweep, const Table& table) {
 
 std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<StudyRun>& members,
                       const std::string& runs_folder, StudyPage* page) {
-  const Table table = sweep_table(sweep, members, runs_folder);
+  std::vector<std::string> keys;
+  for (const SweptKey& swept : sweep) keys.push_back(swept.key);
+  const Table table = sweep_table(keys, members, runs_folder);
   page->add(banner(sweep, table));
   if (const Figure figure = sweep_figure(sweep, table); !figure.commands.empty()) page->add_figures({figure});
   page->add_table(table);

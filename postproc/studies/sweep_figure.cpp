@@ -34,20 +34,6 @@ size_t column_of(const Table& table, const std::string& key) {
   return static_cast<size_t>(found - table.columns.begin());
 }
 
-/// Columns with results that differ between members; errors and times are no results.
-std::vector<size_t> varying_columns(const Table& table, size_t first) {
-  static const std::set<std::string> kNoResults{"equilibrium_residual", "cpu_time_seconds"};
-  std::vector<size_t> columns;
-  for (size_t k = first; k < table.columns.size(); ++k) {
-    std::set<double> values;
-    for (const auto& row : table.rows)
-      if (const double v = number_of(row[k]); std::isfinite(v)) values.insert(v);
-    if (values.size() > 1 && !kNoResults.contains(table.columns[k].key)) columns.push_back(k);
-  }
-  if (columns.size() > kMostPanels) columns.resize(kMostPanels);
-  return columns;
-}
-
 /// True if no number of the column is negative; its axis then starts at zero.
 bool is_positive(const Table& table, size_t column) {
   return std::none_of(table.rows.begin(), table.rows.end(),
@@ -112,7 +98,8 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
   for (const std::string& value : sweep.front().values)
     if (double x = 0.0; !read_number(value, &x).empty()) return f;
   const size_t status = column_of(table, "status");
-  const std::vector<size_t> columns = varying_columns(table, status + 2);
+  std::vector<size_t> columns = varying_columns({&table});
+  if (columns.size() > kMostPanels) columns.resize(kMostPanels);
   if (columns.empty()) return f;
   const auto curves = curves_of(table, sweep.size());
   const Rows fallen = without_equilibrium(table, status);
