@@ -67,7 +67,8 @@ std::string assumptions(const Evaluation& e) {
   const auto& critical = e.summary.critical;
   std::vector<std::string> given{
       e.scene.geometry.imported ? "the shape of the imported blocks" : "the shape of the blocks",
-      "their weight and loads"};
+      critical && critical->parameter == "load" ? "their weight, where the loads act and in which direction"
+                                                : "their weight and loads"};
   if (!critical || critical->parameter != "friction")
     given.push_back(fmt::format("a friction of {:g}", e.scene.joints.friction));
   if (e.scene.joints.have_strength()) given.push_back("the strength of the joints");

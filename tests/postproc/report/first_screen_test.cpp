@@ -273,7 +273,7 @@ TEST(FirstScreen, LeadsWithThePressureOverTheStrength) {
   ASSERT_GE(numbers.size(), 2u);
   EXPECT_EQ(numbers[1].name, kLargestPressure);
   const double pressure = 3 * 0.48 * 1800.0 * test::kGravity / 0.48;  // half of the lowest bed
-  EXPECT_EQ(numbers[1].value, fmt::format("{:.3g} MPa", 1e-6 * pressure));
+  EXPECT_EQ(numbers[1].value, fmt::format("{:.3g} kPa", 1e-3 * pressure)) << "below 0.1 MPa";
   EXPECT_NE(numbers[1].detail.find(fmt::format("{:.3g} %", 100 * pressure / strength)), std::string::npos)
       << numbers[1].detail;
   EXPECT_NE(numbers[1].detail.find("3 of 3 joints lie outside the kern"), std::string::npos)
