@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "assembly/case/analysis.hpp"
+#include "assembly/case/ensemble.hpp"
 #include "assembly/case/geometry.hpp"
 #include "assembly/case/sweep.hpp"
 #include "assembly/model/joint_laws.hpp"
@@ -73,11 +75,14 @@ struct Case {
   Analysis analysis;
   Output output;
   Postproc postproc;
-  std::vector<SweptKey> sweep;  ///< keys varied in a study of this case; without effect on its own run
+  std::vector<SweptKey> sweep;       ///< keys varied in a study of this case; without effect on its own run
+  SampleFile sample_file;            ///< in place of `sweep`
+  std::optional<Ensemble> ensemble;  ///< random members of a study of this case
 
   std::string file;                 ///< path as given on the command line
   std::vector<std::string> inputs;  ///< files read: the case, those it extends, and those it names
-  std::string hash;           ///< of all sections except title, postproc and sweep, which do not affect a run
+  std::string
+      hash;  ///< of all sections except title, postproc, sweep and ensemble, which do not affect a run
   std::string geometry_hash;  ///< of the sections that the generator reads: geometry, material, imperfections
   std::string effective_yaml;         ///< every key with its value in force
   std::vector<std::string> warnings;  ///< implausible values (assembly/case/plausibility.hpp)

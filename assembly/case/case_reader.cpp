@@ -1,5 +1,8 @@
 #include "assembly/case/case_reader.hpp"
 
+#include <map>
+#include <set>
+
 #include <fmt/format.h>
 
 #include "assembly/case/case_tree.hpp"
@@ -27,7 +30,7 @@ bool generator_reads(const std::string& name) {
 
 /// Changes of the other sections leave the results valid.
 bool solver_reads(const std::string& name) {
-  return name != "title" && name != "postproc" && name != "sweep";
+  return name != "title" && name != "postproc" && name != "sweep" && name != "ensemble";
 }
 
 /// The title, followed by the options that change the model: `Dome (with joints.friction=0.3)`.
@@ -61,20 +64,52 @@ Case read_one_case(const std::string& path, const std::vector<std::string>& set_
   return the_case;
 }
 
+/// Reads the case with one member's settings; `source` names the section that gives them.
+void check_member(const std::string& path, const char* source, const std::vector<std::string>& settings) {
+  try {
+    read_one_case(path, settings);
+  } catch (const InputError& error) {
+    throw InputError(FileLocation{path}, fmt::format("{}: {}", source, error.what()));
+  }
+}
+
 }  // namespace
+
+void check_samples(const std::string& path, const std::vector<std::string>& settings, const char* source,
+                   const Samples& samples) {
+  const auto check = [&](const std::vector<std::string>& own) {
+    std::vector<std::string> all = settings;
+    all.insert(all.end(), own.begin(), own.end());
+    check_member(path, source, all);
+  };
+  for (size_t k = 0; k < samples.keys.size(); ++k) {
+    // Admissible numbers form an interval, so that the least and the greatest stand for all.
+    std::map<double, std::string> numbers;
+    std::set<std::string> checked;
+    for (const std::vector<std::string>& row : samples.rows)
+      if (double value = 0.0; read_number(row[k], &value).empty())
+        numbers[value] = row[k];
+      else
+        checked.insert(row[k]);
+    if (!numbers.empty()) checked.insert({numbers.begin()->second, numbers.rbegin()->second});
+    for (const std::string& value : checked) check({fmt::format("{}={}", samples.keys[k], value)});
+  }
+  for (const SweepMember& first : members_of({samples.keys, {samples.rows.front()}}, ""))
+    check(first.settings);
+}
 
 Case read_case(const std::string& path, const std::vector<std::string>& set_options) {
   Case the_case = read_one_case(path, set_options);
+  if (!set_options.empty()) {  // one member, which does not read the others
+    std::erase(the_case.inputs, the_case.sample_file.file);
+    return the_case;
+  }
   for (const SweptKey& swept : the_case.sweep)
-    for (const std::string& value : swept.values) {
-      std::vector<std::string> options = set_options;
-      options.push_back(fmt::format("{}={}", swept.key, value));
-      try {
-        read_one_case(path, options);
-      } catch (const InputError& error) {
-        throw InputError(FileLocation{path}, fmt::format("sweep: {}", error.what()));
-      }
-    }
+    for (const std::string& value : swept.values)
+      check_member(path, "sweep", {fmt::format("{}={}", swept.key, value)});
+  if (!the_case.sample_file.file.empty())
+    check_samples(path, {}, "sweep", read_samples(the_case.sample_file.file));
+  if (the_case.ensemble) check_samples(path, {}, "ensemble", draw_samples(*the_case.ensemble));
   return the_case;
 }
 

@@ -10,8 +10,13 @@ namespace cupola {
 
 /// Reads a case file: resolves `extends`, applies `--set key.path=value`, and checks that every key is known
 /// and every value has the right type and range. Throws InputError with file, line, column, key path, the
-/// rule broken and the nearest valid key. The keys and values of a sweep are checked like `--set` options.
+/// rule broken and the nearest valid key. Without options, the keys and values of a sweep or ensemble are checked like them.
 Case read_case(const std::string& path, const std::vector<std::string>& set_options = {});
+
+/// Checks the samples of the case as if each value were set: of numbers the least and the greatest of each key, every other text, and
+/// the first member whole, beside `settings`. `source` begins the message of the InputError.
+void check_samples(const std::string& path, const std::vector<std::string>& settings, const char* source,
+                   const Samples& samples);
 
 /// All keys: path, type, unit, range, default, meaning.
 SchemaTable case_schema_table();

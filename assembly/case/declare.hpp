@@ -14,6 +14,8 @@ inline constexpr double kLightest = 3e3,
 
 void declare_case(Section& s, Case& the_case);
 void declare_swept_key(Section& s, SweptKey& swept);
+void declare_ensemble(Section& s, Ensemble& ensemble);
+void declare_sample_file(Section& s, SampleFile& samples);
 void declare_geometry(Section& s, Geometry& geometry);
 /// Warns of a length of the structure (m) in another unit.
 void expect_length(const Section& s, const char* key, double value, double low = 0.05, double high = 250.0);

@@ -79,8 +79,12 @@ void declare_case(Section& s, Case& the_case) {
   s.section("postproc", the_case.postproc, "meridians, sections and planes to evaluate", declare_postproc);
   declare_strength_rules(s, the_case);
   expect_face_loads(s, the_case);
-  s.list("sweep", the_case.sweep, "parameter study: keys and the values they take, in all combinations",
-         declare_swept_key);
+  s.list_or_section("sweep", the_case.sweep, declare_swept_key, the_case.sample_file, declare_sample_file,
+                    "parameter study: keys and the values they take, in all combinations");
+  s.optional_section("ensemble", the_case.ensemble, "random members: distributions of keys",
+                     declare_ensemble);
+  s.rule(!the_case.ensemble || (the_case.sweep.empty() && the_case.sample_file.file.empty()), "ensemble",
+         "and `sweep` exclude each other");
 }
 
 }  // namespace cupola

@@ -363,6 +363,10 @@ void declare_geometry(Section& s, Geometry& geometry) {
   s.rule(!geometry.stage || geometry.stage->rings <= rings, "stage", "stage.rings must be <= bond.rings");
   s.rule(!geometry.window || (closed && members_of(geometry).size() == 1), "window",
          "requires a dome or an octagonal vault, and no members");
+  const bool has_copies =
+      std::ranges::any_of(members_of(geometry), [](const Member* m) { return m->copies.has_value(); });
+  s.rule(!has_copies || (!geometry.window && !geometry.stage && geometry.chains.empty()), "chains",
+         "chains, stage and window require members without copies");
   if (!geometry.window && geometry.has_shell) check_closed_bonds(s, geometry);
   const bool whole = !geometry.window && closed;
   s.rule(geometry.chains.empty() || whole, "chains", "requires a whole dome or octagonal vault");

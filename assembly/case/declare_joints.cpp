@@ -118,6 +118,17 @@ void declare_ring_joints(Section& s, RingJoints& joints) {
   declare_law_change(s, joints.law);
 }
 
+void declare_field(Section& s, JointField& field) {
+  s.integer("seed", field.seed, {.min = 0}, "seed of the random numbers");
+  s.required_number("correlation_length", field.correlation_length, {.unit = "m", .above = 0},
+                    "distance over which the logarithm of a factor has the correlation 1/e");
+  s.number("friction", field.friction, {.min = 0, .max = 1}, "coefficient of variation of the friction");
+  s.number("strength", field.strength, {.min = 0, .max = 1},
+           "coefficient of variation of tension, cohesion and compressive strength, which vary together");
+  s.number("compliance", field.compliance, {.min = 0, .max = 1},
+           "coefficient of variation of the compliance");
+}
+
 void declare_failure_rules(Section& s, const Joints& joints) {
   const bool softens = joints.failure == JointFailure::softening;
   const bool energies =
@@ -199,6 +210,11 @@ void declare_joints(Section& s, Joints& joints) {
   for (const auto& [key, law] : joints.kinds()) expect_compliances(key, *law);
   for (size_t i = 0; i < joints.rings.size(); ++i)
     expect_compliances(fmt::format("rings[{}]", i), joints.rings[i].law);
+  s.optional_section("field", joints.field,
+                     "random factors on the values of joints, as functions of place with mean 1",
+                     declare_field);
+  s.rule(!joints.field || joints.field->strength == 0.0 || joints.have_strength(), "field",
+         "strength: has no effect on joints without tension, cohesion and compressive_strength");
   declare_time(s, "friction_time", joints.friction_time, "factor on every friction coefficient");
   const char* key = strength.tension > 0.0        ? "tension"
                     : strength.cohesion > 0.0     ? "cohesion"

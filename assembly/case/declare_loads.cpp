@@ -22,6 +22,12 @@ void declare_sharing_blocks(Section& s, SharingBlocks& over) {
   s.text("member", over.member, "wythe, drum or group of bonders; empty: any");
 }
 
+void declare_spread(Section& s, Spread& spread) {
+  s.required_number("x", spread.x, {.unit = "m", .above = 0}, "length of the loaded rectangle along x");
+  s.required_number("y", spread.y, {.unit = "m", .above = 0}, "along y");
+  s.number("slope", spread.slope, {.min = 0, .max = 10}, "by which each side moves outwards per depth");
+}
+
 void declare_block_force(Section& s, BlockForce& load) {
   std::optional<BlockRef> block;
   s.optional_block("block", block, "that of the point", "number or name of the loaded block");
@@ -30,13 +36,32 @@ void declare_block_force(Section& s, BlockForce& load) {
                      "point of application, in the as-built geometry; without a block it chooses the block");
   s.optional_section("over", load.over, "instead of a block: free blocks that share the force by volume",
                      declare_sharing_blocks);
+  s.optional_section("spread", load.spread,
+                     "instead of a block: the force acts on a rectangle at the height of the point, as a "
+                     "wheel on a road, and "
+                     "spreads through the fill to the extrados",
+                     declare_spread);
   s.rule(block || load.over || load.point, "block", "give the loaded block, a point or `over`");
+  s.rule(!load.spread || (load.point && !block && !load.moment), "spread",
+         "requires a point, and neither a block nor a moment");
   s.rule(!load.over || (!block && !load.point), "over",
          "shares the force among blocks: leave out block and point");
   s.vector3("force", load.force, {.unit = "N"}, "force, of constant direction");
   s.optional_vector3("moment", load.moment, {.unit = "N m"}, "none", "moment on the block, right-handed");
   s.rule(!load.over || !load.moment, "moment", "acts on one block: give `block` instead of `over`");
   declare_time(s, "time", load.time, "factor on force and moment");
+}
+
+void declare_fill(Section& s, Fill& fill) {
+  s.required_number("level", fill.level, {.unit = "m"}, "height of its level surface");
+  s.optional_number("from", fill.from, {.unit = "m"}, "on the masonry",
+                    "height above which it lies, over other fill");
+  s.required_number("unit_weight", fill.unit_weight, {.unit = "N/m3", .above = 0}, "weight per volume");
+  s.expect({"unit_weight", fill.unit_weight, "N/m3", kLightest, kHeaviest, "in kN/m3? Write 18000",
+            "too many digits? Soil weighs about 18000 N/m3"});
+  s.number("horizontal", fill.horizontal, {.min = 0, .max = 10},
+           "horizontal over vertical stress: 0 none, 0.5 loose soil at rest");
+  s.rule(!fill.from || *fill.from < fill.level, "from", "must lie below level");
 }
 
 void declare_face_load(Section& s, FaceLoad& load) {
@@ -48,6 +73,7 @@ void declare_face_load(Section& s, FaceLoad& load) {
   s.vector3("traction", load.traction, {.unit = "N/m2"}, "force per unit area, of constant direction");
   s.number("pressure", load.pressure, {.unit = "N/m2"},
            "pressure on the faces, in their as-built directions");
+  s.optional_section("fill", load.fill, "backing or fill with a level surface on these faces", declare_fill);
   declare_time(s, "time", load.time, "factor on the load");
 }
 

@@ -34,7 +34,10 @@ void declare_plane_cut(Section& s, Cut& cut) {
   s.vector3("point", cut.point, {}, "point of the plane");
   s.vector3("normal", cut.normal, {}, "direction into what is taken away");
   s.rule(cut.normal.norm() > 0.0, "normal", "must not be zero");
-  s.choice("as", cut.as, "what lies behind the faces of the cut: nothing, or a fixed support");
+  s.choice(
+      "as", cut.as,
+      "what lies behind the faces of the cut: nothing, a fixed support, or the rest of the stones, parted by "
+      "a joint");
 }
 
 void declare_prism_cut(Section& s, Cut& cut) {
@@ -64,11 +67,20 @@ void declare_cylinder_cut(Section& s, Cut& cut) {
   s.integer("sides", cut.sides, {.min = 3, .max = 1000}, "number of its plane sides");
 }
 
+void declare_under_cut(Section& s, Cut& cut) {
+  cut.kind = Cut::Kind::under;
+  s.text("member", cut.member, "a barrel of the case");
+  s.choice("face", cut.face,
+           "of that member: what lies under it, from end to end and downwards, is taken away");
+  s.rule(!cut.member.empty(), "member", "is missing: give the name of a member");
+}
+
 void declare_cut(Section& s, Cut& cut) {
   s.variant<Cut>("type", cut,
                  {{"plane", "all on one side of a plane", declare_plane_cut},
                   {"prism", "a door, a window, a sector: a prism over a convex polygon", declare_prism_cut},
-                  {"cylinder", "a round window: a prism over a regular polygon", declare_cylinder_cut}},
+                  {"cylinder", "a round window: a prism over a regular polygon", declare_cylinder_cut},
+                  {"under", "a lunette: what lies under another barrel", declare_under_cut}},
                  "body that is taken away");
 }
 
@@ -85,6 +97,15 @@ bool has_ring(const SomeBond& bond) {
 }
 bool has_ring(const DrawnBond& /*bond*/) {
   return true;
+}
+
+void declare_copies(Section& s, Copies& copies) {
+  s.required_integer("count", copies.count, {.min = 2, .max = 1000},
+                     "number of them, with the member itself");
+  s.optional_vector3("about", copies.about, {.unit = "m"}, "none",
+                     "they stand at equal angles round the vertical through this point");
+  s.vector3("by", copies.by, {.unit = "m"}, "move from one to the next, without `about`");
+  s.rule(copies.about.has_value() != (copies.by.norm() > 0.0), "about", "give one of about and by");
 }
 
 }  // namespace
@@ -109,6 +130,11 @@ void declare_shape(Section& s, Member& member) {
                      declare_place);
   s.rule(!member.at || member.on.empty(), "at",
          fmt::format("a member that stands on {} lies on its axis; move that one", member.on));
+  s.optional_section("copies", member.copies,
+                     "equal copies of the member, and of the members that stand on it: NAME 2, NAME 3, ...",
+                     declare_copies);
+  s.rule(!member.copies || member.on.empty(), "copies",
+         fmt::format("a member that stands on {} is copied with it: give `copies` there", member.on));
   s.section("surface", member.surface, "shape of the masonry", declare_surface);
   declare_masonry(s, member);
   s.list("openings", member.openings, "windows in a closed member, each under a lintel in one block",

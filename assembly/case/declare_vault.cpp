@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "assembly/case/declare.hpp"
-#include "assembly/files/profile_table.hpp"
+#include "assembly/files/profile_drawing.hpp"
 
 namespace cupola {
 namespace {
@@ -59,6 +59,37 @@ void declare_plan(Section& s, Plan& plan) {
       "line over which the vault stands");
 }
 
+/// The points of a chain, in the case or in a file.
+void declare_chain_points(Section& s, Profile& profile) {
+  std::optional<double> span;
+  s.file("file", profile.file,
+         "CSV with the columns r, z and perhaps radius, or SVG with one path, instead of these keys");
+  s.optional_number("span", span, {.unit = "m", .above = 0}, "that of the points",
+                    "scales the points, so that they have this span at the springing");
+  if (!profile.file.empty()) {
+    for (const char* key : {"r", "z", "radius"})
+      s.refuse(key, "remove this key, or `file`, which gives the points");
+    if (is_drawing(profile.file)) {
+      s.rule(span.has_value(), "file", "a drawing has no metres: give the span, too");
+      profile.points = read_profile_drawing(profile.file, *span);
+    } else {
+      profile.points = read_profile_table(profile.file);
+    }
+  } else {
+    s.numbers("r", profile.points.r, {.unit = "m"},
+              "points from the springing upwards: distance from the axis");
+    s.numbers("z", profile.points.z, {.unit = "m"}, "points from the springing upwards: height");
+    s.numbers("radius", profile.points.radius, {.unit = "m"},
+              "radius from each point to the next, positive where it turns towards the axis; "
+              "0, or none: a straight line");
+    s.rule(profile.points.r.size() == profile.points.z.size(), "z", "must have as many numbers as r");
+  }
+  if (span && !profile.points.r.empty()) {
+    s.rule(profile.points.r.front() > 0.0, "span", "requires a first point away from the axis");
+    scale_to_span(*span, &profile.points);
+  }
+}
+
 void declare_profile(Section& s, Profile& profile) {
   using Kind = Profile::Kind;
   using Keys = void (*)(Section&, Profile&);
@@ -108,26 +139,7 @@ void declare_profile(Section& s, Profile& profile) {
               section.number("batter", p.batter, {.min = -5, .max = 5}, "lean inwards, over the height");
             }),
        kind(Kind::chain, "chain", "lines and arcs from point to point", nullptr,
-            [](Section& section, Profile& p) {
-              section.file("file", p.file,
-                           "CSV with the columns r, z and perhaps radius, instead of these keys");
-              if (!p.file.empty()) {
-                for (const char* key : {"r", "z", "radius"})
-                  section.refuse(key, "remove this key, or `file`, which gives the points");
-                const ProfileTable table = read_profile_table(p.file);
-                p.r = table.r;
-                p.z = table.z;
-                p.radius = table.radius;
-                return;
-              }
-              section.numbers("r", p.r, {.unit = "m"},
-                              "points from the springing upwards: distance from the axis");
-              section.numbers("z", p.z, {.unit = "m"}, "points from the springing upwards: height");
-              section.numbers("radius", p.radius, {.unit = "m"},
-                              "radius from each point to the next, positive where it turns towards the axis; "
-                              "0, or none: a straight line");
-              section.rule(p.r.size() == p.z.size(), "z", "must have as many numbers as r");
-            })},
+            [](Section& section, Profile& p) { declare_chain_points(section, p); })},
       "section of the vault");
 }
 
@@ -165,7 +177,7 @@ void declare_vault(Section& s, VaultSurface& vault) {
   s.rule(!vault.key_stone || (vault.eye > 0.0 && vault.plan.kind == Plan::Kind::circle), "key_stone",
          "requires plan: {type: circle} and an eye");
   s.rule(!vault.key_stone || !s.parent_gives("wythes"), "key_stone", "requires a shell without wythes");
-  s.rule(vault.profile.kind != Profile::Kind::chain || vault.profile.r.size() >= 2, "profile",
+  s.rule(vault.profile.kind != Profile::Kind::chain || vault.profile.points.r.size() >= 2, "profile",
          "a chain has at least 2 points");
   s.rule(vault.line == VaultSurface::Line::intrados || !s.parent_gives("wythes"), "line",
          "requires a shell without wythes");

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "assembly/base/named_enum.hpp"
+#include "assembly/files/profile_table.hpp"
 #include "assembly/model/sheet.hpp"
 
 namespace cupola {
@@ -134,13 +135,11 @@ struct Profile {
   double below_deg = 30.0;     ///< in (0, 90), by which a horseshoe continues below its centre
   double height = 5.0;         ///< m, > 0, of a straight profile
   double batter = 0.0;         ///< by which a straight profile leans inwards per height
-  std::string file;            ///< CSV with the columns r, z and perhaps radius; "": the numbers below
-  std::vector<double> r, z;    ///< m, points of a chain
-  std::vector<double>
-      radius;  ///< m, of the arc to the next point, positive where it turns towards r = 0; 0: line
+  std::string file;            ///< table or drawing of the points of a chain; "": the numbers below
+  ProfileTable points;         ///< of a chain
 
   /// m, about which its coordinates are rounded.
-  double width() const { return kind == Kind::chain && !r.empty() ? 2.0 * r.front() : span; }
+  double width() const { return kind == Kind::chain && !points.r.empty() ? 2.0 * points.r.front() : span; }
 };
 
 /// Any profile carried along any plan.
@@ -346,10 +345,11 @@ struct Openings {
 
 /// A convex body that a member loses: a half-space, or a prism.
 struct Cut {
-  enum class Kind : std::uint8_t { plane, prism, cylinder };
+  enum class Kind : std::uint8_t { plane, prism, cylinder, under };
   enum class Axis : std::uint8_t { x, y, z };
-  /// What lies behind the faces of the cut: nothing, or a fixed support.
-  enum class As : std::uint8_t { free, held };
+  /// What lies behind the faces of the cut: nothing, a fixed support, or the same stones, parted by a joint.
+  enum class As : std::uint8_t { free, held, joint };
+  enum class Face : std::uint8_t { extrados, intrados };
 
   Kind kind = Kind::plane;
   As as = As::free;
@@ -361,12 +361,17 @@ struct Cut {
   double centre_u = 0.0, centre_v = 0.0, radius = 1.0;  ///< m, of a cylinder, a prism over a regular polygon
   int sides = 16;                                       ///< >= 3, of that polygon
   std::optional<double> from, to;                       ///< m, along the axis; none: without end
+  std::string member;          ///< a barrel: what lies under its `face`, from end to end, is taken away
+  Face face = Face::extrados;  ///< of that member
 };
 constexpr auto enum_names(Cut::Axis) {
   return std::array{"x", "y", "z"};
 }
 constexpr auto enum_names(Cut::As) {
-  return std::array{"free", "held"};
+  return std::array{"free", "held", "joint"};
+}
+constexpr auto enum_names(Cut::Face) {
+  return std::array{"extrados", "intrados"};
 }
 
 /// Where a member stands.
@@ -375,11 +380,20 @@ struct Place {
   double rotate_deg = 0.0;                           ///< about the vertical through the origin
 };
 
+/// Equal copies of a member, and of what stands on it: each follows from the one before by a turn about the vertical through a
+/// point, or by a move.
+struct Copies {
+  int count = 2;                                 ///< >= 2, with the member itself
+  std::optional<Eigen::Vector3d> about = {};     ///< m; the copies stand at equal angles round it
+  Eigen::Vector3d by = Eigen::Vector3d::Zero();  ///< m, without `about`
+};
+
 /// A surface with its bond: a wall, a drum, a dome. Heights of its wythes, bonders and openings count from its springing.
 struct Member : Masonry {
   std::string name = "shell";
   std::string on;           ///< name of the member on whose last bed it stands; "": on supports of its own
   std::optional<Place> at;  ///< none: at the origin, or on the axis of the member below
+  std::optional<Copies> copies;
   Surface surface = DomeSurface{};
   std::vector<Openings> openings;
   std::vector<Cut> cuts;  ///< in its own coordinates, before `at`

@@ -118,6 +118,11 @@ class Section {
   void list(const std::string& key, std::vector<T>& values, const std::string& meaning,
             void (*declare)(Section&, T&), Items items = Items::maps);
 
+  /// Either a list of maps or one map of keys.
+  template <class T, class Keys>
+  void list_or_section(const std::string& key, std::vector<T>& values, void (*declare_item)(Section&, T&),
+                       Keys& keys, void (*declare_keys)(Section&, Keys&), const std::string& meaning);
+
   /// One alternative of a variant: its name (after `type:`) and its keys.
   template <class Variant>
   struct Alternative {
@@ -263,6 +268,16 @@ void Section::list(const std::string& key, std::vector<T>& values, const std::st
     declare(s, item);
     values.push_back(std::move(item));
   });
+}
+
+template <class T, class Keys>
+void Section::list_or_section(const std::string& key, std::vector<T>& values,
+                              void (*declare_item)(Section&, T&), Keys& keys,
+                              void (*declare_keys)(Section&, Keys&), const std::string& meaning) {
+  const CaseNode* node = node_ ? node_->find(key) : nullptr;
+  const bool is_map = node && node->kind == CaseNode::Kind::map;
+  if (!is_map) list(key, values, meaning, declare_item);
+  if (is_map || describing()) section(key, keys, "instead of a list", declare_keys);
 }
 
 template <class Variant>

@@ -1,10 +1,13 @@
 #include "assembly/case/sweep.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
+#include "assembly/files/atomic_file.hpp"
 
 namespace cupola {
 namespace {
@@ -26,7 +29,65 @@ bool fits_a_file_name(const std::string& value) {
   });
 }
 
+/// The cells of a line; blanks around them do not count.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream rest(line);
+  for (std::string cell; std::getline(rest, cell, ',');) {
+    const size_t first = cell.find_first_not_of(" \t\r");
+    const size_t last = cell.find_last_not_of(" \t\r");
+    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+  }
+  if (line.ends_with(',')) cells.emplace_back();
+  return cells;
+}
+
+bool is_key_path(std::string key) {
+  std::erase_if(key, [](char c) { return c == '[' || c == ']'; });
+  return fits_a_file_name(key);
+}
+
 }  // namespace
+
+Samples read_samples(const std::string& path) {
+  Samples samples;
+  std::istringstream lines(read_text(path));
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    std::vector<std::string> cells = cells_of(line);
+    if (cells.empty() || (cells.size() == 1 && cells[0].empty()) || line.front() == '#') continue;
+    const FileLocation where{path, number, 1};
+    const bool header = samples.keys.empty();
+    for (const std::string& cell : cells)
+      if (!(header ? is_key_path(cell) : fits_a_file_name(cell)))
+        throw InputError(where, fmt::format("`{}`: a {} consists of letters, digits and . - + _", cell,
+                                            header ? "key path" : "value"));
+    if (header) {
+      samples.keys = std::move(cells);
+      continue;
+    }
+    if (cells.size() != samples.keys.size())
+      throw InputError(
+          where, fmt::format("{} for {}; give one per key of the header line", counted(cells.size(), "value"),
+                             counted(samples.keys.size(), "key")));
+    samples.rows.push_back(std::move(cells));
+  }
+  if (samples.rows.empty())
+    throw InputError({path, 0, 0},
+                     "has no members; expected a line of key paths and a line of values for each member");
+  return samples;
+}
+
+std::vector<SweepMember> members_of(const Samples& samples, const std::string& prefix) {
+  std::vector<SweepMember> members;
+  for (const std::vector<std::string>& row : samples.rows) {
+    SweepMember& member = members.emplace_back();
+    member.name = fmt::format("{}{:04}", prefix, members.size());
+    for (size_t k = 0; k < row.size(); ++k)
+      member.settings.push_back(fmt::format("{}={}", samples.keys[k], row[k]));
+  }
+  return members;
+}
 
 std::vector<SweepMember> members_of(const std::vector<SweptKey>& sweep, const std::string& case_name) {
   if (sweep.empty())

@@ -52,4 +52,13 @@ ProfileTable read_profile_table(const std::string& path) {
   return table;
 }
 
+void scale_to_span(double span, ProfileTable* table) {
+  const double scale = 0.5 * span / table->r.front();
+  for (std::vector<double>* lengths : {&table->r, &table->z, &table->radius})
+    for (double& length : *lengths) length *= scale;
+  for (std::optional<CurveControls>& curve : table->curves)
+    if (curve) curve = CurveControls{scale * curve->first, scale * curve->second};
+  table->r.front() = 0.5 * span;
+}
+
 }  // namespace cupola

@@ -1,50 +1,23 @@
 #include "assembly/model/applied_loads.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/loaded_faces.hpp"
 
 namespace cupola {
 namespace {
-
-struct LoadedFace {
-  int block;
-  Vec3 centroid;
-  Vec3 normal;  // outward
-  double area;
-};
-
-bool is_of_member(const Assembly& assembly, const Block& block, const std::string& member) {
-  return member.empty() || (!assembly.members.empty() && assembly.members[block.member] == member);
-}
-
-/// Faces of one kind on the free blocks of a member, for parts in a range of rings.
-std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, FaceKind kind, int from_ring, int to_ring,
-                                      const std::string& member) {
-  std::vector<LoadedFace> faces;
-  for (const Part& part : assembly.parts) {
-    const Block& block = assembly.blocks[part.block];
-    if (part.ring < from_ring || part.ring > to_ring || block.fixed || !is_of_member(assembly, block, member))
-      continue;
-    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-      if (assembly.face_kinds[f] != kind) continue;
-      const std::vector<Vec3> polygon = face_points(assembly, f);
-      faces.push_back(
-          {part.block, polygon_centroid(polygon), polygon_plane(polygon).normal, polygon_area(polygon)});
-    }
-  }
-  return faces;
-}
 
 /// Distributes a weight over the top faces by area, as forces along the unit vector `down` at the face
 /// centroids.
 void add_top_load(const Assembly& assembly, double weight, const Vec3& down, const char* key,
                   std::vector<PointForce>* forces) {
   CUPOLA_ASSERT(std::abs(down.norm() - 1.0) < 1e-9);
-  const std::vector<LoadedFace> faces = faces_of_kind(assembly, FaceKind::top, 0, kLastRing, "");
+  const std::vector<LoadedFace> faces = faces_of_kind(assembly, std::array{FaceKind::top}, 0, kLastRing, "");
   if (faces.empty())
     throw InputError(fmt::format("loads.{}: the assembly has no faces of kind top to carry it", key));
   double total_area = 0.0;
@@ -97,6 +70,20 @@ void add_shared_force(const BlockForce& load, const Assembly& assembly, int time
       forces->push_back({static_cast<int>(b), block.centroid, block.volume / volume * load.force, time});
 }
 
+/// On the upper faces of the masonry, wherever its extrados or a wall ends below the rectangle.
+void add_spread_force(const BlockForce& load, const Assembly& assembly, int time,
+                      std::vector<PointForce>* forces) {
+  const std::vector<LoadedFace> faces =
+      faces_of_kind(assembly, std::array{FaceKind::extrados, FaceKind::top}, 0, kLastRing, "");
+  const Vec3& point = load.point.value();
+  const std::vector<SpreadShare> shares = spread_shares(*load.spread, point, faces);
+  if (shares.empty())
+    throw InputError(fmt::format(
+        "loads.forces: no extrados lies below the rectangle of {:g} by {:g} m about ({:g}, {:g}, {:g}) m",
+        load.spread->x, load.spread->y, point.x(), point.y(), point.z()));
+  for (const SpreadShare& s : shares) forces->push_back({s.block, s.point, s.share * load.force, time});
+}
+
 /// Two couples at right angles, of equal share. Together they have no symmetric moment, which would pass for stress.
 void add_moment(const Vec3& moment, int number, const Block& block, int time,
                 std::vector<PointForce>* forces) {
@@ -112,6 +99,7 @@ void add_moment(const Vec3& moment, int number, const Block& block, int time,
 void add_block_force(const BlockForce& load, const Assembly& assembly, int time,
                      std::vector<PointForce>* forces) {
   if (load.over) return add_shared_force(load, assembly, time, forces);
+  if (load.spread) return add_spread_force(load, assembly, time, forces);
   const int number =
       load.block == BlockForce::kAtPoint ? block_at(assembly, load.point.value()) : load.block.number;
   const int num_blocks = static_cast<int>(assembly.blocks.size());
@@ -125,17 +113,28 @@ void add_block_force(const BlockForce& load, const Assembly& assembly, int time,
   if (load.moment) add_moment(*load.moment, number, block, time, forces);
 }
 
-void add_face_load(const FaceLoad& load, const Assembly& assembly, int time,
+void add_face_load(const FaceLoad& load, const Assembly& assembly, const Vec3& gravity, int time,
                    std::vector<PointForce>* forces) {
   const std::vector<LoadedFace> faces =
-      faces_of_kind(assembly, load.faces, load.from_ring, load.to_ring, load.member);
+      faces_of_kind(assembly, std::array{load.faces}, load.from_ring, load.to_ring, load.member);
   if (faces.empty())
     throw InputError(fmt::format("loads.faces: no free block{} in rings {} to {} has faces of kind {}",
                                  load.member.empty() ? "" : " of " + load.member, load.from_ring,
                                  load.to_ring, to_string(load.faces)));
-  for (const LoadedFace& face : faces)
-    forces->push_back(
-        {face.block, face.centroid, face.area * (load.traction - load.pressure * face.normal), time});
+  const bool has_traction = load.traction.norm() > 0.0 || load.pressure != 0.0 || !load.fill;
+  bool is_covered = !load.fill;
+  for (const LoadedFace& face : faces) {
+    if (has_traction)
+      forces->push_back(
+          {face.block, face.centroid, face.area * (load.traction - load.pressure * face.normal), time});
+    if (!load.fill) continue;
+    const auto [point, force] = fill_force(*load.fill, face, gravity);
+    is_covered = is_covered || load.fill->stress(point.z()) > 0.0;
+    if (force.norm() > 0.0) forces->push_back({face.block, point, force, time});
+  }
+  if (!is_covered)
+    throw InputError(fmt::format("loads.faces: the fill up to z = {:g} m covers none of the faces of kind {}",
+                                 load.fill->level, to_string(load.faces)));
 }
 
 }  // namespace
@@ -154,7 +153,7 @@ std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assemb
   add_top(loads.top_load, "top_load");
   int time = 0;
   for (const BlockForce& load : loads.forces) add_block_force(load, assembly, time++, &forces);
-  for (const FaceLoad& load : loads.faces) add_face_load(load, assembly, time++, &forces);
+  for (const FaceLoad& load : loads.faces) add_face_load(load, assembly, loads.gravity, time++, &forces);
   return forces;
 }
 

@@ -80,6 +80,16 @@ constexpr auto enum_names(RingJoints::Sort) {
   return std::array{"all", "bed", "head", "herringbone", "base", "laid_bed", "laid_head"};
 }
 
+/// Random factors on the values of joints, as functions of place: at each point lognormal with mean 1, independent of each other. Two bonds
+/// of one seed read the same functions.
+struct JointField {
+  int seed = 1;
+  double correlation_length =
+      0.0;  ///< m, > 0: over the distance r the correlation of the logarithms is exp(-(r / length)^2)
+  double friction = 0.0, strength = 0.0, compliance = 0.0;  ///< coefficients of variation, >= 0
+  bool operator==(const JointField&) const = default;
+};
+
 /// Joint laws. Values for rings override values for a kind of joint, which override the general values.
 struct Joints {
   double friction = 0.4;  ///< mu, >= 0
@@ -91,6 +101,7 @@ struct Joints {
   std::optional<JointLawChange> wythe;   ///< between layers of the thickness
   std::optional<JointLawChange> pieces;  ///< between imported blocks whose names differ only after a '#'
   std::vector<RingJoints> rings;
+  std::optional<JointField> field;
   TimeFunction friction_time;  ///< factor on every friction coefficient
 
   /// The kinds of joints with a law of their own, each with its key.

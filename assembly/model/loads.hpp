@@ -32,6 +32,12 @@ struct SharingBlocks {
   std::string member;  ///< see Assembly::members; empty: any
 };
 
+/// A rectangle over which a force is spread on the surface of a fill, and how it widens on its way down to the masonry.
+struct Spread {
+  double x = 1.0, y = 1.0;  ///< m, > 0, its sides along the world axes, about the point of the force
+  double slope = 0.5;       ///< >= 0, by which each side moves outwards per m of depth
+};
+
 /// A force of constant direction, and a moment, on a block; or a force shared by many.
 struct BlockForce {
   static constexpr int kAtPoint = -1;
@@ -43,9 +49,22 @@ struct BlockForce {
   /// block's rotation about it.
   std::optional<Vec3> moment = {};
   std::optional<SharingBlocks> over = {};  ///< instead of block, point and moment
+  std::optional<Spread> spread = {};       ///< instead of a block: on the extrados below `point`
 };
 
-/// A traction of constant direction, or a pressure normal to the as-built faces, on all faces of one kind.
+/// Backing or fill with a level surface. On a face of the masonry its vertical stress is the weight of the column above,
+/// and acts along gravity; the horizontal one is a share of it, on the upright part of the face. Faces that look down carry
+/// the horizontal one only.
+struct Fill {
+  double level = 0.0;          ///< m, z of its surface
+  std::optional<double> from;  ///< m, z below which there is other material; none: it lies on the masonry
+  double unit_weight = 0.0;    ///< N/m3, > 0, under standard gravity
+  double horizontal = 0.0;     ///< >= 0, horizontal over vertical stress
+
+  double stress(double z) const;  ///< N/m2, vertical
+};
+
+/// A traction of constant direction, a pressure normal to the as-built faces, or a fill, on all faces of one kind.
 struct FaceLoad {
   FaceKind faces = FaceKind::extrados;
   int from_ring = 0, to_ring = kLastRing;  ///< rings of the parts, inclusive
@@ -53,6 +72,7 @@ struct FaceLoad {
   Vec3 traction = Vec3::Zero();            ///< N/m2, world
   double pressure = 0.0;                   ///< N/m2, positive into the block
   TimeFunction time;
+  std::optional<Fill> fill = {};
 };
 
 struct Loads {

@@ -25,7 +25,7 @@ int extent_of(const std::vector<LetterPlace>& places, size_t axis) {
 
 }  // namespace
 
-Drawing::Drawing(std::vector<const DrawnBond*> layers)
+BondDrawing::BondDrawing(std::vector<const DrawnBond*> layers)
     : layers_(std::move(layers)),
       columns_(static_cast<int>(layers_.front()->rows.front().size())),
       rows_(static_cast<int>(layers_.front()->rows.size())),
@@ -45,7 +45,7 @@ Drawing::Drawing(std::vector<const DrawnBond*> layers)
 }
 
 /// Of the cell of the period that stands for a place in the infinite pattern.
-size_t Drawing::cell(int column, int row, int wythe) const {
+size_t BondDrawing::cell(int column, int row, int wythe) const {
   const int period = floor_of(row, rows_), moved = column - shift_ * period;
   const auto c = static_cast<size_t>(moved - columns_ * floor_of(moved, columns_));
   const auto r = static_cast<size_t>(row - rows_ * period);
@@ -54,7 +54,7 @@ size_t Drawing::cell(int column, int row, int wythe) const {
 
 /// Finds the block of a place. If its cells reach a second place that stands for the same cell of the period, they go on
 /// without end.
-void Drawing::fill(int column, int row, int wythe) {
+void BondDrawing::fill(int column, int row, int wythe) {
   const auto letter_at = [&](const LetterPlace& p) {
     return layers_[static_cast<size_t>(p[2])]->letter(p[0], p[1]);
   };

@@ -15,11 +15,11 @@ struct DrawnBlock {
 
 /// The blocks of drawings that are repeated without end, one drawing per wythe, inside first. Cells of one letter are
 /// connected through their faces along the course, across beds, and between wythes.
-class Drawing {
+class BondDrawing {
  public:
   /// `layers`: at least one. Throws InputError for an infinite set of connected cells, naming its letter, and for several
   /// drawings of different size or shift.
-  explicit Drawing(std::vector<const DrawnBond*> layers);
+  explicit BondDrawing(std::vector<const DrawnBond*> layers);
 
   const std::vector<DrawnBlock>& blocks() const { return blocks_; }
   /// Index into blocks() of a cell of the infinite pattern; -1: empty.

@@ -139,7 +139,7 @@ class Laying {
   }
 
   const BondGrid& grid_;
-  Drawing drawing_;
+  BondDrawing drawing_;
   int num_letters_, offset_ = 0;
   BondPattern pattern_;
   std::vector<int> whole_width_;  // letters, of each block as drawn

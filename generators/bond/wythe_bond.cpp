@@ -139,7 +139,7 @@ std::vector<std::vector<const DrawnBond*>> groups_of_drawings(const Masonry& mas
 
 bool has_drawn_headers(const Masonry& masonry) {
   return std::ranges::any_of(groups_of_drawings(masonry), [](const auto& group) {
-    const Drawing drawing(group);
+    const BondDrawing drawing(group);
     return std::ranges::any_of(drawing.blocks(), [](const DrawnBlock& block) { return block.wythes > 1; });
   });
 }

@@ -96,4 +96,11 @@ std::vector<ConvexPiece> ConvexClip::outside(const ConvexPiece& piece) {
   return pieces;
 }
 
+ConvexPiece ConvexClip::inside(const ConvexPiece& piece) {
+  ConvexPiece rest = piece;
+  for (int plane = 0; plane < static_cast<int>(body_.size()) && !rest.faces.empty(); ++plane)
+    rest = half(rest, plane, true);
+  return rest;
+}
+
 }  // namespace cupola

@@ -30,7 +30,8 @@ class ConvexClip {
 
   /// The part of a piece outside the body, as convex pieces; the piece itself if they do not overlap.
   std::vector<ConvexPiece> outside(const ConvexPiece& piece);
-  const std::vector<Plane>& planes() const { return body_; }
+  /// The part inside the body; no faces if there is none.
+  ConvexPiece inside(const ConvexPiece& piece);
 
  private:
   /// The part with n.x <= offset, or with n.x >= offset; no faces if there is none.

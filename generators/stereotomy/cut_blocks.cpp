@@ -6,10 +6,13 @@
 #include <numbers>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "assembly/base/error.hpp"
 #include "generators/stereotomy/cell_grid.hpp"
 #include "generators/stereotomy/cell_parts.hpp"
 #include "generators/stereotomy/cut_bodies.hpp"
+#include "generators/stereotomy/cut_planes.hpp"
 #include "generators/stereotomy/grid_points.hpp"
 #include "generators/stereotomy/support.hpp"
 
@@ -113,8 +116,29 @@ void place(const Eigen::Isometry3d& placement, size_t first, Assembly* assembly)
     assembly->vertices[v] = placement * assembly->vertices[v];
 }
 
+/// The bodies of the cuts of a storey, in its coordinates.
+std::vector<CutBody> bodies_of(const Storey& storey, std::span<const Storey> storeys) {
+  std::vector<CutBody> bodies;
+  for (size_t i = 0; i < storey.cuts.size(); ++i) {
+    const Cut& cut = storey.cuts[i];
+    const std::string key = fmt::format("{}.cuts[{}]", storey.key, i);
+    if (cut.kind != Cut::Kind::under) {
+      bodies.push_back({cut, body_of(cut), key});
+      continue;
+    }
+    const auto other = std::ranges::find(storeys, cut.member, &Storey::name);
+    if (other == storeys.end() || &*other == &storey || other->surface.closed)
+      throw InputError(
+          fmt::format("{}.member = {}: must be another member, over a plan of type line", key, cut.member));
+    bodies.push_back(
+        {cut, moved(body_under(*other, cut.face, key), storey.placement.inverse() * other->placement), key});
+  }
+  return bodies;
+}
+
 /// Appends the blocks of a storey, with the supports between which it stands.
-void add_storey(const Storey& shell, const CutOptions& options, Assembly* assembly) {
+void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutOptions& options,
+                Assembly* assembly) {
   const SurfaceMap& surface = shell.surface;
   const std::vector<double>& cuts = shell.bond.cuts;
   const size_t first_vertex = assembly->vertices.size();
@@ -137,7 +161,7 @@ void add_storey(const Storey& shell, const CutOptions& options, Assembly* assemb
   }
   if (surface.key_stone) add_key_stone(grid, first_member, options.density, &points, assembly);
   if (surface.last_bed_held) add_far_support(surface, cuts, options.support_width, options.density, assembly);
-  cut_bodies(shell.cuts, start, options.support_width, options.density, shell.key + ".cuts", assembly);
+  cut_bodies(bodies_of(shell, storeys), start, options.support_width, options.density, assembly);
   place(shell.placement, first_vertex, assembly);
   assembly->num_rings = surface.rings_below + shell.num_rings();
   const Vec3 x_axis = shell.placement.linear().col(0);
@@ -150,7 +174,7 @@ void add_storey(const Storey& shell, const CutOptions& options, Assembly* assemb
 
 Assembly cut_blocks(std::span<const Storey> storeys, const CutOptions& options) {
   Assembly assembly;
-  for (const Storey& storey : storeys) add_storey(storey, options, &assembly);
+  for (const Storey& storey : storeys) add_storey(storey, storeys, options, &assembly);
   drop_unused_vertices(&assembly);
   CUPOLA_ASSERT(std::ranges::all_of(assembly.vertices, [](const Vec3& v) { return v.allFinite(); }));
   compute_mass_properties(&assembly);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -19,60 +18,12 @@
 namespace cupola {
 namespace {
 
-/// The point with the coordinates u and v across an axis.
-Vec3 on_axis(Cut::Axis axis, double u, double v, double along) {
-  switch (axis) {
-    case Cut::Axis::x:
-      return {along, u, v};
-    case Cut::Axis::y:
-      return {u, along, v};
-    case Cut::Axis::z:
-      break;
-  }
-  return {u, v, along};
-}
-
-std::vector<Eigen::Vector2d> outline_of(const Cut& cut) {
-  std::vector<Eigen::Vector2d> corners;
-  if (cut.kind == Cut::Kind::prism)
-    for (size_t i = 0; i < cut.u.size(); ++i) corners.emplace_back(cut.u[i], cut.v[i]);
-  else
-    for (int i = 0; i < cut.sides; ++i) {
-      const double angle = 2.0 * std::numbers::pi * (i + 0.5) / cut.sides;
-      corners.emplace_back(cut.centre_u + cut.radius * std::cos(angle),
-                           cut.centre_v + cut.radius * std::sin(angle));
-    }
-  return corners;
-}
-
-/// The body that a cut takes: n.x <= offset for all planes.
-std::vector<Plane> body_of(const Cut& cut) {
-  if (cut.kind == Cut::Kind::plane) {
-    const Vec3 lost = cut.normal.normalized();
-    return {{-lost, -lost.dot(cut.point)}};
-  }
-  std::vector<Plane> planes;
-  const std::vector<Eigen::Vector2d> corners = outline_of(cut);
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const Eigen::Vector2d& corner : corners) middle += corner / static_cast<double>(corners.size());
-  for (size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % corners.size()],
-                          along = (b - a).normalized();
-    Eigen::Vector2d normal(along.y(), -along.x());
-    if (normal.dot(middle - a) > 0.0) normal = -normal;
-    planes.push_back({on_axis(cut.axis, normal.x(), normal.y(), 0.0), normal.dot(a)});
-  }
-  const Vec3 axis = on_axis(cut.axis, 0.0, 0.0, 1.0);
-  if (cut.from) planes.push_back({-axis, -*cut.from});
-  if (cut.to) planes.push_back({axis, *cut.to});
-  return planes;
-}
-
 /// A convex piece of a block, with the part from which it was cut.
 struct Cell {
   Part part;
   ConvexPiece piece;
   int block = 0;
+  int side = 0;  ///< of the joints that part its block: pieces on different sides are different blocks
   bool is_changed = false;
 };
 
@@ -117,7 +68,7 @@ class Carving {
     Eigen::AlignedBox3d box;
     for (size_t p = start.part; p < assembly->parts.size(); ++p) {
       const Part& part = assembly->parts[p];
-      cells_.push_back({part, piece_of(*assembly, part), part.block, false});
+      cells_.push_back({part, piece_of(*assembly, part), part.block, 0, false});
       for (const ConvexPiece::Face& face : cells_.back().piece.faces)
         for (const int v : face.vertices) box.extend(assembly->vertices[v]);
     }
@@ -126,9 +77,9 @@ class Carving {
     for (const Cell& cell : cells_) volumes_[cell.block - start.block] += volume_of(*assembly, cell.piece);
   }
 
-  /// Takes a body from all pieces; the faces of the cut, by their planes.
-  std::vector<std::vector<Vec3>> take(const Cut& cut, const std::string& key) {
-    ConvexClip clip(body_of(cut), rounding_, assembly_);
+  /// Takes a body from all pieces; the faces of the cut.
+  std::vector<std::vector<Vec3>> take(const std::vector<Plane>& body, const std::string& key) {
+    ConvexClip clip(body, rounding_, assembly_);
     std::vector<Cell> left;
     std::vector<std::vector<Vec3>> faces;
     bool any = false;
@@ -145,7 +96,7 @@ class Carving {
             faces.push_back(points_of(*assembly_, face));
           face.plane = -1;
         }
-        left.push_back({cell.part, std::move(piece), cell.block, cell.is_changed || !whole});
+        left.push_back({cell.part, std::move(piece), cell.block, cell.side, cell.is_changed || !whole});
       }
       if (!whole) touched_.push_back(cell.block);
     }
@@ -156,6 +107,41 @@ class Carving {
     if (std::ranges::none_of(cells_, [&](const Cell& c) { return !assembly_->blocks[c.block].fixed; }))
       throw InputError(key + ": the cut takes all blocks");
     return faces;
+  }
+
+  /// Parts the blocks that a plane meets in two, which share a joint there.
+  void part(const std::vector<Plane>& half_space, const std::string& key) {
+    ConvexClip clip(half_space, rounding_, assembly_);
+    std::vector<Cell> parted;
+    std::map<int, std::array<bool, 2>> sides;  // of blocks: outside and inside of the half-space
+    for (Cell& cell : cells_) {
+      const std::vector<ConvexPiece> outside = clip.outside(cell.piece);
+      const ConvexPiece inside = clip.inside(cell.piece);
+      const bool is_fixed = assembly_->blocks[cell.block].fixed;
+      if (is_fixed || inside.faces.empty() || outside.empty()) {
+        if (!is_fixed) {
+          cell.side = 2 * cell.side + (outside.empty() ? 1 : 0);
+          sides[cell.block][outside.empty() ? 1 : 0] = true;
+        }
+        parted.push_back(std::move(cell));
+        continue;
+      }
+      sides[cell.block] = {true, true};
+      for (const auto& [piece, side] : {std::pair(outside.front(), 0), {inside, 1}}) {
+        parted.push_back({cell.part, piece, cell.block, 2 * cell.side + side, true});
+        for (ConvexPiece::Face& face : parted.back().piece.faces) {
+          if (face.plane >= 0) face.kind = FaceKind::head;
+          face.plane = -1;
+        }
+      }
+    }
+    cells_ = std::move(parted);
+    const size_t before = touched_.size();
+    for (const auto& [block, on] : sides)
+      if (on[0] && on[1]) touched_.push_back(block);
+    if (touched_.size() == before)
+      throw InputError(
+          key + ": the plane parts no block; its coordinates, in m, are those of the member before `at`");
   }
 
   /// Gives the pieces of cut blocks to blocks, and writes all.
@@ -222,7 +208,7 @@ class Carving {
     for (size_t i = 0; i < cells.size(); ++i)
       for (size_t j = 0; j < i; ++j) {
         const int of_i = group[i], of_j = group[j];
-        if (of_i != of_j &&
+        if (of_i != of_j && cells_[cells[i]].side == cells_[cells[j]].side &&
             shared_width(*assembly_, cells_[cells[i]].piece, cells_[cells[j]].piece, rounding_) > 0.0)
           std::ranges::replace(group, of_i, of_j);
       }
@@ -264,7 +250,10 @@ class Carving {
         const Cell& other = cells_[k];
         if (other.block == block || assembly_->blocks[origin(other.block)].fixed) continue;
         for (const size_t i : own)
-          if (const double w = shared_width(*assembly_, cells_[i].piece, other.piece, rounding_); w > width) {
+          if (const double w = cells_[i].side == other.side
+                                   ? shared_width(*assembly_, cells_[i].piece, other.piece, rounding_)
+                                   : 0.0;
+              w > width) {
             width = w;
             widest = other.block;
           }
@@ -310,20 +299,26 @@ void add_support(const Cut& cut, const std::vector<std::vector<Vec3>>& faces, do
 
 }  // namespace
 
-void cut_bodies(const std::vector<Cut>& cuts, const MemberStart& start, double support_width, double density,
-                const std::string& key, Assembly* assembly) {
-  if (cuts.empty()) return;
+void cut_bodies(const std::vector<CutBody>& bodies, const MemberStart& start, double support_width,
+                double density, Assembly* assembly) {
+  if (bodies.empty()) return;
   if (!assembly->vertex_layers.empty()) {
     assembly->vertex_layers.resize(assembly->vertices.size(), -1);  // corners of supports
     assembly->vertex_depths.resize(assembly->vertices.size(), 0.0);
   }
   Carving carving(start, assembly);
-  std::vector<std::vector<std::vector<Vec3>>> faces;
-  for (size_t i = 0; i < cuts.size(); ++i)
-    faces.push_back(carving.take(cuts[i], fmt::format("{}[{}]", key, i)));
+  std::vector<std::vector<std::vector<Vec3>>> faces(bodies.size());
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const auto& [cut, planes, key] = bodies[i];
+    if (cut.as == Cut::As::joint)
+      carving.part(planes, key);
+    else
+      faces[i] = carving.take(planes, key);
+  }
   carving.write();
-  for (size_t i = 0; i < cuts.size(); ++i)
-    if (cuts[i].as == Cut::As::held) add_support(cuts[i], faces[i], support_width, density, assembly);
+  for (size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].cut.as == Cut::As::held)
+      add_support(bodies[i].cut, faces[i], support_width, density, assembly);
 }
 
 }  // namespace cupola

@@ -179,7 +179,8 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
   visit_near_pairs(assembly, tolerances.joint_gap, [&](int p, int q) {
     const int a = std::min(assembly.parts[p].block, assembly.parts[q].block);
     const int b = std::max(assembly.parts[p].block, assembly.parts[q].block);
-    if (a == b) return;
+    const auto is_ground = [&](int block) { return assembly.blocks[block].kind == BlockKind::support; };
+    if (a == b || (is_ground(a) && is_ground(b))) return;  // supports of two members may overlap
     const double depth = overlap_depth(shapes[p], shapes[q], good_enough);
     report->max_overlap = std::max(report->max_overlap, depth);
     if (depth > tolerances.overlap) {

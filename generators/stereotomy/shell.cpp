@@ -94,7 +94,7 @@ std::vector<std::string> names_of(const Geometry& geometry, const Member& member
   std::vector<std::string> names = member_names(member);
   if (&member != &last_member(geometry))
     for (std::string& name : names) name = member.name + " " + name;
-  const bool alone = members_of(geometry).size() == 1 && member.openings.empty();
+  const bool alone = members_of(geometry).size() == 1 && !geometry.copies && member.openings.empty();
   if (names.empty() && !alone) names = {member.name};
   return names;
 }
@@ -184,21 +184,54 @@ Eigen::Isometry3d isometry(const Place& place) {
          Eigen::AngleAxisd(place.rotate_deg * kRadians, Eigen::Vector3d::UnitZ());
 }
 
+/// The motion from one copy to the next.
+Eigen::Isometry3d step_of(const Copies& copies) {
+  if (!copies.about) return Eigen::Isometry3d(Eigen::Translation3d(copies.by));
+  const double turn = 2.0 * std::numbers::pi / copies.count;
+  return Eigen::Translation3d(*copies.about) * Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) *
+         Eigen::Translation3d(-*copies.about);
+}
+
+/// Appends the copies of the stack that begins with storey `first`.
+void copy_stack(const Copies& copies, size_t first, std::vector<Storey>* storeys) {
+  const size_t end = storeys->size();
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  for (int copy = 2; copy <= copies.count; ++copy) {
+    motion = step_of(copies) * motion;
+    for (size_t i = first; i < end; ++i) {
+      Storey storey = (*storeys)[i];
+      storey.name += fmt::format(" {}", copy);
+      for (std::string& label : storey.members) label += fmt::format(" {}", copy);
+      storey.placement = motion * storey.placement;
+      storey.surface.rings_below = storeys->back().surface.rings_below + storeys->back().num_rings();
+      storeys->push_back(std::move(storey));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Storey> make_storeys(const Geometry& geometry) {
   const std::vector<const Member*> members = members_of(geometry);
   std::vector<Storey> storeys;
-  int rings = 0;
+  size_t first = 0;  // of the stack, member and storey
+  size_t first_storey = 0;
   for (size_t i = 0; i < members.size(); ++i) {
-    storeys.push_back(named_member(geometry, i));
-    Storey& storey = storeys.back();
+    Storey storey = named_member(geometry, i);
     storey.cuts = members[i]->cuts;
     storey.key = key_of_member(geometry, i);
-    storey.surface.rings_below = rings;
-    rings += storey.num_rings();
+    if (!storeys.empty())
+      storey.surface.rings_below = storeys.back().surface.rings_below + storeys.back().num_rings();
     if (members[i]->at) storey.placement = isometry(*members[i]->at);
-    if (!members[i]->on.empty()) stand_on(key_of_member(geometry, i), &storeys[i - 1], &storey);
+    if (members[i]->on.empty()) {
+      first = i;
+      first_storey = storeys.size();
+    } else {
+      stand_on(storey.key, &storeys.back(), &storey);
+    }
+    storeys.push_back(std::move(storey));
+    const bool ends_stack = i + 1 == members.size() || members[i + 1]->on.empty();
+    if (ends_stack && members[first]->copies) copy_stack(*members[first]->copies, first_storey, &storeys);
   }
   return storeys;
 }

@@ -146,8 +146,22 @@ void check_crossings(const std::vector<double>& r, const std::vector<double>& z)
     }
 }
 
-std::vector<ProfilePiece> polyline(const std::vector<double>& r, const std::vector<double>& z,
-                                   const std::vector<double>& radius) {
+/// A cubic curve from a to b.
+ProfilePiece cubic_piece(const Vec2& a, const CurveControls& inner, const Vec2& b) {
+  const Vec2 c = inner.first, d = inner.second;
+  return smooth_piece(
+      [=](double t) -> Vec2 {
+        const double s = 1.0 - t;
+        return s * s * s * a + 3.0 * s * s * t * c + 3.0 * s * t * t * d + t * t * t * b;
+      },
+      [=](double t) -> Vec2 {
+        const double s = 1.0 - t;
+        return 3.0 * (s * s * (c - a) + 2.0 * s * t * (d - c) + t * t * (b - d));
+      });
+}
+
+std::vector<ProfilePiece> polyline(const ProfileTable& points) {
+  const auto& [r, z, radius, curves] = points;
   check_crossings(r, z);
   std::vector<ProfilePiece> pieces;
   for (size_t i = 0; i + 1 < r.size(); ++i) {
@@ -157,6 +171,10 @@ std::vector<ProfilePiece> polyline(const std::vector<double>& r, const std::vect
       throw InputError(
           fmt::format("geometry.surface.profile: points {} and {} at ({:.6g}, {:.6g}) m coincide", i, i + 1,
                       a.x(), a.y()));
+    if (i < curves.size() && curves[i]) {
+      pieces.push_back(cubic_piece(a, *curves[i], b));
+      continue;
+    }
     if (R == 0.0) {
       pieces.push_back(line_piece(a, b));
       continue;
@@ -217,7 +235,7 @@ std::vector<ProfilePiece> profile_pieces(const Profile& p) {
     case straight:
       return {line_piece({a, 0.0}, {a - p.batter * p.height, p.height})};
     case chain:
-      return polyline(p.r, p.z, p.radius);
+      return polyline(p.points);
   }
   return {};
 }

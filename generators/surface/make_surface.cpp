@@ -4,6 +4,7 @@
 #include <array>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
 #include "generators/surface/drawings.hpp"
@@ -56,6 +57,27 @@ double total_thickness(const std::vector<Thickness>& wythes, double height) {
   return sum;
 }
 
+/// Throws where the beds of a course meet inside the shell, so that a skin turns back.
+void refuse_folds(const SurfaceMap& map) {
+  std::vector<double> abscissae{0.0, 0.5 * map.extent};
+  for (size_t i = 0; i < map.corners.size(); ++i) {
+    const double end = i + 1 < map.corners.size() ? map.corners[i + 1] : map.extent;
+    abscissae.insert(abscissae.end(), {map.corners[i], 0.5 * (map.corners[i] + end)});
+  }
+  for (int bed = 0; bed < map.num_rows; ++bed)
+    for (const double abscissa : abscissae) {
+      const Vec3 inner = map.intrados(bed + 1, abscissa) - map.intrados(bed, abscissa);
+      const Vec3 outer = map.extrados(bed + 1, abscissa) - map.extrados(bed, abscissa);
+      if (inner.dot(outer) > 0.0) continue;
+      const Vec3 at = map.extrados(bed, abscissa);
+      throw InputError(
+          fmt::format("geometry.surface: course {} folds about ({:.4g}, {:.4g}, {:.4g}) m, where its two "
+                      "beds meet inside "
+                      "the shell: choose a smaller thickness, a larger eye or other `beds`",
+                      bed / map.rows_per_ring, at.x(), at.y(), at.z()));
+    }
+}
+
 }  // namespace
 
 SurfaceMap make_surface(Surface surface, int rings, std::vector<Thickness> wythes) {
@@ -73,6 +95,7 @@ SurfaceMap make_surface(Surface surface, int rings, std::vector<Thickness> wythe
     map.shell_volume.reset();
     map.flat_rings = false;
   }
+  refuse_folds(map);
   CUPOLA_ASSERT(map.at && map.extent > 0.0 && map.num_rows == rings * map.rows_per_ring);
   CUPOLA_ASSERT(std::ranges::is_sorted(map.corners));
   return map;

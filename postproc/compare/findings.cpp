@@ -118,8 +118,8 @@ const std::vector<Measure>& measures() {
        "Whether a corner of the vault carries more than the middle of a sail; 1 if both carry the same.",
        "closest to 1", Best::nearest_one, [](const S& s) { return s.rib_over_mid_sail; }},
       {"friction_use_percent", "%", 100.0, "The largest friction utilisation of a joint is",
-       "How close the joint with the highest demand is to sliding; at 100 % it slides.", "lowest",
-       Best::lowest, [](const S& s) { return s.largest_friction_use; }},
+       "How close the joint with the highest demand is to sliding; at 100 % it is at its friction limit.",
+       "lowest", Best::lowest, [](const S& s) { return s.largest_friction_use; }},
       {kCritical, "", 1.0, "The critical value of the limit analysis is",
        "The limit between standing and falling. For friction and thickness, lower is safer; for load, tilt, "
        "acceleration and spread, higher is safer.",
@@ -135,6 +135,18 @@ const std::vector<Measure>& measures() {
       {"thrust_over_weight", "", 1.0, "The ratio of the outward base thrust to the weight is",
        "How hard the vault pushes outwards on its supports, compared with its weight.", "lowest",
        Best::lowest, [](const S& s) { return s.thrust_over_weight; }},
+      {"thrust_kN", "kN", 1e-3, "The outward base thrust is",
+       "How hard the vault pushes outwards on its supports.", "lowest", Best::lowest,
+       [](const S& s) {
+         return s.thrust_over_weight ? std::optional(*s.thrust_over_weight * s.weight_N) : std::nullopt;
+       }},
+      {"margin_factor", "", 1.0, "The margin, as a factor of the case from its limit, is",
+       "How far the case is from the limit that was computed: 2 if half the friction or twice the load is "
+       "still borne.",
+       "largest", Best::highest, [](const S& s) { return s.margin_factor; }},
+      {"widest_crack_mm", "mm", 1000.0, "The widest crack is",
+       "How far the joint that opens most has opened.", "smallest", Best::lowest,
+       [](const S& s) { return s.widest_crack_m; }},
       {"couple_length_m", "m", 1.0,
        "The largest couple length of the wrench on a block from the course below is",
        "How strongly the force on a block also twists it: couple over force, for the worst block.",

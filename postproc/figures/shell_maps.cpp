@@ -25,7 +25,8 @@ std::string map_axes(const ShellMap& map) {
              map.num_rings, std::max(1, (map.num_rings + 7) / 8), map.vault ? "ring" : "course");
 }
 
-/// One panel: the boxes whose value is a number in colour, all others in grey.
+/// One panel: the boxes whose value is a number in colour, negative ones with a dot that remains without colours, all others
+/// in grey.
 std::string panel(const ShellMap& map, double (*value)(const ShellBox&), const std::string& name,
                   const std::string& grey, const std::string& settings) {
   Rows known, others;
@@ -44,6 +45,9 @@ std::string panel(const ShellMap& map, double (*value)(const ShellBox&), const s
   std::string plots;
   if (!known.empty())
     plots += fmt::format("${} using 1:2:3:4:5:6:7 with boxxyerror fc palette notitle", name);
+  if (std::ranges::any_of(known, [](const std::vector<double>& row) { return row.back() < 0.0; }))
+    plots += fmt::format(
+        ", ${} using ($7 < 0 ? $1 : NaN):2 with points pt 7 ps 0.3 lc rgb '#222222' title 'tension'", name);
   if (!others.empty())
     plots += fmt::format("{}${}_grey using 1:2:3:4:5:6 with boxxyerror fc rgb '{}' title '{}'",
                          plots.empty() ? "" : ", ", name, kGrey, grey);
@@ -108,7 +112,7 @@ Figure force_map(const ShellMap& map, const MapScales& scales) {
       map.vault  ? ""
       : map.arch ? " from the left springing (course 0) to the right"
                  : " from the front",
-      scales.hoop > 0.0 ? fmt::format("; {} tension is orange", across) : "");
+      scales.hoop > 0.0 ? fmt::format("; {} tension is orange and has dots", across) : "");
   std::vector<std::string> panels;
   if (scales.compression > 0.0 || scales.tension > 0.0)
     panels.push_back(panel(

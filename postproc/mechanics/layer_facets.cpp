@@ -86,10 +86,18 @@ void set_wythes(const Assembly& assembly, Shell* shell) {
     WytheRange& range = shell->wythes[part.block];
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
       for (const int v : assembly.face(f)) {
-        range.from = std::min(range.from, assembly.vertex_layers[v]);
-        range.to = std::max(range.to, assembly.vertex_layers[v]);
+        const int layer = assembly.vertex_layers[v];
+        if (layer < 0) continue;  // where a cut ends
+        range.from = std::min(range.from, layer);
+        range.to = std::max(range.to, layer);
       }
   }
+  for (size_t b = 0; b < shell->wythes.size(); ++b)
+    if (WytheRange& range = shell->wythes[b];
+        range.from >= range.to) {  // cut away from both layers of a wythe
+      const int wythe = std::min(assembly.blocks[b].member, shell->num_wythes - 1);
+      range = {wythe, wythe + 1};
+    }
 }
 
 }  // namespace cupola

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,9 @@ std::optional<KeyNumber> crack_answer(const Evaluation& evaluation);
 
 /// What is certain and what is assumed, in one or two sentences.
 std::string certain_sentence(const Evaluation& evaluation);
+
+/// The parts that a static analysis solved one by one, by "It stands", "It falls" and "Undecided", proven or not.
+std::map<std::string, std::vector<PartVerdict>> parts_by_verdict(const Summary& summary);
 
 /// Which parts of a structure in several move and which do not; "" for one part, or in an equilibrium.
 std::string parts_sentence(const Evaluation& evaluation);

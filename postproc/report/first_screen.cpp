@@ -54,7 +54,10 @@ void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
     const auto& joints = e.last.joints.wrenches;
     const auto outside =
         std::count_if(joints.begin(), joints.end(), [](const JointWrench& j) { return j.kern > 1.0; });
-    out->push_back({kLargestPressure, fmt::format("{:.3g} MPa", 1e-6 * s.largest_pressure_Pa.value_or(0.0)),
+    const double pressure = s.largest_pressure_Pa.value_or(0.0);
+    out->push_back({kLargestPressure,
+                    pressure < 1e5 ? fmt::format("{:.3g} kPa", 1e-3 * pressure)
+                                   : fmt::format("{:.3g} MPa", 1e-6 * pressure),
                     fmt::format("a joint uses at most {:.3g} % of its compressive or tensile strength; the "
                                 "forces of {} of {} lie outside the kern",
                                 100.0 * *s.largest_strength_use, outside, counted(joints.size(), "joint"))});
@@ -108,7 +111,7 @@ std::vector<KeyNumber> key_numbers(const Evaluation& e, const std::vector<Histor
     add_numbers_at_rest(e, &out);
     out.insert(e.summary.ranges.empty() ? out.begin() : out.end(), margin_answer(e));
   } else {
-    if (e.summary.critical) out.push_back(margin_answer(e));
+    out.push_back(margin_answer(e));
     const std::vector<KeyNumber> motion = motion_numbers(e, history);
     out.insert(out.end(), motion.begin(), motion.end());
   }

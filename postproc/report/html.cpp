@@ -57,13 +57,16 @@ dt { color: var(--soft); } dd { margin: 0; }
   body { padding: .5rem .75rem 2rem; } h1 { font-size: 1.3rem; }
   figure { overflow-x: auto; } figure img { max-width: none; width: 58rem; } figure.half img { width: 40rem; }
   figcaption { position: sticky; left: 0; }
-  .first > .verdict { order: -2; margin: .25rem 0; } .first > .view { order: -1; margin: .25rem 0; }
+  .first > .verdict { order: -5; margin: .25rem 0; } .first > .view { display: contents; }
+  .first .picture { order: -4; } .first > .warning { order: -3; } .first > .key-numbers { order: -2; } .first > .certain { order: -1; }
   dl { grid-template-columns: minmax(0, 1fr); } dd { margin: 0 0 .4rem; }
 }
 @media print { :root { --paper: #fff; --text: #1a1a1a; --soft: #444; }
   body { max-width: none; padding: 0; font-size: 10pt; } figure, .verdict, .warning, tr { break-inside: avoid; }
-  h2, h3 { break-after: avoid; } details > summary { display: none; } .scroll { overflow: visible; }
-  a { color: inherit; text-decoration: none; }
+  h2, h3 { break-after: avoid; } .first { display: block; } details > summary { display: none; } .scroll { overflow: visible; }
+  a { color: inherit; text-decoration: none; } figure { margin: .4rem 0; }
+  figure img { max-height: 9.5cm; width: auto; } .figures { display: grid; grid-template-columns: 1fr 1fr; gap: 0 1rem; align-items: start; }
+  .figures > :not(.half) { grid-column: 1 / -1; }
 }
 )css";
 

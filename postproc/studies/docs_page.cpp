@@ -54,7 +54,7 @@ std::string measured_line(const std::string& revision) {
   std::tm today{};
   ::localtime_r(&now, &today);
   return fmt::format(
-      "Measured {:%Y-%m-%d} by the programs of revision {} on {} of {}, load average {:.1f} at the end.",
+      "Measured {:%Y-%m-%d} by the programs of revision {} on {} of {},\nload average {:.1f} at the end.",
       today, revision, counted(std::thread::hardware_concurrency(), "core"), processor_name(), load);
 }
 

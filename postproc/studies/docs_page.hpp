@@ -11,7 +11,8 @@ namespace cupola {
 /// runs carry different revisions, or one whose sources were changed or are unknown: nobody could compute their table again.
 std::string common_revision(const std::vector<std::string>& runs, RunCache& cache);
 
-/// "Measured 2026-11-24 by the programs of revision 81eb1cc on 2 cores of AMD EPYC, load average 1.1 at the end."
+/// "Measured 2026-11-24 by the programs of revision 81eb1cc on 2 cores of AMD EPYC,
+/// load average 1.1 at the end."
 std::string measured_line(const std::string& revision);
 
 /// Throws InputError if files that git tracks in `root` are changed, apart from pages and their pictures.

@@ -58,7 +58,25 @@ std::string reason_to_leave_out(const RunGroup& group, const CaseOfStudy& of) {
   return fmt::format("the case has no `{}`", fmt::join(group.needs, "` and no `"));
 }
 
-void add_runs(const RunGroup& group, const CaseOfStudy& of, Study* study) {
+/// The folder of the cases that a study names: its own, or the one above it if that is studies/.
+fs::path folder_of_cases(const fs::path& study) {
+  fs::path folder = study.parent_path();
+  if (folder.filename() == "studies") folder /= "..";
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+/// Adds the ensembles of a group. The values are checked as if they were set in each case.
+void add_ensembles_of(const RunGroup& group, const std::string& path, Study* study) {
+  for (SampledRuns& ensemble : ensembles_of(group, study->name)) {
+    const fs::path file = folder_of_cases(path) / (ensemble.runs.front().case_name + ".yaml");
+    if (fs::exists(file)) check_samples(file.string(), group.settings, "ensemble", ensemble.samples);
+    study->runs.insert(study->runs.end(), ensemble.runs.begin(), ensemble.runs.end());
+    study->ensembles.push_back(std::move(ensemble));
+  }
+}
+
+void add_runs(const RunGroup& group, const std::string& path, const CaseOfStudy& of, Study* study) {
+  if (group.ensemble) return add_ensembles_of(group, path, study);
   std::string reason = reason_to_leave_out(group, of);
   std::vector<StudyRun> runs;
   if (reason.empty() && group.settle > 0.0) {
@@ -71,14 +89,15 @@ void add_runs(const RunGroup& group, const CaseOfStudy& of, Study* study) {
   for (StudyRun& run : runs) study->runs.push_back(std::move(run));
 }
 
-void declare_study(Section& root, Study& study, const CaseNode& tree, const CaseOfStudy& of) {
+void declare_study(Section& root, const std::string& path, Study& study, const CaseNode& tree,
+                   const CaseOfStudy& of) {
   root.text("title", study.title, "what the study shows, and how long it takes");
   std::string own_case;
   root.text("case", own_case, "case of the trade-off");
   const std::string case_name = of.name.empty() ? own_case : name_of(of);
   std::vector<RunGroup> groups;
   root.list("runs", groups, "runs of the study", declare_run_group);
-  for (const RunGroup& group : groups) add_runs(group, of, &study);
+  for (const RunGroup& group : groups) add_runs(group, path, of, &study);
   root.text("script", study.script, "in tests/benchmark; prints the rows of the tables without columns");
   root.rule(study.script.empty() || is_plain_name(study.script), "script", "must be the name of a file");
   root.list("tables", study.tables, "one entry per table", declare_study_table);
@@ -120,11 +139,19 @@ void drop_left_out(const Study& study, std::vector<std::string>* names) {
   });
 }
 
+/// The members that a case draws or reads.
+SampledRuns sampled_runs_of(const Case& scene, const std::string& name) {
+  SampledRuns own{name, {}, {}, {}};
+  if (scene.ensemble) own.design = scene.ensemble->design;
+  own.samples = scene.ensemble ? draw_samples(*scene.ensemble) : read_samples(scene.sample_file.file);
+  own.runs = sampled_runs(own.samples, scene.ensemble ? scene.ensemble->keep : scene.sample_file.keep,
+                          name + "/", name, {});
+  return own;
+}
+
 /// Cases and variants that runs may name: those of the folder of this file, or above it if that is studies/.
 std::set<std::string> known_runs(const fs::path& path) {
-  fs::path folder = path.parent_path();
-  if (folder.filename() == "studies") folder /= "..";
-  if (folder.empty()) folder = ".";
+  const fs::path folder = folder_of_cases(path);
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".yaml") names.insert(entry.path().stem().string());
@@ -144,16 +171,21 @@ Study read_study(const std::string& path, const CaseOfStudy& of) {
     study.name = name_of(of) + "_" + study.name;
     fill_in_case(&tree, name_of(of));
   }
-  if (tree.find("sweep")) {
+  if (tree.find("sweep") || tree.find("ensemble")) {
     const Case scene = read_case(path, {});
     study.title = scene.title;
     study.sweep = scene.sweep;
+    if (scene.ensemble || !scene.sample_file.file.empty()) {
+      study.ensembles = {sampled_runs_of(scene, study.name)};
+      study.runs = study.ensembles.front().runs;
+      return study;
+    }
     for (const SweepMember& member : members_of(study.sweep, study.name))
       study.runs.push_back({member.name, study.name, member.settings});
     return study;
   }
   Section root(&tree, "", tree.where, path);
-  declare_study(root, study, tree, of);
+  declare_study(root, path, study, tree, of);
   expand_names(study, &study.answers.causes);
   drop_left_out(study, &study.answers.margins);
   for (StudyTable& table : study.tables) expand_names(study, &table.runs);
@@ -168,7 +200,7 @@ Study read_study(const std::string& path, const CaseOfStudy& of) {
       study.figures.empty())
     throw InputError(FileLocation{path},
                      "contains no runs; give `runs`, `tables`, `comparisons`, `tradeoff`, `claims` or "
-                     "`figures`, or a case with a `sweep`");
+                     "`figures`, or a case with a `sweep` or an `ensemble`");
   return study;
 }
 

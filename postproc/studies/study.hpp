@@ -18,7 +18,7 @@ struct Comparison {
 };
 
 /// A study: runs, the numbers taken from them, and what is made of the numbers. It is a YAML file
-/// cases/studies/NAME.yaml (docs/cases.md describes its keys), or a case with a `sweep`, which is the short form of a study
+/// cases/studies/NAME.yaml (docs/cases.md describes its keys), or a case with a `sweep` or `ensemble`, which is the short form of a study
 /// of that case.
 struct Study {
   std::string name;  ///< of the file without ending; runs that the study defines are in the folder NAME/
@@ -32,6 +32,7 @@ struct Study {
   std::vector<Claim> claims;
   std::vector<ClaimFigure> figures;
   std::vector<SweptKey> sweep;  ///< of a case
+  std::vector<SampledRuns> ensembles;
   StudyAnswers answers;
   std::vector<NotComputed> left_out;  ///< groups of runs that do not apply to the case
 };

@@ -1,5 +1,6 @@
 #include "postproc/studies/study_command.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@
 #include "postproc/compare/compare.hpp"
 #include "postproc/report/html.hpp"
 #include "postproc/studies/docs_page.hpp"
+#include "postproc/studies/ensemble.hpp"
 #include "postproc/studies/study.hpp"
 #include "postproc/studies/sweep.hpp"
 #include "postproc/studies/tradeoff_figures.hpp"
@@ -106,6 +108,15 @@ void write_pages(const Study& study, const std::vector<MeasuredTable>& tables, c
   }
 }
 
+/// The first twenty names, and how many more.
+std::string first_names(const std::vector<std::string>& names, const char* between) {
+  const size_t shown = std::min<size_t>(names.size(), 20);
+  const std::string more =
+      shown < names.size() ? fmt::format("{}and {} more", between, names.size() - shown) : "";
+  return fmt::format(
+      "{}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), between), more);
+}
+
 ExitCode measure(const Study& study, const StudyRequest& request) {
   RunCache runs(request.runs_folder);
   std::vector<std::string> missing;
@@ -115,9 +126,10 @@ ExitCode measure(const Study& study, const StudyRequest& request) {
   std::string text;
   if (study.answers.verdict.empty() && !missing.empty())
     page.add(fmt::format("<p class=\"warning\"><strong>Not run:</strong> {}.</p>\n",
-                         markup_text(fmt::format("{}", fmt::join(missing, ", ")))));
+                         markup_text(first_names(missing, ", "))));
   text += add_answers(study.answers, study.left_out, request.runs_folder, runs, &page);
   if (!study.sweep.empty()) text += add_sweep(study.sweep, study.runs, request.runs_folder, &page);
+  text += add_ensembles(study.ensembles, request.runs_folder, &page);
   const std::vector<MeasuredTable> tables = add_tables(study, runs, &page, &text);
   add_comparisons(study, request, runs, &page);
   add_tradeoff(study, request.runs_folder, &page, &text);
@@ -126,7 +138,7 @@ ExitCode measure(const Study& study, const StudyRequest& request) {
   page.write();
   if (!request.quiet) fmt::print("{}\nopen {}/study.html\n", text, page.folder());
   if (!missing.empty()) {
-    fmt::print(stderr, "cupola-post: not run: {}\n", fmt::join(missing, " "));
+    fmt::print(stderr, "cupola-post: not run: {}\n", first_names(missing, " "));
     // A page of answers says what was not computed and why.
     return runs.finished(study.answers.verdict) ? ExitCode::done : ExitCode::failed;
   }
@@ -140,7 +152,8 @@ ExitCode run_study(int argc, const char* const* argv) {
   // 1. Command line
   StudyRequest request;
   CLI::App app("Lists the runs of a study, or measures the finished ones.", "cupola-post study");
-  app.add_option("STUDY", request.study_path, "study file, or a case with a `sweep` (.yaml)")->required();
+  app.add_option("STUDY", request.study_path, "study file, or a case with a `sweep` or `ensemble` (.yaml)")
+      ->required();
   app.add_option("--members", request.members_file, "write the list of runs to this file and exit")
       ->type_name("FILE");
   app.add_option("--runs", request.runs_folder, "folder with one subfolder per run")->type_name("FOLDER");

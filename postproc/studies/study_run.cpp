@@ -64,17 +64,47 @@ void declare_run_group(Section& s, RunGroup& group) {
   s.text("name", group.name, "name of a run; {case} stands for its case");
   declare_settings(s, group.settings, "key.path=value of all these runs, separated by spaces");
   s.list("sweep", group.sweep, "keys and the values they take, in all combinations", declare_swept_key);
+  s.optional_section("ensemble", group.ensemble, "random members of every case, the same for all",
+                     declare_ensemble);
   declare_names(s, "needs", group.needs, "keys of which the case must give one; else the runs are left out");
   s.number("settle", group.settle, {.min = 0, .max = 0.1},
            "one run per support, which sinks by this share of the span of the model");
   s.rule(group.settle == 0.0 || (group.cases.size() == 1 && group.sweep.empty()), "settle",
          "requires one case and no `sweep`");
+  s.rule(!group.ensemble || (group.sweep.empty() && group.settle == 0.0 && !group.cases.empty()), "ensemble",
+         "requires `cases`, and neither `sweep` nor `settle`");
   s.rule(group.names.empty() != group.cases.empty(), "cases", "give either `cases` or `names`");
   s.rule(group.names.empty() || (group.settings.empty() && group.sweep.empty()), "names",
          "runs that exist take no `set` and no `sweep`; use `cases`");
   s.rule(is_plain_name(filled(group.name, "{case}", "x")), "name", "consists of letters, digits and . _ + -");
   s.rule(group.cases.size() < 2 || group.name.find("{case}") != std::string::npos, "name",
          "must contain {case} if there are several cases");
+}
+
+std::vector<StudyRun> sampled_runs(const Samples& samples, KeptFiles keep, const std::string& prefix,
+                                   const std::string& case_name, const std::vector<std::string>& settings) {
+  std::vector<StudyRun> runs;
+  for (const SweepMember& member : members_of(samples, prefix)) {
+    StudyRun& run = runs.emplace_back(StudyRun{member.name, case_name, settings});
+    run.settings.insert(run.settings.end(), member.settings.begin(), member.settings.end());
+    if (keep == KeptFiles::all) continue;
+    run.settings.push_back("--tables");
+    run.settings.push_back(std::string("--keep=") + to_string(keep));
+  }
+  return runs;
+}
+
+std::vector<SampledRuns> ensembles_of(const RunGroup& group, const std::string& study) {
+  std::vector<SampledRuns> ensembles;
+  if (!group.ensemble) return ensembles;
+  const Samples samples = draw_samples(*group.ensemble);
+  for (const std::string& case_name : group.cases) {
+    const std::string name = filled(group.name, "{case}", case_name);
+    ensembles.push_back(
+        {name, samples, group.ensemble->design,
+         sampled_runs(samples, group.ensemble->keep, study + "/" + name + "_", case_name, group.settings)});
+  }
+  return ensembles;
 }
 
 std::vector<StudyRun> runs_of(const RunGroup& group, const std::string& study) {

@@ -1,52 +1,113 @@
 #include "postproc/studies/sweep.hpp"
 
+#include <algorithm>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/files/number_text.hpp"
+#include "assembly/model/status.hpp"
 #include "postproc/report/first_screen.hpp"
 #include "postproc/studies/sweep_figure.hpp"
 
 namespace cupola {
 namespace {
 
-/// How the members ended: "6 stable, 2 moving".
-std::string endings(const Table& table) {
-  std::map<std::string, int> count;
+/// The texts of a column, from the top; empty ones where it has no value.
+std::vector<std::string> texts_of(const Table& table, const std::string& key) {
+  std::vector<std::string> texts;
   for (const auto& row : table.rows)
     for (size_t k = 0; k < row.size(); ++k)
-      if (table.columns[k].key == "status") ++count[to_display(row[k])];
+      if (table.columns[k].key == key) texts.push_back(to_display(row[k]));
+  return texts;
+}
+
+}  // namespace
+
+std::string endings(const Table& table) {
+  std::map<std::string, int> count;
+  for (const std::string& status : texts_of(table, "status")) ++count[status];
   std::string text;
   for (const auto& [status, members] : count)
     text = fmt::format("{} {}{}{}", members, status, text.empty() ? "" : ", ", text);  // stable before moving
   return text;
 }
 
-/// "2 of 8 members" that have no results or did not reach their accuracy; "" for none.
 std::string failures(const Table& table) {
-  size_t failed = 0;
-  for (const auto& row : table.rows)
-    for (size_t k = 0; k < row.size(); ++k)
-      if (table.columns[k].key == "status")
-        failed += to_display(row[k]) == "missing" || to_display(row[k]) == "unconverged";
+  const auto failed = std::ranges::count_if(texts_of(table, "status"), [](const std::string& status) {
+    return status == "missing" || status == "unconverged";
+  });
   return failed == 0 ? "" : fmt::format("{} of {}", failed, counted(table.rows.size(), "member"));
+}
+
+namespace {
+
+bool falls(const std::string& status) {
+  return status.starts_with("moving") || status == "collapsed";
+}
+
+/// Where one swept number changes the verdict: "It falls at joints.friction 0.06 to 0.08, it stands at 0.09 to 0.4."; "" for several
+/// keys, for texts, for limits, whose members have no verdict of their own, and where the verdict changes often.
+std::string where_it_stands(const std::vector<SweptKey>& sweep, const Table& table) {
+  constexpr size_t kMostChanges = 4;
+  if (sweep.size() != 1) return "";
+  for (const std::string& critical : texts_of(table, "critical_value"))
+    if (!critical.empty()) return "";
+  const std::vector<std::string> values = texts_of(table, sweep.front().key);
+  const std::vector<std::string> statuses = texts_of(table, "status");
+  std::vector<std::pair<double, size_t>> order;
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (!read_number(values[i], &order.emplace_back(0.0, i).first).empty()) return "";
+  }
+  std::ranges::sort(order);
+  struct Stretch {
+    std::string verdict, first, last;
+  };
+  std::vector<Stretch> stretches;
+  for (const auto& [number, i] : order) {
+    const std::string verdict = stands(statuses[i])  ? "stands"
+                                : falls(statuses[i]) ? "falls"
+                                                     : "is undecided";
+    if (stretches.empty() || stretches.back().verdict != verdict)
+      stretches.push_back({verdict, values[i], values[i]});
+    stretches.back().last = values[i];
+  }
+  if (stretches.size() > kMostChanges) return "";
+  std::string text;
+  for (const Stretch& s : stretches)
+    text += fmt::format("{} {} at {}{}{}", text.empty() ? "It" : ", it", s.verdict,
+                        text.empty() ? sweep.front().key + " " : "", s.first,
+                        s.first == s.last ? "" : " to " + s.last);
+  return text + ".";
+}
+
+/// The banner: in how many members it stands, and at which values.
+std::string banner(const std::vector<SweptKey>& sweep, const Table& table) {
+  const std::string ended = endings(table) + ".", failed = failures(table),
+                    where = where_it_stands(sweep, table);
+  const auto standing = std::ranges::count_if(texts_of(table, "status"),
+                                              [](const std::string& status) { return stands(status); });
+  const std::string members = counted(table.rows.size(), "member");
+  if (!failed.empty())
+    return verdict_html(failed + " failed", where.empty() ? ended : ended + " " + where, false);
+  if (where.empty()) return verdict_html(ended, members + ".", true);
+  return verdict_html(fmt::format("It stands in {} of {}", standing, members), where, standing > 0);
 }
 
 }  // namespace
 
 std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<StudyRun>& members,
                       const std::string& runs_folder, StudyPage* page) {
-  const Table table = sweep_table(sweep, members, runs_folder);
-  const std::string ended = endings(table);
-  const std::string failed = failures(table);
-  page->add(verdict_html(failed.empty() ? ended + "." : failed + " failed",
-                         failed.empty() ? counted(members.size(), "member") + "." : ended + ".",
-                         failed.empty()));
+  std::vector<std::string> keys;
+  for (const SweptKey& swept : sweep) keys.push_back(swept.key);
+  const Table table = sweep_table(keys, members, runs_folder);
+  page->add(banner(sweep, table));
   if (const Figure figure = sweep_figure(sweep, table); !figure.commands.empty()) page->add_figures({figure});
   page->add_table(table);
   page->add_report_links(members, runs_folder);
-  return fmt::format("{}\n{}: {}\n", aligned_text(table), counted(members.size(), "member"), ended);
+  return fmt::format("{}\n{}: {}\n", aligned_text(table), counted(members.size(), "member"), endings(table));
 }
 
 }  // namespace cupola

@@ -9,11 +9,17 @@
 
 namespace cupola {
 
-/// One row per member: settings, status, residual, displacement, critical value and time, and minimum, chosen value and
+/// One row per member: the values that the member gives the `keys`, status, residual, displacement, critical value and time, and minimum, chosen value and
 /// maximum of each range of a range analysis. A member without
 /// results has the status `missing` and a remark that says how far it got.
-Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<StudyRun>& members,
+Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyRun>& members,
                   const std::string& runs_folder);
+/// How the members of such a table ended: "6 stable, 2 moving".
+std::string endings(const Table& sweep_table);
+/// "2 of 8 members" that have no results or did not reach their accuracy; "" for none.
+std::string failures(const Table& sweep_table);
+/// Columns of numbers that differ by more than rounding between the members of one of the tables; errors and times are no results.
+std::vector<size_t> varying_columns(const std::vector<const Table*>& sweep_tables);
 
 /// Adds a sweep to a page: how the members ended, a figure, the table (sweep.csv), and links to the reports of the
 /// members. Returns the same as text.

@@ -34,32 +34,23 @@ size_t column_of(const Table& table, const std::string& key) {
   return static_cast<size_t>(found - table.columns.begin());
 }
 
-/// Columns with results that differ between members; errors and times are no results.
-std::vector<size_t> varying_columns(const Table& table, size_t first) {
-  static const std::set<std::string> kNoResults{"equilibrium_residual", "cpu_time_seconds"};
-  std::vector<size_t> columns;
-  for (size_t k = first; k < table.columns.size(); ++k) {
-    std::set<double> values;
-    for (const auto& row : table.rows)
-      if (const double v = number_of(row[k]); std::isfinite(v)) values.insert(v);
-    if (values.size() > 1 && !kNoResults.contains(table.columns[k].key)) columns.push_back(k);
-  }
-  if (columns.size() > kMostPanels) columns.resize(kMostPanels);
-  return columns;
-}
-
 /// True if no number of the column is negative; its axis then starts at zero.
 bool is_positive(const Table& table, size_t column) {
   return std::none_of(table.rows.begin(), table.rows.end(),
                       [column](const auto& row) { return number_of(row[column]) < 0.0; });
 }
 
-/// The unit of a panel and its factor: lengths below one metre in mm.
+/// The unit of a panel and its factor: lengths below one metre in mm, forces in kN or MN.
 std::pair<double, std::string> readable_unit(const Table& table, size_t column) {
   const std::string& unit = table.columns[column].unit;
   const bool small = std::none_of(table.rows.begin(), table.rows.end(), [column](const auto& row) {
     return std::abs(number_of(row[column])) >= 1.0;
   });
+  double largest = 0.0;
+  for (const auto& row : table.rows)
+    if (const double v = std::abs(number_of(row[column])); std::isfinite(v)) largest = std::max(largest, v);
+  if (unit == "N")
+    return largest < 1e6 ? std::pair(1e-3, std::string("kN")) : std::pair(1e-6, std::string("MN"));
   return unit == "m" && small ? std::pair(1e3, std::string("mm")) : std::pair(1.0, unit);
 }
 
@@ -107,7 +98,8 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
   for (const std::string& value : sweep.front().values)
     if (double x = 0.0; !read_number(value, &x).empty()) return f;
   const size_t status = column_of(table, "status");
-  const std::vector<size_t> columns = varying_columns(table, status + 2);
+  std::vector<size_t> columns = varying_columns({&table});
+  if (columns.size() > kMostPanels) columns.resize(kMostPanels);
   if (columns.empty()) return f;
   const auto curves = curves_of(table, sweep.size());
   const Rows fallen = without_equilibrium(table, status);

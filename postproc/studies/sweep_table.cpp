@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -75,6 +78,14 @@ void add_strength_columns(const std::vector<StudyRun>& members, const std::strin
     t->rows[i].insert(t->rows[i].end(), cells[i].begin(), cells[i].end());
 }
 
+/// The value that the member gives the key, of which the last setting holds.
+std::string value_of(const StudyRun& member, const std::string& key) {
+  std::string value;
+  for (const std::string& setting : member.settings)
+    if (setting.starts_with(key + "=")) value = setting.substr(key.size() + 1);
+  return value;
+}
+
 /// The ranges of a finished member; none for other analyses.
 std::vector<ForceRange> ranges_of_member(const std::string& folder) {
   const std::string path = folder + "/results/ranges.csv";
@@ -83,10 +94,31 @@ std::vector<ForceRange> ranges_of_member(const std::string& folder) {
 
 }  // namespace
 
-Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<StudyRun>& members,
+std::vector<size_t> varying_columns(const std::vector<const Table*>& sweep_tables) {
+  static const std::set<std::string> kNoResults{"equilibrium_residual", "cpu_time_seconds"};
+  constexpr double kRounding = 1e-6;  // statics are solved to 1e-8 of the loads
+  std::vector<size_t> columns;
+  for (size_t k = 0; k < sweep_tables.front()->columns.size(); ++k) {
+    const auto varies = [k](const Table* table) {
+      double least = std::numeric_limits<double>::infinity(), most = -least;
+      for (const auto& row : table->rows)
+        if (const double* value = std::get_if<double>(&row[k]); value && std::isfinite(*value)) {
+          least = std::min(least, *value);
+          most = std::max(most, *value);
+        }
+      return most - least > kRounding * std::max(std::abs(least), std::abs(most));
+    };
+    if (!kNoResults.contains(sweep_tables.front()->columns[k].key) &&
+        std::ranges::any_of(sweep_tables, varies))
+      columns.push_back(k);
+  }
+  return columns;
+}
+
+Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyRun>& members,
                   const std::string& runs_folder) {
   Table t{"sweep", "The members of the sweep", {{"member", "", "name of the run"}}, {}};
-  for (const SweptKey& swept : sweep) t.columns.push_back({swept.key, "", swept.key});
+  for (const std::string& key : keys) t.columns.push_back({key, "", key});
   t.columns.push_back({"status", "", "how the run ended"});
   t.columns.push_back({"remark", "", "how far a missing member got"});
   const std::vector<Table::Column> numbers = {
@@ -102,8 +134,7 @@ Table sweep_table(const std::vector<SweptKey>& sweep, const std::vector<StudyRun
   std::vector<std::vector<ForceRange>> ranges;
   for (const StudyRun& member : members) {
     std::vector<Table::Cell> row = {member.name};
-    for (const std::string& setting : member.settings)
-      row.emplace_back(setting.substr(setting.find('=') + 1));
+    for (const std::string& key : keys) row.emplace_back(value_of(member, key));
     const std::string folder = fmt::format("{}/{}", runs_folder, member.name);
     ranges.push_back(ranges_of_member(folder));
     if (std::filesystem::exists(folder + "/results/summary.json")) {

@@ -247,6 +247,8 @@ std::vector<std::string> notes_of(const Evaluation& e, const Film& film, bool in
   if (film.skipped_states() > 0)
     notes.push_back(fmt::format("{} of the ranges were left out to limit the size; ParaView shows them.",
                                 counted(film.skipped_states(), "state")));
+  if (at_rest(e) && e.summary.critical && film.kind() == Film::Kind::mechanism)
+    notes.push_back("The picture shows how it would move beyond the critical value.");
   if (!at_rest(e)) notes.push_back("No forces are shown, because no equilibrium was found.");
   return notes;
 }

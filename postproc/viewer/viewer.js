@@ -264,7 +264,7 @@ class Viewer {
       if (!link) return;
       e.preventDefault();
       const what = "joint" in link.dataset ? "joint" : "block", set = this.model.sets[0];
-      if (!this.host.contains(link)) this.host.scrollIntoView({block: "start"});
+      if (!this.host.contains(link)) this.find(".picture").scrollIntoView({block: "start"});
       this.select({what, index: Number(link.dataset[what]), set});
     });
   }

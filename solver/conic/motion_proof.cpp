@@ -81,6 +81,7 @@ std::optional<VecX> MotionProof::next_to(const VecX& v) {
   constexpr double kMargin = 2.0;  // covers the rounding of the sum
   double share = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {
+    if (crushes(p, i)) continue;
     const double rounding = (1.0 + p.mu[i]) * rounding_of_velocity(p, i, v).maxCoeff();
     share = std::max(share, kMargin * (rounding - inside[i]) / gained[i]);
   }

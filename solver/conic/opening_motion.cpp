@@ -18,18 +18,27 @@ VecX distance_inside(const ContactProblem& p, const VecX& v) {
   return inside;
 }
 
+bool crushes(const ContactProblem& contacts, int i) {
+  return !contacts.strength.empty() && std::isfinite(contacts.strength[i].compression);
+}
+
 VecX opening_motion(const ConicProblem& problem) {
   ScaledConicProblem s = scaled(problem);
   s.problem.load_columns.resize(Eigen::NoChange, 0);
   s.problem.row_multipliers.resize(0, 0);
   NormalEquations equations(s.problem);
-  if (!equations.factorize(std::vector<Mat3>(s.problem.contacts.num_contacts(), Mat3::Identity()),
-                           MatX(s.problem.cost.size(), 0), MatX(0, 0)))
-    return {};
+  std::vector<Mat3> weights(problem.contacts.num_contacts(), Mat3::Identity());
   VecX open = VecX::Zero(problem.cost.size());
-  open(Eigen::seq(0, Eigen::last, 3)).setOnes();
+  for (int i = 0; i < problem.contacts.num_contacts(); ++i)
+    if (crushes(problem.contacts, i))
+      weights[i].setZero();
+    else
+      open[3 * i] = 1.0;
+  if (!equations.factorize(std::move(weights), MatX(s.problem.cost.size(), 0), MatX(0, 0))) return {};
   VecX v = s.white.to_v(equations.solve(generalized_impulse(s.problem.contacts, open), VecX()).v);
-  if (!(distance_inside(problem.contacts, v).minCoeff() > 0.0)) return {};
+  const VecX inside = distance_inside(problem.contacts, v);
+  for (int i = 0; i < problem.contacts.num_contacts(); ++i)
+    if (!(inside[i] > 0.0) && !crushes(problem.contacts, i)) return {};
   return v;
 }
 
@@ -40,7 +49,9 @@ bool open_contacts(const ConicProblem& problem, ConicSolution* solution) {
   if (opening.size() == 0) return false;
   const VecX gained = distance_inside(problem.contacts, opening);
   const VecX inside = distance_inside(problem.contacts, solution->v);
-  const double share = kMargin * std::max(0.0, (-inside.cwiseQuotient(gained)).maxCoeff());
+  double share = 0.0;
+  for (int i = 0; i < problem.contacts.num_contacts(); ++i)
+    if (!crushes(problem.contacts, i)) share = std::max(share, -kMargin * inside[i] / gained[i]);
   const VecX v = solution->v + share * opening;
   const double power = problem.load_columns.col(0).dot(v);
   if (power * problem.multiplier_cost[0] >= 0.0) return false;

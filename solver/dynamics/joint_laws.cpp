@@ -105,6 +105,14 @@ JointClass joint_class(const Assembly& assembly, const Patch& patch) {
 
 JointTable::JointTable(const Joints& joints, int num_rings)
     : per_area_(joints.compliance.per == Compliance::Per::area), has_strength_(joints.have_strength()) {
+  if (const auto& field = joints.field) {
+    const auto make = [&field](const char* quantity, double variation) {
+      return RandomField(field->seed, quantity, field->correlation_length, variation);
+    };
+    friction_ = make("friction", field->friction);
+    strength_ = make("strength", field->strength);
+    compliance_ = make("compliance", field->compliance);
+  }
   const ClassLaw general{
       {joints.friction, joints.compliance.normal, joints.compliance.tangential, joints.strength},
       joints.fracture_energy.value_or(FractureEnergy{})};
@@ -132,6 +140,13 @@ JointLaw JointTable::law(const Assembly& assembly, const Patch& patch, double ar
   const double share = per_area_ ? area : multiplicity;
   law.compliance_normal /= share;
   law.compliance_tangential /= share;
+  if (!friction_.is_constant()) law.mu *= friction_.mean_over(patch.polygon);
+  if (!compliance_.is_constant()) {
+    const double factor = compliance_.mean_over(patch.polygon);
+    law.compliance_normal *= factor;
+    law.compliance_tangential *= factor;
+  }
+  if (!strength_.is_constant()) law.strength = times(law.strength, strength_.mean_over(patch.polygon));
   if (has_strength_) law.strength = patch.area > 0.0 ? times(law.strength, area) : JointStrength{};
   return law;
 }

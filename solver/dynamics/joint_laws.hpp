@@ -6,6 +6,7 @@
 
 #include "assembly/case/case.hpp"
 #include "solver/collision/contact_set.hpp"
+#include "solver/dynamics/random_field.hpp"
 
 namespace cupola {
 
@@ -47,6 +48,7 @@ class JointTable {
 
  private:
   std::array<std::vector<JointLaw>, kNumJointClasses> laws_;  // by class, then ring
+  RandomField friction_, strength_, compliance_;
   bool per_area_ = false, has_strength_ = false;
 };
 

@@ -57,7 +57,7 @@ def context(revision):
                 processor = line.split(":", 1)[1].strip()
                 break
     load = os.getloadavg()[0]
-    return (f"Measured {datetime.date.today()} by the programs of revision {revision} on {os.cpu_count()} cores of {processor}, "
+    return (f"Measured {datetime.date.today()} by the programs of revision {revision} on {os.cpu_count()} cores of {processor},\n"
             f"load average {load:.1f} at the end.")
 
 

@@ -5,7 +5,7 @@
 namespace cupola {
 
 /// Prints verdicts and limits of towers of 50 to 500 cubes under tilt, whose limit is atan(1 / cubes), comma-separated. Fails if a
-/// proven verdict is wrong or a bracket leaves out the limit; the motion at its other end has no proof under Coulomb's law.
+/// verdict is wrong or a bracket leaves out the limit.
 ExitCode print_towers();
 
 }  // namespace cupola

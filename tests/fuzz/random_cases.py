@@ -18,6 +18,7 @@ import random
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import tempfile
 import threading
@@ -406,11 +407,12 @@ def main():
     os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     campaign, started = Campaign(asked.bin.resolve(), asked.pipelines, asked.seed), time.monotonic()
     print(f"seed {asked.seed}", flush=True)
+    for ending in (signal.SIGINT, signal.SIGTERM): signal.signal(ending, signal.default_int_handler)  # in the background too
     with concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
         runs = [pool.submit(campaign.pipeline, number) for number in range(asked.pipelines)]
         try:
             for run in runs: run.result()
-        except KeyboardInterrupt:  # then the report covers what ran so far
+        except KeyboardInterrupt:  # of both signals: then the report covers what ran so far
             pool.shutdown(cancel_futures=True)
     campaign.report(time.monotonic() - started)
     return 1 if campaign.defects or campaign.complete < asked.pipelines else 0

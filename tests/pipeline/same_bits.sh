@@ -20,10 +20,10 @@ runs() {
   local file name
   for file in tests/net/*.yaml; do
     name=$(basename "$file" .yaml)
-    [ "$name" = claims ] || [ "$name" = wall_sweep ] || echo "$name $name"
+    [ "$name" = wall_sweep ] || echo "$name $name"
   done
   grep '^[a-z]' tests/net/variants.txt
-  "$first/cupola-post" sweep tests/net/wall_sweep.yaml --members "$work/members.txt" && cat "$work/members.txt"
+  "$first/cupola-post" study tests/net/wall_sweep.yaml --members "$work/members.txt" && cat "$work/members.txt"
 }
 
 # run BIN FOLDER CASE "SETTINGS" [SOLVE OPTION ...]
@@ -48,7 +48,7 @@ compare() {
 # Threads of libraries; those of the program are set by --threads.
 library_threads() { export OMP_NUM_THREADS=$1 OPENBLAS_NUM_THREADS=$1; }
 
-runs > "$work/runs.txt"; count=0
+runs > "$work/runs.txt" || exit 1; count=0
 while read -r name case settings <&3; do
   count=$((count + 1))
   library_threads 1

@@ -1,8 +1,6 @@
 // A model of stone in kilometres or of plastic in centimetres: where every number with a unit follows from the model, lengths
 // and weights scaled by powers of two change no verdict, no iteration and no digit.
 
-#include <cmath>
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +9,7 @@
 #include "generators/generate.hpp"
 #include "solver/solve_case.hpp"
 #include "tests/pipeline/static_run.hpp"
+#include "tests/scaled_assembly.hpp"
 
 namespace cupola {
 namespace {
@@ -22,14 +21,6 @@ struct ScaledModel {
 
 std::ostream& operator<<(std::ostream& out, const ScaledModel& model) {
   return out << model.name;
-}
-
-/// The same model, every length times `length`, every weight times `weight`.
-Assembly scaled(Assembly assembly, double length, double weight) {
-  for (Vec3& x : assembly.vertices) x *= length;
-  for (Block& block : assembly.blocks) block.density *= weight / std::pow(length, 3);
-  compute_mass_properties(&assembly);
-  return assembly;
 }
 
 struct Outcome {
@@ -62,8 +53,7 @@ TEST_P(Scaling, ChangesNoVerdictNoIterationAndNoDigit) {
   const Case scene = read_case(CUPOLA_SOURCE_DIR "/tests/net/" + GetParam().file, GetParam().settings);
   const Assembly assembly = generate(scene);
   const Outcome one = solve(scene, assembly);
-  for (const auto& [length, weight] :
-       {std::pair(0x1p-10, 1.0), {0x1p10, 1.0}, {1.0, 0x1p-6}, {1.0, 0x1p6}, {0x1p-10, 0x1p-6}}) {
+  for (const auto& [length, weight] : kScales) {
     SCOPED_TRACE(fmt::format("length x {:g}, weight x {:g}", length, weight));
     const Outcome other = solve(scene, scaled(assembly, length, weight));
     EXPECT_EQ(to_string(other.summary.status), to_string(one.summary.status)) << other.summary.message;

@@ -6,6 +6,7 @@
 
 #include "solver/analysis/analysis.hpp"
 #include "tests/solver/accounted_simulation.hpp"
+#include "tests/solver/keystone.hpp"
 #include "tests/solver/motion_scenes.hpp"
 #include "tests/verification/solve.hpp"
 #include "tests/verification/verification_row.hpp"
@@ -97,6 +98,27 @@ double critical_friction_of_cards(const ReferenceRow& row) {
   return critical_value(limit_case(Parameter::friction, 0.02, 1.0, 0.5), cards);
 }
 
+double critical_friction_of_keystone(const ReferenceRow& row) {
+  Case scene = limit_case(Parameter::friction, 0.02, 1.0, 0.5);
+  if (row.text("method") == "bisection") scene.analysis.limit.method = LimitSearch::Method::bisection;
+  return critical_value(scene, testing::keystone(row.number("slope")));
+}
+
+/// 1: proven to stand, -1: proven to move, 0: neither, of a static analysis.
+double verdict_near_critical_friction(const ReferenceRow& row) {
+  const bool is_keystone = row.text("model") == "keystone";
+  const testing::LeaningCards cards{.lean = 30.0 * kRadians};
+  constexpr double kSlope = 0.5;
+  const double critical = is_keystone ? kSlope : cards.critical_friction();
+  Case scene = limit_case(Parameter::friction, 0, 1, critical * (1.0 + row.number("distance")));
+  scene.analysis.type = AnalysisType::static_;
+  scene.analysis.friction_law = row.text("law") == "coulomb" ? FrictionLaw::coulomb : FrictionLaw::associated;
+  scene.joints.compliance = {1e-9, 1e-9, Compliance::Per::point};
+  const Status status =
+      run_static(scene, is_keystone ? testing::keystone(kSlope) : cards.assembly(), {}).status;
+  return status == Status::stable ? 1.0 : status == Status::moving ? -1.0 : 0.0;
+}
+
 /// Displacement of the foot of a block that sticks on an incline with stored elastic slip.
 double offset_with_memory() {
   const Assembly block = testing::box_on_floor({4, 4, 0.5});
@@ -160,6 +182,8 @@ void add_block_rows(Computations* all) {
   rows["push"] = critical_push;
   rows["overhang"] = critical_overhang;
   rows["cards"] = critical_friction_of_cards;
+  rows["keystone"] = critical_friction_of_keystone;
+  rows["near_critical_friction"] = verdict_near_critical_friction;
   rows["tangential_creep"] = [](const ReferenceRow& row) {
     return row.text("scheme") == "memory" ? offset_with_memory() : speed_of_literal_creep();
   };

@@ -52,7 +52,7 @@ DirectLimit limit_of_loads(
 
 /// Critical value of a parameter of the joints: the root of the pull alpha that the contacts need (pull_solve.hpp). Friction:
 /// Newton's method with the derivative that the mechanism gives, on rough solves, until its next step would not leave the
-/// width required; then a solve on either side of the root. Thickness and extent of the joints: the secant method. A bracket
+/// width required; then a solve on either side of the root; friction below 1e-8 counts as none. Thickness and extent of the joints: the secant method. A bracket
 /// that always contains the root safeguards both.
 DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, double relative_width,
                             bool friction, const ReportTrial& report);

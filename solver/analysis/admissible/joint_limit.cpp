@@ -12,6 +12,8 @@ namespace cupola {
 namespace {
 
 constexpr int kMaxTrials = 60;
+/// Least friction of a search: below it rounding of the geometry decides whether level beds slide.
+constexpr double kNoFriction = 1e-8;
 
 /// Solves at values of the parameter, counts and reports them.
 class PullTrials {
@@ -45,7 +47,7 @@ double estimate_root(double low, double high, double relative_width, const VecX&
   const double last_step = std::sqrt(0.2 * relative_width);
   double moves = low, stands = high;  // assumed of the ends
   bool low_solved = false, high_solved = false;
-  double x = low > 0.0 ? std::sqrt(low * high) : 0.5 * (low + high);
+  double x = low > kNoFriction ? std::sqrt(low * high) : 0.5 * (low + high);
   for (int k = 0; k < kMostEstimates; ++k) {
     const PullSolve at = trials->solve(x, true);
     (at.pull > 0.0 ? moves : stands) = x;
@@ -137,6 +139,7 @@ Ends first_ends(double low, double high, double relative_width, bool friction, P
 DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, double relative_width,
                             bool friction, const ReportTrial& report) {
   PullTrials trials(scene_at, report);
+  if (friction) low = std::max(low, kNoFriction);
   Ends ends = first_ends(low, high, relative_width, friction, &trials);
   for (const PullSolve& end : {std::cref(ends.below), std::cref(ends.above)})
     if (!end.decided)
@@ -144,6 +147,11 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
           "the solve at {:g}, one end of the bracket, did not converge; move that end", end.value));
   if (ends.below.admissible() == ends.above.admissible()) {
     DirectLimit limit = not_found(at_both_ends(ends.below.admissible(), low, high));
+    if (friction && low == kNoFriction && ends.below.admissible()) {
+      limit.unlimited = true;
+      limit.message =
+          fmt::format("no limit: the structure stands without friction (below {:g})", kNoFriction);
+    }
     limit.trials = trials.count;
     limit.iterations = trials.iterations;
     if (ends.below.admissible()) {

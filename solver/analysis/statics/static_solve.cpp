@@ -16,7 +16,7 @@
 namespace cupola {
 namespace {
 
-/// The motion of a mechanism that the conic solver found, in the place of an equilibrium to the tolerance.
+/// The motion of a mechanism that the conic solver found, in the place of what the iterations found.
 void turn_into_motion(const Model& model, const State& start, const VecX& loads, const VecX& mechanism,
                       StaticSolution* solution) {
   const ContactProblem& problem = solution->step.problem;
@@ -27,12 +27,16 @@ void turn_into_motion(const Model& model, const State& start, const VecX& loads,
   solution->increment = solution->h * solution->h * acceleration;
   solution->step_solution.v = solution->h * acceleration;
   solution->speed_ratio = largest_speed(acceleration) / reference_acceleration(model, start);
+  const bool balanced = solution->outcome == StaticOutcome::equilibrium;
   solution->outcome = StaticOutcome::moving;
   solution->message = fmt::format(
       "no equilibrium exists: blocks accelerate at up to {:.3g} m/s2; a mechanism that the loads drive and "
-      "no joint resists "
-      "proves it (without it, forces were found that balance the loads to {:.1e} of a block's weight)",
-      largest_speed(acceleration), solution->balance.residual);
+      "no joint resists proves it{}",
+      largest_speed(acceleration),
+      balanced ? fmt::format(
+                     " (without it, forces were found that balance the loads to {:.1e} of a block's weight)",
+                     solution->balance.residual)
+               : "");
 }
 
 /// Asks the conic solver where no verdict was reached, or where exact forces next to those found are not proven to exist.
@@ -87,12 +91,24 @@ void certify(const Model& model, const State& start, const ContactSet& contacts,
         "end the equilibrium";
 }
 
-/// True if the path showed nothing: it ended without a verdict, or called a motion steady before any block had
-/// moved by 1 % of the smallest. Stiff joints beside soft ones, or nearly rigid ones, do that.
-bool shows_nothing(const Model& model, const StaticSolution& solution) {
+double largest_displacement_of(const StaticSolution& solution) {
+  return largest_speed(solution.step_solution.v) * solution.h;
+}
+
+/// True if the path showed nothing: it ended without a verdict, or called a motion steady before any block had moved by 1 % of the
+/// smallest, or as far as in the equilibrium under the associated law. Stiff joints beside soft ones, or nearly rigid ones, do that, and
+/// slender towers, which sway by far more than they settle.
+bool shows_nothing(const Model& model, const StaticSolution& solution, const StaticSolution& associated) {
   constexpr double kShare = 0.01;
   if (solution.outcome != StaticOutcome::moving) return solution.outcome == StaticOutcome::unconverged;
-  return largest_speed(solution.step_solution.v) * solution.h < kShare * smallest_block_size(*model.assembly);
+  return largest_displacement_of(solution) <
+         std::max(kShare * smallest_block_size(*model.assembly), largest_displacement_of(associated));
+}
+
+/// A proven motion under the associated law: the other laws admit the same forces.
+StaticSolution under_any_law(StaticSolution motion) {
+  motion.message += ", under either friction law";
+  return motion;
 }
 
 /// True if no compliant contact slips in the solution under the associated law, which then obeys every flow
@@ -102,6 +118,12 @@ bool slips_nowhere(const StaticSolution& solution, const FlowRule& law, double a
   if (first_rigid_contact(step.problem)) return false;
   return compute_residuals(step.problem, solution.step_solution, solution.h * acceleration, law)
              .contact_law <= kOutcomeTolerance;
+}
+
+/// True if forces next to those found are proven to balance the loads.
+bool has_exact_forces(const StaticSolution& solution, const VecX& loads) {
+  const ContactProblem& problem = solution.step.problem;
+  return proves_equilibrium(problem, problem.h * loads, solution.step_solution.gamma);
 }
 
 /// Of a non-associated law: along a path, if the method and the joints permit it.
@@ -125,10 +147,7 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
     associated.solve.law = FrictionLaw::associated;
     associated.tolerance = std::max(options.tolerance, kOutcomeTolerance);
     StaticSolution first = ComingToRest(model, start, contacts, memories, associated).run();
-    if (first.outcome == StaticOutcome::moving && first.proven) {
-      first.message += ", under either friction law";
-      return first;
-    }
+    if (first.outcome == StaticOutcome::moving && first.proven) return under_any_law(std::move(first));
     int iterations = first.iterations;
     const bool stands = first.outcome == StaticOutcome::equilibrium;
     const auto from_associated = [&] {
@@ -139,9 +158,14 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
     if (stands && slips_nowhere(first, options.solve.law, reference_acceleration(model, start)))
       solution = from_associated();
     if (solution.outcome != StaticOutcome::equilibrium) {
+      const VecX loads = applied_forces(model, start, start.time + options.time_advance);
+      if (first.outcome != StaticOutcome::moving && !options.solve.max_iterations &&
+          !(stands && has_exact_forces(first, loads)))
+        decide(model, start, loads, associated, &first);
+      if (first.outcome == StaticOutcome::moving && first.proven) return under_any_law(std::move(first));
       iterations += solution.iterations;
       solution = solve_from_start(model, start, contacts, memories, options);
-      if (stands && !options.follow_from_start && shows_nothing(model, solution)) {
+      if (stands && !options.follow_from_start && shows_nothing(model, solution, first)) {
         if (StaticSolution second = from_associated(); second.outcome == StaticOutcome::equilibrium)
           solution = std::move(second);
       }

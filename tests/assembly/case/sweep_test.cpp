@@ -9,22 +9,24 @@ namespace cupola::sweep_test {
 namespace {
 
 TEST(Sweep, RunsAllCombinationsOfTheValues) {
-  const auto members =
-      members_of({{"joints.friction", {"0.1", "0.2"}}, {"analysis.method", {"newton", "spg"}}}, "dome");
+  const auto members = members_of(
+      std::vector<SweptKey>{{"joints.friction", {"0.1", "0.2"}}, {"analysis.method", {"newton", "spg"}}},
+      "dome");
   ASSERT_EQ(members.size(), 4u);
   EXPECT_EQ(members[1].name, "dome_friction0.1_methodspg");
   EXPECT_EQ(members[2].settings, (std::vector<std::string>{"joints.friction=0.2", "analysis.method=newton"}));
 }
 
 TEST(Sweep, KeysWithTheSameLastWordAppearInFull) {
-  const auto members = members_of({{"joints.bed.friction", {"0.1"}}, {"joints.head.friction", {"0.3"}}}, "w");
+  const auto members = members_of(
+      std::vector<SweptKey>{{"joints.bed.friction", {"0.1"}}, {"joints.head.friction", {"0.3"}}}, "w");
   EXPECT_EQ(members.front().name, "w_joints.bed.friction0.1_joints.head.friction0.3");
 }
 
 TEST(Sweep, ValuesThatCannotBePartOfAFileNameAreRefused) {
   for (const char* value : {"../a", "a b", "", "$(x)", "a=b"})
-    EXPECT_THROW(members_of({{"title", {value}}}, "w"), InputError) << value;
-  EXPECT_THROW(members_of({}, "w"), InputError);
+    EXPECT_THROW(members_of(std::vector<SweptKey>{{"title", {value}}}, "w"), InputError) << value;
+  EXPECT_THROW(members_of(std::vector<SweptKey>(), "w"), InputError);
 }
 
 TEST(Sweep, DoesNotChangeTheHashOfTheCase) {

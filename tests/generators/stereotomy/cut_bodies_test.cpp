@@ -1,5 +1,6 @@
 // Bodies cut from members: volumes against closed forms, which pieces become blocks, and what is refused.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -146,6 +147,94 @@ TEST(CutBodies, ASailVaultStandsOverASquare) {
   EXPECT_NEAR(report.volume / expected, 1.0, 2e-3);
 }
 
+// A plane across the wall parts the blocks that it meets, and takes nothing.
+TEST(CutBodies, AJointPartsBlocks) {
+  ModelReport whole, parted;
+  volume_of(wall({}), &whole);
+  const Case c = wall({plane({0.0, 1.45, 0.0}, {0.0, 1.0, 0.0}, Cut::As::joint)});
+  EXPECT_NEAR(volume_of(c, &parted), kWhole, 1e-13);
+  // In even courses the plane passes through the second block, and in odd ones 0.05 m before its end.
+  EXPECT_EQ(parted.num_blocks, whole.num_blocks + 3)
+      << "in odd courses the rest joins its neighbour on its side";
+  EXPECT_EQ(parted.islands, 1);
+  const Assembly assembly = cut_assembly(c);
+  for (const Part& part : assembly.parts) {
+    if (assembly.blocks[part.block].fixed) continue;
+    double low = 1e9, high = -1e9;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      for (const Vec3& p : face_points(assembly, f)) {
+        low = std::min(low, p.y());
+        high = std::max(high, p.y());
+      }
+    EXPECT_TRUE(high < 1.45 + 1e-12 || low > 1.45 - 1e-12);
+  }
+}
+
+VaultSurface barrel(double span, double thickness, double length) {
+  VaultSurface surface;
+  surface.plan.kind = Plan::Kind::line;
+  surface.plan.length = length;
+  surface.profile.kind = Profile::Kind::semicircle;
+  surface.profile.span = span;
+  surface.thickness = thickness;
+  return surface;
+}
+
+/// x > 0 of a polygonal semicircle with n courses at a height.
+double half_width(double radius, int n, double z) {
+  for (int k = 0; 2 * k < n; ++k) {
+    const double a = std::numbers::pi * k / n, b = std::numbers::pi * (k + 1) / n;
+    if (z > radius * std::sin(b)) continue;
+    const double share = (z / radius - std::sin(a)) / (std::sin(b) - std::sin(a));
+    return radius * ((1.0 - share) * std::cos(a) + share * std::cos(b));
+  }
+  return 0.0;
+}
+
+// A barrel along y and a smaller one along x that meets its side: both volumes by slices at equal height, in which all is
+// rectangles with sides linear in z between the beds, so that Simpson's rule is exact there.
+TEST(CutBodies, ALunetteIsCutUnderTheOtherBarrel) {
+  constexpr int n = 12, m = 10;  // courses, even: a joint in the crown
+  constexpr double kMain = 4.0, kSmall = 1.5, kThick = 0.6, kThin = 0.4, kEnd = 6.0, kLong = 8.0;
+  Member main, lunette;
+  main.name = "main";
+  main.surface = barrel(2 * kMain, kThick, kLong);
+  main.bond = RunningBond{n, 8, 2};
+  main.cuts.emplace_back().kind = Cut::Kind::under;
+  main.cuts[0].member = "lunette";
+  lunette.name = "lunette";
+  lunette.surface = barrel(2 * kSmall, kThin, kEnd);
+  lunette.bond = RunningBond{m, 6, 2};
+  lunette.at = Place{{0.0, kLong / 2, 0.0}, -90.0};  // its y axis becomes x
+  lunette.cuts.emplace_back().kind = Cut::Kind::under;
+  lunette.cuts[0].member = "main";
+  lunette.cuts[0].face = Cut::Face::intrados;
+  Case c;
+  c.geometry.members = {main, lunette};
+  c.geometry.has_shell = false;
+  ModelReport report;
+  const double volume = volume_of(c, &report);
+  EXPECT_EQ(report.islands, 1);
+  std::vector<double> levels{0.0};
+  for (const auto& [radius, courses] :
+       {std::pair(kMain, n), {kMain + kThick, n}, {kSmall, m}, {kSmall + kThin, m}})
+    for (int k = 1; 2 * k <= courses; ++k)
+      levels.push_back(radius * std::sin(std::numbers::pi * k / courses));
+  std::ranges::sort(levels);
+  const auto slice = [&](double z) {
+    const double xi = half_width(kMain, n, z), xe = half_width(kMain + kThick, n, z),
+                 yi = half_width(kSmall, m, z), ye = half_width(kSmall + kThin, m, z);
+    const double whole = 2.0 * (xe - xi) * kLong, opening = 2.0 * ye * (xe - xi);
+    return whole - opening + 2.0 * (ye - yi) * (kEnd - xi);
+  };
+  double expected = 0.0;
+  for (size_t i = 0; i + 1 < levels.size(); ++i) {
+    const double a = levels[i], b = levels[i + 1], inset = 1e-12;
+    expected += (b - a) / 6.0 * (slice(a + inset) + 4.0 * slice(0.5 * (a + b)) + slice(b - inset));
+  }
+  EXPECT_NEAR(volume / expected, 1.0, 1e-10);  // of the inset
+}
+
 std::string message_of(const Case& c) {
   try {
     generate(c);
@@ -161,6 +250,14 @@ TEST(CutBodies, AreRefusedIfTheyTakeNothingOrAll) {
   EXPECT_NE(
       message_of(wall({plane({0, -9, 0}, {0, 1, 0})})).find("geometry.cuts[0]: the cut takes all blocks"),
       std::string::npos);
+  EXPECT_NE(message_of(wall({plane({0, 9, 0}, {0, 1, 0}, Cut::As::joint)}))
+                .find("geometry.cuts[0]: the plane parts no block"),
+            std::string::npos);
+  Cut under;
+  under.kind = Cut::Kind::under;
+  under.member = "nave";
+  EXPECT_NE(message_of(wall({under})).find("geometry.cuts[0].member = nave: must be another member"),
+            std::string::npos);
   EXPECT_NE(message_of(wall({prism({-1, 5, 5, -1}, {1.2, 1.2, 1.3, 1.3})})).find("shell floats"),
             std::string::npos);
 }

@@ -78,6 +78,31 @@ TEST(Members, SideBySideAreStacksOfTheirOwn) {
   EXPECT_LT((assembly.outward(1, Vec3(3.0, 0.0, 1.0)) - Vec3::UnitX()).norm(), 1e-15);
 }
 
+// A pier and what stands on it, four times round a point; a row of three.
+TEST(Members, HaveCopies) {
+  Member pier = tower("pier", 3.0), top = tower("top", 3.2);
+  pier.at = Place{{6.0, 0.0, 0.0}, 0.0};
+  top.on = "pier";
+  ModelReport one, four, row;
+  check_and_report(members_case({pier, top}), &one);
+  pier.copies = Copies{.count = 4, .about = Vec3(-3.0, 0.0, 0.0)};
+  const Assembly assembly = check_and_report(members_case({pier, top}), &four);
+  EXPECT_NEAR(four.volume / one.volume, 4.0, 1e-13);
+  EXPECT_EQ(four.num_joints, 4 * one.num_joints);
+  EXPECT_EQ(four.islands, 4);
+  ASSERT_EQ(assembly.sheets.size(), 8u);
+  EXPECT_EQ(assembly.sheets[2].name, "pier 2");
+  EXPECT_EQ(assembly.sheets[3].name, "top 2");
+  EXPECT_TRUE(assembly.sheets[3].on_previous);
+  EXPECT_EQ(assembly.sheets[2].first_ring, 8);
+  EXPECT_LT((assembly.sheets[4].origin - Vec3(-12.0, 0.0, 0.0)).norm(), 1e-14) << "half round";
+  EXPECT_EQ(assembly.members, (std::vector<std::string>{"pier", "top", "pier 2", "top 2", "pier 3", "top 3",
+                                                        "pier 4", "top 4"}));
+  pier.copies = Copies{.count = 3, .by = Vec3(0.0, 7.0, 1.0)};
+  const Assembly steps = check_and_report(members_case({pier, top}), &row);
+  EXPECT_LT((steps.sheets[4].origin - Vec3(6.0, 14.0, 2.0)).norm(), 1e-14);
+}
+
 std::string message_of(const Case& c) {
   try {
     generate(c);

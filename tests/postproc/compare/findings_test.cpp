@@ -19,6 +19,9 @@ std::vector<PostSummary> two_runs() {
   a.critical_value = 0.101;
   a.mean_kern_use = 0.21;
   a.thrust_over_weight = 0.11;
+  a.weight_N = 2e6;
+  a.margin_factor = 4.0;
+  a.widest_crack_m = 0.001;
   a.largest_couple_length_m = 0.04;
   a.max_displacement_m = 0.071;
   a.thrust_lines = {{"rib", 0, true, 0.5, 4.0}, {"mid_sail", 0, true, 0.6, 3.0}};
@@ -30,6 +33,8 @@ std::vector<PostSummary> two_runs() {
   b.critical_value = 0.152;
   b.mean_kern_use = 0.48;
   b.thrust_over_weight = 0.152;
+  b.margin_factor = 2.6;
+  b.widest_crack_m = 0.003;
   b.largest_couple_length_m = 0.173;
   b.max_displacement_m = 0.085;
   b.thrust_lines = {{"rib", 0, true, 0.5, 1.9}};

@@ -104,6 +104,20 @@ TEST(ShellMaps, NegligibleBlocksAreGrey) {
   EXPECT_EQ(data_of(use, "kern")[0][6], 1.5);
 }
 
+// In grey both ends of the scale of hoop forces look the same: blocks in tension have a dot.
+TEST(ShellMaps, TensionHasDots) {
+  const auto dots = [](double hoop_force) {
+    const ShellMap map{true, 1, {{0, 0, -10, 10, 4e3, hoop_force, 0.1, 0.2}}};
+    MapScales scales;
+    scales.include(map);
+    const std::string commands = force_map(map, scales).commands;
+    return std::pair(commands.find("$hoop using ($7 < 0 ? $1 : NaN):2 with points") != std::string::npos,
+                     commands.find("title 'tension'") != std::string::npos);
+  };
+  EXPECT_EQ(dots(-1e3), std::pair(true, true));
+  EXPECT_EQ(dots(1e3), std::pair(false, false));
+}
+
 // Maps that are compared have the scale of the run with the largest values.
 TEST(ShellMaps, IncludedMapsShareTheirScale) {
   const ShellMap small{true, 1, {{0, 0, -10, 10, 4e3, 1e3, 0.1, 0.2}}};

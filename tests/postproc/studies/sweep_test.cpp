@@ -26,7 +26,7 @@ TEST(SweepTable, ReportsMissingMembersAndHowFarTheyGot) {
                 R"({"status": "stable", "equilibrium_residual": 1e-9, "max_displacement_m": 0.5})");
   scratch.write("dome_friction0.2/assembly.vtu", "");
   scratch.write("dome_friction0.3/results/checkpoint", "");
-  const Table table = sweep_table(sweep, members, scratch.folder());
+  const Table table = sweep_table({"joints.friction"}, members, scratch.folder());
   ASSERT_EQ(table.rows.size(), 4u);
   EXPECT_EQ(table.columns[2].key, "status");
   EXPECT_EQ(table.rows[0][2], Table::Cell(std::string("stable")));
@@ -51,7 +51,7 @@ TEST(SweepTable, HasTheResultsOfTheMembers) {
       "dome_friction0.1/post/summary.json",
       R"({"thrust_over_weight": 0.25, "weight_N": 800, "margin_factor": 1.5, "widest_crack_m": 0.002})");
   scratch.write("dome_friction0.1/post/report.html", "");
-  const Table table = sweep_table(sweep, members, scratch.folder());
+  const Table table = sweep_table({"joints.friction"}, members, scratch.folder());
   EXPECT_EQ(cell_of(table, 0, "thrust_N"), Table::Cell(200.0));
   EXPECT_EQ(cell_of(table, 0, "margin_factor"), Table::Cell(1.5));
   EXPECT_EQ(cell_of(table, 0, "widest_crack_m"), Table::Cell(0.002));

@@ -181,6 +181,16 @@ TEST(DirectLimit, WhatStandsOrMovesThroughoutTheBracketHasNoCriticalFriction) {
   }
 }
 
+// On level beds rounding of the geometry decides about frictions of 1e-10.
+TEST(DirectLimit, ColumnOnLevelBedsStandsWithoutFriction) {
+  const Summary summary = run_limit(limit_case(Parameter::friction, 0.0, 0.8, 0.7),
+                                    testing::stack_of_cubes(1.0, {1000.0, 1000.0}), {})
+                              .value();
+  EXPECT_EQ(summary.status, Status::stable) << summary.message;
+  EXPECT_FALSE(summary.critical);
+  EXPECT_NE(summary.message.find("stands without friction"), std::string::npos) << summary.message;
+}
+
 // A force pressing a block down may grow without limit.
 TEST(DirectLimit, SaysWhereThereIsNoLimit) {
   Case scene = limit_case(Parameter::load, 0.0, 10.0, 0.3);

@@ -92,6 +92,21 @@ TEST(Verdict, SlenderTowerStandsAtHalfOfItsLimit) {
     }
 }
 
+// Under Coulomb's law its path passes through displacements of 200 times the first settlement.
+TEST(Verdict, SlenderTowerIsJudgedNextToItsLimit) {
+  constexpr int cubes = 500;
+  for (const double factor : {0.999, 1.001})
+    for (const FrictionLaw law : kLaws) {
+      Case input = testing::make_case(0.7, 1e-9, 0.01);
+      input.loads.gravity = testing::tilted_gravity(factor / cubes);
+      const Scene scene(input, testing::stack_of_cubes(1.0, std::vector(cubes, 2000.0)));
+      const StaticSolution solution = scene.solve(1e-5, law);
+      EXPECT_EQ(solution.outcome, factor < 1.0 ? StaticOutcome::equilibrium : StaticOutcome::moving)
+          << factor << ", " << to_string(law) << ": " << solution.message;
+      EXPECT_TRUE(solution.proven) << factor << ", " << to_string(law) << ": " << solution.message;
+    }
+}
+
 // 9 mm are less than 1 % of the block, the default of `contact.margin`: the cube rests on its support in every analysis.
 TEST(Verdict, CubeAboveItsSupportStandsInEveryAnalysis) {
   const Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true},

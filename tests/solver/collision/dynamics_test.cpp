@@ -6,6 +6,7 @@
 #include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 #include "tests/solver/scenes.hpp"
+#include "tests/test_names.hpp"
 
 namespace cupola::dynamics_test {
 namespace {
@@ -59,7 +60,8 @@ TEST_P(RockingBlock, FollowsHousnersEquationAndImpactRatio) {
 
 INSTANTIATE_TEST_SUITE_P(Housner, RockingBlock,
                          ::testing::Values(Rocking{0.2, 1.0, 0.490864, 0.458240, 0.942308},
-                                           Rocking{0.5, 1.0, 0.516630, 1.018535, 0.700000}));
+                                           Rocking{0.5, 1.0, 0.516630, 1.018535, 0.700000}),
+                         test_names({"Slender", "Stout"}));
 
 /// Uniformly distributed random orientation.
 Quaterniond random_turn(std::mt19937* random) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/conic/motion_proof.hpp"
 #include "solver/conic/opening_motion.hpp"
 #include "tests/solver/conic/conic_scenes.hpp"
 
@@ -189,6 +190,29 @@ TEST(Conic, NoMotionOpensAJammedBlock) {
   solution.v = VecX::Ones(6);
   EXPECT_FALSE(open_contacts(problem, &solution));
   EXPECT_EQ(solution.v, VecX::Ones(6));
+}
+
+// One of its joints that yields need not open: the motion that pushes the block into it is a proof once the load exceeds what both
+// joints resist.
+TEST(MotionProof, JointThatYieldsNeedNotOpen) {
+  constexpr double kYield = 1000.0, kFriction = 0.4;  // N per point
+  scenes::Scene scene(0.01, {0, 0, -scenes::kGravity});
+  const int block = scene.add_box({0, 0, 0}, {1, 1, 1}, 2000.0);
+  for (const double side : {-1.0, 1.0})
+    scene.add_patch(scenes::kGround, block, {0.5 * side, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {-side, 0, 0},
+                    {.mu = kFriction});
+  ConicProblem problem = conic(scene.problem());
+  ContactProblem& contacts = problem.contacts;
+  const int points = contacts.num_contacts() / 2;
+  contacts.strength.assign(static_cast<size_t>(2 * points), {});
+  for (int i = points; i < 2 * points; ++i) contacts.strength[i].compression = kYield;
+  const double resisted = 2.0 * kFriction * points * kYield;
+  for (const double load : {0.99, 1.01}) {
+    problem.load = VecX::Zero(6);
+    problem.load[2] = -load * resisted;
+    MotionProof proof(contacts, problem.load);
+    EXPECT_EQ(proof.search(), load < 1.0 ? MotionProof::Answer::admissible : MotionProof::Answer::moves);
+  }
 }
 
 TEST(Conic, RefusesSizesThatDoNotMatch) {

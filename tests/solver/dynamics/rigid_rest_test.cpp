@@ -5,6 +5,7 @@
 #include "solver/runtime/threads.hpp"
 #include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
+#include "tests/test_names.hpp"
 
 // A structure of rigid blocks at rest keeps the impulses of the step before: no iterations, no motion.
 
@@ -61,7 +62,8 @@ TEST_P(ArchAtRest, StaysWhereItIs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BothLaws, ArchAtRest,
-                         ::testing::Values(FrictionLaw::associated, FrictionLaw::coulomb));
+                         ::testing::Values(FrictionLaw::associated, FrictionLaw::coulomb),
+                         test_names({"Associated", "Coulomb"}));
 
 // The friction falls from 0.6 to 0.1 over a second on a slope of 0.3. The block must leave its rest when the friction is that of the
 // slope, at 0.6 s, and then slide under Coulomb's law: v = g cos a (0.5 t^2 / 2), t from then, less one step.

@@ -9,6 +9,7 @@
 #include "solver/analysis/statics/static_solve.hpp"
 #include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
+#include "tests/test_names.hpp"
 
 namespace cupola::ties_test {
 namespace {
@@ -168,7 +169,8 @@ TEST_P(RingOfBlocks, ChainCarriesTheHoopForce) {
   EXPECT_NEAR(outward / ((T / k + slack) / (2.0 * sine)), 1.0, 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Slack, RingOfBlocks, ::testing::Values(0.0, 0.002));
+INSTANTIATE_TEST_SUITE_P(Slack, RingOfBlocks, ::testing::Values(0.0, 0.002),
+                         test_names({"None", "TwoMillimetres"}));
 
 /// The hanging cube (block 1) on two parallel ties at equal distances from its centroid.
 Case on_two_ties(double k, double yield, double load) {

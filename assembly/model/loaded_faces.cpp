@@ -1,0 +1,113 @@
+#include "assembly/model/loaded_faces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cupola {
+namespace {
+
+constexpr double kStandardGravity = 9.81;  // m/s2, as of Material::density
+
+/// The part of a plane polygon with n.x <= offset; fewer than three points if there is none.
+std::vector<Vec3> below_plane(const std::vector<Vec3>& polygon, const Vec3& n, double offset) {
+  std::vector<Vec3> kept;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double of_a = n.dot(a) - offset, of_b = n.dot(b) - offset;
+    if (of_a <= 0.0) kept.push_back(a);
+    if ((of_a < 0.0 && of_b > 0.0) || (of_a > 0.0 && of_b < 0.0))
+      kept.push_back(a + of_a / (of_a - of_b) * (b - a));
+  }
+  return kept;
+}
+
+/// Adds the integrals of the stress s and of s x over a convex polygon on which s is linear.
+void integrate(const Fill& fill, const std::vector<Vec3>& polygon, double* sum, Vec3* moment) {
+  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const std::array<Vec3, 3> x{polygon[0], polygon[i], polygon[i + 1]};
+    const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+    double s = 0.0;
+    Vec3 sx = Vec3::Zero(), middle = Vec3::Zero();
+    for (const Vec3& corner : x) {
+      s += fill.stress(corner.z());
+      sx += fill.stress(corner.z()) * corner;
+      middle += corner;
+    }
+    *sum += area / 3.0 * s;
+    *moment += area / 12.0 * (s * middle + sx);
+  }
+}
+
+}  // namespace
+
+double Fill::stress(double z) const {
+  const double bottom = from ? std::max(z, *from) : z;
+  return unit_weight * std::max(level - bottom, 0.0);
+}
+
+bool is_of_member(const Assembly& assembly, const Block& block, const std::string& member) {
+  return member.empty() || (!assembly.members.empty() && assembly.members[block.member] == member);
+}
+
+std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, std::span<const FaceKind> kinds,
+                                      int from_ring, int to_ring, const std::string& member) {
+  std::vector<LoadedFace> faces;
+  for (const Part& part : assembly.parts) {
+    const Block& block = assembly.blocks[part.block];
+    if (part.ring < from_ring || part.ring > to_ring || block.fixed || !is_of_member(assembly, block, member))
+      continue;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      if (std::ranges::find(kinds, assembly.face_kinds[f]) == kinds.end()) continue;
+      std::vector<Vec3> polygon = face_points(assembly, f);
+      const Vec3 centroid = polygon_centroid(polygon), normal = polygon_plane(polygon).normal;
+      const double area = polygon_area(polygon);
+      faces.push_back({part.block, std::move(polygon), centroid, normal, area});
+    }
+  }
+  return faces;
+}
+
+Resultant fill_force(const Fill& fill, const LoadedFace& face, const Vec3& gravity) {
+  double sum = 0.0;
+  Vec3 moment = Vec3::Zero();
+  const Vec3 up = Vec3::UnitZ();
+  std::vector<Vec3> covered = below_plane(face.polygon, up, fill.level);
+  if (fill.from) {
+    integrate(fill, below_plane(covered, -up, -*fill.from), &sum, &moment);
+    covered = below_plane(covered, up, *fill.from);
+  }
+  integrate(fill, covered, &sum, &moment);
+  if (sum == 0.0) return {face.centroid, Vec3::Zero()};
+  const Vec3 level_normal(face.normal.x(), face.normal.y(), 0.0);
+  return {moment / sum,
+          sum / kStandardGravity *
+              (std::max(face.normal.z(), 0.0) * gravity + fill.horizontal * gravity.z() * level_normal)};
+}
+
+std::vector<SpreadShare> spread_shares(const Spread& spread, const Vec3& point,
+                                       std::span<const LoadedFace> faces) {
+  std::vector<SpreadShare> shares;
+  double sum = 0.0;
+  for (const LoadedFace& face : faces) {
+    const double depth = point.z() - face.centroid.z();
+    constexpr double kUpright = 1e-9;  // rounding of walls
+    if (face.normal.z() <= kUpright || depth < 0.0) continue;
+    const double along_x = spread.x + 2.0 * spread.slope * depth,
+                 along_y = spread.y + 2.0 * spread.slope * depth;
+    std::vector<Vec3> loaded = face.polygon;
+    for (const double side : {-1.0, 1.0}) {
+      loaded = below_plane(loaded, side * Vec3::UnitX(), side * point.x() + 0.5 * along_x);
+      loaded = below_plane(loaded, side * Vec3::UnitY(), side * point.y() + 0.5 * along_y);
+    }
+    if (loaded.size() < 3) continue;
+    const double share = face.normal.z() * polygon_area(loaded) / (along_x * along_y);
+    if (share <= 0.0) continue;
+    shares.push_back({face.block, polygon_centroid(loaded), share});
+    sum += share;
+  }
+  for (SpreadShare& share : shares) share.share /= sum;
+  return shares;
+}
+
+}  // namespace cupola

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assembly/model/assembly.hpp"
+#include "assembly/model/loads.hpp"
+
+namespace cupola {
+
+/// A face of a free block on which a load acts.
+struct LoadedFace {
+  int block = 0;
+  std::vector<Vec3> polygon;     ///< m
+  Vec3 centroid = Vec3::Zero();  ///< m
+  Vec3 normal = Vec3::UnitZ();   ///< outward
+  double area = 0.0;             ///< m2
+};
+
+bool is_of_member(const Assembly& assembly, const Block& block, const std::string& member);
+
+/// Faces of some kinds on the free blocks of a member ("": all), for parts in a range of rings.
+std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, std::span<const FaceKind> kinds,
+                                      int from_ring, int to_ring, const std::string& member);
+
+/// A force and the point where it acts.
+struct Resultant {
+  Vec3 point = Vec3::Zero();  ///< m
+  Vec3 force = Vec3::Zero();  ///< N
+};
+
+/// The force of a fill on a face at its centre of pressure, exact for plane faces; zero above the fill. With the stress s and
+/// the outward normal n,
+///     f = (integral of s dA) (max(n_z, 0) g / 9.81 + k g_z / 9.81 (n_x, n_y, 0)),
+/// so that in a limit analysis of tilt or acceleration the fill weighs as the blocks do.
+Resultant fill_force(const Fill& fill, const LoadedFace& face, const Vec3& gravity);
+
+/// Shares of a force that spreads from a rectangle down to the faces below it: at the depth d of a face, the pressure on its
+/// plan is 1 / ((x + 2 m d) (y + 2 m d)) inside the widened rectangle, with the slope m. The shares are scaled to a sum of
+/// one. All zero if no face looks up to the rectangle.
+struct SpreadShare {
+  int block = 0;
+  Vec3 point = Vec3::Zero();  ///< m
+  double share = 0.0;
+};
+std::vector<SpreadShare> spread_shares(const Spread& spread, const Vec3& point,
+                                       std::span<const LoadedFace> faces);
+
+}  // namespace cupola

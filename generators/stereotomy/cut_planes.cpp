@@ -1,0 +1,110 @@
+#include "generators/stereotomy/cut_planes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+
+namespace cupola {
+namespace {
+
+/// The point with the coordinates u and v across an axis.
+Vec3 on_axis(Cut::Axis axis, double u, double v, double along) {
+  switch (axis) {
+    case Cut::Axis::x:
+      return {along, u, v};
+    case Cut::Axis::y:
+      return {u, along, v};
+    case Cut::Axis::z:
+      break;
+  }
+  return {u, v, along};
+}
+
+std::vector<Eigen::Vector2d> outline_of(const Cut& cut) {
+  std::vector<Eigen::Vector2d> corners;
+  if (cut.kind == Cut::Kind::prism)
+    for (size_t i = 0; i < cut.u.size(); ++i) corners.emplace_back(cut.u[i], cut.v[i]);
+  else
+    for (int i = 0; i < cut.sides; ++i) {
+      const double angle = 2.0 * std::numbers::pi * (i + 0.5) / cut.sides;
+      corners.emplace_back(cut.centre_u + cut.radius * std::cos(angle),
+                           cut.centre_v + cut.radius * std::sin(angle));
+    }
+  return corners;
+}
+
+}  // namespace
+
+std::vector<Plane> body_of(const Cut& cut) {
+  if (cut.kind == Cut::Kind::plane) {
+    const Vec3 lost = cut.normal.normalized();
+    return {{-lost, -lost.dot(cut.point)}};
+  }
+  std::vector<Plane> planes;
+  const std::vector<Eigen::Vector2d> corners = outline_of(cut);
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& corner : corners) middle += corner / static_cast<double>(corners.size());
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % corners.size()],
+                          along = (b - a).normalized();
+    Eigen::Vector2d normal(along.y(), -along.x());
+    if (normal.dot(middle - a) > 0.0) normal = -normal;
+    planes.push_back({on_axis(cut.axis, normal.x(), normal.y(), 0.0), normal.dot(a)});
+  }
+  const Vec3 axis = on_axis(cut.axis, 0.0, 0.0, 1.0);
+  if (cut.from) planes.push_back({-axis, -*cut.from});
+  if (cut.to) planes.push_back({axis, *cut.to});
+  return planes;
+}
+
+std::vector<Plane> body_under(const Storey& barrel, Cut::Face face, const std::string& key) {
+  const SurfaceMap& surface = barrel.surface;
+  std::vector<Vec3> section;
+  for (int bed = 0; bed <= surface.num_rows; ++bed)
+    section.push_back(face == Cut::Face::extrados ? surface.extrados(bed, 0.0) : surface.intrados(bed, 0.0));
+  const Vec3 end = surface.intrados(0.0, surface.extent) - surface.intrados(0.0, 0.0);
+  const Vec3 along = end.normalized();
+  const double size = (section.front() - section.back()).norm();
+  std::vector<Plane> planes;
+  const auto add = [&](const Vec3& point, const Vec3& outward) {
+    planes.push_back({outward, outward.dot(point)});
+  };
+  const Vec3 aside = Vec3(section.front() - section.back()).cross(Vec3::UnitZ()).cross(Vec3::UnitZ());
+  const Vec3 across = -aside.normalized();
+  const double way = across.dot(section.front() - section.back()) > 0.0 ? 1.0 : -1.0;
+  add(section.front(), way * across);
+  add(section.back(), -way * across);
+  for (size_t i = 0; i + 1 < section.size(); ++i) {
+    Vec3 outward = along.cross(section[i + 1] - section[i]).normalized();
+    if (outward.dot(0.5 * (section.front() + section.back()) - section[i]) > 0.0) outward = -outward;
+    add(section[i], outward);
+  }
+  constexpr double kRounding = 1e-12;
+  for (size_t i = 2; i < planes.size(); ++i)
+    for (const Vec3& p : section)
+      if (planes[i].normal.dot(p) - planes[i].offset > kRounding * size)
+        throw InputError(
+            fmt::format("{}.member = {}: its section is not convex about ({:.4g}, {:.4g}, {:.4g}) m, in its "
+                        "own coordinates, "
+                        "so that what lies under it is no convex body",
+                        key, barrel.name, section[i - 2].x(), section[i - 2].y(), section[i - 2].z()));
+  add(section.front(), -along);
+  add(section.front() + end, along);
+  return planes;
+}
+
+std::vector<Plane> moved(std::vector<Plane> planes, const Eigen::Isometry3d& placement) {
+  for (Plane& plane : planes) {
+    const Vec3 point = placement * (plane.offset * plane.normal);
+    plane.normal = placement.linear() * plane.normal;
+    plane.offset = plane.normal.dot(point);
+  }
+  return planes;
+}
+
+}  // namespace cupola

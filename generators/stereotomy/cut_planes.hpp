@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "assembly/case/geometry.hpp"
+#include "assembly/model/assembly.hpp"
+#include "generators/stereotomy/shell.hpp"
+
+namespace cupola {
+
+/// The convex body that a cut of its own outline takes, in the coordinates of its member: n.x <= offset for all planes.
+std::vector<Plane> body_of(const Cut& cut);
+
+/// What lies under the facets of a barrel, between its two ends and down without end, in its own coordinates; above the springings
+/// between the vertical planes through them. Throws InputError that begins with `key` for a section that is not convex.
+std::vector<Plane> body_under(const Storey& barrel, Cut::Face face, const std::string& key);
+
+/// Planes after a motion.
+std::vector<Plane> moved(std::vector<Plane> planes, const Eigen::Isometry3d& placement);
+
+}  // namespace cupola

@@ -1,0 +1,199 @@
+// Why it stands or falls, and what is certain of it: the sentences of the first screen.
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "assembly/base/counted.hpp"
+#include "postproc/figures/plot_style.hpp"
+#include "postproc/report/answers.hpp"
+#include "postproc/report/motion.hpp"
+#include "postproc/report/report.hpp"
+
+namespace cupola {
+
+/// The parts that a static analysis solved one by one, by what they do, proven or not.
+std::map<std::string, std::vector<PartVerdict>> parts_by_verdict(const Summary& summary) {
+  std::map<std::string, std::vector<PartVerdict>> found;
+  for (const PartVerdict& part : summary.parts) {
+    found[stands(part.status) ? "It stands" : moves(part.status) ? "It falls" : "Undecided"].push_back(part);
+  }
+  return found;
+}
+
+namespace {
+
+/// How far the supports have moved, m; 0 without an equilibrium or within rounding.
+double support_motion(const Evaluation& e) {
+  double farthest = 0.0;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    if (e.assembly.blocks[b].fixed && at_rest(e))
+      farthest = std::max(farthest, e.last.frame.blocks.displacement[b].norm());
+  return farthest > e.last.joints.floor.length ? farthest : 0.0;
+}
+
+/// True if the run shows one equilibrium under the loads of its case: no limit, range or stage.
+bool shows_the_case(const Evaluation& e) {
+  return at_rest(e) && !e.summary.critical && e.summary.ranges.empty() && !is_stage(e.last.frame.role);
+}
+
+/// Why one equilibrium stands: what carries what, and after which motion.
+std::string carried_text(const Evaluation& e) {
+  const std::string carry =
+      fmt::format("The joint forces carry the weight of {}, {}", counted(e.summary.free_blocks, "block"),
+                  force_text(e.summary.weight_N));
+  if (const double moved = support_motion(e); moved > 0.0)
+    return fmt::format("{}, although supports have moved by up to {}.", carry, length_text(moved));
+  if (e.last.frame.role == FrameRole::step)
+    return fmt::format("{}, at rest after {:.4g} s of motion.", carry, e.last.frame.time);
+  if (e.last.frame.role == FrameRole::path) return carry + ", at the end of the path.";
+  return carry + ".";
+}
+
+/// A motion ends as a collapse when a block has moved farther than the threshold.
+std::string collapsed_text(const Evaluation& e) {
+  double farthest = 0.0;
+  for (const Vec3& displacement : e.last.frame.blocks.displacement)
+    farthest = std::max(farthest, displacement.norm());
+  return fmt::format("Within {:.4g} s a block moves by {}; {} count as a collapse.", e.last.frame.time,
+                     length_text(farthest), length_text(e.scene.analysis.thresholds.displacement));
+}
+
+/// "the shape of the blocks, their weight and loads, and a friction of 0.4".
+std::string assumptions(const Evaluation& e) {
+  const auto& critical = e.summary.critical;
+  std::vector<std::string> given{
+      e.scene.geometry.imported ? "the shape of the imported blocks" : "the shape of the blocks",
+      critical && critical->parameter == "load" ? "their weight, where the loads act and in which direction"
+                                                : "their weight and loads"};
+  if (!critical || critical->parameter != "friction")
+    given.push_back(fmt::format("a friction of {:g}", e.scene.joints.friction));
+  if (e.scene.joints.have_strength()) given.push_back("the strength of the joints");
+  if (support_motion(e) > 0.0) given.push_back("the motion of the supports");
+  return fmt::format("{}", fmt::join(given, ", "));
+}
+
+/// A limit: existence on one side is certain; what lies beyond is as certain as the run says.
+std::string certain_of_limit(const Evaluation& e) {
+  const CriticalValue& critical = *e.summary.critical;
+  const std::string standing = phrase(critical.parameter, critical.stable);
+  if (e.summary.friction_law != FrictionLaw::associated)
+    return fmt::format(
+        "Certain: an equilibrium was found at {}. Not certain: that there is none beyond. Assumed: {}, and "
+        "the stiffness of the joints.",
+        standing, assumptions(e));
+  return fmt::format(
+      "{}: at {} forces balance the loads, whatever the stiffness of the joints and their history. Not "
+      "certain: that joints which slide without opening (Coulomb's law) stand there too; {}. Assumed: {}.",
+      proven(e.summary.status) ? "Certain" : "To the tolerance", standing,
+      critical.stable < critical.moving ? "they may fall earlier" : "they may need more", assumptions(e));
+}
+
+}  // namespace
+
+std::string reason_for_verdict(const Evaluation& e) {
+  if (at_rest(e) && !e.summary.parts.empty()) return parts_sentence(e);
+  const Summary& s = e.summary;
+  std::string text;
+  if (shows_the_case(e) && stands(s.status))
+    text = carried_text(e);
+  else if (s.status == Status::collapsed)
+    text = collapsed_text(e);
+  else
+    text = verdict_text(s, e.last.frame.role);
+  if (const std::string parts = parts_sentence(e); !parts.empty()) text += " " + parts;
+  return text;
+}
+
+std::string certain_sentence(const Evaluation& e) {
+  const Summary& s = e.summary;
+  const bool limit = s.analysis == AnalysisType::limit && s.critical;
+  if (s.status == Status::unconverged && !limit && s.ranges.empty())
+    return "Nothing is certain: the requested accuracy was not reached.";
+  if (!at_rest(e) && !s.critical) {
+    const std::string motion = how_sure_of_motion(e);
+    return fmt::format("{}{}Assumed: {}.", motion, motion.empty() ? "" : " ", assumptions(e));
+  }
+  if (limit) return certain_of_limit(e);
+  if (!s.ranges.empty())
+    return fmt::format(
+        "Certain: every state in which it can stand lies inside the ranges. Not known: which of them it is "
+        "in, which its history decides. Assumed: {}.",
+        assumptions(e));
+  const char* of = is_stage(e.last.frame.role) ? "at every stage "
+                   : !s.parts.empty()          ? "in the part that stands "
+                   : support_motion(e) > 0.0   ? "after the motion of the supports "
+                                               : "";
+  std::string text = fmt::format(
+      "{}. Assumed: {}, and the stiffness of the joints, which selects thrust and cracks among all that "
+      "balance the loads.",
+      proven(s.status) ? fmt::format("Certain: {}forces within the joint laws balance the loads", of)
+                       : fmt::format("Not certain: {}forces balance the loads to the tolerance, exact "
+                                     "ones were not found",
+                                     of),
+      assumptions(e));
+  if (!s.forces_unique.value) text += " " + to_sentence(s.forces_unique);
+  return text;
+}
+
+namespace {
+
+/// "number 7", or its name in the imported file.
+std::string name_of(const Evaluation& e, int block) {
+  const std::string& name = e.assembly.blocks[block].name;
+  return name.empty() ? fmt::format("number {}", block) : fmt::format("`{}`", name);
+}
+
+/// "1 block, `stone`" or "12 blocks".
+std::string blocks_of(const Evaluation& e, const std::vector<PartVerdict>& parts) {
+  int blocks = 0;
+  for (const PartVerdict& part : parts) blocks += part.blocks;
+  return counted(blocks, "block") + (blocks == 1 ? ", " + name_of(e, parts.front().first_block) : "");
+}
+
+/// Of a run that solved its parts one by one: "Of 2 unconnected parts one falls (1 block, number 4), one stands (3 blocks)."
+std::string sentence_of_verdicts(const Evaluation& e) {
+  std::string text;
+  for (const auto& [words, parts] : parts_by_verdict(e.summary)) {
+    const bool one = parts.size() == 1;
+    const std::string verb = words == "It falls"    ? (one ? "falls" : "fall")
+                             : words == "Undecided" ? (one ? "is undecided" : "are undecided")
+                                                    : (one ? "stands" : "stand");
+    text += fmt::format("{}{} {} ({})", text.empty() ? "" : ", ", one ? "one" : std::to_string(parts.size()),
+                        verb, blocks_of(e, parts));
+  }
+  return fmt::format("Of {} unconnected parts {}.{}", e.summary.parts.size(), text,
+                     at_rest(e) ? " The numbers belong to what stands." : "");
+}
+
+}  // namespace
+
+std::string parts_sentence(const Evaluation& e) {
+  if (!e.summary.parts.empty()) return sentence_of_verdicts(e);
+  if (at_rest(e) || e.summary.status == Status::unconverged || e.parts.empty()) return "";
+  constexpr double kMoves = 1e-3;  // of the fastest block
+  const std::vector<Vec3>& v =
+      is_mechanism(e.last.frame.role) ? e.last.frame.blocks.velocity : e.last.frame.blocks.displacement;
+  double fastest = 0.0;
+  for (const Vec3& x : v) fastest = std::max(fastest, x.norm());
+  std::map<int, int> sizes, firsts;
+  std::set<int> moving;
+  for (int b = 0; b < static_cast<int>(e.parts.size()); ++b) {
+    if (e.parts[b] < 0) continue;
+    ++sizes[e.parts[b]];
+    firsts.try_emplace(e.parts[b], b);
+    if (v[b].norm() > kMoves * fastest) moving.insert(e.parts[b]);
+  }
+  if (sizes.size() < 2 || moving.empty() || moving.size() == sizes.size()) return "";
+  int blocks = 0;
+  for (const int part : moving) blocks += sizes[part];
+  return fmt::format("Of {} unconnected parts {} ({}{}); the others, {}, are at rest.", sizes.size(),
+                     moving.size() == 1 ? "one moves" : fmt::format("{} move", moving.size()),
+                     counted(blocks, "block"), blocks == 1 ? ", " + name_of(e, firsts[*moving.begin()]) : "",
+                     counted(e.summary.free_blocks - blocks, "block"));
+}
+
+}  // namespace cupola

@@ -1,0 +1,261 @@
+#include "postproc/studies/ensemble_results.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "assembly/files/number_text.hpp"
+#include "assembly/model/status.hpp"
+#include "postproc/studies/sweep.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Column of a table of members that has it.
+size_t member_column(const Table& members, const std::string& key) {
+  size_t column = 0;
+  while (members.columns[column].key != key) ++column;
+  return column;
+}
+
+int verdict_of(const std::string& status) {
+  if (stands(status)) return 0;
+  return status == to_string(Status::moving) || status == to_string(Status::moving_unproven) ||
+                 status == to_string(Status::collapsed)
+             ? 1
+             : -1;
+}
+
+std::vector<double> column_of_numbers(const Table& table, size_t column) {
+  std::vector<double> values;
+  for (const auto& row : table.rows) {
+    double value = kNone;
+    if (const double* number = std::get_if<double>(&row[column]))
+      value = *number;
+    else if (double read = 0.0; read_number(to_display(row[column]), &read).empty())
+      value = read;
+    values.push_back(value);
+  }
+  return values;
+}
+
+void add_estimate(const IntervalEstimate& estimate, std::vector<Table::Cell>* row) {
+  row->emplace_back(estimate.value);
+  row->emplace_back(estimate.interval ? estimate.interval->low : kNone);
+  row->emplace_back(estimate.interval ? estimate.interval->high : kNone);
+}
+
+void add_estimate_columns(const std::string& key, const std::string& meaning, Table* table) {
+  table->columns.push_back({key, "", meaning});
+  table->columns.push_back({key + "_low", "", "95 % low"});
+  table->columns.push_back({key + "_high", "", "95 % high"});
+}
+
+/// A number of a sentence.
+std::string short_number(double value) {
+  return fmt::format("{:.4g}", value);
+}
+
+/// A sentence about one difference; the headline is whether the interval contains zero.
+std::string difference_sentence(const std::string& pair, const std::string& what, const IntervalEstimate& d) {
+  if (!d.interval) return fmt::format("{}: {} differs by {} in the mean.", pair, what, short_number(d.value));
+  const std::string numbers = fmt::format("{} ({} to {})", short_number(d.value),
+                                          short_number(d.interval->low), short_number(d.interval->high));
+  return d.interval->contains(0.0)
+             ? fmt::format("No difference shown. {}: {} differs by {}.", pair, what, numbers)
+             : fmt::format("{}: {} differs by {}.", pair, what, numbers);
+}
+
+/// Rows for one pair of ensembles of the same samples.
+void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
+              std::vector<std::string>* sentences) {
+  const std::string pair = a.name + " less " + b.name;
+  int only_a = 0, only_b = 0, both = 0;
+  for (size_t i = 0; i < a.falls.size(); ++i) {
+    if (a.falls[i] < 0 || b.falls[i] < 0) continue;
+    ++both;
+    only_a += a.falls[i] > b.falls[i];
+    only_b += a.falls[i] < b.falls[i];
+  }
+  const bool some_fall = std::ranges::count(a.falls, 1) + std::ranges::count(b.falls, 1) > 0;
+  if (some_fall && both > 0) {
+    const double p = mcnemar(only_a, only_b);
+    table->rows.push_back(
+        {pair, std::string("falls"), both, static_cast<double>(only_a - only_b) / both, kNone, kNone, p});
+    sentences->push_back(fmt::format(
+        "{}{} and {}: of {} with a verdict in both, {} fall in the first only and {} in "
+        "the second only "
+        "(exact McNemar test: p = {:.2g}).",
+        p > 0.05 ? "No difference shown. " : "", a.name, b.name, counted(both, "member"), only_a, only_b, p));
+  }
+  for (const size_t column : a.results) {
+    DrawnValues difference = a.values(column);
+    const DrawnValues other = b.values(column);
+    int pairs = 0;
+    for (size_t i = 0; i < difference.values.size(); ++i) {
+      difference.values[i] -= other.values[i];
+      pairs += std::isfinite(difference.values[i]);
+    }
+    if (pairs == 0) continue;
+    const IntervalEstimate mean = mean_of(difference);
+    std::vector<Table::Cell> row = {pair, a.members.columns[column].key, pairs};
+    add_estimate(mean, &row);
+    row.emplace_back(kNone);
+    table->rows.push_back(std::move(row));
+    sentences->push_back(difference_sentence(pair, a.members.columns[column].key, mean));
+  }
+}
+
+/// How far the members of a limit analysis stand.
+std::string critical_sentence(const EnsembleResults& ensemble) {
+  const size_t column = member_column(ensemble.members, "critical_value");
+  const DrawnValues drawn = ensemble.values(column);
+  const std::string& unit = ensemble.members.columns[column].unit;
+  return fmt::format(
+      "{}: critical value {}{}{} in the median; 5 % of the members lie below {}, 5 % above {}.",
+      ensemble.name, short_number(quantile_of(drawn, 0.5).value), unit.empty() ? "" : " ", unit,
+      short_number(quantile_of(drawn, 0.05).value), short_number(quantile_of(drawn, 0.95).value));
+}
+
+}  // namespace
+
+int EnsembleResults::replicates() const {
+  if (!runs->design) return 0;
+  return *runs->design == Ensemble::Design::monte_carlo ? static_cast<int>(runs->runs.size())
+                                                        : Ensemble::kReplicates;
+}
+
+DrawnValues EnsembleResults::values(size_t column) const {
+  return {column_of_numbers(members, column), replicates()};
+}
+
+bool EnsembleResults::have_critical_values() const {
+  for (size_t k = 0; k < members.columns.size(); ++k)
+    if (members.columns[k].key == "critical_value")
+      return std::ranges::any_of(column_of_numbers(members, k), [](double v) { return std::isfinite(v); });
+  return false;
+}
+
+EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_folder) {
+  EnsembleResults out{
+      ensemble.name, &ensemble, sweep_table(ensemble.samples.keys, ensemble.runs, runs_folder), {}};
+  out.members.name = ensemble.name;
+  out.members.title = "The members of the ensemble";
+  const size_t status = member_column(out.members, "status");
+  for (const auto& row : out.members.rows) out.falls.push_back(verdict_of(to_display(row[status])));
+  return out;
+}
+
+std::string result_sentence(const EnsembleResults& ensemble) {
+  if (ensemble.have_critical_values()) return critical_sentence(ensemble);
+  const int n = static_cast<int>(ensemble.falls.size());
+  const int fall = static_cast<int>(std::ranges::count(ensemble.falls, 1));
+  const int unknown = static_cast<int>(std::ranges::count(ensemble.falls, -1));
+  std::string text =
+      fmt::format("{}: {} of {} fall", ensemble.name, fall, counted(static_cast<size_t>(n), "member"));
+  if (unknown > 0) text += fmt::format(", {} without a verdict", unknown);
+  const bool independent = ensemble.replicates() == n;
+  if (!independent || n == unknown) return text + ".";
+  // A member without a verdict may stand or fall.
+  const ConfidenceInterval interval{clopper_pearson(fall, n).low, clopper_pearson(fall + unknown, n).high};
+  return text + fmt::format(": probability {:.3g} % ({:.3g} to {:.3g} %).", 100.0 * fall / (n - unknown),
+                            100.0 * interval.low, 100.0 * interval.high);
+}
+
+Table statistics_table(const EnsembleResults& ensemble) {
+  Table t{ensemble.name + "_statistics", "Statistics of the results", {}, {}};
+  t.columns = {{"result", "", "Result"}, {"unit", "", "Unit"}, {"members", "", "Members"}};
+  add_estimate_columns("mean", "Mean", &t);
+  t.columns.push_back({"deviation", "", "Standard deviation"});
+  for (const auto& [key, p] : {std::pair("q05", "5 % quantile"), {"q50", "Median"}, {"q95", "95 % quantile"}})
+    add_estimate_columns(key, p, &t);
+  for (const size_t column : ensemble.results) {
+    const DrawnValues drawn = ensemble.values(column);
+    const auto known = std::ranges::count_if(drawn.values, [](double v) { return std::isfinite(v); });
+    std::vector<Table::Cell> row = {ensemble.members.columns[column].key,
+                                    ensemble.members.columns[column].unit, static_cast<int>(known)};
+    add_estimate(mean_of(drawn), &row);
+    row.emplace_back(deviation_of(drawn.values));
+    for (const double p : {0.05, 0.5, 0.95}) add_estimate(quantile_of(drawn, p), &row);
+    t.rows.push_back(std::move(row));
+  }
+  return t;
+}
+
+Table inputs_table(const EnsembleResults& ensemble) {
+  Table t{ensemble.name + "_inputs", "What the inputs explain", {}, {}};
+  t.columns = {{"input", "", "Input"},
+               {"result", "", "Result"},
+               {"rank_correlation", "", "Rank correlation"},
+               {"first_order_index", "", "First-order Sobol index"},
+               {"noise", "", "Noise: two standard errors of the index of an input without influence"}};
+  const size_t status = member_column(ensemble.members, "status");
+  for (size_t input = 1; input < status; ++input) {
+    if (ensemble.members.columns[input].key.ends_with("seed")) continue;  // their order means nothing
+    const std::vector<double> x = column_of_numbers(ensemble.members, input);
+    for (const size_t column : ensemble.results) {
+      const std::vector<double> y = column_of_numbers(ensemble.members, column);
+      std::vector<double> known_x, known_y;
+      for (size_t i = 0; i < x.size(); ++i)
+        if (std::isfinite(x[i]) && std::isfinite(y[i])) {
+          known_x.push_back(x[i]);
+          known_y.push_back(y[i]);
+        }
+      if (known_x.size() < 3 || std::set(known_x.begin(), known_x.end()).size() < 3) continue;
+      t.rows.push_back({ensemble.members.columns[input].key, ensemble.members.columns[column].key,
+                        rank_correlation(known_x, known_y), first_order_index(known_x, known_y),
+                        2.0 / std::sqrt(static_cast<double>(known_x.size()))});
+    }
+  }
+  return t;
+}
+
+Table ends_table(const EnsembleResults& ensemble) {
+  constexpr size_t kEach = 3;
+  Table t{ensemble.name + "_ends", "Members at the ends", {}, {}};
+  t.columns = {{"why", "", "Why"}, {"value", "", "Value"}};
+  const size_t status = member_column(ensemble.members, "status");
+  for (size_t k = 0; k <= status; ++k) t.columns.push_back(ensemble.members.columns[k]);
+  const auto add = [&](const std::string& why, const Table::Cell& value, size_t member) {
+    std::vector<Table::Cell> row = {why, value};
+    const auto& cells = ensemble.members.rows[member];
+    row.insert(row.end(), cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(status) + 1);
+    t.rows.push_back(std::move(row));
+  };
+  size_t fallen = 0;
+  for (size_t i = 0; i < ensemble.falls.size() && fallen < kEach; ++i)
+    if (ensemble.falls[i] == 1) add("falls", std::string(), i), ++fallen;
+  for (const size_t column : ensemble.results) {
+    const std::vector<double> values = column_of_numbers(ensemble.members, column);
+    std::vector<size_t> order;
+    for (size_t i = 0; i < values.size(); ++i)
+      if (std::isfinite(values[i])) order.push_back(i);
+    std::ranges::stable_sort(order, {}, [&values](size_t i) { return values[i]; });
+    const std::string& key = ensemble.members.columns[column].key;
+    for (size_t i = 0; i < std::min(kEach, order.size()); ++i)
+      add("smallest " + key, values[order[i]], order[i]);
+    for (size_t i = 0; i < std::min(kEach, order.size()); ++i)
+      add("largest " + key, values[order[order.size() - 1 - i]], order[order.size() - 1 - i]);
+  }
+  return t;
+}
+
+Table differences_table(const std::vector<EnsembleResults>& ensembles, std::vector<std::string>* sentences) {
+  Table t{"differences", "Differences between ensembles, member by member", {}, {}};
+  t.columns = {{"pair", "", "Pair"}, {"result", "", "Result"}, {"pairs", "", "Pairs of members"}};
+  add_estimate_columns("difference", "Mean difference", &t);
+  t.columns.push_back({"mcnemar_p", "", "p of the exact McNemar test"});
+  for (size_t a = 0; a < ensembles.size(); ++a)
+    for (size_t b = a + 1; b < ensembles.size(); ++b)
+      if (ensembles[a].runs->samples == ensembles[b].runs->samples)
+        add_pair(ensembles[a], ensembles[b], &t, sentences);
+  return t;
+}
+
+}  // namespace cupola

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "postproc/studies/ensemble_statistics.hpp"
+#include "postproc/studies/study_run.hpp"
+#include "postproc/tables/table.hpp"
+
+namespace cupola {
+
+/// The members of an ensemble with their results.
+struct EnsembleResults {
+  std::string name;
+  const SampledRuns* runs = nullptr;
+  Table members;           ///< sweep_table()
+  std::vector<int> falls;  ///< of each member: 1 falls, 0 stands, -1 no verdict
+  std::vector<size_t> results =
+      {};  ///< columns of `members` that vary in one of the ensembles to be compared
+
+  /// Number of independent replicates, see DrawnValues.
+  int replicates() const;
+  DrawnValues values(size_t column) const;
+  /// The limit analyses among the members stand by construction: their critical values say how far.
+  bool have_critical_values() const;
+};
+
+EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_folder);
+
+/// Of limit analyses the median and two quantiles of the critical value; else how many fall: "12 of 200 members fall: probability 6 % (3.1 to 10.2 %)". Members without a verdict widen the interval both ways.
+std::string result_sentence(const EnsembleResults& ensemble);
+
+/// A row per result: mean, standard deviation and quantiles, each with its interval.
+Table statistics_table(const EnsembleResults& ensemble);
+
+/// A row per input that is a number and no seed, and result: rank correlation and first-order Sobol index.
+Table inputs_table(const EnsembleResults& ensemble);
+
+/// The members with the three smallest and the three largest values of each result, and the first three that fall.
+Table ends_table(const EnsembleResults& ensemble);
+
+/// Rows for the collapse and every result of two ensembles of the same samples: first less second, member by member. `sentences` gets a
+/// sentence per row.
+Table differences_table(const std::vector<EnsembleResults>& ensembles, std::vector<std::string>* sentences);
+
+}  // namespace cupola

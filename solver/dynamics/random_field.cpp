@@ -1,0 +1,67 @@
+#include "solver/dynamics/random_field.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+
+#include "assembly/base/error.hpp"
+
+namespace cupola {
+namespace {
+
+/// The kurtosis of the sum of n random waves is 3 - 1.5 / n.
+constexpr int kWaves = 128;
+
+/// Uniform in (0, 1); the distributions of the standard library differ between its implementations, the engine does not.
+double uniform(std::mt19937_64* engine) {
+  return (static_cast<double>((*engine)() >> 11) + 0.5) * 0x1p-53;
+}
+
+}  // namespace
+
+// Spectral representation with random wave vectors and phases (M. Shinozuka, 1971, J. Acoust. Soc. Am. 49, 357-367): the
+// logarithm is s sqrt(2 / n) sum cos(k_j x + phi_j) - s^2 / 2. Wave vectors of the correlation exp(-(r / l)^2) are normal with the
+// deviation sqrt(2) / l (its Fourier transform); they are drawn by Box and Muller.
+RandomField::RandomField(int seed, const std::string& quantity, double length, double variation) {
+  CUPOLA_ASSERT(length > 0.0 && variation >= 0.0);
+  if (variation == 0.0) return;
+  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
+  for (const char c : std::to_string(seed) + " " + quantity)
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  std::mt19937_64 engine(hash);
+  deviation_ = std::sqrt(std::log1p(variation * variation));
+  waves_.resize(kWaves, 3);
+  phases_.resize(kWaves);
+  for (int j = 0; j < kWaves; ++j) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double radius = std::sqrt(-2.0 * std::log(uniform(&engine)));
+      waves_(j, axis) =
+          std::numbers::sqrt2 / length * radius * std::cos(2.0 * std::numbers::pi * uniform(&engine));
+    }
+    phases_[j] = 2.0 * std::numbers::pi * uniform(&engine);
+  }
+}
+
+double RandomField::at(const Vec3& point) const {
+  if (is_constant()) return 1.0;
+  const double normal = std::sqrt(2.0 / kWaves) * ((waves_ * point).array() + phases_).cos().sum();
+  return std::exp(deviation_ * normal - 0.5 * deviation_ * deviation_);
+}
+
+double RandomField::mean_over(std::span<const Vec3> polygon) const {
+  if (is_constant()) return 1.0;
+  CUPOLA_ASSERT(!polygon.empty());
+  double area = 0.0, sum = 0.0;
+  for (size_t i = 2; i < polygon.size(); ++i) {
+    const double part = (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]).norm();
+    area += part;
+    if (part > 0.0) sum += part * at((polygon[0] + polygon[i - 1] + polygon[i]) / 3.0);
+  }
+  if (area > 0.0) return sum / area;
+  Vec3 middle = Vec3::Zero();  // blocks that touch at an edge or a corner
+  for (const Vec3& point : polygon) middle += point;
+  return at(middle / static_cast<double>(polygon.size()));
+}
+
+}  // namespace cupola

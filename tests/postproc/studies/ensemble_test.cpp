@@ -1,0 +1,171 @@
+// Statistics of ensembles against closed forms and published values, and their page on handwritten runs.
+#include "postproc/studies/ensemble.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "postproc/studies/ensemble_results.hpp"
+#include "tests/assembly/case/case_scratch.hpp"
+
+namespace cupola::ensemble_test {
+namespace {
+
+// Without a hit the high end is 1 - 0.025^(1/n). 5 of 20: Clopper and Pearson's interval as tabulated, 0.0866 to 0.4910.
+TEST(EnsembleStatistics, IntervalsOfProbabilities) {
+  EXPECT_EQ(clopper_pearson(0, 10).low, 0.0);
+  EXPECT_NEAR(clopper_pearson(0, 10).high, 1.0 - std::pow(0.025, 0.1), 1e-12);
+  EXPECT_NEAR(clopper_pearson(10, 10).low, std::pow(0.025, 0.1), 1e-12);
+  EXPECT_EQ(clopper_pearson(10, 10).high, 1.0);
+  EXPECT_NEAR(clopper_pearson(5, 20).low, 0.0866, 5e-5);
+  EXPECT_NEAR(clopper_pearson(5, 20).high, 0.4910, 5e-5);
+}
+
+// A block on an incline of slope 0.5 slides where its lognormal friction is less. The exact probability lies in at least 181 of 200
+// intervals: with a coverage of 95 % fewer are as improbable as 4e-3, and the coverage of Clopper and Pearson is more.
+TEST(EnsembleStatistics, IntervalsCoverTheExactProbability) {
+  const double mean = 0.6, deviation = 0.1, slope = 0.5;
+  const double s2 = std::log1p(std::pow(deviation / mean, 2));
+  const double exact = 0.5 * std::erfc(-(std::log(slope / mean) + 0.5 * s2) / std::sqrt(2.0 * s2));
+  int covered = 0;
+  for (int seed = 1; seed <= 200; ++seed) {
+    const Samples samples = draw_samples({100,
+                                          seed,
+                                          Ensemble::Design::monte_carlo,
+                                          KeptFiles::summary,
+                                          {{"joints.friction", LognormalValues{mean, deviation}}}});
+    int slides = 0;
+    for (const auto& row : samples.rows) slides += std::stod(row[0]) < slope;
+    covered += clopper_pearson(slides, 100).contains(exact);
+  }
+  EXPECT_GE(covered, 181);
+}
+
+// Of six pairs that differ, one is the other way round: 2 (1 + 6) / 2^6.
+TEST(EnsembleStatistics, TestOfPairs) {
+  EXPECT_DOUBLE_EQ(mcnemar(1, 5), 14.0 / 64.0);
+  EXPECT_DOUBLE_EQ(mcnemar(5, 1), 14.0 / 64.0);
+  EXPECT_EQ(mcnemar(0, 0), 1.0);
+  EXPECT_EQ(mcnemar(3, 3), 1.0);
+}
+
+// t(0.975, 4) = 2.776445; the median of ten values lies between the second and the ninth with 97.9 %.
+TEST(EnsembleStatistics, MeansAndQuantiles) {
+  const IntervalEstimate mean = mean_of({{1, 2, 3, 4, 5}, 5});
+  EXPECT_DOUBLE_EQ(mean.value, 3.0);
+  EXPECT_NEAR(mean.interval->high, 3.0 + 2.776445 * std::sqrt(2.5 / 5.0), 1e-6);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_DOUBLE_EQ(mean_of({{1, nan, 3}, 3}).value, 2.0);
+  EXPECT_FALSE(mean_of({{1, 2, 3}, 0}).interval) << "not known how they were drawn";
+  // Two replicates with the means 2 and 4: t(0.975, 1) = 12.7062, standard error 1.
+  EXPECT_NEAR(mean_of({{1, 3, 2, 6}, 2}).interval->high, 3.0 + 12.7062, 1e-4);
+  const IntervalEstimate median = quantile_of({{10, 9, 8, 7, 6, 5, 4, 3, 2, 1}, 10}, 0.5);
+  EXPECT_DOUBLE_EQ(median.value, 5.5);
+  EXPECT_DOUBLE_EQ(median.interval->low, 2.0);
+  EXPECT_DOUBLE_EQ(median.interval->high, 9.0);
+  EXPECT_FALSE(quantile_of({{1, 2, 3}, 3}, 0.05).interval) << "too few values lie beyond it";
+}
+
+TEST(EnsembleStatistics, RankCorrelation) {
+  EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 3, 4}, {1, 8, 27, 64}), 1.0);
+  EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 3, 4}, {4, 3, 2, 1}), -1.0);
+  EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 2, 3}, {1, 2, 2, 3}), 1.0) << "ties";
+  EXPECT_TRUE(std::isnan(rank_correlation({1, 1, 1}, {1, 2, 3})));
+}
+
+// Ishigami's function sin x + 7 sin^2 y + 0.1 z^4 sin x on [-pi, pi]^3 has the first-order indices 0.3139, 0.4424 and 0 (T. Ishigami and
+// T. Homma, 1990). The tolerance is four standard errors, 1 / sqrt(n) each.
+TEST(EnsembleStatistics, FirstOrderIndicesOfIshigamisFunction) {
+  constexpr int kMembers = 10000;
+  std::mt19937_64 engine(1);
+  std::vector<std::vector<double>> x(3);
+  std::vector<double> y;
+  for (int i = 0; i < kMembers; ++i) {
+    for (auto& column : x)
+      column.push_back(std::numbers::pi * (static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0));
+    y.push_back(std::sin(x[0].back()) + 7.0 * std::pow(std::sin(x[1].back()), 2) +
+                0.1 * std::pow(x[2].back(), 4) * std::sin(x[0].back()));
+  }
+  const double tolerance = 4.0 / std::sqrt(kMembers);
+  EXPECT_NEAR(first_order_index(x[0], y), 0.3139, tolerance);
+  EXPECT_NEAR(first_order_index(x[1], y), 0.4424, tolerance);
+  EXPECT_NEAR(first_order_index(x[2], y), 0.0, tolerance);
+}
+
+/// Two ensembles of eight members: in `b` the widest crack is 0.01 more, and the members 1 to `fallen` fall.
+std::vector<SampledRuns> two_ensembles(const ScratchFolder& scratch, double noise, int fallen) {
+  std::vector<SampledRuns> ensembles;
+  for (const char* name : {"a", "b"}) {
+    const Samples samples = draw_samples({8,
+                                          1,
+                                          Ensemble::Design::monte_carlo,
+                                          KeptFiles::summary,
+                                          {{"joints.friction", UniformValues{0.2, 0.6}}}});
+    ensembles.push_back(
+        {name, samples, Ensemble::Design::monte_carlo,
+         sampled_runs(samples, KeptFiles::summary, std::string("s/") + name + "_", "dome", {})});
+    for (size_t i = 0; i < 8; ++i) {
+      const bool falls = *name == 'b' && static_cast<int>(i) < fallen;
+      const double crack =
+          0.1 * static_cast<double>(i) + (*name == 'b' ? 0.01 + (i % 2 ? noise : -noise) : 0.0);
+      const std::string& run = ensembles.back().runs[i].name;
+      scratch.write(run + "/results/summary.json",
+                    falls ? R"({"status": "moving"})" : R"({"status": "stable"})");
+      scratch.write(run + "/post/summary.json", "{\"widest_crack_m\": " + std::to_string(crack) + "}");
+    }
+  }
+  return ensembles;
+}
+
+TEST(EnsemblePage, ComparesEnsemblesMemberByMember) {
+  const ScratchFolder scratch;
+  const std::vector<SampledRuns> ensembles = two_ensembles(scratch, 0.0, 7);
+  EXPECT_EQ(ensembles[1].runs[2].name, "s/b_0003");
+  EXPECT_EQ(ensembles[1].runs[2].settings.back(), "--keep=summary");
+  StudyPage page("Two", scratch.file("page"));
+  const std::string text = add_ensembles(ensembles, scratch.folder(), &page);
+  page.write();
+  EXPECT_NE(
+      text.find(
+          "a and b: of 8 members with a verdict in both, 0 fall in the first only and 7 in the second only "
+          "(exact McNemar test: p = 0.016)"),
+      std::string::npos)
+      << text;
+  EXPECT_NE(text.find("a less b: widest_crack_m differs by -0.01 (-0.01 to -0.01)"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("b: 7 of 8 members fall: probability 87.5 % (47.3 to 99.7 %)."), std::string::npos)
+      << text;
+  for (const char* file :
+       {"a.csv", "b.csv", "a_statistics.csv", "a_inputs.csv", "a_ends.csv", "differences.csv"})
+    EXPECT_TRUE(std::filesystem::exists(scratch.file(std::string("page/") + file))) << file;
+}
+
+TEST(EnsemblePage, ADifferenceWithinItsIntervalIsTheHeadline) {
+  const ScratchFolder scratch;
+  StudyPage page("Two", scratch.file("page"));
+  const std::string text = add_ensembles(two_ensembles(scratch, 0.05, 0), scratch.folder(), &page);
+  page.write();
+  EXPECT_NE(text.find("No difference shown. a less b: widest_crack_m differs by -0.01 ("), std::string::npos)
+      << text;
+  EXPECT_NE(read_text(scratch.file("page/study.html")).find("<strong>No difference shown.</strong>"),
+            std::string::npos);
+}
+
+TEST(EnsemblePage, MembersWithoutAVerdictWidenTheInterval) {
+  const ScratchFolder scratch;
+  std::vector<SampledRuns> ensembles = two_ensembles(scratch, 0.0, 2);
+  std::filesystem::remove_all(scratch.file(ensembles[1].runs[7].name));
+  ensembles.erase(ensembles.begin());
+  StudyPage page("One", scratch.file("page"));
+  const std::string text = add_ensembles(ensembles, scratch.folder(), &page);
+  EXPECT_NE(text.find("b: 1 of 8 members failed: 5 stable, 2 moving, 1 missing."), std::string::npos) << text;
+  // 2 of 8: 3.19 to 65.1 %; 3 of 8: 8.52 to 75.5 %.
+  EXPECT_NE(text.find("2 of 8 members fall, 1 without a verdict: probability 28.6 % (3.19 to 75.5 %)."),
+            std::string::npos)
+      << text;
+}
+
+}  // namespace
+}  // namespace cupola::ensemble_test

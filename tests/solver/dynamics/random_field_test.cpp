@@ -1,0 +1,84 @@
+// Random fields: moments and correlation over many seeds, and the laws of joints that read them.
+#include "solver/dynamics/random_field.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "solver/dynamics/joint_laws.hpp"
+
+namespace cupola::random_field_test {
+namespace {
+
+constexpr int kSeeds = 4000;
+
+// Over the seeds: mean 1, the coefficient of variation asked for, and the correlation exp(-(r / length)^2) of the logarithms in any
+// direction. Tolerances are four standard errors, of a correlation rho (1 - rho^2) / sqrt(n).
+TEST(RandomField, HasTheMomentsAndTheCorrelationLengthAskedFor) {
+  const double variation = 0.2, length = 3.0, s2 = std::log1p(variation * variation);
+  for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(0, 0.6, 0.8)})
+    for (const double r : {0.5 * length, length, 2.0 * length}) {
+      const Vec3 here(4.0, -2.0, 7.0), there = here + r * direction;
+      double mean = 0.0, squares = 0.0, a2 = 0.0, b2 = 0.0, ab = 0.0;
+      for (int seed = 0; seed < kSeeds; ++seed) {
+        const RandomField field(seed, "friction", length, variation);
+        const double at_here = field.at(here), a = std::log(at_here) + 0.5 * s2,
+                     b = std::log(field.at(there)) + 0.5 * s2;
+        mean += at_here / kSeeds;
+        squares += at_here * at_here / kSeeds;
+        a2 += a * a;
+        b2 += b * b;
+        ab += a * b;
+      }
+      EXPECT_NEAR(mean, 1.0, 4.0 * variation / std::sqrt(kSeeds));
+      EXPECT_NEAR(std::sqrt(squares - mean * mean), variation,
+                  4.0 * 1.2 * variation / std::sqrt(2.0 * kSeeds));
+      const double rho = std::exp(-(r / length) * (r / length));
+      EXPECT_NEAR(ab / std::sqrt(a2 * b2), rho, 4.0 * (1.0 - rho * rho) / std::sqrt(kSeeds)) << r;
+    }
+}
+
+TEST(RandomField, DependsOnSeedAndQuantityOnly) {
+  const Vec3 point(1.0, 2.0, 3.0);
+  EXPECT_EQ(RandomField(5, "friction", 2.0, 0.3).at(point), RandomField(5, "friction", 2.0, 0.3).at(point));
+  EXPECT_NE(RandomField(5, "friction", 2.0, 0.3).at(point), RandomField(6, "friction", 2.0, 0.3).at(point));
+  EXPECT_NE(RandomField(5, "friction", 2.0, 0.3).at(point), RandomField(5, "strength", 2.0, 0.3).at(point));
+  EXPECT_EQ(RandomField().at(point), 1.0);
+}
+
+// Where the field is as good as constant over a joint, its mean over the joint is its value there; a joint that is longer than the
+// correlation length has a smaller variation.
+TEST(RandomField, IsAveragedOverTheJoint) {
+  const std::vector<Vec3> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const RandomField smooth(1, "friction", 1e4, 0.3);
+  EXPECT_NEAR(smooth.mean_over(square), smooth.at({0.5, 0.5, 0.0}), 1e-4);
+  double point = 0.0, mean = 0.0;
+  for (int seed = 0; seed < 400; ++seed) {
+    const RandomField rough(seed, "friction", 0.2, 0.3);
+    point += std::pow(rough.at({0.5, 0.5, 0.0}) - 1.0, 2);
+    mean += std::pow(rough.mean_over(square) - 1.0, 2);
+  }
+  EXPECT_LT(mean, 0.7 * point);  // one half for two independent triangles
+}
+
+TEST(RandomField, MultipliesTheLawsOfJoints) {
+  Assembly assembly;
+  assembly.blocks.resize(2);
+  const Patch patch{0, 1, JointKind::bed, 0, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 1.0};
+  Joints joints;
+  joints.friction = 0.5;
+  joints.compliance = {1e-9, 2e-9, Compliance::Per::area, {}};
+  joints.strength.cohesion = 1e5;
+  const JointLaw plain = JointTable(joints, 1).law(assembly, patch, 0.25);
+  joints.field = JointField{3, 2.0, 0.2, 0.1, 0.3};
+  const JointLaw law = JointTable(joints, 1).law(assembly, patch, 0.25);
+  EXPECT_DOUBLE_EQ(law.mu, plain.mu * RandomField(3, "friction", 2.0, 0.2).mean_over(patch.polygon));
+  EXPECT_DOUBLE_EQ(law.strength.cohesion,
+                   plain.strength.cohesion * RandomField(3, "strength", 2.0, 0.1).mean_over(patch.polygon));
+  const double soft = RandomField(3, "compliance", 2.0, 0.3).mean_over(patch.polygon);
+  EXPECT_DOUBLE_EQ(law.compliance_normal, plain.compliance_normal * soft);
+  EXPECT_DOUBLE_EQ(law.compliance_tangential, plain.compliance_tangential * soft);
+}
+
+}  // namespace
+}  // namespace cupola::random_field_test
