@@ -294,7 +294,7 @@ void expect_laid_or_refused(int count, unsigned seed) {
 
 // Over a triangle the cones of the beds are twice as steep at mid-sail as at the corners, and meet inside a thick shell.
 TEST(DrawnErrors, CoursesThatFoldAreRefusedWithTheirPlace) {
-  VaultSurface v = vault_on(Plan::Kind::polygon, profile_of(Kind::parabola, 9.5, 3.1), 0.8);
+  VaultSurface v = vault_on(Plan::Kind::polygon, profile_of(Kind::ellipse, 9.5, 3.1), 0.8);
   v.plan.sides = 3;
   v.beds = VaultSurface::Beds::conical;
   v.line = VaultSurface::Line::middle;
