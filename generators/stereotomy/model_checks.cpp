@@ -290,9 +290,10 @@ std::string to_text(const ModelReport& r) {
 std::vector<std::string> warnings_of(const ModelReport& r, std::span<const BlockOrigin> origins) {
   std::vector<std::string> warnings;
   const Names names{origins};
-  if (!r.blocks_without_joint.empty())
-    warnings.push_back(fmt::format("{} no joint, the first is {}",
-                                   counted(r.blocks_without_joint.size(), "block has", "blocks have"),
+  if (r.blocks_without_joint.size() == 1)
+    warnings.push_back(fmt::format("block {} has no joint", names.name(r.blocks_without_joint.front())));
+  if (r.blocks_without_joint.size() > 1)
+    warnings.push_back(fmt::format("{} blocks have no joint, the first is {}", r.blocks_without_joint.size(),
                                    names.name(r.blocks_without_joint.front())));
   for (const NarrowJoint& joint : r.narrow_joints)
     warnings.push_back(fmt::format(

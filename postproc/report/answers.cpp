@@ -164,7 +164,7 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
     double length = 0.0;
     for (const Reaction& r : thrusting(e)) length += r.length;
     if (length > 0.0 && std::isfinite(least(*range)) && std::isfinite(greatest(*range)))
-      detail += fmt::format("; {} to {}/m over {} of support", force_text(least(*range) / length),
+      detail += fmt::format("; {}/m to {}/m over {} of support", force_text(least(*range) / length),
                             force_text(greatest(*range) / length), length_text(length));
     return KeyNumber{"Outward thrust",
                      fmt::format("{} to {}{}", end_text(range->min, least(*range), *range),
