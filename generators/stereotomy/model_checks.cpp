@@ -293,7 +293,8 @@ std::vector<std::string> warnings_of(const ModelReport& r, std::span<const Block
   if (r.blocks_without_joint.size() == 1)
     warnings.push_back(fmt::format("block {} has no joint", names.name(r.blocks_without_joint.front())));
   if (r.blocks_without_joint.size() > 1)
-    warnings.push_back(fmt::format("{} blocks have no joint, the first is {}", r.blocks_without_joint.size(),
+    warnings.push_back(fmt::format("{} have no joint, the first is {}",
+                                   counted(r.blocks_without_joint.size(), "block"),
                                    names.name(r.blocks_without_joint.front())));
   for (const NarrowJoint& joint : r.narrow_joints)
     warnings.push_back(fmt::format(

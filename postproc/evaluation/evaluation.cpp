@@ -327,8 +327,11 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.wythes = wythe_sums(e.assembly, e.shell, e.last.joints, e.last.frame.contacts, e.up);
   e.members = member_sums(e.assembly, e.last.joints, e.last.gravity, left_out);
   count_lost_joints(results, &e);
-  if (e.shell.num_rings() == 0 && !scene.postproc.meridians.empty())
-    e.warnings.push_back("thrust lines along postproc.meridians were left out: the blocks have no courses");
+  const bool has_lines = std::ranges::any_of(
+      e.assembly.sheets, [](const Sheet& sheet) { return sheet.thrust_lines != Sheet::ThrustLines::none; });
+  if ((e.shell.num_rings() == 0 || !has_lines) && !scene.postproc.meridians.empty())
+    e.warnings.push_back(
+        "thrust lines along postproc.meridians were left out: the blocks have no courses about an axis");
   e.meridians = evaluate_meridians(e);
   add_ends_of_thrust(results, &e);
   e.sections = evaluate_sections(e, left_out);

@@ -48,7 +48,7 @@ TEST(HostileInputs, NamesOfCasesRunNoCommand) {
   const ProgramRun run = folder.run(kMake + "cases FOLDER=. help");
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("Cases: plain swept-case_1\n"), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("tabulates the runs: swept-case_1\n"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("tabulates them: swept-case_1\n"), std::string::npos) << run.out;
   EXPECT_NE(run.err.find("it's.yaml"), std::string::npos) << "the ignored files are named: " << run.err;
   EXPECT_FALSE(std::filesystem::exists(folder.file("pwned")));
 }
