@@ -261,7 +261,9 @@ TEST_F(CompasAssembly, CurvedBlocksStandOnTheInterfacesOfTheirFile) {
   const Assembly assembly = import_blocks(source, 1000.0, &report);
   double volume = 0.0;
   for (const Block& block : assembly.blocks) volume += block.volume;
-  EXPECT_NEAR(volume, 4.269792, 1e-3);    // of fans from the first corners; faces are warped by 1.1e-3 m
+  // The volume as drawn is that of fans from the first corners. Masses are those of the convex parts, which leave out a
+  // share of the warped faces (1.1e-3 m); above 1 % of a block the import warns.
+  EXPECT_NEAR(volume, 4.269792, 0.01 * 4.269792);
   EXPECT_LE(assembly.parts.size(), 20u);  // one wedge per strip of a concave face would suffice
 
   const std::string file =

