@@ -158,13 +158,15 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
     if (stands && slips_nowhere(first, options.solve.law, reference_acceleration(model, start)))
       solution = from_associated();
     if (solution.outcome != StaticOutcome::equilibrium) {
-      const VecX loads = applied_forces(model, start, start.time + options.time_advance);
-      if (first.outcome != StaticOutcome::moving && !options.solve.max_iterations &&
-          !(stands && has_exact_forces(first, loads)))
-        decide(model, start, loads, associated, &first);
-      if (first.outcome == StaticOutcome::moving && first.proven) return under_any_law(std::move(first));
       iterations += solution.iterations;
       solution = solve_from_start(model, start, contacts, memories, options);
+      // Where it found no equilibrium, none may exist, and then the structure moves under every law.
+      if (solution.outcome != StaticOutcome::equilibrium && first.outcome != StaticOutcome::moving &&
+          !options.solve.max_iterations) {
+        const VecX loads = applied_forces(model, start, start.time + options.time_advance);
+        if (!(stands && has_exact_forces(first, loads))) decide(model, start, loads, associated, &first);
+        if (first.outcome == StaticOutcome::moving) return under_any_law(std::move(first));
+      }
       if (stands && !options.follow_from_start && shows_nothing(model, solution, first)) {
         if (StaticSolution second = from_associated(); second.outcome == StaticOutcome::equilibrium)
           solution = std::move(second);
