@@ -91,7 +91,7 @@ def read_schema(bin_folder):
             heads[-1] += " " + line.strip()
     keys = []
     for head in filter(None, heads):
-        path, condition, rest = re.match(r"([\w.\[\]]+)(?: \(type: (\w+)\))?: (.*)", head).groups()
+        path, condition, rest = re.match(r"([\w.\[\]]+)(?: \(\w+: (\w+)\))?: (.*)", head).groups()
         keys.append(Key(path, condition, rest))
     return keys
 
