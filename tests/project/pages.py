@@ -8,6 +8,8 @@
   nor dirty. Tables of REMEASURE are still to be measured again; none may be added.
 - What `make -f Makefile.cases` runs on a page is a target, a case, a variant or a study; names that begin with my_ are
   the reader's.
+- A target takes as long in CONTRIBUTING.md, and in a comment behind its command, as the help of make or the title of
+  the study says.
 - `0.408<!--= docs/data/ranges.md ranges brunelleschi_friction0.4 "max"-->`: page, table, row and heading of the cell
   that the number before the comment quotes, rounded to its digits. Parts with spaces stand in quotes, the first
   cells of a row are joined by "|", and a fifth part multiplies the cell. `114<!--= PAGE count right verdict-->` counts
@@ -28,6 +30,7 @@ REMEASURE = {
         "detection", "methods", "gaps", "stepping", "blocks", "threads", "siconos", "scale", "refinement"))}
 BLOCK = re.compile(r"^<!-- table (\S+) -->$(.*?)^<!-- end -->$", re.S | re.M)
 COMMAND = re.compile(r"make -f (?:[~\w./]*/)?Makefile\.cases((?: +[\w.=\'/-]+)+)")
+TIME = re.compile(r"(?:(half an?|an?|\d+|two|three|four|five|ten) )?(second|minute|hour)s?\b")
 QUOTE = re.compile(r"([-+]?\d[\d,]*\.?\d*(?:[eE][-+]?\d+)?)<!--=\s*(.*?)-->", re.S)
 
 
@@ -71,6 +74,36 @@ def dead_commands(name, text, known):
     return [f"{name}: make {word}: no target, case, variant or study" for word in words
             if not (word.startswith(("-", "my_", "mine")) or "=" in word or word.isupper() or word.startswith("NAME")
                     or word.removesuffix("_assessment") in known)]
+
+
+def seconds(text):
+    """The first duration that the text names, in s; None without one."""
+    found = TIME.search(text)
+    if found is None:
+        return None
+    words = {None: 1, "a": 1, "an": 1, "half a": 0.5, "half an": 0.5, "two": 2, "three": 3, "four": 4, "five": 5, "ten": 10}
+    number = words[found[1]] if found[1] in words else int(found[1])
+    return number * {"second": 1, "minute": 60, "hour": 3600}[found[2]]
+
+
+def durations(root):
+    """Seconds of each target whose help or title names a time in brackets."""
+    titles = {line[1]: line[2] for line in re.finditer(r'@echo "  ([\w-]+) .*\(([^()]*)\)"', (root / "Makefile.cases").read_text())}
+    for file in (root / "cases/studies").glob("*.yaml"):
+        found = re.search(r"^title:.*\(([^()]*)\)", file.read_text(), re.M)
+        titles |= {file.stem: found[1]} if found else {}
+    return {name: seconds(text) for name, text in titles.items() if seconds(text) is not None}
+
+
+def wrong_durations(name, text, known):
+    """In comments behind commands, and in rows of a table with the headings `make ...` and takes."""
+    said = [(found[1], found[2]) for found in re.finditer(r"make -f Makefile\.cases ([\w-]+) +# (.*)", text)]
+    for line in text.split("\n"):
+        row = cells(line) if line.startswith("|") else []
+        if len(row) == 4 and len(row[2].split(";")) == len(row[3].split(";")):
+            said += zip((target.split()[0] for target in row[2].split(";") if target.split()), row[3].split(";"))
+    return [f"{name}: {target} takes {time.strip()}, but make says {known[target]:g} s" for target, time in said
+            if target in known and seconds(time) not in (None, known[target])]
 
 
 def cells(line):
@@ -131,15 +164,16 @@ def quoted_numbers(root, name, text):
 
 
 def faults_of(root, remeasure):
-    faults, known = [], names_of_make(root)
+    faults, known, times = [], names_of_make(root), durations(root)
     pages = sorted([*root.glob("docs/*.md"), *root.glob("docs/data/*.md"), root / "tests/benchmark/README.md", root / "assembly/FORMAT.md",
                     *(root / folder / "README.md" for folder in (".", "cases", "generators", "solver", "postproc"))])
     for page in pages:
         name, text = str(page.relative_to(root)), page.read_text()
         faults += [] if name in GENERATED else wide_lines(name, text)
         faults += revisions(name, text, remeasure) + quoted_numbers(root, name, text)
-        faults += dead_commands(name, text, known)
-    return faults
+        faults += dead_commands(name, text, known) + wrong_durations(name, text, times)
+    name = "CONTRIBUTING.md"
+    return faults + wrong_durations(name, (root / name).read_text(), times)
 
 
 def check_the_checks(root):
@@ -153,6 +187,9 @@ def check_the_checks(root):
     assert cell_of(table, "t", "a", "max") == 0.408
     assert dead_commands("p", "`make -f Makefile.cases dome`", {"arch"})
     assert not dead_commands("p", "`make -f ~/c/Makefile.cases -j2 A=1 arch my_b`, make -f Makefile.cases NAME", {"arch"})
+    assert seconds("half an hour, 8 GB") == 1800 and seconds("four minutes") == 240 and seconds("8 GB") is None
+    assert wrong_durations("p", "| p | t | arch; b | 3 minutes; 1 minute |", {"arch": 60})
+    assert not wrong_durations("p", "    make -f Makefile.cases arch   # a minute", {"arch": 60})
     assert count_of(table, "*", "max") == 1 and count_of(table, "a", "run") == 1 and count_of(table, "b", "run") == 0
     page = 'docs/data/ranges.md ranges brunelleschi_friction0.4 max'
     assert not quoted_numbers(root, "p", f"0.41<!--= {page}-->") and quoted_numbers(root, "p", f"0.42<!--= {page}-->")
