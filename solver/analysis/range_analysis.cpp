@@ -36,7 +36,7 @@ struct ChosenState {
 ChosenState chosen_state(const Case& scene, const RigidScene& rigid, const AnalysisSinks& sinks) {
   ChosenState chosen;
   chosen.contacts = ContactDetector(*rigid.assembly, detection_options(scene)).update(rigid.start.poses);
-  const ContactMemories memories = match_memories({}, chosen.contacts.points);
+  const ContactMemories memories = memories_at_rest(rigid.model, rigid.start, chosen.contacts.points);
   StaticOptions options = static_options(scene.analysis);
   options.log = sinks.log;
   chosen.solution = solve_static(rigid.model, rigid.start, chosen.contacts, memories, options);

@@ -42,13 +42,13 @@ class StageRun {
         complete_(stage_.assembly.blocks.size() == complete.blocks.size()) {
     ContactDetector detector(stage_.assembly, detection_options(scene));
     contacts_ = detector.update(initial_poses(stage_.assembly));
-    memories_ = match_memories({}, contacts_.points);
     options_ = verdict_options(scene.analysis);
     options_.log = log;
   }
 
   StaticSolution solve(double fresh_friction) {
     model_ = make_model(case_of_stage(scene_, stage_, fresh_friction, complete_), stage_.assembly);
+    memories_ = memories_at_rest(model_, state_at_rest(model_), contacts_.points);
     return solve_static(model_, state_at_rest(model_), contacts_, memories_, options_);
   }
   /// Frame of the last solve, with the block numbers of the complete assembly.

@@ -72,7 +72,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   }();
   sinks.as_built(contacts);
   release_freed_memory();
-  const ContactMemories memories = match_memories({}, contacts.points);
+  const ContactMemories memories = memories_at_rest(model, rest, contacts.points);
 
   StaticOptions options = static_options(scene.analysis);
   options.log = sinks.log;

@@ -54,6 +54,23 @@ const ContactSet& contacts_at_rest(const State& rest, const Assembly& assembly, 
   return detector->update(rest.poses, travel);
 }
 
+ContactMemories memories_at_rest(const Model& model, const State& rest,
+                                 const std::vector<Contact>& contacts) {
+  ContactMemories memories = match_memories({}, contacts);
+  if (model.support_motions.empty()) return memories;
+  const auto displacement = [&](int block, const Vec3& point) -> Vec3 {
+    const Pose& pose = rest.poses[block];
+    return point - model.assembly->blocks[block].centroid - pose.q_WB.conjugate() * (point - pose.p_WB);
+  };
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& c = contacts[i];
+    const Vec3 moved = displacement(c.block_b, c.point_b) - displacement(c.block_a, c.point_a);
+    memories.values[i].elastic_slip_A =
+        rest.poses[c.block_a].q_WB.conjugate() * (moved - moved.dot(c.normal) * c.normal);
+  }
+  return memories;
+}
+
 Mat6 mass_matrix(const Block& block, const Eigen::Quaterniond& q_WB) {
   const Mat3 R_WB = q_WB.toRotationMatrix();
   Mat6 M = Mat6::Zero();

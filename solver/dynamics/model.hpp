@@ -6,6 +6,7 @@
 #include "assembly/model/assembly.hpp"
 #include "solver/collision/contact_detector.hpp"
 #include "solver/contact/problem/contact_problem.hpp"
+#include "solver/dynamics/contact_memory.hpp"
 #include "solver/dynamics/joint_laws.hpp"
 #include "solver/dynamics/loads.hpp"
 #include "solver/dynamics/supports.hpp"
@@ -50,6 +51,10 @@ State state_at_rest(const Model& model);
 
 /// Contacts at rest. A joint that a moved support opens or closes is found however far it has moved, up to the size of a block.
 const ContactSet& contacts_at_rest(const State& rest, const Assembly& assembly, ContactDetector* detector);
+
+/// Memories of these contacts: unloaded, but where a support has moved along a joint, it has stretched the tangential spring by as
+/// much. How far it has moved across the joint is in the gap.
+ContactMemories memories_at_rest(const Model& model, const State& rest, const std::vector<Contact>& contacts);
 
 /// Mass matrix of one block, with the inertia in world axes.
 Mat6 mass_matrix(const Block& block, const Eigen::Quaterniond& q_WB);

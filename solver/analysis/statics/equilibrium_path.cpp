@@ -71,7 +71,8 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
   const ContactSet& contacts = detector_.num_detections() == 0
                                    ? contacts_at_rest(start_, *model_.assembly, &detector_)
                                    : detector_.update(start_.poses);
-  memories_ = match_memories(loaded_.memories, contacts.points);
+  memories_ = loaded_.memories.as_built ? memories_at_rest(model_, start_, contacts.points)
+                                        : match_memories(loaded_.memories, contacts.points);
   options_.time_advance = guess - start_.time;
   StaticSolution solution = solve_breaking(model_, start_, contacts, options_, &memories_, &solves_);
   options_.time_advance = solution.time_advance;

@@ -157,6 +157,29 @@ TEST(StaticSolve, KeepsTheJointThatASupportHasLeft) {
   EXPECT_NEAR(largest, 0.02, 1e-6);
 }
 
+// A beam on two supports, of which one moves outwards by d, along its joint. Two joints of four points each are springs in series,
+// T = d / (2 c / 4) each way, until the joint slides at mu W / 2. The compliance limits the accuracy of neither.
+TEST(StaticSolve, ASupportThatMovesAlongItsJointPullsByFriction) {
+  const Assembly beam =
+      testing::make_boxes({{.center = {-1, 0, -0.2}, .size = {0.4, 0.4, 0.4}, .fixed = true},
+                           {.center = {1, 0, -0.2}, .size = {0.4, 0.4, 0.4}, .fixed = true},
+                           {.center = {0, 0, 0.2}, .size = {2.4, 0.4, 0.4}}});
+  const double c = 1e-9, mu = 0.5, W = beam.blocks[2].mass * kG;
+  for (const double T : {0.2 * W, 5.0 * W}) {
+    Case scene = make_case(mu, c, 0.01);
+    scene.analysis.type = AnalysisType::static_;
+    scene.supports.moves = {{.blocks = {BlockRef{1}}, .displacement = {T * c / 2.0, 0, 0}, .time = {}}};
+    Frame frame;
+    AnalysisSinks sinks;
+    sinks.frame = [&frame](const Frame& written) { frame = written; };
+    ASSERT_EQ(run_static(scene, beam, sinks).status, Status::stable) << T / W;
+    double pull = 0.0;
+    for (int i = 0; i < frame.contacts.size(); ++i)
+      if (frame.contacts.block_a[i] == 1) pull += frame.contacts.force[i].x();
+    EXPECT_NEAR(pull, std::min(T, 0.5 * mu * W), 1e-6 * W) << T / W;
+  }
+}
+
 // Each bed of a tower carries the weight above. One step with a large h leaves an error of 7e-3 at 1e-2.
 TEST(StaticSolve, CertifiesTheForcesOfATowerOf200Blocks) {
   const int n = 200;
