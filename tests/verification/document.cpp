@@ -1,5 +1,7 @@
 #include "tests/verification/document.hpp"
 
+#include <sstream>
+
 #include <fmt/format.h>
 
 #include "postproc/report/html.hpp"
@@ -31,7 +33,23 @@ void Document::heading(int level, const std::string& text) {
 
 void Document::paragraph(const std::string& text) {
   html_ += "<p>" + html_text(text) + "</p>\n";
-  markdown_ += text + "\n\n";
+  constexpr std::size_t kColumns = 118;
+  std::size_t column = 0;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    // At the start of a line, a sign would make a list.
+    const bool is_sign = word == "-" || word == "+" || word == "*";
+    if (column > 0 && column + word.size() >= kColumns && !is_sign) {
+      markdown_ += '\n';
+      column = 0;
+    } else if (column > 0) {
+      markdown_ += ' ';
+      ++column;
+    }
+    markdown_ += word;
+    column += word.size();
+  }
+  markdown_ += "\n\n";
 }
 
 void Document::table(const Table& table) {

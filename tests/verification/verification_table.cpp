@@ -134,30 +134,31 @@ void write_problem(const Reference& problem, const std::vector<ManualRow>& rows,
   out->table(t);
 }
 
-/// One paragraph per row that fails, with the explanation of references.yaml if it has one.
+/// Rows that fail, with the explanation of references.yaml if they have one.
 void write_failures(const std::vector<ManualRow>& rows, Document* out) {
   out->heading(2, "Rows that fail");
-  bool any = false;
-  for (const ManualRow& r : rows) {
-    if (!r.failed()) continue;
-    any = true;
-    const std::string found = r.result->failure.empty() ? "computed " + shown_number(r) : r.result->failure;
-    out->paragraph(fmt::format("{}{}: {}, expected {}. {}", r.problem->title,
-                               r.row->name().empty() ? "" : " (" + r.row->name() + ")", found,
-                               r.row->expected_text,
-                               r.row->why.empty() ? "Not explained yet." : "Reason: " + r.row->why));
-  }
-  if (!any) out->paragraph("None.");
+  Table t{"failures",
+          "",
+          {{"row", "", "problem and row"},
+           {"computed", "", "computed"},
+           {"expected", "", "expected"},
+           {"why", "", "reason"}},
+          {}};
+  for (const ManualRow& r : rows)
+    if (r.failed())
+      t.rows.push_back({r.problem->title + (r.row->name().empty() ? "" : ", " + r.row->name()),
+                        r.result->failure.empty() ? shown_number(r) : r.result->failure, r.row->expected_text,
+                        r.row->why.empty() ? std::string("not explained yet") : r.row->why});
+  t.rows.empty() ? out->paragraph("None.") : out->table(t);
 }
 
 Document write_manual(const std::vector<ManualRow>& rows) {
   Document out;
   out.heading(1, "Verification manual");
   out.paragraph(
-      "Why should you believe a number that Cupola prints? Each row below compares a result with a value "
-      "that this program did not produce. `make -f Makefile.cases verification` computes the rows and writes "
-      "this page; reference values, sources and tolerances are in `tests/verification/references.yaml`. "
-      "Every row is also a test (`ctest -R verification/`).");
+      "Each row compares a result with a value that this program did not produce. `make -f Makefile.cases "
+      "verification` computes the rows and writes this page from `tests/verification/references.yaml`. Every "
+      "row is also a test (`ctest -R verification/`). \"The same\" refers to the problem before.");
   out.table(counts(rows));
   write_failures(rows, &out);
   for (const auto& [chapter, title] : chapters()) {
