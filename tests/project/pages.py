@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks what links_test.cpp does not: widths, revisions of tables, and numbers in prose that come from tables.
 
-    pages.py REPOSITORY
+    pages.py REPOSITORY            the checks
+    pages.py REPOSITORY --words    words of prose, page by page: outside tables, with their footers, and code
 
 - Lines of the documentation have at most 120 columns, except tables, code and the pages that programs write.
 - Every table between `<!-- table NAME -->` and `<!-- end -->` names the revision that measured it, neither unknown
@@ -42,6 +43,11 @@ def prose(text):
             fenced = not fenced
         elif not fenced and not line.startswith(("|", "    ")):
             yield number, re.sub(r"<!--=.*?-->", "", line)
+
+
+def words(text):
+    text = re.sub(r"<!--.*?-->", "", BLOCK.sub("", text), flags=re.S)
+    return sum(len(line.split()) for _, line in prose(text))
 
 
 def wide_lines(name, text):
@@ -187,6 +193,7 @@ def check_the_checks(root):
     assert cell_of(table, "t", "a", "max") == 0.408
     assert dead_commands("p", "`make -f Makefile.cases dome`", {"arch"})
     assert not dead_commands("p", "`make -f ~/c/Makefile.cases -j2 A=1 arch my_b`, make -f Makefile.cases NAME", {"arch"})
+    assert words(table + "\ntwo words<!--= a b-->\n| no |\n```\nno\n```\n    no\n") == 2
     assert seconds("half an hour, 8 GB") == 1800 and seconds("four minutes") == 240 and seconds("8 GB") is None
     assert wrong_durations("p", "| p | t | arch; b | 3 minutes; 1 minute |", {"arch": 60})
     assert not wrong_durations("p", "    make -f Makefile.cases arch   # a minute", {"arch": 60})
@@ -198,6 +205,12 @@ def check_the_checks(root):
 
 if __name__ == "__main__":
     repository = pathlib.Path(sys.argv[1])
+    if "--words" in sys.argv:
+        pages = sorted([*repository.glob("docs/*.md"), *repository.glob("docs/data/*.md")])
+        for page in pages:
+            print(f"{words(page.read_text()):6} {page.relative_to(repository)}")
+        print(f"{sum(words(page.read_text()) for page in pages):6} in all")
+        sys.exit()
     check_the_checks(repository)
     found = faults_of(repository, REMEASURE)
     print("\n".join(found))
