@@ -159,12 +159,11 @@ using Overlaps = std::map<std::pair<int, int>, double>;
         ", more than contact.margin = {:.3g} m: correct the geometry or increase contact.margin to {:.2g} m",
         tolerances.overlap, 1.05 * largest);
   if (deepest.size() > 1)
-    text +=
-        fmt::format("; {} overlap by more than that, the deepest first:", counted(deepest.size(), "pair"));
+    text += fmt::format("; {} overlap by more than that:", counted(deepest.size(), "pair"));
   for (size_t i = 0; deepest.size() > 1 && i < std::min(kListed, deepest.size()); ++i)
-    text += fmt::format("\n  {} and {}: {:.3g} m", names.name(deepest[i].second.first),
+    text += fmt::format("{} {} and {} by {:.3g} m", i == 0 ? "" : ",", names.name(deepest[i].second.first),
                         names.name(deepest[i].second.second), -deepest[i].first);
-  if (deepest.size() > kListed) text += fmt::format("\n  and {} more", deepest.size() - kListed);
+  if (deepest.size() > kListed) text += fmt::format(", and {} more", deepest.size() - kListed);
   names.fail(a, text);
 }
 
