@@ -89,21 +89,21 @@ Figure multiples_figure(const Overlay& overlay, const std::vector<std::string>& 
   f.width = static_cast<int>(60 + 210 * columns);
   f.height = static_cast<int>(40 + 320 * rows);
   f.commands = plot_style() + data +
-               fmt::format(
-                   "set multiplot layout {},{} margins {},0.98,{},{} spacing 0.025,{}\nunset key\n"
-                   "set xrange [{}:{}]\nset yrange [0:{}]\nset xtics {}\n",
-                   rows, columns, 55.0 / f.width, 50.0 / f.height, 1.0 - 35.0 / f.height, 90.0 / f.height,
-                   1.05 * least, 1.05 * most, 1.03 * highest, round_down(0.5 * (most - least)));
+               fmt::format("unset key\nset xrange [{}:{}]\nset yrange [0:{}]\nset xtics {}\n", 1.05 * least,
+                           1.05 * most, 1.03 * highest, round_down(0.5 * (most - least)));
+  std::vector<std::string> plots;
   for (size_t k = 0; k < drawn.size(); ++k) {
-    f.commands += fmt::format("set title '{}'\n{}", gnuplot_text(labels[drawn[k]]),
-                              k % columns == 0 ? "set format y '%g'\n" : "set format y ''\n");
     std::string plot;
     for (const size_t other : drawn)
       if (other != drawn[k]) plot += fmt::format("$run{} using 2:1 w l lc rgb '#cccccc', ", other);
-    f.commands +=
-        fmt::format("plot {}$run{} using 2:1 w lp lc rgb '{}' pt 7 ps 0.4 lw 1.8\n", plot, drawn[k], kBlue);
+    plots.push_back(fmt::format(
+        "set title '{}'\nset format y '{}'\nplot {}$run{} using 2:1 w lp lc rgb '{}' pt 7 ps 0.4 lw 1.8\n",
+        gnuplot_text(labels[drawn[k]]), k % columns == 0 ? "%g" : "", plot, drawn[k], kBlue));
   }
-  f.commands += "unset multiplot\n";
+  f.commands +=
+      panels(panel_grid(rows, columns, {55.0 / f.width, 0.98, 50.0 / f.height, 1.0 - 35.0 / f.height}, 0.025,
+                        90.0 / f.height),
+             plots);
   return f;
 }
 

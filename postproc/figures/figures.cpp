@@ -38,17 +38,20 @@ Figure ring_figure(const Evaluation& e) {
   f.height = 420;
   f.commands =
       plot_style() + data_block("rings", rows) +
-      fmt::format(
-          "set multiplot layout 1,2 margins 0.08,0.97,0.16,0.95 spacing 0.1\nunset key\n"
-          "set ylabel 'height (m)'\nset xrange [0:0.1<*]\nset xlabel 'variation of the bed pressure (%)'\n"
-          "plot $rings using 2:1 w lp lc rgb '{0}' pt 7 ps 0.5 lw 1.5\n"
-          "set xlabel 'largest kern use; friction use (1 = 100 %)'\nset xrange [0:1.1<*]\n"
-          "set arrow from 1, graph 0 to 1, graph 1 nohead dt 3 lc rgb '#444444'\n"
-          "plot $rings using ($3/100):1 w lp lc rgb '{1}' pt 7 ps 0.5 lw 1.5, $rings using 4:1 w lp lc rgb "
-          "'{2}' pt 5 ps 0.5 lw 1.5{3}{4}\nunset multiplot\n",
-          kBlue, kGreen, kPurple,
-          curve_label("rings", rows.size() / 4, "$3/100", "$1", "friction", kGreen, "right offset -0.9,0"),
-          curve_label("rings", rows.size() / 4, "$4", "$1", "kern", kPurple, "left offset 0.9,0"));
+      panels(panel_grid(1, 2, {0.08, 0.97, 0.16, 0.95}, 0.1, 0.0),
+             {fmt::format("unset key\nset ylabel 'height (m)'\nset xrange [0:0.1<*]\n"
+                          "set xlabel 'variation of the bed pressure (%)'\n"
+                          "plot $rings using 2:1 w lp lc rgb '{}' pt 7 ps 0.5 lw 1.5\n",
+                          kBlue),
+              fmt::format(
+                  "set xlabel 'largest kern use; friction use (1 = 100 %)'\nset xrange [0:1.1<*]\n"
+                  "set arrow from 1, graph 0 to 1, graph 1 nohead dt 3 lc rgb '#444444'\n"
+                  "plot $rings using ($3/100):1 w lp lc rgb '{}' pt 7 ps 0.5 lw 1.5, "
+                  "$rings using 4:1 w lp lc rgb '{}' pt 5 ps 0.5 lw 1.5{}{}\n",
+                  kGreen, kPurple,
+                  curve_label("rings", rows.size() / 4, "$3/100", "$1", "friction", kGreen,
+                              "right offset -0.9,0"),
+                  curve_label("rings", rows.size() / 4, "$4", "$1", "kern", kPurple, "left offset 0.9,0"))});
   return f;
 }
 
@@ -114,15 +117,16 @@ Figure history_figure(const Evaluation& e, const std::vector<HistoryRow>& histor
       "weight of the free blocks.";
   f.width = 1000;
   f.height = 700;
-  f.commands = plot_style() + data_block("history", rows) +
-               fmt::format(
-                   "set multiplot layout 3,1 margins 0.09,0.97,0.08,0.97 spacing 0.06\nunset key\n"
-                   "set ylabel 'displacement ({3})'\nplot $history using 1:2 w l lc rgb '{0}' lw 2\n"
-                   "set ylabel 'speed (m/s)'\nplot $history using 1:3 w l lc rgb '{1}' lw 2\n"
-                   "set ylabel 'reaction / weight'\nset xlabel 'time (s)'\nplot $history using 1:4 w l lc "
-                   "rgb '{2}' lw 2\n"
-                   "unset multiplot\n",
-                   kBlue, kOrange, kGreen, metres ? "m" : "mm");
+  const auto curve = [](const std::string& settings, int column, const char* colour) {
+    return fmt::format("{}plot $history using 1:{} w l lc rgb '{}' lw 2\n", settings, column, colour);
+  };
+  f.commands =
+      plot_style() + data_block("history", rows) +
+      panels(
+          panel_grid(3, 1, {0.09, 0.97, 0.08, 0.97}, 0.0, 0.06),
+          {curve(fmt::format("unset key\nset ylabel 'displacement ({})'\n", metres ? "m" : "mm"), 2, kBlue),
+           curve("set ylabel 'speed (m/s)'\n", 3, kOrange),
+           curve("set ylabel 'reaction / weight'\nset xlabel 'time (s)'\n", 4, kGreen)});
   return f;
 }
 

@@ -97,6 +97,32 @@ std::string data_block(const std::string& name, const std::vector<std::vector<do
   return fmt::to_string(out);
 }
 
+std::vector<PanelBox> panel_grid(size_t rows, size_t columns, const PanelBox& frame, double column_gap,
+                                 double row_gap) {
+  const auto m = static_cast<double>(rows), n = static_cast<double>(columns);
+  const double width = (frame.right - frame.left - (n - 1.0) * column_gap) / n;
+  const double height = (frame.top - frame.bottom - (m - 1.0) * row_gap) / m;
+  std::vector<PanelBox> boxes;
+  for (size_t i = 0; i < rows * columns; ++i) {
+    const double left = frame.left + static_cast<double>(i % columns) * (width + column_gap);
+    const double top = frame.top - static_cast<double>(i / columns) * (height + row_gap);
+    boxes.push_back({left, left + width, top - height, top});
+  }
+  return boxes;
+}
+
+std::string panels(const std::vector<PanelBox>& boxes, const std::vector<std::string>& commands) {
+  CUPOLA_ASSERT(commands.size() <= boxes.size());
+  std::string out = "set multiplot\n";
+  for (size_t i = 0; i < commands.size(); ++i)
+    out += fmt::format(
+               "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
+               "set tmargin at screen {}\n",
+               boxes[i].left, boxes[i].right, boxes[i].bottom, boxes[i].top) +
+           commands[i];
+  return out + "unset multiplot\n";
+}
+
 std::string gnuplot_text(const std::string& text) {
   std::string out;
   for (const char c : text) {

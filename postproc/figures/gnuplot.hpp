@@ -23,6 +23,18 @@ std::vector<std::string> draw_figures(const std::string& folder, const std::vect
 /// A named data block of gnuplot, `$NAME << EOD`, with one row per line.
 std::string data_block(const std::string& name, const std::vector<std::vector<double>>& rows);
 
+/// Where a panel of a figure lies, in fractions of its width and height.
+struct PanelBox {
+  double left, right, bottom, top;
+};
+
+/// Boxes of equal size inside a frame, row by row from the top, with gaps between columns and rows.
+std::vector<PanelBox> panel_grid(size_t rows, size_t columns, const PanelBox& frame, double column_gap,
+                                 double row_gap);
+
+/// Draws one panel in each box. Each text ends with a plot; its settings hold for the panels after it.
+std::string panels(const std::vector<PanelBox>& boxes, const std::vector<std::string>& commands);
+
 /// Escapes text for a gnuplot string in single quotes, for use without enhanced text.
 std::string gnuplot_text(const std::string& text);
 

@@ -127,10 +127,10 @@ std::string panel_plot(const RangePanel& panel, bool first) {
 
 Figure range_figure(const Evaluation& e) {
   constexpr int kRow = 46, kAxes = 104, kKey = 34;  // px
-  const std::vector<RangePanel> panels = panels_of(e.summary.ranges);
+  const std::vector<RangePanel> groups = panels_of(e.summary.ranges);
   size_t longest = 0;
   int height = kKey;
-  for (const RangePanel& panel : panels) {
+  for (const RangePanel& panel : groups) {
     for (const ForceRange* range : panel.ranges) longest = std::max(longest, range_name(*range).size());
     height += kRow * static_cast<int>(panel.ranges.size()) + kAxes;
   }
@@ -147,22 +147,22 @@ Figure range_figure(const Evaluation& e) {
   f.width = 1000;
   f.height = height;
   const double left = std::min(0.45, (7.5 * static_cast<double>(longest) + 25.0) / f.width);
-  f.commands = plot_style() + fmt::format(
-                                  "set multiplot\nset lmargin at screen {}\nset rmargin at screen 0.97\n"
-                                  "set border 1\nset tics nomirror\nset style fill solid\n"
-                                  "set key at screen 0.5,{} center center horizontal\n",
-                                  left, 1.0 - 0.5 * kKey / height);
+  std::vector<PanelBox> boxes;
+  std::vector<std::string> plots;
   double top = kKey;
-  for (const RangePanel& panel : panels) {
+  for (const RangePanel& panel : groups) {
     const double axes_top = top + 0.5 * kAxes - 4, bars = kRow * static_cast<double>(panel.ranges.size());
-    f.commands +=
-        fmt::format("unset label\nunset arrow\nset tmargin at screen {}\nset bmargin at screen {}\n",
-                    1.0 - axes_top / height, 1.0 - (axes_top + bars) / height) +
-        panel_data(panel) + panel_axes(panel, e.summary.weight_N) +
-        panel_plot(panel, &panel == &panels.front());
+    boxes.push_back({left, 0.97, 1.0 - (axes_top + bars) / height, 1.0 - axes_top / height});
+    plots.push_back("unset label\nunset arrow\n" + panel_data(panel) + panel_axes(panel, e.summary.weight_N) +
+                    panel_plot(panel, &panel == &groups.front()));
     top += bars + kAxes;
   }
-  f.commands += "unset multiplot\n";
+  f.commands = plot_style() +
+               fmt::format(
+                   "set border 1\nset tics nomirror\nset style fill solid\n"
+                   "set key at screen 0.5,{} center center horizontal\n",
+                   1.0 - 0.5 * kKey / height) +
+               panels(boxes, plots);
   return f;
 }
 

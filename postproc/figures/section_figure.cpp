@@ -88,25 +88,25 @@ Figure section_figure(const Evaluation& e, const SectionEvaluation& section) {
   f.caption = caption_of(e, section, forces);
   f.width = 1100;
   f.height = vault ? 560 : 760;
-  f.commands =
-      plot_style() + data_block("outlines", outlines_of(section)) + data_block("segments", forces.segments) +
-      data_block("norms", forces.norms) + data_block("upright", forces.norms_upright) + scale_arrow(forces) +
-      fmt::format(
-          "set multiplot layout {} margins 0.08,0.97,0.11,0.95 spacing 0.11\nset size ratio -1\n"
-          "set xlabel 'x (m)'\nset ylabel 'y (m)'\nunset key\nplot $outlines w l lc rgb '#999999' lw 0.8{}\n",
-          vault ? "1,2" : "2,1", forces.segments.empty() ? "" : ", " + arrows("segments", kOrange));
+  std::vector<std::string> plots{
+      fmt::format("set size ratio -1\nset xlabel 'x (m)'\nset ylabel 'y (m)'\nunset key\n"
+                  "plot $outlines w l lc rgb '#999999' lw 0.8{}\n",
+                  forces.segments.empty() ? "" : ", " + arrows("segments", kOrange))};
+  f.commands = plot_style() + data_block("outlines", outlines_of(section)) +
+               data_block("segments", forces.segments) + data_block("norms", forces.norms) +
+               data_block("upright", forces.norms_upright) + scale_arrow(forces);
   std::string bars;
   for (const auto& [name, rows, colour] :
        {std::tuple{"norms", &forces.norms, kBlue}, {"upright", &forces.norms_upright, kOrange}})
     if (!rows->empty())
       bars += fmt::format("{} ${} w impulses lc rgb '{}' lw 3", bars.empty() ? "plot" : ",", name, colour);
   if (!bars.empty())
-    f.commands += fmt::format(
+    plots.push_back(fmt::format(
         "unset arrow 1\nunset label 1\nset size noratio\nset xlabel '{0}'\nset ylabel 'resultant of a block "
         "({1})'\nset yrange [0:*]\n{2}{3}\n",
         vault ? "azimuth (deg)" : "x (m)", forces.unit.name,
-        vault ? "set xrange [-180:180]\nset xtics 45\n" : "", bars);
-  f.commands += "unset multiplot\n";
+        vault ? "set xrange [-180:180]\nset xtics 45\n" : "", bars));
+  f.commands += panels(panel_grid(vault ? 1 : 2, vault ? 2 : 1, {0.08, 0.97, 0.11, 0.95}, 0.11, 0.11), plots);
   return f;
 }
 

@@ -60,18 +60,16 @@ double shown(double newtons_per_metre) {
 }
 
 /// One panel above the other; without commands if there is none.
-void draw_panels(const ShellMap& map, const std::vector<std::string>& panels, Figure* f) {
-  const int count = static_cast<int>(panels.size());
+void draw_panels(const ShellMap& map, const std::vector<std::string>& plots, Figure* f) {
+  const int count = static_cast<int>(plots.size());
   f->width = 1100;
   f->height = 20 + 400 * count;
   f->vector = map.boxes.size() <= kMostVectorBoxes;
   if (count == 0) return;
-  f->commands = plot_style() + map_axes(map) +
-                fmt::format("set multiplot layout {},1 margins 0.07,0.88,{},{} spacing 0.13\n", count,
-                            65.0 / f->height, 1.0 - 33.0 / f->height) +
-                kSequential;
-  for (const std::string& panel : panels) f->commands += panel;
-  f->commands += "unset multiplot\n";
+  f->commands =
+      plot_style() + map_axes(map) + kSequential +
+      panels(panel_grid(plots.size(), 1, {0.07, 0.88, 65.0 / f->height, 1.0 - 33.0 / f->height}, 0.0, 0.13),
+             plots);
 }
 
 /// The end of a colour scale, which must be positive.

@@ -152,63 +152,48 @@ std::string vault_panels(const MeridianEvaluation& m, int width, int height, con
   const double pixels_per_metre = (kTop - kBottom) * height / (z.high - z.low);
   const double right = std::min(0.50, kLeft + (x.high - x.low) * pixels_per_metre / width);
   x.high = std::max(x.high, x.low + (right - kLeft) * width / pixels_per_metre);
-  const double gap = 0.045, panel = (0.98 - right - 3 * gap) / 3;
-  const auto margins = [&](double left, double end) {
-    return fmt::format(
-        "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen "
-        "{}\n",
-        left, end, kBottom, kTop);
-  };
-  return fmt::format(
-             "set multiplot\n{}set xrange [{}:{}]\nset yrange [{}:{}]\nset xlabel 'distance from the axis "
-             "(m)'\n"
-             "set ylabel 'height (m)'\nset key at graph 0.02,0.02 left bottom\n",
-             margins(kLeft, right), x.low, x.high, z.low, z.high) +
-         profile + margins(right + gap, right + gap + panel) +
-         fmt::format(
-             "{5}set xrange [0:*]\nset xlabel 'resultant ({2})'\nunset ylabel\n"
-             "plot $graphs using 2:1 w lp lc rgb '{0}' pt 7 ps 0.4 notitle, $graphs using 3:1 w l lc "
-             "rgb '{1}' dt 2 lw 2 notitle{3}{4}{6}\n",
-             kBlue, kOrange, unit.name,
-             curve_label("graphs", rows / 2, "$2", "$1", "r: norm", kBlue, "left offset 1.2,0"),
-             curve_label("graphs", rows / 4, "$3", "$1", "v: vertical", kOrange, "right offset -1.2,0"),
-             few_ticks(resultant), wythes.resultant) +
-         margins(right + 2 * gap + panel, right + 2 * gap + 2 * panel) +
-         fmt::format(
-             "{}set xlabel 'couple length (m)'\nset xrange [0:{}<*]\n"
-             "plot $graphs using 4:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
-             few_ticks(couple), kLeastCouple, kPurple, wythes.couple) +
-         margins(0.98 - panel, 0.98) +
-         fmt::format(
-             "{}set xlabel 'distance to the nearer face (m)'\nset xrange [*<0:*]\n"
-             "plot $graphs using 5:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\nunset multiplot\n",
-             few_ticks(distance), kGreen, wythes.distance);
+  const double gap = 0.045;
+  std::vector<PanelBox> boxes = panel_grid(1, 3, {right + gap, 0.98, kBottom, kTop}, gap, 0.0);
+  boxes.insert(boxes.begin(), {kLeft, right, kBottom, kTop});
+  return panels(
+      boxes,
+      {fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset xlabel 'distance from the axis (m)'\n"
+                   "set ylabel 'height (m)'\nset key at graph 0.02,0.02 left bottom\n",
+                   x.low, x.high, z.low, z.high) +
+           profile,
+       fmt::format("{5}set xrange [0:*]\nset xlabel 'resultant ({2})'\nunset ylabel\n"
+                   "plot $graphs using 2:1 w lp lc rgb '{0}' pt 7 ps 0.4 notitle, $graphs using 3:1 w l lc "
+                   "rgb '{1}' dt 2 lw 2 notitle{3}{4}{6}\n",
+                   kBlue, kOrange, unit.name,
+                   curve_label("graphs", rows / 2, "$2", "$1", "r: norm", kBlue, "left offset 1.2,0"),
+                   curve_label("graphs", rows / 4, "$3", "$1", "v: vertical", kOrange, "right offset -1.2,0"),
+                   few_ticks(resultant), wythes.resultant),
+       fmt::format("{}set xlabel 'couple length (m)'\nset xrange [0:{}]\n"
+                   "plot $graphs using 4:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
+                   few_ticks(couple),
+                   couple > kLeastCouple || !wythes.couple.empty() ? "*" : fmt::to_string(kLeastCouple),
+                   kPurple, wythes.couple),
+       fmt::format("{}set xlabel 'distance to the nearer face (m)'\nset xrange [*<0:*]\n"
+                   "plot $graphs using 5:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
+                   few_ticks(distance), kGreen, wythes.distance)});
 }
 
 /// Profile on top; below it resultant, couple length and distance to the nearer face, over x.
 std::string arch_panels(const ForceUnit& unit, const std::string& profile, const WytheCurves& wythes) {
-  const auto band = [](double bottom, double top) {
-    return fmt::format("set bmargin at screen {}\nset tmargin at screen {}\n", bottom, top);
-  };
-  return "set multiplot\nset lmargin at screen 0.09\nset rmargin at screen 0.97\n" + band(0.57, 0.97) +
-         "set size ratio -1\nset ylabel 'height (m)'\nset key bottom center\n" + profile +
-         "set size noratio\nset key top center\n" + band(0.41, 0.51) +
-         fmt::format(
-             "set ylabel 'resultant ({2})'\nset yrange [0:*]\n"
-             "plot $graphs using 1:2 w lp lc rgb '{0}' pt 7 ps 0.4 title 'r: norm', $graphs using "
-             "1:(abs($3)) "
-             "w l lc rgb '{1}' dt 2 title 'v: vertical'{3}\n",
-             kBlue, kOrange, unit.name, wythes.resultant) +
-         band(0.245, 0.345) +
-         fmt::format(
-             "set ylabel 'couple length (m)'\nset yrange [0:0.001<*]\n"
-             "plot $graphs using 1:4 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
-             kPurple, wythes.couple) +
-         band(0.08, 0.18) +
-         fmt::format(
-             "set xlabel 'x (m)'\nset ylabel 'to face (m)'\nset yrange [*<0:*]\n"
-             "plot $graphs using 1:5 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\nunset multiplot\n",
-             kGreen, wythes.distance);
+  const auto band = [](double bottom, double top) { return PanelBox{0.09, 0.97, bottom, top}; };
+  return panels(
+      {band(0.57, 0.97), band(0.41, 0.51), band(0.245, 0.345), band(0.08, 0.18)},
+      {"set size ratio -1\nset ylabel 'height (m)'\nset key bottom center\n" + profile,
+       fmt::format("set size noratio\nset key top center\nset ylabel 'resultant ({2})'\nset yrange [0:*]\n"
+                   "plot $graphs using 1:2 w lp lc rgb '{0}' pt 7 ps 0.4 title 'r: norm', "
+                   "$graphs using 1:(abs($3)) w l lc rgb '{1}' dt 2 title 'v: vertical'{3}\n",
+                   kBlue, kOrange, unit.name, wythes.resultant),
+       fmt::format("set ylabel 'couple length (m)'\nset yrange [0:0.001<*]\n"
+                   "plot $graphs using 1:4 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
+                   kPurple, wythes.couple),
+       fmt::format("set xlabel 'x (m)'\nset ylabel 'to face (m)'\nset yrange [*<0:*]\n"
+                   "plot $graphs using 1:5 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
+                   kGreen, wythes.distance)});
 }
 
 }  // namespace

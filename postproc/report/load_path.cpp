@@ -55,12 +55,13 @@ Figure path_figure(const Table& path) {
   f.width = 900;
   f.height = 620;
   f.commands = plot_style() + data_block("path", rows) +
-               fmt::format(
-                   "set multiplot layout 2,1 margins 0.11,0.97,0.10,0.97 spacing 0.06\nunset key\n"
-                   "set ylabel 'force ({2})'\nplot $path using 1:2 w lp lc rgb '{0}' pt 7 ps 0.4 lw 2\n"
-                   "set ylabel 'dissipated ({4})'\nset xlabel 'displacement ({3})'\n"
-                   "plot $path using 1:3 w l lc rgb '{1}' lw 2\nunset multiplot\n",
-                   kBlue, kOrange, unit.name, metres ? "m" : "mm", kilojoules ? "kJ" : "J");
+               panels(panel_grid(2, 1, {0.11, 0.97, 0.10, 0.97}, 0.0, 0.06),
+                      {fmt::format("unset key\nset ylabel 'force ({})'\n"
+                                   "plot $path using 1:2 w lp lc rgb '{}' pt 7 ps 0.4 lw 2\n",
+                                   unit.name, kBlue),
+                       fmt::format("set ylabel 'dissipated ({})'\nset xlabel 'displacement ({})'\n"
+                                   "plot $path using 1:3 w l lc rgb '{}' lw 2\n",
+                                   kilojoules ? "kJ" : "J", metres ? "m" : "mm", kOrange)});
   return f;
 }
 

@@ -29,7 +29,8 @@ Figure distribution_figure(const std::vector<EnsembleResults>& ensembles) {
   std::vector<size_t> columns = ensembles.front().results;
   if (columns.size() > kMostResults) columns.resize(kMostResults);
   if (columns.empty()) return f;
-  std::string data, plots;
+  std::string data;
+  std::vector<std::string> plots;
   for (const size_t k : columns) {
     const Table::Column& column = ensembles.front().members.columns[k];
     std::string plot;
@@ -47,18 +48,17 @@ Figure distribution_figure(const std::vector<EnsembleResults>& ensembles) {
           fmt::format("{} ${} using 1:2 w steps lc rgb '{}' lw 1.5 title '{}'", plot.empty() ? "plot" : ",",
                       block, kEnsembleColours[e % kEnsembleColours.size()], gnuplot_text(ensembles[e].name));
     }
-    plots += fmt::format("set xlabel '{}{}'\n", gnuplot_text(column.meaning),
-                         column.unit.empty() ? "" : " (" + gnuplot_text(column.unit) + ")") +
-             plot + "\n";
+    plots.push_back(fmt::format("set xlabel '{}{}'\n", gnuplot_text(column.meaning),
+                                column.unit.empty() ? "" : " (" + gnuplot_text(column.unit) + ")") +
+                    plot + "\n");
   }
   f.width = 900;
   f.height = 60 + 280 * static_cast<int>(columns.size());
   f.commands = plot_style() + data +
-               fmt::format(
-                   "set multiplot layout {},1\nset lmargin 10\nset rmargin 4\nset yrange [0:1]\n"
-                   "set ylabel 'share of members'\nset key bottom right\n",
-                   columns.size()) +
-               plots + "unset multiplot\n";
+               "set yrange [0:1]\nset ylabel 'share of members'\nset key bottom right\n" +
+               panels(panel_grid(columns.size(), 1, {0.09, 0.97, 60.0 / f.height, 1.0 - 15.0 / f.height}, 0.0,
+                                 70.0 / f.height),
+                      plots);
   return f;
 }
 

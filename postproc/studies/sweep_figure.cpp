@@ -103,13 +103,14 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
   if (columns.empty()) return f;
   const auto curves = curves_of(table, sweep.size());
   const Rows fallen = without_equilibrium(table, status);
-  std::string data = data_block("fallen", fallen), plots;
+  std::string data = data_block("fallen", fallen);
+  std::vector<std::string> plots;
   for (const size_t k : columns) {
     const Table::Column& column = table.columns[k];
     const auto [factor, unit] = readable_unit(table, k);
-    plots +=
-        fmt::format("set ylabel '{}{}'\nset yrange [{}:*]\n", gnuplot_text(column.meaning),
-                    unit.empty() ? "" : " (" + gnuplot_text(unit) + ")", is_positive(table, k) ? "0" : "*");
+    plots.push_back(fmt::format("set ylabel '{}{}'\nset yrange [{}:*]\n", gnuplot_text(column.meaning),
+                                unit.empty() ? "" : " (" + gnuplot_text(unit) + ")",
+                                is_positive(table, k) ? "0" : "*"));
     std::string plot;
     size_t n = 0;
     for (const auto& [name, members] : curves) {
@@ -130,17 +131,22 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
       if (!name.empty()) plot += curve_label(block, rows.size() - 1, "$1", "$2", name, colour);
       ++n;
     }
-    plots += plot + (fallen.empty() ? "" : ", $fallen using 1:2 axes x1y2 w p pt 2 ps 1.2 lc rgb '#444444'") +
-             "\n";
+    plots.back() += plot +
+                    (fallen.empty() ? "" : ", $fallen using 1:2 axes x1y2 w p pt 2 ps 1.2 lc rgb '#444444'") +
+                    "\n";
   }
   f.width = 900;
   f.height = 60 + 260 * static_cast<int>(columns.size());
-  f.commands = plot_style() + data +
-               fmt::format(
-                   "set multiplot layout {},1\nunset key\nset y2range [0:1]\nset lmargin 12\nset rmargin "
-                   "{}\nset offsets graph 0.03, graph 0.03, graph 0.08, graph 0.08\nset xlabel '{}'\n",
-                   columns.size(), curves.size() > 1 ? 24 : 4, gnuplot_text(sweep.front().key)) +
-               plots + "unset multiplot\n";
+  f.commands =
+      plot_style() + data +
+      fmt::format(
+          "unset key\nset y2range [0:1]\nset offsets graph 0.03, graph 0.03, graph 0.08, graph 0.08\n"
+          "set xlabel '{}'\n",
+          gnuplot_text(sweep.front().key)) +
+      panels(panel_grid(columns.size(), 1,
+                        {0.1, curves.size() > 1 ? 0.8 : 0.97, 60.0 / f.height, 1.0 - 15.0 / f.height}, 0.0,
+                        60.0 / f.height),
+             plots);
   return f;
 }
 

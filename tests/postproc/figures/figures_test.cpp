@@ -169,6 +169,21 @@ TEST(ShellMaps, ReadBackUnchangedFromTheTable) {
   EXPECT_FALSE(read_shell_map("/nowhere/at/all"));
 }
 
+TEST(Panels, FillTheirFrameRowByRowFromTheTop) {
+  const std::vector<PanelBox> boxes = panel_grid(2, 2, {0.1, 0.9, 0.2, 1.0}, 0.2, 0.4);
+  ASSERT_EQ(boxes.size(), 4u);
+  const double expected[4][4] = {
+      {0.1, 0.4, 0.8, 1.0}, {0.6, 0.9, 0.8, 1.0}, {0.1, 0.4, 0.2, 0.4}, {0.6, 0.9, 0.2, 0.4}};
+  for (size_t i = 0; i < 4; ++i) {
+    const double box[4] = {boxes[i].left, boxes[i].right, boxes[i].bottom, boxes[i].top};
+    for (size_t k = 0; k < 4; ++k) EXPECT_NEAR(box[k], expected[i][k], 1e-15) << i << " " << k;  // rounding
+  }
+  const std::string drawn = panels(boxes, {"plot 1\n", "plot 2\n"});
+  EXPECT_NE(drawn.find("set lmargin at screen 0.6"), std::string::npos) << drawn;
+  EXPECT_LT(drawn.find("plot 1"), drawn.find("plot 2"));
+  EXPECT_TRUE(drawn.starts_with("set multiplot\n") && drawn.ends_with("unset multiplot\n")) << drawn;
+}
+
 // The same run writes the same bytes.
 TEST(Figures, HaveNoDate) {
   Figure figure;
