@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -22,18 +21,6 @@ double drawn_error(const TradeoffRow& row) {
   return std::max(row.error(), kSmallestDrawnError);
 }
 
-/// The method, implemented here, and programs that use a method of the same kind.
-std::string method_title(ContactMethod method) {
-  static const std::map<ContactMethod, std::string> kTitles{
-      {ContactMethod::newton, "Newton (kind: SAP in Drake)"},
-      {ContactMethod::interior_point, "interior point, then Newton"},
-      {ContactMethod::spg, "SPG (kind: BB in Chrono)"},
-      {ContactMethod::apgd, "APGD (kind: Chrono)"},
-      {ContactMethod::nsgs, "NSGS (kind: Siconos, LMGC90)"},
-      {ContactMethod::admm, "ADMM (kind: Siconos, Chrono)"}};
-  return kTitles.at(method);
-}
-
 struct Series {
   std::string title;
   std::vector<TradeoffRow> rows;
@@ -45,7 +32,7 @@ std::vector<Series> series_of(const std::vector<TradeoffRow>& rows, bool by_meth
   std::vector<Series> series;
   for (const TradeoffRow& row : rows) {
     const std::string& name = row.point.name;
-    const std::string title = by_method ? method_title(row.summary->method) : name.substr(0, name.rfind('_'));
+    const std::string title = by_method ? to_string(row.summary->method) : name.substr(0, name.rfind('_'));
     auto at = std::find_if(series.begin(), series.end(), [&](const Series& s) { return s.title == title; });
     if (at == series.end()) at = series.insert(series.end(), {title, {}});
     at->rows.push_back(row);
@@ -102,10 +89,7 @@ Figure knob_figure(const std::vector<TradeoffRow>& rows, const std::string& knob
   figure.title = fmt::format("Error over time: {}", knob);
   figure.caption =
       "Each point is one run; hollow points did not reach the requested accuracy. Lower left is better.";
-  if (knob.starts_with("method"))
-    figure.caption +=
-        " All methods are implementations of this program; the programs named use methods of the same kind "
-        "and were not run.";
+  if (knob.starts_with("method")) figure.caption += " All methods are implementations of this program.";
   std::string data, plot;
   size_t number = 0;
   for (const Series& series : series_of(rows, knob.starts_with("method")))
@@ -123,7 +107,7 @@ Figure overall_figure(const std::vector<TradeoffRow>& all) {
       "Each run is compared with the reference of its knob: methods and tolerances with the same model "
       "solved to a tight tolerance, time steps with an extrapolation to zero, the other knobs with a finer "
       "model. The dashed line is the Pareto front of the methods. All methods are implementations of this "
-      "program; the programs named use methods of the same kind and were not run.";
+      "program.";
   figure.width = 1100;
   figure.height = 700;
   std::string data, plot;
