@@ -217,17 +217,28 @@ std::vector<StudyRun> members_of(const Study& study) {
   return members;
 }
 
-std::string members_text(const std::vector<StudyRun>& members, const std::string& path) {
-  const std::set<std::string> known = known_runs(path);
-  std::string out;
+void require_known(const std::vector<StudyRun>& members, const std::string& path,
+                   const std::string& runs_folder) {
+  std::set<std::string> names = known_runs(path);
+  if (!runs_folder.empty())
+    for (const auto& entry : fs::directory_iterator(runs_folder))
+      if (entry.is_directory()) names.insert(entry.path().filename().string());
   for (const StudyRun& member : members) {
     const std::string& name = member.case_name.empty() ? member.name : member.case_name;
-    if (!known.contains(name)) {
-      const std::string near = nearest_name(name, known);
-      throw InputError(FileLocation{path},
-                       fmt::format("{}: no case and no variant has this name{}", name,
-                                   near.empty() ? "" : fmt::format("; did you mean {}?", near)));
-    }
+    const bool has_run = !runs_folder.empty() && fs::exists(fs::path(runs_folder) / member.name);
+    if (has_run || names.contains(name)) continue;
+    const std::string near = nearest_name(name, names);
+    throw InputError(FileLocation{path},
+                     fmt::format("{}: no case and no variant has this name{}{}", name,
+                                 runs_folder.empty() ? "" : ", and no run in " + runs_folder,
+                                 near.empty() ? "" : fmt::format("; did you mean {}?", near)));
+  }
+}
+
+std::string members_text(const std::vector<StudyRun>& members, const std::string& path) {
+  require_known(members, path);
+  std::string out;
+  for (const StudyRun& member : members) {
     out += member.name;
     if (!member.case_name.empty()) out += " " + member.case_name;
     for (const std::string& setting : member.settings) out += " " + setting;

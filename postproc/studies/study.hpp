@@ -50,9 +50,13 @@ Study read_study(const std::string& path, const CaseOfStudy& of = {});
 /// Every run that the study reads, each once: those that it defines first.
 std::vector<StudyRun> members_of(const Study& study);
 
+/// Throws InputError for a member that is neither a case nor a variant of the folder of `path`, or above it if that is
+/// studies/, nor, if a folder of runs is given, a run in it.
+void require_known(const std::vector<StudyRun>& members, const std::string& path,
+                   const std::string& runs_folder = "");
+
 /// One line per run: NAME for a run that exists as case or variant, NAME CASE key.path=value ... for the others, in the
-/// format of cases/variants.txt. Throws InputError for a name that is neither a case nor a variant of the folder of
-/// `path`, or above it if that is studies/.
+/// format of cases/variants.txt. Throws like require_known().
 std::string members_text(const std::vector<StudyRun>& members, const std::string& path);
 
 }  // namespace cupola

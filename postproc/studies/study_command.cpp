@@ -171,14 +171,17 @@ ExitCode run_study(int argc, const char* const* argv) {
 
   // 2. Runs
   const Study study = read_study(request.study_path, request.of);
-  const bool own_case = request.of.name.ends_with(".yaml");
+  const std::string& beside = request.of.name.ends_with(".yaml") ? request.of.name : request.study_path;
   if (!request.members_file.empty()) {
-    write_text_atomically(request.members_file,
-                          members_text(members_of(study), own_case ? request.of.name : request.study_path));
+    write_text_atomically(request.members_file, members_text(members_of(study), beside));
     return ExitCode::done;
   }
   if (request.runs_folder.empty() || request.output_folder.empty())
     throw InputError("give --members, or --runs and --output; see cupola-post study --help");
+
+  if (!fs::is_directory(request.runs_folder))
+    throw InputError(FileLocation{request.runs_folder}, "--runs: no such folder");
+  require_known(members_of(study), beside, request.runs_folder);
 
   // 3. Measure and write
   return measure(study, request);

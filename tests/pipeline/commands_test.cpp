@@ -140,6 +140,26 @@ TEST(Commands, EvaluateClaims) {
   EXPECT_TRUE(contains(slurp(folder.file("told/study.html")), "All blocks &lt;i&gt;are there."));
 }
 
+TEST(Commands, RefuseAStudyOfUnknownRunsBeforeAnythingIsWritten) {
+  const DomeFolder folder;
+  std::filesystem::create_directories(folder.file("runs/low"));
+  std::ofstream(folder.file("variants.txt")) << "high  dome  joints.friction=0.5\n";
+  std::ofstream(folder.file("statements.yaml")) << "claims:\n"
+                                                   "  - says: It sinks.\n"
+                                                   "    value: {runs: hihg, key: results.free_blocks}\n"
+                                                   "    ours: {at_least: 1, reason: visible}\n";
+  const ProgramRun typo = folder.run("cupola-post study statements.yaml --runs runs --output told");
+  EXPECT_EQ(typo.code, 2);
+  EXPECT_EQ(typo.err,
+            "cupola-post: statements.yaml: error: hihg: no case and no variant has this name, and no run in "
+            "runs; did you mean "
+            "high?\n");
+  const ProgramRun elsewhere = folder.run("cupola-post study statements.yaml --runs rnus --output told");
+  EXPECT_EQ(elsewhere.code, 2);
+  EXPECT_EQ(elsewhere.err, "cupola-post: rnus: error: --runs: no such folder\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("told")));
+}
+
 TEST(Commands, CompareATradeoffWithItsReference) {
   const DomeFolder folder;
   run_dome(folder, "study/dome/exact", "--set analysis.tolerance=1e-10");
