@@ -107,7 +107,8 @@ TEST_P(AccuracyPresetSlow, StandardIsWithinItsCertifiedErrorAndThatIsSmall) {
 INSTANTIATE_TEST_SUITE_P(Paper, AccuracyPresetSlow,
                          ::testing::Values("wall_large", "wall_medium", "wall_small", "wall_herringbone",
                                            "dome_circular", "dome_circular_herringbone", "octagon_planar",
-                                           "octagon_circular", "brunelleschi"));
+                                           "octagon_circular", "brunelleschi"),
+                         [](const auto& model) { return std::string(model.param); });
 
 }  // namespace
 }  // namespace cupola::accuracy_test

@@ -85,7 +85,8 @@ INSTANTIATE_TEST_SUITE_P(Cases, ExplainSlow,
                                            std::pair{"octagon_circular", std::vector<std::string>{}},
                                            std::pair{"wall_small", std::vector<std::string>{}},
                                            std::pair{"dome_circular_dynamic",
-                                                     std::vector<std::string>{"analysis.duration=0.3"}}));
+                                                     std::vector<std::string>{"analysis.duration=0.3"}}),
+                         [](const auto& run) { return std::string(run.param.first); });
 
 }  // namespace
 }  // namespace cupola::explain_test

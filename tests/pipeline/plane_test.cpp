@@ -9,6 +9,7 @@
 #include "assembly/case/case_reader.hpp"
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "tests/test_names.hpp"
 
 namespace cupola::plane_test {
 namespace {
@@ -81,7 +82,8 @@ INSTANTIATE_TEST_SUITE_P(
                       std::vector<std::string>{"analysis.friction_law=coulomb", "loads.gravity=[2, 0, -9.81]",
                                                "analysis.tolerance=1e-7"},
                       std::vector<std::string>{"analysis.type=dynamic", "analysis.duration=0.05",
-                                               "analysis.tolerance=1e-9"}));
+                                               "analysis.tolerance=1e-9"}),
+    test_names({"PerPoint", "PerArea", "Leaning", "LeaningCoulomb", "Moving"}));
 
 TEST(PlaneScene, RefusesScenesThatAreNotPlane) {
   const auto message = [](const std::string& name, const std::vector<std::string>& settings) {
