@@ -53,7 +53,35 @@ Dissipation dissipation(const ConicProblem& problem, const ConicSolution& x, dou
   return sum;
 }
 
+/// The least value of all states whose forces are at most `times` the largest of x, and multipliers as many times its own: the dual
+/// value less what the violations of its conditions could gain.
+double least_value(const ConicProblem& problem, const ConicSolution& x, double largest_force, double times) {
+  const Dissipation lost = dissipation(problem, x, times * largest_force);
+  const VecX power = problem.multiplier_cost + problem.load_columns.transpose() * x.v -
+                     problem.row_multipliers * x.row_velocities - lost.per_multiplier;
+  return problem.load.dot(x.v) + problem.row_values.dot(x.row_velocities) - lost.constant -
+         times * power.cwiseAbs().dot(x.multipliers.cwiseAbs());
+}
+
+double largest_normal_force(const VecX& gamma) {
+  return std::max(0.0, gamma(Eigen::seq(0, Eigen::last, 3)).maxCoeff());
+}
+
 }  // namespace
+
+double positive_up_to(const ConicProblem& problem, const ConicSolution& x) {
+  constexpr double kMost = 1e12;
+  const double force = largest_normal_force(x.gamma);
+  const auto is_positive = [&](double times) { return least_value(problem, x, force, times) > 0.0; };
+  if (!is_positive(1.0)) return 0.0;
+  if (is_positive(kMost)) return kMost;
+  double low = 1.0, high = kMost;
+  while (high > 1.01 * low) {
+    const double middle = std::sqrt(low * high);
+    (is_positive(middle) ? low : high) = middle;
+  }
+  return low;
+}
 
 double dual_value(const ConicProblem& problem, const ConicSolution& x) {
   return problem.load.dot(x.v) + problem.row_values.dot(x.row_velocities) -
@@ -87,11 +115,7 @@ ConicBounds conic_bounds(const ConicProblem& problem, const ConicSolution& x) {
     outside = std::max(outside, limit_excess(law, gamma));
   }
   if (largest_force > 0.0) bounds.cone_violation = outside / largest_force;
-  const Dissipation lost = dissipation(problem, x, kLargestForces * largest_force);
-  const VecX power = problem.multiplier_cost + problem.load_columns.transpose() * x.v -
-                     problem.row_multipliers * x.row_velocities - lost.per_multiplier;
-  bounds.lower = problem.load.dot(x.v) + problem.row_values.dot(x.row_velocities) - lost.constant -
-                 kLargestForces * power.cwiseAbs().dot(x.multipliers.cwiseAbs());
+  bounds.lower = least_value(problem, x, largest_force, kLargestForces);
   bounds.upper = problem.cost.dot(x.gamma) + problem.multiplier_cost.dot(x.multipliers) + x.v.dot(imbalance) +
                  x.row_velocities.dot(missing_rows);
   return bounds;

@@ -21,6 +21,10 @@ constexpr double kLargestForces = 1e3;
 /// Bounds on the least value from a solution that is `optimal` or `stalled`.
 ConicBounds conic_bounds(const ConicProblem& problem, const ConicSolution& solution);
 
+/// The largest N, within 1 %, for which every state with forces and multipliers of at most N times those of the solution has a value
+/// above zero: 0 if there is none, at most 1e12.
+double positive_up_to(const ConicProblem& problem, const ConicSolution& solution);
+
 /// The value of the dual problem, as far as its conditions hold: w . v + r . q less what joints with strength dissipate.
 double dual_value(const ConicProblem& problem, const ConicSolution& solution);
 

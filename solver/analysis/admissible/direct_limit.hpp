@@ -6,6 +6,7 @@
 
 #include "assembly/case/case.hpp"
 #include "solver/analysis/admissible/rigid_scene.hpp"
+#include "solver/conic/conic_bounds.hpp"
 
 namespace cupola {
 
@@ -26,8 +27,9 @@ struct DirectLimit {
   bool no_state = false;   ///< not found because a mechanism moves at every value
   double admissible = 0.0, moving = 0.0;
   /// Just beyond `moving` the mechanism proves in exact arithmetic that no forces balance the loads (motion_proof.hpp). Otherwise
-  /// none do of up to 1000 times those found (conic_bounds.hpp).
+  /// none do of up to `resisting_forces` times those found (conic_bounds.hpp).
   bool motion_proven = false;
+  double resisting_forces = kLargestForces;
   RigidScene at_admissible, at_moving;
   VecX gamma;      ///< N: the admissible state, or one without limit (3 nc)
   VecX mechanism;  ///< its velocities prove the motion (6 nb); empty for a stress

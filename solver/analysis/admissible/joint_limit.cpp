@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/admissible/pull_solve.hpp"
+#include "solver/conic/conic_bounds.hpp"
 #include "solver/conic/motion_proof.hpp"
 
 namespace cupola {
@@ -71,24 +74,27 @@ double estimate_root(double low, double high, double relative_width, const VecX&
 
 /// Solves just below and just above the estimated root, farther away if both are on one side or one does not decide.
 Ends ends_around(double root, double low, double high, double relative_width, PullTrials* trials) {
-  double reach = 0.45 * relative_width * root;
-  Ends ends{trials->solve(std::max(low, root - reach)), trials->solve(std::min(high, root + reach))};
+  constexpr double kFarther = 8.0;
+  double down = 0.45 * relative_width * root, up = down;
+  Ends ends{trials->solve(std::max(low, root - down)), trials->solve(std::min(high, root + up))};
   while (!ends.enclose() && trials->count < kMaxTrials) {
-    reach *= 8.0;
     if (!ends.below.moves()) {
       if (ends.below.value <= low) break;
+      down *= kFarther;
       if (ends.below.admissible()) ends.above = std::move(ends.below);
-      ends.below = trials->solve(std::max(low, root - reach));
+      ends.below = trials->solve(std::max(low, root - down));
     } else {
       if (ends.above.value >= high) break;
+      up *= kFarther;
       if (ends.above.moves()) ends.below = std::move(ends.above);
-      ends.above = trials->solve(std::min(high, root + reach));
+      ends.above = trials->solve(std::min(high, root + up));
     }
   }
   return ends;
 }
 
-/// Two values on either side of the root, which the secant method and bisection close.
+/// Two values on either side of the root, which the secant method and bisection close. Values between them that do not decide are left
+/// out: the search then closes in on them from both sides.
 class RootSearch {
  public:
   explicit RootSearch(Ends ends) {
@@ -101,13 +107,42 @@ class RootSearch {
   /// The next value to try: just before the root of the linear model, and just behind it once the moving end
   /// is that close; the middle if there is no such root, or if the last one did not halve f.
   double next(double enough) const;
+  bool is_closed(double enough) const;
   void include(PullSolve solve);
+  void leave_out(double value);
+  /// The least and the greatest value that did not decide.
+  const std::optional<std::pair<double, double>>& undecided() const { return undecided_; }
   PullSolve moving, admissible;
 
  private:
+  /// Distance from the moving and from the admissible end to the nearest value that did not decide.
+  std::pair<double, double> open_gaps() const;
+
   bool overshot_ = false;  ///< the last trial was admissible
   bool bisect_ = false;
+  std::optional<std::pair<double, double>> undecided_;
 };
+
+std::pair<double, double> RootSearch::open_gaps() const {
+  const auto& [least, greatest] = *undecided_;
+  const bool moves_below = moving.value < admissible.value;
+  return {std::abs((moves_below ? least : greatest) - moving.value),
+          std::abs((moves_below ? greatest : least) - admissible.value)};
+}
+
+bool RootSearch::is_closed(double enough) const {
+  if (width() <= enough) return true;
+  if (!undecided_) return false;
+  // Closing in further would gain less than half of what stays undecided.
+  const auto [from_moving, from_admissible] = open_gaps();
+  return std::max(from_moving, from_admissible) <=
+         std::max(enough, 0.5 * (undecided_->second - undecided_->first));
+}
+
+void RootSearch::leave_out(double value) {
+  if (!undecided_) undecided_ = {value, value};
+  undecided_ = {std::min(undecided_->first, value), std::max(undecided_->second, value)};
+}
 
 void RootSearch::include(PullSolve solve) {
   const bool moves = solve.pull > 0.0;
@@ -117,6 +152,12 @@ void RootSearch::include(PullSolve solve) {
 }
 
 double RootSearch::next(double enough) const {
+  if (undecided_) {
+    const auto [from_moving, from_admissible] = open_gaps();
+    const double outward = admissible.value > moving.value ? 0.5 : -0.5;
+    return from_moving >= from_admissible ? moving.value + outward * from_moving
+                                          : admissible.value - outward * from_admissible;
+  }
   const double towards = admissible.value > moving.value ? 1.0 : -1.0;
   const double slope = (admissible.pull - moving.pull) / (admissible.value - moving.value);
   const double ahead = -moving.pull / slope * towards;
@@ -167,16 +208,20 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
   RootSearch search(std::move(ends));
   while (trials.count < kMaxTrials) {
     const double enough = relative_width * std::abs(search.middle());
-    if (search.width() <= enough) break;
+    if (search.is_closed(enough)) break;
     const double value = search.next(enough);
     if (value == search.moving.value || value == search.admissible.value) break;
     PullSolve solve = trials.solve(value);
-    if (!solve.decided) {
-      limit.message = fmt::format("; the solve at {:.8g} did not converge", value);
-      break;
-    }
-    search.include(std::move(solve));
+    if (solve.decided)
+      search.include(std::move(solve));
+    else
+      search.leave_out(value);
   }
+  if (const auto& undecided = search.undecided())
+    limit.message = undecided->first == undecided->second
+                        ? fmt::format("; the solve at {:.8g} did not decide", undecided->first)
+                        : fmt::format("; the solves from {:.8g} to {:.8g} did not decide", undecided->first,
+                                      undecided->second);
   limit.found = true;
   limit.trials = trials.count;
   limit.iterations = trials.iterations;
@@ -186,6 +231,8 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
   limit.mechanism = search.moving.solution.v;
   limit.at_admissible = std::move(search.admissible.scene);
   limit.at_moving = std::move(search.moving.scene);
+  if (std::isfinite(search.moving.pull))
+    limit.resisting_forces = positive_up_to(search.moving.problem, search.moving.solution);
   const ConicProblem& moving = limit.at_moving.problem;
   limit.motion_proven = MotionProof(moving.contacts, moving.load).next_to(limit.mechanism).has_value();
   return limit;

@@ -177,6 +177,24 @@ TEST(Conic, OpeningMotionSharpensTheBoundOfASlenderTower) {
   EXPECT_LE(sharp.upper - sharp.lower, rough.upper - rough.lower);
 }
 
+// A cube of weight W sinks at e into its bed of four points: the load does W e, and forces of N W / 400 at each point as much
+// from N = 100 on.
+TEST(Conic, StatesUpToWhichForcesAMotionIsDriven) {
+  const ConicProblem problem = conic(scenes::stack({1000.0}, 0.01, {.mu = 0.5}));
+  const double weight = -problem.load[2];
+  ASSERT_EQ(problem.contacts.num_contacts(), 4);
+  ConicSolution sinking;
+  sinking.gamma = VecX::Zero(12);
+  sinking.gamma(Eigen::seq(0, Eigen::last, 3)).setConstant(weight / 400);
+  sinking.v = VecX::Zero(6);
+  sinking.v[2] = -1e-3;
+  sinking.row_velocities = VecX(0);
+  sinking.multipliers = VecX(0);
+  EXPECT_NEAR(positive_up_to(problem, sinking), 100.0, 1.0) << "the search ends within 1 %";
+  sinking.v *= -1.0;
+  EXPECT_EQ(positive_up_to(problem, sinking), 0.0) << "the weight resists";
+}
+
 // A block between two walls can jam: no motion opens both joints.
 TEST(Conic, NoMotionOpensAJammedBlock) {
   scenes::Scene scene(0.01, {0, 0, -scenes::kGravity});
