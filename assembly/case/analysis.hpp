@@ -57,7 +57,7 @@ struct LimitSearch {
   Method method = Method::automatic;
   double low = 0.0, high = 1.0;  ///< initial bracket: stable at one end, not at the other
   /// Largest relative width of the final bracket, in (0, 1). None: 1e-3 by bisection; direct 1e-4 for friction,
-  /// thickness and joint_extent, 1e-6 for the others, which are one conic programme.
+  /// thickness and joint_extent, 1e-5 for the others, which are one conic programme.
   std::optional<double> relative_width;
   Eigen::Vector3d direction{1.0, 0.0, 0.0};  ///< tilt and acceleration: horizontal direction of the pull
   std::optional<RingJoints> joints;          ///< friction: only these joints; none: all joints

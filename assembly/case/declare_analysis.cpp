@@ -54,7 +54,7 @@ void declare_limit(Section& s, LimitSearch& limit) {
   s.number("low", limit.low, {}, "lower end of the initial bracket; not used by peak_stress");
   s.number("high", limit.high, {}, "upper end of the initial bracket; not used by peak_stress");
   s.optional_number("relative_width", limit.relative_width, {.above = 0, .below = 1},
-                    "1e-3 by bisection; direct: 1e-4 for friction, thickness and joint_extent, else 1e-6",
+                    "1e-3 by bisection; direct: 1e-4 for friction, thickness and joint_extent, else 1e-5",
                     "largest width of the final bracket over its middle value");
   s.vector3("direction", limit.direction, {}, "tilt, acceleration: horizontal direction of the pull");
   s.optional_section("joints", limit.joints, "friction: vary only these joints; default: all joints",

@@ -44,7 +44,7 @@ bool changes_joints(LimitSearch::Parameter parameter) {
 double bracket_width(const Analysis& analysis) {
   if (analysis.limit.relative_width) return *analysis.limit.relative_width;
   if (!uses_direct_limit(analysis)) return 1e-3;
-  return changes_joints(analysis.limit.parameter) ? 1e-4 : 1e-6;
+  return changes_joints(analysis.limit.parameter) ? 1e-4 : 1e-5;
 }
 
 std::string missed_width(double width, double asked) {

@@ -30,8 +30,8 @@ double critical(const Case& scene, const Assembly& assembly) {
   return summary.critical ? summary.critical->value : std::nan("");
 }
 
-// The whole tower tips about the edge of its lowest bed: tan(tilt) = width / height. The tolerance is the default width
-// of the bracket of a load, which the status stable says was reached.
+// The whole tower tips about the edge of its lowest bed: tan(tilt) = width / height. The tolerance is a tenth of
+// the default width of the bracket of a load, which the status stable says was reached.
 TEST(DirectLimit, SlenderTowerTipsAtItsBase) {
   for (const int cubes : {1, 10, 200, 500}) {
     const double exact = std::atan(1.0 / cubes) * 180.0 / std::numbers::pi;
