@@ -6,8 +6,8 @@
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/files/byte_archive.hpp"
+#include "assembly/files/csv_columns.hpp"
 #include "assembly/model/block_names.hpp"
-#include "assembly/records/csv_columns.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/construction/construction.hpp"
 #include "solver/analysis/construction/falling_blocks.hpp"
@@ -55,7 +55,7 @@ constexpr CsvColumn<StageRow> kConstructionColumns[] = {
      }},
     {"head_squeeze_m", [](const StageRow& r) { return metres(r.head_squeeze); }},
     {"displacement_m", [](const StageRow& r) { return metres(r.displacement); }},
-    {"note", [](const StageRow& r) { return fmt::format("\"{}\"", r.note); }},
+    {"note", [](const StageRow& r) { return r.note; }},
 };
 
 /// A block that leaves its place in a stage: a row of failures.csv.

@@ -7,8 +7,8 @@
 
 #include "assembly/base/process.hpp"
 #include "assembly/case/limit_parameter.hpp"
+#include "assembly/files/csv_columns.hpp"
 #include "assembly/model/thickness.hpp"
-#include "assembly/records/csv_columns.hpp"
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/record/mechanism.hpp"
 #include "solver/analysis/record/record.hpp"
@@ -163,8 +163,8 @@ std::string bounds_text(const CriticalValue& critical, const DirectLimit& limit,
       fmt::format("{} at {:.8g}", balanced ? "an admissible state" : "forces that do not balance the loads",
                   limit.admissible);
   const std::string unproven =
-      fmt::format("{} forces of up to {:g} times those found",
-                  limit.mechanism.size() > 0 ? " against" : " among", kLargestForces);
+      fmt::format("{} forces of up to {:.3g} times those found",
+                  limit.mechanism.size() > 0 ? " against" : " among", limit.resisting_forces);
   const std::string other =
       fmt::format("{} {:.8g}{}", limit.mechanism.size() > 0 ? "a mechanism at" : "none below", limit.moving,
                   limit.motion_proven ? "" : unproven);

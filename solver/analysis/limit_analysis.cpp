@@ -5,8 +5,8 @@
 
 #include "assembly/base/process.hpp"
 #include "assembly/case/limit_parameter.hpp"
+#include "assembly/files/csv_columns.hpp"
 #include "assembly/model/thickness.hpp"
-#include "assembly/records/csv_columns.hpp"
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record/mechanism.hpp"
@@ -195,7 +195,8 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   if (run.moving && !run.moving->solution.proven)
     summary.message +=
         run.moving->solution.forces_over_loads > 0.0
-            ? fmt::format("; forces of more than {:g} times the loads might prevent the motion", kImmense)
+            ? fmt::format("; forces of more than {:.2g} times the loads might prevent the motion",
+                          run.moving->solution.forces_over_loads)
             : "; the motion is not proven: other forces might balance the loads";
   if (!bracket.narrow && !run.undecided.empty()) summary.message += "; " + run.undecided;
   summary.steps = run.num_trials;

@@ -5,7 +5,7 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
-#include "assembly/records/csv_columns.hpp"
+#include "assembly/files/csv_columns.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
@@ -134,7 +134,7 @@ constexpr CsvColumn<StageResult> kStageColumns[] = {
        const Bracket* bracket = bracket_of(s);
        return bracket ? fmt::format("{:.9g}", bracket->moving.value) : "";
      }},
-    {"note", [](const StageResult& s) { return fmt::format("\"{}\"", note(s)); }},
+    {"note", [](const StageResult& s) { return note(s); }},
 };
 
 void judge(const std::vector<StageResult>& stages, double fresh_friction, Summary* summary) {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "assembly/files/csv_columns.hpp"
 #include "assembly/files/number_text.hpp"
-#include "assembly/records/csv_columns.hpp"
 
 namespace cupola {
 namespace {
@@ -18,7 +18,7 @@ std::string number(const std::optional<int>& value) {
 }
 
 constexpr CsvColumn<ForceRange> kRangeColumns[] = {
-    {"quantity", [](const ForceRange& r) { return fmt::format("\"{}\"", r.quantity); }},
+    {"quantity", [](const ForceRange& r) { return r.quantity; }},
     {"unit", [](const ForceRange& r) { return r.unit; }},
     {"min", [](const ForceRange& r) { return number(r.min.value); }},
     {"max", [](const ForceRange& r) { return number(r.max.value); }},

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "assembly/records/csv_columns.hpp"
+#include "assembly/files/csv_columns.hpp"
 
 namespace cupola {
 namespace {

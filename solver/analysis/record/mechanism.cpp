@@ -8,7 +8,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
-#include "assembly/records/csv_columns.hpp"
+#include "assembly/files/csv_columns.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/contact/problem/cone.hpp"
 

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/files/csv_columns.hpp"
 #include "assembly/files/csv_text.hpp"
 #include "assembly/files/folder_lock.hpp"
 #include "tests/fresh_folder.hpp"
@@ -117,6 +118,21 @@ TEST(CsvText, QuotesFormulasAsText) {
     EXPECT_EQ(text_of_csv(plain), plain);
   }
   EXPECT_EQ(csv_text("a \"b\", c"), "\"a \"\"b\"\", c\"");
+}
+
+struct NamedBlock {
+  std::string name;
+  double force;
+};
+
+TEST(CsvColumns, KeepNamesWithCommasInOneCell) {
+  constexpr CsvColumn<NamedBlock> columns[] = {
+      {"block", [](const NamedBlock& b) { return b.name; }},
+      {"force_N", [](const NamedBlock& b) { return fmt::format("{:g}", b.force); }},
+  };
+  EXPECT_EQ(csv_header(columns), "block,force_N");
+  EXPECT_EQ(csv_row(columns, NamedBlock{"=top, 1", -2.5}), "\"'=top, 1\",-2.5");
+  EXPECT_EQ(csv_row(columns, NamedBlock{"plain", 2.0}), "plain,2");
 }
 
 }  // namespace

@@ -5,9 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "assembly/files/csv_text.hpp"
+
 namespace cupola {
 
-/// One column of a table that is written row by row: its key in the header, and the text of its cell.
+/// One column of a table that is written row by row: its key in the header, and the text of its cell, which is quoted where CSV
+/// requires it.
 template <class Row>
 struct CsvColumn {
   const char* key;
@@ -26,7 +29,7 @@ std::string csv_header(const Columns& columns) {
 template <class Columns, class Row>
 std::string csv_row(const Columns& columns, const Row& row) {
   std::vector<std::string> cells;
-  for (const auto& column : columns) cells.push_back(column.cell(row));
+  for (const auto& column : columns) cells.push_back(csv_text(column.cell(row)));
   return fmt::format("{}", fmt::join(cells, ","));
 }
 
