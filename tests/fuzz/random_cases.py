@@ -34,7 +34,7 @@ SMALL = {  # values that keep a model tiny or sensible, by the end of the key; o
     "wythes[].thickness": [0.2, 0.5, 1], "per_ring": [1, 2, 3],
     "openings[].width": [0.3, 1], "openings[].height": [0.5, 1], "sill": [0.3, 1], "lintel": [0, 0.3], "bearing": [0.1, 0.5],
     "course": [0, 1, 2], "links": [0, 3, 8], "clamp_length": [0.1, 0.3], "long_blocks": [0, 1], "window.course": [0.1, 0.5],
-    "window.height": [0.5, 2], "stage.rings": [1, 2], "duration": [0.03, 0.06], "time_step": [0.005, 0.01, 0.02],
+    "window.height": [0.5, 2], "from_deg": [-20, 0], "to_deg": [20, 60], "stage.rings": [1, 2], "duration": [0.03, 0.06], "time_step": [0.005, 0.01, 0.02],
     "frames_every": [0.01, 0.03], "window": [0, 0.02], "smallest": [1e-4, 1e-3], "largest": [0.01, 0.02],
     "path.steps": [2, 4], "path.end": [0.5, 1], "path.length": [1e-4, 1e-3], "max_iterations": [0, 5, 100],
     "robustness": [0, 1, 4], "cyclic_sectors": [1, 2, 4], "subdivide": [1, 2], "perturbations": [4, 16], "keep": [2, 4],
