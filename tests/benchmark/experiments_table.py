@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
-"""Tabulates predictions of tests on dry or cracked masonry with their range over what was not measured. A script, not a table of a study:
-it interpolates paths and takes the range of a quantity over several runs.
+"""Tabulates predictions of tests on dry or cracked masonry, with their range over what was not measured, beside the measured values of
+experiments.csv. A script, not a table of a study: it interpolates paths and takes the range of a quantity over several runs.
 
   experiments_table.py OUT RUN ...      reads OUT/wall_griffith_*/results and OUT/experiments/*/results
+
+The measured values are those that the public repositories named in docs/experiments.md give: of Griffith et al. digitised there to five
+digits, of the dry walls the largest force Vmax,+ of the database.
 """
 
 import csv
@@ -48,6 +51,26 @@ def predictions():
                                              for friction in ("0.62", "0.5", "0.75")]
 
 
-print("test,quantity,prediction,least,greatest")
+def measured():
+    """{test: {quantity: [(specimen, value)]}} of experiments.csv."""
+    values = {}
+    for r in csv.DictReader(pathlib.Path(__file__).with_name("experiments.csv").open()):
+        values.setdefault(r["test"], {}).setdefault(r["quantity"], []).append((r["specimen"], float(r["measured"])))
+    return values
+
+
+def disagreement(row):
+    """Share by which the measured value lies outside the range, the largest first; 0 inside."""
+    _, _, _, least, greatest, value = row
+    return -max(least / value, value / greatest, 1.0)
+
+
+rows, tests = [], measured()
 for test, quantity, values in predictions():
-    print(f"{test},{quantity},{values[0]:.4g},{min(values):.4g},{max(values):.4g}")
+    for specimen, value in tests[test][quantity]:
+        rows.append((test if specimen in test else specimen, quantity, values[0], min(values), max(values), value))
+print("test,quantity,prediction,least,greatest,measured,measured over prediction,in the range")
+for row in sorted(rows, key=disagreement):
+    test, quantity, prediction, least, greatest, value = row
+    print(f"{test},{quantity},{prediction:.4g},{least:.4g},{greatest:.4g},{value:.4g},{value / prediction:.3f},"
+          f"{'yes' if disagreement(row) == -1.0 else 'no'}")
