@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "solver/analysis/admissible/direct_limit.hpp"
+#include "solver/analysis/admissible/pull_search.hpp"
 #include "solver/analysis/admissible/pull_solve.hpp"
 #include "solver/conic/conic_bounds.hpp"
 #include "solver/conic/motion_proof.hpp"
@@ -93,81 +92,6 @@ Ends ends_around(double root, double low, double high, double relative_width, Pu
   return ends;
 }
 
-/// Two values on either side of the root, which the secant method and bisection close. Values between them that do not decide are left
-/// out: the search then closes in on them from both sides.
-class RootSearch {
- public:
-  explicit RootSearch(Ends ends) {
-    if (ends.below.pull <= 0.0) std::swap(ends.below, ends.above);
-    moving = std::move(ends.below);
-    admissible = std::move(ends.above);
-  }
-  double width() const { return std::abs(admissible.value - moving.value); }
-  double middle() const { return 0.5 * (admissible.value + moving.value); }
-  /// The next value to try: just before the root of the linear model, and just behind it once the moving end
-  /// is that close; the middle if there is no such root, or if the last one did not halve f.
-  double next(double enough) const;
-  bool is_closed(double enough) const;
-  void include(PullSolve solve);
-  void leave_out(double value);
-  /// The least and the greatest value that did not decide.
-  const std::optional<std::pair<double, double>>& undecided() const { return undecided_; }
-  PullSolve moving, admissible;
-
- private:
-  /// Distance from the moving and from the admissible end to the nearest value that did not decide.
-  std::pair<double, double> open_gaps() const;
-
-  bool overshot_ = false;  ///< the last trial was admissible
-  bool bisect_ = false;
-  std::optional<std::pair<double, double>> undecided_;
-};
-
-std::pair<double, double> RootSearch::open_gaps() const {
-  const auto& [least, greatest] = *undecided_;
-  const bool moves_below = moving.value < admissible.value;
-  return {std::abs((moves_below ? least : greatest) - moving.value),
-          std::abs((moves_below ? greatest : least) - admissible.value)};
-}
-
-bool RootSearch::is_closed(double enough) const {
-  if (width() <= enough) return true;
-  if (!undecided_) return false;
-  // Closing in further would gain less than half of what stays undecided.
-  const auto [from_moving, from_admissible] = open_gaps();
-  return std::max(from_moving, from_admissible) <=
-         std::max(enough, 0.5 * (undecided_->second - undecided_->first));
-}
-
-void RootSearch::leave_out(double value) {
-  if (!undecided_) undecided_ = {value, value};
-  undecided_ = {std::min(undecided_->first, value), std::max(undecided_->second, value)};
-}
-
-void RootSearch::include(PullSolve solve) {
-  const bool moves = solve.pull > 0.0;
-  bisect_ = moves ? solve.pull > 0.5 * moving.pull : overshot_;
-  overshot_ = !moves;
-  (moves ? moving : admissible) = std::move(solve);
-}
-
-double RootSearch::next(double enough) const {
-  if (undecided_) {
-    const auto [from_moving, from_admissible] = open_gaps();
-    const double outward = admissible.value > moving.value ? 0.5 : -0.5;
-    return from_moving >= from_admissible ? moving.value + outward * from_moving
-                                          : admissible.value - outward * from_admissible;
-  }
-  const double towards = admissible.value > moving.value ? 1.0 : -1.0;
-  const double slope = (admissible.pull - moving.pull) / (admissible.value - moving.value);
-  const double ahead = -moving.pull / slope * towards;
-  if (bisect_ || !std::isfinite(slope) || !(ahead > 0.0 && ahead < width())) return middle();
-  // At the root itself rounding decides. Half the width before it the structure moves; from there, half the
-  // width behind it is the other end.
-  const double aim = ahead > enough ? ahead - 0.45 * enough : ahead + 0.45 * enough;
-  return moving.value + towards * std::min(aim, width() - 0.45 * enough);
-}
-
 Ends first_ends(double low, double high, double relative_width, bool friction, PullTrials* trials) {
   if (!friction) return {trials->solve(low), trials->solve(high)};
   const VecX dmu_dx = (trials->friction_at(high) - trials->friction_at(low)) / (high - low);
@@ -205,7 +129,7 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
     return limit;
   }
   DirectLimit limit;
-  RootSearch search(std::move(ends));
+  PullSearch search(std::move(ends.below), std::move(ends.above));
   while (trials.count < kMaxTrials) {
     const double enough = relative_width * std::abs(search.middle());
     if (search.is_closed(enough)) break;

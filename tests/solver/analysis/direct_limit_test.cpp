@@ -1,11 +1,14 @@
 // Critical values by conic programmes, against closed forms and against bisection. Published and independent
 // values are rows of the verification manual.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "solver/analysis/admissible/pull_search.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "tests/solver/motion_scenes.hpp"
@@ -168,6 +171,36 @@ TEST(DirectLimit, BracketsHaveTheWidthRequested) {
     EXPECT_GE(summary.accuracy.reached, 0.1 * width);
     EXPECT_LT(summary.steps, solves);
     solves = summary.steps;
+  }
+}
+
+// Pulls of 1 - x, which decide outside 1 +- `doubt` only. A search closes in on that from both sides, to half its width.
+TEST(PullSearch, ClosesInOnValuesThatDoNotDecide) {
+  const auto at = [](double x) {
+    PullSolve solve;
+    solve.value = x;
+    solve.pull = 1.0 - x;
+    return solve;
+  };
+  for (const double doubt : {0.0, 1e-3}) {
+    for (const auto& [low, high] : {std::pair{0.5, 1.7}, {0.99, 100.0}}) {
+      constexpr double kEnough = 1e-5;
+      PullSearch search(at(low), at(high));
+      int trials = 0;
+      for (; !search.is_closed(kEnough) && trials < 60; ++trials) {
+        const double x = search.next(kEnough);
+        ASSERT_GT(x, search.moving.value);
+        ASSERT_LT(x, search.admissible.value);
+        if (std::abs(x - 1.0) >= doubt)
+          search.include(at(x));
+        else
+          search.leave_out(x);
+      }
+      EXPECT_LT(trials, 30);
+      EXPECT_LE(search.moving.value, 1.0 - doubt);
+      EXPECT_GE(search.admissible.value, 1.0 + doubt);
+      EXPECT_LE(search.width(), std::max(kEnough, 4.0 * doubt));
+    }
   }
 }
 
