@@ -59,8 +59,7 @@ void refuse_floating(const Geometry& geometry, const Assembly& assembly, const M
   const Sheet* sheet = assembly.sheet_of(block.ring);
   throw InputError(
       fmt::format("geometry: a part of the member {} floats: block {} about ({:.4g}, {:.4g}, {:.4g}) m has "
-                  "no joint with a "
-                  "support or with blocks that have one",
+                  "no joint with a support or with blocks that have one",
                   sheet ? sheet->name : "", *report.floating, block.centroid.x(), block.centroid.y(),
                   block.centroid.z()));
 }

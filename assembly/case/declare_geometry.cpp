@@ -174,8 +174,7 @@ void declare_drawn_bond(Section& s, DrawnBond& bond) {
   s.integer("rings", bond.rings, {.min = 1, .max = kMostRings}, "number of courses");
   s.texts("rows", bond.rows,
           "the drawing, seen from outside, the uppermost course first: cells of one letter that touch form a "
-          "block, a "
-          "point is empty");
+          "block, a point is empty");
   s.required_number("letter_length", bond.letter_length, {.unit = "m", .above = 0},
                     "length of a letter along the first bed, on the intrados");
   s.integer("shift", bond.shift, {.min = -100000, .max = 100000},

@@ -38,8 +38,7 @@ void declare_block_force(Section& s, BlockForce& load) {
                      declare_sharing_blocks);
   s.optional_section("spread", load.spread,
                      "instead of a block: the force acts on a rectangle at the height of the point, as a "
-                     "wheel on a road, and "
-                     "spreads through the fill to the extrados",
+                     "wheel on a road, and spreads through the fill to the extrados",
                      declare_spread);
   s.rule(block || load.over || load.point, "block", "give the loaded block, a point or `over`");
   s.rule(!load.spread || (load.point && !block && !load.moment), "spread",

@@ -35,8 +35,7 @@ BondDrawing::BondDrawing(std::vector<const DrawnBond*> layers)
         static_cast<int>(layer->rows.front().size()) != columns_)
       throw InputError(
           "bond.rows: drawings of wythes side by side must have the same number of rows and letters, and the "
-          "same "
-          "shift, because a letter that they share at one place is one block");
+          "same shift, because a letter that they share at one place is one block");
   block_of_.assign(static_cast<size_t>(columns_) * rows_ * layers_.size(), -2);
   for (int wythe = 0; wythe < static_cast<int>(layers_.size()); ++wythe)
     for (int row = 0; row < rows_; ++row)
@@ -78,8 +77,7 @@ void BondDrawing::fill(int column, int row, int wythe) {
         else if (known->second != next)
           throw InputError(
               fmt::format("bond.rows: the letter {} goes on without end where the drawing is repeated; give "
-                          "neighbouring blocks "
-                          "different letters",
+                          "neighbouring blocks different letters",
                           letter));
       }
   for (const auto& [cell_of_period, place] : reached) block_of_[cell_of_period] = id;

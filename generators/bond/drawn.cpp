@@ -27,8 +27,7 @@ int letters_of(const DrawnBond& bond, const BondGrid& grid) {
   if (std::abs(length / wanted - 1.0) > kLargestError)
     throw InputError(fmt::format(
         "geometry.bond.letter_length = {}: a course of {:.4g} m takes {} of {} letters, of {:.4g} m each; "
-        "write "
-        "letter_length: {:.4g}, or change the drawing",
+        "write letter_length: {:.4g}, or change the drawing",
         bond.letter_length, grid.length, unit > 1 ? fmt::format("{:.0f} drawings", units) : "a whole number",
         unit > 1 ? unit : static_cast<int>(letters), length, length * bond.refine));
   return static_cast<int>(letters);

@@ -90,8 +90,7 @@ std::vector<Plane> body_under(const Storey& barrel, Cut::Face face, const std::s
       if (planes[i].normal.dot(p) - planes[i].offset > kRounding * size)
         throw InputError(
             fmt::format("{}.member = {}: its section is not convex about ({:.4g}, {:.4g}, {:.4g}) m, in its "
-                        "own coordinates, "
-                        "so that what lies under it is no convex body",
+                        "own coordinates, so that what lies under it is no convex body",
                         key, barrel.name, section[i - 2].x(), section[i - 2].y(), section[i - 2].z()));
   add(section.front(), -along);
   add(section.front() + end, along);

@@ -89,8 +89,7 @@ void add_places(const Openings& group, const SurfaceMap& surface, const std::str
     if (whole > most * (1.0 + 1e-12))
       throw InputError(
           fmt::format("{}.width = {}: with a bearing of {} m on each side the lintel is {:.6g} m long, but "
-                      "there are only "
-                      "{:.6g} m up to a corner or the next opening",
+                      "there are only {:.6g} m up to a corner or the next opening",
                       key, group.width, group.bearing, whole, most));
     places->push_back({middle, half_range(sill, middle, room, group.width),
                        half_range(sill, middle, room, whole), first, lintel, end});

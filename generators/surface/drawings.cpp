@@ -81,8 +81,7 @@ void check_curvature(const std::vector<ProfilePiece>& pieces, const VaultSurface
     if (inside >= radius)
       throw InputError(fmt::format(
           "geometry.surface.thickness = {}: the profile from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) m has a "
-          "radius of "
-          "{:.3g} m, so that the intrados, {:.3g} m inside the drawn line, would fold",
+          "radius of {:.3g} m, so that the intrados, {:.3g} m inside the drawn line, would fold",
           vault.thickness, piece.at(0.0).x(), piece.at(0.0).y(), piece.at(1.0).x(), piece.at(1.0).y(), radius,
           inside));
   }
@@ -140,8 +139,7 @@ void check_crossings(const std::vector<double>& r, const std::vector<double>& z)
       const Vec2 meet = a + s * along;
       throw InputError(
           fmt::format("geometry.surface.profile: crosses itself at ({:.6g}, {:.6g}) m, between the points {} "
-                      "and {} and the points "
-                      "{} and {}, counted from 0",
+                      "and {} and the points {} and {}, counted from 0",
                       meet.x(), meet.y(), i, i + 1, j, j + 1));
     }
 }

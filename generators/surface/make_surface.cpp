@@ -72,8 +72,7 @@ void refuse_folds(const SurfaceMap& map) {
       const Vec3 at = map.extrados(bed, abscissa);
       throw InputError(
           fmt::format("geometry.surface: course {} folds about ({:.4g}, {:.4g}, {:.4g}) m, where its two "
-                      "beds meet inside "
-                      "the shell: choose a smaller thickness, a larger eye or other `beds`",
+                      "beds meet inside the shell: choose a smaller thickness, a larger eye or other `beds`",
                       bed / map.rows_per_ring, at.x(), at.y(), at.z()));
     }
 }

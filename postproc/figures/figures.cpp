@@ -89,8 +89,7 @@ Figure hoop_figure(const MeridianEvaluation& m) {
           "set ylabel 'height (m)'\nset xlabel 'hoop force of a ring ({2}); tension < 0 < compression'\n"
           "set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb '#444444'\nunset key\nset rmargin 14\n"
           "plot $hoop using 2:1 w lp lc rgb '{0}' pt 5 ps 0.5, $hoop using 3:1 w lp lc rgb '{1}' pt 9 ps "
-          "0.6, "
-          "$hoop using 4:1 w lp lc rgb 'black' lw 2 pt 7 ps 0.5{3}{4}{5}{6}\n",
+          "0.6, $hoop using 4:1 w lp lc rgb 'black' lw 2 pt 7 ps 0.5{3}{4}{5}{6}\n",
           kBlue, kOrange, unit.name,
           curve_label("hoop", last, "$2", "$1", "head joints", kBlue, "left offset 0,1"),
           curve_label("hoop", extreme(1, true), "$3", "$1", "bed joints", kOrange, "right offset -0.9,0"),

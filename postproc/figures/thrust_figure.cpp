@@ -103,14 +103,11 @@ std::string profile_plot(const MeridianEvaluation& m, const Summary& summary, bo
   return fmt::format(
       "set palette defined (0 '#fde0c5', 1 '#a03060')\nset cbrange [0:*]\nunset colorbox\n"
       "plot $beds w l lc rgb '#dddddd' lw 0.7 notitle, {5}$inner w l lc rgb '#888888' dt 3 lw 1.2 title "
-      "'middle "
-      "third', $outer w l lc rgb '#888888' dt 3 lw 1.2 notitle, $intrados w l lc rgb 'black' lw 1.5 title "
-      "'intrados, "
-      "extrados',"
-      " $extrados w l lc rgb 'black' lw 1.5 notitle,"
-      " $action w l lc rgb '{2}' lw 1 title 'lines of action', $envelope w l lc rgb '{1}' lw 1.5 dt 2 title "
-      "'envelope',"
-      " $thrust w lp lc rgb '{0}' lw 2 pt 7 ps 0.5 title '{3}'{4}\n",
+      "'middle third', $outer w l lc rgb '#888888' dt 3 lw 1.2 notitle, "
+      "$intrados w l lc rgb 'black' lw 1.5 title 'intrados, extrados', "
+      "$extrados w l lc rgb 'black' lw 1.5 notitle, $action w l lc rgb '{2}' lw 1 title 'lines of action', "
+      "$envelope w l lc rgb '{1}' lw 1.5 dt 2 title 'envelope', "
+      "$thrust w lp lc rgb '{0}' lw 2 pt 7 ps 0.5 title '{3}'{4}\n",
       kOrange, kGreen, kSky, title, ends, pressed);
 }
 

@@ -138,8 +138,7 @@ std::string how_sure_of_motion(const Evaluation& e) {
   if (s.analysis == AnalysisType::static_) {
     return proven(s.status)
                ? "It is proven that no forces within the limits of the joints balance the loads. The proof "
-                 "holds "
-                 "for every friction law: they differ only in how joints slide."
+                 "holds for every friction law: they differ only in how joints slide."
                : "A motion was found, but other contact forces might balance the loads; a range analysis "
                  "(analysis.type: range) shows whether any do.";
   }
@@ -149,8 +148,7 @@ std::string how_sure_of_motion(const Evaluation& e) {
                        length_text(*analysis.time_error));
   return fmt::format(
       "Not certain: how far and how fast it moves. The motion was followed in steps of {:g} s, and how much "
-      "a shorter "
-      "step changes it is not known: compare two runs, or set analysis.time_error.",
+      "a shorter step changes it is not known: compare two runs, or set analysis.time_error.",
       s.time_step_s);
 }
 

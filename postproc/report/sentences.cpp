@@ -135,16 +135,14 @@ std::string verdict_text(const Summary& s, FrameRole shown) {
   if (limit && !shows_bracket(*s.critical))
     return fmt::format(
         "The structure stands {} {} and moves {} it. The forces on this page are those at this value, not "
-        "those "
-        "of the case.",
+        "those of the case.",
         s.critical->stable < s.critical->moving ? "up to" : "down to",
         phrase(s.critical->parameter, s.critical->stable),
         s.critical->stable < s.critical->moving ? "beyond" : "below");
   if (limit)
     return fmt::format(
         "The structure stands at {} and moves at {:.5g}. The forces on this page are those at {:.5g}, not "
-        "those of "
-        "the case.",
+        "those of the case.",
         phrase(s.critical->parameter, s.critical->stable), s.critical->moving, s.critical->stable);
   if (!s.ranges.empty() && stands(s.status))
     return "Forces exist that balance the loads within the joint laws.";

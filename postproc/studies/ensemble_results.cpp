@@ -89,8 +89,7 @@ void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
     table->rows.push_back(
         {pair, std::string("falls"), both, static_cast<double>(only_a - only_b) / both, kNone, kNone, p});
     sentences->push_back(fmt::format(
-        "{}{} and {}: of {} with a verdict in both, {} fall in the first only and {} in "
-        "the second only "
+        "{}{} and {}: of {} with a verdict in both, {} fall in the first only and {} in the second only "
         "(exact McNemar test: p = {:.2g}).",
         p > 0.05 ? "No difference shown. " : "", a.name, b.name, counted(both, "member"), only_a, only_b, p));
   }

@@ -68,8 +68,7 @@ std::vector<std::string> soft_joints(const Case& scene, const Assembly& assembly
   const bool area = compliance.per == Compliance::Per::area;
   return {
       fmt::format("joints.compliance.normal = {:g} {} {}; a stiffness instead of a compliance, or per {} "
-                  "meant? Without the key it is "
-                  "{:g} {}",
+                  "meant? Without the key it is {:g} {}",
                   compliance.normal, area ? "m3/N" : "m/N", sinks, area ? "point" : "area",
                   Compliance::default_per(compliance.per).normal, area ? "m3/N" : "m/N")};
 }

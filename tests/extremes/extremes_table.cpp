@@ -49,14 +49,12 @@ std::string markdown_row(const ExtremeScene& scene, const ExtremeResult& r) {
 ExitCode write_table(const std::string& folder, const std::string& text) {
   std::string csv =
       "group,scene,exact_answer,ended,true_error,wrench_error,asked,stated,iterations,cpu_time_s,verdict,"
-      "reason,"
-      "message\n";
+      "reason,message\n";
   std::string markdown = fmt::format(
       "Written by `make -f Makefile.cases extremes`, Cupola {}. docs/data/extremes.md explains the "
       "columns.\n\n"
-      "| group | what is hard | exact answer | ended | true error | stated | iterations | CPU "
-      "s "
-      "| verdict |\n|---|---|---|---|---|---|---|---|---|\n",
+      "| group | what is hard | exact answer | ended | true error | stated | iterations | CPU s | verdict "
+      "|\n|---|---|---|---|---|---|---|---|---|\n",
       program_version());
   std::array<int, 3> count{};
   int worse = 0;

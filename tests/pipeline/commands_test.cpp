@@ -152,8 +152,7 @@ TEST(Commands, RefuseAStudyOfUnknownRunsBeforeAnythingIsWritten) {
   EXPECT_EQ(typo.code, 2);
   EXPECT_EQ(typo.err,
             "cupola-post: statements.yaml: error: hihg: no case and no variant has this name, and no run in "
-            "runs; did you mean "
-            "high?\n");
+            "runs; did you mean high?\n");
   const ProgramRun elsewhere = folder.run("cupola-post study statements.yaml --runs rnus --output told");
   EXPECT_EQ(elsewhere.code, 2);
   EXPECT_EQ(elsewhere.err, "cupola-post: rnus: error: --runs: no such folder\n");

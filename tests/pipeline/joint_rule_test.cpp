@@ -107,8 +107,7 @@ TEST(JointRule, AnOverlapIsNamedWithTheKeyThatAllowsIt) {
 
 TEST(JointRule, WithoutAFixedBlockBothProgramsSayWhatToSet) {
   const char* advice =
-      "no block is fixed: set geometry.import.supports, flagged_supports, fixed_by or "
-      "fixed_below";
+      "no block is fixed: set geometry.import.supports, flagged_supports, fixed_by or fixed_below";
   EXPECT_NE(two_blocks(Vec3::Zero(), false).report.find(advice), std::string::npos);
 
   const ProgramFolder folder;

@@ -18,8 +18,7 @@ constexpr const char* kDome =
     "  bond: {type: running, rings: 6, blocks_per_ring: 8, slices_per_block: 2}\n";
 constexpr const char* kBarrel =
     "geometry:\n  surface: {type: vault, plan: {type: line, length: 2}, profile: {type: semicircle, span: "
-    "6}, "
-    "thickness: 0.7}\n  bond: {type: stack, rings: 11, blocks_per_ring: 2, slices_per_block: 1}\n";
+    "6}, thickness: 0.7}\n  bond: {type: stack, rings: 11, blocks_per_ring: 2, slices_per_block: 1}\n";
 constexpr const char* kWall =  // laid block by block; the second course slides off without mortar
     "geometry:\n  surface: {type: dome, span: 3, radius_ratio: 0.5, thickness: 0.15, crown_angle_deg: 85}\n"
     "  window: {height: 1.38581929877, course: 0.055, from_deg: 0, to_deg: 125, ends: free}\n"
