@@ -30,8 +30,8 @@ CutOptions cut_options(const Case& input) {
 /// breaks no extrapolation follows.
 std::optional<double> smooth_volume(const Storey& shell) {
   const SurfaceMap& surface = shell.surface;
-  if (std::ranges::count(shell.bond.block_of, kVoid) > 0 || surface.key_stone || !shell.cuts.empty() ||
-      !std::ranges::all_of(surface.wythes, &Thickness::constant))
+  if (std::ranges::count(shell.bond.block_of, kVoid) > 0 || surface.key_stone || surface.webs > 0 ||
+      !shell.cuts.empty() || !std::ranges::all_of(surface.wythes, &Thickness::constant))
     return std::nullopt;
   return surface.shell_volume ? *surface.shell_volume : extrapolated_shell_volume(surface);
 }
@@ -47,14 +47,15 @@ std::optional<double> smooth_volume(const std::vector<Storey>& storeys) {
   return sum;
 }
 
-bool has_cuts(const Geometry& geometry) {
-  return std::ranges::any_of(members_of(geometry),
-                             [](const Member* member) { return !member->cuts.empty(); });
+/// True if blocks were cut after they were laid.
+bool has_cuts(const std::vector<Storey>& storeys) {
+  return std::ranges::any_of(storeys, [](const Storey& s) { return !s.cuts.empty() || s.surface.webs > 0; });
 }
 
 /// Refuses a member, or what cuts leave of it, that stands on nothing.
-void refuse_floating(const Geometry& geometry, const Assembly& assembly, const ModelReport& report) {
-  if (!report.floating || (members_of(geometry).size() == 1 && !has_cuts(geometry))) return;
+void refuse_floating(const std::vector<Storey>& storeys, const Assembly& assembly,
+                     const ModelReport& report) {
+  if (!report.floating || (storeys.size() == 1 && !has_cuts(storeys))) return;
   const Block& block = assembly.blocks[*report.floating];
   const Sheet* sheet = assembly.sheet_of(block.ring);
   throw InputError(
@@ -62,6 +63,15 @@ void refuse_floating(const Geometry& geometry, const Assembly& assembly, const M
                   "no joint with a support or with blocks that have one",
                   sheet ? sheet->name : "", *report.floating, block.centroid.x(), block.centroid.y(),
                   block.centroid.z()));
+}
+
+Assembly cut_storeys(const Case& input, const std::vector<Storey>& storeys) {
+  Assembly assembly = cut_blocks(storeys, cut_options(input));
+  add_chains(input.geometry.chains, refinement_of(*finest_bond(last_member(input.geometry))), storeys.back(),
+             &assembly);
+  assembly.title = input.title;
+  assembly.geometry_hash = input.geometry_hash;
+  return assembly;
 }
 
 /// The assembly with what the checks found and what is doubtful about its case.
@@ -77,13 +87,7 @@ Assembly with_report(Assembly assembly, const GenerateReport& report, const Case
 }  // namespace
 
 Assembly cut_assembly(const Case& input) {
-  const std::vector<Storey> storeys = make_storeys(input.geometry);
-  Assembly assembly = cut_blocks(storeys, cut_options(input));
-  add_chains(input.geometry.chains, refinement_of(*finest_bond(last_member(input.geometry))), storeys.back(),
-             &assembly);
-  assembly.title = input.title;
-  assembly.geometry_hash = input.geometry_hash;
-  return assembly;
+  return cut_storeys(input, make_storeys(input.geometry));
 }
 
 Assembly generate(const Case& input, GenerateReport* report) {
@@ -112,7 +116,8 @@ Assembly generate(const Case& input, GenerateReport* report) {
     refuse_keys_without_effect(input, assembly);
     return with_report(std::move(assembly), *report, resolved);
   }
-  Assembly assembly = cut_assembly(input);
+  const std::vector<Storey> storeys = make_storeys(geometry);
+  Assembly assembly = cut_storeys(input, storeys);
   refuse_keys_without_effect(input, assembly);
   ModelTolerances tolerances = generated_tolerances(assembly);
   if (geometry.imperfections && geometry.imperfections->gap > 0.0) {  // joints as the solver finds them
@@ -121,11 +126,13 @@ Assembly generate(const Case& input, GenerateReport* report) {
     tolerances.joint_width = rule.min_width;
     tolerances.joint_angle = rule.max_angle;
   }
-  tolerances.part_by_part = has_cuts(geometry);
+  tolerances.part_by_part = has_cuts(storeys);
   report->model = check_model(assembly, tolerances);
-  refuse_floating(geometry, assembly, report->model);
-  if (!geometry.stage) report->model.shell_volume = smooth_volume(make_storeys(geometry));
-  return with_report(std::move(assembly), *report, input);
+  refuse_floating(storeys, assembly, report->model);
+  if (!geometry.stage) report->model.shell_volume = smooth_volume(storeys);
+  Case resolved = input;
+  resolve_block_names(assembly, &resolved.loads, &resolved.ties, &resolved.supports);
+  return with_report(std::move(assembly), *report, resolved);
 }
 
 std::string to_text(const GenerateReport& report) {

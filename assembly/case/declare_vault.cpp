@@ -55,6 +55,18 @@ void declare_plan(Section& s, Plan& plan) {
               section.numbers("x", p.x, {.unit = "m"}, "corners, counter-clockwise");
               section.numbers("y", p.y, {.unit = "m"}, "corners, counter-clockwise");
               check_corners(section, p);
+            }),
+       kind(Kind::groin, "groin",
+            "groin vault over a regular polygon: a barrel behind each side, whose profile spans the side",
+            [](Section& section, Plan& p) {
+              p.sides = 4;
+              section.integer("sides", p.sides, {.min = 3, .max = 1000}, "number of sides");
+              section.choice("groins", p.groins,
+                             "stones across the groins in every course, in every other one, or in none");
+              section.optional_number(
+                  "from_height", p.from_height, {.unit = "m", .above = 0},
+                  "where the extrados of the first beds is half as long as the shell is thick",
+                  "height above the springing of the first beds, under which the supports lie");
             })},
       "line over which the vault stands");
 }
@@ -169,13 +181,21 @@ void declare_vault(Section& s, VaultSurface& vault) {
   s.flag("key_stone", vault.key_stone, "close the eye by one stone");
   s.integer("voussoir_segments", vault.voussoir_segments, {.min = 1, .max = 1000},
             "straight segments that approximate the curved faces of a block");
-  const bool on_line = vault.plan.kind == Plan::Kind::line;
+  const bool on_line = !vault.plan.closed();
+  const bool is_groin = vault.plan.kind == Plan::Kind::groin;
   s.rule(vault.beds != VaultSurface::Beds::conical ||
              (vault.plan.kind == Plan::Kind::polygon && vault.plan.measured_at == Plan::MeasuredAt::corner),
          "beds", "conical requires plan: {type: polygon, measured_at: corner}");
   s.rule(vault.eye == 0.0 || !on_line, "eye", "requires a closed plan");
-  s.rule(!vault.key_stone || (vault.eye > 0.0 && vault.plan.kind == Plan::Kind::circle), "key_stone",
-         "requires plan: {type: circle} and an eye");
+  s.rule(!is_groin || vault.profile.kind != Profile::Kind::straight, "profile",
+         "a groin vault requires a profile that reaches the crown");
+  s.rule(!is_groin || vault.voussoir_segments == 1, "voussoir_segments",
+         "must be 1 in a groin vault; lay more courses instead");
+  s.rule(!is_groin || vault.beds == VaultSurface::Beds::normal, "beds", "must be normal in a groin vault");
+  s.rule(!vault.key_stone || (vault.eye > 0.0 && !on_line), "key_stone", "requires a closed plan and an eye");
+  s.rule(
+      !vault.key_stone || vault.plan.kind == Plan::Kind::circle || vault.beds == VaultSurface::Beds::normal,
+      "key_stone", "requires beds: normal over a polygon");
   s.rule(!vault.key_stone || !s.parent_gives("wythes"), "key_stone", "requires a shell without wythes");
   s.rule(vault.profile.kind != Profile::Kind::chain || vault.profile.points.r.size() >= 2, "profile",
          "a chain has at least 2 points");

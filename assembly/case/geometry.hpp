@@ -94,20 +94,31 @@ struct ArchSurface {
 
 /// The line over which a surface stands, seen from above.
 struct Plan {
-  enum class Kind : std::uint8_t { line, circle, polygon, corners };
+  enum class Kind : std::uint8_t { line, circle, polygon, corners, groin };
   /// Section of a regular polygon that the profile draws: through a corner, or through the middle of a side.
   enum class MeasuredAt : std::uint8_t { corner, side };
   enum class Axis : std::uint8_t { y, x };
+  /// Stones of two webs of a groin vault that meet at the groin: one stone in every course, or in every other one, or two
+  /// stones with a joint in the plane of the groin.
+  enum class Groins : std::uint8_t { bonded, alternate, mitred };
 
   Kind kind = Kind::circle;
   double length = 1.0;  ///< m, > 0, of a line
   Axis axis = Axis::y;  ///< of a line; with x the profile lies in the y-z plane, its outside towards -y
-  int sides = 8;        ///< >= 3, of a regular polygon
+  int sides = 8;        ///< >= 3, of a regular polygon or a groin vault over one
   MeasuredAt measured_at = MeasuredAt::corner;
   std::vector<double> x, y;  ///< m, corners of a convex polygon, counter-clockwise
+  Groins groins = Groins::bonded;
+  /// m, of a groin vault: its first beds, on the drawn line above the springing; none: where their extrados is half as long as the
+  /// shell is thick.
+  std::optional<double> from_height;
 
-  bool closed() const { return kind != Kind::line; }
+  /// True if courses are rings about the z axis.
+  bool closed() const { return kind != Kind::line && kind != Kind::groin; }
 };
+constexpr auto enum_names(Plan::Groins) {
+  return std::array{"bonded", "alternate", "mitred"};
+}
 constexpr auto enum_names(Plan::MeasuredAt) {
   return std::array{"corner", "side"};
 }
@@ -172,6 +183,7 @@ struct VaultSurface {
   SurfaceTraits traits() const {
     return {.closed = plan.closed(),
             .thrust_lines = plan.closed()                             ? Sheet::ThrustLines::by_azimuth
+                            : plan.kind == Plan::Kind::groin          ? Sheet::ThrustLines::radial
                             : profile.kind == Profile::Kind::straight ? Sheet::ThrustLines::none
                                                                       : Sheet::ThrustLines::one};
   }
@@ -442,6 +454,12 @@ constexpr auto enum_names(Chain::Type) {
 struct Affine {
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< along the axes, > 0
   double rake = 0.0;                                ///< rise of z per m of y, of a barrel
+
+  Eigen::Vector3d image(const Eigen::Vector3d& point) const {
+    Eigen::Vector3d p = scale.cwiseProduct(point);
+    p.z() += rake * p.y();
+    return p;
+  }
 };
 
 struct Stage {

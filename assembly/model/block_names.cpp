@@ -28,10 +28,14 @@ namespace {
 class BlockNames {
  public:
   explicit BlockNames(const Assembly& assembly) {
+    int supports = 0;
     for (size_t b = 0; b < assembly.blocks.size(); ++b) {
-      if (assembly.blocks[b].name.empty()) continue;
-      number_of_[assembly.blocks[b].name] = static_cast<int>(b);
-      names_.push_back(assembly.blocks[b].name);
+      std::string name = assembly.blocks[b].name;
+      named_by_file_ = named_by_file_ || !name.empty();
+      if (name.empty() && assembly.blocks[b].fixed) name = fmt::format("support {}", supports++);
+      if (name.empty()) continue;
+      number_of_[name] = static_cast<int>(b);
+      names_.push_back(name);
     }
   }
 
@@ -41,16 +45,18 @@ class BlockNames {
     const auto found = number_of_.find(block->name);
     if (found == number_of_.end()) {
       const std::string near = nearest_name(block->name, names_);
-      throw InputError(fmt::format("{}: no block is named '{}'{}", key, block->name,
-                                   !near.empty() ? fmt::format("; did you mean '{}'?", near)
-                                   : names_.empty()
-                                       ? "; generated blocks have numbers only"
-                                       : fmt::format("; the first block is '{}'", names_.front())));
+      throw InputError(fmt::format(
+          "{}: no block is named '{}'{}", key, block->name,
+          !near.empty()    ? fmt::format("; did you mean '{}'?", near)
+          : named_by_file_ ? fmt::format("; the first block is '{}'", names_.front())
+                           : "; generated blocks have numbers, and supports the names 'support 0', "
+                             "'support 1', ..."));
     }
     *block = found->second;
   }
 
  private:
+  bool named_by_file_ = false;
   std::map<std::string, int> number_of_;
   std::vector<std::string> names_;
 };

@@ -14,6 +14,7 @@
 #include "generators/stereotomy/cut_bodies.hpp"
 #include "generators/stereotomy/cut_planes.hpp"
 #include "generators/stereotomy/grid_points.hpp"
+#include "generators/stereotomy/groin_vault.hpp"
 #include "generators/stereotomy/support.hpp"
 
 namespace cupola {
@@ -70,11 +71,12 @@ void add_key_stone(const CellGrid& grid, int member, double density, GridPoints*
                              .face_start = assembly->num_faces()});
   std::vector<int> inner, outer;
   for (int cut = 0; cut < grid.num_slices; ++cut) {
+    if (grid.surface.flat_slices && !grid.is_corner(cut)) continue;
     inner.push_back(points->vertex(grid.num_rows, cut, 0, assembly));
     outer.push_back(points->vertex(grid.num_rows, cut, grid.num_wythes, assembly));
   }
-  for (int i = 0; i < grid.num_slices; ++i) {
-    const int j = (i + 1) % grid.num_slices;
+  for (size_t i = 0; i < inner.size(); ++i) {
+    const size_t j = (i + 1) % inner.size();
     assembly->add_face(std::array{inner[j], outer[j], outer[i], inner[i]}, FaceKind::bed);
   }
   assembly->add_face(outer, FaceKind::extrados);
@@ -127,7 +129,7 @@ std::vector<CutBody> bodies_of(const Storey& storey, std::span<const Storey> sto
       continue;
     }
     const auto other = std::ranges::find(storeys, cut.member, &Storey::name);
-    if (other == storeys.end() || &*other == &storey || other->surface.closed)
+    if (other == storeys.end() || &*other == &storey || other->surface.closed || other->surface.webs > 0)
       throw InputError(
           fmt::format("{}.member = {}: must be another member, over a plan of type line", key, cut.member));
     bodies.push_back(
@@ -145,7 +147,8 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
   const MemberStart start{assembly->blocks.size(), assembly->parts.size()};
   const CellGrid grid = make_cell_grid(surface, shell.bond, shell.stage_rings);
   GridPoints points(grid, options.imperfections);
-  if (surface.first_bed_held && !surface.first_row_held)
+  const bool stands = surface.webs == 0;  // on supports of its own beds, not of the finished groin vault
+  if (stands && surface.first_bed_held && !surface.first_row_held)
     add_base_support(surface, cuts, options.support_width, options.base_blocks, options.density, assembly);
   const int first_member = static_cast<int>(assembly->members.size());
   assembly->members.insert(assembly->members.end(), shell.members.begin(), shell.members.end());
@@ -160,7 +163,12 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
     for (const CellRange& range : convex_ranges(grid, bond_block)) add_parts(grid, range, &points, assembly);
   }
   if (surface.key_stone) add_key_stone(grid, first_member, options.density, &points, assembly);
-  if (surface.last_bed_held) add_far_support(surface, cuts, options.support_width, options.density, assembly);
+  if (stands && surface.last_bed_held)
+    add_far_support(surface, cuts, options.support_width, options.density, assembly);
+  if (surface.webs > 0) cross_webs(shell, start, options, assembly);
+  if (shell.affine)
+    for (size_t v = first_vertex; v < assembly->vertices.size(); ++v)
+      assembly->vertices[v] = shell.affine->image(assembly->vertices[v]);
   cut_bodies(bodies_of(shell, storeys), start, options.support_width, options.density, assembly);
   place(shell.placement, first_vertex, assembly);
   assembly->num_rings = surface.rings_below + shell.num_rings();

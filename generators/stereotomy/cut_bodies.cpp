@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -154,6 +155,7 @@ class Carving {
     }
     for (const int block : touched_) separate(block);
     for (const int block : touched_) join_if_small(block);
+    drop_idle_supports();
     std::vector<Block> blocks(assembly_->blocks.begin(),
                               assembly_->blocks.begin() + static_cast<std::ptrdiff_t>(start_.block));
     std::ranges::stable_sort(cells_, {}, [&](const Cell& c) { return std::pair(origin(c.block), c.block); });
@@ -229,6 +231,27 @@ class Carving {
       }
       of_block_[cells_[cells[i]].block].push_back(cells[i]);
     }
+  }
+
+  /// Drops what is left of supports on which no stone of the first or the last course stands any more.
+  void drop_idle_supports() {
+    std::vector<size_t> resting;
+    const auto first = of_ring_.upper_bound(-1);
+    if (first == of_ring_.end()) return;
+    for (const int ring : {first->first, of_ring_.rbegin()->first})
+      resting.insert(resting.end(), of_ring_[ring].begin(), of_ring_[ring].end());
+    std::set<int> idle;
+    for (const auto& [block, cells] : of_block_) {
+      if (!assembly_->blocks[origin(block)].fixed || !std::ranges::binary_search(touched_, origin(block)))
+        continue;
+      const bool carries = std::ranges::any_of(cells, [&](size_t i) {
+        return std::ranges::any_of(resting, [&](size_t j) {
+          return shared_width(*assembly_, cells_[i].piece, cells_[j].piece, rounding_) > 0.0;
+        });
+      });
+      if (!carries) idle.insert(block);
+    }
+    std::erase_if(cells_, [&](const Cell& cell) { return idle.contains(cell.block); });
   }
 
   void join_if_small(int block) {

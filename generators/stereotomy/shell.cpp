@@ -43,9 +43,7 @@ BondPattern with_supports(const BondPattern& bond, double held_end) {
 /// Maps all points of a surface. Heights change with them, depths do not.
 void apply(const Affine& affine, SurfaceMap* surface) {
   surface->at = [affine, at = surface->at](double bed, double abscissa, double depth) -> Vec3 {
-    Vec3 p = affine.scale.cwiseProduct(at(bed, abscissa, depth));
-    p.z() += affine.rake * p.y();
-    return p;
+    return affine.image(at(bed, abscissa, depth));
   };
   if (surface->shell_volume) *surface->shell_volume *= affine.scale.prod();
 }
@@ -116,7 +114,10 @@ Storey make_member(const Geometry& geometry, const Member& member, const std::st
                            ? window_surface(member.surface, thicknesses(member.wythes), *geometry.window,
                                             courses, stage > 0 ? stage : courses, geometry.support_width)
                            : make_surface(member.surface, courses, thicknesses(member.wythes));
-  if (geometry.affine) apply(*geometry.affine, &surface);
+  if (geometry.affine && surface.webs == 0) apply(*geometry.affine, &surface);
+  if (surface.webs > 0 && (geometry.imperfections || stage > 0))
+    throw InputError(fmt::format("{}: not available for a groin vault; remove this section",
+                                 stage > 0 ? "geometry.stage" : "imperfections"));
   const BondGrid grid{surface.num_rings(),
                       surface.closed,
                       surface.extent,
@@ -219,6 +220,7 @@ std::vector<Storey> make_storeys(const Geometry& geometry) {
   for (size_t i = 0; i < members.size(); ++i) {
     Storey storey = named_member(geometry, i);
     storey.cuts = members[i]->cuts;
+    if (storey.surface.webs > 0) storey.affine = geometry.affine;
     storey.key = key_of_member(geometry, i);
     if (!storeys.empty())
       storey.surface.rings_below = storeys.back().surface.rings_below + storeys.back().num_rings();

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <Eigen/Geometry>
 
 #include "assembly/case/geometry.hpp"
@@ -19,9 +23,14 @@ struct Storey {
       Eigen::Isometry3d::Identity();  ///< from the coordinates of the surface to the world
   bool stands_on_previous = false;
   std::vector<Cut> cuts = {};
-  std::string key = {};  ///< of the member, for messages
+  std::string key = {};               ///< of the member, for messages
+  std::optional<Affine> affine = {};  ///< of a groin vault, after its webs are cut
 
-  int num_rings() const { return surface.num_rings() + (surface.key_stone ? 1 : 0); }
+  /// Courses of the assembly. Those of a web are counted from both springings up to the crown.
+  int num_rings() const {
+    if (surface.webs > 0) return (surface.num_rings() + 1) / 2;
+    return surface.num_rings() + (surface.key_stone ? 1 : 0);
+  }
 };
 
 /// The members of a case, in the order of their courses. Throws InputError if surface, bond, openings and window of a member do

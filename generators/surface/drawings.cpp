@@ -74,6 +74,60 @@ std::vector<ProfilePiece> outside_eye(std::vector<ProfilePiece> pieces, double e
   return pieces;
 }
 
+/// The part of a profile from the first place on where `is_above` holds. It must hold at the end.
+template <class Test>
+std::vector<ProfilePiece> part_above(std::vector<ProfilePiece> pieces, const Test& is_above) {
+  constexpr int kSteps = 200;
+  for (size_t i = 0; i < pieces.size(); ++i)
+    for (int k = 0; k <= kSteps; ++k) {
+      double high = k / static_cast<double>(kSteps), low = std::max(0.0, high - 1.0 / kSteps);
+      if (!is_above(pieces[i], high)) continue;
+      for (int n = 0; n < 60; ++n) {  // to rounding
+        const double middle = 0.5 * (low + high);
+        (is_above(pieces[i], middle) ? high : low) = middle;
+      }
+      pieces.erase(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(i));
+      if (high == 1.0) {
+        pieces.erase(pieces.begin());
+      } else if (high > 0.0) {
+        pieces.front() = piece_from(pieces.front(), high);
+      }
+      return pieces;
+    }
+  return {};
+}
+
+/// Draws one web of a groin vault, from its first bed over the crown to the last. A bed at the half-width r is
+/// (s / 2 - r) cot(pi / n) long, s the side.
+void draw_web(const VaultSurface& vault, double rounding, Drawing* drawing) {
+  const Plan& plan = vault.plan;
+  const Vec2 crown = drawing->profile.back().at(1.0);
+  if (std::abs(crown.x()) > rounding)
+    throw InputError(fmt::format(
+        "geometry.surface.profile: ends {:.6g} m from the axis; the webs of a groin vault meet at "
+        "a crown, where r = 0",
+        crown.x()));
+  const double half_side = 0.5 * vault.profile.width(), slope = 1.0 / std::tan(pi / plan.sides);
+  const double to_back = vault.thickness - drawing->drawn_depth;  // m, from the drawn line
+  const auto is_above = [&](const ProfilePiece& piece, double t) {
+    const Vec2 p = piece.at(t), d = piece.derivative(t);
+    if (plan.from_height) return p.y() >= *plan.from_height;
+    return (half_side - p.x() - to_back * d.y() / d.norm()) * slope >= 0.5 * vault.thickness;
+  };
+  drawing->profile = part_above(std::move(drawing->profile), is_above);
+  if (drawing->profile.empty())
+    throw InputError(
+        plan.from_height
+            ? fmt::format("geometry.surface.plan.from_height = {}: must be below the crown, {:.6g} m above "
+                          "the springing",
+                          *plan.from_height, crown.y())
+            : "geometry.surface.plan: the shell is so thick that no bed reaches the extrados; give "
+              "from_height");
+  drawing->plan.length = half_side * slope;
+  drawing->mirrored = true;
+  drawing->profile = with_mirror_image(std::move(drawing->profile));
+}
+
 /// Throws where the shell would fold over itself.
 void check_curvature(const std::vector<ProfilePiece>& pieces, const VaultSurface& vault, double inside) {
   for (const ProfilePiece& piece : pieces) {
@@ -290,6 +344,7 @@ Drawing drawing_of(const WallSurface& wall) {
 
 Drawing drawing_of(const VaultSurface& vault) {
   const bool is_line = vault.plan.kind == Plan::Kind::line;
+  const bool is_groin = vault.plan.kind == Plan::Kind::groin;
   Drawing drawing{.profile = profile_pieces(vault.profile),
                   .plan = vault.plan,
                   .beds = vault.beds,
@@ -303,6 +358,10 @@ Drawing drawing_of(const VaultSurface& vault) {
   check_curvature(drawing.profile, vault, drawing.drawn_depth);
   const double top = drawing.profile.back().at(1.0).x();
   const double rounding = 1e-9 * vault.profile.width();
+  if (is_groin) {
+    draw_web(vault, rounding, &drawing);
+    return drawing;
+  }
   if (is_line) {
     drawing.mirrored = vault.profile.kind != Profile::Kind::straight && std::abs(top) < rounding;
     if (drawing.mirrored) drawing.profile = with_mirror_image(std::move(drawing.profile));

@@ -246,7 +246,7 @@ SurfaceMap over_polygon(const Drawing& drawing, const Section& section, SurfaceM
 
 SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
   const Plan& plan = drawing.plan;
-  const bool is_line = plan.kind == Plan::Kind::line, is_round = plan.kind == Plan::Kind::circle;
+  const bool is_line = !plan.closed(), is_round = plan.kind == Plan::Kind::circle;
   Section section;
   section.beds = std::make_shared<ProfileBeds>(drawing.profile, rings, drawing.rows_per_ring, drawing.courses,
                                                drawing.mirrored);
@@ -262,6 +262,10 @@ SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
   surface.extent = 2.0 * pi;
   surface.last_bed_held = is_line && drawing.profile.back().derivative(1.0).y() < 0.0;
   surface.key_stone = drawing.key_stone;
+  if (plan.kind == Plan::Kind::groin) {
+    surface.webs = plan.sides;
+    surface.groins = plan.groins;
+  }
   surface.carries = surface.last_bed_held || surface.key_stone;
   const bool even = std::ranges::all_of(drawing.profile, &ProfilePiece::even);
   if ((is_line || is_round) && drawing.beds == Beds::normal && section.beds->num_runs() == 1 && even)

@@ -23,6 +23,8 @@ struct Drawing {
 /// The surface of a drawing.
 ///
 /// - Line: the point (r, z) becomes (r, y, z) with the abscissa y, or (x, -r, z) with the abscissa x.
+/// - Groin: one of the webs, (r, y, z) with the abscissa y from 0, at the axis, to the side. It is uncut; see
+///   generators/stereotomy/groin_vault.hpp.
 /// - Circle: (r cos a, r sin a, z), a the abscissa. Every bed is a cone about the z axis, so that its facets between radial
 ///   half-planes are plane.
 /// - Polygon: each sail is a cylinder whose section normal to its side is the profile, or that of a regular polygon whose

@@ -60,6 +60,14 @@ ProfilePiece piece_up_to(const ProfilePiece& piece, double end) {
           piece.even, end* piece.turn};
 }
 
+ProfilePiece piece_from(const ProfilePiece& piece, double start) {
+  const double rest = 1.0 - start;
+  return {
+      [=, at = piece.at](double t) { return at(start + rest * t); },
+      [=, derivative = piece.derivative](double t) -> Vec2 { return rest * derivative(start + rest * t); },
+      piece.even, rest* piece.turn};
+}
+
 std::vector<ProfilePiece> with_mirror_image(std::vector<ProfilePiece> pieces) {
   const size_t n = pieces.size();
   for (size_t i = n; i-- > 0;) {

@@ -23,8 +23,9 @@ ProfilePiece line_piece(const Vec2& from, const Vec2& to);
 ProfilePiece arc_piece(const Vec2& centre, double radius, double from, double to);
 /// A curve by any smooth parameter, from 0 to 1.
 ProfilePiece smooth_piece(std::function<Vec2(double)> at, std::function<Vec2(double)> derivative);
-/// The part of a piece up to t.
+/// The part of a piece up to t, or from t on.
 ProfilePiece piece_up_to(const ProfilePiece& piece, double t);
+ProfilePiece piece_from(const ProfilePiece& piece, double t);
 
 /// The pieces and, behind them, their mirror images in the plane r = 0, so that the profile comes down again.
 std::vector<ProfilePiece> with_mirror_image(std::vector<ProfilePiece> pieces);

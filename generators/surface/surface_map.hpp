@@ -37,9 +37,11 @@ struct SurfaceMap {
   bool last_bed_held = false;   ///< and behind the last
   bool first_row_held = false;  ///< the first row of cells is fixed masonry instead, as in a window
   bool key_stone = false;       ///< one stone lies on the whole last bed
-  bool carries = false;         ///< a support, a key stone or another surface lies on the last bed
-  double datum = 0.0;           ///< m, z from which heights count: the springing, or the foot of a drum
-  int rings_below = 0;          ///< courses of the drum below the first bed
+  int webs = 0;                 ///< > 0: this is one of the webs of a groin vault, before they are cut
+  Plan::Groins groins = Plan::Groins::bonded;  ///< of these webs
+  bool carries = false;  ///< a support, a key stone or another surface lies on the last bed
+  double datum = 0.0;    ///< m, z from which heights count: the springing, or the foot of a drum
+  int rings_below = 0;   ///< courses of the drum below the first bed
   std::optional<double> shell_volume;  ///< m3, of the smooth shell, if a closed form is known
 
   int num_wythes() const { return static_cast<int>(wythes.size()); }

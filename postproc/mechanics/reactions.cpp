@@ -32,11 +32,13 @@ std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWre
     const int carried = a_fixed ? joint.block_b : joint.block_a;
     const ShellAxes& shell = axes[carried];
     const Vec3 force = wrench_on(joint, support).force;
+    const int ring = ring_above_support(assembly.blocks[carried]);
+    const bool is_new = !found.contains(support);
     Reaction& reaction = found[support];
     reaction.block = support;
+    reaction.ring = is_new ? ring : std::min(reaction.ring, ring);
     reaction.force += force;
-    reaction.outward +=
-        force.dot(assembly.outward(ring_above_support(assembly.blocks[carried]), joint.patch.centroid));
+    reaction.outward += force.dot(assembly.outward(ring, joint.patch.centroid));
     reaction.length += length_of(joint.patch, shell);
   }
   std::vector<Reaction> reactions;

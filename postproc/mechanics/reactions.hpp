@@ -10,6 +10,7 @@ namespace cupola {
 /// What the structure does to one support: a fixed block with at least one joint.
 struct Reaction {
   int block = 0;
+  int ring = 0;               ///< lowest course on it
   Vec3 force = Vec3::Zero();  ///< N, of its joints on the support
   double outward = 0.0;       ///< N, sum of its joints along Assembly::outward of the centroid of each
   double length =

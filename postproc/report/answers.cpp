@@ -97,12 +97,35 @@ std::string end_text(const RangeEnd& end, double value, const ForceRange& range)
   return end.outcome == RangeOutcome::unconverged ? text + "?" : text;
 }
 
-/// The supports at which the thrust counts: of an arch those at x > 0, to which ring 0 belongs.
-std::vector<Reaction> thrusting(const Evaluation& e) {
+/// The supports at which the thrust of the stack under a sheet counts: of an arch those at x > 0 in its own frame, to which its first
+/// course belongs.
+std::vector<Reaction> thrusting(const Evaluation& e, const Sheet& sheet) {
+  const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
+  const Vec3 own_x(std::cos(sheet.turn), std::sin(sheet.turn), 0.0);
   std::vector<Reaction> at;
-  for (const Reaction& r : e.reactions)
-    if (!is_arch(e) || e.assembly.blocks[r.block].centroid.x() > 0.0) at.push_back(r);
+  for (const Reaction& r : e.reactions) {
+    if (r.ring < first || r.ring >= end) continue;
+    const double x = own_x.dot(e.assembly.blocks[r.block].centroid - sheet.origin);
+    if (sheet.thrust_lines != Sheet::ThrustLines::one || x > 0.0) at.push_back(r);
+  }
   return at;
+}
+
+double length_of(const std::vector<Reaction>& supports) {
+  double length = 0.0;
+  for (const Reaction& r : supports) length += r.length;
+  return length;
+}
+
+/// The uppermost sheets of the stacks that push outwards, the last first.
+std::vector<const Sheet*> pushing_sheets(const Evaluation& e) {
+  std::vector<const Sheet*> pushing;
+  const std::vector<Sheet>& sheets = e.assembly.sheets;
+  for (size_t i = sheets.size(); i-- > 0;)
+    if ((i + 1 == sheets.size() || !sheets[i + 1].on_previous) && sheets[i].num_rings > 0 &&
+        sheets[i].thrust_lines != Sheet::ThrustLines::none)
+      pushing.push_back(&sheets[i]);
+  return pushing;
 }
 
 /// "14.1 kN/m over 5 m of support"; "" where the length is unknown.
@@ -161,8 +184,7 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
     if (least(*range) < 0.0) detail += ", negative: inwards";
     if (range->chosen)
       detail += fmt::format("; chosen by the compliances: {}{}", range_number(*range->chosen, *range), unit);
-    double length = 0.0;
-    for (const Reaction& r : thrusting(e)) length += r.length;
+    const double length = e.assembly.sheets.empty() ? 0.0 : length_of(thrusting(e, e.assembly.sheets.back()));
     if (length > 0.0 && std::isfinite(least(*range)) && std::isfinite(greatest(*range)))
       detail += fmt::format("; {}/m to {}/m over {} of support", force_text(least(*range) / length),
                             force_text(greatest(*range) / length), length_text(length));
@@ -171,32 +193,42 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
                                  end_text(range->max, greatest(*range), *range), unit),
                      detail};
   }
-  if (!at_rest(e) || !(is_vault(e) || is_arch(e)) || e.rings.empty()) return std::nullopt;
-  const Sheet& shell = e.assembly.sheets.back();
-  const auto [first_ring, end] = e.assembly.stack_of(shell.first_ring);
-  const bool alone = first_ring == 0;  // no supports of other stacks
-  const std::vector<Reaction> supports = alone ? thrusting(e) : std::vector<Reaction>{};
-  const double thrust = e.rings.at(first_ring).radial_thrust;
+  const std::vector<const Sheet*> pushing = pushing_sheets(e);
+  if (!at_rest(e) || pushing.empty() || e.rings.empty()) return std::nullopt;
+  const auto thrust_of = [&e](const Sheet& sheet) {
+    return e.rings.at(e.assembly.stack_of(sheet.first_ring).first).radial_thrust;
+  };
+  const Sheet& shell = *pushing.front();
+  const bool alone = pushing.size() == 1;
+  const std::vector<Reaction> supports = thrusting(e, shell);
+  const double thrust = thrust_of(shell);
   if (thrust == 0.0 && is_stage(e.last.frame.role))
     return std::nullopt;  // the course laid last rests on others
-  double length = 0.0, lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const Reaction& r : supports) {
-    length += r.length;
     lowest = std::min(lowest, r.outward);
     highest = std::max(highest, r.outward);
   }
   // Joints of a smaller extent do not have the length of the supports.
   const bool shrunk = e.summary.critical && e.summary.critical->parameter == "joint_extent";
-  std::string detail = shrunk ? "" : per_metre(thrust, length);
-  if (!alone) detail = "of the stack of " + shell.name;
+  std::string detail = shrunk ? "" : per_metre(thrust, length_of(supports));
+  if (!alone) detail = fmt::format("of {}{}{}", shell.name, detail.empty() ? "" : ", ", detail);
   if (supports.size() > 1 && highest - lowest <= 1e-3 * std::abs(highest))
     detail += fmt::format("{}{} on each of {}", detail.empty() ? "" : "; ", force_text(highest),
                           counted(supports.size(), "support"));
   else if (supports.size() > 1)
     detail += fmt::format("{}{} to {} on a support", detail.empty() ? "" : "; ",
                           lowest == 0.0 ? "0" : force_text(lowest), force_text(highest));
-  if (e.summary.weight_N > 0.0)
+  if (alone && e.summary.weight_N > 0.0)
     detail += fmt::format("{}{:.3g} of the weight", detail.empty() ? "" : "; ", thrust / e.summary.weight_N);
+  constexpr size_t kMost = 5;  // stacks
+  for (size_t i = 1; i < std::min(pushing.size(), kMost); ++i) {
+    const double other = thrust_of(*pushing[i]);
+    const std::string along = per_metre(other, length_of(thrusting(e, *pushing[i])));
+    detail +=
+        fmt::format("; of {} {}{}{}", pushing[i]->name, force_text(other), along.empty() ? "" : ", ", along);
+  }
+  if (pushing.size() > kMost) detail += "; of the others in rings.csv";
   if (e.summary.critical && !is_stage(e.last.frame.role))
     detail += "; at the critical value, not that of the case";
   else if (!e.scene.joints.have_strength())

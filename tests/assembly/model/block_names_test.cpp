@@ -37,8 +37,18 @@ TEST(BlockNames, AreResolvedToNumbers) {
             "error: loads.forces: no block is named 'b5_3'; did you mean 'b5_2'?");
   EXPECT_EQ(complaint(named_blocks(), "something else"),
             "error: loads.forces: no block is named 'something else'; the first block is 'the ground'");
-  EXPECT_EQ(complaint(test::two_block_assembly(), "b5_2"),
-            "error: loads.forces: no block is named 'b5_2'; generated blocks have numbers only");
+  EXPECT_EQ(
+      complaint(test::two_block_assembly(), "b5_2"),
+      "error: loads.forces: no block is named 'b5_2'; generated blocks have numbers, and supports the names "
+      "'support 0', 'support 1', ...");
+}
+
+TEST(BlockNames, SupportsHaveNamesInTheirOrder) {
+  Assembly assembly = test::two_block_assembly();
+  for (Block& block : assembly.blocks) block.fixed = true;
+  EXPECT_EQ(complaint(assembly, "support 1"), "1");
+  assembly.blocks[0].fixed = false;
+  EXPECT_EQ(complaint(assembly, "support 0"), "1");
 }
 
 TEST(BlockNames, AreKeptInTheAssemblyFile) {

@@ -65,7 +65,17 @@ VaultSurface drawn(Plan::Kind plan, Profile::Kind profile) {
   v.profile.haunch_radius = 2.5;
   if (plan != Plan::Kind::line && profile != Profile::Kind::straight) v.eye = 2.0;
   v.key_stone = plan == Plan::Kind::circle && v.eye > 0.0;
+  if (plan == Plan::Kind::groin) {
+    v.eye = 0.0;
+    v.plan.sides = 4;
+    v.thickness = 0.5;
+  }
   return v;
+}
+
+VaultSurface closed_by_a_stone(VaultSurface surface) {
+  surface.key_stone = true;
+  return surface;
 }
 
 class EveryModel : public testing::TestWithParam<std::tuple<Model, int>> {
@@ -162,7 +172,11 @@ INSTANTIATE_TEST_SUITE_P(
                   HerringboneBond{8, 16, 4}},
             Model{"tower", drawn(Plan::Kind::circle, Profile::Kind::straight), RunningBond{8, 16, 2}},
             Model{"cloister", drawn(Plan::Kind::corners, Profile::Kind::semicircle), RunningBond{8, 28, 4}},
-            Model{"hexagon", drawn(Plan::Kind::polygon, Profile::Kind::pointed), RunningBond{8, 16, 4}}),
+            Model{"hexagon", drawn(Plan::Kind::polygon, Profile::Kind::pointed), RunningBond{8, 16, 4}},
+            Model{"pavilion", closed_by_a_stone(drawn(Plan::Kind::corners, Profile::Kind::semicircle)),
+                  RunningBond{8, 28, 4}},
+            Model{"groin", drawn(Plan::Kind::groin, Profile::Kind::semicircle), StackBond{9, 1, 2}},
+            Model{"pointed_groin", drawn(Plan::Kind::groin, Profile::Kind::pointed), StackBond{10, 1, 2}}),
         testing::Values(0)),
     [](const auto& test) { return std::string(std::get<0>(test.param).name); });
 
