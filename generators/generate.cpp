@@ -135,6 +135,16 @@ Assembly generate(const Case& input, GenerateReport* report) {
   return with_report(std::move(assembly), *report, resolved);
 }
 
+Assembly generate_again(const Case& input, Assembly assembly, const GenerateReport& report) {
+  assembly.title = input.title;
+  refuse_keys_without_effect(input, assembly);
+  return with_report(std::move(assembly), report, input);
+}
+
+bool have_same_blocks(const Case& a, const Case& b) {
+  return !a.geometry.imported && a.geometry_hash == b.geometry_hash && a.contact.margin == b.contact.margin;
+}
+
 std::string to_text(const GenerateReport& report) {
   if (!report.import) return to_text(report.model);
   return to_text(*report.import) + to_text(report.model);

@@ -15,6 +15,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/export/export.hpp"
+#include "assembly/program/batch.hpp"
 #include "assembly/program/command_line.hpp"
 #include "postproc/analyse.hpp"
 #include "postproc/compare/compare.hpp"
@@ -108,5 +109,8 @@ ExitCode run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_program("cupola-post", [&] { return run(argc, argv); });
+  return run_program("cupola-post", argc, argv, [](int count, char** arguments) -> PreparedRun {
+    // The strings of a batch last until its run has begun in a process of its own.
+    return [count, arguments] { return run(count, arguments); };
+  });
 }

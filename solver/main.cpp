@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/program/batch.hpp"
 #include "assembly/program/command_line.hpp"
 #include "solver/solve_case.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 using namespace cupola;
 
-ExitCode solve(int argc, char** argv) {
+PreparedRun prepare(int argc, char** argv) {
   // 1. Command line
   SolveRequest request;
   bool explain = false;
@@ -33,25 +34,29 @@ ExitCode solve(int argc, char** argv) {
             "print every step, trial and iteration, and all residuals at the end");
   line.optional("--threads", &request.threads, 1,
                 "number of threads (default 1); the results are the same to the bit");
-  if (const auto ended = line.parse(argc, argv)) return *ended;
+  if (const auto ended = line.parse(argc, argv)) return [code = *ended] { return code; };
 
   // 2. The case
   request.scene = line.read_case();
   request.quiet = line.quiet();
   request.strict = line.strict();
-  if (line.check_only()) return line.report_warnings(request.scene.warnings), ExitCode::done;
+  if (line.check_only()) {
+    line.report_warnings(request.scene.warnings);
+    return [] { return ExitCode::done; };
+  }
 
   // 3. Explain or solve
-  if (explain) {
-    fmt::print("{}", explain_case(request));
-    return ExitCode::done;
-  }
+  if (explain)
+    return [request] {
+      fmt::print("{}", explain_case(request));
+      return ExitCode::done;
+    };
   if (request.output_folder.empty()) throw InputError("--output is missing; see cupola-solve --help");
-  return solve_case(request);
+  return [request] { return solve_case(request); };
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_program("cupola-solve", [&] { return solve(argc, argv); });
+  return run_program("cupola-solve", argc, argv, prepare);
 }

@@ -1,66 +1,18 @@
 #include "postproc/studies/ensemble.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
 #include "assembly/files/markup.hpp"
-#include "postproc/figures/plot_style.hpp"
 #include "postproc/report/first_screen.hpp"
+#include "postproc/studies/ensemble_figures.hpp"
 #include "postproc/studies/ensemble_results.hpp"
 #include "postproc/studies/sweep.hpp"
 
 namespace cupola {
 namespace {
-
-constexpr std::array kEnsembleColours{kBlue, kOrange, kGreen, kPurple, kSky};
-constexpr size_t kMostResults = 4;  // panels of the figure
-
-/// The share of members at or below each value of a result: one panel per result, one curve per ensemble.
-Figure distribution_figure(const std::vector<EnsembleResults>& ensembles) {
-  Figure f;
-  f.name = "distributions";
-  f.title = "Share of the members up to a value";
-  f.caption =
-      "Of a critical value, such as the friction at which a vault falls, the curve is the fragility: the "
-      "share that falls at that value.";
-  std::vector<size_t> columns = ensembles.front().results;
-  if (columns.size() > kMostResults) columns.resize(kMostResults);
-  if (columns.empty()) return f;
-  std::string data;
-  std::vector<std::string> plots;
-  for (const size_t k : columns) {
-    const Table::Column& column = ensembles.front().members.columns[k];
-    std::string plot;
-    for (size_t e = 0; e < ensembles.size(); ++e) {
-      std::vector<double> values = ensembles[e].values(k).values;
-      std::erase_if(values, [](double v) { return !std::isfinite(v); });
-      if (values.empty()) continue;
-      std::ranges::sort(values);
-      std::vector<std::vector<double>> rows;
-      for (size_t i = 0; i < values.size(); ++i)
-        rows.push_back({values[i], static_cast<double>(i + 1) / static_cast<double>(values.size())});
-      const std::string block = fmt::format("column{}_{}", k, e);
-      data += data_block(block, rows);
-      plot +=
-          fmt::format("{} ${} using 1:2 w steps lc rgb '{}' lw 1.5 title '{}'", plot.empty() ? "plot" : ",",
-                      block, kEnsembleColours[e % kEnsembleColours.size()], gnuplot_text(ensembles[e].name));
-    }
-    plots.push_back(fmt::format("set xlabel '{}{}'\n", gnuplot_text(column.meaning),
-                                column.unit.empty() ? "" : " (" + gnuplot_text(column.unit) + ")") +
-                    plot + "\n");
-  }
-  f.width = 900;
-  f.height = 60 + 280 * static_cast<int>(columns.size());
-  f.commands = plot_style() + data +
-               "set yrange [0:1]\nset ylabel 'share of members'\nset key bottom right\n" +
-               panels(panel_grid(columns.size(), 1, {0.09, 0.97, 60.0 / f.height, 1.0 - 15.0 / f.height}, 0.0,
-                                 70.0 / f.height),
-                      plots);
-  return f;
-}
 
 /// The runs named in the second column of the table of ends, each once.
 std::vector<StudyRun> runs_at_the_ends(const Table& ends, const std::vector<StudyRun>& runs) {
@@ -117,6 +69,10 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
   for (const EnsembleResults& one : all) {
     page->write_csv(one.members);
     page->add("<h2>" + markup_text(one.name) + "</h2>\n");
+    const std::vector<Bands> bands = bands_of(one, runs_folder);
+    for (const Bands& band : bands) page->write_csv(band.table);
+    for (const Figure& figure : {convergence_figure(one), bands_figure(bands)})
+      if (!figure.commands.empty()) page->add_figures({figure});
     for (const Table& table : {statistics_table(one), inputs_table(one), ends_table(one)}) {
       if (table.rows.empty()) continue;
       page->add("<h3>" + markup_text(table.title) + "</h3>\n");

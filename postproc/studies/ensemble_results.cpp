@@ -10,6 +10,7 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/files/number_text.hpp"
 #include "assembly/model/status.hpp"
+#include "postproc/studies/saltelli.hpp"
 #include "postproc/studies/sweep.hpp"
 
 namespace cupola {
@@ -112,8 +113,7 @@ void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
 }
 
 /// How far the members of a limit analysis stand.
-std::string critical_sentence(const EnsembleResults& ensemble) {
-  const size_t column = member_column(ensemble.members, "critical_value");
+std::string critical_sentence(const EnsembleResults& ensemble, size_t column) {
   const DrawnValues drawn = ensemble.values(column);
   const std::string& unit = ensemble.members.columns[column].unit;
   return fmt::format(
@@ -130,15 +130,36 @@ int EnsembleResults::replicates() const {
                                                         : Ensemble::kReplicates;
 }
 
-DrawnValues EnsembleResults::values(size_t column) const {
-  return {column_of_numbers(members, column), replicates()};
+DrawnValues EnsembleResults::values(size_t column, size_t count) const {
+  std::vector<double> all = column_of_numbers(members, column);
+  if (count >= all.size()) return {std::move(all), replicates()};
+  all.resize(count);
+  return {std::move(all), independent() ? static_cast<int>(count) : 0};
 }
 
-bool EnsembleResults::have_critical_values() const {
+std::optional<size_t> EnsembleResults::critical_column() const {
   for (size_t k = 0; k < members.columns.size(); ++k)
-    if (members.columns[k].key == "critical_value")
-      return std::ranges::any_of(column_of_numbers(members, k), [](double v) { return std::isfinite(v); });
-  return false;
+    if (members.columns[k].key == "critical_value" &&
+        std::ranges::any_of(column_of_numbers(members, k), [](double v) { return std::isfinite(v); }))
+      return k;
+  return {};
+}
+
+bool EnsembleResults::some_fall() const {
+  return std::ranges::count(falls, 1) > 0;
+}
+
+IntervalEstimate EnsembleResults::probability(size_t count) const {
+  const auto end = falls.begin() + static_cast<std::ptrdiff_t>(std::min(count, falls.size()));
+  const int n = static_cast<int>(end - falls.begin());
+  const int fall = static_cast<int>(std::count(falls.begin(), end, 1));
+  const int unknown = static_cast<int>(std::count(falls.begin(), end, -1));
+  if (n == unknown) return {kNone, {}};
+  IntervalEstimate estimate{static_cast<double>(fall) / (n - unknown), {}};
+  // A member without a verdict may stand or fall.
+  if (independent())
+    estimate.interval = {clopper_pearson(fall, n).low, clopper_pearson(fall + unknown, n).high};
+  return estimate;
 }
 
 EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_folder) {
@@ -152,19 +173,15 @@ EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_
 }
 
 std::string result_sentence(const EnsembleResults& ensemble) {
-  if (ensemble.have_critical_values()) return critical_sentence(ensemble);
-  const int n = static_cast<int>(ensemble.falls.size());
-  const int fall = static_cast<int>(std::ranges::count(ensemble.falls, 1));
-  const int unknown = static_cast<int>(std::ranges::count(ensemble.falls, -1));
+  if (const auto column = ensemble.critical_column()) return critical_sentence(ensemble, *column);
+  const auto count = [&ensemble](int verdict) { return std::ranges::count(ensemble.falls, verdict); };
   std::string text =
-      fmt::format("{}: {} of {} fall", ensemble.name, fall, counted(static_cast<size_t>(n), "member"));
-  if (unknown > 0) text += fmt::format(", {} without a verdict", unknown);
-  const bool independent = ensemble.replicates() == n;
-  if (!independent || n == unknown) return text + ".";
-  // A member without a verdict may stand or fall.
-  const ConfidenceInterval interval{clopper_pearson(fall, n).low, clopper_pearson(fall + unknown, n).high};
-  return text + fmt::format(": probability {:.3g} % ({:.3g} to {:.3g} %).", 100.0 * fall / (n - unknown),
-                            100.0 * interval.low, 100.0 * interval.high);
+      fmt::format("{}: {} of {} fall", ensemble.name, count(1), counted(ensemble.falls.size(), "member"));
+  if (count(-1) > 0) text += fmt::format(", {} without a verdict", count(-1));
+  const IntervalEstimate p = ensemble.probability(ensemble.falls.size());
+  if (!p.interval) return text + ".";
+  return text + fmt::format(": probability {:.3g} % ({:.3g} to {:.3g} %).", 100.0 * p.value,
+                            100.0 * p.interval->low, 100.0 * p.interval->high);
 }
 
 Table statistics_table(const EnsembleResults& ensemble) {
@@ -187,7 +204,30 @@ Table statistics_table(const EnsembleResults& ensemble) {
   return t;
 }
 
+namespace {
+
+/// The table of a Saltelli design, of which every result of a member counts.
+Table sobol_table(const EnsembleResults& ensemble, const SaltelliDesign& design) {
+  Table t{ensemble.name + "_inputs", "What the inputs explain", {}, {}};
+  t.columns = {{"input", "", "Input"}, {"result", "", "Result"}};
+  add_estimate_columns("first_order_index", "First-order Sobol index", &t);
+  add_estimate_columns("total_index", "Total Sobol index", &t);
+  for (size_t input = 0; input < ensemble.runs->samples.keys.size(); ++input)
+    for (const size_t column : ensemble.results) {
+      const SobolIndices indices = sobol_indices(design, input, ensemble.values(column).values);
+      std::vector<Table::Cell> row = {ensemble.runs->samples.keys[input],
+                                      ensemble.members.columns[column].key};
+      add_estimate(indices.first_order, &row);
+      add_estimate(indices.total, &row);
+      t.rows.push_back(std::move(row));
+    }
+  return t;
+}
+
+}  // namespace
+
 Table inputs_table(const EnsembleResults& ensemble) {
+  if (const auto design = saltelli_design(ensemble.runs->samples)) return sobol_table(ensemble, *design);
   Table t{ensemble.name + "_inputs", "What the inputs explain", {}, {}};
   t.columns = {{"input", "", "Input"},
                {"result", "", "Result"},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,16 @@ struct EnsembleResults {
 
   /// Number of independent replicates, see DrawnValues.
   int replicates() const;
-  DrawnValues values(size_t column) const;
-  /// The limit analyses among the members stand by construction: their critical values say how far.
-  bool have_critical_values() const;
+  /// Each member is independent of all others.
+  bool independent() const { return replicates() == static_cast<int>(falls.size()); }
+  /// Numbers of a column, of the first `count` members only.
+  DrawnValues values(size_t column, size_t count = static_cast<size_t>(-1)) const;
+  /// Column of the critical values; nothing without any. Limit analyses stand by construction: their critical values say how far.
+  std::optional<size_t> critical_column() const;
+  bool some_fall() const;
+  /// Share of the first `count` members with a verdict that fall. Members without a verdict widen the interval both ways; no interval unless
+  /// members are independent.
+  IntervalEstimate probability(size_t count) const;
 };
 
 EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_folder);
@@ -33,7 +41,8 @@ std::string result_sentence(const EnsembleResults& ensemble);
 /// A row per result: mean, standard deviation and quantiles, each with its interval.
 Table statistics_table(const EnsembleResults& ensemble);
 
-/// A row per input that is a number and no seed, and result: rank correlation and first-order Sobol index.
+/// A row per input and result. Of a Saltelli design: first-order and total Sobol indices. Else, of inputs that are numbers and no seeds:
+/// rank correlation and first-order index.
 Table inputs_table(const EnsembleResults& ensemble);
 
 /// The members with the three smallest and the three largest values of each result, and the first three that fall.

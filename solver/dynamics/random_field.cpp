@@ -1,9 +1,13 @@
 #include "solver/dynamics/random_field.hpp"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "assembly/base/error.hpp"
 
@@ -17,6 +21,40 @@ constexpr int kWaves = 128;
 double uniform(std::mt19937_64* engine) {
   return (static_cast<double>((*engine)() >> 11) + 0.5) * 0x1p-53;
 }
+
+double compute_mean(const RandomField& field, std::span<const Vec3> polygon) {
+  double area = 0.0, sum = 0.0;
+  for (size_t i = 2; i < polygon.size(); ++i) {
+    const double part = (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]).norm();
+    area += part;
+    if (part > 0.0) sum += part * field.at((polygon[0] + polygon[i - 1] + polygon[i]) / 3.0);
+  }
+  if (area > 0.0) return sum / area;
+  Vec3 middle = Vec3::Zero();  // blocks that touch at an edge or a corner
+  for (const Vec3& point : polygon) middle += point;
+  return field.at(middle / static_cast<double>(polygon.size()));
+}
+
+/// Mean of a field over a polygon that was asked for lately.
+struct KnownMean {
+  std::vector<Vec3> polygon;  ///< empty: none yet
+  double value = 1.0;
+};
+struct KnownMeans {
+  RandomField field;
+  std::vector<KnownMean> of_polygons = {};
+};
+constexpr size_t kKnownFields = 3;  // friction, strength and compliance of one case
+constexpr size_t kKnownPolygons = 1 << 14;
+
+size_t slot_of(std::span<const Vec3> polygon) {
+  std::uint64_t hash = 0;
+  for (const double x :
+       {polygon[0].x(), polygon[0].y(), polygon[0].z(), polygon.back().x(), polygon.back().z()})
+    hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u;
+  return static_cast<size_t>(hash >> 50);
+}
+static_assert(kKnownPolygons == 1 << (64 - 50));
 
 }  // namespace
 
@@ -52,16 +90,27 @@ double RandomField::at(const Vec3& point) const {
 double RandomField::mean_over(std::span<const Vec3> polygon) const {
   if (is_constant()) return 1.0;
   CUPOLA_ASSERT(!polygon.empty());
-  double area = 0.0, sum = 0.0;
-  for (size_t i = 2; i < polygon.size(); ++i) {
-    const double part = (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]).norm();
-    area += part;
-    if (part > 0.0) sum += part * at((polygon[0] + polygon[i - 1] + polygon[i]) / 3.0);
+  // A law is asked for at every contact point of a joint, several times in a step. What is remembered is compared by value, so that it
+  // changes no result, and belongs to one thread.
+  thread_local std::array<KnownMeans, kKnownFields> known;
+  thread_local size_t oldest = 0;
+  // Fields with equal phases have the same random numbers, so that their waves differ by the length only.
+  const auto same = [this](const KnownMeans& means) {
+    return means.field.deviation_ == deviation_ && means.field.waves_(0, 0) == waves_(0, 0) &&
+           (means.field.phases_ == phases_).all();
+  };
+  auto means = std::ranges::find_if(known, same);
+  if (means == known.end()) {
+    means = known.begin() + static_cast<std::ptrdiff_t>(oldest);
+    *means = {*this, std::vector<KnownMean>(kKnownPolygons)};
+    oldest = (oldest + 1) % kKnownFields;
   }
-  if (area > 0.0) return sum / area;
-  Vec3 middle = Vec3::Zero();  // blocks that touch at an edge or a corner
-  for (const Vec3& point : polygon) middle += point;
-  return at(middle / static_cast<double>(polygon.size()));
+  KnownMean& mean = means->of_polygons[slot_of(polygon)];
+  if (!std::ranges::equal(mean.polygon, polygon)) {
+    mean.polygon.assign(polygon.begin(), polygon.end());
+    mean.value = compute_mean(*this, polygon);
+  }
+  return mean.value;
 }
 
 }  // namespace cupola

@@ -95,6 +95,35 @@ TEST(Ensembles, LostMembersAndSlicesGiveTheSameResults) {
   EXPECT_EQ(folder.results(), first);
 }
 
+// Blocks that members share are cut once, and a member has the bits that it would have alone. A member without input ends neither the
+// others nor their batch.
+TEST(Ensembles, ABatchGivesTheBitsOfSingleRuns) {
+  const EnsembleFolder folder;
+  const std::string programs = CUPOLA_BIN_DIR;
+  const auto generate = [&](const std::string& name, const std::string& settings) {
+    return name + ".stamp - incline.yaml --output " + name + ".vtu " + settings + "\n";
+  };
+  std::ofstream(folder.file("list")) << generate("a", "--set joints.friction=0.3")
+                                     << generate("b", "--set joints.friction=-1")
+                                     << generate("c", "--set joints.friction=0.4")
+                                     << "d.stamp b.stamp incline.yaml --output d.vtu\n"
+                                     << generate("e", "--set geometry.surface.height=0.5");
+  const ProgramRun run = folder.run(programs + "/cupola-generate --batch list");
+  EXPECT_EQ(run.code, 2) << run.err;
+  EXPECT_NE(run.err.find("joints.friction = -1: must be >= 0"), std::string::npos) << run.err;
+  for (const char* done : {"a", "c", "e"}) {
+    EXPECT_EQ(slurp(folder.file(std::string(done) + ".stamp")), "0\n");
+    const std::string settings = *done == 'a'   ? "joints.friction=0.3"
+                                 : *done == 'c' ? "joints.friction=0.4"
+                                                : "geometry.surface.height=0.5";
+    EXPECT_EQ(
+        folder.run(programs + "/cupola-generate incline.yaml --output alone.vtu --set " + settings).code, 0);
+    EXPECT_EQ(slurp(folder.file("alone.vtu")), slurp(folder.file(std::string(done) + ".vtu"))) << done;
+  }
+  for (const char* left_out : {"b.stamp", "d.stamp", "d.vtu"})
+    EXPECT_FALSE(std::filesystem::exists(folder.file(left_out))) << left_out;
+}
+
 TEST(Ensembles, KeepTablesOnRequest) {
   const EnsembleFolder folder("tables");
   ASSERT_EQ(folder.run(kMake + "incline").code, 0);

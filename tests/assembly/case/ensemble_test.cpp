@@ -98,6 +98,23 @@ TEST(Ensemble, OfACaseLeavesItsHash) {
   EXPECT_EQ(drawn.hash, plain.hash);
 }
 
+// One component of a settlement varies as a number does; the others keep the value of the case.
+TEST(Ensemble, ComponentsOfVectorsAreKeys) {
+  const ScratchFolder scratch;
+  const std::string path =
+      scratch.write("settled.yaml",
+                    std::string(kWall) +
+                        "supports: {moves: [{displacement: [0.001, 0, -0.005]}]}\n"
+                        "ensemble:\n  members: 4\n  vary:\n    - {key: 'supports.moves[0].displacement[2]', "
+                        "distribution: uniform, from: -0.02, to: -0.01}\n");
+  const Case scene = read_case(path);
+  const auto member = members_of(draw_samples(*scene.ensemble), "m/").front();
+  const Vec3 settled = read_case(path, member.settings).supports.moves[0].displacement;
+  EXPECT_EQ(settled.x(), 0.001);
+  EXPECT_GE(settled.z(), -0.02);
+  EXPECT_LE(settled.z(), -0.01);
+}
+
 TEST(Ensemble, WhatIsWrongIsAnError) {
   const ScratchFolder scratch;
   const auto refused = [&](const std::string& ensemble, const std::string& phrase) {

@@ -78,6 +78,21 @@ TEST(RandomField, MultipliesTheLawsOfJoints) {
   const double soft = RandomField(3, "compliance", 2.0, 0.3).mean_over(patch.polygon);
   EXPECT_DOUBLE_EQ(law.compliance_normal, plain.compliance_normal * soft);
   EXPECT_DOUBLE_EQ(law.compliance_tangential, plain.compliance_tangential * soft);
+  // Means are remembered: those of another polygon and of another field are not the one before.
+  Patch moved = patch;
+  for (Vec3& point : moved.polygon) point.x() += 3.0;
+  const JointTable table(joints, 1);
+  EXPECT_NE(table.law(assembly, moved, 0.25).mu, law.mu);
+  EXPECT_EQ(table.law(assembly, patch, 0.25).mu, law.mu);
+  joints.field->seed = 4;
+  EXPECT_NE(JointTable(joints, 1).law(assembly, patch, 0.25).mu, law.mu);
+  joints.field->seed = 3;
+  joints.field->correlation_length = 1.0;
+  EXPECT_NE(JointTable(joints, 1).law(assembly, patch, 0.25).mu, law.mu);
+  const Vec3 centre(2.0 / 3.0, 1.0 / 3.0, 0.0), other(1.0 / 3.0, 2.0 / 3.0, 0.0);
+  const RandomField friction(3, "friction", 2.0, 0.2);
+  EXPECT_DOUBLE_EQ(law.mu, 0.5 * 0.5 * (friction.at(centre) + friction.at(other)))
+      << "the remembered mean is the mean";
 }
 
 }  // namespace
