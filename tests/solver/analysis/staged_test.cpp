@@ -111,7 +111,7 @@ TEST(Staged, ReportsStagesThatNeedNoFriction) {
   for (const std::vector<std::string>& row : built.rows) {
     EXPECT_EQ(row[5], "0");
     EXPECT_EQ(row[6], "");
-    EXPECT_EQ(row[7], "\"stands without friction\"");
+    EXPECT_EQ(row[7], "stands without friction");
   }
 }
 
