@@ -4,7 +4,7 @@
     pages.py REPOSITORY            the checks
     pages.py REPOSITORY --words    words of prose, page by page: outside tables, with their footers, and code
 
-- Lines of the documentation have at most 120 columns, except tables, code and the pages that programs write.
+- Lines of the documentation have at most 120 columns, except tables and the pages that programs write.
 - Every table between `<!-- table NAME -->` and `<!-- end -->` names the revision that measured it, neither unknown
   nor dirty. Tables of REMEASURE are still to be measured again; none may be added.
 - What `make -f Makefile.cases` runs on a page is a target, a case, a variant or a study; names that begin with my_ are
@@ -51,8 +51,8 @@ def words(text):
 
 
 def wide_lines(name, text):
-    return [f"{name}:{number}: {len(line)} columns, more than {WIDTH}" for number, line in prose(text)
-            if len(line) > WIDTH and " " in line.strip("-*> ")]
+    return [f"{name}:{number}: {len(line)} columns, more than {WIDTH}" for number, line in enumerate(text.split("\n"), 1)
+            if len(line) > WIDTH and not line.startswith("|") and " " in line.strip("-*> ")]
 
 
 def revisions(name, text, remeasure):
