@@ -1,5 +1,6 @@
 #include "tests/verification/document.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -36,7 +37,8 @@ void Document::paragraph(const std::string& text) {
   constexpr std::size_t kColumns = 118;
   std::size_t column = 0;
   std::istringstream words(text);
-  for (std::string word; words >> word;) {
+  for (std::string word, more; words >> word;) {
+    while (std::ranges::count(word, '`') % 2 == 1 && words >> more) word += ' ' + more;  // code stays whole
     // At the start of a line, a sign would make a list.
     const bool is_sign = word == "-" || word == "+" || word == "*";
     if (column > 0 && column + word.size() >= kColumns && !is_sign) {
