@@ -192,7 +192,7 @@ const std::string kRunning = "{type: running, rings: 40, blocks_per_ring: 32, sl
 const std::string kRunningOfTwo = "{type: running, rings: 40, blocks_per_ring: 32, slices_per_block: 2}";
 const std::string kStack = "{type: stack, rings: 40, blocks_per_ring: 32, slices_per_block: 1}";
 
-void motion() {
+void whole_steps() {
   fmt::print(
       "scene,\"c, m/N\",contacts,tolerance,CPU ms per step,iterations,factorisations,worst residual,"
       "\"displacement, m\",nothing carried: ms,ratio\n");
@@ -373,7 +373,7 @@ int main(int argc, char** argv) {
   else if (table == "stepping")
     cupola::time_stepping();
   else if (table == "motion")
-    cupola::motion();
+    cupola::whole_steps();
   else if (table == "coulomb")
     cupola::coulomb();
   else if (table == "scale")
