@@ -28,7 +28,7 @@ void draw_below_each_other(const std::string& data, const std::string& settings,
                        plots);
 }
 
-/// The table of bands of one table of the members, which all have its rows; no columns if none varies.
+/// The table of bands of one table of the members, which all have its rows; three columns if no number varies.
 Table bands_table(const EnsembleResults& ensemble, const std::vector<CsvFile>& files,
                   const std::string& source) {
   constexpr size_t kKeys = 2;  // number and height
@@ -66,10 +66,9 @@ std::optional<size_t> band_column(const Table& table, const std::string& number)
 struct DrawnBand {
   const char *source, *number, *label;
 };
-constexpr std::array kDrawnBands{
-    DrawnBand{"thrust_", "position", "thrust line between the faces: 0 inside, 1 outside"},
-    DrawnBand{"hoop_", "hoop_force_N", "hoop force (N)"},
-    DrawnBand{"rings", "mean_resultant_N", "mean force of a block on its bed (N)"}};
+constexpr std::array kDrawnBands{DrawnBand{"thrust_", "position", "thrust line (0 inside, 1 outside)"},
+                                 DrawnBand{"hoop_", "hoop_force_N", "hoop force (N)"},
+                                 DrawnBand{"rings", "mean_resultant_N", "mean force of a block (N)"}};
 
 }  // namespace
 
@@ -106,8 +105,9 @@ Figure distribution_figure(const std::vector<EnsembleResults>& ensembles) {
                                 column.unit.empty() ? "" : " (" + gnuplot_text(column.unit) + ")") +
                     plot + "\n");
   }
-  draw_below_each_other(data, "set yrange [0:1]\nset ylabel 'share of members'\nset key bottom right\n",
-                        plots, 280, &f);
+  draw_below_each_other(
+      data, "set format x '%.6g'\nset yrange [0:1]\nset ylabel 'share of members'\nset key bottom right\n",
+      plots, 280, &f);
   return f;
 }
 
@@ -117,7 +117,8 @@ Figure convergence_figure(const EnsembleResults& ensemble) {
   f.name = ensemble.name + "_convergence";
   const size_t n = ensemble.falls.size();
   const std::optional<size_t> critical = ensemble.critical_column();
-  if (!ensemble.independent() || n < kFewest || (!critical && !ensemble.some_fall())) return f;
+  const bool varies = critical ? std::ranges::count(ensemble.results, *critical) > 0 : ensemble.some_fall();
+  if (!ensemble.independent() || n < kFewest || !varies) return f;
   f.title = critical ? "Mean critical value over the number of members"
                      : "Probability of falling over the number of members";
   f.caption =
@@ -172,7 +173,8 @@ std::vector<Bands> bands_of(const EnsembleResults& ensemble, const std::string& 
       return file.rows.size() != files.front().rows.size() || file.columns != files.front().columns;
     });
     if (files.size() < kFewest || files.front().columns.size() < 3) continue;
-    bands.push_back({name, bands_table(ensemble, files, name)});
+    Table table = bands_table(ensemble, files, name);
+    if (table.columns.size() > 3) bands.push_back({name, std::move(table)});
   }
   return bands;
 }
@@ -192,16 +194,17 @@ Figure bands_figure(const std::vector<Bands>& bands) {
       std::vector<std::vector<double>> rows;
       for (const auto& row : band.table.rows) {
         rows.emplace_back();
-        for (const size_t k : {size_t{1}, *column, *column + 1, *column + 2})
+        for (const size_t k : {size_t{0}, *column, *column + 1, *column + 2})
           rows.back().push_back(std::get<double>(row[k]));
       }
       const std::string block = fmt::format("band{}", plots.size());
       data += data_block(block, rows);
       plots.push_back(fmt::format(
-          "set title '{0}' noenhanced\nset xlabel 'height (m)'\nset ylabel '{1}'\n"
+          "set xlabel '{5} ({0}.csv)' noenhanced\nset ylabel '{1}'\n"
           "plot ${2} using 1:2:4 w filledcurves fc rgb '{3}' fs transparent solid 0.3 title '5 to 95 %', "
           "${2} using 1:3 w l lc rgb '{4}' lw 2 title 'median'\n",
-          gnuplot_text(band.source), drawn.label, block, kSky, kBlue));
+          gnuplot_text(band.source), drawn.label, block, kSky, kBlue,
+          gnuplot_text(band.table.columns.front().key)));
     }
   if (plots.empty()) return f;
   draw_below_each_other(data, "set key top right\n", plots, 300, &f);
