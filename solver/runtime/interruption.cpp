@@ -20,9 +20,17 @@ constexpr long long kNever = -1;
 std::atomic<long long> time_of_request = kNever, deadline = kNever;
 static_assert(std::atomic<long long>::is_always_lock_free);  // as a signal handler requires
 
+/// The second request kills. A terminal or a scheduler signals all processes of a list of runs (assembly/program/batch.hpp), which then
+/// passes the signal on: what comes at once is one request.
 void request_stop(int signal) {
-  time_of_request = monotonic_milliseconds();
-  std::signal(signal, SIG_DFL);
+  constexpr long long kAtOnce = 200;  // ms
+  const long long now = monotonic_milliseconds(), before = time_of_request;
+  if (before == kNever) {
+    time_of_request = now;
+  } else if (now - before > kAtOnce) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);  // delivered when this handler returns
+  }
 }
 
 }  // namespace
