@@ -86,8 +86,13 @@ std::string name_of(const Json& node, const std::string& key) {
 
 std::vector<RawBlock> read_compas(const std::string& path) {
   const auto [text, root] = read_file(path);
-  if (!is_assembly(root))
-    if (std::vector<RawBlock> blocks = read_compas_meshes(root, path); !blocks.empty()) return blocks;
+  if (!is_assembly(root)) {
+    std::vector<RawBlock> blocks = read_compas_meshes(root, path);
+    if (blocks.empty())
+      throw InputError(FileLocation{path, 1, 0},
+                       "not a COMPAS assembly, and no blocks: an object with `vertex` and `face` is a mesh");
+    return blocks;
+  }
   const Json& nodes =
       descend(graph_of(root, path), {"node"}, FileLocation{path, 1, 0}, "not a COMPAS assembly");
   if (!nodes.is_object())

@@ -1,10 +1,12 @@
 #include "generators/importer/compas_json.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -18,46 +20,86 @@ double coordinate(const Json& vertex, const char* axis, const FileLocation& wher
   return value.get<double>();
 }
 
-bool is_mesh(const Json& node) {
-  const Json::json_pointer vertices("/data/vertex"), faces("/data/face");
-  return node.is_object() && node.contains("dtype") && node.contains(vertices) && node.contains(faces);
+/// The vertices and faces of a mesh: of `node` itself, or of what present and former versions of COMPAS put round them. Null: no mesh.
+const Json* mesh_in(const Json& node) {
+  const auto has_faces = [](const Json& data) {
+    return data.is_object() && !data.contains("node") && data.contains("vertex") &&
+           data["vertex"].is_object() && data.contains("face") && data["face"].is_object();
+  };
+  if (!node.is_object()) return nullptr;
+  for (const char* wrapper : {"data", "value"})
+    if (const auto inner = node.find(wrapper); inner != node.end() && has_faces(*inner)) return &*inner;
+  return has_faces(node) ? &node : nullptr;
+}
+
+bool is_whole_number(const std::string& key) {
+  return !key.empty() && std::ranges::all_of(key, [](unsigned char c) { return std::isdigit(c); });
+}
+
+bool says_support(const Json& node) {
+  if (!node.is_object()) return false;
+  const auto flag = node.find("is_support");
+  return flag != node.end() && flag->is_boolean() && flag->get<bool>();
 }
 
 /// A file that is read, and what its innermost element says about the meshes in it.
 struct Walk {
   FileLocation where;
-  std::string stem;  ///< of the file, for blocks without a name of their own
+  std::string stem;             ///< of the file, for blocks without a name of their own
+  std::string key;              ///< of the innermost element that is numbered
+  const Json* nodes = nullptr;  ///< of a separate graph that says which blocks are supports
   std::set<std::string> names;
   std::vector<RawBlock> blocks;
   bool support = false;
 };
 
-void add_mesh(const Json& node, Walk* walk) {
-  const size_t number = walk->blocks.size();
+bool is_support(const Json& data, const Walk& walk) {
+  const auto attributes = data.find("attributes");
+  return walk.support || (attributes != data.end() && says_support(*attributes)) ||
+         (walk.nodes && walk.nodes->contains(walk.key) && says_support((*walk.nodes)[walk.key]));
+}
+
+void add_mesh(const Json& node, const Json& data, Walk* walk) {
   std::string name;
-  for (const Json* holder : {&node, &node["data"]})
+  for (const Json* holder : {&node, &data})
     if (name.empty() && holder->contains("name") && (*holder)["name"].is_string())
       name = (*holder)["name"].get<std::string>();
-  if (name.empty() || !walk->names.insert(name).second) name = fmt::format("{}_{}", walk->stem, number);
+  if (name.empty()) name = walk->key;
+  if (name.empty() || !walk->names.insert(name).second)
+    name = fmt::format("{}_{}", walk->stem, walk->blocks.size());
   walk->names.insert(name);
-  RawBlock block{name, walk->where, {}, {}, walk->support, {}};
-  block.mesh = read_mesh_of(node["data"], walk->where, fmt::format("block {}", name));
+  RawBlock block{name, walk->where, {}, {}, is_support(data, *walk), {}};
+  block.mesh = read_mesh_of(data, walk->where, fmt::format("block {}", name));
   if (block.mesh.faces.empty()) throw InputError(walk->where, fmt::format("block {}: no faces", name));
   walk->blocks.push_back(std::move(block));
 }
 
-/// Adds the meshes in `node`. An element is an object with `is_support`; files of compas_dem state it for every block.
+/// Adds the meshes in `node`, numbered ones by number. An element is an object with `is_support`; files of compas_dem state it for
+/// every block.
 void find_meshes(const Json& node, Walk* walk) {
-  if (is_mesh(node)) return add_mesh(node, walk);
+  if (const Json* data = mesh_in(node)) return add_mesh(node, *data, walk);
   if (!node.is_structured()) return;
-  const bool outer = walk->support;
-  if (node.is_object()) {
-    if (const auto moved = node.find("transformation"); moved != node.end() && !moved->is_null())
-      throw InputError(walk->where, "an element has a transformation; apply it before the export");
-    if (const auto flag = node.find("is_support"); flag != node.end() && flag->is_boolean())
-      walk->support = flag->get<bool>();
+  if (node.is_array()) {
+    for (const Json& child : node) find_meshes(child, walk);
+    return;
   }
-  for (const Json& child : node) find_meshes(child, walk);
+  if (const auto moved = node.find("transformation"); moved != node.end() && !moved->is_null())
+    throw InputError(walk->where, "an element has a transformation; apply it before the export");
+  const bool outer = walk->support;
+  const std::string outer_key = walk->key;
+  if (const auto flag = node.find("is_support"); flag != node.end() && flag->is_boolean())
+    walk->support = flag->get<bool>();
+  std::vector<std::string> keys;
+  for (const auto& [key, child] : node.items()) keys.push_back(key);
+  std::ranges::sort(keys, {}, [](const std::string& key) {
+    const bool number = is_whole_number(key);
+    return std::tuple(!number, number ? key.size() : 0, key);
+  });
+  for (const std::string& key : keys) {
+    if (is_whole_number(key)) walk->key = key;
+    find_meshes(node[key], walk);
+    walk->key = outer_key;
+  }
   walk->support = outer;
 }
 
@@ -109,6 +151,9 @@ std::vector<RawBlock> read_compas_meshes(const Json& root, const std::string& pa
   walk.where = FileLocation{path, 1, 0};
   walk.stem = std::filesystem::path(path).stem().string();
   const Json::json_pointer elements("/data/elements");  // of a model; its graph holds meshes of joints
+  for (const char* graph : {"/assembly/vertex", "/assembly/node"})  // of former versions, beside their blocks
+    if (const Json::json_pointer nodes(graph); root.is_object() && root.contains(nodes))
+      walk.nodes = &root[nodes];
   find_meshes(root.is_object() && root.contains(elements) ? root[elements] : root, &walk);
   return std::move(walk.blocks);
 }

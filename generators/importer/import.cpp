@@ -1,6 +1,7 @@
 #include "generators/importer/import.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -8,6 +9,7 @@
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "assembly/base/counted.hpp"
 #include "generators/decomposition/decompose.hpp"
@@ -21,8 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 using Format = ImportedBlocks::Format;
 
-constexpr double kSliver = 1e-3;      // thickness over size of a part
-constexpr double kSnapPerWarp = 4.0;  // two faces, each warped to both sides of its plane
+constexpr double kSliver = 1e-3;        // thickness over size of a part
+constexpr double kSnapPerWarp = 4.0;    // two faces, each warped to both sides of its plane
+constexpr double kLargestError = 0.01;  // of the smallest block: as the default of contact.margin
 constexpr double kRoundedWarp =
     1e-9;  // of the block size; smaller deviations from planes are rounding of doubles
 
@@ -142,23 +145,69 @@ struct Surfaces {
   std::vector<int> block;  // per mesh
 };
 
-Surfaces repair_all(const std::vector<RawBlock>& blocks, ImportReport* report) {
+void append_surfaces(const RawBlock& raw, int block, Surfaces* surfaces, ImportReport* report) {
   constexpr double kWeld = 1e-6;  // of the block size: vertices closer than this are merged
+  if (raw.point_parts.empty()) {
+    int doubled = 0;
+    surfaces->meshes.push_back(repair_mesh(raw, kWeld, &doubled));
+    report->doubled_faces += doubled;
+    surfaces->block.push_back(block);
+  }
+  for (const auto& points : raw.point_parts) {
+    surfaces->meshes.push_back(hull_mesh(raw, points));
+    surfaces->block.push_back(block);
+  }
+}
+
+/// Throws InputError with the defects of all blocks at once.
+Surfaces repair_all(const std::vector<RawBlock>& blocks, ImportReport* report) {
+  constexpr size_t kListed = 20;
   Surfaces surfaces;
+  std::vector<std::string> defects;
+  FileLocation first;
   for (size_t b = 0; b < blocks.size(); ++b) {
-    const RawBlock& raw = blocks[b];
-    if (raw.point_parts.empty()) {
-      int doubled = 0;
-      surfaces.meshes.push_back(repair_mesh(raw, kWeld, &doubled));
-      report->doubled_faces += doubled;
-      surfaces.block.push_back(static_cast<int>(b));
-    }
-    for (const auto& points : raw.point_parts) {
-      surfaces.meshes.push_back(hull_mesh(raw, points));
-      surfaces.block.push_back(static_cast<int>(b));
+    try {
+      append_surfaces(blocks[b], static_cast<int>(b), &surfaces, report);
+    } catch (const InputError& defect) {
+      const std::string text = defect.what(), mark = "error: ";
+      defects.push_back(text.substr(text.find(mark) + mark.size()));
+      if (defects.size() == 1) first = blocks[b].where;
     }
   }
-  return surfaces;
+  if (defects.empty()) return surfaces;
+  const size_t more = defects.size() - std::min(kListed, defects.size());
+  defects.resize(defects.size() - more);
+  throw InputError(
+      first, fmt::format("{}{}", fmt::join(defects, "; "),
+                         more > 0 ? fmt::format("; and {} with defects", counted(more, "more block")) : ""));
+}
+
+/// m3, of a surface as drawn: each polygon as a fan about the mean of its corners, which for four corners bounds the volume of
+/// the bilinear face.
+double drawn_volume(const TriangleMesh& mesh) {
+  const Vec3 origin = mesh.vertices.front();
+  double volume = 0.0;
+  const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    volume += (a - origin).dot((b - origin).cross(c - origin)) / 6.0;
+  };
+  for (std::vector<int>& triangles : triangles_of_polygons(mesh)) {
+    std::vector<int> loop;
+    if (triangles.size() > 1) loop = facet_loop(mesh, mean_facet(mesh, triangles));
+    Vec3 mean = Vec3::Zero();
+    for (const int v : loop) mean += mesh.vertices[v] / static_cast<double>(loop.size());
+    for (size_t i = 0; i < loop.size(); ++i)
+      add(mean, mesh.vertices[loop[i]], mesh.vertices[loop[(i + 1) % loop.size()]]);
+    if (loop.empty())
+      for (const int t : triangles) add(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  }
+  return volume;
+}
+
+/// m, cube root of the smallest volume.
+double smallest_size(const std::vector<TriangleMesh>& meshes) {
+  double volume = std::numeric_limits<double>::infinity();
+  for (const TriangleMesh& mesh : meshes) volume = std::min(volume, drawn_volume(mesh));
+  return std::cbrt(volume);
 }
 
 /// The tolerances of the case, or those that follow from the surfaces.
@@ -169,9 +218,15 @@ DecompositionOptions choose_tolerances(const ImportedBlocks& source, const std::
   options.facet_angle = source.facet_angle.value_or(report->flatness.facet_angle);
   options.flat = source.facet_angle.value_or(report->flatness.flat);
   report->facet_angle = options.facet_angle;
-  const bool exact = report->flatness.relative_warp < kRoundedWarp;
-  report->snap = source.snap.value_or(exact ? 0.0 : kSnapPerWarp * report->flatness.warp);
   report->chosen = !source.facet_angle || !source.snap;
+  if (source.snap) {
+    report->snap = *source.snap;
+    return options;
+  }
+  const bool exact = report->flatness.relative_warp < kRoundedWarp;
+  const double of_warp = exact ? 0.0 : kSnapPerWarp * report->flatness.warp;
+  report->snap_of_gaps = snap_from_gaps(meshes, options, kLargestError * smallest_size(meshes));
+  report->snap = std::max(of_warp, report->snap_of_gaps.value_or(0.0));
   return options;
 }
 
@@ -229,27 +284,6 @@ void append_blocks(const std::vector<RawBlock>& raw, const Surfaces& surfaces,
       report->sliver_parts += is_sliver(pieces.parts[p]) ? 1 : 0;
     }
   }
-}
-
-/// m3, of a surface as drawn: each polygon as a fan about the mean of its corners, which for four corners bounds the volume of
-/// the bilinear face.
-double drawn_volume(const TriangleMesh& mesh) {
-  const Vec3 origin = mesh.vertices.front();
-  double volume = 0.0;
-  const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-    volume += (a - origin).dot((b - origin).cross(c - origin)) / 6.0;
-  };
-  for (std::vector<int>& triangles : triangles_of_polygons(mesh)) {
-    std::vector<int> loop;
-    if (triangles.size() > 1) loop = facet_loop(mesh, mean_facet(mesh, triangles));
-    Vec3 mean = Vec3::Zero();
-    for (const int v : loop) mean += mesh.vertices[v] / static_cast<double>(loop.size());
-    for (size_t i = 0; i < loop.size(); ++i)
-      add(mean, mesh.vertices[loop[i]], mesh.vertices[loop[(i + 1) % loop.size()]]);
-    if (loop.empty())
-      for (const int t : triangles) add(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
-  }
-  return volume;
 }
 
 std::vector<double> drawn_volumes(const Surfaces& surfaces, size_t num_blocks) {
@@ -324,6 +358,13 @@ std::string doubt_of_axes(const ImportedBlocks& source, const ImportReport& repo
          "geometry.import.up: y";
 }
 
+/// m, mean size of the blocks if it is that of no stone or brick and the case does not state the unit; else 0.
+double unusual_size(const ImportedBlocks& source, const ImportReport& report) {
+  constexpr double kSmallest = 0.02, kLargest = 10.0;
+  const double size = std::cbrt(report.volume_of_parts / static_cast<double>(report.origins.size()));
+  return source.metres_per_unit || (size >= kSmallest && size <= kLargest) ? 0.0 : size;
+}
+
 std::vector<BuiltTie> read_ties(const ImportedBlocks& source, const std::vector<RawBlock>& raw) {
   std::vector<RawTie> rows;
   if (!source.springs.empty()) rows = read_springs(source.springs);
@@ -359,6 +400,7 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
   append_blocks(raw, surfaces, options, density, &assembly, report);
   compute_mass_properties(&assembly);
   compare_volumes(drawn, assembly, report);
+  report->unusual_size = unusual_size(source, *report);
   fix_supports(source, raw, *report, &assembly);
   report->doubt_of_axes = doubt_of_axes(source, *report, assembly);
   assembly.ties = read_ties(source, raw);
@@ -401,6 +443,10 @@ std::vector<std::string> warnings_of(const ImportReport& r) {
         "block {} has {:.1f} % {} volume than its drawing: its warped faces were split into plane ones",
         r.origins[static_cast<size_t>(r.most_changed_block)].name, 100.0 * std::abs(r.most_changed),
         r.most_changed > 0.0 ? "more" : "less"));
+  if (r.unusual_size > 0.0)
+    warnings.push_back(fmt::format(
+        "the blocks are {:.2g} m in size; if the file is not in metres, set geometry.import.metres_per_unit",
+        r.unusual_size));
   if (!r.doubt_of_axes.empty()) warnings.push_back(r.doubt_of_axes);
   return warnings;
 }
@@ -427,14 +473,23 @@ std::string to_text(const ImportReport& r) {
   if (several > kListed)
     text += fmt::format("  {} with several convex parts; --report lists all\n",
                         counted(several - kListed, "more block"));
+  const bool of_gaps = r.snap_of_gaps && r.snap == *r.snap_of_gaps;
+  const std::string moved = counted(r.snapped_facets, "facet") + " moved to common planes";
   if (r.flatness.relative_warp >= kRoundedWarp)
     text += fmt::format(
         "faces deviate from planes by up to {:.2g} m, {:.1g} of the size of their block; facet_angle = "
-        "{:.2g} rad and snap = {:.2g} m{}: {} moved to common planes\n",
+        "{:.2g} rad and snap = {:.2g} m{}: {}\n",
         r.flatness.warp, r.flatness.relative_warp, r.facet_angle, r.snap,
-        r.chosen ? ", chosen from that" : "", counted(r.snapped_facets, "facet"));
+        of_gaps    ? ", for faces that gape or overlap by up to half of that"
+        : r.chosen ? ", chosen from that"
+                   : "",
+        moved);
+  else if (of_gaps)
+    text += fmt::format(
+        "faces that meet gape or overlap by up to {:.2g} m; snap = {:.2g} m, chosen from that: {}\n",
+        0.5 * r.snap, r.snap, moved);
   else if (r.snapped_facets > 0)
-    text += fmt::format("{} moved to common planes\n", counted(r.snapped_facets, "facet"));
+    text += moved + "\n";
   if (r.flatness.bent > 0)
     text += fmt::format("{} warped by more than 0.05 rad: counted as several triangles\n",
                         counted(r.flatness.bent, "face"));

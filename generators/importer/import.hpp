@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct ImportReport {
   Flatness flatness;
   double facet_angle = 0.0, snap = 0.0;  ///< in force: rad, m
   bool chosen = false;                   ///< one of them follows from the data
+  std::optional<double> snap_of_gaps;    ///< m, from the gaps and overlaps between faces
   int snapped_facets = 0;
   int sliver_parts = 0;               ///< thinner than 1e-3 of their size
   double largest_volume_error = 0.0;  ///< sum of the parts minus the block, over the block's volume
@@ -31,6 +33,7 @@ struct ImportReport {
   double volume_of_parts = 0.0;  ///< m3, from which masses follow
   int most_changed_block = 0;    ///< whose volume differs most from that of its drawing
   double most_changed = 0.0;     ///< by this share of it
+  double unusual_size = 0.0;     ///< m, mean size of the blocks if the unit is doubtful
   int ties = 0;
   std::string doubt_of_axes;  ///< why another axis may be upward; empty: no doubt
   CourseReport courses;

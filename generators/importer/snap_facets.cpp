@@ -84,6 +84,10 @@ std::vector<std::pair<int, int>> facing_pairs(const std::vector<TriangleMesh>& b
   return pairs;
 }
 
+double opposed_angle(const DecompositionOptions& options) {
+  return std::max(kOpposedAngle, options.facet_angle);
+}
+
 /// Facets in one plane: sums over its facets of area times normal and offset, in the direction of the first.
 struct Group {
   std::vector<int> facets;
@@ -104,6 +108,18 @@ Group joined(const Group& a, const Group& b) {
   return both;
 }
 
+/// True if the mean corner of facet a lies inside the plane of facet b.
+bool enters(const std::vector<TriangleMesh>& blocks, const BlockFacet& a, const BlockFacet& b) {
+  Vec3 mean = Vec3::Zero();
+  for (const int v : a.vertices) mean += blocks[a.block].vertices[v] / static_cast<double>(a.vertices.size());
+  return b.facet.plane.normal.dot(mean) < b.facet.plane.offset;
+}
+
+Group alone(const std::vector<BlockFacet>& facets, int i) {
+  const Facet& f = facets[i].facet;
+  return {{i}, {1.0}, f.area * f.plane.normal, f.area * f.plane.offset};
+}
+
 double furthest_corner(const std::vector<TriangleMesh>& blocks, const std::vector<BlockFacet>& facets,
                        const Group& group) {
   const Plane plane = group.plane();
@@ -122,10 +138,7 @@ int set_common_planes(const std::vector<TriangleMesh>& blocks, const std::vector
   std::vector<Group> groups(facets->size());
   std::vector<int> group_of(facets->size());
   std::iota(group_of.begin(), group_of.end(), 0);
-  for (size_t i = 0; i < facets->size(); ++i) {
-    const Facet& f = (*facets)[i].facet;
-    groups[i] = {{static_cast<int>(i)}, {1.0}, f.area * f.plane.normal, f.area * f.plane.offset};
-  }
+  for (size_t i = 0; i < facets->size(); ++i) groups[i] = alone(*facets, static_cast<int>(i));
   for (const auto& [i, j] : pairs) {
     const int g = group_of[i], h = group_of[j];
     if (g == h) continue;
@@ -181,11 +194,33 @@ void move_vertices(const std::vector<BlockFacet>& facets, double furthest,
 
 int snap_facets(std::vector<TriangleMesh>* blocks, const DecompositionOptions& options, double distance) {
   std::vector<BlockFacet> facets = all_facets(*blocks, options);
-  const double angle = std::max(kOpposedAngle, options.facet_angle);
-  const int moved =
-      set_common_planes(*blocks, facing_pairs(*blocks, facets, angle, distance), distance, &facets);
+  const int moved = set_common_planes(
+      *blocks, facing_pairs(*blocks, facets, opposed_angle(options), distance), distance, &facets);
   move_vertices(facets, 2.0 * distance, blocks);
   return moved;
+}
+
+std::optional<double> snap_from_gaps(const std::vector<TriangleMesh>& blocks,
+                                     const DecompositionOptions& options, double largest) {
+  constexpr double kNoError = 1e-7;  // of `largest`: rounding of doubles
+  constexpr double kJump = 2.0;
+  constexpr double kBalance = 0.25;  // least overlap over gap of errors
+  const std::vector<BlockFacet> facets = all_facets(blocks, options);
+  std::vector<std::pair<double, bool>> errors;  // m, and whether the facets overlap
+  for (const auto& [i, j] : facing_pairs(blocks, facets, opposed_angle(options), largest)) {
+    const double error = furthest_corner(blocks, facets, joined(alone(facets, i), alone(facets, j)));
+    if (error > kNoError * largest) errors.emplace_back(error, enters(blocks, facets[i], facets[j]));
+  }
+  std::ranges::sort(errors);
+  double gap = 0.0, overlap = 0.0;
+  std::optional<double> snap;
+  for (size_t i = 0; i < errors.size(); ++i) {
+    const auto [error, overlaps] = errors[i];
+    (overlaps ? overlap : gap) = error;
+    const double next = i + 1 < errors.size() ? errors[i + 1].first : largest;
+    if (kJump * error <= std::min(next, largest) && overlap >= kBalance * gap) snap = kJump * error;
+  }
+  return snap;
 }
 
 }  // namespace cupola

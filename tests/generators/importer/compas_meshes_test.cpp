@@ -73,6 +73,47 @@ TEST(CompasMeshes, ElementsOfAModelSayWhetherTheyAreSupports) {
   }
 }
 
+/// The vertices and faces of cube() alone, as versions of COMPAS before 1.0 wrote them.
+std::string former_cube(double z, const std::string& more = "") {
+  const std::string mesh = cube(z);
+  const size_t data = mesh.find("\"data\": ") + 8;
+  std::string inner = mesh.substr(data, mesh.size() - 1 - data);
+  inner.pop_back();
+  return inner + more + "}";
+}
+
+// Blocks by number beside the graph that says which of them are supports; and in the nodes of a graph.
+TEST(CompasMeshes, FormerVersionsAreRead) {
+  std::string apart, nodes, within;
+  for (const int i : {0, 2, 10}) {  // as text, 10 is before 2
+    const std::string comma = i > 0 ? ", " : "", key = fmt::format("{}\"{}\": ", comma, i),
+                      flag = fmt::format("\"is_support\": {}", i == 10);
+    apart += key + former_cube(i);
+    nodes += key + "{" + flag + "}";
+    within += key + R"({"block": {"dtype": "compas_assembly/Block", "value": )" + former_cube(i) + "}, " +
+              flag + "}";
+  }
+  for (const std::string& text :
+       {R"({"assembly": {"vertex": {)" + nodes + R"(}}, "blocks": {)" + apart + "}}",
+        R"({"node": {)" + within + "}}"}) {
+    const auto blocks = read(text);
+    ASSERT_EQ(blocks.size(), 3u) << text;
+    EXPECT_EQ(blocks[0].name, "0");
+    EXPECT_EQ(blocks[2].name, "10");
+    EXPECT_EQ(blocks[2].mesh.vertices.front().z(), 10.0);
+    EXPECT_FALSE(blocks[0].fixed || blocks[1].fixed);
+    EXPECT_TRUE(blocks[2].fixed);
+  }
+}
+
+TEST(CompasMeshes, AttributesOfAMeshSayWhetherItIsASupport) {
+  const auto blocks =
+      read("[" + former_cube(0, R"(, "attributes": {"is_support": true})") + ", " + former_cube(1) + "]");
+  ASSERT_EQ(blocks.size(), 2u);
+  EXPECT_TRUE(blocks[0].fixed);
+  EXPECT_FALSE(blocks[1].fixed);
+}
+
 TEST(CompasMeshes, AreRefusedWithTheReason) {
   const auto complaint = [](const std::string& text) -> std::string {
     try {

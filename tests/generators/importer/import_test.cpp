@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -173,6 +174,37 @@ TEST_F(Import, SnapsOpposedFacetsToOnePlane) {
   EXPECT_NEAR(bottom, 1.0002, 1e-12);
 }
 
+/// Boxes on each other, each moved upwards by `errors` (m) from where it touches its neighbours.
+std::string stack(const std::vector<double>& errors) {
+  std::string text;
+  for (size_t i = 0; i < errors.size(); ++i)
+    text += obj_box(std::to_string(i), 0, static_cast<double>(i) + errors[i], 8 * static_cast<int>(i) + 1);
+  return text;
+}
+
+// Rounded coordinates let plane faces gape and overlap by tenths of a millimetre, here by up to 0.7 mm.
+TEST_F(Import, ClosesGapsAndOverlapsOfRoundedCoordinates) {
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path = write("rounded.obj", stack({0, 4e-4, -3e-4, 2e-4, -4e-4, 1e-4}));
+  scene.geometry.imported->supports = {"0"};
+  GenerateReport report;
+  generate(scene, &report);
+  EXPECT_NEAR(report.import->snap, 7e-4, 1e-9);  // twice the distance from the middle of the widest
+  EXPECT_LT(report.model.max_overlap, 1e-12);
+  EXPECT_LT(report.model.max_joint_gap, 1e-12);
+}
+
+// Openings that were drawn do not overlap anywhere and stay.
+TEST_F(Import, KeepsGapsThatWereDrawn) {
+  ImportedBlocks source;
+  source.path = write("open.obj", stack({0, 5e-4, 1e-3, 1.5e-3}));
+  ImportReport report;
+  import_blocks(source, 1.0, &report);
+  EXPECT_EQ(report.snap, 0.0);
+  EXPECT_EQ(report.snapped_facets, 0);
+}
+
 TEST_F(Import, ReadsDensityFlagsAndPartsOfBricks) {
   const std::string corners_a = "0,0,0,1,0,0,1,1,0,0,1,0,0,0,1,1,0,1,1,1,1,0,1,1";
   const std::string corners_b = "1,0,0,3,0,0,3,1,0,1,1,0,1,0,1,3,0,1,3,1,1,1,1,1";
@@ -272,6 +304,20 @@ TEST_F(Import, NamesAllOverlapsAtOnceWithTheMarginThatAdmitsThem) {
   EXPECT_EQ(found.find('\n'), std::string::npos) << found;
 }
 
+// The lid of every other box is missing.
+TEST_F(Import, NamesTheDefectsOfAllBlocksAtOnce) {
+  const auto open = [](const std::string& box) {
+    const size_t lid = box.find("f ", box.find("f ") + 1);
+    return box.substr(0, lid) + box.substr(box.find('\n', lid) + 1);
+  };
+  const std::string found = complaint(
+      write("open.obj", open(obj_box("a", 0, 0, 1)) + obj_box("b", 0, 1, 9) + open(obj_box("c", 0, 2, 17))));
+  for (const char* expected :
+       {"open.obj:1: error: block a: not closed, 4 boundary edges; block c: not closed"})
+    EXPECT_NE(found.find(expected), std::string::npos) << expected << " in: " << found;
+  EXPECT_EQ(found.find("block b"), std::string::npos) << found;
+}
+
 TEST_F(Import, DropsDoubledFacesWithAWarning) {
   const std::string box = obj_box("a", 0, 0, 1);
   const std::string again = box.substr(box.rfind("f "));
@@ -301,6 +347,35 @@ TEST_F(Import, AsksForTheUnitOfModelsThatAreNoStructures) {
   EXPECT_NO_THROW(import_blocks(source, 1000.0));
   source.metres_per_unit = 1.0;
   EXPECT_NO_THROW(import_blocks(source, 1000.0));
+}
+
+std::string scaled(const std::string& obj, double factor) {
+  std::istringstream lines(obj);
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    double x = 0.0, y = 0.0, z = 0.0;
+    const bool vertex = std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3;
+    text += vertex ? fmt::format("v {} {} {}\n", factor * x, factor * y, factor * z) : line + "\n";
+  }
+  return text;
+}
+
+// A box of 30 m could be a structure, but is no stone.
+TEST_F(Import, DoubtsTheUnitOfBlocksThatAreNoStones) {
+  const std::string box = obj_box("a", 0, 0, 1), large = scaled(box, 30.0);
+  Case scene;
+  scene.geometry.imported.emplace();
+  const auto doubted = [&](const std::string& text) {
+    scene.geometry.imported->path = write("box.obj", text);
+    GenerateReport report;
+    generate(scene, &report);
+    return fmt::format("{}", fmt::join(warnings_of(report), "|")).find("if the file is not in metres") !=
+           std::string::npos;
+  };
+  EXPECT_FALSE(doubted(box));
+  EXPECT_TRUE(doubted(large));
+  scene.geometry.imported->metres_per_unit = 1.0;
+  EXPECT_FALSE(doubted(large));
 }
 
 TEST_F(Import, FixesTheLowestBlocks) {

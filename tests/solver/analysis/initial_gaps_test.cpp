@@ -1,0 +1,48 @@
+// Gaps and overlaps as drawn: closed by displacements, or taken as errors of the drawing.
+#include <gtest/gtest.h>
+
+#include "solver/analysis/analysis.hpp"
+#include "tests/solver/motion_scenes.hpp"
+
+namespace cupola::initial_gaps_test {
+namespace {
+
+constexpr double kCompliance = 1e-8;  // m/N, per contact point
+
+/// A slab on three fixed piers, of which the middle one is `higher` (m) than the others.
+Assembly slab(double higher) {
+  return testing::make_boxes({{.center = {-2, 0, -0.5}, .fixed = true},
+                              {.center = {0, 0, -0.5 + higher}, .fixed = true},
+                              {.center = {2, 0, -0.5}, .fixed = true},
+                              {.center = {0, 0, 0.25}, .size = {5, 1, 0.5}}});
+}
+
+/// m, of the slab upwards.
+double rise(const Assembly& assembly, ContactDetection::InitialGaps gaps) {
+  Case scene = testing::make_case(0.7, kCompliance, 0.01);
+  scene.analysis.type = AnalysisType::static_;
+  scene.contact.initial_gaps = gaps;
+  AnalysisSinks sinks;
+  Frame frame;
+  sinks.frame = [&](const Frame& f) { frame = f; };
+  const Summary summary = run_static(scene, assembly, sinks);
+  EXPECT_EQ(summary.status, Status::stable) << summary.message;
+  return frame.blocks.displacement[3].z();
+}
+
+// Each pier has four contact points. A middle pier that is 0.1 mm too low carries nothing, because the slab sinks by 0.03 mm only; one that
+// is as much too high lifts the slab off the others. Where that is an error of the drawing, all twelve points carry.
+TEST(InitialGaps, CountAsDrawnOrAsErrorsOfTheDrawing) {
+  using enum ContactDetection::InitialGaps;
+  constexpr double kError = 1e-4;
+  const Assembly low = slab(-kError), high = slab(kError);
+  const double sinks = kCompliance * free_weight(low, testing::kG);
+  const double tolerance = 1e-6 * sinks;  // of the solve
+  EXPECT_NEAR(rise(low, keep), -sinks / 8.0, tolerance);
+  EXPECT_NEAR(rise(high, keep), kError - sinks / 4.0, tolerance);
+  EXPECT_NEAR(rise(low, ignore), -sinks / 12.0, tolerance);
+  EXPECT_NEAR(rise(high, ignore), -sinks / 12.0, tolerance);
+}
+
+}  // namespace
+}  // namespace cupola::initial_gaps_test
