@@ -3,8 +3,8 @@
 
   public_models.py FOLDER GENERATOR      FOLDER holds clones of the repositories of MODELS; a model that is absent is left out
 
-The case gives the file and `fixed_by: lowest`, and nothing else. A model that it refuses is tried once more with the keys in MODELS, which
-are what the message asks for. Volumes are compared with those that the file's own polygons enclose.
+The case gives the file, `fixed_by: lowest`, and the keys in MODELS, which their authors state; there is one try. Volumes are compared with
+those that the file's own polygons enclose.
 """
 
 import json
@@ -85,12 +85,8 @@ def row(repository, path, keys, generator, root):
         folder = pathlib.Path(name)
         file = folder / pathlib.Path(path).name
         file.write_bytes((root / repository / path).read_bytes())
-        report, message = attempt(file, {}, generator, folder)
-        result = "at the first try"
-        if not report and keys:
-            first = message
-            report, message = attempt(file, keys, generator, folder)
-            result = "with " + " ".join(f"{key}: {value}" for key, value in keys.items()) + f"; before: {shortened(first)}"
+        report, message = attempt(file, keys, generator, folder)
+    result = "at the first try" + "".join(f", {key}: {value}" for key, value in keys.items())
     cells = [repository, path.replace("src/compas_cra/data/", "").replace("src/compas_assembly/data/", "")]
     if not report:
         return cells + [""] * 6 + [shortened(message)]
