@@ -32,7 +32,7 @@ void add_forces(const Assembly& assembly, const JointWrench& joint, const WytheR
   const int b = ring_above_support(assembly.blocks[joint.block_b]);
   if (a == b) return;
   const Vec3 force = wrench_on(joint, a > b ? joint.block_a : joint.block_b).force;
-  const Vec3 level = joint.patch.centroid - joint.patch.centroid.dot(up) * up;
+  const Vec3 level = joint.centroid - joint.centroid.dot(up) * up;
   for (int k = std::min(a, b) + 1; k <= std::max(a, b); ++k) {
     WytheSum& sum = (*sums)[{k, wythes}].sum;
     sum.vertical_force += force.dot(up);

@@ -43,16 +43,23 @@ std::string value_text(double value, std::string unit, int digits = 4) {
   return fmt::format("{:.{}g}{}", value, digits, unit.empty() ? "" : " " + unit);
 }
 
-/// What the case has, and how far that is from the critical value: "the case has 0.4, 4.63 times as much".
+/// What the case has, and how far that is from the critical value.
 std::string distance_text(const Evaluation& e, const std::string& unit) {
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> factor = factor_of_safety(e.scene, e.summary);
   if (!factor || critical.parameter == "load") return "";  // the critical load is the factor
-  const double own = *value_of_case(e.scene, critical.parameter);
-  const bool upwards = critical.stable < critical.moving;
-  return upwards ? fmt::format("{:.3g} times the {} of the case", *factor, value_text(own, unit))
-                 : fmt::format("the case has {}, {:.3g} times as much", value_text(own, unit), *factor);
+  const std::string own = value_text(*value_of_case(e.scene, critical.parameter), unit);
+  return fmt::format("the case has {}{}", own, distance_from_limit(*factor, critical));
 }
+
+}  // namespace
+
+std::string distance_from_limit(double factor, const CriticalValue& critical) {
+  return critical.stable < critical.moving ? fmt::format(" and bears {:.3g} times as much", factor)
+                                           : fmt::format(", {:.3g} times what it needs", factor);
+}
+
+namespace {
 
 KeyNumber critical_answer(const Evaluation& e) {
   const CriticalValue& critical = *e.summary.critical;
@@ -68,11 +75,11 @@ KeyNumber critical_answer(const Evaluation& e) {
   if (const std::string distance = distance_text(e, unit); !distance.empty()) details.push_back(distance);
   if (const std::string decides = what_gives_way(e); !decides.empty())
     details.push_back(
-        fmt::format("{} {}", critical.stable < critical.moving ? "with more" : "with less", decides));
+        fmt::format("{} it {}", critical.stable < critical.moving ? "beyond" : "below", decides));
   if (shows_bracket(critical) || critical.value == 0.0)
     details.push_back(fmt::format("stands at {}, moves at {}", value_text(critical.stable, unit, 5),
                                   value_text(critical.moving, unit, 5)));
-  return {"Critical " + critical.parameter, value_text(critical.value, unit),
+  return {"Critical " + critical.parameter, value_text(critical.stable, unit),
           fmt::format("{}", fmt::join(details, "; "))};
 }
 
@@ -240,7 +247,10 @@ std::optional<KeyNumber> crack_answer(const Evaluation& e) {
   const bool rigid = is_limit(e) || !e.summary.ranges.empty();
   if (!at_rest(e) || rigid) return std::nullopt;
   const std::vector<Crack> cracks = cracks_of(e.last.frame.contacts, e.last.joints);
-  if (cracks.empty()) return KeyNumber{"Widest crack", "none", "every joint is closed"};
+  if (cracks.empty())
+    return KeyNumber{
+        "Widest crack", "none",
+        fmt::format("no joint is open by more than {}", length_text(e.last.joints.floor.length))};
   double total = 0.0;
   for (const Crack& crack : cracks) total += crack.extent;
   const Crack& widest = *std::max_element(cracks.begin(), cracks.end(), [](const Crack& a, const Crack& b) {

@@ -28,6 +28,9 @@ std::string reason_for_verdict(const Evaluation& evaluation);
 /// By how much: the factor that this run computed, with what decides it, or the command that computes some.
 KeyNumber margin_answer(const Evaluation& evaluation);
 
+/// ", 4.63 times what it needs" or " and bears 2 times as much". `factor`: of factor_of_safety().
+std::string distance_from_limit(double factor, const CriticalValue& critical);
+
 /// The thrust on the supports: in N, per metre and per support, with its range if the run has one. None without an axis.
 std::optional<KeyNumber> thrust_answer(const Evaluation& evaluation);
 

@@ -51,16 +51,14 @@ void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
     out->insert(first ? out->begin() : out->end(), std::move(*thrust));
   }
   if (const PostSummary s = post_summary(e); s.largest_strength_use) {
-    const auto& joints = e.last.joints.wrenches;
-    const auto outside =
-        std::count_if(joints.begin(), joints.end(), [](const JointWrench& j) { return j.kern > 1.0; });
     const double pressure = s.largest_pressure_Pa.value_or(0.0);
     out->push_back({kLargestPressure,
                     pressure < 1e5 ? fmt::format("{:.3g} kPa", 1e-3 * pressure)
                                    : fmt::format("{:.3g} MPa", 1e-6 * pressure),
-                    fmt::format("a joint uses at most {:.3g} % of its compressive or tensile strength; the "
-                                "forces of {} of {} lie outside the kern",
-                                100.0 * *s.largest_strength_use, outside, counted(joints.size(), "joint"))});
+                    *s.largest_strength_use > 0.0
+                        ? fmt::format("a joint uses at most {:.3g} % of its compressive or tensile strength",
+                                      100.0 * *s.largest_strength_use)
+                        : std::string("no joint is in tension, and none has a limit of the pressure")});
   }
   if (std::optional<KeyNumber> crack = crack_answer(e)) out->push_back(std::move(*crack));
 }
@@ -121,11 +119,10 @@ std::vector<KeyNumber> key_numbers(const Evaluation& e, const std::vector<Histor
 
 std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& history,
                          const StageReport* construction, const std::string& viewer) {
-  std::string out;
+  const VerdictWords verdict = verdict_words(e);
+  std::string out = verdict_html(verdict.words, reason_for_verdict(e), verdict.good);
   for (const std::string& warning : notices(e))
     out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
-  const VerdictWords verdict = verdict_words(e);
-  out += verdict_html(verdict.words, reason_for_verdict(e), verdict.good);
   std::vector<KeyNumber> numbers = key_numbers(e, history);
   if (construction)
     numbers.insert(numbers.begin(),

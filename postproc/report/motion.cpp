@@ -90,6 +90,9 @@ void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& hist
       "m. The blocks move as {}.",
       e.last.frame.time, farthest.displacement, block_text(e, farthest.block), count_moving(e, threshold),
       counted(e.summary.free_blocks, "free block"), threshold, counted(bodies, "body", "bodies")));
+  if (e.lost_joints.value_or(0) > 0)
+    out->push_back(fmt::format("{} that carried force at the start have separated completely.",
+                               counted(*e.lost_joints, "joint")));
   if (!history.empty() && e.summary.weight_N > 0.0)
     out->push_back(fmt::format("The supports carry {:.3g} of the weight at the end.",
                                history.back().reaction / e.summary.weight_N));

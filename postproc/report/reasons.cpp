@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "assembly/base/counted.hpp"
+#include "postproc/evaluation/margin.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/report/motion.hpp"
@@ -76,6 +77,35 @@ std::string assumptions(const Evaluation& e) {
   return fmt::format("{}", fmt::join(given, ", "));
 }
 
+/// A limit: on which side of it the case is, and by which factor.
+std::string limit_text(const Evaluation& e) {
+  const CriticalValue& critical = *e.summary.critical;
+  const std::optional<double> own = value_of_case(e.scene, critical.parameter);
+  const std::optional<double> factor = factor_of_safety(e.scene, e.summary);
+  if (!own || !factor || critical.parameter == "peak_stress")
+    return verdict_text(e.summary, e.last.frame.role);
+  const bool holds = *factor >= 1.0;
+  std::string text;
+  if (critical.parameter == "load")
+    text = fmt::format("Its loads can grow to {:.4g} times those of the case before it moves.", *factor);
+  else if (critical.parameter == "joint_extent")
+    text =
+        fmt::format("Its joints can shrink to {:.4g} times their extent before it moves.", critical.stable);
+  else
+    text = fmt::format("The case has {}{}: it stands {} {:.5g} and moves {} {:.5g}.",
+                       phrase(critical.parameter, *own), distance_from_limit(*factor, critical),
+                       critical.stable < critical.moving ? "up to" : "down to", critical.stable,
+                       shows_bracket(critical)             ? "at"
+                       : critical.stable < critical.moving ? "beyond"
+                                                           : "below",
+                       critical.moving);
+  if (critical.parameter == "load" && !holds)
+    text = fmt::format("It bears only {:.4g} times the loads of the case.", *factor);
+  if (critical.parameter == "joint_extent" && !holds)
+    text = fmt::format("It moves unless its joints were {:.4g} times as large.", critical.stable);
+  return text + " Picture and thrust belong to this limit, not to the case.";
+}
+
 /// A limit: existence on one side is certain; what lies beyond is as certain as the run says.
 std::string certain_of_limit(const Evaluation& e) {
   const CriticalValue& critical = *e.summary.critical;
@@ -102,6 +132,8 @@ std::string reason_for_verdict(const Evaluation& e) {
     text = carried_text(e);
   else if (s.status == Status::collapsed)
     text = collapsed_text(e);
+  else if (s.critical && !is_stage(e.last.frame.role))
+    text = limit_text(e);
   else
     text = verdict_text(s, e.last.frame.role);
   if (const std::string parts = parts_sentence(e); !parts.empty()) text += " " + parts;
@@ -141,13 +173,13 @@ std::string certain_sentence(const Evaluation& e) {
 
 namespace {
 
-/// "number 7", or its name in the imported file.
+/// number 7, or its name in the imported file, quoted.
 std::string name_of(const Evaluation& e, int block) {
   const std::string& name = e.assembly.blocks[block].name;
-  return name.empty() ? fmt::format("number {}", block) : fmt::format("`{}`", name);
+  return name.empty() ? fmt::format("number {}", block) : fmt::format("\"{}\"", name);
 }
 
-/// "1 block, `stone`" or "12 blocks".
+/// "12 blocks", or of one its name too.
 std::string blocks_of(const Evaluation& e, const std::vector<PartVerdict>& parts) {
   int blocks = 0;
   for (const PartVerdict& part : parts) blocks += part.blocks;

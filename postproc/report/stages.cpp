@@ -1,6 +1,7 @@
 #include "postproc/report/stages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -50,6 +51,13 @@ Notable notable_stages(const CsvFile& csv, size_t verdict, size_t needs) {
   return out;
 }
 
+/// "1st", "12th".
+std::string ordinal(size_t number) {
+  constexpr std::array kEndings{"th", "st", "nd", "rd"};
+  const size_t last = number / 10 % 10 == 1 ? 0 : number % 10;
+  return fmt::format("{}{}", number, last < kEndings.size() ? kEndings[last] : kEndings[0]);
+}
+
 /// "4 blocks of course 20 slide", of the rows of one stage in failures.csv; "" without any.
 std::string what_moves(const std::optional<CsvFile>& failures, double stage) {
   if (!failures) return "";
@@ -70,7 +78,7 @@ std::string what_moves(const std::optional<CsvFile>& failures, double stage) {
 
 std::vector<Table::Column> construction_columns(Least least) {
   const std::string property = to_string(least), unit = least == Least::cohesion ? "Pa" : "";
-  std::vector<Table::Column> columns{{"stage", "", "stage"},
+  std::vector<Table::Column> columns{{"stage", "", "stage, counted from 0"},
                                      {"ring", "", "course being laid"},
                                      {"laid", "", "blocks laid in the stage"},
                                      {"blocks", "", "blocks solved"},
@@ -154,10 +162,13 @@ StageReport blocks_laid(Least least, const CsvFile& csv, const std::optional<Csv
   out.standing = notable.standing;
   if (const auto& row = notable.failing ? notable.failing : notable.demanding) {
     const std::string moving = what_moves(failures, csv.number(*row, number));
-    out.worst = fmt::format("{} stage {} in course {}",
-                            notable.failing ? "the first that does not:" : "the most demanding:",
-                            csv.rows[*row][number], csv.rows[*row][ring]);
-    if (!moving.empty()) out.worst += (notable.failing ? ", where " : "; with less, ") + moving;
+    out.worst =
+        fmt::format("{} the {} of {}, in course {}",
+                    notable.failing ? "the first that does not:" : "the most demanding:", ordinal(*row + 1),
+                    csv.rows.size(), csv.rows[*row][ring]);
+    if (!moving.empty())
+      out.worst +=
+          notable.failing ? ", where " + moving : fmt::format("; with less {} {}", to_string(least), moving);
   }
   out.figure = curve_over_stages(points, "stage", cohesion ? "required cohesion (kPa)" : "required friction");
   if (!out.figure) return out;

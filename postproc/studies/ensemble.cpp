@@ -54,7 +54,7 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
   const Table differences = alike ? differences_table(all, &sentences) : Table{};
   bool good = true;
   for (const EnsembleResults& one : all) {
-    const std::string failed = failures(one.members);
+    const std::string failed = failures(one.members, "member");
     good = good && failed.empty();
     if (!failed.empty())
       sentences.push_back(fmt::format("{}: {} failed: {}.", one.name, failed, endings(one.members)));

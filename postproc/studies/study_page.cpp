@@ -66,8 +66,12 @@ void StudyPage::write_csv(const Table& table) const {
 }
 
 void StudyPage::add_table(const Table& table) {
+  add_table(table, table);
+}
+
+void StudyPage::add_table(const Table& table, const Table& shown) {
   write_csv(table);
-  body_ += html_table(without_empty_columns(table));
+  body_ += html_table(without_empty_columns(shown));
 }
 
 void StudyPage::write() const {

@@ -21,6 +21,8 @@ class StudyPage {
   void add_figures(const std::vector<Figure>& figures);
   /// Writes NAME.csv and shows the table without columns in which all cells are empty.
   void add_table(const Table& table);
+  /// The same; the page shows `shown` in its place.
+  void add_table(const Table& table, const Table& shown);
   /// Links to the reports of the runs that have one.
   void add_report_links(const std::vector<StudyRun>& runs, const std::string& runs_folder);
   void write_csv(const Table& table) const;  ///< NAME.csv, and NAME.tex for LaTeX

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/files/markup.hpp"
 #include "assembly/files/number_text.hpp"
 #include "assembly/model/status.hpp"
 #include "postproc/report/first_screen.hpp"
@@ -35,11 +36,11 @@ std::string endings(const Table& table) {
   return text;
 }
 
-std::string failures(const Table& table) {
+std::string failures(const Table& table, const std::string& noun) {
   const auto failed = std::ranges::count_if(texts_of(table, "status"), [](const std::string& status) {
     return status == "missing" || status == "unconverged";
   });
-  return failed == 0 ? "" : fmt::format("{} of {}", failed, counted(table.rows.size(), "member"));
+  return failed == 0 ? "" : fmt::format("{} of {}", failed, counted(table.rows.size(), noun));
 }
 
 namespace {
@@ -89,11 +90,30 @@ std::string banner(const std::vector<SweptKey>& sweep, const Table& table) {
                     where = where_it_stands(sweep, table);
   const auto standing = std::ranges::count_if(texts_of(table, "status"),
                                               [](const std::string& status) { return stands(status); });
-  const std::string members = counted(table.rows.size(), "member");
+  const std::string runs = counted(table.rows.size(), "run");
   if (!failed.empty())
     return verdict_html(failed + " failed", where.empty() ? ended : ended + " " + where, false);
-  if (where.empty()) return verdict_html(ended, members + ".", true);
-  return verdict_html(fmt::format("It stands in {} of {}", standing, members), where, standing > 0);
+  if (where.empty()) return verdict_html(ended, runs + ".", true);
+  const bool all = standing == static_cast<std::ptrdiff_t>(table.rows.size());
+  return verdict_html(fmt::format("It stands in {} of {}", standing, runs), where, all);
+}
+
+/// What is certain of the verdicts, and what all runs assume; "" for limits, each of which has a bracket of its own.
+std::string certain_of_sweep(const std::vector<SweptKey>& sweep, const Table& table) {
+  for (const std::string& critical : texts_of(table, "critical_value"))
+    if (!critical.empty()) return "";
+  const std::vector<std::string> statuses = texts_of(table, "status");
+  const auto certain = std::ranges::count_if(statuses, [](const std::string& status) {
+    return status == to_string(Status::stable) || status == to_string(Status::moving);
+  });
+  const std::string of = fmt::format("{} of {}", certain, counted(statuses.size(), "run"));
+  return fmt::format(
+      "Certain: the verdict of {}, which is proven. Not known: where between two values of {} the verdict "
+      "changes. "
+      "Assumed: what the runs share, and the stiffness of the joints, which selects thrust and cracks among "
+      "all states that "
+      "balance the loads.",
+      of, sweep.front().key);
 }
 
 }  // namespace
@@ -103,11 +123,14 @@ std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<Stud
   std::vector<std::string> keys;
   for (const SweptKey& swept : sweep) keys.push_back(swept.key);
   const Table table = sweep_table(keys, members, runs_folder);
-  page->add(banner(sweep, table));
+  page->add("<div class=\"first\">\n" + banner(sweep, table));
+  if (const std::string certain = certain_of_sweep(sweep, table); !certain.empty())
+    page->add("<p class=\"certain\">" + markup_text(certain) + "</p>\n");
+  page->add("</div>\n");
   if (const Figure figure = sweep_figure(sweep, table); !figure.commands.empty()) page->add_figures({figure});
-  page->add_table(table);
+  page->add_table(table, in_readable_units(table));
   page->add_report_links(members, runs_folder);
-  return fmt::format("{}\n{}: {}\n", aligned_text(table), counted(members.size(), "member"), endings(table));
+  return fmt::format("{}\n{}: {}\n", aligned_text(table), counted(members.size(), "run"), endings(table));
 }
 
 }  // namespace cupola

@@ -16,8 +16,8 @@ Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyR
                   const std::string& runs_folder);
 /// How the members of such a table ended: "6 stable, 2 moving".
 std::string endings(const Table& sweep_table);
-/// "2 of 8 members" that have no results or did not reach their accuracy; "" for none.
-std::string failures(const Table& sweep_table);
+/// "2 of 8 runs" that have no results or did not reach their accuracy; "" for none.
+std::string failures(const Table& sweep_table, const std::string& noun = "run");
 /// Columns of numbers that differ by more than rounding between the members of one of the tables; errors and times are no results.
 std::vector<size_t> varying_columns(const std::vector<const Table*>& sweep_tables);
 

@@ -40,7 +40,7 @@ bool is_positive(const Table& table, size_t column) {
                       [column](const auto& row) { return number_of(row[column]) < 0.0; });
 }
 
-/// The unit of a panel and its factor: lengths below one metre in mm, forces in kN or MN.
+/// The unit in which a column is shown and its factor: lengths below one metre in mm, forces in kN or MN.
 std::pair<double, std::string> readable_unit(const Table& table, size_t column) {
   const std::string& unit = table.columns[column].unit;
   const bool small = std::none_of(table.rows.begin(), table.rows.end(), [column](const auto& row) {
@@ -87,6 +87,22 @@ Rows without_equilibrium(const Table& table, size_t status) {
 }
 
 }  // namespace
+
+Table in_readable_units(Table table) {
+  for (size_t k = 0; k < table.columns.size(); ++k) {
+    const auto [factor, unit] = readable_unit(table, k);
+    table.columns[k].unit = unit;
+    table.columns[k].floor *= factor;
+    for (auto& row : table.rows) {
+      if (double* value = std::get_if<double>(&row[k])) *value *= factor;
+      const auto* name = std::get_if<std::string>(&row[k]);
+      const auto status =
+          name && table.columns[k].key == "status" ? enum_from_name<Status>(*name) : std::nullopt;
+      if (status) row[k] = words_of(*status);
+    }
+  }
+  return table;
+}
 
 Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
   Figure f;

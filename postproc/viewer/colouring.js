@@ -88,11 +88,11 @@ function swatches(entries) {
 function bar(column, scale, gaps) {
   const [factor, unit] = unitFor(Math.max(Math.abs(scale.low), Math.abs(scale.high)), column.unit);
   const number = (v) => digits(v / factor);
-  const signed = scale.low < 0;
+  const middle = scale.low < 0 ? "0" : "";
   return `<b>${escaped(column.label)}${unit ? ", " + unit : ""}</b>` +
-    `<span class="bar" style="background:linear-gradient(to right,${scale.stops.map(css).join(",")})"></span>` +
     `<span class="ends"><span>${scale.cutLow ? "≤ " : ""}${number(scale.low)}</span>` +
-    (signed ? "<span>0</span>" : "") + `<span>${scale.cutHigh ? "≥ " : ""}${number(scale.high)}</span></span>` +
+    `<span class="bar" style="background:linear-gradient(to right,${scale.stops.map(css).join(",")})">${middle}</span>` +
+    `<span>${scale.cutHigh ? "≥ " : ""}${number(scale.high)}</span></span>` +
     (gaps ? swatches([[kUndefined, "no force"]]) : "");
 }
 

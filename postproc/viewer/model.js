@@ -121,6 +121,14 @@ class Model {
     this.markSelection();
   }
 
+  /** What standard views enclose: the points at rest, and those of the frame shown, but for blocks that have gone far away. */
+  outline() {
+    const points = Array.from(this.scene.get("vertices")), {start} = this.blocks, at = this.faces.geometry.attributes.position.array;
+    for (let b = 0; b < this.pose.blocks; ++b)
+      if (this.pose.displacement(b) < 0.5 * this.size) for (let i = 3 * start[b]; i < 3 * start[b + 1]; ++i) points.push(at[i]);
+    return points;
+  }
+
   /** True if all blocks are in place, so that the inner faces of the joints cannot be seen. */
   get isClosed() {
     const far = this.pose.factor * this.header.film.largest_shift_m;

@@ -19,7 +19,7 @@ function legendRows(viewer) {
     rows.push(row);
   }
   const scale = viewer.find(".of-magnification"), frame = viewer.find(".film output").innerText;
-  const drawn = scale.hidden ? "" : `Displacements ${scale.querySelector("output").textContent}`;
+  const drawn = scale.hidden ? viewer.header.scale : `Displacements ${scale.querySelector("output").textContent}`;
   const last = [drawn, viewer.find(".film").hidden ? "" : frame].filter(Boolean).join(", ");
   if (last) rows.push({text: last});
   return rows;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "postproc/figures/plot_style.hpp"
 #include "postproc/tables/range_values.hpp"
 #include "postproc/tables/result_columns.hpp"
 #include "postproc/viewer/scene_shapes.hpp"
@@ -247,10 +248,23 @@ std::vector<std::string> notes_of(const Evaluation& e, const Film& film, bool in
   if (film.skipped_states() > 0)
     notes.push_back(fmt::format("{} of the ranges were left out to limit the size; ParaView shows them.",
                                 counted(film.skipped_states(), "state")));
-  if (at_rest(e) && e.summary.critical && film.kind() == Film::Kind::mechanism)
-    notes.push_back("The picture shows how it would move beyond the critical value.");
-  if (!at_rest(e)) notes.push_back("No forces are shown, because no equilibrium was found.");
+  if (!at_rest(e))
+    notes.push_back(std::string("Forces are not drawn: ") +
+                    (e.last.frame.role == FrameRole::unconverged
+                         ? "no equilibrium was found."
+                         : "those of a moving structure last an instant; joints.csv has them."));
   return notes;
+}
+
+/// What the displacements that are drawn have to do with real ones; "" if a slider says it.
+std::string scale_text(const Evaluation& e, const Film& film) {
+  if (film.kind() == Film::Kind::motion) return "Displacements to scale";
+  if (film.kind() != Film::Kind::mechanism) return "";
+  const char* what = !at_rest(e)          ? "How it begins to move"
+                     : e.summary.critical ? "How it would begin to move beyond its limit"
+                                          : "How the part that falls begins to move";
+  return fmt::format("{}. Drawn large, up to {}: only the directions are known.", what,
+                     length_text(largest_norm_in(film.shifts())));
 }
 
 /// The largest number of a body; 0 if nothing moves.
@@ -320,6 +334,7 @@ std::string scene_bytes(const Evaluation& e, const Film& film) {
                        {"names", block_names_of(e.assembly)},
                        {"bodies", largest_body(film)},
                        {"colour", first_colour(e, film)},
+                       {"scale", scale_text(e, film)},
                        {"floor_N", e.last.joints.floor.force},
                        {"block_columns", column_entries(block_columns(), block_keys(e))},
                        {"joint_columns", joint_entries(e, joint_keys)},

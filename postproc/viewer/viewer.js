@@ -2,7 +2,7 @@
 
 const kMarkup = `
   <div class="picture"><canvas tabindex="0" role="application" aria-label="Model in three dimensions. Arrow keys turn it, plus and minus zoom, Home shows it as at the start, N and P go to the next and the previous block with its numbers"></canvas>
-    <canvas class="printed" aria-hidden="true"></canvas><div class="legend"></div><div class="part-names" hidden></div><div class="forces-legend"></div><div class="ties-legend" hidden></div>
+    <canvas class="printed" aria-hidden="true"></canvas><div class="legend"></div><p class="scale"></p><div class="part-names" hidden></div><div class="forces-legend" hidden></div><div class="ties-legend" hidden></div>
     <div class="film" hidden><button class="play" type="button">Play</button><input class="frame" type="range" min="0" step="1" value="0" aria-label="Frame"><output></output></div>
   </div>
   <div class="side-panel">
@@ -40,6 +40,7 @@ class Viewer {
     this.addPrinting();
     this.model.filter();
     if (this.film.isFilm) this.film.show(this.film.count - 1);
+    if (["motion", "mechanism"].includes(this.header.film.kind)) this.stage.outline = this.model.outline();
     this.setColour(this.header.colour);
     this.stage.look("outside");
     this.stage.draw();
@@ -67,6 +68,7 @@ class Viewer {
     this.addMembers();
     this.addMagnifier();
     this.addCuts();
+    this.find(".scale").textContent = this.header.scale;
     this.find(".notes").textContent = this.header.notes.join(" ");
   }
 

@@ -89,8 +89,7 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
     case Parameter::friction:
     case Parameter::thickness:
     case Parameter::joint_extent:
-      return limit_of_joints(scene_at, limit.low, limit.high, width, limit.parameter == Parameter::friction,
-                             report);
+      return limit_of_joints(scene_at, limit.low, limit.high, width, limit.parameter, report);
     case Parameter::peak_stress:
       return least_peak_stress(scene, scene_at(0.0), report);
     case Parameter::spread:

@@ -137,6 +137,7 @@ TEST(TenRuns, RunsOfDifferentCauseShareNoSentence) {
     EXPECT_EQ(answers["verdict"]["words"], kind.verdict) << kind.name << ": " << answers.dump(1);
     for (const std::string part : {answers["verdict"]["reason"], answers["certain"]}) {
       EXPECT_FALSE(part.empty()) << kind.name;
+      EXPECT_EQ(part.find('`'), std::string::npos) << "no page prints Markdown";
       for (const std::string& sentence : sentences_of(part)) check(sentence, kind.cause, kind.name);
     }
     // The margin names a number of the case itself: fresh mortar of 1000 Pa, friction 0.7.
@@ -155,17 +156,17 @@ TEST(TenRuns, RunsOfDifferentCauseShareNoSentence) {
                 std::string::npos);
     }
     if (kind.cause == std::string("parts")) {
-      EXPECT_NE(std::string(answers["verdict"]["reason"]).find("1 block, `stone`"), std::string::npos);
+      EXPECT_NE(std::string(answers["verdict"]["reason"]).find("1 block, \"stone\""), std::string::npos);
     }
   }
   const ProgramRun run = run_sweep(folder);
   const std::string page = slurp(folder.file("out/sweep/study.html"));
-  EXPECT_NE(
-      page.find(
-          "<strong>It stands in 2 of 4 members</strong> <small>It falls at joints.friction 0.05 to 0.1, it "
-          "stands at 0.6 to 0.7.</small>"),
-      std::string::npos)
+  EXPECT_NE(page.find("<p class=\"verdict bad\"><strong>It stands in 2 of 4 runs</strong> <small>It falls at "
+                      "joints.friction "
+                      "0.05 to 0.1, it stands at 0.6 to 0.7.</small>"),
+            std::string::npos)
       << run.out << run.err;
+  EXPECT_NE(page.find("Certain: the verdict of 4 of 4 runs"), std::string::npos);
 }
 
 TEST(TenRunsSlow, PagesHaveNoSeriousFindingsOfAxe) {

@@ -9,7 +9,9 @@
 #include "assembly/case/case_reader.hpp"
 #include "assembly/files/summary_file.hpp"
 #include "postproc/mechanics/cracks.hpp"
+#include "postproc/tables/post_summary.hpp"
 #include "tests/pipeline/static_run.hpp"
+#include "tests/verification/thrust.hpp"
 
 namespace cupola::vault_answers_test {
 namespace {
@@ -178,6 +180,42 @@ TEST(VaultAnswers, ABarrelRestsOnItsSpringingsByHalfItsWeightPerMetre) {
     EXPECT_NEAR(-reaction.force.z() / length, 0.5 * kDensity * kGravity * area,
                 1e-6 * kDensity * kGravity * area);
     EXPECT_NEAR(reaction.outward, e.reactions[0].outward, 1e-6 * std::abs(reaction.force.z()));
+  }
+}
+
+// One thrust in all tables: the forces of the joints on the supports along the horizontal direction outwards at the centroid of the joint
+// (docs/results.md). rings.csv, reactions.csv, post/summary.json, the ranges of the solver and the verification manual compute it
+// apart; the tolerance is their rounding. Per contact point the octagon would have another thrust.
+TEST(VaultAnswers, TheThrustHasOneDefinition) {
+  for (const std::string surface :
+       {"{type: dome, span: 8, radius_ratio: 0.6, thickness: 0.6, crown_angle_deg: 60}",
+        "{type: octagonal_vault, construction: circular, span: 8, radius_ratio: 0.8, thickness: 0.6, "
+        "crown_angle_deg: 60}",
+        "{type: arch, span: 8, radius_ratio: 0.6, thickness: 0.6, width: 2}"}) {
+    const ProgramFolder folder;
+    const bool arch = surface.starts_with("{type: arch");
+    const Case scene =
+        read(folder,
+             fmt::format("geometry:\n  surface: {}\n  bond: {{type: running, rings: 7, blocks_per_ring: {}, "
+                         "slices_per_block: 2}}\njoints: {{friction: 0.7, compliance: {{per: area}}}}\n"
+                         "analysis: {{type: static, range: {{quantities: [thrust]}}}}\n",
+                         surface, arch ? 3 : 16));
+    const Evaluation e = solve_and_evaluate(scene, folder);
+    const double thrust = e.rings.front().radial_thrust, rounding = 1e-9 * e.summary.weight_N;
+    EXPECT_GT(thrust, 0.01 * e.summary.weight_N);
+    EXPECT_NEAR(post_summary(e).thrust_over_weight.value() * e.summary.weight_N, thrust, rounding);
+    double reactions = 0.0;
+    for (const Reaction& reaction : e.reactions)
+      if (!arch || e.assembly.blocks[reaction.block].centroid.x() > 0.0) reactions += reaction.outward;
+    EXPECT_NEAR(reactions, thrust, rounding);
+    if (!arch) {
+      EXPECT_NEAR(verification::outward_thrust(e.assembly, e.last.frame.contacts), thrust, rounding);
+    }
+    Case range = scene;
+    range.analysis.type = AnalysisType::range;
+    const Summary ranges = run_range(range, e.assembly, {}).value();
+    // The chosen state is that of the statics, to the tolerance of its residual.
+    EXPECT_NEAR(ranges.ranges.at(0).chosen.value(), thrust, 1e-7 * e.summary.weight_N) << surface;
   }
 }
 

@@ -52,12 +52,12 @@ DirectLimit limit_of_loads(
     const SceneAt& scene_at, double low, double high, double relative_width, const ReportTrial& report,
     const std::function<double(double)>& in_unit = [](double value) { return value; });
 
-/// Critical value of a parameter of the joints: the root of the pull alpha that the contacts need (pull_solve.hpp). Friction:
-/// Newton's method with the derivative that the mechanism gives, on rough solves, until its next step would not leave the
-/// width required; then a solve on either side of the root; friction below 1e-8 counts as none. Thickness and extent of the joints: the secant method. A bracket
-/// that always contains the root safeguards both.
+/// Critical value of a parameter of the joints: the root of the pull alpha that the contacts need (pull_solve.hpp). Friction
+/// and extent of the joints, on which the conditions depend linearly: Newton's method with the derivative that the mechanism
+/// gives, on rough solves, until its next step would not leave the width required; then a solve on either side of the root;
+/// friction below 1e-8 counts as none. Thickness: the secant method. A bracket that always contains the root safeguards both.
 DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, double relative_width,
-                            bool friction, const ReportTrial& report);
+                            LimitSearch::Parameter parameter, const ReportTrial& report);
 
 /// The least peak stress, Pa: the smallest p for which an admissible state exists whose normal forces are at most p times
 /// the areas of their contact points,

@@ -21,14 +21,14 @@ constexpr double kNoFriction = 1e-8;
 class PullTrials {
  public:
   PullTrials(const SceneAt& scene_at, const ReportTrial& report) : scene_at_(scene_at), report_(report) {}
-  PullSolve solve(double value, bool estimate = false) {
+  PullSolve solve(double value, double estimate = 0.0) {
     PullSolve solve = solve_pull(value, scene_at_(value), estimate);
     ++count;
     iterations += solve.solution.iterations;
     report_({value, solve.pull <= 0.0, solve.pull, solve.solution.iterations});
     return solve;
   }
-  VecX friction_at(double value) const { return scene_at_(value).problem.contacts.mu; }
+  ContactProblem joints_at(double value) const { return scene_at_(value).problem.contacts; }
   int count = 0, iterations = 0;
 
  private:
@@ -42,8 +42,10 @@ struct Ends {
   bool enclose() const { return below.moves() && above.admissible(); }
 };
 
-/// The critical friction between two values, by Newton's method on rough solves.
-double estimate_root(double low, double high, double relative_width, const VecX& dmu_dx, PullTrials* trials) {
+/// The critical value between two, by Newton's method on rough solves.
+/// `rough`: share of the pull to which it is found.
+double estimate_root(double low, double high, double relative_width, const JointsDerivative& joints,
+                     double rough, PullTrials* trials) {
   constexpr int kMostEstimates = 15;
   // Near the root a step of relative size e leaves an error of about e^2 / 2.
   const double last_step = std::sqrt(0.2 * relative_width);
@@ -51,9 +53,9 @@ double estimate_root(double low, double high, double relative_width, const VecX&
   bool low_solved = false, high_solved = false;
   double x = low > kNoFriction ? std::sqrt(low * high) : 0.5 * (low + high);
   for (int k = 0; k < kMostEstimates; ++k) {
-    const PullSolve at = trials->solve(x, true);
+    const PullSolve at = trials->solve(x, rough);
     (at.pull > 0.0 ? moves : stands) = x;
-    double root = x - at.pull / slope_in_friction(at, dmu_dx);
+    double root = x - at.pull / joints.slope(at);
     if (const bool lowest = root <= low, highest = root >= high;
         (lowest && !low_solved) || (highest && !high_solved)) {
       (lowest ? low_solved : high_solved) = true;  // perhaps the ends do not enclose the root
@@ -92,20 +94,24 @@ Ends ends_around(double root, double low, double high, double relative_width, Pu
   return ends;
 }
 
-Ends first_ends(double low, double high, double relative_width, bool friction, PullTrials* trials) {
-  if (!friction) return {trials->solve(low), trials->solve(high)};
-  const VecX dmu_dx = (trials->friction_at(high) - trials->friction_at(low)) / (high - low);
-  return ends_around(estimate_root(low, high, relative_width, dmu_dx, trials), low, high, relative_width,
-                     trials);
+Ends first_ends(double low, double high, double relative_width, LimitSearch::Parameter parameter,
+                PullTrials* trials) {
+  if (parameter == LimitSearch::Parameter::thickness) return {trials->solve(low), trials->solve(high)};
+  // Small joints have small arms, which magnify the error of a force in alpha.
+  const double rough = parameter == LimitSearch::Parameter::friction ? 1e-2 : 1e-4;
+  const JointsDerivative joints(low, trials->joints_at(low), high, trials->joints_at(high));
+  return ends_around(estimate_root(low, high, relative_width, joints, rough, trials), low, high,
+                     relative_width, trials);
 }
 
 }  // namespace
 
 DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, double relative_width,
-                            bool friction, const ReportTrial& report) {
+                            LimitSearch::Parameter parameter, const ReportTrial& report) {
+  const bool friction = parameter == LimitSearch::Parameter::friction;
   PullTrials trials(scene_at, report);
   if (friction) low = std::max(low, kNoFriction);
-  Ends ends = first_ends(low, high, relative_width, friction, &trials);
+  Ends ends = first_ends(low, high, relative_width, parameter, &trials);
   for (const PullSolve& end : {std::cref(ends.below), std::cref(ends.above)})
     if (!end.decided)
       return not_found(fmt::format(

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "assembly/base/error.hpp"
 #include "solver/conic/conic_bounds.hpp"
 #include "solver/conic/solve_conic.hpp"
 
 namespace cupola {
 
-PullSolve solve_pull(double value, RigidScene scene, bool estimate) {
-  constexpr double kEstimate = 1e-2;
+PullSolve solve_pull(double value, RigidScene scene, double estimate) {
   PullSolve solve;
   solve.value = value;
   solve.scene = std::move(scene);
@@ -21,8 +22,7 @@ PullSolve solve_pull(double value, RigidScene scene, bool estimate) {
     const ContactStrength pressed{0.0, 0.0, solve.scene.model.block_weight};
     solve.problem.strength_columns.assign(1, std::vector(rigid.contacts.strength.size(), pressed));
   }
-  solve.solution =
-      solve_conic(solve.problem, {.target = 1e-10, .relative_target = estimate ? kEstimate : 0.0});
+  solve.solution = solve_conic(solve.problem, {.target = 1e-10, .relative_target = estimate});
   // Imbalance that an admissible state may have, over the largest load of a block: rounding, or a small share
   // of what every contact has to spare.
   constexpr double kRounding = 1e-9, kShare = 1e-3;
@@ -47,12 +47,19 @@ PullSolve solve_pull(double value, RigidScene scene, bool estimate) {
   return solve;
 }
 
-double slope_in_friction(const PullSolve& at, const VecX& dmu_dx) {
+JointsDerivative::JointsDerivative(double low, ContactProblem at_low, double high, ContactProblem at_high)
+    : low_(std::move(at_low)), high_(std::move(at_high)), step_(high - low) {
+  CUPOLA_ASSERT(low_.num_contacts() == high_.num_contacts());
+}
+
+double JointsDerivative::slope(const PullSolve& at) const {
   const VecX s = relative_velocity(at.problem.contacts, at.solution.v);
-  double slope = 0.0;
-  for (int i = 0; i < at.problem.contacts.num_contacts(); ++i)
-    slope -= s.segment<2>(3 * i + 1).norm() * at.solution.gamma[3 * i] * dmu_dx[i];
-  return slope;
+  VecX forces = at.solution.gamma;
+  forces(Eigen::seq(0, Eigen::last, 3)).array() -= at.pull * at.scene.model.block_weight;
+  double change = at.solution.v.dot(generalized_impulse(high_, forces) - generalized_impulse(low_, forces));
+  for (int i = 0; i < low_.num_contacts(); ++i)
+    change -= s.segment<2>(3 * i + 1).norm() * at.solution.gamma[3 * i] * (high_.mu[i] - low_.mu[i]);
+  return change / step_;
 }
 
 VecX admissible_state(const PullSolve& solve) {

@@ -21,11 +21,23 @@ struct PullSolve {
   bool moves() const { return decided && pull > 0.0; }
 };
 
-/// `estimate`: stops at an error of a hundredth of alpha, enough for a step of Newton's method.
-PullSolve solve_pull(double value, RigidScene scene, bool estimate);
+/// `estimate`: stops at an error of the forces and of alpha of this share of alpha, for a step of Newton's method. 0: solves to the
+/// end.
+PullSolve solve_pull(double value, RigidScene scene, double estimate);
 
-/// d alpha / dx of a parameter on which only the friction depends: -sum_i |s_t,i| gamma_n,i dmu_i/dx with the dual s.
-double slope_in_friction(const PullSolve& at, const VecX& dmu_dx);
+/// How the joints change with a parameter x, per unit of x. D and the friction must be linear functions of x.
+class JointsDerivative {
+ public:
+  /// `low`, `high`: the joints at two values. Their contacts are the same.
+  JointsDerivative(double low, ContactProblem at_low, double high, ContactProblem at_high);
+  /// d alpha / dx = v . D' (gamma - alpha a) - sum_i |s_t,i| gamma_n,i mu_i' with the dual v, s: the derivative of the Lagrangian.
+  /// Strengths that change too are left out.
+  double slope(const PullSolve& at) const;
+
+ private:
+  ContactProblem low_, high_;
+  double step_;
+};
 
 /// The admissible state of a solve with alpha <= 0.
 VecX admissible_state(const PullSolve& solve);

@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "assembly/case/limit_parameter.hpp"
 #include "solver/analysis/admissible/rigid_scene.hpp"
+#include "solver/analysis/statics/cyclic_symmetry.hpp"
 #include "solver/conic/conic_bounds.hpp"
 #include "solver/conic/solve_conic.hpp"
 #include "solver/runtime/threads.hpp"
@@ -29,9 +31,25 @@ DirectionLimit limit_towards(const Case& scene, const RigidScene& rest, double a
   const ConicProblem problem = with_multiplier(
       rest.problem, applied_forces(model, rest.start, rest.start.time) - rest.problem.load, -1.0);
   const ConicSolution solution = solve_conic(problem);
-  if (solution.outcome != ConicOutcome::optimal) return {};
+  if (solution.outcome == ConicOutcome::infeasible || solution.outcome == ConicOutcome::unbounded) return {};
   const ConicBounds bounds = conic_bounds(problem, solution);
+  // Rounding may stall a solve whose bounds are close.
+  constexpr double kClose = 1e-4;
+  if (!(bounds.relative_gap() <= kClose)) return {};
   return {true, -bounds.upper, -std::min(bounds.lower, bounds.upper)};
+}
+
+/// The largest number of equal sectors around the z axis into which the scene divides, of those that divide `count`.
+int equal_sectors(const RigidScene& scene, int count) {
+  for (int sectors = count; sectors > 1; --sectors) {
+    if (count % sectors != 0) continue;
+    try {
+      find_cyclic_symmetry(scene.model, scene.start, scene.contacts, sectors);
+      return sectors;
+    } catch (const InputError&) {  // it has not this symmetry
+    }
+  }
+  return 1;
 }
 
 }  // namespace
@@ -42,12 +60,16 @@ std::optional<Robustness> find_robustness(const Case& scene, const Assembly& ass
   // Time functions are frozen at their values at time 0, as in a limit analysis.
   const RigidScene rest =
       rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));
-  std::vector<DirectionLimit> limits(static_cast<size_t>(count));
-  share_loop(kWork, count,
-             [&](int k) { limits[k] = limit_towards(scene, rest, 2.0 * std::numbers::pi * k / count); });
+  // A rotation by a sector maps each direction on another one, with the same limit.
+  const int different = count / equal_sectors(rest, count);
+  std::vector<DirectionLimit> limits(static_cast<size_t>(different));
+  share_loop(kWork, different, [&](int k) {
+    for (int image = k; image < count && !limits[k].found; image += different)
+      limits[k] = limit_towards(scene, rest, 2.0 * std::numbers::pi * image / count);
+  });
   // Of directions that rounding does not distinguish, as by symmetry, the first counts.
   std::optional<Robustness> least;
-  for (int k = 0; k < count; ++k)
+  for (int k = 0; k < different; ++k)
     if (limits[k].found && (!least || limits[k].moving < least->acceleration_g))
       least = Robustness{count, limits[k].admissible, limits[k].moving, 360.0 * k / count};
   return least;

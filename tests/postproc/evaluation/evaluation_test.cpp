@@ -170,9 +170,9 @@ TEST(Evaluation, LimitAnalysisEvaluatesTheEquilibriumAndDisplacesTheMechanism) {
             std::string::npos);
 
   const FrameEvaluation mechanism = evaluate_frame(e, ResultsReader(folder, content_hash(a)).read_frame(1));
-  // 5 % of the model size: of the range of centroids, 0.25 to 1.25 m, or of the cube root of the first
+  // 2.5 % of the model size: of the range of centroids, 0.25 to 1.25 m, or of the cube root of the first
   // block's volume.
-  const double shown = 0.05 * std::max(1.0, std::cbrt(a.blocks[0].volume));
+  const double shown = 0.025 * std::max(1.0, std::cbrt(a.blocks[0].volume));
   EXPECT_NEAR(mechanism.frame.blocks.displacement[3].x(), shown, 1e-12);
   EXPECT_EQ(mechanism.frame.blocks.displacement[2].norm(), 0.0);
   EXPECT_EQ(mechanism.groups, (std::vector{0, 0, 0, 1}));

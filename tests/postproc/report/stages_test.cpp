@@ -46,10 +46,10 @@ TEST(Stages, TheMostDemandingStageSaysWhatMovesWithLess) {
       "failures.csv");
   const StageReport c = blocks_laid(StagedConstruction::Least::cohesion, stages, failures);
   EXPECT_EQ(c.standing, 3);
-  EXPECT_EQ(
-      c.worst,
-      "the most demanding: stage 1 in course 20; with less, 1 block of course 19 tips, 2 blocks of course "
-      "20 slide");
+  EXPECT_EQ(c.worst,
+            "the most demanding: the 2nd of 3, in course 20; with less cohesion 1 block of course 19 tips, 2 "
+            "blocks of course "
+            "20 slide");
   EXPECT_EQ(c.table.columns[5].key, "least_stands_Pa");
   EXPECT_EQ(std::get<double>(c.table.rows[1][5]), 6000.0);
   EXPECT_EQ(std::get<std::string>(c.table.rows[0][7]), "1 block of course 20 slides");
@@ -66,7 +66,7 @@ TEST(Stages, TheFirstStageThatDoesNotStandSaysWhatMoves) {
       parse_csv("stage,ring,block,course,how,relative_speed\n1,3,12,3,slides,1\n", "failures.csv");
   const StageReport c = blocks_laid(StagedConstruction::Least::none, stages, failures);
   EXPECT_EQ(c.standing, 1);
-  EXPECT_EQ(c.worst, "the first that does not: stage 1 in course 3, where 1 block of course 3 slides");
+  EXPECT_EQ(c.worst, "the first that does not: the 2nd of 2, in course 3, where 1 block of course 3 slides");
   EXPECT_FALSE(c.figure);
   for (const Table::Column& column : c.table.columns)
     EXPECT_FALSE(column.key.starts_with("least")) << column.key;

@@ -63,8 +63,13 @@ TEST(SweepTable, HasTheResultsOfTheMembers) {
   add_sweep(sweep, members, scratch.folder(), &page);
   page.write();
   const std::string html = read_text(scratch.file("page/study.html"));
-  EXPECT_NE(html.find("<p class=\"verdict bad\"><strong>1 of 2 members failed</strong>"), std::string::npos);
+  EXPECT_NE(html.find("<p class=\"verdict bad\"><strong>1 of 2 runs failed</strong>"), std::string::npos);
   EXPECT_NE(html.find("dome_friction0.1/post/report.html\""), std::string::npos);
+  EXPECT_NE(html.find("<th>outward thrust<small>kN</small></th>"), std::string::npos) << html;
+  EXPECT_NE(html.find("<th>widest crack<small>mm</small></th>"), std::string::npos);
+  EXPECT_NE(html.find("<td class=\"text\">it stands</td>"), std::string::npos)
+      << "not the name of the status";
+  EXPECT_NE(read_text(scratch.file("page/sweep.csv")).find(",stable,,0.3,"), std::string::npos);
   EXPECT_EQ(html.find("dome_friction0.2/post/report.html\""), std::string::npos);
   const std::string latex = read_text(scratch.file("page/sweep.tex"));
   EXPECT_NE(latex.find("outward thrust (N)"), std::string::npos) << latex;

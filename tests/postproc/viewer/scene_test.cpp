@@ -166,7 +166,9 @@ TEST(Scene, SaysNothingOfForcesWithoutAnEquilibrium) {
   e.last.frame.role = FrameRole::unconverged;
   const std::string bytes = column_scene(e);
   EXPECT_EQ(bytes.find("normal_force_N\":{"), std::string::npos);
-  EXPECT_NE(bytes.find("No forces are shown"), std::string::npos);
+  EXPECT_NE(bytes.find("Forces are not drawn: no equilibrium was found."), std::string::npos);
+  e.last.frame.role = FrameRole::mechanism;
+  EXPECT_NE(column_scene(e).find("those of a moving structure last an instant"), std::string::npos);
 }
 
 TEST(Film, LeavesOutFramesOfLongRunsAndSaysSo) {

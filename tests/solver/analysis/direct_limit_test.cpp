@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/case/limit_parameter.hpp"
 #include "solver/analysis/admissible/pull_search.hpp"
+#include "solver/analysis/admissible/pull_solve.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "tests/solver/motion_scenes.hpp"
@@ -155,6 +157,28 @@ TEST(DirectLimit, LeastExtentOfTheJoints) {
   scene.analysis.limit.relative_width = 1e-5;
   scene.loads.gravity = testing::tilted_gravity(0.4);
   EXPECT_NEAR(critical(scene, testing::box_on_floor({1, 1, 1})), 0.4, 1e-5 * 0.4);
+  EXPECT_LE(run_limit(scene, testing::make_arch({.voussoirs = 12, .thickness = 0.16}), {}).value().steps, 9)
+      << "Newton's method; the secant method takes 14";
+}
+
+// What Newton's method follows is the derivative of the pull: against differences over 1e-4 of the value, whose error is of
+// the order of their square and of the 1e-9 of a solve over the step.
+TEST(DirectLimit, TheMechanismGivesTheDerivativeOfThePull) {
+  const Assembly arch = testing::make_arch({.voussoirs = 12, .thickness = 0.16});
+  for (const auto& [parameter, x] :
+       {std::pair{Parameter::joint_extent, 0.5}, std::pair{Parameter::friction, 0.3}}) {
+    const Case scene = limit_case(parameter, 0.01, 1.0, 0.7);
+    const auto at = [&, p = parameter](double value) {
+      return rigid_scene(case_at(scene, value),
+                         std::shared_ptr<const Assembly>(&arch, [](const Assembly*) {}),
+                         p == Parameter::joint_extent ? value : 1.0);
+    };
+    const auto pull = [&](double value) { return solve_pull(value, at(value), 0.0); };
+    const JointsDerivative joints(0.2, at(0.2).problem.contacts, 0.8, at(0.8).problem.contacts);
+    const double step = 1e-4 * x;
+    const double difference = (pull(x + step).pull - pull(x - step).pull) / (2.0 * step);
+    EXPECT_NEAR(joints.slope(pull(x)), difference, 1e-3 * std::abs(difference)) << to_string(parameter);
+  }
 }
 
 // The bracket is as wide as requested and no wider; a wider one takes fewer solves.
@@ -275,6 +299,30 @@ TEST(Robustness, BrickTipsAboutItsLongEdge) {
   EXPECT_NEAR(summary.robustness->moving_g, 0.25, 1e-6);
   EXPECT_EQ(summary.robustness->azimuth_deg, 0.0);
   EXPECT_EQ(summary.robustness->directions, 8);
+}
+
+// A square tower of bricks turned by its place has four equal sectors: two of eight directions represent all, and have the limits
+// that analyses of one direction find.
+TEST(Robustness, EqualSectorsHaveEqualLimits) {
+  std::vector<testing::BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true}};
+  for (const double x : {-1.0, 1.0}) {
+    boxes.push_back({.center = {x, 0, 0.5}, .size = {0.4, 0.6, 1.0}});
+    boxes.push_back({.center = {0, x, 0.5}, .size = {0.6, 0.4, 1.0}});
+  }
+  const Assembly assembly = testing::make_boxes(boxes);
+  Case scene = testing::make_case(0.7, 1e-8, 0.01);
+  scene.analysis.type = AnalysisType::static_;
+  scene.analysis.robustness = 8;
+  const Summary summary = run_static(scene, assembly, {});
+  ASSERT_TRUE(summary.robustness) << summary.message;
+  EXPECT_NEAR(summary.robustness->moving_g, 0.4, 1e-6) << "over its shorter side";
+  EXPECT_EQ(summary.robustness->azimuth_deg, 0.0);
+  for (const double azimuth : {0.0, 90.0, 180.0, 270.0}) {
+    Case push = limit_case(Parameter::acceleration, 0.0, 2.0, 0.7);
+    const double a = azimuth * std::numbers::pi / 180.0;
+    push.analysis.limit.direction = {std::cos(a), std::sin(a), 0.0};
+    EXPECT_NEAR(critical(push, assembly), summary.robustness->moving_g, 1e-6) << azimuth;
+  }
 }
 
 TEST(DirectLimit, IsChosenWhereItApplies) {
