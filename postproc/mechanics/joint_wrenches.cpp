@@ -45,6 +45,7 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
     friction += weight * contacts.friction_use[*row];
     weights += weight;
     area += contacts.area[*row];
+    joint->centroid += contacts.area[*row] * contacts.point[*row];
     if (std::abs(n) <= kNoPressure * contacts.force[*row].norm()) open_area += contacts.area[*row];
     if (contacts.area[*row] > 0.0)
       joint->largest_pressure = std::max(joint->largest_pressure, n / contacts.area[*row]);
@@ -54,6 +55,7 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
     joint->opening = std::max(joint->opening, contacts.gap[*row]);
     joint->slip = std::max(joint->slip, contacts.slip[*row]);
   }
+  joint->centroid = area > 0.0 ? Vec3(joint->centroid / area) : joint->patch.centroid;
   joint->centre_of_pressure = joint->patch.centroid;
   if (joint->normal_force > 0.0) joint->centre_of_pressure += weighted / joint->normal_force;
   if (weights > 0.0) joint->friction_use = friction / weights;

@@ -16,7 +16,10 @@ namespace cupola {
 struct JointWrench : Joint {
   int upper = -1, lower = -1;  ///< blocks of a bed or base joint; -1 for other kinds
   PlanarHull patch;            ///< hull of the contact points in their mean plane
-  Wrench wrench;               ///< on block_b, about the centre of pressure
+  /// m, of its area: mean of the contact points weighted by their areas, on which the patch's hull may differ where it is not
+  /// plane or not convex. Where outwards is measured.
+  Vec3 centroid = Vec3::Zero();
+  Wrench wrench;  ///< on block_b, about the centre of pressure
   CentralAxis axis;
   bool negligible = false;                 ///< its force is not above the floor of the frame
   Vec3 centre_of_pressure = Vec3::Zero();  ///< m, of the normal forces; the patch centroid if unloaded

@@ -35,7 +35,7 @@ std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches
     if (ring_a == ring_b) continue;
     const int upper = ring_a > ring_b ? joint.block_a : joint.block_b;
     const Vec3 force = wrench_on(joint, upper).force;
-    const Vec3 centroid = joint.patch.centroid - joint.patch.centroid.dot(up) * up;
+    const Vec3 centroid = joint.centroid - joint.centroid.dot(up) * up;
     const int top = std::max(ring_a, ring_b), base = assembly.stack_of(top).first;
     for (int k = std::max(std::min(ring_a, ring_b) + 1, base); k <= top; ++k) {
       MemberSum& sum = at(k, assembly.blocks[upper].member);

@@ -38,7 +38,7 @@ std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWre
     reaction.block = support;
     reaction.ring = is_new ? ring : std::min(reaction.ring, ring);
     reaction.force += force;
-    reaction.outward += force.dot(assembly.outward(ring, joint.patch.centroid));
+    reaction.outward += force.dot(assembly.outward(ring, joint.centroid));
     reaction.length += length_of(joint.patch, shell);
   }
   std::vector<Reaction> reactions;

@@ -84,7 +84,7 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
     ring_area[k] += joint.patch.area;
     ring.largest_friction_use = std::fmax(ring.largest_friction_use, joint.friction_use);  // skips NaN
     ring.largest_kern = std::fmax(ring.largest_kern, joint.kern);
-    ring.radial_thrust -= assembly.outward(k, joint.patch.centroid).dot(wrench_on(joint, joint.upper).force);
+    ring.radial_thrust -= assembly.outward(k, joint.centroid).dot(wrench_on(joint, joint.upper).force);
   }
   std::vector<std::vector<double>> resultants(rings->size()), pressures(rings->size());
   for (size_t b = 0; b < from_below.size(); ++b) {

@@ -103,7 +103,9 @@ std::string limit_text(const Evaluation& e) {
     text = fmt::format("It bears only {:.4g} times the loads of the case.", *factor);
   if (critical.parameter == "joint_extent" && !holds)
     text = fmt::format("It moves unless its joints were {:.4g} times as large.", critical.stable);
-  return text + " Picture and thrust belong to this limit, not to the case.";
+  std::string name = critical.parameter;
+  std::ranges::replace(name, '_', ' ');
+  return text + fmt::format(" Picture and thrust belong to the critical {}, not to the case.", name);
 }
 
 /// A limit: existence on one side is certain; what lies beyond is as certain as the run says.

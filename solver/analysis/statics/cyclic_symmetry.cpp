@@ -169,7 +169,10 @@ void SymmetryFinder::check_contact_image(int contact, int image) const {
   const JointLaw other = joint_law(model_, contacts_, d, time_);
   const auto differ = [](double x, double y) { return std::abs(x - y) > kTolerance * std::abs(x); };
   if (differ(law.mu, other.mu) || differ(law.compliance_normal, other.compliance_normal) ||
-      differ(law.compliance_tangential, other.compliance_tangential))
+      differ(law.compliance_tangential, other.compliance_tangential) ||
+      differ(law.strength.tension, other.strength.tension) ||
+      differ(law.strength.cohesion, other.strength.cohesion) ||
+      differ(law.strength.compression, other.strength.compression))
     refuse("the joint laws differ " + between);
 }
 

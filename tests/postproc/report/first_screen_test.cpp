@@ -93,8 +93,7 @@ TEST(FirstScreen, ALimitSaysWhetherTheCaseStandsAndByHowMuch) {
   EXPECT_EQ(verdict_words(e).words, "It stands") << "at a factor of 1";
   EXPECT_EQ(reason_for_verdict(e),
             "Its loads can grow to 8 times those of the case before it moves. Picture and thrust belong to "
-            "this limit, "
-            "not to the case.");
+            "the critical load, not to the case.");
   EXPECT_EQ(margin_answer(e).value, "8 times the load") << "the end that stands, not the middle";
 }
 
