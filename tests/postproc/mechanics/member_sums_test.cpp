@@ -21,7 +21,7 @@ JointWrench joint(int a, int b, const Vec3& force_on_b, const Vec3& centroid) {
   j.block_a = a;
   j.block_b = b;
   j.wrench = {centroid, force_on_b, Vec3::Zero()};
-  j.patch.centroid = centroid;
+  j.centroid = j.patch.centroid = centroid;
   return j;
 }
 
