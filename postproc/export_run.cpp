@@ -30,7 +30,7 @@ ExportedJoint exported(const JointWrench& joint, const JointWrenches& joints, co
 
 std::vector<Eigen::Isometry3d> poses_of(const Evaluation& e) {
   std::vector<Eigen::Isometry3d> poses;
-  if (e.last.frame.role != FrameRole::step) return poses;
+  if (e.last.frame.role != FrameRole::step && e.last.frame.role != FrameRole::path) return poses;
   const BlockTable& blocks = e.last.frame.blocks;
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
     const Eigen::Vector4d& q = blocks.quaternion_wxyz[b];

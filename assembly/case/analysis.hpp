@@ -131,6 +131,12 @@ constexpr auto enum_names(StagedConstruction::Least) {
   return std::array{"none", "friction", "cohesion"};
 }
 
+/// Geometry in which each equilibrium of a path holds: that at the start of its step, or that which it leads to.
+enum class PathGeometry { start, end };
+constexpr auto enum_names(PathGeometry) {
+  return std::array{"start", "end"};
+}
+
 /// Sequence of equilibria from the assembly as built, at the times end / steps, 2 end / steps, ..., end. Loads, friction and
 /// supports follow their functions of time; joints keep their slip, opening and damage from one equilibrium to the next. With a
 /// length the control displacement grows by equal steps instead, and the times are unknown.
@@ -138,6 +144,7 @@ struct LoadPath {
   int steps = 100;               ///< > 0
   double end = 1.0;              ///< s, > 0; with a length: the latest time
   std::optional<double> length;  ///< m, > 0: control displacement at the end of the path, from that at time 0
+  PathGeometry geometry = PathGeometry::start;
   /// What path.csv tabulates.
   struct Control {
     BlockRef block;                            ///< a support that moves, or a free block

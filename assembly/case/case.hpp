@@ -60,6 +60,7 @@ struct Postproc {
   std::vector<Meridian> meridians;
   std::vector<double> sections;  ///< m, heights of horizontal sections
   std::vector<CutPlane> planes;
+  std::string observed;  ///< file of meridional cracks seen on the building; empty: none
 };
 
 /// The content of a case file in SI units, with defaults filled in.

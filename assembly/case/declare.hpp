@@ -48,6 +48,9 @@ void declare_staged(Section& s, StagedConstruction& staged);
 void declare_output(Section& s, Output& output);
 void declare_postproc(Section& s, Postproc& postproc);
 
+/// The keys that select blocks; `blocks` completes the meaning of the key of that name.
+void declare_region(Section& s, BlockRegion& region, const std::string& blocks);
+
 /// Optional map that describes a variation in time. Without it the factor is 1.
 void declare_time(Section& s, const std::string& key, TimeFunction& time, const std::string& meaning);
 

@@ -39,6 +39,21 @@ void declare_strength_rules(Section& s, Case& the_case) {
          "joints with tension, cohesion or compressive_strength require method: face_clipping");
 }
 
+void declare_heat_rules(Section& s, const Case& the_case) {
+  if (the_case.loads.heat.empty()) return;
+  const Analysis& analysis = the_case.analysis;
+  const bool is_static = analysis.type == AnalysisType::static_;
+  s.rule(is_static || analysis.type == AnalysisType::path || analysis.type == AnalysisType::dynamic, "loads",
+         "heat requires analysis.type: static, path or dynamic; admissible forces do not depend on it");
+  s.rule(analysis.cyclic_sectors == 1 && !analysis.sleep, "loads",
+         "heat excludes analysis.cyclic_sectors and analysis.sleep");
+  for (size_t i = 0; i < the_case.loads.heat.size(); ++i)
+    s.rule(is_static || factor_at(the_case.loads.heat[i].time, 0.0) == 0.0, "loads",
+           fmt::format("heat[{}].time: must be 0 at the time 0, at which the blocks are as built; give a "
+                       "ramp or a sine: {{type: ramp}}",
+                       i));
+}
+
 /// Not of `load` limits, whose forces are unit loads, which the analysis multiplies.
 void expect_face_loads(const Section& s, const Case& the_case) {
   const Analysis& analysis = the_case.analysis;
@@ -75,6 +90,7 @@ void declare_case(Section& s, Case& the_case) {
   s.section("analysis", the_case.analysis, "type of analysis, method and accuracy", declare_analysis);
   s.rule(the_case.supports.restraints.empty() || the_case.analysis.type != AnalysisType::staged, "supports",
          "restraints are not part of the stages of construction: remove supports.restraints");
+  declare_heat_rules(s, the_case);
   s.section("output", the_case.output, "what is written during the analysis", declare_output);
   s.section("postproc", the_case.postproc, "meridians, sections and planes to evaluate", declare_postproc);
   declare_strength_rules(s, the_case);

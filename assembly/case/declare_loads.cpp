@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "assembly/case/declare.hpp"
 
 namespace cupola {
@@ -76,6 +78,25 @@ void declare_face_load(Section& s, FaceLoad& load) {
   declare_time(s, "time", load.time, "factor on the load");
 }
 
+void declare_heat(Section& s, BlockHeat& heat) {
+  declare_region(s, heat.region, "the heated blocks; empty: all free blocks");
+  s.number("change", heat.change, {.unit = "K"}, "change of temperature at the centroid of each block");
+  s.number("through", heat.through, {.unit = "K/m"},
+           "its growth along the outward normal of the extrados of each block, in addition");
+  s.vector3("gradient", heat.gradient, {.unit = "K/m"}, "its growth along the world axes, in addition");
+  s.required_number("expansion", heat.expansion, {.unit = "1/K", .above = 0}, "thermal strain per kelvin");
+  s.flag("ground", heat.ground, "the fixed blocks expand with the others, as one body");
+  declare_time(s, "time", heat.time, "factor on the change and its growth");
+  s.rule(heat.change != 0.0 || heat.through != 0.0 || heat.gradient.norm() > 0.0, "change",
+         "give change, through or gradient: this entry heats nothing");
+  s.rule(!heat.ground || (heat.through == 0.0 && heat.gradient.isZero(0.0) && !heat.region.profile), "ground",
+         "expands evenly: leave out through, gradient and profile");
+  s.expect({"change", std::abs(heat.change), "K", 0.0, 200.0, "",
+            "a temperature in kelvin? It is the change from the state as built"});
+  s.expect({"expansion", heat.expansion, "1/K", 1e-6, 3e-5, "too many zeros? Brick expands by 6e-6 per K",
+            "in 1e-6 per K? Write 6e-6"});
+}
+
 }  // namespace
 
 void declare_loads(Section& s, Loads& loads) {
@@ -95,6 +116,7 @@ void declare_loads(Section& s, Loads& loads) {
   declare_time(s, "dead_load_time", loads.dead_load_time, "factor on gravity, lantern and top load");
   s.list("forces", loads.forces, "forces and moments on blocks", declare_block_force);
   s.list("faces", loads.faces, "loads on all faces of one kind", declare_face_load);
+  s.list("heat", loads.heat, "changes of temperature, by which blocks expand", declare_heat);
 }
 
 }  // namespace cupola

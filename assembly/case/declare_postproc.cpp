@@ -49,6 +49,9 @@ void declare_postproc(Section& s, Postproc& postproc) {
   s.numbers("sections", postproc.sections, {.unit = "m"}, "heights of horizontal sections");
   s.list("planes", postproc.planes, "planes of any direction: the force transmitted across each",
          declare_plane);
+  s.file("observed", postproc.observed,
+         "cracks seen on the building, with which those of the run are compared: a CSV file with the columns "
+         "azimuth_deg and width_m (0: none)");
   s.rule(names_differ(postproc.planes), "planes", "two planes have the same name");
 }
 

@@ -42,12 +42,31 @@ void declare_base_motion(Section& s, BaseMotion& motion) {
               "in mm or cm? Multiply direction by 0.001 or 0.01"});
 }
 
+void declare_sector(Section& s, Sector& sector) {
+  s.required_number("from_deg", sector.from_deg, {.unit = "deg", .min = -360, .max = 360},
+                    "azimuth about the z axis, from the x axis, at which the sector begins");
+  s.required_number("to_deg", sector.to_deg, {.unit = "deg", .min = -360, .max = 720},
+                    "azimuth at which it ends, counter-clockwise");
+  s.rule(sector.to_deg > sector.from_deg && sector.to_deg - sector.from_deg <= 360.0, "to_deg",
+         "must be above from_deg, by at most 360");
+}
+
+void declare_profile(Section& s, AzimuthProfile& profile) {
+  s.required_integer("cos", profile.waves, {.min = 1, .max = 1000},
+                     "waves m around the z axis: the factor is cos(m (azimuth - phase))");
+  s.number("phase_deg", profile.phase_deg, {.unit = "deg"}, "azimuth of a crest, from the x axis");
+}
+
 void declare_move(Section& s, SupportMove& move) {
-  s.blocks("blocks", move.blocks, "numbers or names of the fixed blocks that move; empty: all fixed blocks");
+  declare_region(s, move.region, "the fixed blocks that move; empty: all fixed blocks");
   s.vector3("displacement", move.displacement, {.unit = "m"}, "displacement");
+  s.number("outward", move.outward, {.unit = "m"},
+           "displacement of each block away from the axis of the masonry, horizontally, in addition");
+  s.number("tilt_deg", move.tilt_deg, {.unit = "deg"},
+           "rotation of each block about its centroid, by which its top turns outwards, in addition");
   s.vector3("rotation_deg", move.rotation_deg, {.unit = "deg"}, "rotation vector");
   s.vector3("pivot", move.pivot, {.unit = "m"}, "centre of the rotation");
-  declare_time(s, "time", move.time, "factor on displacement and rotation_deg");
+  declare_time(s, "time", move.time, "factor on the motion");
 }
 
 void declare_ramp(Section& s, RampInTime& ramp) {
@@ -60,6 +79,7 @@ void declare_ramp(Section& s, RampInTime& ramp) {
 void declare_harmonic(Section& s, HarmonicInTime& wave) {
   s.number("frequency", wave.frequency, {.unit = "Hz", .above = 0}, "frequency of the sine");
   s.number("phase_deg", wave.phase_deg, {.unit = "deg"}, "phase angle; 90 gives a cosine");
+  s.number("start", wave.start, {.unit = "s"}, "time at which it begins; the factor is 0 before");
 }
 
 void declare_table(Section& s, TableInTime& table) {
@@ -87,6 +107,15 @@ void declare_time_function(Section& s, TimeFunction& time) {
 }
 
 }  // namespace
+
+void declare_region(Section& s, BlockRegion& region, const std::string& blocks) {
+  s.blocks("blocks", region.blocks, "numbers or names of " + blocks);
+  s.text("member", region.member, "only blocks of this member, wythe or group of bonders; empty: any");
+  s.optional_section("sector", region.sector, "only blocks whose centroids lie in this sector",
+                     declare_sector);
+  s.optional_section("profile", region.profile, "factor that varies with the azimuth of each block",
+                     declare_profile);
+}
 
 void declare_time(Section& s, const std::string& key, TimeFunction& time, const std::string& meaning) {
   std::optional<TimeFunction> given;

@@ -91,8 +91,9 @@ std::vector<std::string> lost_supports(const Case& scene, const Assembly& assemb
     const SupportMove& move = scene.supports.moves[i];
     const Vec3 displacement = factor_at(move.time, 0.0) * move.displacement;
     const auto moves = [&](int block) {
-      return move.blocks.empty() ||
-             std::ranges::any_of(move.blocks, [&](const BlockRef& one) { return one.number == block; });
+      return move.region.blocks.empty() || std::ranges::any_of(move.region.blocks, [&](const BlockRef& one) {
+               return one.number == block;
+             });
     };
     double opening = 0.0;
     for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b)
@@ -132,8 +133,8 @@ std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembl
                         "too many digits? Forces are in N"});
   for (size_t i = 0; i < scene.supports.moves.size() && !varies(LimitSearch::Parameter::spread); ++i)
     checks.push_back({fmt::format("supports.moves[{}].displacement", i),
-                      scene.supports.moves[i].displacement.norm(), "m", 0.0, extent.size(), "",
-                      kMillimetres});
+                      scene.supports.moves[i].displacement.norm() + std::abs(scene.supports.moves[i].outward),
+                      "m", 0.0, extent.size(), "", kMillimetres});
   std::vector<std::string> out = sentences(checks);
   for (std::string& text : cuts_beside(scene.postproc, points, extent)) out.push_back(std::move(text));
   if (!varies(LimitSearch::Parameter::spread))

@@ -88,7 +88,9 @@ void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Sup
   }
   for (Restraint& restraint : supports->restraints) names.resolve("supports.restraints", &restraint.block);
   for (SupportMove& move : supports->moves)
-    for (BlockRef& block : move.blocks) names.resolve("supports.moves", &block);
+    for (BlockRef& block : move.region.blocks) names.resolve("supports.moves", &block);
+  for (BlockHeat& heat : loads->heat)
+    for (BlockRef& block : heat.region.blocks) names.resolve("loads.heat", &block);
 }
 
 void resolve_block_names(const Assembly& assembly, std::vector<ForceQuantity>* quantities) {

@@ -75,6 +75,38 @@ struct FaceLoad {
   std::optional<Fill> fill = {};
 };
 
+/// A factor that varies with the azimuth phi about the z axis: cos(waves (phi - phase)).
+struct AzimuthProfile {
+  int waves = 1;           ///< >= 1, around the axis
+  double phase_deg = 0.0;  ///< deg, azimuth of a crest, from the x axis
+};
+
+/// Azimuths about the z axis from `from_deg` counter-clockwise to `to_deg`, both included.
+struct Sector {
+  double from_deg = 0.0, to_deg = 360.0;  ///< deg; to > from, by at most 360
+};
+
+/// Blocks by name or number, those of a member and those whose centroids lie in a sector. What is left out does not restrict.
+struct BlockRegion {
+  std::vector<BlockRef> blocks = {};  ///< empty: all
+  std::string member = {};            ///< see Assembly::members; empty: any
+  std::optional<Sector> sector = {};
+  std::optional<AzimuthProfile> profile =
+      {};  ///< factor at the azimuth of the centroid of each block; none: 1
+};
+
+/// Change of temperature of blocks, linear over each: change + gradient . x, x from the centroid. No other field leaves a free
+/// rigid block without stress.
+struct BlockHeat {
+  BlockRegion region = {};
+  double change = 0.0;           ///< K, at the centroid
+  double through = 0.0;          ///< K/m, its growth along the outward normal of the block's extrados
+  Vec3 gradient = Vec3::Zero();  ///< K/m, its growth along the world axes, in addition
+  double expansion = 0.0;        ///< 1/K, > 0, thermal strain per change
+  bool ground = false;           ///< the fixed blocks expand with the others, as one body
+  TimeFunction time = {};
+};
+
 struct Loads {
   Vec3 gravity{0.0, 0.0, -9.81};  ///< m/s2
   std::optional<TopLoad> lantern;
@@ -83,6 +115,7 @@ struct Loads {
   TimeFunction dead_load_time;
   std::vector<BlockForce> forces;
   std::vector<FaceLoad> faces;
+  std::vector<BlockHeat> heat = {};
 };
 
 /// A tie between points of two blocks, as built. It carries tension when longer than its natural length, and
@@ -113,10 +146,12 @@ constexpr auto enum_names(BaseMotion::Quantity) {
   return std::array{"displacement", "acceleration"};
 }
 
-/// Displacement and rotation imposed on fixed blocks.
+/// Displacement and rotation imposed on the fixed blocks of a region.
 struct SupportMove {
-  std::vector<BlockRef> blocks;      ///< empty: all fixed blocks
+  BlockRegion region = {};
   Vec3 displacement = Vec3::Zero();  ///< m
+  double outward = 0.0;   ///< m, horizontally away from the axis of the masonry on each block, in addition
+  double tilt_deg = 0.0;  ///< deg, about the centroid of each block, whose top turns outwards
   Vec3 rotation_deg = Vec3::Zero();  ///< deg, rotation vector about `pivot`
   Vec3 pivot = Vec3::Zero();         ///< m
   TimeFunction time;

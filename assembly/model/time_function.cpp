@@ -19,7 +19,9 @@ double at(const RampInTime& ramp, double time) {
 }
 
 double at(const HarmonicInTime& wave, double time) {
-  return std::sin(2.0 * std::numbers::pi * wave.frequency * time + wave.phase_deg * std::numbers::pi / 180.0);
+  if (time < wave.start) return 0.0;
+  return std::sin(2.0 * std::numbers::pi * wave.frequency * (time - wave.start) +
+                  wave.phase_deg * std::numbers::pi / 180.0);
 }
 
 double at(const TableInTime& table, double time) {

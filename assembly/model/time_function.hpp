@@ -17,10 +17,11 @@ struct RampInTime {
   double duration = 1.0;  ///< s, > 0
 };
 
-/// sin(2 pi frequency t + phase).
+/// sin(2 pi frequency (t - start) + phase), and 0 before `start`.
 struct HarmonicInTime {
   double frequency = 1.0;  ///< Hz, > 0
   double phase_deg = 0.0;  ///< deg; 90 gives a cosine
+  double start = 0.0;      ///< s
 };
 
 /// Linear interpolation between points, constant before the first and after the last.

@@ -318,6 +318,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   const std::vector<bool> left_out = blocks_left_out(e);
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
                       e.last.frame.ties, left_out);
+  if (at_rest(e)) e.cracks = shell_cracks(e.assembly, e.last.frame.contacts, e.last.joints, e.axes);
   e.reactions = support_reactions(e.assembly, e.last.joints, e.axes);
   e.parts = connected_parts(e.assembly, e.last.joints);
   find_what_gives_way(results, &e);

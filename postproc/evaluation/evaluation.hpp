@@ -15,6 +15,7 @@
 #include "postproc/mechanics/plane_cut.hpp"
 #include "postproc/mechanics/reactions.hpp"
 #include "postproc/mechanics/ring_sums.hpp"
+#include "postproc/mechanics/shell_cracks.hpp"
 #include "postproc/mechanics/thrust_line.hpp"
 #include "postproc/mechanics/wythe_sums.hpp"
 
@@ -78,6 +79,7 @@ struct Evaluation {
   std::vector<WytheSum> wythes;    ///< empty without wythes
   std::vector<ChainForces> chains;
   std::vector<Reaction> reactions;    ///< of the last frame, on the supports
+  std::vector<ShellCrack> cracks;     ///< of an equilibrium, the widest first
   std::vector<int> parts;             ///< connected_parts()
   std::optional<GivesWay> gives_way;  ///< of a limit analysis with a mechanism
   std::vector<MeridianEvaluation> meridians;

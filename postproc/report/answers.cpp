@@ -257,12 +257,15 @@ std::optional<KeyNumber> crack_answer(const Evaluation& e) {
     return a.widest_gap < b.widest_gap;
   });
   const JointWrench& joint = e.last.joints.wrenches[widest.joint];
-  return KeyNumber{"Widest crack", length_text(widest.widest_gap),
-                   fmt::format("in the {}joint between blocks {} and {}; {} open over {} in total",
-                               joint.kind == JointKind::other ? "" : std::string(to_string(joint.kind)) + " ",
-                               joint.block_a, joint.block_b,
-                               counted(cracks.size(), "joint") + (cracks.size() == 1 ? " is" : " are"),
-                               length_text(total))};
+  const auto through = std::ranges::count_if(e.cracks, &ShellCrack::through);
+  return KeyNumber{
+      "Widest crack", length_text(widest.widest_gap),
+      fmt::format("in the {}joint between blocks {} and {}; {} open over {} in total, as {}, {} "
+                  "through the shell",
+                  joint.kind == JointKind::other ? "" : std::string(to_string(joint.kind)) + " ",
+                  joint.block_a, joint.block_b,
+                  counted(cracks.size(), "joint") + (cracks.size() == 1 ? " is" : " are"), length_text(total),
+                  counted(e.cracks.size(), "crack"), through == 0 ? "none" : std::to_string(through))};
 }
 
 std::vector<std::string> terminal_lines(const Evaluation& e, const std::string& report) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "postproc/tables/observed_cracks.hpp"
 #include "postproc/tables/result_columns.hpp"
 #include "postproc/tables/shell_map.hpp"
 
@@ -52,6 +53,10 @@ std::string column_reference() {
          reference_of("chains.csv: tension of chains", chain_columns(),
                       {{"summary.json", {kChainSummaryKeys}}}) +
          reference_of("ties.csv: bars of chains and other ties", tie_columns(), {{"ties.vtp", {kTieKeys}}}) +
+         reference_of("cracks.csv: open joints that follow each other", crack_columns(),
+                      {{"cracks.vtp", {kCrackNumberKeys}}}) +
+         reference_of("observed.csv: cracks seen on the building and those of the run", observed_columns(),
+                      {}) +
          reference_of("section_HEIGHTm.csv: resultants across a bed", section_columns(), {}) +
          reference_of("cut_NAME.csv: joints across a plane", plane_columns(), {}) +
          reference_of("joints.csv, joints.vtp, joint_forces.vtp, cracks.vtp: joints", joint_columns(),

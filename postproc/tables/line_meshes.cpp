@@ -108,7 +108,10 @@ Mesh sections_mesh(const Evaluation& e) {
 
 Mesh cracks_mesh(const Evaluation& e) {
   Mesh mesh;
-  MeshInts joint_id;
+  MeshInts joint_id, crack_id;
+  std::vector<int> crack_of(e.last.joints.wrenches.size(), -1);
+  for (const CrackRow& row : crack_rows(e))
+    for (const int joint : row.crack.joints) crack_of[joint] = row.number;
   std::vector<std::reference_wrapper<const JointWrench>> cracked;
   for (const Crack& crack : cracks_of(e.last.frame.contacts, e.last.joints)) {
     std::vector<int> ids;
@@ -117,10 +120,12 @@ Mesh cracks_mesh(const Evaluation& e) {
     if (ids.size() > 2) ids.push_back(ids.front());
     mesh.add_cell(CellType::polyline, ids);
     joint_id.push_back(crack.joint);
+    crack_id.push_back(crack_of[crack.joint]);
     cracked.emplace_back(e.last.joints.wrenches[crack.joint]);
   }
   mesh.cell_data = mesh_arrays(joint_columns(), cracked, kCrackKeys);
   mesh.cell_data.insert(mesh.cell_data.end() - 1, {"joint", 1, std::move(joint_id)});
+  mesh.cell_data.push_back({kCrackNumberKeys[0], 1, std::move(crack_id)});
   mesh.field_data = about(e, 0.0);
   return mesh;
 }

@@ -14,6 +14,7 @@
 #include "assembly/files/atomic_file.hpp"
 #include "postproc/evaluation/margin.hpp"
 #include "postproc/mechanics/cracks.hpp"
+#include "postproc/tables/observed_cracks.hpp"
 #include "postproc/tables/result_columns.hpp"
 
 namespace cupola {
@@ -234,6 +235,10 @@ std::string post_summary_json(const Evaluation& e) {
   json["frames"] = e.times.size();
   json["lost_joints"] = e.lost_joints ? Json(*e.lost_joints) : Json();
   json["warnings"] = notices(e);
+  if (const auto observed = crack_agreement(e)) {
+    json["crack_agreement"] = observed->agreement;
+    json["crack_agreement_by_chance"] = observed->by_chance;
+  }
   json["thrust_lines"] = Json::array();
   for (const PostSummary::Line& line : s.thrust_lines)
     json["thrust_lines"].push_back({{"name", line.name},

@@ -88,6 +88,12 @@ std::vector<PlaneJoint> plane_joints(const Evaluation& e, const PlaneCut& cut) {
   return rows;
 }
 
+std::vector<CrackRow> crack_rows(const Evaluation& e) {
+  std::vector<CrackRow> rows;
+  for (const ShellCrack& crack : e.cracks) rows.push_back({crack, static_cast<int>(rows.size())});
+  return rows;
+}
+
 std::vector<TieRow> tie_rows(const Evaluation& e) {
   std::vector<TieRow> rows;
   const TieTable& ties = e.last.frame.ties;
@@ -377,6 +383,31 @@ const Columns<TieRow>& tie_columns() {
        [](const T& t) { return t.ties.yield_force[t.index]; }},
       {"yielded_m", "m", "plastic elongation", [](const T& t) { return t.ties.yielded[t.index]; }},
       {"strut", "", "1: resists shortening", [](const T& t) { return t.ties.strut[t.index] != 0 ? 1 : 0; }},
+  };
+  return columns;
+}
+
+const Columns<CrackRow>& crack_columns() {
+  using C = CrackRow;
+  static const Columns<C> columns{
+      {"crack", "", "number, the widest first; in cracks.vtp per joint, -1: a hairline", &C::number},
+      {"course", "", "meridional: through head joints; parallel: along beds; layers: within the thickness",
+       [](const C& c) { return std::string(to_string(c.crack.course)); }},
+      {"joints", "", "number of its joints",
+       [](const C& c) { return static_cast<int>(c.crack.joints.size()); }},
+      {"length_m", "m", "of its joints along the shell", [](const C& c) { return c.crack.length; }},
+      {"width_m", "m", "widest gap", [](const C& c) { return c.crack.width; }},
+      {"width_inner_m", "m", "widest gap at the inner face", [](const C& c) { return c.crack.width_inner; }},
+      {"width_outer_m", "m", "widest gap at the outer face", [](const C& c) { return c.crack.width_outer; }},
+      {"through", "", "1: a joint is open at both faces", [](const C& c) { return c.crack.through ? 1 : 0; }},
+      {"rotation_deg", "deg", "largest rotation of a joint, outwards opening positive",
+       [](const C& c) { return c.crack.rotation * kDegrees; }},
+      {"slip_m", "m", "largest accumulated slip of its joints", [](const C& c) { return c.crack.slip; }},
+      {"azimuth_deg", "deg", "of its middle, weighted by width",
+       [](const C& c) { return azimuth(c.crack.middle) * kDegrees; }},
+      {"middle_{}_m", "m", "its middle, weighted by width", [](const C& c) { return c.crack.middle; }},
+      {"start_{}_m", "m", "centre of its first joint", [](const C& c) { return c.crack.start; }},
+      {"end_{}_m", "m", "centre of its last joint", [](const C& c) { return c.crack.end; }},
   };
   return columns;
 }

@@ -66,6 +66,13 @@ struct TieRow {
 };
 std::vector<TieRow> tie_rows(const Evaluation& evaluation);
 
+/// A crack, with its number.
+struct CrackRow {
+  const ShellCrack& crack;
+  int number = 0;
+};
+std::vector<CrackRow> crack_rows(const Evaluation& evaluation);
+
 /// A cell of thrust_lines.vtp.
 struct LineCell {
   enum What { line_of_thrust, envelope, line_of_action, intrados, extrados, line_of_wythe };
@@ -95,6 +102,7 @@ const Columns<HoopRow>& hoop_columns();
 const Columns<ChainForces>& chain_columns();
 const Columns<TieRow>& tie_columns();
 const Columns<Reaction>& reaction_columns();
+const Columns<CrackRow>& crack_columns();
 const Columns<BedResultant>& section_columns();
 const Columns<PlaneJoint>& plane_columns();
 const Columns<LineCell>& line_cell_columns();
@@ -125,6 +133,7 @@ inline constexpr std::array kJointKeys{
 inline constexpr std::array kTieKeys{"force_N", "yield_force_N", "yielded_m", "block_a", "block_b"};
 /// cracks.vtp: cell data.
 inline constexpr std::array kCrackKeys{"opening_m", "slip_m", "kind"};
+inline constexpr std::array kCrackNumberKeys{"crack"};
 /// thrust_lines.vtp and sections.vtp: cell data.
 inline constexpr std::array kLineCellKeys{"what", "meridian", "resultant_N"};
 inline constexpr std::array kSectionCellKeys{"what", "cut", "block", "height_m", "resultant_N"};

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "postproc/tables/observed_cracks.hpp"
 #include "postproc/tables/result_columns.hpp"
 #include "postproc/tables/shell_map.hpp"
 
@@ -94,6 +95,15 @@ Table hoop_table(const MeridianEvaluation& m) {
                     hoop_columns(), m.hoop);
 }
 
+Table crack_table(const Evaluation& e) {
+  const bool dilates = e.scene.analysis.friction_law != FrictionLaw::coulomb;
+  return make_table(
+      "cracks",
+      std::string("Cracks: open joints that follow each other over the shell") +
+          (dilates ? "; sliding joints open by friction times slip under this friction law" : ""),
+      crack_columns(), crack_rows(e));
+}
+
 Table chain_table(const Evaluation& e) {
   return make_table("chains", "Chains: tension of their bars", chain_columns(), e.chains);
 }
@@ -123,6 +133,8 @@ std::vector<Table> result_tables(const Evaluation& e) {
   if (!e.rings.empty()) tables.push_back(ring_table(e));
   if (!e.reactions.empty())
     tables.push_back(make_table("reactions", "Forces on the supports", reaction_columns(), e.reactions));
+  if (!e.cracks.empty()) tables.push_back(crack_table(e));
+  if (const auto observed = crack_agreement(e)) tables.push_back(observed_table(*observed));
   if (!e.members.empty()) tables.push_back(member_table(e));
   if (!e.wythes.empty()) tables.push_back(wythe_table(e));
   for (const MeridianEvaluation& m : e.meridians) {

@@ -17,6 +17,7 @@ Table joint_table(const Evaluation& evaluation);
 Table block_table(const Evaluation& evaluation);
 Table thrust_table(const ThrustLine& line);
 Table hoop_table(const MeridianEvaluation& meridian);
+Table crack_table(const Evaluation& evaluation);
 Table chain_table(const Evaluation& evaluation);
 Table tie_table(const Evaluation& evaluation);
 Table section_table(const Evaluation& evaluation, const SectionEvaluation& section);

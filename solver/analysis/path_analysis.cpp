@@ -15,7 +15,6 @@
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/analysis/statics/equilibrium_path.hpp"
 #include "solver/analysis/statics/static_record.hpp"
-#include "solver/dynamics/energy_account.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {
@@ -114,7 +113,7 @@ PathRun::PathRun(const Case& scene, const Assembly& assembly, const AnalysisSink
     : options_(scene.analysis.path),
       sinks_(sinks),
       model_(make_model(scene, assembly)),
-      path_(model_, detection_options(scene), static_options(scene.analysis)) {
+      path_(model_, detection_options(scene), static_options(scene.analysis), scene.analysis.path.geometry) {
   const LoadPath::Control& control = *options_.control;
   control_.block = checked_block(control.block);
   if (control.relative_to) control_.relative_to = checked_block(*control.relative_to);
@@ -183,7 +182,7 @@ void PathRun::record(const StaticSolution& solution) {
                           largest_violation(frame));
   progress_.worst_balance = std::max(progress_.worst_balance, summary_.accuracy.reached);
   progress_.proven = progress_.proven && solution.proven;
-  progress_.dissipated += joint_dissipation(solution.step, solution.step_solution);
+  progress_.dissipated += path_.dissipated();
   if (progress_.equilibria++ == 0) progress_.first_displacement = displacement();
   tabulate(frame, solution);
 }

@@ -20,6 +20,7 @@ Model make_model(const Case& scene, const Assembly& assembly) {
   model.ties_yield =
       std::ranges::any_of(model.ties, [](const Tie& tie) { return std::isfinite(tie.yield_force); });
   model.support_motions = make_support_motions(scene, assembly);
+  model.heat = HeatedBlocks(scene, assembly);
   model.free_index.assign(assembly.blocks.size(), ContactProblem::kFixed);
   for (size_t block = 0; block < assembly.blocks.size(); ++block) {
     if (assembly.blocks[block].fixed) continue;
@@ -29,7 +30,8 @@ Model make_model(const Case& scene, const Assembly& assembly) {
   model.free_weight = free_weight(assembly, scene.loads.gravity.norm());
   model.block_weight = model.num_free() > 0 ? model.free_weight / model.num_free() : 0.0;
   model.plane = scene.analysis.plane;
-  if (model.plane) require_plane_scene(scene, assembly, {model.loads, model.ties, model.support_motions});
+  if (model.plane)
+    require_plane_scene(scene, assembly, {model.loads, model.ties, model.support_motions, model.heat});
   return model;
 }
 

@@ -7,6 +7,7 @@
 #include "solver/collision/contact_detector.hpp"
 #include "solver/contact/problem/contact_problem.hpp"
 #include "solver/dynamics/contact_memory.hpp"
+#include "solver/dynamics/heat.hpp"
 #include "solver/dynamics/joint_laws.hpp"
 #include "solver/dynamics/loads.hpp"
 #include "solver/dynamics/supports.hpp"
@@ -24,6 +25,7 @@ struct Model {
   std::vector<Tie> ties;
   bool ties_yield = false;  ///< at least one of them does
   std::vector<SupportMotion> support_motions;
+  HeatedBlocks heat;
   std::vector<int> free_index;   ///< block -> row block, or ContactProblem::kFixed (num_blocks)
   std::vector<int> free_blocks;  ///< row block -> block (nb)
   double free_weight = 0.0;      ///< N, total weight of the free blocks under full gravity

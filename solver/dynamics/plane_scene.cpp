@@ -50,6 +50,7 @@ void require_plane_actions(const PlaneActions& actions, double tolerance) {
   for (const SupportMotion& motion : actions.support_motions)
     if (motion.displacement.y() != 0.0 || motion.rotation.x() != 0.0 || motion.rotation.z() != 0.0)
       refuse(fmt::format("support {} moves out of the plane", motion.block));
+  if (!actions.heat.stays_in_plane()) refuse("a change of temperature grows along y");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "assembly/case/case.hpp"
+#include "solver/dynamics/heat.hpp"
 #include "solver/dynamics/loads.hpp"
 #include "solver/dynamics/supports.hpp"
 #include "solver/dynamics/ties.hpp"
@@ -14,6 +15,7 @@ struct PlaneActions {
   const LoadSet& loads;
   const std::vector<Tie>& ties;
   const std::vector<SupportMotion>& support_motions;
+  const HeatedBlocks& heat;
 };
 
 /// Throws InputError if a scene is not plane. In a plane scene every block is symmetric about one plane

@@ -52,7 +52,10 @@ Simulation::Simulation(Model model, const SimulationOptions& options)
 StepReport Simulation::advance(double h_max) {
   StepOptions step = options_.step;
   step.h = std::min(next_h_, h_max);
-  const ContactSet& contacts = detector_.update(middle_of_step(model_, state_, step).poses, travel(step.h));
+  const State middle = middle_of_step(model_, state_, step);
+  detector_.update(middle.poses, travel(step.h));
+  heat_contacts(middle.poses);
+  const ContactSet& contacts = this->contacts();
   bool changed = detections_followed_ != detector_.num_detections();
   if (changed) follow_detection(contacts);
   if (options_.sleep && update_sleep(*options_.sleep, islands_, radius_, &state_, &sleep_state_)) {
@@ -63,6 +66,10 @@ StepReport Simulation::advance(double h_max) {
   StepReport report = advance_detected(contacts, step);
   report.work.scheme += lost;
   return report;
+}
+
+void Simulation::heat_contacts(const std::vector<Pose>& poses) {
+  if (!model_.heat.empty()) heated_ = model_.heat.heated(detector_.contacts(), poses, state_.time);
 }
 
 StepReport Simulation::advance_detected(const ContactSet& contacts, const StepOptions& step) {
@@ -142,7 +149,9 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
     ++report.num_rejected;
     // The contacts are those of the middle of the step, which moves.
     if (!step.integrator.is_euler()) {
-      detector_.update(middle_of_step(model, *state, step).poses, travel(step.h));
+      const State again = middle_of_step(model, *state, step);
+      detector_.update(again.poses, travel(step.h));
+      heat_contacts(again.poses);
       if (detections_followed_ != detector_.num_detections()) follow_detection(contacts);
     }
   }
@@ -180,6 +189,7 @@ void Simulation::start_from(const LoadedState& loaded) {
     gaps.push_back(carries_load ? memories_.values[i].elastic_gap : contacts.points[i].gap);
   }
   detector_.set_gaps(gaps);
+  heat_contacts(state_.poses);
   // The same forces act during the first step.
   for (size_t i = 0; i < contacts.points.size(); ++i) {
     ContactMemory& memory = memories_.values[i];

@@ -83,7 +83,7 @@ class Simulation {
     energy_.reset();
     return &state_;
   }
-  const ContactSet& contacts() const { return detector_.contacts(); }
+  const ContactSet& contacts() const { return model_.heat.empty() ? detector_.contacts() : heated_; }
   const ContactMemories& memories() const { return memories_; }
   Energy energy() const { return compute_energy(model_, state_, contacts(), memories_); }
   Vec3 linear_momentum() const;             ///< N s, of the free blocks
@@ -96,6 +96,8 @@ class Simulation {
   /// One step without its account of energy across detection and sleep.
   StepReport advance_detected(const ContactSet& contacts, const StepOptions& step);
   StepReport advance_awake(const ContactSet& contacts, const StepOptions& step);
+  /// Sets heated_ for the contacts detected last, at the poses for which they were.
+  void heat_contacts(const std::vector<Pose>& poses);
   /// Updates memories and islands after contacts were detected again.
   void follow_detection(const ContactSet& contacts);
   /// Largest distance that a point of each block moves in a step h at its present velocity, m (num_blocks).
@@ -105,6 +107,7 @@ class Simulation {
   SimulationOptions options_;
   State state_;
   ContactDetector detector_;
+  ContactSet heated_;  ///< those of detector_ with the gaps between heated faces; only of models with heat
   ContactMemories memories_;
   ContactSolver solver_;
   int detections_followed_ = 0;

@@ -38,6 +38,7 @@ void Simulation::restore(const std::string& bytes) {
     throw std::runtime_error("belongs to another scene");
   state_ = std::move(state);
   detector_.restore(std::move(detection));
+  heat_contacts(state_.poses);
   detections_followed_ = 0;  // the islands are not stored: compute them again
   reduced_.reset();
   energy_ = last_energy;

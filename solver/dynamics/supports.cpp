@@ -2,10 +2,9 @@
 
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "assembly/base/error.hpp"
 #include "assembly/files/time_table.hpp"
+#include "solver/dynamics/block_region.hpp"
 
 namespace cupola {
 namespace {
@@ -17,18 +16,20 @@ std::vector<int> fixed_blocks(const Assembly& assembly) {
   return blocks;
 }
 
-std::vector<int> blocks_of_move(const SupportMove& move, const Assembly& assembly) {
-  if (move.blocks.empty()) return fixed_blocks(assembly);
-  const int num_blocks = static_cast<int>(assembly.blocks.size());
-  for (int block : move.blocks) {
-    if (block < 0 || block >= num_blocks)
-      throw InputError(fmt::format("supports.moves: block {} does not exist: the assembly has blocks 0 to {}",
-                                   block, num_blocks - 1));
-    if (!assembly.blocks[block].fixed)
-      throw InputError(
-          fmt::format("supports.moves: block {} is not fixed; only supports can be moved", block));
-  }
-  return {move.blocks.begin(), move.blocks.end()};
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// The motions of one block of the region of a move.
+void add_motions(const SupportMove& move, const RegionBlock& b, const Assembly& assembly,
+                 std::vector<SupportMotion>* motions) {
+  Vec3 outward = Vec3::Zero();
+  if (move.outward != 0.0 || move.tilt_deg != 0.0)
+    outward = outward_of_support(assembly, b.block, "supports.moves");
+  motions->push_back({b.block, b.factor * (move.displacement + move.outward * outward),
+                      b.factor * kDegree * move.rotation_deg, move.pivot, move.time});
+  if (move.tilt_deg == 0.0) return;
+  const Vec3 axis = Vec3::UnitZ().cross(outward);  // turns the top outwards
+  motions->push_back({b.block, Vec3::Zero(), b.factor * kDegree * move.tilt_deg * axis,
+                      assembly.blocks[b.block].centroid, move.time});
 }
 
 Eigen::Quaterniond rotation_of(const Vec3& turn) {
@@ -49,9 +50,8 @@ std::vector<SupportMotion> make_support_motions(const Case& scene, const Assembl
       motions.push_back({block, base.direction, Vec3::Zero(), Vec3::Zero(), table});
   }
   for (const SupportMove& move : scene.supports.moves)
-    for (int block : blocks_of_move(move, assembly))
-      motions.push_back(
-          {block, move.displacement, std::numbers::pi / 180.0 * move.rotation_deg, move.pivot, move.time});
+    for (const RegionBlock& b : blocks_of_region(move.region, assembly, true, "supports.moves"))
+      add_motions(move, b, assembly, &motions);
   return motions;
 }
 

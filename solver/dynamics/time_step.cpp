@@ -187,7 +187,18 @@ void add_support_velocities(const Model& model, const State& state, const Contac
     step->support_velocity.segment<3>(3 * row) =
         problem.D_a[row].transpose() * v.col(a) + problem.D_b[row].transpose() * v.col(b);
   }
-  problem.b += step->support_velocity;
+}
+
+/// Adds the velocities at which the heated faces of a contact separate.
+void add_expansion(const Model& model, const State& state, const ContactSet& contacts,
+                   const StepOptions& options, StepProblem* step) {
+  for (int i = 0; i < step->num_contacts; ++i) {
+    const Contact& contact = contacts.points[i];
+    const Vec3 change = model.heat.separation(state.poses, contact, state.time + options.advance()) -
+                        model.heat.separation_before(state.poses, contact, state.time);
+    step->support_velocity.segment<3>(3 * i) +=
+        contact_frame(contact.normal).transpose() * change / options.h;
+  }
 }
 
 }  // namespace
@@ -228,6 +239,8 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
   set_contact_laws(model, state, contacts, memories, options, &step);
   set_tie_laws(model, state, memories, options, step.num_contacts, &step.problem);
   if (!model.support_motions.empty()) add_support_velocities(model, state, contacts, options, &step);
+  if (!model.heat.empty()) add_expansion(model, state, contacts, options, &step);
+  if (!model.support_motions.empty() || !model.heat.empty()) step.problem.b += step.support_velocity;
   return step;
 }
 

@@ -32,12 +32,14 @@ struct StepOptions {
 /// The contact problem of one step. The rows of the contacts come first, followed by three rows per tie.
 struct StepProblem {
   ContactProblem problem;
-  VecX support_velocity;  ///< D_s^T v_s, m/s, included in problem.b (3 (nc + number of ties))
-  double reach = 0.0;     ///< s, StepOptions::reach()
-  VecX impulse_time;      ///< s: gamma over it is the force at the end of the step (3 (nc + number of ties))
-  VecX past_impulse;      ///< N s, p - gamma, included in problem.v_star (the same size; empty: none)
-  VecX acceleration;      ///< m/s2, (f + D s) / M (6 nb; empty: none)
-  int num_contacts = 0;   ///< nc, without the ties
+  /// m/s: D_s^T v_s, and the velocity at which the heated faces of a contact separate; included in problem.b (3 (nc + number of
+  /// ties))
+  VecX support_velocity;
+  double reach = 0.0;    ///< s, StepOptions::reach()
+  VecX impulse_time;     ///< s: gamma over it is the force at the end of the step (3 (nc + number of ties))
+  VecX past_impulse;     ///< N s, p - gamma, included in problem.v_star (the same size; empty: none)
+  VecX acceleration;     ///< m/s2, (f + D s) / M (6 nb; empty: none)
+  int num_contacts = 0;  ///< nc, without the ties
 };
 
 /// Axes of a contact with unit normal n: columns n, t1, t2, right-handed. The tangents depend only on n.

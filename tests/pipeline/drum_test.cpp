@@ -61,7 +61,7 @@ double sum(const std::map<int, double>& reactions) {
 
 SupportMove settlement(std::vector<BlockRef> blocks) {
   SupportMove move;
-  move.blocks = std::move(blocks);
+  move.region.blocks = std::move(blocks);
   move.displacement = Vec3(0.0, 0.0, -0.005);
   return move;
 }

@@ -93,7 +93,7 @@ double fracture_work(const ReferenceRow& row) {
   const bool opens = row.text("mode") == "opening";
   const double broken =
       opens ? 2.0 * energy.tension / strength.tension : 2.0 * energy.shear / strength.cohesion;
-  scene.supports.moves.push_back({.blocks = {BlockRef{3}},
+  scene.supports.moves.push_back({.region = {.blocks = {BlockRef{3}}},
                                   .displacement = 1.5 * broken * (opens ? Vec3::UnitZ() : Vec3::UnitX()),
                                   .time = RampInTime{}});
   return test::csv_numbers(run_to_end(scene, couplet).table).back()[3];

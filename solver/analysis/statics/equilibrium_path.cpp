@@ -2,22 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/files/byte_archive.hpp"
+#include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/static_step.hpp"
+#include "solver/dynamics/energy_account.hpp"
 #include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/state_archive.hpp"
 
 namespace cupola {
 
 EquilibriumPath::EquilibriumPath(const Model& model, const DetectionOptions& detection,
-                                 const StaticOptions& options)
-    : model_(model), options_(options), detector_(*model.assembly, detection) {
+                                 const StaticOptions& options, PathGeometry geometry)
+    : model_(model), options_(options), geometry_(geometry), detector_(*model.assembly, detection) {
   loaded_.state = state_at_rest(model_);
   ContactDetector as_built(*model.assembly, detection);
   contacts_at_rest(loaded_.state, *model.assembly, &as_built);
@@ -28,6 +31,7 @@ void EquilibriumPath::list_parted(Frame* frame) const {
   AnchoredContacts built = built_;
   const std::vector<Pose>& poses = loaded_.state.poses;
   move_contacts(poses, moved_contacts(built.set, std::vector<char>(poses.size(), 1)), &built);
+  if (!model_.heat.empty()) built.set = model_.heat.heated(std::move(built.set), poses, loaded_.state.time);
   append_parted(built.set, contacts(), detector_.margin(), &frame->contacts);
 }
 
@@ -66,18 +70,52 @@ StaticSolution EquilibriumPath::advance_by(const LengthControl& control) {
   return advance_from(loaded_.state.time);
 }
 
-StaticSolution EquilibriumPath::advance_from(double guess) {
-  start_ = loaded_.state;
-  const ContactSet& contacts = detector_.num_detections() == 0
-                                   ? contacts_at_rest(start_, *model_.assembly, &detector_)
-                                   : detector_.update(start_.poses);
-  memories_ = loaded_.memories.as_built ? memories_at_rest(model_, start_, contacts.points)
-                                        : match_memories(loaded_.memories, contacts.points);
-  options_.time_advance = guess - start_.time;
-  StaticSolution solution = solve_breaking(model_, start_, contacts, options_, &memories_, &solves_);
+StaticSolution EquilibriumPath::solve_from(const LoadedState& from, double time_advance) {
+  start_ = from.state;
+  contacts_ = detector_.num_detections() == 0 ? contacts_at_rest(start_, *model_.assembly, &detector_)
+                                              : detector_.update(start_.poses);
+  if (!model_.heat.empty()) contacts_ = model_.heat.heated(std::move(contacts_), start_.poses, start_.time);
+  memories_ = from.memories.as_built ? memories_at_rest(model_, start_, contacts_.points)
+                                     : match_memories(from.memories, contacts_.points);
+  options_.time_advance = time_advance;
+  int solves = 0;
+  StaticSolution solution = solve_breaking(model_, start_, contacts_, options_, &memories_, &solves);
+  solves_ += solves;
   options_.time_advance = solution.time_advance;
-  if (solution.outcome == StaticOutcome::equilibrium)
-    loaded_ = loaded_state(model_, start_, contacts, memories_, solution, options_);
+  if (solution.outcome != StaticOutcome::equilibrium) return solution;
+  loaded_ = loaded_state(model_, start_, contacts_, memories_, solution, options_);
+  dissipated_ += joint_dissipation(solution.step, solution.step_solution);
+  return solution;
+}
+
+StaticSolution EquilibriumPath::advance_from(double guess) {
+  const LoadedState last = loaded_;
+  solves_ = 0;
+  dissipated_ = 0.0;
+  StaticSolution solution = solve_from(last, guess - last.state.time);
+  if (geometry_ == PathGeometry::end && solution.outcome == StaticOutcome::equilibrium)
+    solution = correct(std::move(solution));
+  if (solution.outcome != StaticOutcome::equilibrium) loaded_ = last;
+  return solution;
+}
+
+StaticSolution EquilibriumPath::correct(StaticSolution solution) {
+  constexpr double kSettled = 1e-8;  // of the smallest block
+  constexpr int kMost = 50;
+  const auto moved = [](const StaticSolution& s) { return largest_speed(s.step_solution.v) * s.h; };
+  const double tolerance = kSettled * smallest_block_size(*model_.assembly), by_step = moved(solution);
+  for (int pass = 0; moved(solution) > tolerance; ++pass) {
+    if (pass == kMost || (pass > 0 && moved(solution) > by_step)) {
+      solution.outcome = pass == kMost ? StaticOutcome::unconverged : StaticOutcome::moving;
+      solution.message =
+          fmt::format("in the geometry at the end of the step blocks move on by {:.2g} m", moved(solution));
+      break;
+    }
+    const int iterations = solution.iterations;
+    solution = solve_from(LoadedState(loaded_), 0.0);
+    solution.iterations += iterations;
+    if (solution.outcome != StaticOutcome::equilibrium) break;
+  }
   return solution;
 }
 

@@ -13,9 +13,15 @@ StaticSolution solve_breaking(const Model& model, const State& start, const Cont
 
 /// Sequence of equilibria of a structure whose loads and supports change slowly in time. Each step detects the contacts anew
 /// and is a static solve from the last equilibrium; joints keep their slip, opening and damage.
+///
+/// Each solve balances the forces in the geometry in which it starts, so that an equilibrium is off by the displacement of its
+/// step. With PathGeometry::end more solves follow in each step, each from where the last one ended and at the same time,
+/// until one moves no block by more than 1e-8 of the smallest: forces and geometry then belong to each other. Where these
+/// solves move the blocks further than the step itself did, the structure does not stand.
 class EquilibriumPath {
  public:
-  EquilibriumPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options);
+  EquilibriumPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options,
+                  PathGeometry geometry = PathGeometry::start);
 
   /// Static solve at the time `value`. If it finds an equilibrium the path advances to it; otherwise it stays.
   StaticSolution advance(double value);
@@ -34,8 +40,9 @@ class EquilibriumPath {
   /// The last equilibrium.
   const State& state() const { return loaded_.state; }
   const StaticOptions& options() const { return options_; }
-  int solves() const { return solves_; }  ///< static solves of the last step tried
-  const ContactSet& contacts() const { return detector_.contacts(); }
+  int solves() const { return solves_; }             ///< static solves of the last step tried
+  double dissipated() const { return dissipated_; }  ///< J, in the joints in the last step
+  const ContactSet& contacts() const { return contacts_; }
   const ContactMemories& memories() const { return memories_; }
   /// Adds to a frame of the last equilibrium the points of the joints as built whose faces have parted by more than the margin
   /// of detection: the problem no longer holds them, and they carry nothing.
@@ -43,13 +50,19 @@ class EquilibriumPath {
 
  private:
   StaticSolution advance_from(double guess);
+  StaticSolution solve_from(const LoadedState& from, double time_advance);
+  /// Solves again where the last solve ended, until forces and geometry belong to each other.
+  StaticSolution correct(StaticSolution solution);
 
   const Model& model_;
   StaticOptions options_;
+  PathGeometry geometry_;
   ContactDetector detector_;
   AnchoredContacts built_;  ///< the contacts as built
   LoadedState loaded_;
   State start_;
+  ContactSet contacts_;
+  double dissipated_ = 0.0;
   ContactMemories memories_;
   int solves_ = 0;
 };

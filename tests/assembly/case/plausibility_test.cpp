@@ -168,7 +168,7 @@ TEST(ImplausibleForBlocks, ValuesThatMustFitTheBlocks) {
   EXPECT_TRUE(only(move).starts_with("supports.moves[0].displacement = 20 m: ")) << only(move);
   Case settled = scene;  // joints are found within 1 % of the smaller block, which is some decimetres wide
   settled.supports.moves.resize(1);
-  settled.supports.moves[0].blocks = {0};
+  settled.supports.moves[0].region.blocks = {0};
   settled.supports.moves[0].displacement = Vec3(0, 0, -0.001);
   EXPECT_EQ(only(settled), "0 warnings");
   settled.supports.moves[0].displacement = Vec3(0, 0, -0.01);

@@ -137,7 +137,7 @@ TEST(Spread, ThickerArchReachesALargerSpread) {
     Case scene = limit_case(LimitSearch::Parameter::spread, 0.0, 1.0, 0.8);
     scene.analysis.limit.relative_width = 2e-2;
     SupportMove move;
-    move.blocks = {0};
+    move.region.blocks = {0};
     move.displacement = Vec3(0.5, 0, 0);
     scene.supports.moves = {move};
     const Summary summary = run(scene, make_arch({.voussoirs = 27, .thickness = t}));

@@ -15,7 +15,7 @@ TEST(Path, ADoubleCantileverDissipatesItsFractureEnergy) {
   for (const int steps : {7, 20, 50}) {
     Case scene = couplet_case(steps);
     const double broken = 2.0 * kEnergy.tension / kStrength.tension;  // m, opening
-    scene.supports.moves.push_back({.blocks = {BlockRef{3}},
+    scene.supports.moves.push_back({.region = {.blocks = {BlockRef{3}}},
                                     .rotation_deg = {0, -2.0 * broken / 0.5 * 180.0 / M_PI, 0},
                                     .pivot = {-1, 0, 0.2},
                                     .time = RampInTime{}});
@@ -43,11 +43,11 @@ TEST(Path, AShearedCoupletDissipatesItsFractureEnergy) {
     for (const int steps : {7, 20, 50}) {
       Case scene = couplet_case(steps);
       const double broken = 2.0 * kEnergy.shear / kStrength.cohesion;  // m, slip
-      scene.supports.moves.push_back({.blocks = {BlockRef{3}},
+      scene.supports.moves.push_back({.region = {.blocks = {BlockRef{3}}},
                                       .displacement = {0, 0, -3 * kCompliance * pressure},
                                       .time = RampInTime{.duration = 1e-9}});
       scene.supports.moves.push_back(
-          {.blocks = {BlockRef{3}}, .displacement = {1.5 * broken, 0, 0}, .time = RampInTime{}});
+          {.region = {.blocks = {BlockRef{3}}}, .displacement = {1.5 * broken, 0, 0}, .time = RampInTime{}});
       const PathResult result = run(scene, assembly);
       ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
       double friction = 0.0, friction_work = 0.0, last = 0.0;
@@ -79,7 +79,7 @@ TEST(Path, AShearedCoupletDissipatesItsFractureEnergy) {
 TEST(Path, ACrackClosesAndOpensAgain) {
   Case scene = couplet_case(60);
   const double broken = 2.0 * kEnergy.tension / kStrength.tension;
-  scene.supports.moves.push_back({.blocks = {BlockRef{3}},
+  scene.supports.moves.push_back({.region = {.blocks = {BlockRef{3}}},
                                   .displacement = {0, 0, 0.5 * broken},
                                   .time = TableInTime{"", {0, 1, 2, 3}, {0, 1, -0.01, 1.5}}});
   scene.analysis.path.end = 3.0;
@@ -126,8 +126,9 @@ TEST(Path, TheCrownOfATwoBlockArchOpensAsItsHingesSay) {
   scene.analysis.tolerance = 1e-9;
   scene.analysis.path.steps = 40;
   scene.analysis.path.control = LoadPath::Control{BlockRef{3}, {}, Vec3::UnitX()};
-  scene.supports.moves = {{.blocks = {BlockRef{1}}, .displacement = {-spread, 0, 0}, .time = RampInTime{}},
-                          {.blocks = {BlockRef{3}}, .displacement = {spread, 0, 0}, .time = RampInTime{}}};
+  scene.supports.moves = {
+      {.region = {.blocks = {BlockRef{1}}}, .displacement = {-spread, 0, 0}, .time = RampInTime{}},
+      {.region = {.blocks = {BlockRef{3}}}, .displacement = {spread, 0, 0}, .time = RampInTime{}}};
   const PathResult result = run(scene, arch);
   ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
   const double height = std::sqrt(2.0 - (1.0 + spread) * (1.0 + spread));

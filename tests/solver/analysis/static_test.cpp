@@ -140,7 +140,7 @@ TEST(StaticSolve, KeepsTheJointThatASupportHasLeft) {
                            {.center = {0, 0, 0.2}, .size = {2.4, 0.4, 0.4}}});
   Case scene = make_case(0.5, 1e-10, 0.01);
   scene.analysis.type = AnalysisType::static_;
-  scene.supports.moves = {{.blocks = {BlockRef{1}}, .displacement = {0, 0, -0.02}, .time = {}}};
+  scene.supports.moves = {{.region = {.blocks = {BlockRef{1}}}, .displacement = {0, 0, -0.02}, .time = {}}};
   Frame frame;
   AnalysisSinks sinks;
   sinks.frame = [&frame](const Frame& written) { frame = written; };
@@ -168,7 +168,8 @@ TEST(StaticSolve, ASupportThatMovesAlongItsJointPullsByFriction) {
   for (const double T : {0.2 * W, 5.0 * W}) {
     Case scene = make_case(mu, c, 0.01);
     scene.analysis.type = AnalysisType::static_;
-    scene.supports.moves = {{.blocks = {BlockRef{1}}, .displacement = {T * c / 2.0, 0, 0}, .time = {}}};
+    scene.supports.moves = {
+        {.region = {.blocks = {BlockRef{1}}}, .displacement = {T * c / 2.0, 0, 0}, .time = {}}};
     Frame frame;
     AnalysisSinks sinks;
     sinks.frame = [&frame](const Frame& written) { frame = written; };

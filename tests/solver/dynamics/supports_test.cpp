@@ -121,9 +121,9 @@ TEST(MovingSupport, RejectsFreeOrMissingBlocks) {
   const Assembly assembly = testing::box_on_floor({1, 1, 1});
   Case scene;
   scene.supports.moves = {SupportMove{}};
-  scene.supports.moves[0].blocks = {1};
+  scene.supports.moves[0].region.blocks = {1};
   EXPECT_THROW(make_support_motions(scene, assembly), InputError);
-  scene.supports.moves[0].blocks = {2};
+  scene.supports.moves[0].region.blocks = {2};
   EXPECT_THROW(make_support_motions(scene, assembly), InputError);
 }
 

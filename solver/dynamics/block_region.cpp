@@ -1,0 +1,100 @@
+#include "solver/dynamics/block_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/model/block_names.hpp"
+#include "assembly/model/loaded_faces.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+void check_member(const BlockRegion& region, const Assembly& assembly, const std::string& key) {
+  if (region.member.empty() || std::ranges::find(assembly.members, region.member) != assembly.members.end())
+    return;
+  const std::string near = nearest_name(region.member, assembly.members);
+  std::string names;
+  for (const std::string& name : assembly.members) names += (names.empty() ? "" : ", ") + name;
+  throw InputError(fmt::format("{}: no member is named '{}'{}", key, region.member,
+                               !near.empty()              ? fmt::format("; did you mean '{}'?", near)
+                               : assembly.members.empty() ? "; a model of one shell has no named members"
+                                                          : "; the members are " + names));
+}
+
+void check_blocks(const BlockRegion& region, const Assembly& assembly, bool fixed, const std::string& key) {
+  const int num_blocks = static_cast<int>(assembly.blocks.size());
+  for (const int block : region.blocks) {
+    if (block < 0 || block >= num_blocks)
+      throw InputError(fmt::format("{}: block {} does not exist: the assembly has blocks 0 to {}", key, block,
+                                   num_blocks - 1));
+    if (assembly.blocks[block].fixed != fixed)
+      throw InputError(
+          fixed ? fmt::format("{}: block {} is not fixed; only supports can be moved", key, block)
+                : fmt::format("{}: block {} is fixed; `ground: true` heats the supports", key, block));
+  }
+}
+
+/// rad, of the centroid about the z axis.
+double azimuth_of(const Assembly& assembly, int block, const std::string& key) {
+  const Block& b = assembly.blocks[block];
+  const double size = std::cbrt(b.volume);
+  if (std::hypot(b.centroid.x(), b.centroid.y()) < 1e-6 * size)
+    throw InputError(
+        fmt::format("{}: block {} lies on the z axis, where a sector, a profile or a motion outwards has no "
+                    "direction; a fixed ring is divided by geometry.base_blocks",
+                    key, block_label(assembly, block)));
+  return std::atan2(b.centroid.y(), b.centroid.x());
+}
+
+bool is_in(const Sector& sector, double azimuth) {
+  constexpr double kRounding = 1e-9;  // deg
+  const double beyond = std::fmod(azimuth / kDegree - sector.from_deg + 720.0 + kRounding, 360.0);
+  return beyond <= sector.to_deg - sector.from_deg + 2.0 * kRounding;
+}
+
+}  // namespace
+
+std::vector<RegionBlock> blocks_of_region(const BlockRegion& region, const Assembly& assembly, bool fixed,
+                                          const std::string& key) {
+  check_member(region, assembly, key);
+  check_blocks(region, assembly, fixed, key);
+  std::vector<RegionBlock> found;
+  for (int block = 0; block < static_cast<int>(assembly.blocks.size()); ++block) {
+    const Block& b = assembly.blocks[block];
+    const auto is_it = [block](const BlockRef& one) { return one.number == block; };
+    if (b.fixed != fixed || !is_of_member(assembly, b, region.member) ||
+        (!region.blocks.empty() && std::ranges::none_of(region.blocks, is_it)))
+      continue;
+    if (region.sector && !is_in(*region.sector, azimuth_of(assembly, block, key))) continue;
+    const auto& profile = region.profile;
+    const double factor =
+        profile ? std::cos(profile->waves * (azimuth_of(assembly, block, key) - kDegree * profile->phase_deg))
+                : 1.0;
+    found.push_back({block, factor});
+  }
+  if (found.empty())
+    throw InputError(fmt::format("{}: the region holds no {} block", key, fixed ? "fixed" : "free"));
+  return found;
+}
+
+Vec3 outward_of_support(const Assembly& assembly, int block, const std::string& key) {
+  const Vec3& centroid = assembly.blocks[block].centroid;
+  azimuth_of(assembly, block, key);
+  int ring = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Block& b : assembly.blocks) {
+    if (b.fixed || (b.centroid - centroid).squaredNorm() >= nearest) continue;
+    nearest = (b.centroid - centroid).squaredNorm();
+    ring = b.ring;
+  }
+  return assembly.outward(ring, centroid);
+}
+
+}  // namespace cupola

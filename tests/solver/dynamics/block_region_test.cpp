@@ -1,0 +1,134 @@
+#include "solver/dynamics/block_region.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "solver/dynamics/heat.hpp"
+#include "solver/dynamics/supports.hpp"
+#include "tests/solver/motion_scenes.hpp"
+
+// Regions of blocks, motions of supports by region, and the expansion of heated blocks.
+
+namespace cupola {
+namespace {
+
+/// Eight fixed cubes of 0.2 m on a circle of 2 m, at 0, 45, ..., 315 degrees, each under a free one.
+Assembly circle() {
+  std::vector<testing::BoxSpec> boxes;
+  for (int k = 0; k < 8; ++k)
+    for (const bool fixed : {true, false}) {
+      const double phi = k * M_PI / 4;
+      boxes.push_back({.center = {2 * std::cos(phi), 2 * std::sin(phi), fixed ? -0.1 : 0.1},
+                       .size = Vec3::Constant(0.2),
+                       .fixed = fixed});
+    }
+  return testing::make_boxes(boxes);
+}
+
+std::vector<Pose> moved(const SupportMove& move, const Assembly& assembly) {
+  Case scene;
+  scene.supports.moves = {move};
+  std::vector<Pose> poses(assembly.blocks.size());
+  for (size_t b = 0; b < poses.size(); ++b) poses[b].p_WB = assembly.blocks[b].centroid;
+  place_supports(assembly, make_support_motions(scene, assembly), 1.0, &poses);
+  return poses;
+}
+
+TEST(SupportRegion, MovesOutwardsByItsProfile) {
+  const Assembly assembly = circle();
+  SupportMove move;
+  move.outward = 0.01;
+  move.region.profile = AzimuthProfile{4, 0.0};
+  const std::vector<Pose> poses = moved(move, assembly);
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 centre = assembly.blocks[2 * k].centroid;
+    const Vec3 outwards = Vec3(centre.x(), centre.y(), 0.0).normalized();
+    const double factor = k % 2 == 0 ? 1.0 : -1.0;  // cos(4 phi)
+    EXPECT_LT((poses[2 * k].p_WB - centre - factor * 0.01 * outwards).norm(), 1e-15) << k;
+  }
+}
+
+TEST(SupportRegion, TiltTurnsTheTopOutwards) {
+  const Assembly assembly = circle();
+  SupportMove move;
+  move.tilt_deg = 1.0;
+  const std::vector<Pose> poses = moved(move, assembly);
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 centre = assembly.blocks[2 * k].centroid;
+    EXPECT_EQ(poses[2 * k].p_WB, centre);
+    const Vec3 top = poses[2 * k].q_WB * Vec3(0, 0, 0.1);
+    EXPECT_NEAR(top.dot(Vec3(centre.x(), centre.y(), 0.0).normalized()), 0.1 * std::sin(M_PI / 180), 1e-15);
+  }
+}
+
+TEST(SupportRegion, SectorsIncludeTheirEndsAndCrossZero) {
+  const Assembly assembly = circle();
+  const auto blocks_in = [&](double from, double to) {
+    std::vector<int> found;
+    for (const RegionBlock& b : blocks_of_region({.sector = Sector{from, to}}, assembly, true, "key"))
+      found.push_back(b.block / 2);
+    return found;
+  };
+  EXPECT_EQ(blocks_in(-45, 45), (std::vector{0, 1, 7}));
+  EXPECT_EQ(blocks_in(315, 360), (std::vector{0, 7}));
+  EXPECT_EQ(blocks_in(100, 170), (std::vector{3}));
+  EXPECT_EQ(blocks_in(0, 360).size(), 8u);
+}
+
+TEST(SupportRegion, ErrorsNameWhatIsThere) {
+  Assembly assembly = circle();
+  assembly.members = {"pier", "vault"};
+  const auto message = [&](const BlockRegion& region) {
+    try {
+      blocks_of_region(region, assembly, true, "supports.moves");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message({.member = "peer"}).find("did you mean 'pier'?"), std::string::npos);
+  EXPECT_NE(message({.member = "vault"}).find("holds no fixed block"), std::string::npos);
+  EXPECT_NE(message({.blocks = {BlockRef{1}}}).find("block 1 is not fixed"), std::string::npos);
+  EXPECT_NE(message({.sector = Sector{100, 110}}).find("holds no fixed block"), std::string::npos);
+  const Assembly floor = testing::box_on_floor({1, 1, 1});
+  EXPECT_THROW(blocks_of_region({.profile = AzimuthProfile{2, 0}}, floor, true, "key"), InputError) << "axis";
+}
+
+TEST(HeatedBlocks, ALinearFieldStrainsWithoutRotatingTheCentroid) {
+  const Assembly assembly = testing::box_on_floor({1.0, 1.0, 1.0});
+  Case scene;
+  BlockHeat heat;
+  heat.change = 20.0;
+  heat.gradient = Vec3(30.0, 0.0, 0.0);
+  heat.expansion = 1e-5;
+  scene.loads.heat = {heat};
+  const HeatedBlocks heated(scene, assembly);
+  std::vector<Pose> poses(2);
+  for (const size_t b : {0, 1}) poses[b].p_WB = assembly.blocks[b].centroid;
+  const auto displacement = [&](const Vec3& x) {
+    Contact contact;
+    contact.block_a = 0;
+    contact.block_b = 1;
+    contact.point_a = contact.point_b = assembly.blocks[1].centroid + x;
+    return heated.separation(poses, contact, 1.0);
+  };
+  EXPECT_EQ(displacement(Vec3::Zero()), Vec3::Zero());
+  const Vec3 x(0.3, -0.2, 0.1);
+  const double step = 1e-4;
+  Mat3 gradient;  // of the displacement
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 d = step * Vec3::Unit(k);
+    gradient.col(k) = (displacement(x + d) - displacement(x - d)) / (2 * step);
+  }
+  const Mat3 strain = 0.5 * (gradient + gradient.transpose());
+  const double expected = 1e-5 * (20.0 + 30.0 * 0.3);
+  // Rounding of differences of displacements of 1e-4 m.
+  EXPECT_LT((strain - expected * Mat3::Identity()).norm(), 1e-14);
+  scene.loads.heat[0].through = 1.0;
+  EXPECT_THROW(HeatedBlocks(scene, assembly), InputError) << "boxes have no extrados";
+}
+
+}  // namespace
+}  // namespace cupola
