@@ -19,23 +19,22 @@
 namespace cupola {
 namespace {
 
-/// "4 joints hinge, 12 slide"; "" without a mechanism.
+/// "hinges form at 4 joints, 12 joints slide"; "" without a mechanism.
 std::string what_gives_way(const Evaluation& e) {
   if (!e.gives_way) return "";
   std::vector<std::string> parts;
   const auto add = [&parts](int count, const char* one, const char* many) {
-    if (count > 0)
-      parts.push_back(fmt::format("{} {}", parts.empty() ? counted(count, "joint") : std::to_string(count),
-                                  count == 1 ? one : many));
+    if (count > 0) parts.push_back(fmt::format("{} {}", counted(count, "joint"), count == 1 ? one : many));
   };
-  add(e.gives_way->hinging, "hinges", "hinge");
+  if (const int hinging = e.gives_way->hinging; hinging > 0)
+    parts.push_back("hinges form at " + counted(hinging, "joint"));
   add(e.gives_way->sliding, "slides", "slide");
   add(e.gives_way->opening, "opens", "open");
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 /// "0.4", "1 kPa": a value of the parameter of a limit. `unit`: of limit_unit().
-std::string value_text(double value, std::string unit, int digits = 4) {
+std::string value_text(double value, std::string unit, int digits = 5) {
   if (unit == "Pa") {
     const bool kilo = std::abs(value) < 1e6;
     value *= kilo ? 1e-3 : 1e-6, unit = kilo ? "kPa" : "MPa";
@@ -86,8 +85,7 @@ KeyNumber critical_answer(const Evaluation& e) {
 /// How to compute the margins of this case.
 std::string command_for_margins(const Evaluation& e) {
   const std::filesystem::path file(e.scene.file.empty() ? "CASE.yaml" : e.scene.file);
-  return fmt::format("make -f Makefile.cases {}_assessment, or cupola assess {}", file.stem().string(),
-                     file.filename().string());
+  return "cupola assess " + file.filename().string();
 }
 
 const ForceRange* range_of_thrust(const Evaluation& e) {
@@ -155,8 +153,8 @@ VerdictWords words_of_status(Status status) {
 
 VerdictWords verdict_words(const Evaluation& e) {
   if (const auto parts = parts_by_verdict(e.summary); at_rest(e) && parts.size() > 1)
-    return {parts.contains("It falls") ? "It stands, except a part that falls"
-                                       : "It stands, except an undecided part",
+    return {parts.contains("It falls") ? "It stands, except for what falls"
+                                       : "It stands, except for what is undecided",
             false};
   if (!is_limit(e) || !e.summary.critical) return words_of_status(e.summary.status);
   const CriticalValue& critical = *e.summary.critical;
@@ -180,21 +178,22 @@ KeyNumber margin_answer(const Evaluation& e) {
             e.summary.message.substr(e.summary.message.rfind(": ") + 2)};
   if (!at_rest(e))
     return {"Margin", moves(e.summary.status) || e.summary.status == Status::collapsed ? "none" : "unknown",
-            "no equilibrium was found; " + command_for_margins(e) + ", computes what it lacks"};
-  return {"Margin", "not computed", command_for_margins(e) + ", computes all margins"};
+            "no equilibrium was found; to compute what it lacks: " + command_for_margins(e)};
+  return {"Margin", "not computed", "to compute it: " + command_for_margins(e)};
 }
 
 std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   if (const ForceRange* range = range_of_thrust(e)) {
     const std::string unit = range_unit(*range).after_blank();
     std::string detail = "certain for every history";
-    if (least(*range) < 0.0) detail += ", negative: inwards";
     if (range->chosen)
-      detail += fmt::format("; chosen by the compliances: {}{}", range_number(*range->chosen, *range), unit);
+      detail += fmt::format("; the stiffness of the joints selects {}{}",
+                            range_number(*range->chosen, *range), unit);
     const double length = e.assembly.sheets.empty() ? 0.0 : length_of(thrusting(e, e.assembly.sheets.back()));
     if (length > 0.0 && std::isfinite(least(*range)) && std::isfinite(greatest(*range)))
       detail += fmt::format("; {}/m to {}/m over {} of support", force_text(least(*range) / length),
                             force_text(greatest(*range) / length), length_text(length));
+    if (least(*range) < 0.0) detail += "; inwards where negative";
     return KeyNumber{"Outward thrust",
                      fmt::format("{} to {}{}", end_text(range->min, least(*range), *range),
                                  end_text(range->max, greatest(*range), *range), unit),
@@ -219,12 +218,13 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   // Joints of a smaller extent do not have the length of the supports.
   const bool shrunk = e.summary.critical && e.summary.critical->parameter == "joint_extent";
   std::string detail = shrunk ? "" : per_metre(thrust, length_of(supports));
+  if (is_arch(e) && !detail.empty()) detail = "on each side, " + detail;
   if (!alone) detail = fmt::format("of {}{}{}", shell.name, detail.empty() ? "" : ", ", detail);
   if (supports.size() > 1 && highest - lowest <= 1e-3 * std::abs(highest))
     detail += fmt::format("{}{} on each of {}", detail.empty() ? "" : "; ", force_text(highest),
                           counted(supports.size(), "support"));
   else if (supports.size() > 1)
-    detail += fmt::format("{}{} to {} on a support", detail.empty() ? "" : "; ",
+    detail += fmt::format("{}{} to {}, depending on the support", detail.empty() ? "" : "; ",
                           lowest == 0.0 ? "0" : force_text(lowest), force_text(highest));
   if (alone && e.summary.weight_N > 0.0)
     detail += fmt::format("{}{:.3g} of the weight", detail.empty() ? "" : "; ", thrust / e.summary.weight_N);

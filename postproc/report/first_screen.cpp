@@ -34,8 +34,8 @@ KeyNumber range_number_of(const ForceRange& range) {
     return e.outcome == RangeOutcome::unconverged ? text + "?" : text;
   };
   const std::string chosen =
-      range.chosen ? fmt::format("; chosen by the compliances: {}{}", range_number(*range.chosen, range),
-                                 range_unit(range).after_blank())
+      range.chosen ? fmt::format("; the stiffness of the joints selects {}{}",
+                                 range_number(*range.chosen, range), range_unit(range).after_blank())
                    : "";
   return {with_capital(range_name(range)),
           fmt::format("{} to {}{}", end(range.min, least(range)), end(range.max, greatest(range)),
@@ -58,7 +58,7 @@ void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
                     *s.largest_strength_use > 0.0
                         ? fmt::format("a joint uses at most {:.3g} % of its compressive or tensile strength",
                                       100.0 * *s.largest_strength_use)
-                        : std::string("no joint is in tension, and none has a limit of the pressure")});
+                        : std::string("no joint is in tension; crushing was not checked")});
   }
   if (std::optional<KeyNumber> crack = crack_answer(e)) out->push_back(std::move(*crack));
 }

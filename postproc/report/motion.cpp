@@ -150,8 +150,9 @@ std::string how_sure_of_motion(const Evaluation& e) {
     return fmt::format("The motion was followed with an estimated error of about {} per step.",
                        length_text(*analysis.time_error));
   return fmt::format(
-      "Not certain: how far and how fast it moves. The motion was followed in steps of {:g} s, and how much "
-      "a shorter step changes it is not known: compare two runs, or set analysis.time_error.",
+      "Certain: nothing beyond the motion computed. It was followed in steps of {:g} s, and it is not known "
+      "how much a "
+      "shorter step would change it: compare two runs, or set analysis.time_error.",
       s.time_step_s);
 }
 

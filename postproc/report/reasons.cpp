@@ -1,6 +1,7 @@
 // Why it stands or falls, and what is certain of it: the sentences of the first screen.
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -36,6 +37,27 @@ double support_motion(const Evaluation& e) {
   return farthest > e.last.joints.floor.length ? farthest : 0.0;
 }
 
+/// "support block 0 has moved by 5 mm", "3 supports have moved by up to 5 mm".
+std::string moved_text(const Evaluation& e) {
+  std::vector<size_t> moved;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    if (e.assembly.blocks[b].fixed && e.last.frame.blocks.displacement[b].norm() > e.last.joints.floor.length)
+      moved.push_back(b);
+  const std::string distance = length_text(support_motion(e));
+  if (moved.size() > 1) return fmt::format("{} supports have moved by up to {}", moved.size(), distance);
+  const std::string& name = e.assembly.blocks[moved.front()].name;
+  return fmt::format("{} has moved by {}",
+                     name.empty() ? fmt::format("support block {}", moved.front()) : name, distance);
+}
+
+/// True if some joints are given a compressive strength.
+bool limits_pressure(const Joints& joints) {
+  if (std::isfinite(joints.strength.compression)) return true;
+  const auto kinds = joints.kinds();
+  return std::ranges::any_of(kinds,
+                             [](const auto& kind) { return kind.second->compressive_strength.has_value(); });
+}
+
 /// True if the run shows one equilibrium under the loads of its case: no limit, range or stage.
 bool shows_the_case(const Evaluation& e) {
   return at_rest(e) && !e.summary.critical && e.summary.ranges.empty() && !is_stage(e.last.frame.role);
@@ -46,8 +68,7 @@ std::string carried_text(const Evaluation& e) {
   const std::string carry =
       fmt::format("The joint forces carry the weight of {}, {}", counted(e.summary.free_blocks, "block"),
                   force_text(e.summary.weight_N));
-  if (const double moved = support_motion(e); moved > 0.0)
-    return fmt::format("{}, although supports have moved by up to {}.", carry, length_text(moved));
+  if (support_motion(e) > 0.0) return fmt::format("{}, although {}.", carry, moved_text(e));
   if (e.last.frame.role == FrameRole::step)
     return fmt::format("{}, at rest after {:.4g} s of motion.", carry, e.last.frame.time);
   if (e.last.frame.role == FrameRole::path) return carry + ", at the end of the path.";
@@ -59,11 +80,12 @@ std::string collapsed_text(const Evaluation& e) {
   double farthest = 0.0;
   for (const Vec3& displacement : e.last.frame.blocks.displacement)
     farthest = std::max(farthest, displacement.norm());
-  return fmt::format("Within {:.4g} s a block moves by {}; {} count as a collapse.", e.last.frame.time,
-                     length_text(farthest), length_text(e.scene.analysis.thresholds.displacement));
+  return fmt::format("Within {:.4g} s a block moves by {}; a displacement above {} counts as collapse.",
+                     e.last.frame.time, length_text(farthest),
+                     length_text(e.scene.analysis.thresholds.displacement));
 }
 
-/// "the shape of the blocks, their weight and loads, and a friction of 0.4".
+/// "the shape of the blocks, their weight and loads, a coefficient of friction of 0.4, no crushing (not checked)".
 std::string assumptions(const Evaluation& e) {
   const auto& critical = e.summary.critical;
   std::vector<std::string> given{
@@ -71,10 +93,18 @@ std::string assumptions(const Evaluation& e) {
       critical && critical->parameter == "load" ? "their weight, where the loads act and in which direction"
                                                 : "their weight and loads"};
   if (!critical || critical->parameter != "friction")
-    given.push_back(fmt::format("a friction of {:g}", e.scene.joints.friction));
+    given.push_back(fmt::format("a coefficient of friction of {:g}", e.scene.joints.friction));
   if (e.scene.joints.have_strength()) given.push_back("the strength of the joints");
   if (support_motion(e) > 0.0) given.push_back("the motion of the supports");
+  if (!limits_pressure(e.scene.joints)) given.push_back("no crushing (not checked)");
   return fmt::format("{}", fmt::join(given, ", "));
+}
+
+/// "joint extent".
+std::string words_of(const CriticalValue& critical) {
+  std::string name = critical.parameter;
+  std::ranges::replace(name, '_', ' ');
+  return name;
 }
 
 /// A limit: on which side of it the case is, and by which factor.
@@ -87,7 +117,8 @@ std::string limit_text(const Evaluation& e) {
   const bool holds = *factor >= 1.0;
   std::string text;
   if (critical.parameter == "load")
-    text = fmt::format("Its loads can grow to {:.4g} times those of the case before it moves.", *factor);
+    text =
+        fmt::format("The applied loads can grow to {:.5g} times those of the case before it moves.", *factor);
   else if (critical.parameter == "joint_extent")
     text =
         fmt::format("Its joints can shrink to {:.4g} times their extent before it moves.", critical.stable);
@@ -100,12 +131,13 @@ std::string limit_text(const Evaluation& e) {
                                                            : "below",
                        critical.moving);
   if (critical.parameter == "load" && !holds)
-    text = fmt::format("It bears only {:.4g} times the loads of the case.", *factor);
+    text = fmt::format("It bears only {:.5g} times the applied loads of the case.", *factor);
   if (critical.parameter == "joint_extent" && !holds)
     text = fmt::format("It moves unless its joints were {:.4g} times as large.", critical.stable);
-  std::string name = critical.parameter;
-  std::ranges::replace(name, '_', ' ');
-  return text + fmt::format(" Picture and thrust belong to the critical {}, not to the case.", name);
+  if (e.summary.friction_law == FrictionLaw::associated)
+    text.insert(text.size() - 1, " (associated friction law)");
+  return text +
+         fmt::format(" Picture and thrust belong to the critical {}, not to the case.", words_of(critical));
 }
 
 /// A limit: existence on one side is certain; what lies beyond is as certain as the run says.
@@ -119,9 +151,11 @@ std::string certain_of_limit(const Evaluation& e) {
         standing, assumptions(e));
   return fmt::format(
       "{}: at {} forces balance the loads, whatever the stiffness of the joints and their history. Not "
-      "certain: that joints which slide without opening (Coulomb's law) stand there too; {}. Assumed: {}.",
+      "certain: that it stands there under Coulomb's law, by which joints slide without opening; it may {} "
+      "{}. Assumed: {}.",
       proven(e.summary.status) ? "Certain" : "To the tolerance", standing,
-      critical.stable < critical.moving ? "they may fall earlier" : "they may need more", assumptions(e));
+      critical.stable < critical.moving ? "fall at a lower" : "need more", words_of(critical),
+      assumptions(e));
 }
 
 }  // namespace
@@ -154,21 +188,27 @@ std::string certain_sentence(const Evaluation& e) {
   if (limit) return certain_of_limit(e);
   if (!s.ranges.empty())
     return fmt::format(
-        "Certain: every state in which it can stand lies inside the ranges. Not known: which of them it is "
-        "in, which its history decides. Assumed: {}.",
+        "Certain: every state in which it can stand lies inside the ranges. Not known: where inside it is; "
+        "that depends on "
+        "its history. Assumed: {}.",
         assumptions(e));
   const char* of = is_stage(e.last.frame.role) ? "at every stage "
                    : !s.parts.empty()          ? "in the part that stands "
                    : support_motion(e) > 0.0   ? "after the motion of the supports "
                                                : "";
+  const std::optional<KeyNumber> crack = crack_answer(e);
+  const char* how =
+      e.scene.joints.have_strength() ? "within the limits of the joints" : "by friction and without tension";
+  const char* stiffness = thrust_answer(e) || (crack && crack->value != "none")
+                              ? ", and the stiffness of the joints, on which thrust and cracks depend"
+                              : "";
   std::string text = fmt::format(
-      "{}. Assumed: {}, and the stiffness of the joints, which selects thrust and cracks among all that "
-      "balance the loads.",
-      proven(s.status) ? fmt::format("Certain: {}forces within the joint laws balance the loads", of)
+      "{}. Assumed: {}{}.",
+      proven(s.status) ? fmt::format("Certain: {}forces exist that balance the loads {}", of, how)
                        : fmt::format("Not certain: {}forces balance the loads to the tolerance, exact "
                                      "ones were not found",
                                      of),
-      assumptions(e));
+      assumptions(e), stiffness);
   if (!s.forces_unique.value) text += " " + to_sentence(s.forces_unique);
   return text;
 }

@@ -167,8 +167,8 @@ StageReport blocks_laid(Least least, const CsvFile& csv, const std::optional<Csv
                     notable.failing ? "the first that does not:" : "the most demanding:", ordinal(*row + 1),
                     csv.rows.size(), csv.rows[*row][ring]);
     if (!moving.empty())
-      out.worst +=
-          notable.failing ? ", where " + moving : fmt::format("; with less {} {}", to_string(least), moving);
+      out.worst += notable.failing ? ", where " + moving
+                                   : fmt::format("; if the {} is less, {}", to_string(least), moving);
   }
   out.figure = curve_over_stages(points, "stage", cohesion ? "required cohesion (kPa)" : "required friction");
   if (!out.figure) return out;

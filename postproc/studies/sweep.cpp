@@ -81,7 +81,10 @@ std::string where_it_stands(const std::vector<SweptKey>& sweep, const Table& tab
     text += fmt::format("{} {} at {}{}{}", text.empty() ? "It" : ", it", s.verdict,
                         text.empty() ? sweep.front().key + " " : "", s.first,
                         s.first == s.last ? "" : " to " + s.last);
-  return text + ".";
+  text += ".";
+  if (stretches.size() == 2)
+    text += fmt::format(" The limit lies between {} and {}.", stretches[0].last, stretches[1].first);
+  return text;
 }
 
 /// The banner: in how many members it stands, and at which values.
@@ -110,9 +113,7 @@ std::string certain_of_sweep(const std::vector<SweptKey>& sweep, const Table& ta
   return fmt::format(
       "Certain: the verdict of {}, which is proven. Not known: where between two values of {} the verdict "
       "changes. "
-      "Assumed: what the runs share, and the stiffness of the joints, which selects thrust and cracks among "
-      "all states that "
-      "balance the loads.",
+      "Assumed: what the runs share, and the stiffness of the joints, on which thrust and cracks depend.",
       of, sweep.front().key);
 }
 

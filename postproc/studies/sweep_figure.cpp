@@ -109,8 +109,9 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
   f.name = "sweep";
   f.title = "Results over " + sweep.front().key;
   f.caption =
-      "Filled points: the structure stands. Open points, and crosses on the lower edge where there is no "
-      "value: it does not, or the run reached no verdict; the table says which.";
+      "Filled points: the structure stands; open points: it does not. Crosses on the lower edge: it falls, "
+      "or the run "
+      "reached no verdict (see the table).";
   for (const std::string& value : sweep.front().values)
     if (double x = 0.0; !read_number(value, &x).empty()) return f;
   const size_t status = column_of(table, "status");

@@ -54,7 +54,7 @@ class Colouring {
     const values = moved ? Float64Array.from({length: pose.blocks}, (_, b) => pose.displacement(b) / unit) : this.scene.get(this.key);
     const farthest = mechanism ? 1 : Math.max(...this.peers.map((peer) => peer.header.film.largest_shift_m));
     const all = this.fromPeers((peer) => peer.scene.has(this.key) ? [peer.scene.get(this.key)] : []);
-    const column = moved ? {label: mechanism ? "Displacement over the largest" : "Displacement", unit: mechanism ? "" : "m"} : this.header.block_columns.find((c) => c.key === name);
+    const column = moved ? {label: mechanism ? "Displacement / largest displacement" : "Displacement", unit: mechanism ? "" : "m"} : this.header.block_columns.find((c) => c.key === name);
     const scale = moved ? {stops: kSequential, low: 0, high: farthest} : scaleOf(all, name);
     const fixed = this.scene.get("block.fixed");
     this.model.paintBlocks((b) => fixed[b] ? kUndefined : colourAt(scale, values[b]));

@@ -46,10 +46,11 @@ TEST(Stages, TheMostDemandingStageSaysWhatMovesWithLess) {
       "failures.csv");
   const StageReport c = blocks_laid(StagedConstruction::Least::cohesion, stages, failures);
   EXPECT_EQ(c.standing, 3);
-  EXPECT_EQ(c.worst,
-            "the most demanding: the 2nd of 3, in course 20; with less cohesion 1 block of course 19 tips, 2 "
-            "blocks of course "
-            "20 slide");
+  EXPECT_EQ(
+      c.worst,
+      "the most demanding: the 2nd of 3, in course 20; if the cohesion is less, 1 block of course 19 tips, 2 "
+      "blocks of course "
+      "20 slide");
   EXPECT_EQ(c.table.columns[5].key, "least_stands_Pa");
   EXPECT_EQ(std::get<double>(c.table.rows[1][5]), 6000.0);
   EXPECT_EQ(std::get<std::string>(c.table.rows[0][7]), "1 block of course 20 slides");
