@@ -178,5 +178,18 @@ TEST(CoulombScenes, WallsOfTenCoursesCarryAtMostTheAssociatedLoad) {
   }
 }
 
+// Wall 1 of the same paper carries 0.640 under Coulomb's law and 0.643 under the associated one. Between them, blocks at
+// rest under the associated forces solve the contact problem of rigid joints under Coulomb's law too. A solver that takes
+// this solution, which costs a fifth, turns Coulomb's limits into associated ones.
+TEST(CoulombScenes, RigidWallMovesBelowTheAssociatedLimit) {
+  const Assembly wall = testing::ferris_wall(6, false);
+  for (const double load : {0.62, 0.6415}) {
+    Case input = statics(0.65, FrictionLaw::coulomb);
+    input.joints.compliance = {0.0, 0.0, Compliance::Per::point};
+    input.loads.gravity = kG * Vec3(load, 0, -1);
+    expect_verdict(input, wall, load < 0.64, fmt::format("horizontal load {:g} of the weight", load));
+  }
+}
+
 }  // namespace
 }  // namespace cupola::coulomb_scenes_test
