@@ -3,6 +3,7 @@
 #include <string>
 
 #include "postproc/evaluation/evaluation.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 
 namespace cupola {
 
@@ -25,21 +26,6 @@ std::string curve_label(const std::string& data, size_t row, const std::string& 
 
 /// A plot element: arrows from the columns 1 and 2 of the block $data, along the columns 3 and 4.
 std::string arrows(const std::string& data, const char* colour);
-
-/// The unit N, kN or MN in which forces up to `largest` (N) have few zeros.
-struct ForceUnit {
-  double per_newton = 1.0;
-  const char* name = "N";
-};
-ForceUnit force_unit(double largest);
-/// "1.235 MN"; "negligible" for 0.
-std::string force_text(double newtons);
-
-/// "a normal force of 1.235 MN"; "a pull of 5.66 kN" of a negative one.
-std::string normal_force_text(double newtons);
-
-/// "12.3 mm", "1.23 m"; "negligible" for 0.
-std::string length_text(double metres);
 
 /// Where a thrust line runs, with its least distance to a face and its greatest relative eccentricity.
 std::string describe(const ThrustLine& line);

@@ -44,7 +44,8 @@ std::string moved_text(const Evaluation& e) {
     if (e.assembly.blocks[b].fixed && e.last.frame.blocks.displacement[b].norm() > e.last.joints.floor.length)
       moved.push_back(b);
   const std::string distance = length_text(support_motion(e));
-  if (moved.size() > 1) return fmt::format("{} supports have moved by up to {}", moved.size(), distance);
+  if (moved.size() > 1)
+    return fmt::format("{} have moved by up to {}", counted(moved.size(), "support"), distance);
   const std::string& name = e.assembly.blocks[moved.front()].name;
   return fmt::format("{} has moved by {}",
                      name.empty() ? fmt::format("support block {}", moved.front()) : name, distance);

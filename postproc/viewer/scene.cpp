@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "postproc/figures/plot_style.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/tables/range_values.hpp"
 #include "postproc/tables/result_columns.hpp"
 #include "postproc/viewer/scene_shapes.hpp"
