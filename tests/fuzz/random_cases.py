@@ -49,7 +49,7 @@ SMALL = {  # values that keep a model tiny or sensible, by the end of the key; o
     "heights": [[0, 10]], "values": [[0.4, 0.6]], "times": [[0, 0.5]], "at": [[0.5], [0.25, 0.75]], "sections": [[0.5], [1, 5]],
     "blocks": [[0], [1], [0, 1], [2, 3]], "block": [0, 1, 2, 5], "block_a": [0, 1], "block_b": [2, 3, 4], "tie": [0, 1],
     "supports": [["ground"]], "import.file": ["blocks.obj"], "contact.file": ["contacts.csv"], "time.file": ["table.csv"],
-    "friction_time.file": ["table.csv"], "dead_load_time.file": ["table.csv"], "base_motion.file": ["table.csv"],
+    "observed": ["cracks.csv"], "friction_time.file": ["table.csv"], "dead_load_time.file": ["table.csv"], "base_motion.file": ["table.csv"],
     "relative_width": [0.1, 0.01], "tolerance": [1e-9, 1e-6, 1e-2], "wrench_error": [0.5, 0.01], "recovery_speed": [0.6],
     "limit.low": [0, 0.01], "limit.high": [0.5, 1, 2], "azimuth_deg": [0, 45], "stiffness": [1e6], "prestress": [0, 1e3],
     "yield_force": [1e4], "axial_stiffness": [1e8], "slack": [0, 1e-4], "time_error": [1e-6], "days_per_course": [1],
@@ -59,6 +59,7 @@ SMALL = {  # values that keep a model tiny or sensible, by the end of the key; o
 }
 WILD = [0, -1, 1, 0.5, 1e300, -1e300, 1e30, -1e30, 1e-300, 1e18, "text", "", True, None, [], {}, [1], "no", "1e5", 99999999999]
 FILES = {
+    "cracks.csv": "azimuth_deg,width_m\n0,0.001\n90,0\n",
     "table.csv": "time,value\n0,0\n0.02,0.001\n0.05,0\n",
     "contacts.csv": "block_a,block_b,x,y,z,nx,ny,nz,area\n0,1,0.5,0.5,1,0,0,1,1\n",
     "blocks.obj": "".join(
