@@ -55,7 +55,7 @@ std::string reason_to_leave_out(const RunGroup& group, const CaseOfStudy& of) {
   const CaseNode tree = load_case_tree(of.name, {});
   if (std::ranges::any_of(group.needs, [&tree](const std::string& key) { return gives(tree, key); }))
     return "";
-  return fmt::format("the case has no `{}`", fmt::join(group.needs, "` and no `"));
+  return fmt::format("the case has no {}", fmt::join(group.needs, " and no "));
 }
 
 /// The folder of the cases that a study names: its own, or the one above it if that is studies/.
