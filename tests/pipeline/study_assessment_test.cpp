@@ -36,7 +36,7 @@ TEST(Assessment, AnswersOnOnePageAndComputesUnchangedPartsOnce) {
   EXPECT_NE(first.out.find("It stands: The joint forces carry "), std::string::npos) << first.out;
   const std::string page = slurp(folder.file("out/bridge_assessment/study.html"));
   EXPECT_LT(page.find("<strong>It stands</strong>"), page.find("Least margin: Geometric safety factor"));
-  EXPECT_NE(page.find("lantern</strong>: the case has no `loads.lantern`"), std::string::npos);
+  EXPECT_NE(page.find("lantern</strong>: the case has no loads.lantern"), std::string::npos);
   EXPECT_EQ(page.find("load</strong>: the case has no"), std::string::npos);
   EXPECT_NE(page.find("certain for every history"), std::string::npos) << "the range of the thrust";
   const std::vector<std::string> margins = rows(folder, "margins.csv");

@@ -88,7 +88,7 @@ TEST(StudyAnswers, SortMarginsAndSayWhatWasNotComputed) {
   EXPECT_LT(small, large) << page.text;
   EXPECT_LT(large, none) << page.text;
   EXPECT_NE(page.text.find("Least margin: small: factor 1.5"), std::string::npos) << page.text;
-  EXPECT_NE(page.text.find("not computed: lantern: the case has no `loads.lantern`\n"), std::string::npos)
+  EXPECT_NE(page.text.find("not computed: lantern: the case has no loads.lantern\n"), std::string::npos)
       << page.text;
   EXPECT_NE(page.text.find("not computed: b: not with this key\n"), std::string::npos) << page.text;
 }
