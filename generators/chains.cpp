@@ -21,8 +21,8 @@ struct Anchor {
   Vec3 point = Vec3::Zero();  // m
 };
 
-/// Finds the block in which a point lies. Points outside by less than `tolerance`, beyond the chord of a curved skin, belong
-/// to the nearest block.
+/// Finds the block in which a point lies. Points outside by less than `tolerance`, beyond the chord of a
+/// curved skin, belong to the nearest block.
 class BlockFinder {
  public:
   explicit BlockFinder(const Assembly& assembly) : assembly_(assembly) {

@@ -26,8 +26,8 @@ CutOptions cut_options(const Case& input) {
   return options;
 }
 
-/// Volume of the smooth shell, m3; none if parts of the grid are empty or the thickness varies over the height, whose
-/// breaks no extrapolation follows.
+/// Volume of the smooth shell, m3; none if parts of the grid are empty or the thickness varies over the
+/// height, whose breaks no extrapolation follows.
 std::optional<double> smooth_volume(const Storey& shell) {
   const SurfaceMap& surface = shell.surface;
   if (std::ranges::count(shell.bond.block_of, kVoid) > 0 || surface.key_stone || surface.webs > 0 ||

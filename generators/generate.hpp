@@ -23,7 +23,8 @@ Assembly cut_assembly(const Case& input);
 /// `report` may be null.
 Assembly generate(const Case& input, GenerateReport* report = nullptr);
 
-/// The assembly that generate() makes of `input` if `assembly` and `report` are those of a case with the same blocks.
+/// The assembly that generate() makes of `input` if `assembly` and `report` are those of a case with the same
+/// blocks.
 Assembly generate_again(const Case& input, Assembly assembly, const GenerateReport& report);
 /// Known without cutting them: the blocks of both cases are the same.
 bool have_same_blocks(const Case& a, const Case& b);

@@ -41,8 +41,8 @@ std::optional<FrameEvaluation> frame_at(size_t index, const ResultsReader& resul
   }
 }
 
-/// The frames that show the motion: mechanisms, or instants of a motion in time; at most four, evenly spaced, with the
-/// last. `moving`: all that could be shown.
+/// The frames that show the motion: mechanisms, or instants of a motion in time; at most four, evenly spaced,
+/// with the last. `moving`: all that could be shown.
 std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const ResultsReader& results,
                                     Evaluation* e) {
   constexpr size_t kMost = 4;
@@ -58,8 +58,8 @@ std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const Res
   return moments;
 }
 
-/// Writes the displaced blocks of every readable frame, adds them to the film, and returns those that the picture of the
-/// motion shows.
+/// Writes the displaced blocks of every readable frame, adds them to the film, and returns those that the
+/// picture of the motion shows.
 std::vector<MovedBlocks> write_frames(const ResultsReader& results, const std::string& folder, Evaluation* e,
                                       Film* film) {
   const DisplacedBlocks blocks(*e);
@@ -97,7 +97,8 @@ struct Drawn {
   std::string picture_folder;  ///< "" without pictures
 };
 
-/// Writes meshes for ParaView, figures and pictures. `own`: the figure that only this type of analysis has. Figures that cannot be drawn become warnings.
+/// Writes meshes for ParaView, figures and pictures. `own`: the figure that only this type of analysis has.
+/// Figures that cannot be drawn become warnings.
 Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const std::optional<Figure>& own,
            const std::vector<HistoryRow>& history, Evaluation* e) {
   const std::string& folder = request.output_folder;

@@ -19,8 +19,8 @@ struct AnalyseRequest {
 /// Reads the run, evaluates it and writes the output folder (FORMAT.md lists its files).
 ///
 /// Parts of the results that are missing or damaged are left out; the function then throws InputError at the
-/// end, so that make does not take the folder for complete. Figures and pictures that cannot be drawn become warnings
-/// in the report. If the run is not an equilibrium, the first lines of the report say so.
+/// end, so that make does not take the folder for complete. Figures and pictures that cannot be drawn become
+/// warnings in the report. If the run is not an equilibrium, the first lines of the report say so.
 ExitCode analyse(const AnalyseRequest& request);
 
 }  // namespace cupola

@@ -23,8 +23,8 @@ struct EvaluatedRun {
   std::vector<std::string> doubts;  ///< about the case and the blocks; printed by evaluate_run()
 };
 
-/// Reads and evaluates a run, and prints the warnings about its case and blocks. Throws InputError if the assembly or
-/// the results belong to another case, unless `force` is set.
+/// Reads and evaluates a run, and prints the warnings about its case and blocks. Throws InputError if the
+/// assembly or the results belong to another case, unless `force` is set.
 EvaluatedRun evaluate_run(const RunInput& input);
 
 }  // namespace cupola

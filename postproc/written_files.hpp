@@ -6,8 +6,8 @@
 
 namespace cupola {
 
-/// What a run writes into a folder and its subfolders `figures` and `pictures`. The file `.written` lists it, so that the next run
-/// there removes it, and nothing else, before it writes.
+/// What a run writes into a folder and its subfolders `figures` and `pictures`. The file `.written` lists it,
+/// so that the next run there removes it, and nothing else, before it writes.
 class WrittenFiles {
  public:
   /// Removes the files that the run before wrote.

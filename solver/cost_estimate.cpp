@@ -21,16 +21,17 @@
 namespace cupola {
 namespace {
 
-/// Time of a static solve by Newton's method, in factorisations including assembly: the all-stick start, five to eight
-/// iterations, then residuals, certificate and the frame. Measured on the models of the paper: 7.5 to 9, small walls 4.
+/// Time of a static solve by Newton's method, in factorisations including assembly: the all-stick start, five
+/// to eight iterations, then residuals, certificate and the frame. Measured on the models of the paper: 7.5
+/// to 9, small walls 4.
 constexpr double kFactorizationsPerSolve = 8.0;
 /// The same for many blocks, in multigrid solves: a dozen iterations and more, with passes over the blocks,
 /// and more iterations of conjugate gradients towards the end.
 constexpr double kMultigridSolvesPerSolve = 26.0;
 /// Passes over convex problems that zero compliance takes; each costs one static solve.
 constexpr double kPasses = 4.0;
-/// Time under Coulomb's law over that of the associated law, whose solution comes first, far from collapse. Measured on the
-/// models of the paper at friction 0.4 and 0.15: 1.1 to 1.9.
+/// Time under Coulomb's law over that of the associated law, whose solution comes first, far from collapse.
+/// Measured on the models of the paper at friction 0.4 and 0.15: 1.1 to 1.9.
 constexpr double kCoulomb = 2.0;
 constexpr int kTimedSteps = 3;         // of a motion; the last one represents all that follow
 constexpr double kTimingBudget = 5.0;  // s of processor time, after which no further step is timed

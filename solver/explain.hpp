@@ -25,8 +25,8 @@ struct ModelExplanation {
 
 /// Builds the first contact problem from the same options as the run and counts its unknowns. For the
 /// estimate it times one factorisation and, for a dynamic analysis, the static start and the first steps.
-/// What has not ended after `time_limit`, s, is left out and named, so that a hard static start does not delay the
-/// answer. Throws InputError for the same cases as the run.
+/// What has not ended after `time_limit`, s, is left out and named, so that a hard static start does not
+/// delay the answer. Throws InputError for the same cases as the run.
 ModelExplanation explain_model(const Case& scene, const Assembly& assembly, double time_limit = 30.0);
 
 }  // namespace cupola

@@ -38,8 +38,8 @@
 namespace cupola {
 namespace {
 
-/// Reads the assembly and replaces the names of blocks in the case by their numbers. With --force, `differs` gets how the
-/// assembly differs from the case.
+/// Reads the assembly and replaces the names of blocks in the case by their numbers. With --force, `differs`
+/// gets how the assembly differs from the case.
 Assembly read_matching_assembly(SolveRequest* asked, std::vector<std::string>* differences) {
   SolveRequest& request = *asked;
   const std::string& path = request.assembly_path;

@@ -33,10 +33,12 @@ struct LimitSearch {
   /// load:         factor on `loads.forces` and `loads.faces`
   /// thickness:    factor on the thickness of the masonry, about its middle surface
   /// spread:       factor on `supports.moves`
-  /// joint_extent: factor on the extent of every joint about its centroid; its inverse is the geometric safety of the
+  /// joint_extent: factor on the extent of every joint about its centroid; its inverse is the geometric
+  /// safety of the
   ///               safest admissible state
   /// lantern:      weight of `loads.lantern` over that of the free blocks
-  /// peak_stress:  Pa, largest compressive stress of a contact point: the least one that an admissible state needs. `low`
+  /// peak_stress: Pa, largest compressive stress of a contact point: the least one that an admissible state
+  /// needs. `low`
   ///               and `high` are not used
   enum class Parameter {
     friction,
@@ -56,8 +58,8 @@ struct LimitSearch {
   enum class Method { automatic, direct, bisection };
   Method method = Method::automatic;
   double low = 0.0, high = 1.0;  ///< initial bracket: stable at one end, not at the other
-  /// Largest relative width of the final bracket, in (0, 1). None: 1e-3 by bisection; direct 1e-4 for friction,
-  /// thickness and joint_extent, 1e-5 for the others, which are one conic programme.
+  /// Largest relative width of the final bracket, in (0, 1). None: 1e-3 by bisection; direct 1e-4 for
+  /// friction, thickness and joint_extent, 1e-5 for the others, which are one conic programme.
   std::optional<double> relative_width;
   Eigen::Vector3d direction{1.0, 0.0, 0.0};  ///< tilt and acceleration: horizontal direction of the pull
   std::optional<RingJoints> joints;          ///< friction: only these joints; none: all joints
@@ -131,15 +133,17 @@ constexpr auto enum_names(StagedConstruction::Least) {
   return std::array{"none", "friction", "cohesion"};
 }
 
-/// Geometry in which each equilibrium of a path holds: that at the start of its step, or that which it leads to.
+/// Geometry in which each equilibrium of a path holds: that at the start of its step, or that which it leads
+/// to.
 enum class PathGeometry { start, end };
 constexpr auto enum_names(PathGeometry) {
   return std::array{"start", "end"};
 }
 
-/// Sequence of equilibria from the assembly as built, at the times end / steps, 2 end / steps, ..., end. Loads, friction and
-/// supports follow their functions of time; joints keep their slip, opening and damage from one equilibrium to the next. With a
-/// length the control displacement grows by equal steps instead, and the times are unknown.
+/// Sequence of equilibria from the assembly as built, at the times end / steps, 2 end / steps, ..., end.
+/// Loads, friction and supports follow their functions of time; joints keep their slip, opening and damage
+/// from one equilibrium to the next. With a length the control displacement grows by equal steps instead, and
+/// the times are unknown.
 struct LoadPath {
   int steps = 100;               ///< > 0
   double end = 1.0;              ///< s, > 0; with a length: the latest time
@@ -177,13 +181,13 @@ struct Analysis {
   AnalysisType type = AnalysisType::static_;
   ContactMethod method = ContactMethod::newton;
   FrictionLaw friction_law = FrictionLaw::associated;
-  /// Opening over slip of sliding joints, as a ratio to the friction coefficient, in [0, 1]. Given only instead of
-  /// friction_law, which then follows from it.
+  /// Opening over slip of sliding joints, as a ratio to the friction coefficient, in [0, 1]. Given only
+  /// instead of friction_law, which then follows from it.
   std::optional<double> dilatancy;
   /// Static: number of equal sectors around the z axis, of which one is solved; 1: the whole model is solved.
   int cyclic_sectors = 1;
-  /// Static: number of horizontal directions in which the least acceleration that makes the structure move is sought; 0:
-  /// none.
+  /// Static: number of horizontal directions in which the least acceleration that makes the structure move is
+  /// sought; 0: none.
   int robustness = 0;
   /// Static: largest equilibrium residual accepted, inertia share included; it determines h. Dynamic: largest
   /// relative momentum residual of a step.

@@ -47,7 +47,8 @@ CaseNode* find_item(CaseNode* map, const CaseNode::Entry& key) {
 }
 
 /// Merges `over` into `base`: maps key by key, other nodes replace, an empty value (`null`) removes the key.
-/// In a map whose keys depend on its type, a different type replaces the whole map. The key `name[i]` changes item i of a list.
+/// In a map whose keys depend on its type, a different type replaces the whole map. The key `name[i]` changes
+/// item i of a list.
 void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "") {
   if (base->kind != CaseNode::Kind::map || over.kind != CaseNode::Kind::map) {
     *base = over;

@@ -15,7 +15,8 @@
 namespace cupola {
 namespace {
 
-/// Independent uniform numbers in (0, 1). The engine is fixed by the C++ standard, its distributions are not: hence our own.
+/// Independent uniform numbers in (0, 1). The engine is fixed by the C++ standard, its distributions are not:
+/// hence our own.
 class UniformStream {
  public:
   /// Different names give different streams. FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo).

@@ -44,7 +44,8 @@ struct VariedKey {
   Distribution distribution;
 };
 
-/// What stays on the disk of a finished member: summary.json of results/ and post/; also the tables; everything, with a report.
+/// What stays on the disk of a finished member: summary.json of results/ and post/; also the tables;
+/// everything, with a report.
 enum class KeptFiles { summary, tables, all };
 constexpr auto enum_names(KeptFiles) {
   return std::array{"summary", "tables", "all"};
@@ -65,8 +66,8 @@ constexpr auto enum_names(Ensemble::Design) {
   return std::array{"monte_carlo", "latin_hypercube"};
 }
 
-/// Draws the members. The values of a key depend on the seed and its path only, so that other keys leave them as they are. More Monte
-/// Carlo members continue fewer. Members of one hypercube follow each other.
+/// Draws the members. The values of a key depend on the seed and its path only, so that other keys leave them
+/// as they are. More Monte Carlo members continue fewer. Members of one hypercube follow each other.
 Samples draw_samples(const Ensemble& ensemble);
 
 /// Samples of another program.

@@ -15,8 +15,8 @@
 
 namespace cupola {
 
-/// What a kind of surface is, for code that must not know the kinds: the reader and the stereotomy. Each kind states its
-/// own traits and nothing else asks for a kind by name.
+/// What a kind of surface is, for code that must not know the kinds: the reader and the stereotomy. Each kind
+/// states its own traits and nothing else asks for a kind by name.
 struct SurfaceTraits {
   bool closed = false;  ///< courses are rings about the z axis; their last block meets the first
   Sheet::ThrustLines thrust_lines = Sheet::ThrustLines::none;
@@ -98,8 +98,8 @@ struct Plan {
   /// Section of a regular polygon that the profile draws: through a corner, or through the middle of a side.
   enum class MeasuredAt : std::uint8_t { corner, side };
   enum class Axis : std::uint8_t { y, x };
-  /// Stones of two webs of a groin vault that meet at the groin: one stone in every course, or in every other one, or two
-  /// stones with a joint in the plane of the groin.
+  /// Stones of two webs of a groin vault that meet at the groin: one stone in every course, or in every other
+  /// one, or two stones with a joint in the plane of the groin.
   enum class Groins : std::uint8_t { bonded, alternate, mitred };
 
   Kind kind = Kind::circle;
@@ -109,8 +109,8 @@ struct Plan {
   MeasuredAt measured_at = MeasuredAt::corner;
   std::vector<double> x, y;  ///< m, corners of a convex polygon, counter-clockwise
   Groins groins = Groins::bonded;
-  /// m, of a groin vault: its first beds, on the drawn line above the springing; none: where their extrados is half as long as the
-  /// shell is thick.
+  /// m, of a groin vault: its first beds, on the drawn line above the springing; none: where their extrados
+  /// is half as long as the shell is thick.
   std::optional<double> from_height;
 
   /// True if courses are rings about the z axis.
@@ -172,7 +172,8 @@ struct VaultSurface {
   bool key_stone = false;     ///< one stone closes the eye
   int voussoir_segments = 1;  ///< >= 1, as of an arch
 
-  // Not inline: GCC 12 takes an inlined destructor of an alternative that a std::variant does not hold for a use of its members.
+  // Not inline: GCC 12 takes an inlined destructor of an alternative that a std::variant does not hold for a
+  // use of its members.
   VaultSurface();
   VaultSurface(const VaultSurface&);
   VaultSurface(VaultSurface&&) noexcept;
@@ -277,9 +278,9 @@ struct FillBond {
   int refine = 1;            ///< >= 1
 };
 
-/// A bond drawn in letters. Cell (c, r) of the infinite pattern, r upwards from the first course, has the letter
-/// rows[R - 1 - r mod R][(c - shift * floor(r / R)) mod C] of the R rows of C letters, as seen from outside. The cells of one
-/// letter that are connected through their faces form a block; `.` is empty.
+/// A bond drawn in letters. Cell (c, r) of the infinite pattern, r upwards from the first course, has the
+/// letter rows[R - 1 - r mod R][(c - shift * floor(r / R)) mod C] of the R rows of C letters, as seen from
+/// outside. The cells of one letter that are connected through their faces form a block; `.` is empty.
 struct DrawnBond {
   int rings = 40;
   std::vector<std::string> rows;  ///< the uppermost course first, all of one length
@@ -304,8 +305,8 @@ struct Thickness {
   double at(double height) const;  ///< m
 };
 
-/// Heights above the springing, m, between which a wythe or its bonders exist. A course belongs to the range in
-/// which the middle of its intrados at a corner lies.
+/// Heights above the springing, m, between which a wythe or its bonders exist. A course belongs to the range
+/// in which the middle of its intrados at a corner lies.
 struct HeightRange {
   double from = 0.0;              ///< >= 0
   std::optional<double> to = {};  ///< none: to the top
@@ -321,8 +322,8 @@ struct Wythe {
   HeightRange where;
 };
 
-/// Blocks through several wythes, one course high: headers of a wall, ribs, the solid base of two shells. In the
-/// courses selected, `per_ring` of them stand at equal spacing and replace what the wythes have there.
+/// Blocks through several wythes, one course high: headers of a wall, ribs, the solid base of two shells. In
+/// the courses selected, `per_ring` of them stand at equal spacing and replace what the wythes have there.
 struct Bonders {
   std::string name;
   std::string from, to;         ///< the first and the last wythe that they occupy, inside first
@@ -343,8 +344,8 @@ struct Masonry {
   std::vector<Bonders> bonders;
 };
 
-/// Rectangular openings of a closed, upright member, all of one size. Their jambs are head planes of the surface, and a lintel in
-/// one block through the whole thickness covers each.
+/// Rectangular openings of a closed, upright member, all of one size. Their jambs are head planes of the
+/// surface, and a lintel in one block through the whole thickness covers each.
 struct Openings {
   int per_ring = 0;             ///< of each position in `at`; 0: one on each side of the plan
   std::vector<double> at{0.5};  ///< middles, in spacings from abscissa 0 (the first corner), in [0, 1)
@@ -392,15 +393,16 @@ struct Place {
   double rotate_deg = 0.0;                           ///< about the vertical through the origin
 };
 
-/// Equal copies of a member, and of what stands on it: each follows from the one before by a turn about the vertical through a
-/// point, or by a move.
+/// Equal copies of a member, and of what stands on it: each follows from the one before by a turn about the
+/// vertical through a point, or by a move.
 struct Copies {
   int count = 2;                                 ///< >= 2, with the member itself
   std::optional<Eigen::Vector3d> about = {};     ///< m; the copies stand at equal angles round it
   Eigen::Vector3d by = Eigen::Vector3d::Zero();  ///< m, without `about`
 };
 
-/// A surface with its bond: a wall, a drum, a dome. Heights of its wythes, bonders and openings count from its springing.
+/// A surface with its bond: a wall, a drum, a dome. Heights of its wythes, bonders and openings count from
+/// its springing.
 struct Member : Masonry {
   std::string name = "shell";
   std::string on;           ///< name of the member on whose last bed it stands; "": on supports of its own
@@ -411,7 +413,8 @@ struct Member : Masonry {
   std::vector<Cut> cuts;  ///< in its own coordinates, before `at`
 };
 
-/// A part of a dome or vault, of which only some courses over a sector are cut: masonry at the scale of bricks.
+/// A part of a dome or vault, of which only some courses over a sector are cut: masonry at the scale of
+/// bricks.
 struct Window {
   /// `held`: fixed masonry stands beyond the two ends, as if the rest of the ring were built.
   enum class Ends : std::uint8_t { free, held };
@@ -428,8 +431,8 @@ constexpr auto enum_names(Window::Ends) {
 
 /// A closed chain round a dome or vault: a level in the masonry, and the bars that go round it there.
 struct Chain {
-  /// `polygon`: straight bars between anchors in the masonry. `clamps`: a bar across each head joint, as of a course of
-  /// stone clamped with iron.
+  /// `polygon`: straight bars between anchors in the masonry. `clamps`: a bar across each head joint, as of a
+  /// course of stone clamped with iron.
   enum class Type : std::uint8_t { polygon, clamps };
 
   std::string name;
@@ -449,8 +452,8 @@ constexpr auto enum_names(Chain::Type) {
   return std::array{"polygon", "clamps"};
 }
 
-/// A map of all points of the masonry, which keeps planes and convexity: elliptic domes, raking barrels. Thicknesses and
-/// angles are those before the map.
+/// A map of all points of the masonry, which keeps planes and convexity: elliptic domes, raking barrels.
+/// Thicknesses and angles are those before the map.
 struct Affine {
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< along the axes, > 0
   double rake = 0.0;                                ///< rise of z per m of y, of a barrel
@@ -483,8 +486,8 @@ struct BlockDensity {
 struct ImportedBlocks {
   enum class Format : std::uint8_t { automatic, obj, off, stl, ply, compas, bricks };
   enum class UpAxis : std::uint8_t { z, y };
-  /// Blocks that are fixed besides those that are named or flagged. `lowest`: with a corner in the lowest plane of the
-  /// model. `one_neighbour`: with a single joint, as the ends of an arch have.
+  /// Blocks that are fixed besides those that are named or flagged. `lowest`: with a corner in the lowest
+  /// plane of the model. `one_neighbour`: with a single joint, as the ends of an arch have.
   enum class SupportRule : std::uint8_t { none, lowest, one_neighbour };
 
   std::string path;                       ///< file, or folder of files
@@ -529,8 +532,8 @@ struct Geometry : Member {
   std::vector<Chain> chains;
   std::optional<Imperfections> imperfections;  ///< from the section `imperfections` of the case
   double support_width = 1.0;  ///< m, > 0, distance by which the fixed base extends beyond the shell
-  int base_blocks =
-      1;  ///< >= 1: equal parts of the fixed ring, which may move separately; the first about the first corner
+  /// >= 1: equal parts of the fixed ring, which may move separately; the first about the first corner.
+  int base_blocks = 1;
 };
 
 /// All members, in the order of their courses; `window`, `stage` and `chains` belong to the last.

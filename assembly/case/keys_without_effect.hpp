@@ -5,8 +5,8 @@
 
 namespace cupola {
 
-/// Throws InputError for the first key of the case that selects joints, courses or blocks that the model does not have, and
-/// therefore would change nothing.
+/// Throws InputError for the first key of the case that selects joints, courses or blocks that the model does
+/// not have, and therefore would change nothing.
 void refuse_keys_without_effect(const Case& scene, const Assembly& assembly);
 
 }  // namespace cupola

@@ -8,12 +8,14 @@
 
 namespace cupola {
 
-/// Tensions that joints never reach, because friction is exhausted before: of all joints, and of those groups whose own law
-/// causes it. Other values that masonry hardly has, such as a span of 45000 m, are declared beside their keys (Section::expect).
+/// Tensions that joints never reach, because friction is exhausted before: of all joints, and of those groups
+/// whose own law causes it. Other values that masonry hardly has, such as a span of 45000 m, are declared
+/// beside their keys (Section::expect).
 std::vector<std::string> unused_tensions(const Joints& joints);
 
-/// Values that must fit the blocks, one sentence each: heights and planes outside the model, loads far smaller than the blocks
-/// are heavy, supports that move further than the model is large, an import in another unit.
+/// Values that must fit the blocks, one sentence each: heights and planes outside the model, loads far
+/// smaller than the blocks are heavy, supports that move further than the model is large, an import in
+/// another unit.
 std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembly& assembly);
 
 }  // namespace cupola

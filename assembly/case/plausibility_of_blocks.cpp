@@ -81,8 +81,8 @@ double opening_of_joints(const Assembly& assembly, int block, const Vec3& displa
   return largest;
 }
 
-/// Supports that stand so far from their places at the start that their joints are not found. A static analysis and a path
-/// find them however far they have moved.
+/// Supports that stand so far from their places at the start that their joints are not found. A static
+/// analysis and a path find them however far they have moved.
 std::vector<std::string> lost_supports(const Case& scene, const Assembly& assembly) {
   if (scene.analysis.type == AnalysisType::static_ || scene.analysis.type == AnalysisType::path) return {};
   const double margin = joint_rule(smallest_block_size(assembly), scene.contact.margin).margin;

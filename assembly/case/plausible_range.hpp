@@ -6,8 +6,8 @@
 
 namespace cupola {
 
-/// A value and the range in which it is expected. The ranges are wider than those of built masonry, so that only mistakes
-/// fall outside: confused units differ by factors of 10 and more.
+/// A value and the range in which it is expected. The ranges are wider than those of built masonry, so that
+/// only mistakes fall outside: confused units differ by factors of 10 and more.
 struct PlausibleRange {
   std::string key;  ///< to Section::expect(): below its section; with a blank in front: of the section
   double value;

@@ -34,7 +34,8 @@ bool is_below(const std::string& path, const std::string& section) {
          (path[section.size()] == '.' || path[section.size()] == '[');
 }
 
-/// The rows without the keys of each section that has the same ones as an earlier section. Its meaning names that section.
+/// The rows without the keys of each section that has the same ones as an earlier section. Its meaning names
+/// that section.
 std::vector<SchemaRow> without_repetitions(const std::vector<SchemaRow>& rows) {
   std::map<std::string, std::string> sections;  // by their keys, with all that is said about them
   std::vector<SchemaRow> out;

@@ -21,12 +21,13 @@ struct SchemaTable {
   std::string condition;  ///< of the rows added next
 };
 
-/// For a terminal of 120 columns: a line with key, type, unit, range and default, and below it the meaning. Where a section
-/// has the keys of an earlier one, only its name is written, with that of the earlier one.
+/// For a terminal of 120 columns: a line with key, type, unit, range and default, and below it the meaning.
+/// Where a section has the keys of an earlier one, only its name is written, with that of the earlier one.
 std::string to_text(const SchemaTable& table);
 
-/// A JSON schema of case files (draft 7), with which editors complete, explain and check keys. The keys of all alternatives of a
-/// section are admitted together, and required keys are not demanded, because a case may extend another.
+/// A JSON schema of case files (draft 7), with which editors complete, explain and check keys. The keys of
+/// all alternatives of a section are admitted together, and required keys are not demanded, because a case
+/// may extend another.
 std::string to_json_schema(const SchemaTable& table);
 
 }  // namespace cupola

@@ -144,8 +144,9 @@ class Section {
   /// Checks a rule between several keys; the message refers to `key`.
   void rule(bool holds, const std::string& key, const std::string& text) const;
 
-  /// Throws InputError for a missing required key of this section or of one below it. To be called once, after
-  /// the declaration of the whole file: a missing key is reported only where nothing that is given is wrong.
+  /// Throws InputError for a missing required key of this section or of one below it. To be called once,
+  /// after the declaration of the whole file: a missing key is reported only where nothing that is given is
+  /// wrong.
   void finish() const;
   /// From now on `files` receives the paths that file() reads.
   void collect_files(std::vector<std::string>* files) { files_ = files; }

@@ -24,8 +24,8 @@ struct Samples {
   bool operator==(const Samples&) const = default;
 };
 
-/// Reads samples: a header line of key paths, then a line of values per member, separated by commas. Throws InputError with
-/// file and line.
+/// Reads samples: a header line of key paths, then a line of values per member, separated by commas. Throws
+/// InputError with file and line.
 Samples read_samples(const std::string& path);
 
 /// One member per row, named `prefix` with the number of the row, from 0001.

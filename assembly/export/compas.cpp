@@ -48,8 +48,8 @@ std::optional<Vec3> force_at(const ExportedJoint& joint, const Vec3& corner) {
   return std::nullopt;
 }
 
-/// Forces on block_b at the corners, in the axes of the frame, as compas_cra writes them; null if contact points lie
-/// elsewhere.
+/// Forces on block_b at the corners, in the axes of the frame, as compas_cra writes them; null if contact
+/// points lie elsewhere.
 Json corner_forces(const ExportedJoint& joint, const Vec3& x_axis, const Vec3& y_axis) {
   if (joint.points.size() != joint.outline.size()) return nullptr;
   Json forces = Json::array();

@@ -12,7 +12,8 @@ inline constexpr const char* kExportFormats = ".gltf, .obj, .json (COMPAS) or .c
 /// Throws InputError if the ending is none of them.
 void check_export_path(const std::string& path);
 
-/// Writes the model in the format of the ending, atomically; folders are created. A .csv file holds the blocks.
+/// Writes the model in the format of the ending, atomically; folders are created. A .csv file holds the
+/// blocks.
 void write_export(const std::string& path, const ExportModel& model);
 
 }  // namespace cupola

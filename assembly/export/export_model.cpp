@@ -8,8 +8,8 @@
 namespace cupola {
 namespace {
 
-/// True if every edge joins two faces. The parts of generated blocks share vertices, and all faces between them are
-/// `internal`; parts of imported blocks may touch along a part of a face.
+/// True if every edge joins two faces. The parts of generated blocks share vertices, and all faces between
+/// them are `internal`; parts of imported blocks may touch along a part of a face.
 bool is_closed(const BlockSurface& surface) {
   std::map<std::pair<int, int>, int> balance;  // of the directions in which faces run along an edge
   for (const std::vector<int>& face : surface.faces)

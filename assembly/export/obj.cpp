@@ -6,7 +6,8 @@
 namespace cupola {
 namespace {
 
-/// The label of a block, with %XX instead of what would end the line, begin a comment or vanish when it is read.
+/// The label of a block, with %XX instead of what would end the line, begin a comment or vanish when it is
+/// read.
 std::string obj_name(const ExportModel& model, size_t block) {
   const std::string label = block_label(model.assembly, static_cast<int>(block));
   const size_t first = label.find_first_not_of(' '), last = label.find_last_not_of(' ');

@@ -124,8 +124,8 @@ void read_members(const Mesh& mesh, Assembly* assembly) {
   assembly->vertex_depths = array_of<double>(mesh, mesh.point_data, "depth", corners);
 }
 
-/// The sheet of a file of version 0.2, which does not state it: those programs put one box below a wall and two behind the
-/// ends of an arch.
+/// The sheet of a file of version 0.2, which does not state it: those programs put one box below a wall and
+/// two behind the ends of an arch.
 Sheet assumed_sheet(const Assembly& assembly) {
   Sheet sheet{.name = "shell", .num_rings = assembly.num_rings};
   std::vector<int> parts(assembly.blocks.size(), 0);

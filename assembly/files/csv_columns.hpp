@@ -9,8 +9,8 @@
 
 namespace cupola {
 
-/// One column of a table that is written row by row: its key in the header, and the text of its cell, which is quoted where CSV
-/// requires it.
+/// One column of a table that is written row by row: its key in the header, and the text of its cell, which
+/// is quoted where CSV requires it.
 template <class Row>
 struct CsvColumn {
   const char* key;

@@ -61,8 +61,8 @@ void write_mesh(const std::string& path, const Mesh& mesh);
 /// before it. Throws InputError with the path for a missing, truncated, damaged or foreign file.
 Mesh read_mesh(const std::string& path);
 
-/// Time series of mesh files as ParaView's collection; file names are relative to the .pvd. Times that do not increase are
-/// replaced by the numbers of the files.
+/// Time series of mesh files as ParaView's collection; file names are relative to the .pvd. Times that do not
+/// increase are replaced by the numbers of the files.
 struct PvdEntry {
   double time = 0.0;  ///< s
   std::string file;

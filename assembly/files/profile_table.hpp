@@ -22,8 +22,8 @@ struct ProfileTable {
       curves;  ///< instead of a line or arc to the next point; empty: none
 };
 
-/// Reads two or three columns of numbers, r, z and radius (separated by commas, blanks or tabs; `#` starts a comment, and a first row
-/// of words is a heading). Throws InputError with file and line.
+/// Reads two or three columns of numbers, r, z and radius (separated by commas, blanks or tabs; `#` starts a
+/// comment, and a first row of words is a heading). Throws InputError with file and line.
 ProfileTable read_profile_table(const std::string& path);
 
 /// Scales a section so that its first point, which has r > 0, has r = span / 2.

@@ -12,7 +12,8 @@
 
 namespace cupola {
 
-// Records as arrays of mesh files (assembly/records): vectors and matrices as their components, enumerations and truth values as bytes.
+// Records as arrays of mesh files (assembly/records): vectors and matrices as their components, enumerations
+// and truth values as bytes.
 
 template <class T>
 constexpr int kComponents = 1;

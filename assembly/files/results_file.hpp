@@ -8,12 +8,13 @@
 
 namespace cupola {
 
-/// Writes the frames of a results folder one by one: contacts_NNNN.vtp, blocks_NNNN.vtp, with ties ties_NNNN.vtp, and their .pvd
-/// collections, which are rewritten after each frame.
+/// Writes the frames of a results folder one by one: contacts_NNNN.vtp, blocks_NNNN.vtp, with ties
+/// ties_NNNN.vtp, and their .pvd collections, which are rewritten after each frame.
 class ResultsWriter {
  public:
-  /// Creates the folder. Every frame gets `assembly_hash` and, if given, `case_hash`, by which a reader knows the frames of one run.
-  /// `times` (s): frames that exist already when a run is resumed, as do its tables; InputError if a frame is missing.
+  /// Creates the folder. Every frame gets `assembly_hash` and, if given, `case_hash`, by which a reader knows
+  /// the frames of one run. `times` (s): frames that exist already when a run is resumed, as do its tables;
+  /// InputError if a frame is missing.
   ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times = {},
                 std::string case_hash = {});
   /// SystemError if an earlier frame was removed.

@@ -26,7 +26,8 @@ constexpr bool kIsListOfRecords = false;
 template <Record R>
 constexpr bool kIsListOfRecords<std::vector<R>> = true;
 
-/// Values that a run does not have, lists of records that are empty, and (in old files) text_files have no key.
+/// Values that a run does not have, lists of records that are empty, and (in old files) text_files have no
+/// key.
 template <class T>
 constexpr bool kMayBeAbsent = MayBeEmpty<T> || kIsListOfRecords<T> || requires {
   typename T::mapped_type;

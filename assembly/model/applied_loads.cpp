@@ -84,7 +84,8 @@ void add_spread_force(const BlockForce& load, const Assembly& assembly, int time
   for (const SpreadShare& s : shares) forces->push_back({s.block, s.point, s.share * load.force, time});
 }
 
-/// Two couples at right angles, of equal share. Together they have no symmetric moment, which would pass for stress.
+/// Two couples at right angles, of equal share. Together they have no symmetric moment, which would pass for
+/// stress.
 void add_moment(const Vec3& moment, int number, const Block& block, int time,
                 std::vector<PointForce>* forces) {
   if (moment.norm() == 0.0) return;

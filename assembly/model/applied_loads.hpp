@@ -17,8 +17,8 @@ struct PointForce {
 };
 
 /// All loads of a case except the weight of the blocks: lantern and top load, distributed over the top faces
-/// by area, at the face centroids, along gravity; forces and moments on blocks; tractions and pressures at the face
-/// centroids. Throws InputError if a load has no face or block to act on.
+/// by area, at the face centroids, along gravity; forces and moments on blocks; tractions and pressures at
+/// the face centroids. Throws InputError if a load has no face or block to act on.
 std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assembly);
 
 /// The time functions that PointForce::time refers to: those of `loads.forces`, then of `loads.faces`.

@@ -62,8 +62,8 @@ struct Part {
   int wythe = 0;        ///< innermost layer of the thickness that it occupies
 };
 
-/// A straight tie between points of two blocks: a link of a chain, or a spring or rod of an imported model. Elastic up to its
-/// yield force, then perfectly plastic.
+/// A straight tie between points of two blocks: a link of a chain, or a spring or rod of an imported model.
+/// Elastic up to its yield force, then perfectly plastic.
 struct BuiltTie {
   int block_a = 0, block_b = 0;
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();           ///< m, world, as built
@@ -101,9 +101,9 @@ struct Assembly {
   std::vector<Sheet> sheets;  ///< by their courses; none for imported blocks
   /// Names of the wythes and, behind them, of the groups of bonders; empty for a shell of one wythe.
   std::vector<std::string> members;
-  /// Of the corners of a shell with wythes (num_vertices): the layer on which they lie, and their share of the thickness of
-  /// the shell, 0 on the intrados and 1 on the extrados. Wythe members[l] lies between layers l and l + 1. -1 and 0 for
-  /// the corners of supports. Empty for a shell of one wythe.
+  /// Of the corners of a shell with wythes (num_vertices): the layer on which they lie, and their share of
+  /// the thickness of the shell, 0 on the intrados and 1 on the extrados. Wythe members[l] lies between
+  /// layers l and l + 1. -1 and 0 for the corners of supports. Empty for a shell of one wythe.
   std::vector<int> vertex_layers;
   std::vector<double> vertex_depths;
   std::string check_report;  ///< results of the generator's checks, as lines of text; may be empty
@@ -119,8 +119,8 @@ struct Assembly {
   const Sheet* sheet_of(int ring) const;
   /// Rings [first, second) of the stack of sheets to which a course belongs; all rings without sheets.
   std::pair<int, int> stack_of(int ring) const;
-  /// Horizontal unit vector outwards at a point (m) of a course, see Sheet::outward; of walls and imported blocks away from the
-  /// z axis.
+  /// Horizontal unit vector outwards at a point (m) of a course, see Sheet::outward; of walls and imported
+  /// blocks away from the z axis.
   Vec3 outward(int ring, const Vec3& point) const;
   /// Appends a face to the last part. A new part starts with `face_start = num_faces()`.
   void add_face(std::span<const int> vertex_ids, FaceKind kind);

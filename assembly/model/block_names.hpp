@@ -15,9 +15,9 @@ std::string block_label(const Assembly& assembly, int block);
 /// The labels of the first eight of several blocks: "12, 13, ...".
 std::string block_labels(const Assembly& assembly, const std::vector<int>& blocks);
 
-/// Replaces the names of blocks in a case by their numbers. Fixed blocks without a name are called `support 0`, `support 1`, ... in
-/// their order. Throws InputError for a name that no block has,
-/// with the nearest name.
+/// Replaces the names of blocks in a case by their numbers. Fixed blocks without a name are called `support
+/// 0`, `support 1`, ... in their order. Throws InputError for a name that no block has, with the nearest
+/// name.
 void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Supports* supports);
 void resolve_block_names(const Assembly& assembly, std::vector<ForceQuantity>* quantities);
 /// `key` of the case is for the message.

@@ -22,8 +22,8 @@ constexpr auto enum_names(FrictionLaw) {
   return std::array{"associated", "coulomb", "dilatant"};
 }
 
-/// Time integration of motions. `euler`: implicit, first order, the paper's. `generalized_alpha`: second order while contacts
-/// stay closed.
+/// Time integration of motions. `euler`: implicit, first order, the paper's. `generalized_alpha`: second
+/// order while contacts stay closed.
 enum class TimeIntegrator { euler, generalized_alpha };
 constexpr auto enum_names(TimeIntegrator) {
   return std::array{"euler", "generalized_alpha"};
@@ -36,8 +36,9 @@ constexpr auto enum_names(TangentialSpring) {
   return std::array{"memory", "literal"};
 }
 
-/// What the recovery speed of a dynamic analysis limits. `compliant`: the recovery of penetration beyond that due to the compliance.
-/// `literal`: all of it (paper eq. 14, 15), and with it the force of a compliant contact.
+/// What the recovery speed of a dynamic analysis limits. `compliant`: the recovery of penetration beyond that
+/// due to the compliance. `literal`: all of it (paper eq. 14, 15), and with it the force of a compliant
+/// contact.
 enum class Recovery { compliant, literal };
 constexpr auto enum_names(Recovery) {
   return std::array{"compliant", "literal"};

@@ -11,8 +11,8 @@
 
 namespace cupola {
 
-/// Blocks that rest on supports: those of the ribs of an octagonal vault, those nearest the middle of each sail,
-/// herringbone blocks, or the blocks listed.
+/// Blocks that rest on supports: those of the ribs of an octagonal vault, those nearest the middle of each
+/// sail, herringbone blocks, or the blocks listed.
 struct BaseBlocks {
   enum class Group { ribs, mid_sails, herringbone, listed };
   Group group = Group::listed;
@@ -22,7 +22,8 @@ constexpr auto enum_names(BaseBlocks::Group) {
   return std::array{"ribs", "mid_sails", "herringbone", "listed"};
 }
 
-/// Horizontal outward force on the supports: the sum over the base of a vault, the force at one springing of an arch.
+/// Horizontal outward force on the supports: the sum over the base of a vault, the force at one springing of
+/// an arch.
 struct BaseThrust {};
 
 /// Force of a block on the supports below it, or of all blocks on a support.
@@ -36,9 +37,10 @@ constexpr auto enum_names(BlockReaction::Component) {
   return std::array{"vertical", "outward"};
 }
 
-/// Force in the joint of two blocks, all its faces together. With n its mean normal from block_a to block_b and F the
-/// force on block_b: `normal` F . n; `shear` F . d and `eccentricity`, the distance along d of the pressure point from
-/// the centroid of the joint, with d the part of `direction` in the plane of the joint; `resultant` F . direction.
+/// Force in the joint of two blocks, all its faces together. With n its mean normal from block_a to block_b
+/// and F the force on block_b: `normal` F . n; `shear` F . d and `eccentricity`, the distance along d of the
+/// pressure point from the centroid of the joint, with d the part of `direction` in the plane of the joint;
+/// `resultant` F . direction.
 struct JointForce {
   enum class Component { normal, shear, resultant, eccentricity };
   BlockRef block_a, block_b;
@@ -50,9 +52,9 @@ constexpr auto enum_names(JointForce::Component) {
   return std::array{"normal", "shear", "resultant", "eccentricity"};
 }
 
-/// Hoop force of the blocks whose first course is `ring`, mean over all meridian cuts, through joints and blocks,
-/// compression positive. By virtual work with the displacement e_r it is -(1 / 2 pi) times the sum of the radial forces
-/// that act on these blocks from outside, each at its point; loads act at the centroids.
+/// Hoop force of the blocks whose first course is `ring`, mean over all meridian cuts, through joints and
+/// blocks, compression positive. By virtual work with the displacement e_r it is -(1 / 2 pi) times the sum of
+/// the radial forces that act on these blocks from outside, each at its point; loads act at the centroids.
 struct HoopForce {
   int ring = 0;
 };
@@ -67,13 +69,15 @@ struct BaseRatio {
   BaseBlocks of, over;
 };
 
-/// Force of a tie (tension) or strut (thrust), in the order of the ties of the case, then of the imported ones.
+/// Force of a tie (tension) or strut (thrust), in the order of the ties of the case, then of the imported
+/// ones.
 struct TieForce {
   int tie = 0;
 };
 
-/// The normal force of every joint whose centroid lies within the first of a number of equal sectors about the axis. In an
-/// analysis of one sector (`analysis.cyclic_sectors`): the mean over the joint and its images about the axis.
+/// The normal force of every joint whose centroid lies within the first of a number of equal sectors about
+/// the axis. In an analysis of one sector (`analysis.cyclic_sectors`): the mean over the joint and its images
+/// about the axis.
 struct AllJoints {
   int sectors = 1;
 };

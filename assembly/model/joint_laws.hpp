@@ -19,9 +19,10 @@ struct Compliance {
   Per per = Per::point;                 ///< the case must say which
   std::optional<double> relative = {};  ///< see resolve_compliance(), which finds the others from it
 
-  /// The defaults. Per point: 1e-8 m/N in all directions, as in the paper (section 3). Per area: joints of 1e10 N/m3,
-  /// which is a layer of 1 cm with a modulus of 0.1 GPa, and of 1 / (2 (1 + nu)) times that in shear with nu = 0.2; the
-  /// soft end of lime mortar. Micro-models of brickwork use 8.2e10 and 3.6e10 N/m3 (P. B. Lourenco, 1996, wall J4D).
+  /// The defaults. Per point: 1e-8 m/N in all directions, as in the paper (section 3). Per area: joints of
+  /// 1e10 N/m3, which is a layer of 1 cm with a modulus of 0.1 GPa, and of 1 / (2 (1 + nu)) times that in
+  /// shear with nu = 0.2; the soft end of lime mortar. Micro-models of brickwork use 8.2e10 and 3.6e10 N/m3
+  /// (P. B. Lourenco, 1996, wall J4D).
   static Compliance default_per(Per per) {
     return per == Per::point ? Compliance{} : Compliance{1e-10, kTangential * 1e-10, per, {}};
   }
@@ -39,8 +40,9 @@ struct JointStrength {
   bool operator==(const JointStrength&) const = default;
 };
 
-/// What a joint does where it has reached its tensile or shear strength. `plastic`: it keeps its strength. `brittle`: it
-/// loses tension and cohesion at once. `softening`: it loses them linearly with its opening and slip.
+/// What a joint does where it has reached its tensile or shear strength. `plastic`: it keeps its strength.
+/// `brittle`: it loses tension and cohesion at once. `softening`: it loses them linearly with its opening and
+/// slip.
 enum class JointFailure { plastic, brittle, softening };
 constexpr auto enum_names(JointFailure) {
   return std::array{"plastic", "brittle", "softening"};
@@ -80,8 +82,8 @@ constexpr auto enum_names(RingJoints::Sort) {
   return std::array{"all", "bed", "head", "herringbone", "base", "laid_bed", "laid_head"};
 }
 
-/// Random factors on the values of joints, as functions of place: at each point lognormal with mean 1, independent of each other. Two bonds
-/// of one seed read the same functions.
+/// Random factors on the values of joints, as functions of place: at each point lognormal with mean 1,
+/// independent of each other. Two bonds of one seed read the same functions.
 struct JointField {
   int seed = 1;
   double correlation_length =

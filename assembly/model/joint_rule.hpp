@@ -11,7 +11,8 @@ struct JointRule {
   double max_angle = 0.35;  ///< rad, largest tilt between two faces that touch
 };
 
-/// Share of `min_width` below which an overlap of two faces is rounding, 1e-7 of a block, and not worth a warning.
+/// Share of `min_width` below which an overlap of two faces is rounding, 1e-7 of a block, and not worth a
+/// warning.
 inline constexpr double kNoWidth = 1e-4;
 
 /// Cube root of the smallest volume of a free block, m; 1 without free blocks.

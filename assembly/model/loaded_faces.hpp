@@ -30,15 +30,15 @@ struct Resultant {
   Vec3 force = Vec3::Zero();  ///< N
 };
 
-/// The force of a fill on a face at its centre of pressure, exact for plane faces; zero above the fill. With the stress s and
-/// the outward normal n,
+/// The force of a fill on a face at its centre of pressure, exact for plane faces; zero above the fill. With
+/// the stress s and the outward normal n,
 ///     f = (integral of s dA) (max(n_z, 0) g / 9.81 + k g_z / 9.81 (n_x, n_y, 0)),
 /// so that in a limit analysis of tilt or acceleration the fill weighs as the blocks do.
 Resultant fill_force(const Fill& fill, const LoadedFace& face, const Vec3& gravity);
 
-/// Shares of a force that spreads from a rectangle down to the faces below it: at the depth d of a face, the pressure on its
-/// plan is 1 / ((x + 2 m d) (y + 2 m d)) inside the widened rectangle, with the slope m. The shares are scaled to a sum of
-/// one. All zero if no face looks up to the rectangle.
+/// Shares of a force that spreads from a rectangle down to the faces below it: at the depth d of a face, the
+/// pressure on its plan is 1 / ((x + 2 m d) (y + 2 m d)) inside the widened rectangle, with the slope m. The
+/// shares are scaled to a sum of one. All zero if no face looks up to the rectangle.
 struct SpreadShare {
   int block = 0;
   Vec3 point = Vec3::Zero();  ///< m

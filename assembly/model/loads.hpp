@@ -32,7 +32,8 @@ struct SharingBlocks {
   std::string member;  ///< see Assembly::members; empty: any
 };
 
-/// A rectangle over which a force is spread on the surface of a fill, and how it widens on its way down to the masonry.
+/// A rectangle over which a force is spread on the surface of a fill, and how it widens on its way down to
+/// the masonry.
 struct Spread {
   double x = 1.0, y = 1.0;  ///< m, > 0, its sides along the world axes, about the point of the force
   double slope = 0.5;       ///< >= 0, by which each side moves outwards per m of depth
@@ -45,16 +46,16 @@ struct BlockForce {
   std::optional<Vec3> point;  ///< m, world, as built; none: the centroid
   Vec3 force = Vec3::Zero();  ///< N
   TimeFunction time;
-  /// N m. Couples of forces of constant direction at points that move with the block, so that it falls with the cosine of the
-  /// block's rotation about it.
+  /// N m. Couples of forces of constant direction at points that move with the block, so that it falls with
+  /// the cosine of the block's rotation about it.
   std::optional<Vec3> moment = {};
   std::optional<SharingBlocks> over = {};  ///< instead of block, point and moment
   std::optional<Spread> spread = {};       ///< instead of a block: on the extrados below `point`
 };
 
-/// Backing or fill with a level surface. On a face of the masonry its vertical stress is the weight of the column above,
-/// and acts along gravity; the horizontal one is a share of it, on the upright part of the face. Faces that look down carry
-/// the horizontal one only.
+/// Backing or fill with a level surface. On a face of the masonry its vertical stress is the weight of the
+/// column above, and acts along gravity; the horizontal one is a share of it, on the upright part of the
+/// face. Faces that look down carry the horizontal one only.
 struct Fill {
   double level = 0.0;          ///< m, z of its surface
   std::optional<double> from;  ///< m, z below which there is other material; none: it lies on the masonry
@@ -64,7 +65,8 @@ struct Fill {
   double stress(double z) const;  ///< N/m2, vertical
 };
 
-/// A traction of constant direction, a pressure normal to the as-built faces, or a fill, on all faces of one kind.
+/// A traction of constant direction, a pressure normal to the as-built faces, or a fill, on all faces of one
+/// kind.
 struct FaceLoad {
   FaceKind faces = FaceKind::extrados;
   int from_ring = 0, to_ring = kLastRing;  ///< rings of the parts, inclusive
@@ -86,7 +88,8 @@ struct Sector {
   double from_deg = 0.0, to_deg = 360.0;  ///< deg; to > from, by at most 360
 };
 
-/// Blocks by name or number, those of a member and those whose centroids lie in a sector. What is left out does not restrict.
+/// Blocks by name or number, those of a member and those whose centroids lie in a sector. What is left out
+/// does not restrict.
 struct BlockRegion {
   std::vector<BlockRef> blocks = {};  ///< empty: all
   std::string member = {};            ///< see Assembly::members; empty: any
@@ -95,8 +98,8 @@ struct BlockRegion {
       {};  ///< factor at the azimuth of the centroid of each block; none: 1
 };
 
-/// Change of temperature of blocks, linear over each: change + gradient . x, x from the centroid. No other field leaves a free
-/// rigid block without stress.
+/// Change of temperature of blocks, linear over each: change + gradient . x, x from the centroid. No other
+/// field leaves a free rigid block without stress.
 struct BlockHeat {
   BlockRegion region = {};
   double change = 0.0;           ///< K, at the centroid

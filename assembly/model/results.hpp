@@ -15,8 +15,8 @@
 
 namespace cupola {
 
-/// Kind of a joint: `base` touches a fixed support, `bed` lies between rings, `head` within a ring, `wythe` between
-/// layers of the thickness.
+/// Kind of a joint: `base` touches a fixed support, `bed` lies between rings, `head` within a ring, `wythe`
+/// between layers of the thickness.
 enum class JointKind : std::uint8_t { bed, head, base, other, wythe };
 constexpr auto enum_names(JointKind) {
   return std::array{"bed", "head", "base", "other", "wythe"};
@@ -32,7 +32,8 @@ struct Joint {
 };
 
 /// Forces up to this share of the largest joint force of a frame are negligible. Solved forces are at least a
-/// hundred times more accurate (analysis.tolerance is 1e-8 of a block's weight), so what is larger is no error.
+/// hundred times more accurate (analysis.tolerance is 1e-8 of a block's weight), so what is larger is no
+/// error.
 inline constexpr double kNegligibleShare = 1e-6;
 
 /// Contacts at one instant, one row per contact point, in a fixed order (contacts_*.vtp).
@@ -79,7 +80,8 @@ struct BlockTable {
   int size() const { return static_cast<int>(position.size()); }
 };
 
-/// Ties at one instant, one row per tie (ties_*.vtp): those of the case, then those of the assembly. Empty without ties.
+/// Ties at one instant, one row per tie (ties_*.vtp): those of the case, then those of the assembly. Empty
+/// without ties.
 struct TieTable {
   std::vector<int> chain;              ///< index into Assembly::chains; -1: none
   std::vector<int> block_a, block_b;   ///< a < b
@@ -92,8 +94,8 @@ struct TieTable {
   int size() const { return static_cast<int>(force.size()); }
 };
 
-/// What a frame shows. `mechanism` and `failed_stage` hold directions of motion without an amplitude: displacements are
-/// zero, the fastest block has the speed 1 m/s.
+/// What a frame shows. `mechanism` and `failed_stage` hold directions of motion without an amplitude:
+/// displacements are zero, the fastest block has the speed 1 m/s.
 enum class FrameRole : std::uint8_t {
   equilibrium,   ///< forces that balance the loads; what follows in a run belongs to it
   step,          ///< an instant of a motion
@@ -150,8 +152,8 @@ struct CriticalValue {
   double moving = 0.0;  ///< end at which it moves
 };
 
-/// How the search for one end of a range ended. `unbounded`: a self-stress without load (a jammed wedge) changes the
-/// quantity without limit.
+/// How the search for one end of a range ended. `unbounded`: a self-stress without load (a jammed wedge)
+/// changes the quantity without limit.
 enum class RangeOutcome { bounded, unbounded, unconverged };
 constexpr auto enum_names(RangeOutcome) {
   return std::array{"bounded", "unbounded", "unconverged"};
@@ -161,7 +163,8 @@ constexpr auto enum_names(RangeOutcome) {
 struct RangeEnd {
   RangeOutcome outcome = RangeOutcome::unconverged;
   std::optional<double> value;  ///< attained by the state found; absent if unbounded
-  /// No admissible state lies beyond, among those with forces of up to 1000 times the largest of the state found.
+  /// No admissible state lies beyond, among those with forces of up to 1000 times the largest of the state
+  /// found.
   std::optional<double> bound;
   std::optional<int> frame;  ///< that shows the state, or the self-stress alone if unbounded
 };
@@ -177,8 +180,8 @@ struct ForceRange {
   std::optional<std::pair<int, int>> joint = std::nullopt;
 };
 
-/// The smallest horizontal acceleration, over equally spaced directions, that makes a structure move under the
-/// associated law. Under Coulomb's law a smaller one may.
+/// The smallest horizontal acceleration, over equally spaced directions, that makes a structure move under
+/// the associated law. Under Coulomb's law a smaller one may.
 struct Robustness {
   int directions = 0;
   double acceleration_g = 0.0;  ///< an admissible state exists at this value
@@ -186,7 +189,8 @@ struct Robustness {
   double azimuth_deg = 0.0;     ///< direction of the acceleration of the blocks, from x towards y
 };
 
-/// Unit of the parameter of a limit analysis: "degrees", "g", "Pa", "times the weight", "factor", or "" for friction.
+/// Unit of the parameter of a limit analysis: "degrees", "g", "Pa", "times the weight", "factor", or "" for
+/// friction.
 std::string limit_unit(const std::string& parameter);
 
 /// "critical friction: 0.08465", "critical tilt: 6.9873 degrees".

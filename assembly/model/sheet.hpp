@@ -8,12 +8,12 @@
 
 namespace cupola {
 
-/// What a member of the masonry is, for programs that must not know how it was drawn: a sheet of courses, which lie on
-/// each other in the order of their numbers. The courses of several sheets have different numbers. Sheets on each other are a
-/// stack.
+/// What a member of the masonry is, for programs that must not know how it was drawn: a sheet of courses,
+/// which lie on each other in the order of their numbers. The courses of several sheets have different
+/// numbers. Sheets on each other are a stack.
 struct Sheet {
-  /// Where thrust lines are drawn: nowhere, in the x-z plane of an arch, or at any azimuth about the z axis. `radial`: nowhere,
-  /// but outwards is away from the axis, as in a vault on several springers.
+  /// Where thrust lines are drawn: nowhere, in the x-z plane of an arch, or at any azimuth about the z axis.
+  /// `radial`: nowhere, but outwards is away from the axis, as in a vault on several springers.
   enum class ThrustLines : std::uint8_t { none, one, by_azimuth, radial };
 
   std::string name;
@@ -29,7 +29,8 @@ struct Sheet {
   bool has_ring(int ring) const { return ring >= first_ring && ring < first_ring + num_rings; }
   /// True if its axis is the z axis of the world.
   bool is_central() const { return origin.x() == 0.0 && origin.y() == 0.0 && turn == 0.0; }
-  /// Horizontal unit vector at a point (m), away from its axis or from the middle of an arch; none for a wall.
+  /// Horizontal unit vector at a point (m), away from its axis or from the middle of an arch; none for a
+  /// wall.
   std::optional<Eigen::Vector3d> outward(const Eigen::Vector3d& point) const;
   bool operator==(const Sheet&) const = default;
 };

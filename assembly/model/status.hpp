@@ -9,8 +9,8 @@
 
 namespace cupola {
 
-/// How a run ended. A solve proves its verdict in exact arithmetic or says that it did not. A motion says how the history
-/// that was followed ended: at rest (`stable`), moving or collapsed.
+/// How a run ended. A solve proves its verdict in exact arithmetic or says that it did not. A motion says how
+/// the history that was followed ended: at rest (`stable`), moving or collapsed.
 enum class Status : std::uint8_t {
   stable,           ///< forces in exact equilibrium within the limits of the joints are proven to exist
   stable_unproven,  ///< forces balance the loads to the tolerance; that exact ones exist is not proven

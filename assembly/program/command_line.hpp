@@ -15,7 +15,8 @@ class App;
 
 namespace cupola {
 
-/// What --version prints: name, version and revision of this build, and under which licences it and its source are.
+/// What --version prints: name, version and revision of this build, and under which licences it and its
+/// source are.
 std::string version_line(const std::string& program);
 
 /// Parses the arguments. Returns an exit code if the program is to stop: --help and --version print and
@@ -50,8 +51,8 @@ class CommandLine {
   /// Reads the case named on the command line and applies the --set options.
   Case read_case() const;
 
-  /// report_warnings() as the program and with --strict of this command line. A case that is only checked has no
-  /// `printed_before`.
+  /// report_warnings() as the program and with --strict of this command line. A case that is only checked has
+  /// no `printed_before`.
   void report_warnings(const std::vector<std::string>& warnings,
                        const std::vector<std::string>& printed_before = {}) const;
 

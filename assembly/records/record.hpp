@@ -5,8 +5,8 @@
 
 namespace cupola {
 
-// A record is described once, by a function that shows each of its members to a visitor, with the key, the unit and the meaning that
-// files and docs give it:
+// A record is described once, by a function that shows each of its members to a visitor, with the key, the
+// unit and the meaning that files and docs give it:
 //
 //     template <class Visitor>
 //     void fields(Visitor&& visit, Is<RunStep> auto& step) {
@@ -14,7 +14,8 @@ namespace cupola {
 //       visit("time_s", "s", "at its end", step.time);
 //     }
 //
-// Files are made of it: keys of JSON, arrays of meshes, bytes of checkpoints, hashes, the tables of FORMAT.md.
+// Files are made of it: keys of JSON, arrays of meshes, bytes of checkpoints, hashes, the tables of
+// FORMAT.md.
 
 /// T or const T: one description serves writing and reading.
 template <class R, class T>

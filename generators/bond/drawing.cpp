@@ -51,8 +51,8 @@ size_t BondDrawing::cell(int column, int row, int wythe) const {
   return (static_cast<size_t>(wythe) * static_cast<size_t>(rows_) + r) * static_cast<size_t>(columns_) + c;
 }
 
-/// Finds the block of a place. If its cells reach a second place that stands for the same cell of the period, they go on
-/// without end.
+/// Finds the block of a place. If its cells reach a second place that stands for the same cell of the period,
+/// they go on without end.
 void BondDrawing::fill(int column, int row, int wythe) {
   const auto letter_at = [&](const LetterPlace& p) {
     return layers_[static_cast<size_t>(p[2])]->letter(p[0], p[1]);

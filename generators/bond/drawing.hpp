@@ -13,12 +13,12 @@ struct DrawnBlock {
   int width = 0, height = 0, wythes = 0;  ///< letters, courses and layers that it spans
 };
 
-/// The blocks of drawings that are repeated without end, one drawing per wythe, inside first. Cells of one letter are
-/// connected through their faces along the course, across beds, and between wythes.
+/// The blocks of drawings that are repeated without end, one drawing per wythe, inside first. Cells of one
+/// letter are connected through their faces along the course, across beds, and between wythes.
 class BondDrawing {
  public:
-  /// `layers`: at least one. Throws InputError for an infinite set of connected cells, naming its letter, and for several
-  /// drawings of different size or shift.
+  /// `layers`: at least one. Throws InputError for an infinite set of connected cells, naming its letter, and
+  /// for several drawings of different size or shift.
   explicit BondDrawing(std::vector<const DrawnBond*> layers);
 
   const std::vector<DrawnBlock>& blocks() const { return blocks_; }

@@ -5,13 +5,13 @@
 
 namespace cupola {
 
-/// Lays a drawing over a surface. A closed ring has a whole number of drawings, a wall a whole number of letters, whose
-/// length differs from the one in the case by at most 5 %. Ends, corners and the last course cut blocks; what is cut is
-/// marked as truncated, and a piece narrower than a quarter of its block joins its neighbour in the course. A block taller
-/// than wide is an upright.
+/// Lays a drawing over a surface. A closed ring has a whole number of drawings, a wall a whole number of
+/// letters, whose length differs from the one in the case by at most 5 %. Ends, corners and the last course
+/// cut blocks; what is cut is marked as truncated, and a piece narrower than a quarter of its block joins its
+/// neighbour in the course. A block taller than wide is an upright.
 ///
-/// Throws InputError where no such number exists, for a block that does not fit into a ring, and for a phase that is not
-/// a whole number of letters on an open surface.
+/// Throws InputError where no such number exists, for a block that does not fit into a ring, and for a phase
+/// that is not a whole number of letters on an open surface.
 BondPattern drawn_bond(const DrawnBond& bond, const BondGrid& grid);
 
 }  // namespace cupola

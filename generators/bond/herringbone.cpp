@@ -32,7 +32,8 @@ struct Layout {
   /// Rings from the start of a vertical to that of the next one.
   int rise() const { return bond.embedment < 0 ? 1 : bond.rings_per_vertical; }
   int strip_width() const { return bond.rings_per_vertical / rise() * bond.slices_per_vertical; }
-  /// First ring of vertical 0. With an embedment, that of a vertical lies so many rings below the last one built.
+  /// First ring of vertical 0. With an embedment, that of a vertical lies so many rings below the last one
+  /// built.
   int first_ring() const {
     return bond.embedment < 0 ? 0 : (built - 1 - bond.embedment) % bond.rings_per_vertical;
   }

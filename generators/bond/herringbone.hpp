@@ -15,13 +15,14 @@ namespace cupola {
 /// so that every ring crosses H verticals of each strip. On a meridian path j mod H replaces j in the
 /// abscissae.
 ///
-/// With an embedment m each strip has one vertical per ring: vertical j covers rings [r + j H, r + (j + 1) H), where r
-/// is such that the last ring built is the m-th above the start of its verticals. With chirality `both` the strips
-/// and their mirror images are laid; where they cross, those of left hand are cut.
+/// With an embedment m each strip has one vertical per ring: vertical j covers rings [r + j H, r + (j + 1)
+/// H), where r is such that the last ring built is the m-th above the start of its verticals. With chirality
+/// `both` the strips and their mirror images are laid; where they cross, those of left hand are cut.
 ///
 /// The rest of each ring is laid in whole blocks. `beside` decides where their joints lie: `stepped` cuts
 /// them from the strip onwards, so that joints move by v per ring; `half` and `aligned` put them in a half
-/// bond or on meridians. A remainder narrower than w / 2 widens its neighbour, or in a window takes part of its width.
+/// bond or on meridians. A remainder narrower than w / 2 widens its neighbour, or in a window takes part of
+/// its width.
 ///
 /// With refine = n, verticals are n times narrower and lower, and each strip becomes a band of n strips side
 /// by side that covers the same part of the shell.

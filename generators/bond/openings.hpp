@@ -16,9 +16,10 @@ struct OpeningPlace {
   int end_lintel = 0;
 };
 
-/// Lays the lintels, each one block through all wythes with the label `member`, and then empties the cells of the openings. An
-/// opening cuts the lintel of another one below it, so that a stack of openings has stepped jambs. The jambs and the ends of
-/// the lintels become cuts, and separate_rests() says what becomes of the blocks that they cut.
+/// Lays the lintels, each one block through all wythes with the label `member`, and then empties the cells of
+/// the openings. An opening cuts the lintel of another one below it, so that a stack of openings has stepped
+/// jambs. The jambs and the ends of the lintels become cuts, and separate_rests() says what becomes of the
+/// blocks that they cut.
 void lay_openings(const BondGrid& grid, const std::vector<OpeningPlace>& openings, int member,
                   BondPattern* pattern);
 

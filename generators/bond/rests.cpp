@@ -27,8 +27,8 @@ class Numbering {
       : pattern_(pattern), closed_(closed), number_(pattern.block_of.size(), kVoid) {}
 
   bool is_numbered(const Cell& cell) const { return number(cell) != kVoid; }
-  /// Gives the cells of the same block that are connected with `seed`, with `across_beds` also through beds, the next
-  /// number, and returns them.
+  /// Gives the cells of the same block that are connected with `seed`, with `across_beds` also through beds,
+  /// the next number, and returns them.
   std::vector<Cell> fill(const Cell& seed, bool across_beds) {
     std::vector<Cell> cells;
     const int block = pattern_.at(seed[0], seed[1], seed[2]), id = count_++;

@@ -22,7 +22,8 @@ struct BonderPlaces {
   double spacing() const { return grid.extent / bonders.per_ring; }
   double origin() const { return grid.corners.empty() ? 0.0 : grid.corners.front(); }
 
-  /// Number of the course among those with these bonders, or -1. `in_range` courses of the height range lie below.
+  /// Number of the course among those with these bonders, or -1. `in_range` courses of the height range lie
+  /// below.
   int course(int in_range) const {
     const int beyond = in_range - bonders.first;
     return beyond < 0 || beyond % bonders.every != 0 ? -1 : beyond / bonders.every;

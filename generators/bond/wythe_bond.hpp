@@ -8,9 +8,9 @@ namespace cupola {
 /// Names of the wythes and, behind them, of the groups of bonders, each once: the members of the assembly.
 std::vector<std::string> member_names(const Masonry& masonry);
 
-/// Lays the bond of every wythe, and then the bonders in the order of the case. A bonder replaces the cells that it
-/// occupies; separate_rests() says what becomes of the blocks that it cuts. All wythes get the cuts of all bonds, and a
-/// course of a wythe with fewer courses consists of several courses of `grid`.
+/// Lays the bond of every wythe, and then the bonders in the order of the case. A bonder replaces the cells
+/// that it occupies; separate_rests() says what becomes of the blocks that it cuts. All wythes get the cuts
+/// of all bonds, and a course of a wythe with fewer courses consists of several courses of `grid`.
 ///
 /// `heights` of the middles of the courses of the grid, m above the datum of the surface. (num_rings)
 ///

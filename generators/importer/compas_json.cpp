@@ -20,7 +20,8 @@ double coordinate(const Json& vertex, const char* axis, const FileLocation& wher
   return value.get<double>();
 }
 
-/// The vertices and faces of a mesh: of `node` itself, or of what present and former versions of COMPAS put round them. Null: no mesh.
+/// The vertices and faces of a mesh: of `node` itself, or of what present and former versions of COMPAS put
+/// round them. Null: no mesh.
 const Json* mesh_in(const Json& node) {
   const auto has_faces = [](const Json& data) {
     return data.is_object() && !data.contains("node") && data.contains("vertex") &&
@@ -74,8 +75,8 @@ void add_mesh(const Json& node, const Json& data, Walk* walk) {
   walk->blocks.push_back(std::move(block));
 }
 
-/// Adds the meshes in `node`, numbered ones by number. An element is an object with `is_support`; files of compas_dem state it for
-/// every block.
+/// Adds the meshes in `node`, numbered ones by number. An element is an object with `is_support`; files of
+/// compas_dem state it for every block.
 void find_meshes(const Json& node, Walk* walk) {
   if (const Json* data = mesh_in(node)) return add_mesh(node, *data, walk);
   if (!node.is_structured()) return;

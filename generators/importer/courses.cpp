@@ -172,8 +172,8 @@ class CourseFinder {
     return area > 0.0 ? volume / area : 0.0;
   }
 
-  /// True if the faces by which a stone meets the course below look into different directions, as those of an upright stone
-  /// between lower ones do.
+  /// True if the faces by which a stone meets the course below look into different directions, as those of an
+  /// upright stone between lower ones do.
   bool leans_on_sides(int block) const {
     constexpr double kSameSide = 0.7;  // cosine of the angle to their mean
     Vec3 mean = Vec3::Zero();
@@ -273,7 +273,8 @@ double size_of(const Assembly& assembly) {
   return box.sizes().maxCoeff();
 }
 
-/// The sheet of the blocks, and for each free block the directions along its course (t) and upwards on its bed (m).
+/// The sheet of the blocks, and for each free block the directions along its course (t) and upwards on its
+/// bed (m).
 class Labels {
  public:
   Labels(const Courses& courses, const CourseFinder& finder, const JointGraph& graph, const Sheet& sheet,

@@ -17,16 +17,17 @@ struct CourseReport {
   std::string refusal;  ///< why there are none
 };
 
-/// Finds the courses of imported blocks from their joints, and labels blocks, parts and faces as those of a generated model, so
-/// that ring sums, thrust lines, maps and ranges of the thrust follow.
+/// Finds the courses of imported blocks from their joints, and labels blocks, parts and faces as those of a
+/// generated model, so that ring sums, thrust lines, maps and ranges of the thrust follow.
 ///
-/// The course of a block is its distance from the supports in the graph of joints; of an arch between two supports, from the
-/// first. Courses are accepted only if each stone has at most two neighbours in its own, so that the stones form rings or
-/// chains, if the lower beds of such neighbours meet end to end within a quarter of the height of the course, and if each
-/// stone lies on the course below with one side. Else the assembly remains as it is and the refusal names the stones.
+/// The course of a block is its distance from the supports in the graph of joints; of an arch between two
+/// supports, from the first. Courses are accepted only if each stone has at most two neighbours in its own,
+/// so that the stones form rings or chains, if the lower beds of such neighbours meet end to end within a
+/// quarter of the height of the course, and if each stone lies on the course below with one side. Else the
+/// assembly remains as it is and the refusal names the stones.
 ///
-/// `axis` is a point of the vertical axis of a vault (m); none: through the centroid of the faces of the supports.
-/// `joints` are those of check_model().
+/// `axis` is a point of the vertical axis of a vault (m); none: through the centroid of the faces of the
+/// supports. `joints` are those of check_model().
 CourseReport set_courses(std::span<const FacePair> joints, const std::optional<Vec3>& axis,
                          Assembly* assembly);
 

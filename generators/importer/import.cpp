@@ -119,7 +119,8 @@ void place_in_world(const ImportedBlocks& source, std::vector<RawBlock>* blocks)
   }
 }
 
-/// Measures the model. Throws InputError if it has the size of no structure and the case does not state the unit.
+/// Measures the model. Throws InputError if it has the size of no structure and the case does not state the
+/// unit.
 void measure_extents(const ImportedBlocks& source, const std::vector<RawBlock>& blocks,
                      ImportReport* report) {
   constexpr double kSmallest = 0.05, kLargest = 1e3;  // m
@@ -182,8 +183,8 @@ Surfaces repair_all(const std::vector<RawBlock>& blocks, ImportReport* report) {
                          more > 0 ? fmt::format("; and {} with defects", counted(more, "more block")) : ""));
 }
 
-/// m3, of a surface as drawn: each polygon as a fan about the mean of its corners, which for four corners bounds the volume of
-/// the bilinear face.
+/// m3, of a surface as drawn: each polygon as a fan about the mean of its corners, which for four corners
+/// bounds the volume of the bilinear face.
 double drawn_volume(const TriangleMesh& mesh) {
   const Vec3 origin = mesh.vertices.front();
   double volume = 0.0;
@@ -358,7 +359,8 @@ std::string doubt_of_axes(const ImportedBlocks& source, const ImportReport& repo
          "geometry.import.up: y";
 }
 
-/// m, mean size of the blocks if it is that of no stone or brick and the case does not state the unit; else 0.
+/// m, mean size of the blocks if it is that of no stone or brick and the case does not state the unit; else
+/// 0.
 double unusual_size(const ImportedBlocks& source, const ImportReport& report) {
   constexpr double kSmallest = 0.02, kLargest = 10.0;
   const double size = std::cbrt(report.volume_of_parts / static_cast<double>(report.origins.size()));

@@ -27,8 +27,8 @@ struct ImportReport {
   double largest_volume_error = 0.0;  ///< sum of the parts minus the block, over the block's volume
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< m, extents of the model
   int doubled_faces = 0;                         ///< dropped
-  /// m3, of all blocks as drawn: the exact volume of four-sided faces that are warped (bilinear), fans about the mean of the
-  /// corners of other polygons.
+  /// m3, of all blocks as drawn: the exact volume of four-sided faces that are warped (bilinear), fans about
+  /// the mean of the corners of other polygons.
   double drawn_volume = 0.0;
   double volume_of_parts = 0.0;  ///< m3, from which masses follow
   int most_changed_block = 0;    ///< whose volume differs most from that of its drawing

@@ -20,8 +20,8 @@ std::vector<RawBlock> read_off(const std::string& path);
 std::vector<RawBlock> read_ply(const std::string& path);
 std::vector<RawBlock> read_stl(const std::string& path);
 
-/// COMPAS assembly JSON: data.graph.data.node[k].block.data.{vertex, face}; `is_support` fixes a block. The attributes `name`
-/// (else k) and `density` (kg/m3) of the node are read if they are there.
+/// COMPAS assembly JSON: data.graph.data.node[k].block.data.{vertex, face}; `is_support` fixes a block. The
+/// attributes `name` (else k) and `density` (kg/m3) of the node are read if they are there.
 std::vector<RawBlock> read_compas(const std::string& path);
 
 /// Contact faces of a COMPAS assembly file: data.graph.data.edge[u][v].interfaces[].data.points.

@@ -7,17 +7,18 @@
 
 namespace cupola {
 
-/// A box of cells that becomes one convex part, between beds row_start and row_end, cuts slice_start and slice_end
-/// and layers wythe_start and wythe_end. On a closed surface cuts may be negative or lie beyond the seam.
+/// A box of cells that becomes one convex part, between beds row_start and row_end, cuts slice_start and
+/// slice_end and layers wythe_start and wythe_end. On a closed surface cuts may be negative or lie beyond the
+/// seam.
 struct CellRange {
   int row_start, row_end;
   int slice_start, slice_end;
   int wythe_start, wythe_end;
 };
 
-/// The (rows x slices x wythes) grid of cells of a surface and its bond: which block owns a cell, what its neighbours
-/// are, and which cells merge. A row is a course, or part of one on surfaces with several rows per course.
-/// Holds references to the surface and the bond.
+/// The (rows x slices x wythes) grid of cells of a surface and its bond: which block owns a cell, what its
+/// neighbours are, and which cells merge. A row is a course, or part of one on surfaces with several rows per
+/// course. Holds references to the surface and the bond.
 struct CellGrid {
   const SurfaceMap& surface;
   const BondPattern& bond;
@@ -55,13 +56,13 @@ CellGrid make_cell_grid(const SurfaceMap& surface, const BondPattern& bond, int 
 /// Slices [start, end) of a block in one of its rows; end exceeds num_slices if the block crosses the seam.
 std::pair<int, int> slices_in_row(const CellGrid& grid, int block, int row);
 
-/// The convex parts of a block: its cells, merged within rows, across rows and across wythes where the union is
-/// exactly convex. Cells of a block that is no box of cells stay as they are, so that internal faces mate.
+/// The convex parts of a block: its cells, merged within rows, across rows and across wythes where the union
+/// is exactly convex. Cells of a block that is no box of cells stay as they are, so that internal faces mate.
 std::vector<CellRange> convex_ranges(const CellGrid& grid, int block);
 
 /// Kind of the lower or upper bed of a range, of its left or right head, and of its inner or outer layer:
-/// `internal` towards its own block, a joint if a built block or a support lies beyond, `top` for the upper bed of
-/// the last course, `intrados` or `extrados` where the shell ends, else `free`.
+/// `internal` towards its own block, a joint if a built block or a support lies beyond, `top` for the upper
+/// bed of the last course, `intrados` or `extrados` where the shell ends, else `free`.
 FaceKind bed_kind(const CellGrid& grid, const CellRange& range, bool upper);
 FaceKind head_kind(const CellGrid& grid, const CellRange& range, bool right);
 FaceKind layer_kind(const CellGrid& grid, const CellRange& range, bool outer);

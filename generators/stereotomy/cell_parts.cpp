@@ -11,8 +11,8 @@ namespace {
 
 using Quad = std::array<int, 4>;  // vertex ids
 
-/// Corners and faces of a hexahedral cell. Corners of a layer are in the order lower left, lower right, upper right,
-/// upper left, seen from outside; side i lies between the corners i and i + 1.
+/// Corners and faces of a hexahedral cell. Corners of a layer are in the order lower left, lower right, upper
+/// right, upper left, seen from outside; side i lies between the corners i and i + 1.
 struct Hexahedron {
   Quad inner, outer;
   FaceKind inner_kind, outer_kind;
@@ -29,8 +29,8 @@ void start_part(const CellGrid& grid, const CellRange& cells, Assembly* assembly
   assembly->parts.push_back(part);
 }
 
-/// Adds a face between layers: the quad if it is plane, else two triangles along the diagonal that keeps the cell
-/// convex.
+/// Adds a face between layers: the quad if it is plane, else two triangles along the diagonal that keeps the
+/// cell convex.
 void add_layer(const Quad& quad, FaceKind kind, bool flat, Assembly* assembly) {
   if (flat) {
     assembly->add_face(quad, kind);
@@ -44,8 +44,8 @@ void add_layer(const Quad& quad, FaceKind kind, bool flat, Assembly* assembly) {
   assembly->add_face(std::array{corner(0), corner(2), corner(3)}, kind);
 }
 
-/// Faces are counter-clockwise seen from outside, because (outwards, along, up) is a right-handed frame on every
-/// surface.
+/// Faces are counter-clockwise seen from outside, because (outwards, along, up) is a right-handed frame on
+/// every surface.
 void add_hexahedron_faces(const Hexahedron& cell, bool flat, Assembly* assembly) {
   const auto& [p, q] = std::pair(cell.inner, cell.outer);
   assembly->add_face(std::array{p[0], p[1], q[1], q[0]}, cell.sides[0]);

@@ -21,8 +21,9 @@ struct ConvexPiece {
 
 ConvexPiece piece_of(const Assembly& assembly, const Part& part);
 
-/// Cuts convex pieces by the planes of one convex body. Neighbouring pieces share their edges, and so the vertices in which a plane
-/// meets them: joints stay closed. Vertices nearer to a plane than `rounding` (m) lie on it.
+/// Cuts convex pieces by the planes of one convex body. Neighbouring pieces share their edges, and so the
+/// vertices in which a plane meets them: joints stay closed. Vertices nearer to a plane than `rounding` (m)
+/// lie on it.
 class ConvexClip {
  public:
   /// The body: n.x <= offset for all its planes.

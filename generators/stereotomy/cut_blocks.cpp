@@ -57,7 +57,8 @@ Block make_block(const CellGrid& grid, int bond_block, double density) {
   return block;
 }
 
-/// Appends the stone that closes the eye of a closed surface: a prism over the whole last bed, whose facets are its sides.
+/// Appends the stone that closes the eye of a closed surface: a prism over the whole last bed, whose facets
+/// are its sides.
 void add_key_stone(const CellGrid& grid, int member, double density, GridPoints* points, Assembly* assembly) {
   const int ring = grid.ring_of(grid.num_rows);
   Block block;

@@ -8,11 +8,13 @@
 
 namespace cupola {
 
-/// The convex body that a cut of its own outline takes, in the coordinates of its member: n.x <= offset for all planes.
+/// The convex body that a cut of its own outline takes, in the coordinates of its member: n.x <= offset for
+/// all planes.
 std::vector<Plane> body_of(const Cut& cut);
 
-/// What lies under the facets of a barrel, between its two ends and down without end, in its own coordinates; above the springings
-/// between the vertical planes through them. Throws InputError that begins with `key` for a section that is not convex.
+/// What lies under the facets of a barrel, between its two ends and down without end, in its own coordinates;
+/// above the springings between the vertical planes through them. Throws InputError that begins with `key`
+/// for a section that is not convex.
 std::vector<Plane> body_under(const Storey& barrel, Cut::Face face, const std::string& key);
 
 /// Planes after a motion.

@@ -32,11 +32,11 @@ class GridPoints {
   GridPoints(const CellGrid& grid, const std::optional<Imperfections>& imperfections);
 
   bool flat_skins() const { return grid_.surface.flat_skins && noise_ == 0.0; }
-  /// Where skins are not plane: true if the layers of a cell bulge outwards along the diagonal from its lower left to
-  /// its upper right corner, false if along the other.
+  /// Where skins are not plane: true if the layers of a cell bulge outwards along the diagonal from its lower
+  /// left to its upper right corner, false if along the other.
   bool bulges_along_rising_diagonal(int bed, int cut) const;
-  /// Appends the shared vertices; call once, before the first block. If the shell has wythes, the layers of all vertices are
-  /// counted from `first_layer`.
+  /// Appends the shared vertices; call once, before the first block. If the shell has wythes, the layers of
+  /// all vertices are counted from `first_layer`.
   void make_shared(int first_layer, Assembly* assembly);
   /// Call before the vertices of each block.
   void start_block(int bond_block);

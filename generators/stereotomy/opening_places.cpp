@@ -21,8 +21,8 @@ struct Sill {
   }
 };
 
-/// The range of the abscissa up to the nearest corner of the plan, half-way to the next opening of the group, or a quarter of
-/// the ring, beyond which chords become shorter.
+/// The range of the abscissa up to the nearest corner of the plan, half-way to the next opening of the group,
+/// or a quarter of the ring, beyond which chords become shorter.
 double room_beside(const SurfaceMap& surface, double middle, const std::vector<double>& middles) {
   double room = 0.25 * surface.extent;
   const auto distance = [&](double a) { return std::abs(std::remainder(a - middle, surface.extent)); };

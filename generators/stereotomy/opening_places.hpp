@@ -8,8 +8,8 @@
 
 namespace cupola {
 
-/// Where the openings of a member lie on its closed surface. Their edges must be beds. Throws InputError that begins with `key`,
-/// as geometry.openings, if an opening or its lintel does not fit.
+/// Where the openings of a member lie on its closed surface. Their edges must be beds. Throws InputError that
+/// begins with `key`, as geometry.openings, if an opening or its lintel does not fit.
 std::vector<OpeningPlace> opening_places(const std::vector<Openings>& openings, const SurfaceMap& surface,
                                          const std::string& key);
 

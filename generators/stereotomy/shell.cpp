@@ -87,7 +87,8 @@ BondPattern lay_masonry(const Masonry& masonry, const SurfaceMap& surface, const
                                 : make_wythe_bond(masonry, grid, course_heights(surface));
 }
 
-/// Names of what lays blocks. In a model of several members, the wythes of all but the last carry the name of their member.
+/// Names of what lays blocks. In a model of several members, the wythes of all but the last carry the name of
+/// their member.
 std::vector<std::string> names_of(const Geometry& geometry, const Member& member) {
   std::vector<std::string> names = member_names(member);
   if (&member != &last_member(geometry))

@@ -33,8 +33,8 @@ struct Storey {
   }
 };
 
-/// The members of a case, in the order of their courses. Throws InputError if surface, bond, openings and window of a member do
-/// not fit each other, or if it stands on a bed that is not level.
+/// The members of a case, in the order of their courses. Throws InputError if surface, bond, openings and
+/// window of a member do not fit each other, or if it stands on a bed that is not level.
 std::vector<Storey> make_storeys(const Geometry& geometry);
 
 }  // namespace cupola

@@ -46,7 +46,8 @@ int add_vertex(const Vec3& point, Assembly* assembly) {
   return static_cast<int>(assembly->vertices.size()) - 1;
 }
 
-/// The cuts of a ring of several blocks: those given and the boundaries of the blocks, of which the first cut is one.
+/// The cuts of a ring of several blocks: those given and the boundaries of the blocks, of which the first cut
+/// is one.
 std::vector<double> cuts_of_blocks(const SurfaceMap& surface, const std::vector<double>& cuts,
                                    int num_blocks) {
   const double extent = surface.extent, rounding = 1e-9 * extent;  // nearer cuts coincide

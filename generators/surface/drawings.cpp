@@ -97,8 +97,8 @@ std::vector<ProfilePiece> part_above(std::vector<ProfilePiece> pieces, const Tes
   return {};
 }
 
-/// Draws one web of a groin vault, from its first bed over the crown to the last. A bed at the half-width r is
-/// (s / 2 - r) cot(pi / n) long, s the side.
+/// Draws one web of a groin vault, from its first bed over the crown to the last. A bed at the half-width r
+/// is (s / 2 - r) cot(pi / n) long, s the side.
 void draw_web(const VaultSurface& vault, double rounding, Drawing* drawing) {
   const Plan& plan = vault.plan;
   const Vec2 crown = drawing->profile.back().at(1.0);

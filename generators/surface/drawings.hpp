@@ -4,7 +4,8 @@
 
 namespace cupola {
 
-// Every kind of surface as a profile along a plan. All throw InputError for dimensions that contradict each other.
+// Every kind of surface as a profile along a plan. All throw InputError for dimensions that contradict each
+// other.
 
 /// The arc rho = -e + R cos t, z = R sin t about the z axis.
 Drawing drawing_of(const DomeSurface& dome);

@@ -5,8 +5,9 @@
 
 namespace cupola {
 
-/// A profile carried along a plan. The profile runs from the first bed to the last in the (r, z) plane; r is the distance
-/// from the z axis, or from the plane of symmetry of a barrel. Depths are measured along its normal, outwards.
+/// A profile carried along a plan. The profile runs from the first bed to the last in the (r, z) plane; r is
+/// the distance from the z axis, or from the plane of symmetry of a barrel. Depths are measured along its
+/// normal, outwards.
 struct Drawing {
   std::vector<ProfilePiece> profile;
   Plan plan;
@@ -25,20 +26,21 @@ struct Drawing {
 /// - Line: the point (r, z) becomes (r, y, z) with the abscissa y, or (x, -r, z) with the abscissa x.
 /// - Groin: one of the webs, (r, y, z) with the abscissa y from 0, at the axis, to the side. It is uncut; see
 ///   generators/stereotomy/groin_vault.hpp.
-/// - Circle: (r cos a, r sin a, z), a the abscissa. Every bed is a cone about the z axis, so that its facets between radial
-///   half-planes are plane.
-/// - Polygon: each sail is a cylinder whose section normal to its side is the profile, or that of a regular polygon whose
-///   corner section is the profile. `normal` and `level` beds are plane in each sail, and the abscissa divides each side
-///   into equal parts; the head planes are vertical. `conical` beds are cones about the z axis through the normals of the
-///   corner section, and the abscissa is the azimuth. At azimuth psi from mid-sail the bed meets the layer where
+/// - Circle: (r cos a, r sin a, z), a the abscissa. Every bed is a cone about the z axis, so that its facets
+///   between radial half-planes are plane.
+/// - Polygon: each sail is a cylinder whose section normal to its side is the profile, or that of a regular
+///   polygon whose corner section is the profile. `normal` and `level` beds are plane in each sail, and the
+///   abscissa divides each side into equal parts; the head planes are vertical. `conical` beds are cones
+///   about the z axis through the normals of the corner section, and the abscissa is the azimuth. At azimuth
+///   psi from mid-sail the bed meets the layer where
 ///       (x / cos psi - r_k) n_z = (z - z_k) n_r,
-///   (x, z) on the layer's mid-sail section, (r_k, z_k) on the corner section with its normal n. z is then computed from the
-///   bed, so that bed facets are plane to rounding.
+///   (x, z) on the layer's mid-sail section, (r_k, z_k) on the corner section with its normal n. z is then
+///   computed from the bed, so that bed facets are plane to rounding.
 ///
 /// A kink of the profile is a bed in the bisector of its two normals.
 ///
-/// `shell_volume` is known where beds are normal, and the plan is a line or a circle: with the length L of a piece and the
-/// angle phi by which its normal turns, dA = (L + phi depth) dt d(depth).
+/// `shell_volume` is known where beds are normal, and the plan is a line or a circle: with the length L of a
+/// piece and the angle phi by which its normal turns, dA = (L + phi depth) dt d(depth).
 SurfaceMap drawn_surface(const Drawing& drawing, int rings);
 
 }  // namespace cupola

@@ -4,8 +4,9 @@
 
 namespace cupola {
 
-/// The surface of a case with `rings` courses, rings >= 1. Without `wythes` it has one, of the thickness of the surface;
-/// otherwise they replace that thickness. Throws InputError if its dimensions contradict each other.
+/// The surface of a case with `rings` courses, rings >= 1. Without `wythes` it has one, of the thickness of
+/// the surface; otherwise they replace that thickness. Throws InputError if its dimensions contradict each
+/// other.
 SurfaceMap make_surface(Surface surface, int rings, std::vector<Thickness> wythes = {});
 
 /// Volume of the smooth shell, m3, with a relative error of 1e-8: the reference for shells without a closed

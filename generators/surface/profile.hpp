@@ -30,14 +30,15 @@ ProfilePiece piece_from(const ProfilePiece& piece, double t);
 /// The pieces and, behind them, their mirror images in the plane r = 0, so that the profile comes down again.
 std::vector<ProfilePiece> with_mirror_image(std::vector<ProfilePiece> pieces);
 
-/// Where the beds of a profile lie. The profile consists of runs, smooth chains of pieces between kinks; every kink is a
-/// bed. Each run gets the number of courses nearest to its share, of equal length or of equal height.
+/// Where the beds of a profile lie. The profile consists of runs, smooth chains of pieces between kinks;
+/// every kink is a bed. Each run gets the number of courses nearest to its share, of equal length or of equal
+/// height.
 ///
 /// A place on the profile is u = number of the piece + t.
 class ProfileBeds {
  public:
-  /// Throws InputError if a run would have no course or the crown of a mirrored profile no bed. `mirrored`: the second
-  /// half is the mirror image of the first.
+  /// Throws InputError if a run would have no course or the crown of a mirrored profile no bed. `mirrored`:
+  /// the second half is the mirror image of the first.
   ProfileBeds(std::vector<ProfilePiece> pieces, int rings, int rows_per_ring, VaultSurface::Courses by,
               bool mirrored);
 

@@ -11,9 +11,9 @@ namespace cupola {
 
 /// A masonry surface as a map from (bed, abscissa, layer) to a point. It knows nothing about blocks.
 ///
-/// Layer l lies between wythes l - 1 and l: layer 0 is the intrados and layer num_wythes() the extrados. In a bed,
-/// the points of all layers at one abscissa lie on a straight line, so that joints between any two wythes of
-/// successive courses are parts of one plane.
+/// Layer l lies between wythes l - 1 and l: layer 0 is the intrados and layer num_wythes() the extrados. In a
+/// bed, the points of all layers at one abscissa lie on a straight line, so that joints between any two
+/// wythes of successive courses are parts of one plane.
 ///
 /// The abscissa of a closed surface is an angle in [0, 2 pi) that follows the azimuth and equals it at the
 /// corners of a vault; otherwise it is a length in m. The directions (outwards, along, up) form a

@@ -17,8 +17,8 @@ std::string claims_text(const std::vector<Claim>& claims, const std::vector<Clai
 /// The table as part of an HTML page, with its style.
 std::string claims_html(const std::vector<Claim>& claims, const std::vector<ClaimResult>& results);
 
-/// The figures with the pictures from the folders `runs`/RUN/post, below a heading; "" if there are none. A picture that does not
-/// exist yet is reported by name.
+/// The figures with the pictures from the folders `runs`/RUN/post, below a heading; "" if there are none. A
+/// picture that does not exist yet is reported by name.
 std::string figures_html(const std::vector<ClaimFigure>& figures, const std::string& runs);
 
 }  // namespace cupola

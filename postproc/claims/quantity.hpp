@@ -70,8 +70,8 @@ std::vector<std::string> words(const std::string& text);
 /// The runs that a quantity reads, including its reference.
 std::vector<std::string> runs_of(const Quantity& quantity);
 
-/// The number. Throws InputError if a run lacks the key, table or column, if `where` selects no row, or if several values
-/// are not reduced.
+/// The number. Throws InputError if a run lacks the key, table or column, if `where` selects no row, or if
+/// several values are not reduced.
 double evaluate(const Quantity& quantity, RunCache& cache);
 
 /// Reduces `values` to one number; they must not be empty, except for sum and count. `against` is read by

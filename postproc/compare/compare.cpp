@@ -57,8 +57,8 @@ std::vector<std::vector<double>> curve(const CsvFile& csv, const Overlay& overla
   return rows;
 }
 
-/// One panel per run with its curve, over the curves of the others in grey, all on one scale. A figure without commands
-/// if fewer than two runs have the table, or if the column is negligible in all of them.
+/// One panel per run with its curve, over the curves of the others in grey, all on one scale. A figure
+/// without commands if fewer than two runs have the table, or if the column is negligible in all of them.
 Figure multiples_figure(const Overlay& overlay, const std::vector<std::string>& folders,
                         const std::vector<std::string>& labels) {
   CUPOLA_ASSERT(labels.size() == folders.size());

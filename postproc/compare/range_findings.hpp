@@ -8,7 +8,8 @@
 
 namespace cupola {
 
-/// For each quantity that two or more runs have a range of, one sentence: the ranges, and where it is narrowest.
+/// For each quantity that two or more runs have a range of, one sentence: the ranges, and where it is
+/// narrowest.
 std::vector<std::string> range_findings(const std::vector<PostSummary>& runs,
                                         const std::vector<std::string>& labels);
 

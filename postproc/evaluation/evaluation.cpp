@@ -55,8 +55,8 @@ std::string frame_name(int index) {
   return fmt::format("frame {}", index);
 }
 
-/// The first frame if it is an equilibrium, which a mechanism or the ends of ranges follow; else the last that can be
-/// read.
+/// The first frame if it is an equilibrium, which a mechanism or the ends of ranges follow; else the last
+/// that can be read.
 Frame evaluated_frame(const ResultsReader& results, Evaluation* e) {
   e->last_frame = 0;
   try {
@@ -186,8 +186,8 @@ std::optional<double> meridian_named(const std::string& name, const Evaluation& 
   return std::nullopt;
 }
 
-/// Per block, true if a frame of a construction leaves it out: blocks not laid yet, and courses held as supports. Neither
-/// rests on a joint of the frame. Empty unless a stage is shown.
+/// Per block, true if a frame of a construction leaves it out: blocks not laid yet, and courses held as
+/// supports. Neither rests on a joint of the frame. Empty unless a stage is shown.
 std::vector<bool> blocks_left_out(const Evaluation& e) {
   if (!is_stage(e.last.frame.role)) return {};
   std::vector<bool> left_out(e.assembly.blocks.size(), true);

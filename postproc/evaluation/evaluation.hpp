@@ -59,9 +59,9 @@ struct SectionEvaluation {
   std::vector<BedResultant> resultants;  ///< across that bed, by block; empty if it carries no force
 };
 
-/// Everything the postprocessor derives from a run, for its first frame if that is an equilibrium, else for its last
-/// readable one. Without an equilibrium (at_rest()) the
-/// forces are those of one instant or of an unfinished solve: tables hold them, texts and figures do not interpret them.
+/// Everything the postprocessor derives from a run, for its first frame if that is an equilibrium, else for
+/// its last readable one. Without an equilibrium (at_rest()) the forces are those of one instant or of an
+/// unfinished solve: tables hold them, texts and figures do not interpret them.
 struct Evaluation {
   Case scene;
   Assembly assembly;  ///< with the thickness of the stable end, if a limit analysis varies it
@@ -91,7 +91,8 @@ struct Evaluation {
   std::vector<std::string> unreadable;        ///< parts of the results that are missing or damaged
 };
 
-/// True if the forces evaluated are those of an equilibrium. Those of a motion or of stages are if the run is stable.
+/// True if the forces evaluated are those of an equilibrium. Those of a motion or of stages are if the run is
+/// stable.
 bool at_rest(const Evaluation& evaluation);
 
 /// True for a vault about the z axis, where azimuths are meaningful.
@@ -106,13 +107,13 @@ void leave_out(const std::string& part, const std::string& reason, Evaluation* e
 /// Everything to report before the numbers: first the parts that could not be read, then the warnings.
 std::vector<std::string> notices(const Evaluation& evaluation);
 
-/// Evaluates the frame that Evaluation describes. Missing or damaged frames are left out and recorded; InputError if none
-/// can be read. `doubts`: warnings about the case and the blocks.
+/// Evaluates the frame that Evaluation describes. Missing or damaged frames are left out and recorded;
+/// InputError if none can be read. `doubts`: warnings about the case and the blocks.
 Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results,
                     const std::vector<std::string>& doubts = {});
 
-/// Evaluates one frame with the assembly, loads and shell of an evaluation. The blocks of a mechanism are displaced
-/// along their velocities, far enough to be seen.
+/// Evaluates one frame with the assembly, loads and shell of an evaluation. The blocks of a mechanism are
+/// displaced along their velocities, far enough to be seen.
 FrameEvaluation evaluate_frame(const Evaluation& evaluation, Frame frame);
 
 }  // namespace cupola

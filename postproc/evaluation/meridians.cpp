@@ -10,14 +10,16 @@
 namespace cupola {
 namespace {
 
-/// A meridian of the case, by default those over the x and y axes; of an arch its only one. Blocks without courses, such as most imported ones, have none.
+/// A meridian of the case, by default those over the x and y axes; of an arch its only one. Blocks without
+/// courses, such as most imported ones, have none.
 struct Drawn {
   std::string name;
   std::optional<double> azimuth_deg;
   int ring = 0;  // of its stack
 };
 
-/// The meridians of the stack that ends with a sheet. In a model of several stacks their names begin with that of the sheet.
+/// The meridians of the stack that ends with a sheet. In a model of several stacks their names begin with
+/// that of the sheet.
 std::vector<Drawn> drawn_meridians(const Evaluation& e, const Sheet& sheet, bool alone) {
   using enum Sheet::ThrustLines;
   const auto name = [&](const std::string& own) { return alone ? own : sheet.name + " " + own; };
@@ -43,7 +45,8 @@ std::vector<Drawn> drawn_meridians(const Evaluation& e) {
   return meridians;
 }
 
-/// The thrust lines of the wythes along a meridian, each with the name of its wythe after that of the meridian.
+/// The thrust lines of the wythes along a meridian, each with the name of its wythe after that of the
+/// meridian.
 std::vector<ThrustLine> wythe_lines(const Evaluation& e, const ThrustInput& input, const Drawn& meridian) {
   std::vector<ThrustLine> lines;
   for (int wythe = 0; wythe < e.shell.num_wythes; ++wythe) {

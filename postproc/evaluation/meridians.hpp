@@ -13,11 +13,13 @@ std::string in_file_names(std::string text);
 /// What the thrust lines of a frame are computed from. It refers to both arguments.
 ThrustInput thrust_input(const Evaluation& evaluation, const FrameEvaluation& frame);
 
-/// The meridians of the case for the frame evaluated, or those over the x and y axes; of an arch its only one. Other models have none.
+/// The meridians of the case for the frame evaluated, or those over the x and y axes; of an arch its only
+/// one. Other models have none.
 std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& evaluation);
 
-/// Adds the thrust lines of the states of least and greatest thrust to the meridians, if the run is a range analysis
-/// with frames for the bounded ends of a quantity whose name begins with "thrust"; the first such quantity counts.
+/// Adds the thrust lines of the states of least and greatest thrust to the meridians, if the run is a range
+/// analysis with frames for the bounded ends of a quantity whose name begins with "thrust"; the first such
+/// quantity counts.
 void add_ends_of_thrust(const ResultsReader& results, Evaluation* evaluation);
 
 }  // namespace cupola

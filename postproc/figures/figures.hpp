@@ -16,20 +16,21 @@ struct HistoryRow {
   double reaction = 0.0;          ///< N, upward component of the support forces on the free blocks
 };
 
-/// Ranges of a range analysis as bars from minimum to maximum, with a mark at the chosen value. Forces, lengths and
-/// ratios have axes of their own, forces one for each of N, kN and MN.
+/// Ranges of a range analysis as bars from minimum to maximum, with a mark at the chosen value. Forces,
+/// lengths and ratios have axes of their own, forces one for each of N, kN and MN.
 Figure range_figure(const Evaluation& evaluation);
 
-/// The joints of the unrolled shell, coloured by how uncertain their normal force is: the width of its range over its mean,
-/// of a range analysis of single joints. In gnuplot's data: $joints has one segment per joint and its value.
+/// The joints of the unrolled shell, coloured by how uncertain their normal force is: the width of its range
+/// over its mean, of a range analysis of single joints. In gnuplot's data: $joints has one segment per joint
+/// and its value.
 Figure certainty_map(const Evaluation& evaluation, const ShellMap& shell);
 
 /// The open joints of the unrolled shell, coloured by their largest gap; without commands if there are none.
 Figure crack_map(const Evaluation& evaluation, const ShellMap& shell);
 
-/// Profile with thrust line, envelope and lines of action, and thin lines of least and greatest thrust where the
-/// meridian has them; r, v, couple length and distance to the nearer
-/// face beside it (paper, figures 7, 8, 10, 13).
+/// Profile with thrust line, envelope and lines of action, and thin lines of least and greatest thrust where
+/// the meridian has them; r, v, couple length and distance to the nearer face beside it (paper, figures 7, 8,
+/// 10, 13).
 Figure thrust_figure(const Evaluation& evaluation, const MeridianEvaluation& meridian);
 
 /// Ring sums against the load above, uniformity and utilisation, over the height.

@@ -30,7 +30,8 @@ std::string terminal_of(const Figure& figure, const std::string& ending) {
                      figure.width, figure.height);
 }
 
-/// Replaces the date of a PDF, so that the same run writes the same bytes. Cairo 1.16 ignores SOURCE_DATE_EPOCH.
+/// Replaces the date of a PDF, so that the same run writes the same bytes. Cairo 1.16 ignores
+/// SOURCE_DATE_EPOCH.
 void remove_date(const std::string& path) {
   const std::string key = "/CreationDate (D:", epoch = "19700101000000";
   std::string text = read_text(path);

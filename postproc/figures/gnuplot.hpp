@@ -16,8 +16,9 @@ struct Figure {
   bool vector = true;             ///< false: PNG only, for maps of thousands of blocks
 };
 
-/// Writes NAME.gp and NAME.svg with NAME.pdf, or NAME.png unless `vector`, into a folder. Returns one line for each figure that
-/// could not be drawn; a missing or failing gnuplot is no error, since the numbers do not depend on it.
+/// Writes NAME.gp and NAME.svg with NAME.pdf, or NAME.png unless `vector`, into a folder. Returns one line
+/// for each figure that could not be drawn; a missing or failing gnuplot is no error, since the numbers do
+/// not depend on it.
 std::vector<std::string> draw_figures(const std::string& folder, const std::vector<Figure>& figures);
 
 /// A named data block of gnuplot, `$NAME << EOD`, with one row per line.

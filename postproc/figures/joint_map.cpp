@@ -19,7 +19,8 @@ JointMap::JointMap(ShellMap map) : map_(std::move(map)) {
   for (const ShellBox& box : map_.boxes) boxes_.emplace(box.block, box);
 }
 
-/// The common side of two boxes: upright between neighbours in a ring, level between rings; none if they do not touch.
+/// The common side of two boxes: upright between neighbours in a ring, level between rings; none if they do
+/// not touch.
 std::optional<JointMap::Side> JointMap::side_between(const ShellBox& a, const ShellBox& b) const {
   const double turn = map_.vault ? 360.0 : 0.0;
   constexpr double kTouches = 0.1;  // of the width of the narrower box

@@ -18,8 +18,8 @@ class JointMap {
 
   explicit JointMap(ShellMap map);
 
-  /// Appends the sides that two blocks share, as x, y, dx, dy and then `value`, if it is given: several where a block spans
-  /// rings. With a support: the side below.
+  /// Appends the sides that two blocks share, as x, y, dx, dy and then `value`, if it is given: several where
+  /// a block spans rings. With a support: the side below.
   void add(std::pair<int, int> blocks, std::optional<double> value, Rows* rows);
 
   std::string outlines() const;  ///< data block $outlines, boxes of the blocks

@@ -19,8 +19,8 @@ inline constexpr const char* kGrey = "#BDBDBD";  ///< what is negligible
 /// Gnuplot commands that every figure starts with: borders, grid, key.
 std::string plot_style();
 
-/// Continues a plot command with the name of a curve beside one of its points: `row` of the block $data, at the
-/// columns or expressions `x` and `y`. `place`: "left offset 0.6,0".
+/// Continues a plot command with the name of a curve beside one of its points: `row` of the block $data, at
+/// the columns or expressions `x` and `y`. `place`: "left offset 0.6,0".
 std::string curve_label(const std::string& data, size_t row, const std::string& x, const std::string& y,
                         const std::string& text, const char* colour, const char* place = "left offset 0.7,0");
 

@@ -49,7 +49,8 @@ std::string number_label(const std::string& text, double x, double y, const char
   return fmt::format("set label '{}' at {},{} {}\n", gnuplot_text(text), x, y, where);
 }
 
-/// The bars, marks and arrows of a panel as data blocks, and its numbers as labels. The first range is on top.
+/// The bars, marks and arrows of a panel as data blocks, and its numbers as labels. The first range is on
+/// top.
 std::string panel_data(const RangePanel& panel) {
   Rows bars, marks, arrows;
   std::string labels;
@@ -81,8 +82,8 @@ std::string panel_data(const RangePanel& panel) {
   return data_block("bars", bars) + data_block("marks", marks) + data_block("arrows", arrows) + labels;
 }
 
-/// Names of the quantities beside their bars, the axis in the unit of the panel, and for forces that are not small
-/// against the weight a second axis on top.
+/// Names of the quantities beside their bars, the axis in the unit of the panel, and for forces that are not
+/// small against the weight a second axis on top.
 std::string panel_axes(const RangePanel& panel, double weight) {
   std::string tics;
   double y = static_cast<double>(panel.ranges.size());

@@ -25,8 +25,8 @@ std::string map_axes(const ShellMap& map) {
              map.num_rings, std::max(1, (map.num_rings + 7) / 8), map.vault ? "ring" : "course");
 }
 
-/// One panel: the boxes whose value is a number in colour, negative ones with a dot that remains without colours, all others
-/// in grey.
+/// One panel: the boxes whose value is a number in colour, negative ones with a dot that remains without
+/// colours, all others in grey.
 std::string panel(const ShellMap& map, double (*value)(const ShellBox&), const std::string& name,
                   const std::string& grey, const std::string& settings) {
   Rows known, others;

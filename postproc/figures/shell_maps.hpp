@@ -18,8 +18,8 @@ struct MapScales {
   void include(const ShellMap& map);
 };
 
-/// The unrolled shell, coloured by meridional and hoop force. Blocks of negligible force are grey. A quantity that is
-/// negligible in all maps of the scales has no panel; without any the figure has no commands.
+/// The unrolled shell, coloured by meridional and hoop force. Blocks of negligible force are grey. A quantity
+/// that is negligible in all maps of the scales has no panel; without any the figure has no commands.
 Figure force_map(const ShellMap& map, const MapScales& scales);
 
 /// The same, coloured by friction and kern utilisation. Blocks without a loaded joint are grey.

@@ -24,7 +24,8 @@ WytheColours colours_of(const Shell& shell, int wythe) {
 }
 constexpr const char* kBonderSection = "#dfe4e8";
 
-/// The plane of a meridian, or the middle of the width of an arch. It is shifted by a hair, since joints may lie in it.
+/// The plane of a meridian, or the middle of the width of an arch. It is shifted by a hair, since joints may
+/// lie in it.
 Plane plane_of(const ThrustLine& line, bool arch) {
   constexpr double kHair = 1e-6;  // m
   if (arch) return {Vec3::UnitY(), line.points.front().intrados.y() + kHair};

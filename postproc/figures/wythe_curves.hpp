@@ -7,8 +7,8 @@
 
 namespace cupola {
 
-/// What a thrust figure shows of the wythes: named data blocks, and elements of plot commands that use them. All are empty
-/// if the meridian has no thrust lines of wythes.
+/// What a thrust figure shows of the wythes: named data blocks, and elements of plot commands that use them.
+/// All are empty if the meridian has no thrust lines of wythes.
 struct WytheCurves {
   std::string data;
   std::string section;  ///< the blocks cut by the plane of the meridian, with a comma behind

@@ -18,8 +18,8 @@ struct BlockBed {
 /// The blocks on a bed.
 std::map<int, BlockBed> blocks_on(const std::vector<BedFacet>& bed);
 
-/// Share of the thickness of the shell at a point in the plane of the bed, from its distances to the inner and outer
-/// edges of the nearest facet.
+/// Share of the thickness of the shell at a point in the plane of the bed, from its distances to the inner
+/// and outer edges of the nearest facet.
 double share_at(const BlockBed& block, const Vec3& x);
 
 /// Normal forces on a bed, N, and their sum weighted by the shares of the thickness at which they act.
@@ -28,8 +28,9 @@ struct Bearing {
   double share() const { return normal_force != 0.0 ? weighted_share / normal_force : 0.0; }
 };
 
-/// Adds the contact points of a joint under (or, on the last bed, over) a block, each on the facet on which it lies: the
-/// facets of a bonder across a corner lie in several planes, and a wythe may be thinner than the bend between them is deep.
+/// Adds the contact points of a joint under (or, on the last bed, over) a block, each on the facet on which
+/// it lies: the facets of a bonder across a corner lie in several planes, and a wythe may be thinner than the
+/// bend between them is deep.
 void add_bearing(const JointWrench& joint, const JointWrenches& joints, const ContactTable& contacts,
                  const BlockBed& block, Bearing* bearing);
 
@@ -40,7 +41,8 @@ struct Layers {
   double position(double share) const { return (share - inner) / (outer - inner); }
 };
 
-/// The layers of some wythes on a bed, or those between which something stands on it. None if they are not known.
+/// The layers of some wythes on a bed, or those between which something stands on it. None if they are not
+/// known.
 std::optional<Layers> layers_of(const Shell& shell, int bed, std::optional<WytheRange> wythes);
 
 }  // namespace cupola

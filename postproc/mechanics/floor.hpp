@@ -6,8 +6,8 @@
 
 namespace cupola {
 
-/// The floor of a frame. Forces up to it are rounding errors or the residual of the solver. They are negligible:
-/// no ratio, length or direction is formed of them.
+/// The floor of a frame. Forces up to it are rounding errors or the residual of the solver. They are
+/// negligible: no ratio, length or direction is formed of them.
 ///
 ///     force = max(kNegligibleShare * largest joint force, unbalanced force of a block)
 struct Floor {
@@ -19,8 +19,8 @@ struct Floor {
   bool hides(const Vec3& f) const { return f.norm() <= force; }
 };
 
-/// `largest`: N, largest joint force of the frame. `unbalanced`: N, force that the equilibrium leaves on a block; 0
-/// in motion. `block_size`: m.
+/// `largest`: N, largest joint force of the frame. `unbalanced`: N, force that the equilibrium leaves on a
+/// block; 0 in motion. `block_size`: m.
 Floor floor_of(double largest, double unbalanced, double block_size);
 
 /// The value, or 0 if its magnitude does not exceed the floor.

@@ -16,8 +16,8 @@ namespace cupola {
 struct JointWrench : Joint {
   int upper = -1, lower = -1;  ///< blocks of a bed or base joint; -1 for other kinds
   PlanarHull patch;            ///< hull of the contact points in their mean plane
-  /// m, of its area: mean of the contact points weighted by their areas, on which the patch's hull may differ where it is not
-  /// plane or not convex. Where outwards is measured.
+  /// m, of its area: mean of the contact points weighted by their areas, on which the patch's hull may differ
+  /// where it is not plane or not convex. Where outwards is measured.
   Vec3 centroid = Vec3::Zero();
   Wrench wrench;  ///< on block_b, about the centre of pressure
   CentralAxis axis;
@@ -28,8 +28,8 @@ struct JointWrench : Joint {
   double eccentricity = 0.0;               ///< m, distance of the centre of pressure from the patch centroid
   double edge_distance = 0.0;              ///< m, distance of the centre of pressure from the outline
   double kern = 0.0;                       ///< kern utilisation, at most 1 inside the kern
-  /// Mean of the points, weighted by normal force: (sum |t_i| / mu) / sum n_i. In joints with strength weighted by
-  /// area. 1: every point slides.
+  /// Mean of the points, weighted by normal force: (sum |t_i| / mu) / sum n_i. In joints with strength
+  /// weighted by area. 1: every point slides.
   double friction_use = 0.0;
   double opening = 0.0;           ///< m, largest gap of its points, >= 0
   double open_share = 0.0;        ///< share of the area whose points carry no normal force
@@ -53,8 +53,8 @@ struct JointWrenches {
 JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell,
                              double unbalanced = 0.0);
 
-/// The wythes in which a joint lies: those that both blocks occupy. Between two layers of the thickness, where they share
-/// none, those of the block in the higher ring; in one ring, of block_b.
+/// The wythes in which a joint lies: those that both blocks occupy. Between two layers of the thickness,
+/// where they share none, those of the block in the higher ring; in one ring, of block_b.
 WytheRange wythes_of(const Assembly& assembly, const Shell& shell, const Joint& joint);
 
 /// The wrench of the joint on `block`, which must be one of its two.

@@ -6,7 +6,8 @@
 namespace cupola {
 namespace {
 
-/// True if all corners of a face belong to the ring below, too: the face lies on the bed, and is no cut through a cell.
+/// True if all corners of a face belong to the ring below, too: the face lies on the bed, and is no cut
+/// through a cell.
 bool is_on_bed_below(const Assembly& assembly, const Part& part, int f) {
   const auto of_block = std::ranges::equal_range(assembly.parts, part.block, {}, &Part::block);
   const auto in_ring_below = [&](int v) {
@@ -20,8 +21,8 @@ bool is_on_bed_below(const Assembly& assembly, const Part& part, int f) {
   return std::ranges::all_of(assembly.face(f), in_ring_below);
 }
 
-/// Finds the innermost wythe of each drum or shell: it begins at the layer of depth 0 and ends at the next one of depth 1.
-/// Numbers of bonders between them are their own.
+/// Finds the innermost wythe of each drum or shell: it begins at the layer of depth 0 and ends at the next
+/// one of depth 1. Numbers of bonders between them are their own.
 void set_innermost(const Assembly& assembly, std::vector<int>* innermost) {
   const int num_wythes = static_cast<int>(innermost->size());
   std::vector<bool> begins(num_wythes + 1, false), ends(num_wythes + 1, false);

@@ -8,8 +8,8 @@
 
 namespace cupola {
 
-/// The bed facets of a shell with wythes, by the layers on which their corners lie. A cell whose bed consists of two
-/// triangles, because it is cut into convex parts, makes one facet.
+/// The bed facets of a shell with wythes, by the layers on which their corners lie. A cell whose bed consists
+/// of two triangles, because it is cut into convex parts, makes one facet.
 class LayerFacets {
  public:
   explicit LayerFacets(const Assembly& assembly) : assembly_(assembly) {}
@@ -27,7 +27,8 @@ class LayerFacets {
   std::map<std::array<int, 4>, Cell> cells_;  // by bed, block, slice and wythe
 };
 
-/// Sets the wythes of all blocks, and the layers of all beds to unknown; without wythes to intrados and extrados.
+/// Sets the wythes of all blocks, and the layers of all beds to unknown; without wythes to intrados and
+/// extrados.
 void set_wythes(const Assembly& assembly, Shell* shell);
 
 }  // namespace cupola

@@ -12,8 +12,8 @@ namespace cupola {
 
 namespace {
 
-/// m: area over the thickness of the shell along the joint, which leans by the angle between its line through the thickness
-/// and the normal of the shell.
+/// m: area over the thickness of the shell along the joint, which leans by the angle between its line through
+/// the thickness and the normal of the shell.
 double length_of(const PlanarHull& joint, const ShellAxes& shell) {
   if (!shell.exists || !(shell.thickness > 0.0)) return std::numeric_limits<double>::quiet_NaN();
   const Vec3 through = shell.t.cross(joint.plane.normal).normalized();

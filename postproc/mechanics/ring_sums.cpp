@@ -39,9 +39,10 @@ void add_loads(const Assembly& assembly, const Vec3& gravity, const std::vector<
   accumulate_downwards(assembly, rings);
 }
 
-/// Sums the joint forces across each cut: those on the blocks above it in its stack. A joint between blocks of first rings
-/// p < q of one stack crosses the cuts p + 1 .. q, so its force is added at p + 1, removed at q + 1, and the changes are summed
-/// from the base upwards. A joint between two stacks crosses all cuts below each of its blocks.
+/// Sums the joint forces across each cut: those on the blocks above it in its stack. A joint between blocks
+/// of first rings p < q of one stack crosses the cuts p + 1 .. q, so its force is added at p + 1, removed at
+/// q + 1, and the changes are summed from the base upwards. A joint between two stacks crosses all cuts below
+/// each of its blocks.
 void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, const TieTable& ties,
                       std::vector<RingSum>* rings) {
   std::vector<Vec3> change(rings->size(), Vec3::Zero());

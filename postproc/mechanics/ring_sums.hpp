@@ -28,8 +28,8 @@ struct RingSum {
   double largest_kern = 0.0;           ///< kern utilisation of the ring's bed joints
 };
 
-/// One cut per ring, from the base upwards; empty for blocks without rings. `left_out`: per block, true if it does not take
-/// part, as before it is laid; empty: all take part. Each stack of sheets has cuts of its own.
+/// One cut per ring, from the base upwards; empty for blocks without rings. `left_out`: per block, true if it
+/// does not take part, as before it is laid; empty: all take part. Each stack of sheets has cuts of its own.
 std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
                                const std::vector<PointForce>& loads, const TieTable& ties = {},

@@ -90,8 +90,8 @@ double standard_width(const Assembly& assembly, const Shell& shell) {
   return median(std::move(values));
 }
 
-/// Per free block of a shell with wythes, the mean vector from the inner to the outer edges of its bed facets, m. Zero in
-/// other shells and without a bed of its own.
+/// Per free block of a shell with wythes, the mean vector from the inner to the outer edges of its bed
+/// facets, m. Zero in other shells and without a bed of its own.
 std::vector<Vec3> through_blocks(const Assembly& assembly, const Shell& shell) {
   std::vector<Vec3> through(assembly.blocks.size(), Vec3::Zero());
   std::vector<int> edges(through.size(), 0);

@@ -7,8 +7,8 @@
 
 namespace cupola {
 
-/// One facet of a bed: its inner and its outer edge, both from side a to side b. They lie on the intrados and the extrados,
-/// or on layers between wythes.
+/// One facet of a bed: its inner and its outer edge, both from side a to side b. They lie on the intrados and
+/// the extrados, or on layers between wythes.
 struct BedFacet {
   int block = 0;  ///< block above the bed; block below it for the last bed
   Vec3 intrados_a, intrados_b, extrados_a, extrados_b;  ///< m
@@ -16,8 +16,8 @@ struct BedFacet {
   double from = 0.0, to = 1.0;  ///< shares of the thickness of the shell at the inner and the outer edge
 };
 
-/// Wythes from .. to - 1 of the thickness, counted from the inside as in Assembly::members; those of a drum come first, with
-/// numbers of their own.
+/// Wythes from .. to - 1 of the thickness, counted from the inside as in Assembly::members; those of a drum
+/// come first, with numbers of their own.
 struct WytheRange {
   int from = 0, to = 1;
   int count() const { return to - from; }
@@ -35,7 +35,8 @@ struct Shell {
   int num_wythes = 1;                       ///< numbers in use; some may have no blocks
   std::vector<int> innermost;      ///< (num_wythes), number of the innermost wythe of the same drum or shell
   std::vector<WytheRange> wythes;  ///< per block, those that it occupies; all for supports
-  /// (num_rings + 1) x (num_wythes + 1), share of the thickness at each layer of a bed; NaN where no facet has it.
+  /// (num_rings + 1) x (num_wythes + 1), share of the thickness at each layer of a bed; NaN where no facet
+  /// has it.
   std::vector<std::vector<double>> layers;
   int num_rings() const { return static_cast<int>(progress.size()); }
   /// Wythes between the innermost one of its drum or shell and the middle of a free block.
@@ -59,8 +60,8 @@ struct ShellAxes {
 };
 std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell);
 
-/// Per block, wythes_inside() times the unit direction through the thickness: shifts along it pull the wythes apart. Zero
-/// for supports and for blocks without a bed of their own.
+/// Per block, wythes_inside() times the unit direction through the thickness: shifts along it pull the wythes
+/// apart. Zero for supports and for blocks without a bed of their own.
 std::vector<Vec3> shifts_by_wythe(const Assembly& assembly, const Shell& shell);
 
 inline constexpr double kDegrees = 180.0 / std::numbers::pi;  ///< degrees per radian

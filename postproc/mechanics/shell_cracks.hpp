@@ -16,7 +16,8 @@ constexpr auto enum_names(CrackCourse) {
   return std::array{"meridional", "parallel", "layers"};
 }
 
-/// Joints that are open and follow each other over the shell. Widths are gaps along the normals of the joints.
+/// Joints that are open and follow each other over the shell. Widths are gaps along the normals of the
+/// joints.
 struct ShellCrack {
   CrackCourse course = CrackCourse::meridional;
   std::vector<int> joints;   ///< into JointWrenches::wrenches, by ring, then by number
@@ -32,9 +33,9 @@ struct ShellCrack {
   Vec3 middle = Vec3::Zero();  ///< m, mean of the centres of its joints, weighted by their widths
 };
 
-/// The cracks of a frame, the widest first. Joints whose gaps stay below kHairline of the widest are left out. Head joints of
-/// two courses follow each other if they end at one point, or near each other on a bed between their blocks; beds of a course
-/// if they share a block.
+/// The cracks of a frame, the widest first. Joints whose gaps stay below kHairline of the widest are left
+/// out. Head joints of two courses follow each other if they end at one point, or near each other on a bed
+/// between their blocks; beds of a course if they share a block.
 inline constexpr double kHairline = 0.02;
 std::vector<ShellCrack> shell_cracks(const Assembly& assembly, const ContactTable& contacts,
                                      const JointWrenches& joints, const std::vector<ShellAxes>& axes);

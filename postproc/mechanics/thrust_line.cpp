@@ -33,7 +33,8 @@ struct BedJoints {
   }
 };
 
-/// What one thrust line follows: a meridian, or none in an arch, and a wythe, or none for the whole thickness.
+/// What one thrust line follows: a meridian, or none in an arch, and a wythe, or none for the whole
+/// thickness.
 struct Route {
   std::optional<double> meridian;  // rad
   std::optional<int> wythe;
@@ -92,7 +93,8 @@ Wrench turned(const Wrench& w, double angle) {
   return {R * w.point, R * w.force, R * w.moment};
 }
 
-/// Where the edges of a facet meet the meridian plane, or its middle in an arch. None if it does not cross the meridian.
+/// Where the edges of a facet meet the meridian plane, or its middle in an arch. None if it does not cross
+/// the meridian.
 struct FacetEdges {
   Vec3 inner, outer;
 };
@@ -109,8 +111,8 @@ std::optional<FacetEdges> edges_on(const BedFacet& f, std::optional<double> meri
   return FacetEdges{meet(f.intrados_a, f.intrados_b), meet(f.extrados_a, f.extrados_b)};
 }
 
-/// The place of a layer on the meridian, in an arch the mean over its width. If no facet ends at the layer there, it lies on
-/// the line through the edges of another one. None if the bed does not cross the meridian.
+/// The place of a layer on the meridian, in an arch the mean over its width. If no facet ends at the layer
+/// there, it lies on the line through the edges of another one. None if the bed does not cross the meridian.
 std::optional<Vec3> place_of(const std::vector<BedFacet>& bed, double layer, std::optional<double> meridian) {
   std::optional<Vec3> elsewhere;
   std::vector<Vec3> places;
@@ -130,7 +132,8 @@ std::optional<Vec3> place_of(const std::vector<BedFacet>& bed, double layer, std
   return mean;
 }
 
-/// Finds the skins of the bed at two layers in the meridian plane. False if the bed does not cross the meridian.
+/// Finds the skins of the bed at two layers in the meridian plane. False if the bed does not cross the
+/// meridian.
 bool find_skins(const std::vector<BedFacet>& bed, const Layers& layers, std::optional<double> meridian,
                 ThrustPoint* point) {
   const auto inner = place_of(bed, layers.inner, meridian), outer = place_of(bed, layers.outer, meridian);
@@ -140,7 +143,8 @@ bool find_skins(const std::vector<BedFacet>& bed, const Layers& layers, std::opt
   return true;
 }
 
-/// True if the bed force of a block cannot be shared among its wythes: it rests on, or is, a block through several.
+/// True if the bed force of a block cannot be shared among its wythes: it rests on, or is, a block through
+/// several.
 bool is_undivided(const ThrustInput& in, const Route& route, int block, int bed) {
   if (in.shell->wythes[block].count() == 1) return false;
   if (bed < in.shell->num_rings() && in.assembly->blocks[block].ring != bed) return true;
@@ -149,7 +153,8 @@ bool is_undivided(const ThrustInput& in, const Route& route, int block, int bed)
   });
 }
 
-/// Wrench across a bed within the width of one block, of the joints in a wythe. The block must not be undivided.
+/// Wrench across a bed within the width of one block, of the joints in a wythe. The block must not be
+/// undivided.
 Wrench wrench_in_wythe(const ThrustInput& in, const Route& route, int block, int bed) {
   const int wythe = *route.wythe;
   if (in.shell->wythes[block] == WytheRange{wythe, wythe + 1}) return wrench_at_bed(in, block, bed);
@@ -203,7 +208,8 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
     const double turn = meridian ? *meridian - 0.5 * (block.from + block.to) : 0.0;
     sum.add(share * turned(w, turn));
     const bool stands = bed == in.shell->num_rings() || in.assembly->blocks[id].ring == bed;
-    // Forces that hold each other along the bed, as across a wide arch, shift the line of action of the block's wrench.
+    // Forces that hold each other along the bed, as across a wide arch, shift the line of action of the
+    // block's wrench.
     const bool at_points = stands && (in.shell->num_wythes > 1 || !meridian);
     const auto [normal, at] =
         at_points ? push_at_points(in, route, id, bed, block) : push_of(w, block, onwards);
@@ -220,7 +226,8 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
   return true;
 }
 
-/// Finds the part of the bed that pushes. A point that carries less than kLeastShare of the mean of its joint's does not.
+/// Finds the part of the bed that pushes. A point that carries less than kLeastShare of the mean of its
+/// joint's does not.
 void find_compressed_zone(const ThrustInput& in, int bed, const Layers& layers, const Route& route,
                           ThrustPoint* point) {
   constexpr double kLeastShare = 1e-6;

@@ -28,8 +28,8 @@ struct ThrustPoint {
   double couple_length = 0.0;     ///< m
   double face_distance = 0.0;     ///< m, to the nearer skin along the bed, negative outside
   double geometric_safety = 0.0;  ///< half the thickness over the eccentricity; infinite when centred
-  /// The outermost contact points of the strip's blocks that push on the bed, as `position`, and the normal force of those
-  /// that push over their area. NaN if none does, as where the bed runs through the blocks.
+  /// The outermost contact points of the strip's blocks that push on the bed, as `position`, and the normal
+  /// force of those that push over their area. NaN if none does, as where the bed runs through the blocks.
   double compressed_from = std::numeric_limits<double>::quiet_NaN();
   double compressed_to = std::numeric_limits<double>::quiet_NaN();
   double pressure = std::numeric_limits<double>::quiet_NaN();  ///< Pa
@@ -48,11 +48,13 @@ struct ThrustPoint {
 ///   bed.
 /// - The position of each block's resultant is measured through the thickness on the block's own bed. The
 ///   position of the strip is the mean of these, weighted by the normal forces on the bed, and is drawn on
-///   the meridian. In an arch and in a shell with wythes it is the mean over the contact points, weighted in the same way.
+///   the meridian. In an arch and in a shell with wythes it is the mean over the contact points, weighted in
+///   the same way.
 ///
-/// The thrust line of a wythe takes the joints that lie in it, see wythes_of(). Where a block of the strip rests on a joint
-/// that lies in several wythes, as a bonder on a bonder, nothing tells how its force is shared among them: the line of
-/// the wythe has no point there. At its points, the forces of all wythes add up to that of the whole thickness.
+/// The thrust line of a wythe takes the joints that lie in it, see wythes_of(). Where a block of the strip
+/// rests on a joint that lies in several wythes, as a bonder on a bonder, nothing tells how its force is
+/// shared among them: the line of the wythe has no point there. At its points, the forces of all wythes add
+/// up to that of the whole thickness.
 struct ThrustLine {
   std::string name;
   double azimuth_deg = 0.0;
@@ -64,8 +66,8 @@ struct ThrustLine {
   double least_face_distance = 0.0;  ///< m
   double least_geometric_safety = 0.0;
   double largest_couple_length() const;  ///< m, of its points
-  /// m, its points in runs of at least two: it is interrupted where its position is undefined, that of a wythe also at
-  /// beds without a point.
+  /// m, its points in runs of at least two: it is interrupted where its position is undefined, that of a
+  /// wythe also at beds without a point.
   std::vector<std::vector<Vec3>> runs() const;
 };
 
@@ -84,7 +86,8 @@ struct ThrustInput {
 Wrench wrench_at_bed(const ThrustInput& input, int block, int bed);
 
 /// Thrust line along a meridian of a vault about the z axis. Without azimuth: along an arch, where the strip
-/// is the full width. Without wythe: of the whole thickness. In a model of several stacks: of that with the course `ring`.
+/// is the full width. Without wythe: of the whole thickness. In a model of several stacks: of that with the
+/// course `ring`.
 ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg,
                        std::optional<int> wythe = std::nullopt, int ring = 0);
 

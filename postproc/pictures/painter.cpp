@@ -53,8 +53,8 @@ vtkNew<vtkPolyData> vtk_faces(const std::vector<Vec3>& points, const std::vector
   return mesh;
 }
 
-/// Edges at which two faces enclose more than 20 degrees, or that only one face has. (vtkFeatureEdges of VTK 9.1 asks for
-/// memory in proportion to the number of faces times the corners of the largest one.)
+/// Edges at which two faces enclose more than 20 degrees, or that only one face has. (vtkFeatureEdges of VTK
+/// 9.1 asks for memory in proportion to the number of faces times the corners of the largest one.)
 std::vector<std::pair<int, int>> sharp_edges(const std::vector<Vec3>& points,
                                              const std::vector<std::vector<int>>& faces) {
   static const double kSharp = std::cos(20.0 * EIGEN_PI / 180.0);

@@ -18,7 +18,8 @@ struct ColourScale {
   Colour at(double value) const;
 };
 
-/// A picture of a model in perspective, drawn by VTK. Only one may exist at a time, and it requires an X display.
+/// A picture of a model in perspective, drawn by VTK. Only one may exist at a time, and it requires an X
+/// display.
 class Painter {
  public:
   Painter(int width, int height);

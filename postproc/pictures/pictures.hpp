@@ -15,9 +15,9 @@ struct MovedBlocks {
   std::optional<int> top_ring;  ///< blocks above it do not exist yet
 };
 
-/// Draws the standard views of a run into the folder `pictures`, as PNG: `overview`, `inside`, `forces`, `thrust`, `cracks` and `motion`,
-/// those for which the run has data. `motion`: mechanisms, or instants of a motion.
-/// Returns why there are none or fewer; "" if all were drawn. Requires Xvfb.
+/// Draws the standard views of a run into the folder `pictures`, as PNG: `overview`, `inside`, `forces`,
+/// `thrust`, `cracks` and `motion`, those for which the run has data. `motion`: mechanisms, or instants of a
+/// motion. Returns why there are none or fewer; "" if all were drawn. Requires Xvfb.
 std::string draw_pictures(const Evaluation& evaluation, const std::vector<MovedBlocks>& motion,
                           const std::string& folder);
 

@@ -43,7 +43,8 @@ double round_up(double value) {
   return 10.0 * power;
 }
 
-/// Symmetric about zero if there are values of both signs, else from zero. One value in a hundred at each end is beyond.
+/// Symmetric about zero if there are values of both signs, else from zero. One value in a hundred at each end
+/// is beyond.
 ColourScale scale_of(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   if (values.empty()) return {kSequential, 0.0, 1.0};

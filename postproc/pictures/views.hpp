@@ -15,7 +15,8 @@ struct Pictured {
   std::vector<MovedBlocks> motion;
 };
 
-/// A standard view: a file name, and a function that draws it, or returns false if the run has no data for it.
+/// A standard view: a file name, and a function that draws it, or returns false if the run has no data for
+/// it.
 struct StandardView {
   const char* name;
   int width, height;  ///< pixels

@@ -51,8 +51,8 @@ std::string colour_text(const Evaluation& e) {
   return fmt::format("{}{}", text, upright ? "; orange: upright blocks" : "");
 }
 
-/// Where a block stands, as seen: in a vault the angle from the middle of the view to the right, over a right angle; else
-/// the place along x, from -1 to 1.
+/// Where a block stands, as seen: in a vault the angle from the middle of the view to the right, over a right
+/// angle; else the place along x, from -1 to 1.
 double place_of(const Evaluation& e, const Block& block, double half_length) {
   if (!is_vault(e)) return block.centroid.x() / half_length - 1.0;
   const Vec3 towards = -view_direction(e);

@@ -102,8 +102,8 @@ std::string end_text(const RangeEnd& end, double value, const ForceRange& range)
   return end.outcome == RangeOutcome::unconverged ? text + "?" : text;
 }
 
-/// The supports at which the thrust of the stack under a sheet counts: of an arch those at x > 0 in its own frame, to which its first
-/// course belongs.
+/// The supports at which the thrust of the stack under a sheet counts: of an arch those at x > 0 in its own
+/// frame, to which its first course belongs.
 std::vector<Reaction> thrusting(const Evaluation& e, const Sheet& sheet) {
   const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
   const Vec3 own_x(std::cos(sheet.turn), std::sin(sheet.turn), 0.0);

@@ -19,7 +19,8 @@ struct VerdictWords {
 /// The words of a status.
 VerdictWords words_of_status(Status status);
 
-/// The words for the structure under the loads of its case. Of a limit analysis: on which side of the limit the case lies.
+/// The words for the structure under the loads of its case. Of a limit analysis: on which side of the limit
+/// the case lies.
 VerdictWords verdict_words(const Evaluation& evaluation);
 
 /// Why, in one to three sentences: the verdict of the run, moved supports, parts that move.
@@ -31,7 +32,8 @@ KeyNumber margin_answer(const Evaluation& evaluation);
 /// ", 4.63 times what it needs" or " and bears 2 times as much". `factor`: of factor_of_safety().
 std::string distance_from_limit(double factor, const CriticalValue& critical);
 
-/// The thrust on the supports: in N, per metre and per support, with its range if the run has one. None without an axis.
+/// The thrust on the supports: in N, per metre and per support, with its range if the run has one. None
+/// without an axis.
 std::optional<KeyNumber> thrust_answer(const Evaluation& evaluation);
 
 /// The widest crack; none where joints are rigid, or without an equilibrium.
@@ -40,7 +42,8 @@ std::optional<KeyNumber> crack_answer(const Evaluation& evaluation);
 /// What is certain and what is assumed, in one or two sentences.
 std::string certain_sentence(const Evaluation& evaluation);
 
-/// The parts that a static analysis solved one by one, by "It stands", "It falls" and "Undecided", proven or not.
+/// The parts that a static analysis solved one by one, by "It stands", "It falls" and "Undecided", proven or
+/// not.
 std::map<std::string, std::vector<PartVerdict>> parts_by_verdict(const Summary& summary);
 
 /// Which parts of a structure in several move and which do not; "" for one part, or in an equilibrium.

@@ -12,8 +12,8 @@
 namespace cupola {
 namespace {
 
-// Dark text on white, or the reverse where the reader prefers it; every colour pair has a contrast of at least 4.5. No
-// external files.
+// Dark text on white, or the reverse where the reader prefers it; every colour pair has a contrast of at
+// least 4.5. No external files.
 constexpr const char* kStyle = R"css(
 :root { color-scheme: light dark; --paper: #fff; --text: #1a1a1a; --soft: #444; --link: #00507d; --line: #ddd;
   --good: #005f45; --good-back: #f0f7f4; --bad: #a34700; --bad-back: #fdf3ec; --code: #f5f5f5; }

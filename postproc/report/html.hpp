@@ -7,7 +7,8 @@
 
 namespace cupola {
 
-/// A link to report.html in the folder post/ of a run, from a page in another folder; the text alone if there is none.
+/// A link to report.html in the folder post/ of a run, from a page in another folder; the text alone if there
+/// is none.
 std::string report_link(const std::string& text, const std::string& post_folder,
                         const std::string& page_folder);
 

@@ -86,7 +86,8 @@ std::string collapsed_text(const Evaluation& e) {
                      length_text(e.scene.analysis.thresholds.displacement));
 }
 
-/// "the shape of the blocks, their weight and loads, a coefficient of friction of 0.4, no crushing (not checked)".
+/// "the shape of the blocks, their weight and loads, a coefficient of friction of 0.4, no crushing (not
+/// checked)".
 std::string assumptions(const Evaluation& e) {
   const auto& critical = e.summary.critical;
   std::vector<std::string> given{
@@ -229,7 +230,8 @@ std::string blocks_of(const Evaluation& e, const std::vector<PartVerdict>& parts
   return counted(blocks, "block") + (blocks == 1 ? ", " + name_of(e, parts.front().first_block) : "");
 }
 
-/// Of a run that solved its parts one by one: "Of 2 unconnected parts one falls (1 block, number 4), one stands (3 blocks)."
+/// Of a run that solved its parts one by one: "Of 2 unconnected parts one falls (1 block, number 4), one
+/// stands (3 blocks)."
 std::string sentence_of_verdicts(const Evaluation& e) {
   std::string text;
   for (const auto& [words, parts] : parts_by_verdict(e.summary)) {

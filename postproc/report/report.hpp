@@ -24,9 +24,9 @@ struct ReportInput {
   std::string run_yaml;        ///< text of run.yaml; "" if it cannot be read
 };
 
-/// report.html as one self-contained file: first_screen(), ranges of a range analysis, findings, figures, tables,
-/// solution quality, case, files and run information, in this order. A run that found no equilibrium has the motion in place
-/// of the findings, and no certificate.
+/// report.html as one self-contained file: first_screen(), ranges of a range analysis, findings, figures,
+/// tables, solution quality, case, files and run information, in this order. A run that found no equilibrium
+/// has the motion in place of the findings, and no certificate.
 std::string report_html(const ReportInput& input);
 
 /// What the forces of an equilibrium show, one sentence with its number per item.

@@ -33,7 +33,8 @@ std::optional<Figure> curve_over_stages(const std::vector<std::vector<double>>& 
   return f;
 }
 
-/// Rows of stages.csv or construction.csv: the first stage that does not stand, and the one that needs the most.
+/// Rows of stages.csv or construction.csv: the first stage that does not stand, and the one that needs the
+/// most.
 struct Notable {
   int standing = 0;
   std::optional<size_t> failing, demanding;

@@ -22,8 +22,8 @@ struct StageReport {
 /// Of rings laid one by one from unloaded joints (results/stages.csv), with the heights of the rings.
 StageReport rings_laid(const Evaluation& evaluation, const CsvFile& stages);
 
-/// Of any other construction (results/construction.csv), with what moves (results/failures.csv; none if nothing does).
-/// `least`: the property of the fresh mortar that was sought.
+/// Of any other construction (results/construction.csv), with what moves (results/failures.csv; none if
+/// nothing does). `least`: the property of the fresh mortar that was sought.
 StageReport blocks_laid(StagedConstruction::Least least, const CsvFile& stages,
                         const std::optional<CsvFile>& failures);
 

@@ -18,8 +18,8 @@ std::string named_block(const Evaluation& e, int b) {
   return name.empty() ? fmt::format("{}", b) : fmt::format("{} ({})", b, name);
 }
 
-/// "The bed joint between blocks 12 and 45", a link that shows it in the 3-D view, or its second block where the view has no
-/// joints.
+/// "The bed joint between blocks 12 and 45", a link that shows it in the 3-D view, or its second block where
+/// the view has no joints.
 std::string joint_link(const Evaluation& e, size_t index) {
   const JointWrench& joint = e.last.joints.wrenches[index];
   const std::string target =

@@ -7,8 +7,8 @@
 
 namespace cupola {
 
-/// The joint nearest to sliding, and the one whose force is nearest to its edge, as indices into the joints of the frame
-/// evaluated. None without loaded joints.
+/// The joint nearest to sliding, and the one whose force is nearest to its edge, as indices into the joints
+/// of the frame evaluated. None without loaded joints.
 struct WorstJoints {
   std::optional<size_t>
       sliding;  ///< largest friction use; of those that use all of it, the largest normal force

@@ -39,7 +39,8 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
   if (ensembles.empty()) return "";
   std::vector<EnsembleResults> all;
   for (const SampledRuns& ensemble : ensembles) all.push_back(results_of(ensemble, runs_folder));
-  // The columns of ranges differ between analyses; ensembles are compared column by column only if all have the same.
+  // The columns of ranges differ between analyses; ensembles are compared column by column only if all have
+  // the same.
   for (EnsembleResults& one : all) one.results = varying_columns({&one.members});
   const bool alike = std::ranges::all_of(all, [&](const EnsembleResults& one) {
     return std::ranges::equal(one.members.columns, all.front().members.columns, {}, &Table::Column::key,

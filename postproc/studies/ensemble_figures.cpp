@@ -28,7 +28,8 @@ void draw_below_each_other(const std::string& data, const std::string& settings,
                        plots);
 }
 
-/// The table of bands of one table of the members, which all have its rows; three columns if no number varies.
+/// The table of bands of one table of the members, which all have its rows; three columns if no number
+/// varies.
 Table bands_table(const EnsembleResults& ensemble, const std::vector<CsvFile>& files,
                   const std::string& source) {
   constexpr size_t kKeys = 2;  // number and height

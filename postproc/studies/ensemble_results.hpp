@@ -25,31 +25,34 @@ struct EnsembleResults {
   bool independent() const { return replicates() == static_cast<int>(falls.size()); }
   /// Numbers of a column, of the first `count` members only.
   DrawnValues values(size_t column, size_t count = static_cast<size_t>(-1)) const;
-  /// Column of the critical values; nothing without any. Limit analyses stand by construction: their critical values say how far.
+  /// Column of the critical values; nothing without any. Limit analyses stand by construction: their critical
+  /// values say how far.
   std::optional<size_t> critical_column() const;
   bool some_fall() const;
-  /// Share of the first `count` members with a verdict that fall. Members without a verdict widen the interval both ways; no interval unless
-  /// members are independent.
+  /// Share of the first `count` members with a verdict that fall. Members without a verdict widen the
+  /// interval both ways; no interval unless members are independent.
   IntervalEstimate probability(size_t count) const;
 };
 
 EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_folder);
 
-/// Of limit analyses the median and two quantiles of the critical value; else how many fall: "12 of 200 members fall: probability 6 % (3.1 to 10.2 %)". Members without a verdict widen the interval both ways.
+/// Of limit analyses the median and two quantiles of the critical value; else how many fall: "12 of 200
+/// members fall: probability 6 % (3.1 to 10.2 %)". Members without a verdict widen the interval both ways.
 std::string result_sentence(const EnsembleResults& ensemble);
 
 /// A row per result: mean, standard deviation and quantiles, each with its interval.
 Table statistics_table(const EnsembleResults& ensemble);
 
-/// A row per input and result. Of a Saltelli design: first-order and total Sobol indices. Else, of inputs that are numbers and no seeds:
-/// rank correlation and first-order index.
+/// A row per input and result. Of a Saltelli design: first-order and total Sobol indices. Else, of inputs
+/// that are numbers and no seeds: rank correlation and first-order index.
 Table inputs_table(const EnsembleResults& ensemble);
 
-/// The members with the three smallest and the three largest values of each result, and the first three that fall.
+/// The members with the three smallest and the three largest values of each result, and the first three that
+/// fall.
 Table ends_table(const EnsembleResults& ensemble);
 
-/// Rows for the collapse and every result of two ensembles of the same samples: first less second, member by member. `sentences` gets a
-/// sentence per row.
+/// Rows for the collapse and every result of two ensembles of the same samples: first less second, member by
+/// member. `sentences` gets a sentence per row.
 Table differences_table(const std::vector<EnsembleResults>& ensembles, std::vector<std::string>* sentences);
 
 }  // namespace cupola

@@ -119,7 +119,8 @@ void declare_study(Section& root, const std::string& path, Study& study, const C
   }
 }
 
-/// Names with * at the end are replaced by the runs of the study that begin so, those of runs left out by none.
+/// Names with * at the end are replaced by the runs of the study that begin so, those of runs left out by
+/// none.
 void expand_names(const Study& study, std::vector<std::string>* names) {
   std::vector<std::string> expanded;
   for (const std::string& name : *names) {

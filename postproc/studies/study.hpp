@@ -18,8 +18,8 @@ struct Comparison {
 };
 
 /// A study: runs, the numbers taken from them, and what is made of the numbers. It is a YAML file
-/// cases/studies/NAME.yaml (docs/cases.md describes its keys), or a case with a `sweep` or `ensemble`, which is the short form of a study
-/// of that case.
+/// cases/studies/NAME.yaml (docs/cases.md describes its keys), or a case with a `sweep` or `ensemble`, which
+/// is the short form of a study of that case.
 struct Study {
   std::string name;  ///< of the file without ending; runs that the study defines are in the folder NAME/
   std::string title;
@@ -43,20 +43,21 @@ struct CaseOfStudy {
   std::string assembly;  ///< file with its blocks, for groups with `settle`; empty: they are left out
 };
 
-/// Reads a study with the strict reader of case files; throws InputError with line and key. `of`, if not empty, replaces
-/// the key `case` of a trade-off; in other studies it stands for {case}, and the study is named CASE_STUDY.
+/// Reads a study with the strict reader of case files; throws InputError with line and key. `of`, if not
+/// empty, replaces the key `case` of a trade-off; in other studies it stands for {case}, and the study is
+/// named CASE_STUDY.
 Study read_study(const std::string& path, const CaseOfStudy& of = {});
 
 /// Every run that the study reads, each once: those that it defines first.
 std::vector<StudyRun> members_of(const Study& study);
 
-/// Throws InputError for a member that is neither a case nor a variant of the folder of `path`, or above it if that is
-/// studies/, nor, if a folder of runs is given, a run in it.
+/// Throws InputError for a member that is neither a case nor a variant of the folder of `path`, or above it
+/// if that is studies/, nor, if a folder of runs is given, a run in it.
 void require_known(const std::vector<StudyRun>& members, const std::string& path,
                    const std::string& runs_folder = "");
 
-/// One line per run: NAME for a run that exists as case or variant, NAME CASE key.path=value ... for the others, in the
-/// format of cases/variants.txt. Throws like require_known().
+/// One line per run: NAME for a run that exists as case or variant, NAME CASE key.path=value ... for the
+/// others, in the format of cases/variants.txt. Throws like require_known().
 std::string members_text(const std::vector<StudyRun>& members, const std::string& path);
 
 }  // namespace cupola

@@ -17,7 +17,8 @@ class StudyPage {
 
   void add(const std::string& html) { body_ += html; }
   void add_paragraph(const std::string& text);
-  /// Draws the figures into figures/ and embeds them, each below its title. What could not be drawn becomes a warning.
+  /// Draws the figures into figures/ and embeds them, each below its title. What could not be drawn becomes a
+  /// warning.
   void add_figures(const std::vector<Figure>& figures);
   /// Writes NAME.csv and shows the table without columns in which all cells are empty.
   void add_table(const Table& table);

@@ -29,7 +29,8 @@ struct SampledRuns {
 std::vector<StudyRun> sampled_runs(const Samples& samples, KeptFiles keep, const std::string& prefix,
                                    const std::string& case_name, const std::vector<std::string>& settings);
 
-/// Runs given together: those that exist as cases or variants, or every case with every combination of values.
+/// Runs given together: those that exist as cases or variants, or every case with every combination of
+/// values.
 struct RunGroup {
   std::vector<std::string> names;  ///< of existing runs
   std::vector<std::string> cases, settings;
@@ -47,10 +48,12 @@ std::vector<StudyRun> runs_of(const RunGroup& group, const std::string& study);
 /// The ensembles of a group, one per case; none without `ensemble`.
 std::vector<SampledRuns> ensembles_of(const RunGroup& group, const std::string& study);
 
-/// True for letters, digits and . _ + -, of which names of runs, tables and cases consist: make and a shell read them.
+/// True for letters, digits and . _ + -, of which names of runs, tables and cases consist: make and a shell
+/// read them.
 bool is_plain_name(const std::string& name);
 
-/// Reads settings separated by spaces. A shell reads them, too: only letters, digits and . _ + - = [ ] , : are accepted.
+/// Reads settings separated by spaces. A shell reads them, too: only letters, digits and . _ + - = [ ] , :
+/// are accepted.
 void declare_settings(Section& s, std::vector<std::string>& settings, const std::string& meaning);
 
 /// Reads names separated by spaces, each of which must be plain; {run} and {case} are left for later.

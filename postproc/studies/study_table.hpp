@@ -17,9 +17,9 @@ constexpr auto enum_names(RunText) {
   return std::array{"run", "status", "message", "verdict"};
 }
 
-/// A column of a table. Its cells are either given (`texts`), or a text of the run (`text`), or the cells of a column of the
-/// table that gives the rows (`cell`), or numbers: scale * (value / over - minus). In the names of runs, {run} stands for the
-/// run of the row.
+/// A column of a table. Its cells are either given (`texts`), or a text of the run (`text`), or the cells of
+/// a column of the table that gives the rows (`cell`), or numbers: scale * (value / over - minus). In the
+/// names of runs, {run} stands for the run of the row.
 struct StudyColumn {
   std::string heading;
   std::vector<std::string> texts;  ///< one per row
@@ -29,7 +29,8 @@ struct StudyColumn {
   std::optional<Quantity> over, minus;
   double scale = 1.0;  ///< from SI to the unit of the heading; -1 changes the sign
   int digits = 0;      ///< significant digits of the page; 0: those of the table
-  /// Cell of a run that lacks the number; {reason}: what the run's message says instead. Without it such a run is an error.
+  /// Cell of a run that lacks the number; {reason}: what the run's message says instead. Without it such a
+  /// run is an error.
   std::optional<std::string> absent;
 };
 
@@ -48,8 +49,8 @@ void declare_study_table(Section& s, StudyTable& table);
 /// The runs that a table reads, each row's after the other.
 std::vector<std::string> runs_of(const StudyTable& table);
 
-/// The table with all digits, for CSV. A cell whose run is missing reads `not run`, of a run that did not reach its accuracy
-/// `unconverged`.
+/// The table with all digits, for CSV. A cell whose run is missing reads `not run`, of a run that did not
+/// reach its accuracy `unconverged`.
 Table measured_table(const StudyTable& table, RunCache& cache);
 
 /// The rows that a script printed, instead of columns.

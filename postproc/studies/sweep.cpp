@@ -49,8 +49,9 @@ bool falls(const std::string& status) {
   return status.starts_with("moving") || status == "collapsed";
 }
 
-/// Where one swept number changes the verdict: "It falls at joints.friction 0.06 to 0.08, it stands at 0.09 to 0.4."; "" for several
-/// keys, for texts, for limits, whose members have no verdict of their own, and where the verdict changes often.
+/// Where one swept number changes the verdict: "It falls at joints.friction 0.06 to 0.08, it stands at 0.09
+/// to 0.4."; "" for several keys, for texts, for limits, whose members have no verdict of their own, and
+/// where the verdict changes often.
 std::string where_it_stands(const std::vector<SweptKey>& sweep, const Table& table) {
   constexpr size_t kMostChanges = 4;
   if (sweep.size() != 1) return "";
@@ -101,7 +102,8 @@ std::string banner(const std::vector<SweptKey>& sweep, const Table& table) {
   return verdict_html(fmt::format("It stands in {} of {}", standing, runs), where, all);
 }
 
-/// What is certain of the verdicts, and what all runs assume; "" for limits, each of which has a bracket of its own.
+/// What is certain of the verdicts, and what all runs assume; "" for limits, each of which has a bracket of
+/// its own.
 std::string certain_of_sweep(const std::vector<SweptKey>& sweep, const Table& table) {
   for (const std::string& critical : texts_of(table, "critical_value"))
     if (!critical.empty()) return "";

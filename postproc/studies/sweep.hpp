@@ -9,8 +9,8 @@
 
 namespace cupola {
 
-/// One row per member: the values that the member gives the `keys`, status, residual, displacement, critical value and time, and minimum, chosen value and
-/// maximum of each range of a range analysis. A member without
+/// One row per member: the values that the member gives the `keys`, status, residual, displacement, critical
+/// value and time, and minimum, chosen value and maximum of each range of a range analysis. A member without
 /// results has the status `missing` and a remark that says how far it got.
 Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyRun>& members,
                   const std::string& runs_folder);
@@ -18,11 +18,12 @@ Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyR
 std::string endings(const Table& sweep_table);
 /// "2 of 8 runs" that have no results or did not reach their accuracy; "" for none.
 std::string failures(const Table& sweep_table, const std::string& noun = "run");
-/// Columns of numbers that differ by more than rounding between the members of one of the tables; errors and times are no results.
+/// Columns of numbers that differ by more than rounding between the members of one of the tables; errors and
+/// times are no results.
 std::vector<size_t> varying_columns(const std::vector<const Table*>& sweep_tables);
 
-/// Adds a sweep to a page: how the members ended, a figure, the table (sweep.csv), and links to the reports of the
-/// members. Returns the same as text.
+/// Adds a sweep to a page: how the members ended, a figure, the table (sweep.csv), and links to the reports
+/// of the members. Returns the same as text.
 std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<StudyRun>& members,
                       const std::string& runs_folder, StudyPage* page);
 

@@ -23,8 +23,8 @@ struct TradeoffRun {
   std::string reference_text() const;
 };
 
-/// Runs that turn one knob, compared with one reference. Runs whose names agree up to the last underscore form one
-/// line of the plot.
+/// Runs that turn one knob, compared with one reference. Runs whose names agree up to the last underscore
+/// form one line of the plot.
 struct TradeoffKnob {
   std::string knob, reference, coarse;
   std::vector<std::string> only;      ///< cases for which the knob is turned; empty: all
@@ -33,9 +33,9 @@ struct TradeoffKnob {
 };
 void declare_tradeoff_knob(Section& s, TradeoffKnob& knob);
 
-/// The runs of all knobs for one case, in order. Throws InputError at the place of a knob in `list` whose reference is not
-/// defined, whose run has the name of another run, or which extrapolates from runs whose `analysis.time_step` does not differ
-/// by a factor of two.
+/// The runs of all knobs for one case, in order. Throws InputError at the place of a knob in `list` whose
+/// reference is not defined, whose run has the name of another run, or which extrapolates from runs whose
+/// `analysis.time_step` does not differ by a factor of two.
 std::vector<TradeoffRun> runs_of(const std::vector<TradeoffKnob>& knobs, const CaseNode& list,
                                  const std::string& case_name, const std::string& folder);
 

@@ -14,7 +14,8 @@
 namespace cupola {
 namespace {
 
-/// The cells of the record that begins at `*start`, which moves to the next one. A quoted cell may hold line ends.
+/// The cells of the record that begins at `*start`, which moves to the next one. A quoted cell may hold line
+/// ends.
 std::vector<std::string> cells_at(const std::string& text, size_t* start) {
   std::vector<std::string> cells(1);
   bool quoted = false;

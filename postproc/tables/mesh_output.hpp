@@ -29,19 +29,20 @@ double segment_scale(const Assembly& assembly, double largest_force);
 /// joints.vtp: every joint as one point, its centre of pressure, with its wrench.
 Mesh joints_mesh(const Evaluation& evaluation);
 
-/// joint_forces.vtp: every joint as a segment from its centre of pressure along the force on its upper (or second)
-/// block, to the scale in the field data.
+/// joint_forces.vtp: every joint as a segment from its centre of pressure along the force on its upper (or
+/// second) block, to the scale in the field data.
 Mesh joint_forces_mesh(const Evaluation& evaluation);
 
 /// wrenches.vtp: the wrench on every block from the ring below as a segment from its central axis, to the
 /// same scale.
 Mesh wrenches_mesh(const Evaluation& evaluation);
 
-/// thrust_lines.vtp: per meridian, the thrust line, its envelope, the lines of action, the two skins and the thrust lines of
-/// the wythes, as polylines. The cell array `what` says which (LineCell).
+/// thrust_lines.vtp: per meridian, the thrust line, its envelope, the lines of action, the two skins and the
+/// thrust lines of the wythes, as polylines. The cell array `what` says which (LineCell).
 Mesh thrust_lines_mesh(const Evaluation& evaluation);
 
-/// ties.vtp: the bars of chains and other ties, one segment each; the cell array `chain` is the index of its chain, -1: none.
+/// ties.vtp: the bars of chains and other ties, one segment each; the cell array `chain` is the index of its
+/// chain, -1: none.
 Mesh ties_mesh(const Evaluation& evaluation);
 
 /// sections.vtp: outlines of the blocks cut by sections and planes. Segments show the resultants across the

@@ -8,7 +8,8 @@
 
 namespace cupola {
 
-/// A place at which a crack was looked for on the building, and what the model has in the sector that is nearest to it.
+/// A place at which a crack was looked for on the building, and what the model has in the sector that is
+/// nearest to it.
 struct ObservedPlace {
   double azimuth = 0.0;       ///< deg
   double width = 0.0;         ///< m, >= 0; 0: none was seen
@@ -24,14 +25,16 @@ struct ObservedPlace {
 ///
 ///     sum_i min(p_i, q_i)
 ///
-/// that is 1 if both spread their cracks over the places in the same way, and 0 if the model has none where some were seen. It does not
-/// depend on how far a cause has acted, only on where it cracks the shell. `by_chance` is that of cracks spread evenly.
+/// that is 1 if both spread their cracks over the places in the same way, and 0 if the model has none where
+/// some were seen. It does not depend on how far a cause has acted, only on where it cracks the shell.
+/// `by_chance` is that of cracks spread evenly.
 struct CrackAgreement {
   std::vector<ObservedPlace> places;
   double agreement = 0.0, by_chance = 0.0;
 };
 
-/// None without `postproc.observed`, or if the run has no equilibrium. Throws InputError for a file that cannot be read or has no crack.
+/// None without `postproc.observed`, or if the run has no equilibrium. Throws InputError for a file that
+/// cannot be read or has no crack.
 std::optional<CrackAgreement> crack_agreement(const Evaluation& evaluation);
 
 const Columns<ObservedPlace>& observed_columns();

@@ -18,7 +18,8 @@ struct PostSummary {
   double block_size_m = 0.0;  ///< cube root of the free blocks' mean volume
   double friction = 0.0;
   double negligible_force_N = 0.0;  ///< floor of the frame: what is smaller counts as 0
-  // The numbers down to `thrust_over_weight` interpret an equilibrium. A run that found none has none of them.
+  // The numbers down to `thrust_over_weight` interpret an equilibrium. A run that found none has none of
+  // them.
   std::optional<double> largest_ring_difference;  ///< relative, largest over the rings
   std::optional<double> mean_cv_pressure;         ///< mean over the rings
   std::optional<double> largest_cv_pressure;

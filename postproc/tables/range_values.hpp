@@ -20,12 +20,12 @@ bool has_chosen(const std::vector<ForceRange>& ranges);
 /// Largest size of the finite values of a range, in its unit; 0 without any.
 double size_of(const ForceRange& range);
 
-/// Width of a range over the magnitude of its mean: 0 for a certain value, 2 for one between 0 and a maximum. Infinite if
-/// unbounded; NaN if an end was not found or both are zero.
+/// Width of a range over the magnitude of its mean: 0 for a certain value, 2 for one between 0 and a maximum.
+/// Infinite if unbounded; NaN if an end was not found or both are zero.
 double relative_range(const ForceRange& range);
 
-/// Distance of the chosen value from the nearer end, over the width: 0 at an end, 0.5 in the middle. NaN without a chosen
-/// value or two bounded ends.
+/// Distance of the chosen value from the nearer end, over the width: 0 at an end, 0.5 in the middle. NaN
+/// without a chosen value or two bounded ends.
 double margin_of(const ForceRange& range);
 
 /// relative_range() of the normal force of each joint; NaN for joints without a range; empty if none has one.

@@ -23,8 +23,9 @@ class RunFiles {
   std::string revision();  ///< of cupola-solve, from the `program_version` in results/summary.json
   /// Text of post/answers.json, e.g. `verdict.words`; "" if the run has no such answer.
   std::string answer(const std::string& key);
-  /// Number `results.KEY` or `post.KEY` of the two summaries, or `case.KEY` of the case as it was run. Dots in KEY descend
-  /// into maps and, by index, into lists. Booleans count as 0 and 1. InputError if there is no such number.
+  /// Number `results.KEY` or `post.KEY` of the two summaries, or `case.KEY` of the case as it was run. Dots
+  /// in KEY descend into maps and, by index, into lists. Booleans count as 0 and 1. InputError if there is no
+  /// such number.
   double number(const std::string& key);
   const CsvFile& table(const std::string& name);  ///< post/NAME.csv; for the name results/NAME that file
   /// Sorted names of the tables whose name begins with `start`.

@@ -12,7 +12,8 @@
 namespace cupola {
 namespace {
 
-/// Share of the thickness that a wythe takes on a bed; on the nearest bed where its layers are known, if they are not.
+/// Share of the thickness that a wythe takes on a bed; on the nearest bed where its layers are known, if they
+/// are not.
 double share_of(const Shell& shell, int bed, int wythe) {
   const int beds = static_cast<int>(shell.layers.size());
   for (int away = 0; away < beds; ++away)
@@ -24,8 +25,8 @@ double share_of(const Shell& shell, int bed, int wythe) {
   return 1.0;
 }
 
-/// Adds the blocks on the beds of the map's wythe. Of the forces of a bonder it has the part in the wythe: mean stress times
-/// the thickness of the wythe.
+/// Adds the blocks on the beds of the map's wythe. Of the forces of a bonder it has the part in the wythe:
+/// mean stress times the thickness of the wythe.
 void add_boxes(const Evaluation& e, ShellMap* out) {
   struct Extent {
     double from, to;

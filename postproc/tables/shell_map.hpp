@@ -33,11 +33,13 @@ struct ShellMap {
 
 const Columns<ShellBox>& shell_columns();
 
-/// The blocks on the beds of the shell, of one map per wythe that has blocks, inside first; no map without rings. A bonder is
-/// in the maps of all its wythes. A block that crosses +-180 degrees begins or ends beyond.
+/// The blocks on the beds of the shell, of one map per wythe that has blocks, inside first; no map without
+/// rings. A bonder is in the maps of all its wythes. A block that crosses +-180 degrees begins or ends
+/// beyond.
 std::vector<ShellMap> shell_maps(const Evaluation& evaluation);
 
-/// shell.csv, or shell_x.csv for a shell without azimuths, shell_y.csv for an arch; of a wythe with its name behind.
+/// shell.csv, or shell_x.csv for a shell without azimuths, shell_y.csv for an arch; of a wythe with its name
+/// behind.
 Table shell_table(const ShellMap& map);
 
 /// The map in the folder of a run; none if it has no rings, no equilibrium, or wythes.

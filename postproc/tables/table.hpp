@@ -22,15 +22,15 @@ struct Table {
   std::vector<std::vector<Cell>> rows;
 };
 
-/// Header line of keys, then the rows. Numbers have all digits; undefined ones (NaN) are empty cells. Texts are
-/// quoted where needed.
+/// Header line of keys, then the rows. Numbers have all digits; undefined ones (NaN) are empty cells. Texts
+/// are quoted where needed.
 std::string to_csv(const Table& table);
 
 /// A tabular environment of LaTeX: headings with units, cells as to_display.
 std::string to_latex(const Table& table);
 
-/// A cell as the report shows it: four significant digits, without exponent from 1e-3 to 1e7; 0 up to the floor;
-/// nothing if undefined (NaN); texts unchanged.
+/// A cell as the report shows it: four significant digits, without exponent from 1e-3 to 1e7; 0 up to the
+/// floor; nothing if undefined (NaN); texts unchanged.
 std::string to_display(const Table::Cell& cell, double floor = 0.0);
 
 }  // namespace cupola

@@ -10,8 +10,8 @@
 namespace cupola {
 namespace {
 
-/// Largest number of poses (blocks times frames) of a film. A pose takes some 12 characters of the report, so that the
-/// film takes 12 MB at most.
+/// Largest number of poses (blocks times frames) of a film. A pose takes some 12 characters of the report, so
+/// that the film takes 12 MB at most.
 constexpr size_t kMostPoses = 1'000'000;
 
 /// Largest number of joints of all states of a range together. A joint takes some 150 characters.
@@ -65,8 +65,8 @@ void Film::add(size_t index, const FrameEvaluation& frame) {
   }
 }
 
-/// The time of a stage is its course, or a fraction less while the course is open. Of an open course the blocks that have contacts
-/// are laid.
+/// The time of a stage is its course, or a fraction less while the course is open. Of an open course the
+/// blocks that have contacts are laid.
 void Film::add_births(const Frame& frame) {
   const std::vector<Block>& blocks = evaluation_.assembly.blocks;
   const int unborn = std::numeric_limits<int>::max(), course = static_cast<int>(std::ceil(frame.time));

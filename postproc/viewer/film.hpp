@@ -8,12 +8,13 @@
 
 namespace cupola {
 
-/// The frames of a run as the 3-D view shows them: where every block is, and the forces of the states that a range
-/// analysis found. Filled frame by frame, because a run may have more frames than fit into memory.
+/// The frames of a run as the 3-D view shows them: where every block is, and the forces of the states that a
+/// range analysis found. Filled frame by frame, because a run may have more frames than fit into memory.
 class Film {
  public:
-  /// `displacement`: one state, whose displacement can be magnified. `motion`: instants or steps. `mechanism`: directions of motion, from rest to the
-  /// size at which they are drawn. `stages`: of construction, in the order of laying.
+  /// `displacement`: one state, whose displacement can be magnified. `motion`: instants or steps.
+  /// `mechanism`: directions of motion, from rest to the size at which they are drawn. `stages`: of
+  /// construction, in the order of laying.
   enum class Kind { displacement, motion, mechanism, stages };
 
   /// Joints and forces of one frame.

@@ -11,7 +11,8 @@
 
 namespace cupola {
 
-/// Bytes deflated by zlib (RFC 1950), which browsers inflate as "deflate". Throws SystemError if memory is short.
+/// Bytes deflated by zlib (RFC 1950), which browsers inflate as "deflate". Throws SystemError if memory is
+/// short.
 std::string deflated(const std::string& bytes);
 
 /// Rounding of lengths to integers: `step` m apart from `origin`.
@@ -24,9 +25,9 @@ struct Lattice {
 ///
 ///     length of the header (4 bytes), header in JSON, arrays
 ///
-/// The header's key `arrays` gives type, start and count of each. All numbers are little-endian. To compress well, byte k
-/// of all elements of an array comes before byte k + 1, and integers are stored as the zigzag code of their differences
-/// from the element `delta` places before.
+/// The header's key `arrays` gives type, start and count of each. All numbers are little-endian. To compress
+/// well, byte k of all elements of an array comes before byte k + 1, and integers are stored as the zigzag
+/// code of their differences from the element `delta` places before.
 class PackedArrays {
  public:
   void add(const std::string& name, const std::vector<std::uint8_t>& bytes);

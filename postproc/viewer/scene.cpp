@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Above it only the outer faces are drawn, and numbers of blocks are rounded to seven digits: 20,000 blocks take some 5 MB
-/// of the report.
+/// Above it only the outer faces are drawn, and numbers of blocks are rounded to seven digits: 20,000 blocks
+/// take some 5 MB of the report.
 constexpr size_t kMostWholeBlocks = 20'000;
 /// Above it joints have no outlines and fewer columns, rounded to seven digits: 30,000 joints take some 5 MB.
 constexpr size_t kMostWholeJoints = 30'000;
@@ -183,7 +183,8 @@ void add_joints(int state, const JointWrenches& joints, const std::vector<ForceR
     arrays->add_rounded(prefix + kCertainty, certainty);
 }
 
-/// Entries of the header for the columns of the joints, with the certainty of their forces if the run has ranges of joints.
+/// Entries of the header for the columns of the joints, with the certainty of their forces if the run has
+/// ranges of joints.
 Json joint_entries(const Evaluation& e, const KeyList& keys) {
   Json entries = column_entries(joint_columns(), keys);
   if (!relative_ranges(e.summary.ranges, e.last.joints.wrenches).empty())
@@ -272,7 +273,8 @@ int largest_body(const Film& film) {
   return film.bodies().empty() ? 0 : *std::max_element(film.bodies().begin(), film.bodies().end());
 }
 
-/// The first colours: of the motion if there is one; of its bodies if they are few enough to differ in colour.
+/// The first colours: of the motion if there is one; of its bodies if they are few enough to differ in
+/// colour.
 std::string first_colour(const Evaluation& e, const Film& film) {
   constexpr int kMostBodies = 7;
   if (film.kind() == Film::Kind::mechanism && largest_body(film) > 0)

@@ -24,21 +24,23 @@ std::optional<Summary> run_dynamic(const Case& scene, const Assembly& assembly, 
 /// Frames: the last equilibrium, and the mechanism with its largest speed scaled to 1 m/s.
 std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
-/// run_limit() by conic programmes (direct_limit.hpp). Frames: the admissible state at the critical value, and the mechanism.
+/// run_limit() by conic programmes (direct_limit.hpp). Frames: the admissible state at the critical value,
+/// and the mechanism.
 std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assembly,
                                         const AnalysisSinks& sinks);
 
-/// Smallest and largest values of the quantities of the case over all admissible states, beside the state that the
-/// compliances choose. Frames: that state, or any admissible one; on request the two ends of each range.
+/// Smallest and largest values of the quantities of the case over all admissible states, beside the state
+/// that the compliances choose. Frames: that state, or any admissible one; on request the two ends of each
+/// range.
 std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
 /// Construction ring by ring. Each stage is a static solve of the rings laid so far; the bed of the last ring
 /// has fresh mortar. On request, the critical fresh friction of each stage is searched for.
 std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
-/// Construction by courses or by blocks, from the state that the last stage left (construction.hpp). On request, the least
-/// cohesion or friction of fresh mortar is searched for with which each stage stands. Frames: every stage, at the time
-/// ring - 1 + share of the course that is laid.
+/// Construction by courses or by blocks, from the state that the last stage left (construction.hpp). On
+/// request, the least cohesion or friction of fresh mortar is searched for with which each stage stands.
+/// Frames: every stage, at the time ring - 1 + share of the course that is laid.
 std::optional<Summary> run_construction(const Case& scene, const Assembly& assembly,
                                         const AnalysisSinks& sinks);
 

@@ -128,8 +128,8 @@ std::string describe_stages(const Case& scene) {
 
 // --- limit
 
-/// A conic programme takes the time of about four static solves; three for loads, five for joints. A bisection solves one for
-/// each end of the bracket and one per halving.
+/// A conic programme takes the time of about four static solves; three for loads, five for joints. A
+/// bisection solves one for each end of the bracket and one per halving.
 double solves_of_limit(const Case& scene, const Assembly&) {
   const LimitSearch& limit = scene.analysis.limit;
   if (uses_direct_limit(scene.analysis)) return changes_joints(limit.parameter) ? 20.0 : 12.0;

@@ -162,8 +162,8 @@ ConstructionRun::ConstructionRun(const Case& scene, const Assembly& assembly, co
   progress_.failures_csv = csv_header(kFailureColumns) + "\n";
 }
 
-/// The courses below the first stage, as if built at once, with the mortar that they have in that stage. False if they do not
-/// stand.
+/// The courses below the first stage, as if built at once, with the mortar that they have in that stage.
+/// False if they do not stand.
 bool ConstructionRun::lay_foundation() {
   std::vector<int> below;
   for (size_t block = 0; block < assembly_.blocks.size(); ++block)

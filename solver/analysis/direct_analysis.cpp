@@ -112,8 +112,8 @@ void write_motion(const DirectLimit& limit, const std::string& parameter, const 
   summary->message += "; " + describe(mechanism);
 }
 
-/// Writes the admissible state and the mechanism as frames. Returns a description of the mechanism: "; " and a clause.
-/// `gravity`: m/s2, without a horizontal acceleration that the search adds.
+/// Writes the admissible state and the mechanism as frames. Returns a description of the mechanism: "; " and
+/// a clause. `gravity`: m/s2, without a horizontal acceleration that the search adds.
 std::string write_ends(const DirectLimit& limit, const std::string& parameter, double gravity,
                        const AnalysisSinks& sinks, Summary* summary) {
   const RigidScene& stable = limit.at_admissible;
@@ -145,7 +145,8 @@ void write_nothing_found(const Case& scene, const Assembly& assembly, const Anal
   summarize_frame(frame, own.model, summary);
 }
 
-/// Writes an admissible state under the loads of the case, if there is one: without a limit no value stands out.
+/// Writes an admissible state under the loads of the case, if there is one: without a limit no value stands
+/// out.
 void write_state_of_case(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks,
                          Summary* summary) {
   DirectLimit own;

@@ -76,8 +76,9 @@ Probe LimitRun::probe_at(double value) const {
   probe.contacts = detector.update(probe.start.poses);
   probe.memories = memories_at_rest(probe.model, probe.start, probe.contacts.points);
   probe.solution = solve_static(probe.model, probe.start, probe.contacts, probe.memories, options);
-  // Neither forces that balance the loads to a tolerance decide a limit, nor a motion without proof that forces of less than kImmense
-  // times the loads might prevent. Coulomb's law has no proof of a motion that the associated law does not have.
+  // Neither forces that balance the loads to a tolerance decide a limit, nor a motion without proof that
+  // forces of less than kImmense times the loads might prevent. Coulomb's law has no proof of a motion that
+  // the associated law does not have.
   const bool stands = probe.solution.outcome == StaticOutcome::equilibrium;
   const bool doubtful = options.solve.law.is_associated() && probe.solution.forces_over_loads < kImmense;
   if (!probe.solution.proven && (stands || doubtful)) probe.solution.outcome = StaticOutcome::unconverged;

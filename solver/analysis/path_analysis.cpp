@@ -77,8 +77,8 @@ Vec3 control_force(const Model& model, const ContactSet& contacts, const StaticS
   return force;
 }
 
-/// The equilibria of a path, one after the other. Its parameter is the time, or the length: the displacement of the control from
-/// that at time 0.
+/// The equilibria of a path, one after the other. Its parameter is the time, or the length: the displacement
+/// of the control from that at time 0.
 class PathRun {
  public:
   PathRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);

@@ -19,8 +19,9 @@ struct DetectionOptions {
   /// (cube root of its volume).
   double margin = 0.0;
   PatchSampling sampling;
-  /// The contacts of two blocks are computed again when the blocks have moved by this fraction of the margin relative to
-  /// each other, in (0, 0.25]. Blocks that approach each other undetected are then still half the margin apart.
+  /// The contacts of two blocks are computed again when the blocks have moved by this fraction of the margin
+  /// relative to each other, in (0, 0.25]. Blocks that approach each other undetected are then still half the
+  /// margin apart.
   double moved_fraction = 0.25;
 
   /// Set: the narrow phase of the paper. None: face clipping, and separating axes for edges and vertices.
@@ -57,11 +58,12 @@ struct DetectionMemory {
 
 /// Finds the contacts of an assembly and tracks them as the blocks move.
 ///
-/// While two blocks have not moved relative to each other by more than a fraction of the margin, their contacts are carried
-/// along: the two points of a contact move with their blocks, and the normal turns with the face that defines it. The
-/// polygons of joints and the contact points are therefore those of a new detection up to that distance, and gaps up to
-/// the second order in it. Otherwise the contacts of the pair are computed again, and each point takes over the identity of the nearest old
-/// point on the same pair of faces. The same sequence of poses gives the same bits.
+/// While two blocks have not moved relative to each other by more than a fraction of the margin, their
+/// contacts are carried along: the two points of a contact move with their blocks, and the normal turns with
+/// the face that defines it. The polygons of joints and the contact points are therefore those of a new
+/// detection up to that distance, and gaps up to the second order in it. Otherwise the contacts of the pair
+/// are computed again, and each point takes over the identity of the nearest old point on the same pair of
+/// faces. The same sequence of poses gives the same bits.
 class ContactDetector {
  public:
   /// Throws InputError for invalid options or faces without area.
@@ -98,7 +100,8 @@ class ContactDetector {
   std::vector<TrackedPair> find_pairs() const;
   std::vector<TrackedPair> pairs_at_first_detection() const;
   bool has_moved(const TrackedPair& pair) const;  ///< so far that its contacts are computed again
-  /// Marks stale pairs; true if there are some, or if pairs have vanished. `changed`: pose or travel (num_blocks).
+  /// Marks stale pairs; true if there are some, or if pairs have vanished. `changed`: pose or travel
+  /// (num_blocks).
   bool needs_detection(const std::vector<char>& changed);
   void carry_contacts(const std::vector<char>& moved);
   void detect();

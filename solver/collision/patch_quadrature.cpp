@@ -85,8 +85,8 @@ void add_triangle(const Vec2 (&t)[3], const Vec2& centroid, int n, int number, c
     }
 }
 
-/// The triangles between the centroid and each edge, each divided. Nodes on a line from the centroid to a corner
-/// belong to two triangles.
+/// The triangles between the centroid and each edge, each divided. Nodes on a line from the centroid to a
+/// corner belong to two triangles.
 std::vector<PatchPoint> divided_fan(std::span<const Vec2> polygon, int n) {
   const int sides = static_cast<int>(polygon.size());
   std::vector<Nodes::Key> corners;

@@ -40,8 +40,8 @@ std::vector<PatchPoint> corner_points(std::span<const Vec2> polygon);
 ///                     which keeps the symmetry of the polygon
 ///
 /// `subdivide` cuts a parallelogram into subdivide x subdivide parallelograms, and every triangle into
-/// subdivide^2 similar ones, and applies the rule to each: joints with strength need points where a part of the
-/// joint is at its limit.
+/// subdivide^2 similar ones, and applies the rule to each: joints with strength need points where a part of
+/// the joint is at its limit.
 std::vector<PatchPoint> quadrature_points(std::span<const Vec2> polygon, int subdivide = 1);
 
 std::vector<PatchPoint> patch_points(std::span<const Vec2> polygon, const PatchSampling& sampling);

@@ -18,14 +18,16 @@ struct TrackedPair {
 /// Pose of b in the axes of a. Subtracting the centroids first keeps the precision far from the origin.
 Pose relative_pose(const Pose& a, const Pose& b);
 
-/// Upper bound of the distance (m) by which points of two blocks within their radii have moved relative to each other.
+/// Upper bound of the distance (m) by which points of two blocks within their radii have moved relative to
+/// each other.
 double relative_motion(const Pose& from, const Pose& to, double radius_a, double radius_b);
 
-/// Gives pairs the configuration of the same pair in `old`. The other pairs are new and stay stale. Both are sorted.
+/// Gives pairs the configuration of the same pair in `old`. The other pairs are new and stay stale. Both are
+/// sorted.
 void take_configurations(std::span<const TrackedPair> old, std::span<TrackedPair> pairs);
 
-/// Replaces the contacts of stale pairs by those in `fresh`, and removes those of pairs that are not listed. All three are
-/// sorted by pair.
+/// Replaces the contacts of stale pairs by those in `fresh`, and removes those of pairs that are not listed.
+/// All three are sorted by pair.
 void replace_contacts(std::span<const TrackedPair> pairs, AnchoredContacts fresh, AnchoredContacts* contacts);
 
 }  // namespace cupola

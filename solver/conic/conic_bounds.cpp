@@ -26,7 +26,8 @@ struct Dissipation {
   VecX per_multiplier;    ///< by those that each multiplier adds (nt)
 };
 
-/// Joints that never crush count as if they did at `most` (N), and none crushes at more. 0: they count nothing.
+/// Joints that never crush count as if they did at `most` (N), and none crushes at more. 0: they count
+/// nothing.
 Dissipation dissipation(const ConicProblem& problem, const ConicSolution& x, double most) {
   const ContactProblem& p = problem.contacts;
   const VecX s = problem.cost + relative_velocity(p, x.v) - problem.rows * x.row_velocities;
@@ -53,8 +54,8 @@ Dissipation dissipation(const ConicProblem& problem, const ConicSolution& x, dou
   return sum;
 }
 
-/// The least value of all states whose forces are at most `times` the largest of x, and multipliers as many times its own: the dual
-/// value less what the violations of its conditions could gain.
+/// The least value of all states whose forces are at most `times` the largest of x, and multipliers as many
+/// times its own: the dual value less what the violations of its conditions could gain.
 double least_value(const ConicProblem& problem, const ConicSolution& x, double largest_force, double times) {
   const Dissipation lost = dissipation(problem, x, times * largest_force);
   const VecX power = problem.multiplier_cost + problem.load_columns.transpose() * x.v -

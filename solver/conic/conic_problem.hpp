@@ -35,8 +35,9 @@ struct NormalLimit {
 /// is a mechanism v under the imposed dislocations c: w . v is the work of the loads on it. (A Lagrange
 /// multiplier of the equilibrium is a velocity.) At the solution gamma . s = 0.
 ///
-/// Joints with strength have |gamma_t| <= c + mu gamma_n and -T <= gamma_n <= F (contact_problem.hpp, in N), each of
-/// which may be a linear function of the multipliers. s is then free, and the dual loses what the joints dissipate,
+/// Joints with strength have |gamma_t| <= c + mu gamma_n and -T <= gamma_n <= F (contact_problem.hpp, in N),
+/// each of which may be a linear function of the multipliers. s is then free, and the dual loses what the
+/// joints dissipate,
 ///
 ///     sum_i c |s_t| + T max(0, d) + F max(0, -d),   d = s_n - mu |s_t|
 struct ConicProblem {
@@ -49,7 +50,8 @@ struct ConicProblem {
   MatX rows;             ///< Q (3 nc, nq)
   MatX row_multipliers;  ///< R (nt, nq)
   VecX row_values;       ///< r (nq)
-  /// Strength of each contact per unit of each multiplier, added to that of `contacts`; empty: none (nt of nc).
+  /// Strength of each contact per unit of each multiplier, added to that of `contacts`; empty: none (nt of
+  /// nc).
   std::vector<std::vector<ContactStrength>> strength_columns = {};
   std::vector<NormalLimit> limits = {};  ///< further ones
   bool has_strength() const { return !contacts.strength.empty() || !strength_columns.empty(); }
@@ -58,8 +60,8 @@ struct ConicProblem {
 /// The strength of a contact at the multipliers t.
 ContactStrength strength_at(const ConicProblem& problem, int contact, const VecX& t);
 
-/// The problem without its objective, with one multiplier of a further load and its cost. The multiplier changes no
-/// strength.
+/// The problem without its objective, with one multiplier of a further load and its cost. The multiplier
+/// changes no strength.
 ConicProblem with_multiplier(ConicProblem problem, const VecX& load, double cost);
 
 /// How solve_conic() ended.
@@ -77,8 +79,8 @@ struct ConicOptions {
   double tolerance = 1e-9;  ///< largest error of an `optimal` solution; see solve_conic()
   double target =
       1e-12;  ///< error at which the iteration stops; beyond `tolerance` as far as rounding allows
-  /// The iteration also stops at this error over the scaled objective (at most 1): for estimates of a value that is
-  /// refined later. 0: never.
+  /// The iteration also stops at this error over the scaled objective (at most 1): for estimates of a value
+  /// that is refined later. 0: never.
   double relative_target = 0.0;
   int max_iterations = 100;
 };

@@ -6,12 +6,12 @@ namespace cupola {
 
 /// A conic problem whose joints have strength, as one of dry joints:
 ///
-///  1. y = gamma + (sigma, 0, 0), with the largest pull that friction leaves, sigma = c / mu, lies in the friction cone.
-///     sigma becomes a load. (mu = 0: sigma = T.)
+///  1. y = gamma + (sigma, 0, 0), with the largest pull that friction leaves, sigma = c / mu, lies in the
+///     friction cone. sigma becomes a load. (mu = 0: sigma = T.)
 ///  2. y_n <= F + sigma, and -y_n <= T - sigma where T < sigma, become limits.
 ///
-/// Slacks of another size than the forces cost digits, so that compressive strengths far beyond the loads can be left out
-/// at first.
+/// Slacks of another size than the forces cost digits, so that compressive strengths far beyond the loads can
+/// be left out at first.
 class DryProblem {
  public:
   enum class Limits { near_loads, all };

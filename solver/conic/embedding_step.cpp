@@ -9,12 +9,14 @@
 namespace cupola {
 namespace {
 
-/// Adds the stiffness k of limits to that of a contact, G^-1 = (V^T V)^-1: with the reflection R that maps x = V e,
-/// e = (1, 0, 0), on its length times e,
+/// Adds the stiffness k of limits to that of a contact, G^-1 = (V^T V)^-1: with the reflection R that maps x
+/// = V e, e = (1, 0, 0), on its length times e,
 ///
-///     (G^-1 + k e e^T)^-1 = V^T (I + k x x^T)^-1 V = (A V)^T (A V),   A = diag(1 / sqrt(1 + k x . x), 1, 1) R
+///     (G^-1 + k e e^T)^-1 = V^T (I + k x x^T)^-1 V = (A V)^T (A V),
+///     A = diag(1 / sqrt(1 + k x . x), 1, 1) R
 ///
-/// Returns A. The entries of V that are then zero are set to zero: near an active limit k has many digits more than x.
+/// Returns A. The entries of V that are then zero are set to zero: near an active limit k has many digits
+/// more than x.
 Mat3 stiffen(double k, Mat3* V) {
   const Vec3 x = V->col(0);
   const double length = x.norm();
@@ -44,7 +46,8 @@ bool Embedding::factorize() {
   }
   if (!equations_.factorize(std::move(V), limits_.coupling(), limits_.corner())) return false;
   const Eigen::Index nt = t_.size();
-  // d_tau = 1 moves gamma by the shift of the limits and by unit_gamma_, which the solve finds to its own digits.
+  // d_tau = 1 moves gamma by the shift of the limits and by unit_gamma_, which the solve finds to its own
+  // digits.
   const VecX& shift = limits_.tau_shift();
   VecX cost = p_.cost;
   for (std::size_t i = 0; i < contacts_.size(); ++i)

@@ -20,8 +20,9 @@ struct InsidePoint {
   std::vector<Mat3> S;
 };
 
-/// S of a contact that rubs: x = (mu n + c, t) lies in a Lorentz cone with the barrier -log(x_0^2 - |t|^2), whose inverse Hessian is
-/// x x^T - (x_0^2 - |t|^2) / 2 diag(1, -1, -1). Limits of the normal force add w e e^T to the Hessian.
+/// S of a contact that rubs: x = (mu n + c, t) lies in a Lorentz cone with the barrier -log(x_0^2 - |t|^2),
+/// whose inverse Hessian is x x^T - (x_0^2 - |t|^2) / 2 diag(1, -1, -1). Limits of the normal force add w e
+/// e^T to the Hessian.
 Mat3 inverse_hessian(const ContactLaw& law, const Vec3& gamma) {
   const double n = gamma[0], tension = law.tension_limit();
   Mat3 S = Mat3::Zero();
@@ -82,7 +83,8 @@ VecX imbalance_of(const ContactProblem& p, const VecX& load, const VecX& gamma) 
   return -sum.cast<double>();
 }
 
-/// An upper bound of sqrt(r . K^-1 r) of the whitened imbalance, no tighter than `enough` where that is above.
+/// An upper bound of sqrt(r . K^-1 r) of the whitened imbalance, no tighter than `enough` where that is
+/// above.
 double decrement(const ContactProblem& p, const ContactGraph& graph, const std::vector<Mat3>& S,
                  const VecX& r, double enough, BlockCholesky* factor) {
   constexpr int kMaxIterations = 60;

@@ -25,7 +25,8 @@ Vec3 rounding_of_velocity(const ContactProblem& p, int i, const VecX& v) {
   return kOperations * kEps * size;
 }
 
-/// What the joints dissipate in the motion, an upper bound. Infinite if one without limit of compression approaches.
+/// What the joints dissipate in the motion, an upper bound. Infinite if one without limit of compression
+/// approaches.
 long double largest_dissipation(const ContactProblem& p, const VecX& v) {
   long double sum = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {

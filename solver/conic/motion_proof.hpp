@@ -6,13 +6,13 @@
 
 namespace cupola {
 
-/// True if the velocities v prove in exact arithmetic that no forces within the limits of the joints balance the load: no admissible
-/// force resists the motion (Farkas' lemma; the kinematic theorem of limit analysis),
+/// True if the velocities v prove in exact arithmetic that no forces within the limits of the joints balance
+/// the load: no admissible force resists the motion (Farkas' lemma; the kinematic theorem of limit analysis),
 ///
-///     s = D^T v in Y*  at every contact whose compression has no limit,     load . v > what the joints dissipate
+///     s = D^T v in Y*  where the compression has no limit,     load . v > what the joints dissipate
 ///
-/// Rounding is bounded: s counts as what double precision guarantees of it, load . v is summed in extended precision.
-/// `load`: in the unit of the strength of `contacts`, force or impulse (6 nb).
+/// Rounding is bounded: s counts as what double precision guarantees of it, load . v is summed in extended
+/// precision. `load`: in the unit of the strength of `contacts`, force or impulse (6 nb).
 bool proves_motion(const ContactProblem& contacts, const VecX& load, const VecX& v);
 
 /// Proofs that a scene moves, from candidates or by a conic programme.
@@ -21,7 +21,8 @@ class MotionProof {
   /// `load` as in proves_motion().
   MotionProof(const ContactProblem& contacts, const VecX& load);
 
-  /// v, or v and so much of a motion that opens every contact that all s lie in Y*, if that is a proof (opening_motion.hpp).
+  /// v, or v and so much of a motion that opens every contact that all s lie in Y*, if that is a proof
+  /// (opening_motion.hpp).
   std::optional<VecX> next_to(const VecX& v);
 
   enum class Answer {

@@ -13,8 +13,8 @@ namespace cupola {
 ///     [ -Q^T G D^T  Q^T G Q  R^T ] [ q ] = [ g ]
 ///     [ -P^T        R        0   ] [ t ]   [ h ]
 ///
-/// Limits (normal_limits.hpp) couple t with the contacts: the last column gains -D G K, Q^T G K and K^T G K - C, and the
-/// last row likewise, with their coupling K and corner C.
+/// Limits (normal_limits.hpp) couple t with the contacts: the last column gains -D G K, Q^T G K and K^T G K -
+/// C, and the last row likewise, with their coupling K and corner C.
 ///
 /// The first block has the pattern of the contact graph and a sparse Cholesky factor. The other rows and
 /// columns, a few dense ones, are eliminated by their Schur complement.

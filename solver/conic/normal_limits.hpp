@@ -36,10 +36,12 @@ class NormalLimits {
   /// sum sign weight columns and sum sign weight bound, as normal components (3 nc, nt; 3 nc)
   const MatX& coupling() const { return coupling_; }
   const VecX& tau_coupling() const { return tau_coupling_; }
-  /// What gamma_n would change with tau if the limits of a contact were all that holds it: the mean of sign bound by weight,
-  /// as normal components (3 nc). Near active limits gamma follows it up to small differences.
+  /// What gamma_n would change with tau if the limits of a contact were all that holds it: the mean of sign
+  /// bound by weight, as normal components (3 nc). Near active limits gamma follows it up to small
+  /// differences.
   const VecX& tau_shift() const { return tau_shift_; }
-  /// columns^T weight columns, columns^T weight bound; and columns^T and bound . weight (bound - sign tau_shift).
+  /// columns^T weight columns, columns^T weight bound; and columns^T and bound . weight (bound - sign
+  /// tau_shift).
   const MatX& corner() const { return corner_; }
   const VecX& tau_column() const { return tau_column_; }
   const VecX& shifted_tau_column() const { return shifted_tau_column_; }

@@ -46,8 +46,9 @@ struct ContactMemories {
   bool as_built = true;               ///< no contacts were matched yet
 };
 
-/// Transfers memories to a new set of contacts by identity. A contact without an old memory starts unloaded. It is bonded
-/// if it exists as built; a new point of an old patch has the mean damage of the patch, other contacts have no bond.
+/// Transfers memories to a new set of contacts by identity. A contact without an old memory starts unloaded.
+/// It is bonded if it exists as built; a new point of an old patch has the mean damage of the patch, other
+/// contacts have no bond.
 ContactMemories match_memories(ContactMemories old, const std::vector<Contact>& contacts);
 
 }  // namespace cupola

@@ -32,7 +32,8 @@ double damping_work(const StepProblem& step, Eigen::Index row, double u_el, cons
   return c > 0.0 ? options.damping * options.reach() * u_el * u_el / c : 0.0;
 }
 
-/// J: negative of the work of gamma on the inelastic displacements reach z of one contact, friction and dilatancy.
+/// J: negative of the work of gamma on the inelastic displacements reach z of one contact, friction and
+/// dilatancy.
 struct JointWork {
   double friction = 0.0, dilatancy = 0.0;
 };

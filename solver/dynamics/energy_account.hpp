@@ -10,22 +10,23 @@ namespace cupola {
 ///
 ///     energy at the end - energy at the start = loads + supports + dilatancy - dissipated() + error
 ///
-/// Each term is computed by its own formula from the solution of the step. The error that remains is that of the contact
-/// solve and of rounding.
+/// Each term is computed by its own formula from the solution of the step. The error that remains is that of
+/// the contact solve and of rounding.
 struct StepWork {
   double loads = 0.0;     ///< increase of the potential energy by loads that change in time
   double supports = 0.0;  ///< work of moving supports
-  /// work of the opening that accompanies slip, sum (gamma_n z_n)+. The associated law returns in it what friction takes.
+  /// work of the opening that accompanies slip, sum (gamma_n z_n)+. The associated law returns in it what
+  /// friction takes.
   double dilatancy = 0.0;
-  double friction =
-      0.0;  ///< joint_dissipation(): friction, the tension and crushing of joints with strength, and ties that yield
-  double damping = 0.0;  ///< alpha h norm(u_el)^2 / c of compliant joints
-  /// kinetic energy of the approach of contacts that close: their springs are compressed by less than they approach in
-  /// the step
+  double friction = 0.0;  ///< joint_dissipation(): friction, tension, crushing, and ties that yield
+  double damping = 0.0;   ///< alpha h norm(u_el)^2 / c of compliant joints
+  /// kinetic energy of the approach of contacts that close: their springs are compressed by less than they
+  /// approach in the step
   double impact = 0.0;
-  /// What the integrator takes, or gives if negative: work of the joints on the mean velocity that is neither stored nor dissipated
-  /// above, the same of the loads, finite rotations, contacts that are detected anew, and blocks that fall asleep. The kinetic
-  /// energy changes by the impulses times the mean velocity (v + v+) / 2, whatever the integrator.
+  /// What the integrator takes, or gives if negative: work of the joints on the mean velocity that is neither
+  /// stored nor dissipated above, the same of the loads, finite rotations, contacts that are detected anew,
+  /// and blocks that fall asleep. The kinetic energy changes by the impulses times the mean velocity (v + v+)
+  /// / 2, whatever the integrator.
   double scheme = 0.0;
 
   double dissipated() const { return friction + damping + impact + scheme; }
@@ -48,12 +49,13 @@ StepWork work_of_step(const Model& model, const StepStart& start, const StepProb
                       const ContactSolution& solution, const State& state, const ContactMemories& memories,
                       const StepOptions& options);
 
-/// Work dissipated in the joints and ties in one step, J, >= 0 in exact arithmetic, with the inelastic displacement reach z and the force
-/// r+ at the end of the step. Of friction:
+/// Work dissipated in the joints and ties in one step, J, >= 0 in exact arithmetic, with the inelastic
+/// displacement reach z and the force r+ at the end of the step. Of friction:
 ///
 ///     - sum r_t . reach z_t,   z = D^T v + b + E gamma
 ///
-/// Joints with strength add the work of tension and crushing, sum (- r_n reach z_n)+, and ties that of yielding.
+/// Joints with strength add the work of tension and crushing, sum (- r_n reach z_n)+, and ties that of
+/// yielding.
 double joint_dissipation(const StepProblem& step, const ContactSolution& solution);
 
 }  // namespace cupola

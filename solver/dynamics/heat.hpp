@@ -11,8 +11,8 @@ namespace cupola {
 ///
 ///     alpha [(T + g . x) x - |x|^2 g / 2],
 ///
-/// whose strain is alpha (T + g . x) in all directions and whose rotation about the centre is zero (B. A. Boley, J. H. Weiner, Theory of Thermal
-/// Stresses, 1960: a linear field leaves a free body without stress).
+/// whose strain is alpha (T + g . x) in all directions and whose rotation about the centre is zero (B. A.
+/// Boley, J. H. Weiner, Theory of Thermal Stresses, 1960: a linear field leaves a free body without stress).
 struct BlockExpansion {
   Vec3 centre = Vec3::Zero();    ///< m, from the centroid of the block, its own axes
   double strain = 0.0;           ///< alpha T
@@ -24,7 +24,8 @@ struct BlockExpansion {
 class HeatedBlocks {
  public:
   HeatedBlocks() = default;
-  /// Throws InputError for regions without blocks, and for a growth along the normal of blocks without an extrados.
+  /// Throws InputError for regions without blocks, and for a growth along the normal of blocks without an
+  /// extrados.
   HeatedBlocks(const Case& scene, const Assembly& assembly);
 
   bool empty() const { return of_block_.empty(); }

@@ -7,24 +7,26 @@
 
 namespace cupola {
 
-// Joints with strength that move. The elastic gap of a contact point is measured from its inelastic displacements:
+// Joints with strength that move. The elastic gap of a contact point is measured from its inelastic
+// displacements:
 //
 //     bonded   never opened: pull and push, both from the gap -crushing
 //     pulled   opened before, no closer than that: pull from the gap -crushing + opening, no push
 //     bearing  opened before and closing: push from the gap -crushing, no pull
 //
-// A crack thus closes without force and takes up pull again where it stopped opening. The inelastic velocity of a step is
-// z = D^T v + b + E gamma, and
+// A crack thus closes without force and takes up pull again where it stopped opening. The inelastic velocity
+// of a step is z = D^T v + b + E gamma, and
 //
 //     opening  += h z_n           under pull
 //     crushing += - h z_n         under push
 //     damage   += sqrt((h z_n / opening length)^2 + (h |z_t| / slip length)^2)      with z_n only under pull
 //
-// up to 1: linear softening in either mode, mixed by the quadratic rule (P. B. Lourenco, J. G. Rots 1997, "Multisurface interface
-// model for analysis of masonry structures", couple the modes of an interface in a similar way). Friction
-// and compressive strength do not depend on the damage. The strength of a step is the mean over its inelastic
-// displacement, so that a joint that breaks dissipates its fracture energy whatever the number of steps; because that
-// displacement depends on the strength, the step is solved again until the mean damage is right.
+// up to 1: linear softening in either mode, mixed by the quadratic rule (P. B. Lourenco, J. G. Rots 1997,
+// "Multisurface interface model for analysis of masonry structures", couple the modes of an interface in a
+// similar way). Friction and compressive strength do not depend on the damage. The strength of a step is the
+// mean over its inelastic displacement, so that a joint that breaks dissipates its fracture energy whatever
+// the number of steps; because that displacement depends on the strength, the step is solved again until the
+// mean damage is right.
 
 /// What a contact point bears in one step.
 struct StepBond {
@@ -36,8 +38,8 @@ StepBond bond_in_step(const JointLaw& law, const JointDamage& joint);
 /// Before the first solve of a step: its damage is that at the end of the last step.
 void begin_step(const ContactSet& contacts, ContactMemories* memories);
 
-/// After a solve: true if the mean damage of the step or the role of open joints differs from what was solved for, so that
-/// the step has to be solved again. Then `memories` has the new values, of which none heals.
+/// After a solve: true if the mean damage of the step or the role of open joints differs from what was solved
+/// for, so that the step has to be solved again. Then `memories` has the new values, of which none heals.
 bool refine_step(const Model& model, const State& state, const ContactSet& contacts, const StepProblem& step,
                  const ContactSolution& solution, const StepOptions& options, ContactMemories* memories);
 

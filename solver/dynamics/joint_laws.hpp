@@ -10,8 +10,9 @@
 
 namespace cupola {
 
-/// Inelastic displacements of the faces of a joint after which nothing is left of its tension and cohesion, m: infinite in
-/// plastic joints, 0 in brittle ones, 2 G / f for the fracture energy G and the strength f of softening ones.
+/// Inelastic displacements of the faces of a joint after which nothing is left of its tension and cohesion,
+/// m: infinite in plastic joints, 0 in brittle ones, 2 G / f for the fracture energy G and the strength f of
+/// softening ones.
 struct CrackLengths {
   double opening = std::numeric_limits<double>::infinity();
   double slip = std::numeric_limits<double>::infinity();
@@ -28,8 +29,8 @@ struct JointLaw {
 };
 
 /// Classes of joints that can have different laws. A base joint lies on a support. A herringbone joint
-/// touches a herringbone block. Pieces belong to one imported block: their names differ only after a '#'. A wythe joint lies between
-/// layers of the thickness.
+/// touches a herringbone block. Pieces belong to one imported block: their names differ only after a '#'. A
+/// wythe joint lies between layers of the thickness.
 enum class JointClass { bed, head, herringbone_bed, herringbone_other, base, pieces, wythe, other };
 constexpr int kNumJointClasses = 8;
 JointClass joint_class(const Assembly& assembly, const Patch& patch);

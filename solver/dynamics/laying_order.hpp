@@ -14,8 +14,9 @@ struct LaidBlocks {
   std::vector<int> blocks;  ///< of the assembly, free
 };
 
-/// The stages of the courses `first` to `last`: whole courses, or one block of every team. A block is laid with the first ring that
-/// it occupies. Each team lays one of equal runs of the course, in the order of the case.
+/// The stages of the courses `first` to `last`: whole courses, or one block of every team. A block is laid
+/// with the first ring that it occupies. Each team lays one of equal runs of the course, in the order of the
+/// case.
 std::vector<LaidBlocks> laying_order(const Assembly& assembly, const StagedConstruction& staged, int first,
                                      int last);
 

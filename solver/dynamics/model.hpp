@@ -51,11 +51,12 @@ struct State {
 /// Blocks at rest as generated, supports at their imposed positions at time 0.
 State state_at_rest(const Model& model);
 
-/// Contacts at rest. A joint that a moved support opens or closes is found however far it has moved, up to the size of a block.
+/// Contacts at rest. A joint that a moved support opens or closes is found however far it has moved, up to
+/// the size of a block.
 const ContactSet& contacts_at_rest(const State& rest, const Assembly& assembly, ContactDetector* detector);
 
-/// Memories of these contacts: unloaded, but where a support has moved along a joint, it has stretched the tangential spring by as
-/// much. How far it has moved across the joint is in the gap.
+/// Memories of these contacts: unloaded, but where a support has moved along a joint, it has stretched the
+/// tangential spring by as much. How far it has moved across the joint is in the gap.
 ContactMemories memories_at_rest(const Model& model, const State& rest, const std::vector<Contact>& contacts);
 
 /// Mass matrix of one block, with the inertia in world axes.

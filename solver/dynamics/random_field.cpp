@@ -17,7 +17,8 @@ namespace {
 /// The kurtosis of the sum of n random waves is 3 - 1.5 / n.
 constexpr int kWaves = 128;
 
-/// Uniform in (0, 1); the distributions of the standard library differ between its implementations, the engine does not.
+/// Uniform in (0, 1); the distributions of the standard library differ between its implementations, the
+/// engine does not.
 double uniform(std::mt19937_64* engine) {
   return (static_cast<double>((*engine)() >> 11) + 0.5) * 0x1p-53;
 }
@@ -58,9 +59,10 @@ static_assert(kKnownPolygons == 1 << (64 - 50));
 
 }  // namespace
 
-// Spectral representation with random wave vectors and phases (M. Shinozuka, 1971, J. Acoust. Soc. Am. 49, 357-367): the
-// logarithm is s sqrt(2 / n) sum cos(k_j x + phi_j) - s^2 / 2. Wave vectors of the correlation exp(-(r / l)^2) are normal with the
-// deviation sqrt(2) / l (its Fourier transform); they are drawn by Box and Muller.
+// Spectral representation with random wave vectors and phases (M. Shinozuka, 1971, J. Acoust. Soc. Am. 49,
+// 357-367): the logarithm is s sqrt(2 / n) sum cos(k_j x + phi_j) - s^2 / 2. Wave vectors of the correlation
+// exp(-(r / l)^2) are normal with the deviation sqrt(2) / l (its Fourier transform); they are drawn by Box
+// and Muller.
 RandomField::RandomField(int seed, const std::string& quantity, double length, double variation) {
   CUPOLA_ASSERT(length > 0.0 && variation >= 0.0);
   if (variation == 0.0) return;
@@ -90,8 +92,8 @@ double RandomField::at(const Vec3& point) const {
 double RandomField::mean_over(std::span<const Vec3> polygon) const {
   if (is_constant()) return 1.0;
   CUPOLA_ASSERT(!polygon.empty());
-  // A law is asked for at every contact point of a joint, several times in a step. What is remembered is compared by value, so that it
-  // changes no result, and belongs to one thread.
+  // A law is asked for at every contact point of a joint, several times in a step. What is remembered is
+  // compared by value, so that it changes no result, and belongs to one thread.
   thread_local std::array<KnownMeans, kKnownFields> known;
   thread_local size_t oldest = 0;
   // Fields with equal phases have the same random numbers, so that their waves differ by the length only.

@@ -13,8 +13,8 @@ namespace cupola {
 class RandomField {
  public:
   RandomField() = default;  ///< 1 everywhere
-  /// `variation`: standard deviation over the mean, >= 0. The logarithm has the correlation exp(-(r / length)^2) over the distance r
-  /// (m). Different quantities of one seed are independent.
+  /// `variation`: standard deviation over the mean, >= 0. The logarithm has the correlation exp(-(r /
+  /// length)^2) over the distance r (m). Different quantities of one seed are independent.
   RandomField(int seed, const std::string& quantity, double length, double variation);
 
   double at(const Vec3& point) const;

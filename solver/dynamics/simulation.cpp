@@ -11,16 +11,17 @@
 namespace cupola {
 namespace {
 
-/// Estimated error of the position in one step, m, of the block where it is largest: h |v+ - v| / 2 of implicit Euler; of the generalized alpha
-/// method h^2 |beta - 1/6| |(v+ - v) / h - a|, O. C. Zienkiewicz and Y. M. Xie (1991), Earthq. Eng. Struct. Dyn. 20, 871.
+/// Estimated error of the position in one step, m, of the block where it is largest: h |v+ - v| / 2 of
+/// implicit Euler; of the generalized alpha method h^2 |beta - 1/6| |(v+ - v) / h - a|, O. C. Zienkiewicz and
+/// Y. M. Xie (1991), Earthq. Eng. Struct. Dyn. 20, 871.
 double step_error(const StepProblem& step, const VecX& before, const VecX& after, double h) {
   constexpr double kBeta = 4.0 / 9.0;
   if (step.acceleration.size() == 0) return 0.5 * h * largest_speed(after - before);
   return h * (kBeta - 1.0 / 6.0) * largest_speed(after - before - h * step.acceleration);
 }
 
-/// Next step size, s. The error is proportional to h^2 in smooth motion, or h^3 of the generalized alpha method. The change per step
-/// is limited, so that a single impact does not make the step size oscillate.
+/// Next step size, s. The error is proportional to h^2 in smooth motion, or h^3 of the generalized alpha
+/// method. The change per step is limited, so that a single impact does not make the step size oscillate.
 double next_step(const AdaptiveStep& adaptive, const Integrator& integrator, double h, double error) {
   const double ratio = adaptive.displacement_error / error;
   const double proposed = !(error > 0.0)

@@ -9,9 +9,10 @@
 
 namespace cupola {
 
-/// A warning if the compliance of the joints lets the model sink by more than 1 % of its height under its own weight and
-/// the loads: the displacements then move the thrust, and are no longer small. The sinking is estimated: the joints on
-/// supports share the load like parallel springs, and the load grows in proportion to the depth below the top.
+/// A warning if the compliance of the joints lets the model sink by more than 1 % of its height under its own
+/// weight and the loads: the displacements then move the thrust, and are no longer small. The sinking is
+/// estimated: the joints on supports share the load like parallel springs, and the load grows in proportion
+/// to the depth below the top.
 std::vector<std::string> soft_joints(const Case& scene, const Assembly& assembly, const ContactSet& contacts);
 
 }  // namespace cupola

@@ -15,8 +15,8 @@ struct ConstructionStage {
 };
 ConstructionStage build_stage(const Assembly& complete, int ring);
 
-/// Adds the laws of fresh and curing mortar while course `ring` is being laid. Joints of the courses up to `top` are as young as
-/// its own.
+/// Adds the laws of fresh and curing mortar while course `ring` is being laid. Joints of the courses up to
+/// `top` are as young as its own.
 void add_fresh_joints(const StagedConstruction& staged, int ring, int top, Joints* joints);
 
 /// The case of that stage, with the friction `fresh_friction` in its fresh joints. An incomplete stage

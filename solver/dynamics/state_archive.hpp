@@ -6,8 +6,8 @@
 
 namespace cupola {
 
-// The fields of a state, of its contacts and of their memories that a checkpoint stores. Add any new field of these structs that
-// persists from step to step.
+// The fields of a state, of its contacts and of their memories that a checkpoint stores. Add any new field of
+// these structs that persists from step to step.
 
 template <class Archive>
 void visit(Archive& archive, Pose& x) {

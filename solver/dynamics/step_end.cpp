@@ -35,7 +35,8 @@ VecX mean_velocity(const StepProblem& step, const State& state, const ContactSol
 
 namespace {
 
-/// What the generalized alpha method keeps of a contact, and the penetration that an impact leaves. `gap`: m, at the end of the step.
+/// What the generalized alpha method keeps of a contact, and the penetration that an impact leaves. `gap`: m,
+/// at the end of the step.
 void update_past(const Vec3& force_A, double gap, const StepOptions& options, ContactMemory* memory) {
   const Integrator& scheme = options.integrator;
   const bool smooth = has_past(*memory, options);
@@ -100,7 +101,8 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
 }
 
 double plastic_elongation(const StepProblem& step, int row, const ContactSolution& solution) {
-  // Below the yield force the contact law is satisfied up to the accuracy of the solve, which must not add up over the steps.
+  // Below the yield force the contact law is satisfied up to the accuracy of the solve, which must not add up
+  // over the steps.
   constexpr double kYields = 1e-6;
   if (step.problem.strength.empty()) return 0.0;
   const double limit = step.problem.strength[row].compression;
@@ -115,8 +117,8 @@ void continue_from_rest(const Vec3& force, const Pose& pose_a, ContactMemory* me
 
 namespace {
 
-/// The impulse of the last step in the present contact frame. contact_frame() changes its tangents where the normal passes a tie between
-/// world axes, by 60 degrees or more. At a level bed rounding is enough for that.
+/// The impulse of the last step in the present contact frame. contact_frame() changes its tangents where the
+/// normal passes a tie between world axes, by 60 degrees or more. At a level bed rounding is enough for that.
 Vec3 in_present_frame(const ContactMemory& memory, const Contact& contact, const State& state) {
   constexpr double kSameTangent = 0.75;  // cos; blocks turn by far less in a step
   const Vec3 tangent_W = state.poses[contact.block_a].q_WB * memory.tangent_A;

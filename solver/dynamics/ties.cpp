@@ -45,7 +45,8 @@ Tie make_tie(const Assembly& assembly, BuiltTie tie, const char* key) {
           Vec3::Zero()};
 }
 
-/// A tie that carries `prestress` as generated: its natural length is shorter by prestress / stiffness, or longer by `slack`.
+/// A tie that carries `prestress` as generated: its natural length is shorter by prestress / stiffness, or
+/// longer by `slack`.
 Tie pair_tie(const Assembly& assembly, const PairTie& pair) {
   constexpr const char* key = "ties.pairs";
   check_block(assembly, pair.block_a, key);

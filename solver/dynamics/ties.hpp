@@ -12,9 +12,9 @@ namespace cupola {
 ///
 ///     phi = L0 + yielded - L   (positive when slack)
 ///
-/// compliance 1/stiffness and, as compressive strength, the yield force: `yielded` is the plastic elongation so far.
-/// A strut has phi = L - L0, pushes when it is shorter than L0, and does not yield.
-/// A restraint is a tie and a strut whose direction does not turn with its ends: L is the distance of the ends along it.
+/// compliance 1/stiffness and, as compressive strength, the yield force: `yielded` is the plastic elongation
+/// so far. A strut has phi = L - L0, pushes when it is shorter than L0, and does not yield. A restraint is a
+/// tie and a strut whose direction does not turn with its ends: L is the distance of the ends along it.
 struct Tie {
   int block_a = 0, block_b = 0;                       ///< a < b
   Vec3 p_AP_A = Vec3::Zero(), p_BP_B = Vec3::Zero();  ///< m, from the centroids, axes of the blocks
@@ -35,9 +35,9 @@ struct TieGeometry {
 };
 TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses);
 
-/// The ties of the case and of the assembly, and its restraints, which end on the first fixed block. A rigid rod gives a tie and a
-/// strut. Throws InputError for blocks that do not exist, for ends that coincide, and for restraints of fixed blocks or
-/// without one.
+/// The ties of the case and of the assembly, and its restraints, which end on the first fixed block. A rigid
+/// rod gives a tie and a strut. Throws InputError for blocks that do not exist, for ends that coincide, and
+/// for restraints of fixed blocks or without one.
 std::vector<Tie> make_ties(const Case& scene, const Assembly& assembly);
 
 }  // namespace cupola

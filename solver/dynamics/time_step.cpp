@@ -69,7 +69,8 @@ VecX accelerations(const ContactProblem& problem, const VecX& f) {
   return a;
 }
 
-/// The part of the impulses that follows from the forces at the start of the step, and the filtered accelerations.
+/// The part of the impulses that follows from the forces at the start of the step, and the filtered
+/// accelerations.
 void set_past(const Model& model, const State& state, const ContactSet& contacts,
               const ContactMemories& memories, const StepOptions& options, StepProblem* step) {
   if (options.integrator.is_euler()) return;

@@ -22,7 +22,8 @@ struct StepOptions {
   std::optional<double> time_advance;
 
   double advance() const { return time_advance.value_or(h); }
-  /// From the start of the step to the time at which loads are evaluated: its middle, or the end of a static step.
+  /// From the start of the step to the time at which loads are evaluated: its middle, or the end of a static
+  /// step.
   double load_advance() const { return time_advance.value_or(0.5 * h); }
   /// Weight of the velocity at the end in the displacement, s, and the same with damping.
   double reach() const { return integrator.v_end * h; }
@@ -32,8 +33,8 @@ struct StepOptions {
 /// The contact problem of one step. The rows of the contacts come first, followed by three rows per tie.
 struct StepProblem {
   ContactProblem problem;
-  /// m/s: D_s^T v_s, and the velocity at which the heated faces of a contact separate; included in problem.b (3 (nc + number of
-  /// ties))
+  /// m/s: D_s^T v_s, and the velocity at which the heated faces of a contact separate; included in problem.b
+  /// (3 (nc + number of ties))
   VecX support_velocity;
   double reach = 0.0;    ///< s, StepOptions::reach()
   VecX impulse_time;     ///< s: gamma over it is the force at the end of the step (3 (nc + number of ties))
@@ -52,9 +53,9 @@ Mat3 contact_frame(const Vec3& normal);
 ///     b_t    = elastic_slip / (h + alpha) + (D_s^T v_s)_t
 ///     E      = c / (h (h + alpha))
 ///
-/// with v_s the imposed velocity of the supports and c the compliance; the gap phi of joints with strength is measured from
-/// their inelastic displacements (joint_damage.hpp). A tie is a frictionless contact (ties.hpp) whose yield force is a compressive
-/// strength. Differences from the paper:
+/// with v_s the imposed velocity of the supports and c the compliance; the gap phi of joints with strength is
+/// measured from their inelastic displacements (joint_damage.hpp). A tie is a frictionless contact (ties.hpp)
+/// whose yield force is a compressive strength. Differences from the paper:
 ///
 /// - Eq. 14 limits all of phi / h by the recovery speed eps_u, which limits the force of a compliant contact
 ///   to eps_u h / c. Recovery::literal is that scheme; with Recovery::compliant the limit applies only to
@@ -62,11 +63,12 @@ Mat3 contact_frame(const Vec3& normal);
 /// - Eq. 14 has no elastic_slip, so that a sticking contact under a tangential force T creeps at c T / h.
 ///   TangentialSpring::literal is that scheme, TangentialSpring::memory includes elastic_slip.
 /// - Loads are evaluated in the middle of the step instead of at its start (eq. 10), so that their impulse is
-///   accurate to second order; those of a static step at its end. Friction is evaluated at the end of the step.
+///   accurate to second order; those of a static step at its end. Friction is evaluated at the end of the
+///   step.
 ///
-/// The generalized alpha method (integrator.hpp) has the same form, with the impulse h end r+ for gamma, the displacement
-/// v_end h v+ for h v, and what is known of both in v_star and b. `state` has the configuration at which contacts and
-/// loads are evaluated (middle_of_step()), the velocities and the time of the start.
+/// The generalized alpha method (integrator.hpp) has the same form, with the impulse h end r+ for gamma, the
+/// displacement v_end h v+ for h v, and what is known of both in v_star and b. `state` has the configuration
+/// at which contacts and loads are evaluated (middle_of_step()), the velocities and the time of the start.
 StepProblem build_step_problem(const Model& model, const State& state, const ContactSet& contacts,
                                const ContactMemories& memories, const StepOptions& options);
 
@@ -82,8 +84,8 @@ VecX mean_velocity(const StepProblem& step, const State& state, const ContactSol
 ///     u    = D^T v + D_s^T v_s             relative velocity
 ///     u_el = u - (D^T v + b + E gamma)     its elastic part, equal to u while the contact sticks
 ///
-/// The gap and the slip of the springs change by reach() u_el. The rest of the tangential motion is plastic slip, and the rest of
-/// the motion of joints with strength adds to their damage.
+/// The gap and the slip of the springs change by reach() u_el. The rest of the tangential motion is plastic
+/// slip, and the rest of the motion of joints with strength adds to their damage.
 void update_memories(const Model& model, const StepProblem& step, const ContactSolution& solution,
                      const State& state, const ContactSet& contacts, const StepOptions& options,
                      ContactMemories* memories);
@@ -91,7 +93,8 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
 /// m, >= 0: by which a tie, whose rows are those of `row`, yields in the step.
 double plastic_elongation(const StepProblem& step, int row, const ContactSolution& solution);
 
-/// What the generalized alpha method keeps of a contact that carries the force (N, world axes) in a structure at rest.
+/// What the generalized alpha method keeps of a contact that carries the force (N, world axes) in a structure
+/// at rest.
 void continue_from_rest(const Vec3& force, const Pose& pose_a, ContactMemory* memory);
 
 /// Warm start of the solve: velocities at the start of the step and impulses of the last step.

@@ -20,8 +20,8 @@ constexpr long long kNever = -1;
 std::atomic<long long> time_of_request = kNever, deadline = kNever;
 static_assert(std::atomic<long long>::is_always_lock_free);  // as a signal handler requires
 
-/// The second request kills. A terminal or a scheduler signals all processes of a list of runs (assembly/program/batch.hpp), which then
-/// passes the signal on: what comes at once is one request.
+/// The second request kills. A terminal or a scheduler signals all processes of a list of runs
+/// (assembly/program/batch.hpp), which then passes the signal on: what comes at once is one request.
 void request_stop(int signal) {
   constexpr long long kAtOnce = 200;  // ms
   const long long now = monotonic_milliseconds(), before = time_of_request;

@@ -16,8 +16,8 @@ class StopRequest {
   bool made() const;
 };
 
-/// During its lifetime, work that takes longer than a number of seconds is abandoned as after a stop request. There is
-/// at most one.
+/// During its lifetime, work that takes longer than a number of seconds is abandoned as after a stop request.
+/// There is at most one.
 class TimeLimit {
  public:
   explicit TimeLimit(double seconds);
@@ -32,8 +32,8 @@ class Interrupted : public std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// True if a stop was requested more than a second ago, or after a time limit. A step that ends within that second is
-/// completed, so that a motion can be resumed after it.
+/// True if a stop was requested more than a second ago, or after a time limit. A step that ends within that
+/// second is completed, so that a motion can be resumed after it.
 bool must_abandon() noexcept;
 
 /// Throws Interrupted if must_abandon(). Not for use in the threads of a team, which must not throw.

@@ -15,7 +15,8 @@ class IterationLog {
   IterationLog& operator=(const IterationLog&) = delete;
 };
 
-/// Called in each iteration, with the accuracy reached so far and the tolerance. Not for use in the threads of a team.
+/// Called in each iteration, with the accuracy reached so far and the tolerance. Not for use in the threads
+/// of a team.
 void report_iteration(const char* method, int iteration, double accuracy, double tolerance);
 
 }  // namespace cupola

@@ -158,8 +158,8 @@ struct StepCost {
   int contacts = 0;
 };
 
-/// Mean cost of a step, from contact detection to the account of energy. `carried`: with the factor and the impulses at rest that the
-/// solver keeps from step to step; the initial guess is the last step in any case.
+/// Mean cost of a step, from contact detection to the account of energy. `carried`: with the factor and the
+/// impulses at rest that the solver keeps from step to step; the initial guess is the last step in any case.
 StepCost measure_steps(const DomeMotion& dome, bool carried) {
   constexpr int kFirst = 10, kSteps = 20;
   Case scene = read_case(
@@ -209,7 +209,8 @@ void whole_steps() {
   }
 }
 
-/// Rigid domes under Coulomb's law: one step of 0.01 s from rest, scaled to mean mass 1 and reference speed 1, and whole steps.
+/// Rigid domes under Coulomb's law: one step of 0.01 s from rest, scaled to mean mass 1 and reference speed
+/// 1, and whole steps.
 void coulomb() {
   fmt::print(
       "scene,contacts,tolerance,CPU ms,iterations,factorisations,worst residual,\"displacement, m\"\n");

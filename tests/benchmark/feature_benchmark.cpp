@@ -1,5 +1,5 @@
-// Cost of features: counts and processor time of the analysis of the same scene with and without each feature, as CSV;
-// shortest time of three runs.
+// Cost of features: counts and processor time of the analysis of the same scene with and without each
+// feature, as CSV; shortest time of three runs.
 
 #include <algorithm>
 #include <functional>
@@ -53,7 +53,8 @@ void print_row(const char* scene, const char* feature, const Measured& with, con
              with.seconds / without.seconds);
 }
 
-/// Joints of mortar. The same dome without strength has the same contact points only with compliance per area.
+/// Joints of mortar. The same dome without strength has the same contact points only with compliance per
+/// area.
 void strength_rows(const std::string& dome, const Measured& plain) {
   const std::string compliance = "joints.compliance={per: area, normal: 1e-10, tangential: 2.4e-10}";
   for (const int subdivide : {1, 2}) {

@@ -1,4 +1,5 @@
-// Errors of the time integrators on scenes of one block, as CSV: scene, integrator, step (ms), relative error.
+// Errors of the time integrators on scenes of one block, as CSV: scene, integrator, step (ms), relative
+// error.
 
 #include <cmath>
 #include <functional>
@@ -32,7 +33,8 @@ double spring_error(TimeIntegrator integrator, double h) {
   return (state.poses[1].p_WB.z() - 0.5) / exact - 1.0;
 }
 
-/// Way of a block with friction 0.2 down a slope of 0.5 in 0.5 s under Coulomb's law, against the exact motion.
+/// Way of a block with friction 0.2 down a slope of 0.5 in 0.5 s under Coulomb's law, against the exact
+/// motion.
 double sliding_error(TimeIntegrator integrator, double h) {
   Case scene = make_case(0.2, 1e-9, h);
   scene.analysis.friction_law = FrictionLaw::coulomb;

@@ -129,8 +129,8 @@ void add_overhang(Rows* rows) {
   }
 }
 
-/// Keystones and leaning cards near the friction from which forces that carry them exist. Under Coulomb's law a keystone on compliant
-/// joints falls at any friction, because its joints open as it sinks.
+/// Keystones and leaning cards near the friction from which forces that carry them exist. Under Coulomb's law
+/// a keystone on compliant joints falls at any friction, because its joints open as it sinks.
 void add_frictions(Rows* rows) {
   constexpr double kNear[] = {-1e-2, -1e-3, -1e-4, 1e-4, 1e-3, 1e-2};
   const auto add = [&](const std::string& what, double critical, double distance, FrictionLaw law,

@@ -1,13 +1,15 @@
-// Cross-checks of verdicts on random models: static analysis, range, bisection and direct limit answer the same question.
+// Cross-checks of verdicts on random models: static analysis, range, bisection and direct limit answer the
+// same question.
 //
 //   extremes_verdicts COUNT FIRST_SEED      prints a table of the methods
 //   extremes_verdicts towers                prints a table of towers of cubes, whose limit is known
 //   extremes_verdicts scaled                prints a table of models scaled in length and weight
 //
-// Fails if two verdicts contradict each other, or if more static analyses than largest_undecided() are undecided.
+// Fails if two verdicts contradict each other, or if more static analyses than largest_undecided() are
+// undecided.
 //
-// The direct limit of the associated law is the reference. Above it no law stands, below it the associated law does. Under Coulomb's law
-// a structure may move below it, but that can not be proven.
+// The direct limit of the associated law is the reference. Above it no law stands, below it the associated
+// law does. Under Coulomb's law a structure may move below it, but that can not be proven.
 
 #include <cmath>
 #include <map>

@@ -4,8 +4,8 @@
 
 namespace cupola {
 
-/// A random model with a limit in one parameter, which the case names: the lateral acceleration of walls, piles, arches, domes and
-/// imported blocks, the friction of wedges and leaning cards.
+/// A random model with a limit in one parameter, which the case names: the lateral acceleration of walls,
+/// piles, arches, domes and imported blocks, the friction of wedges and leaning cards.
 struct LimitModel {
   std::string name;
   Scene scene;                ///< a limit analysis

@@ -52,7 +52,8 @@ std::string fault_of(const ExtremeScene& scene, const Summary& summary, const Fr
   if (std::find(scene.correct.begin(), scene.correct.end(), result.ending) == scene.correct.end())
     return fmt::format("presented as {}", to_string(result.ending));
   if (!finite(frame)) return "a number is not finite";
-  // The account of energy of a motion closes. Below this speed (m/s) its energies are rounding of the positions.
+  // The account of energy of a motion closes. Below this speed (m/s) its energies are rounding of the
+  // positions.
   constexpr double kAtRest = 1e-6, kBalance = 1e-6;
   if (summary.energy_error.value_or(0.0) > kBalance && summary.max_speed_m_per_s.value_or(0.0) > kAtRest)
     return fmt::format("the account of energy errs by {:.1e}", *summary.energy_error);

@@ -140,7 +140,8 @@ TEST(Clamps, CrossTheHeadJointsOfTheirCourse) {
   EXPECT_EQ(pairs.size(), 32u);
 }
 
-// A course of 16 long blocks among courses of 32: two in each sail meet at mid-sail, and eight turn the corners.
+// A course of 16 long blocks among courses of 32: two in each sail meet at mid-sail, and eight turn the
+// corners.
 TEST(LongBlocks, ReplaceTheBondInTheirCourse) {
   Chain chain;
   chain.type = Chain::Type::clamps;

@@ -19,7 +19,8 @@ inline Case dome_case(int rings = 40, int blocks_per_ring = 32, int slices_per_b
   return c;
 }
 
-/// A vertical wall over an octagon of the given span between corners, as a member that ends at z = 0 under the vault of the case.
+/// A vertical wall over an octagon of the given span between corners, as a member that ends at z = 0 under
+/// the vault of the case.
 inline Member octagonal_drum(double span, double height, double thickness, const Bond& bond,
                              VaultSurface::Beds beds = VaultSurface::Beds::conical) {
   VaultSurface wall;

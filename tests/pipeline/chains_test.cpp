@@ -32,8 +32,8 @@ Case hemisphere(double crown_angle_deg, int rings) {
   return scene;
 }
 
-// A ring without friction at its base, pressed outwards: H per length gives T = H r. The facets of the intrados reach from the
-// radius rho_0 to rho_1 over the height dz, so that H r = p dz (rho_0 + rho_1) / 2.
+// A ring without friction at its base, pressed outwards: H per length gives T = H r. The facets of the
+// intrados reach from the radius rho_0 to rho_1 over the height dz, so that H r = p dz (rho_0 + rho_1) / 2.
 TEST(Chain, CarriesTheThrustOfARingTimesItsRadius) {
   const ProgramFolder folder;
   Case scene = hemisphere(5.0, 1);
@@ -57,8 +57,8 @@ TEST(Chain, CarriesTheThrustOfARingTimesItsRadius) {
     EXPECT_NEAR(force / T, 1.0, 1e-6);
 }
 
-// A dome whose head joints are aligned has no hoop tension but that of its chain. Without friction at the base the chain holds
-// the thrust alone, and the forces across a vertical plane through the axis cancel.
+// A dome whose head joints are aligned has no hoop tension but that of its chain. Without friction at the
+// base the chain holds the thrust alone, and the forces across a vertical plane through the axis cancel.
 TEST(Chain, HoldsADomeWithoutFrictionAtItsBase) {
   const ProgramFolder folder;
   Case scene = hemisphere(70.0, 10);

@@ -30,7 +30,8 @@ struct Scene {
   Vec3 gravity = Vec3(0.0, 0.0, -kG);
 };
 
-/// A COMPAS assembly of prisms 1 m long along y, with the corners (x, z) of their sections, counter-clockwise seen against y.
+/// A COMPAS assembly of prisms 1 m long along y, with the corners (x, z) of their sections, counter-clockwise
+/// seen against y.
 std::string compas_of(const std::vector<std::array<Eigen::Vector2d, 4>>& sections) {
   std::string nodes;
   for (size_t b = 0; b < sections.size(); ++b) {
@@ -261,8 +262,8 @@ TEST_F(CompasAssembly, CurvedBlocksStandOnTheInterfacesOfTheirFile) {
   const Assembly assembly = import_blocks(source, 1000.0, &report);
   double volume = 0.0;
   for (const Block& block : assembly.blocks) volume += block.volume;
-  // The volume as drawn is that of fans from the first corners. Masses are those of the convex parts, which leave out a
-  // share of the warped faces (1.1e-3 m); above 1 % of a block the import warns.
+  // The volume as drawn is that of fans from the first corners. Masses are those of the convex parts, which
+  // leave out a share of the warped faces (1.1e-3 m); above 1 % of a block the import warns.
   EXPECT_NEAR(volume, 4.269792, 0.01 * 4.269792);
   EXPECT_LE(assembly.parts.size(), 20u);  // one wedge per strip of a concave face would suffice
 

@@ -95,8 +95,8 @@ TEST(Ensembles, LostMembersAndSlicesGiveTheSameResults) {
   EXPECT_EQ(folder.results(), first);
 }
 
-// Blocks that members share are cut once, and a member has the bits that it would have alone. A member without input ends neither the
-// others nor their batch.
+// Blocks that members share are cut once, and a member has the bits that it would have alone. A member
+// without input ends neither the others nor their batch.
 TEST(Ensembles, ABatchGivesTheBitsOfSingleRuns) {
   const EnsembleFolder folder;
   const std::string programs = CUPOLA_BIN_DIR;
@@ -131,8 +131,9 @@ TEST(Ensembles, KeepTablesOnRequest) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("out/incline/0001/assembly.vtu")));
 }
 
-// Three courses with a friction of their own on each bed: the wall slides on the weakest, at that acceleration (g), before it tips at a
-// slope of 2. The samples come from a file; the direct limit finds the value to 1e-6.
+// Three courses with a friction of their own on each bed: the wall slides on the weakest, at that
+// acceleration (g), before it tips at a slope of 2. The samples come from a file; the direct limit finds the
+// value to 1e-6.
 TEST(Ensembles, AStackSlidesOnItsWeakestJoint) {
   const ProgramFolder folder;
   std::ofstream(folder.file("stack.yaml")) << R"(geometry:

@@ -1,5 +1,5 @@
-// Results folders written by earlier versions: they are read and evaluated for ever. Each folder of tests/fixtures/VERSION
-// is one run (case.yaml, results/) of the assembly arch.vtu or wall.vtu beside it.
+// Results folders written by earlier versions: they are read and evaluated for ever. Each folder of
+// tests/fixtures/VERSION is one run (case.yaml, results/) of the assembly arch.vtu or wall.vtu beside it.
 
 #include "assembly/case/case_reader.hpp"
 #include "assembly/files/assembly_file.hpp"

@@ -1,4 +1,5 @@
-// The groin vault of cases/groin_vault.yaml against the slicing technique, and against itself as imported blocks.
+// The groin vault of cases/groin_vault.yaml against the slicing technique, and against itself as imported
+// blocks.
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +24,9 @@ Summary solve(const ProgramFolder& folder, const std::string& path, const std::s
   return summary_from_json(slurp(file), file);
 }
 
-/// N: the sum over the four corners of the thrust along the diagonals. Each web is sliced into arches parallel to its side, which run from
-/// the crown to the groin. The thrust of a slice acts in the middle of the thickness at the crown and at the groin.
+/// N: the sum over the four corners of the thrust along the diagonals. Each web is sliced into arches
+/// parallel to its side, which run from the crown to the groin. The thrust of a slice acts in the middle of
+/// the thickness at the crown and at the groin.
 double thrust_by_slicing(double side, double thickness, double unit_weight) {
   const double inner = 0.5 * side, outer = inner + thickness, middle = inner + 0.5 * thickness;
   const double foot = std::acos((inner - 0.5 * thickness) /

@@ -1,4 +1,5 @@
-// A vault that comes back from a file without courses and kinds of faces has the results of the generated one.
+// A vault that comes back from a file without courses and kinds of faces has the results of the generated
+// one.
 #include <gtest/gtest.h>
 
 #include "assembly/case/case_reader.hpp"
@@ -12,7 +13,8 @@
 namespace cupola::imported_courses_test {
 namespace {
 
-/// The octagonal vault of the repository in fewer blocks. Per area, because the support has other parts and so other points.
+/// The octagonal vault of the repository in fewer blocks. Per area, because the support has other parts and
+/// so other points.
 Case octagon(std::vector<std::string> more) {
   for (const char* set :
        {"geometry.bond.rings=10", "geometry.bond.blocks_per_ring=16", "analysis.tolerance=1e-13",
@@ -57,7 +59,8 @@ Results results_of(const Case& scene) {
   return results;
 }
 
-// The coordinates of the file have 17 digits. Forces differ by the rounding of sums over the contacts in another order.
+// The coordinates of the file have 17 digits. Forces differ by the rounding of sums over the contacts in
+// another order.
 TEST(ImportedCourses, GiveTheRingsAndThrustLinesOfTheGeneratedVault) {
   constexpr double kSame = 1e-9;
   const Case scene = octagon({});
@@ -91,7 +94,8 @@ TEST(ImportedCourses, GiveTheRangeOfTheThrustOfTheGeneratedVault) {
     return summary.ranges.at(0);
   };
   const ForceRange expected = range(scene), found = range(imported(scene));
-  // Both programmes see the same contact points to the rounding of their coordinates, and end at a gap of 1e-7 of the value.
+  // Both programmes see the same contact points to the rounding of their coordinates, and end at a gap of
+  // 1e-7 of the value.
   EXPECT_NEAR(*found.min.value, *expected.min.value, 1e-7 * std::abs(*expected.min.value));
   EXPECT_NEAR(*found.max.value, *expected.max.value, 1e-7 * std::abs(*expected.max.value));
 }

@@ -100,8 +100,8 @@ TEST(Slices, ChangeConicalBedsToSecondOrder) {
                per == Compliance::Per::area ? "area " : "point", changes[per][0], changes[per][1],
                changes[per][2]);
   }
-  // The next term of the series is smaller than the leading one by the square of the angle of a slice: 2 pi / 24 in the first
-  // pair, half of it in the second.
+  // The next term of the series is smaller than the leading one by the square of the angle of a slice: 2 pi /
+  // 24 in the first pair, half of it in the second.
   const auto& area = changes[Compliance::Per::area];
   const double next = std::pow(2.0 * M_PI / 24.0, 2);
   EXPECT_NEAR(area[0] / area[1], 4.0, 4.0 * next);

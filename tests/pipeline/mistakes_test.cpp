@@ -1,5 +1,5 @@
-// The mistakes of docs/mistakes.md, repeated as they are printed there: each ```yaml block is a file, named in
-// its first line, each ```console block holds commands and what they print.
+// The mistakes of docs/mistakes.md, repeated as they are printed there: each ```yaml block is a file, named
+// in its first line, each ```console block holds commands and what they print.
 
 #include <cstdlib>
 #include <regex>

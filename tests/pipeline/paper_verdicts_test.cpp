@@ -1,5 +1,5 @@
-// The verdicts of cases/studies/paper.yaml: which statements of the paper the program reproduces and which it does
-// not.
+// The verdicts of cases/studies/paper.yaml: which statements of the paper the program reproduces and which it
+// does not.
 #include <cstdlib>
 #include <filesystem>
 

@@ -1,6 +1,6 @@
-// The scripts for ParaView against the files of a run: every file, array and code that they name exists. They run in
-// Python with a stand-in for ParaView (paraview_double/) that reads the files with VTK; Debian installs Python's VTK with
-// its headers. The slow test ParaViewSlow runs them in ParaView itself.
+// The scripts for ParaView against the files of a run: every file, array and code that they name exists. They
+// run in Python with a stand-in for ParaView (paraview_double/) that reads the files with VTK; Debian
+// installs Python's VTK with its headers. The slow test ParaViewSlow runs them in ParaView itself.
 
 #include "tests/pipeline/program_run.hpp"
 

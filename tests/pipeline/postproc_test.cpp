@@ -90,10 +90,10 @@ Evaluation ranges_of_arch() {
   return solved(scene);
 }
 
-// J. Heyman, The Stone Skeleton (1995): as its supports spread, an arch opens at the intrados of the crown, so that the
-// line of least thrust touches the extrados there and the intrados in the haunches; as they close, the line of greatest
-// thrust touches the extrados at the springings and the intrados in the haunches. The horizontal force of a line is the
-// value of the range.
+// J. Heyman, The Stone Skeleton (1995): as its supports spread, an arch opens at the intrados of the crown,
+// so that the line of least thrust touches the extrados there and the intrados in the haunches; as they
+// close, the line of greatest thrust touches the extrados at the springings and the intrados in the haunches.
+// The horizontal force of a line is the value of the range.
 TEST(PostprocRange, LinesOfLeastAndGreatestThrustOfAnArch) {
   const Evaluation e = ranges_of_arch();
   ASSERT_EQ(e.summary.status, Status::stable);

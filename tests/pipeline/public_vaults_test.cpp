@@ -1,5 +1,5 @@
-// Vaults that were drawn elsewhere (cases/cross_vault.yaml, cases/pavilion_vault.yaml). The geometry decides whether they stand, not
-// the stiffness of the joints.
+// Vaults that were drawn elsewhere (cases/cross_vault.yaml, cases/pavilion_vault.yaml). The geometry decides
+// whether they stand, not the stiffness of the joints.
 
 #include "tests/pipeline/program_run.hpp"
 
@@ -27,7 +27,8 @@ TEST(PublicVaults, TheCrossVaultStandsWhateverTheStiffnessOfItsJoints) {
     }
 }
 
-// Both ends of the bracket are proven; 0.001 covers the snapping of its corners, which the file states to three digits.
+// Both ends of the bracket are proven; 0.001 covers the snapping of its corners, which the file states to
+// three digits.
 TEST(PublicVaults, TheCrossVaultNeedsAFrictionOfTwoFifths) {
   const ProgramFolder folder;
   solve(

@@ -8,10 +8,10 @@
 namespace cupola::push_over_test {
 namespace {
 
-// The dry portal under a force on its lintel. Its piers (0.6 x 3 m, 45 kN) rock about their toes, and carry the lintel (50 kN) on
-// their other corners: F = (W_pier + W_lintel) tan(alpha - theta) with tan alpha = 0.6 / 3, at the displacement
-// 3 sin(theta) + 0.6 (1 - cos(theta)). The force falls from the first moment on. A step is solved in the geometry at its
-// start, which the displacement before determines.
+// The dry portal under a force on its lintel. Its piers (0.6 x 3 m, 45 kN) rock about their toes, and carry
+// the lintel (50 kN) on their other corners: F = (W_pier + W_lintel) tan(alpha - theta) with tan alpha = 0.6
+// / 3, at the displacement 3 sin(theta) + 0.6 (1 - cos(theta)). The force falls from the first moment on. A
+// step is solved in the geometry at its start, which the displacement before determines.
 TEST(PushOver, OfThePortalFollowsItsFallingForce) {
   const ProgramFolder folder;
   write_text_atomically(folder.file("push.yaml"), R"(extends: cupola:portal

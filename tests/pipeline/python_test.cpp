@@ -1,5 +1,5 @@
-// The Python of docs/python.md, run as it stands there, with Debian's pandas and VTK. Continuous integration sets
-// CUPOLA_REQUIRE_PYTHON, so that the tests run there in any case.
+// The Python of docs/python.md, run as it stands there, with Debian's pandas and VTK. Continuous integration
+// sets CUPOLA_REQUIRE_PYTHON, so that the tests run there in any case.
 
 #include <cstdlib>
 

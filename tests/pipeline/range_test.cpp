@@ -63,7 +63,8 @@ void expect_bounded(const Summary& summary) {
       EXPECT_EQ(end->outcome, RangeOutcome::bounded) << range.quantity;
 }
 
-// By symmetry and convexity a sector has the same range. A joint alone does not repeat; the mean over its images does.
+// By symmetry and convexity a sector has the same range. A joint alone does not repeat; the mean over its
+// images does.
 TEST(RangeOfDomes, OneSectorGivesTheRangesOfTheWholeModel) {
   const std::string quantities =
       "analysis.range.quantities=[thrust, {type: hoop_force, ring: 2}, {type: reaction, block: 1}, {type: "
@@ -102,7 +103,8 @@ Assembly without_block(Assembly assembly, int block) {
   return assembly;
 }
 
-// The support carries the rest of the weight, whatever the forces; the thrust stays within friction at the base.
+// The support carries the rest of the weight, whatever the forces; the thrust stays within friction at the
+// base.
 TEST(RangeOfDomes, DomeWithAMissingBlock) {
   const Case scene = small_dome({"analysis.range.quantities=[thrust, {type: reaction, block: 0}]"});
   const Assembly dome = generate(scene);

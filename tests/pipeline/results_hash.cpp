@@ -2,10 +2,10 @@
 //
 //   results_hash out/net > after; diff before after
 //
-// A line is a hash of all values of one field of a frame, one key of a JSON file or one column of a CSV file: FOLDER/FILE
-// COLUMN HASH. Two versions of the programs with bit-identical results print the same lines. Times, memory, versions,
-// hashes of inputs and sentences are left out. The bits depend on the kernels that OpenBLAS chooses for the processor,
-// which the first line names.
+// A line is a hash of all values of one field of a frame, one key of a JSON file or one column of a CSV file:
+// FOLDER/FILE COLUMN HASH. Two versions of the programs with bit-identical results print the same lines.
+// Times, memory, versions, hashes of inputs and sentences are left out. The bits depend on the kernels that
+// OpenBLAS chooses for the processor, which the first line names.
 
 #include <algorithm>
 #include <filesystem>

@@ -1,5 +1,5 @@
-// A model of stone in kilometres or of plastic in centimetres: where every number with a unit follows from the model, lengths
-// and weights scaled by powers of two change no verdict, no iteration and no digit.
+// A model of stone in kilometres or of plastic in centimetres: where every number with a unit follows from
+// the model, lengths and weights scaled by powers of two change no verdict, no iteration and no digit.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

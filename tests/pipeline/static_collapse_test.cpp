@@ -39,8 +39,8 @@ TEST(StaticCollapseSlow, DomeMovesUnderCoulombsLaw) {
   EXPECT_NE(summary.message.find("no joint resists"), std::string::npos) << summary.message;
 }
 
-// The associated law's critical friction is the lowest of all flow rules, because they admit the same forces. All
-// brackets are found from the same cold start.
+// The associated law's critical friction is the lowest of all flow rules, because they admit the same forces.
+// All brackets are found from the same cold start.
 TEST(StaticCollapse, CriticalFrictionIsLowestUnderTheAssociatedLaw) {
   Case scene = dome(0.4);
   scene.geometry.bond = RunningBond{.rings = 6, .blocks_per_ring = 12, .slices_per_block = 2};

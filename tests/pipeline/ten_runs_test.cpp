@@ -38,7 +38,8 @@ std::string cube(const std::string& name, double x, double z, int index) {
   return text;
 }
 
-/// Runs a case through the three programs; returns post/answers.json and post/summary.json. `option`: of cupola-post.
+/// Runs a case through the three programs; returns post/answers.json and post/summary.json. `option`: of
+/// cupola-post.
 std::pair<json, json> answers_of(const ProgramFolder& folder, const std::string& name,
                                  const std::string& text, const std::string& option) {
   std::ofstream(folder.file(name + ".yaml")) << text;
@@ -122,7 +123,8 @@ ProgramRun run_sweep(const ProgramFolder& folder) {
                     " FOLDER=. OUT=out sweep");
 }
 
-// What stands on the first screens of runs that ended differently differs: a sentence that two of them share explains neither.
+// What stands on the first screens of runs that ended differently differs: a sentence that two of them share
+// explains neither.
 TEST(TenRuns, RunsOfDifferentCauseShareNoSentence) {
   const ProgramFolder folder;
   write_blocks(folder);

@@ -65,8 +65,8 @@ TEST(TowerAndStone, TheStoneFallsAndTheTowerStandsUnderItsOwnWeight) {
   // Three cubes of 1 m3 and 2000 kg at 10 m/s2 weigh 60 kN, and the stone does not reach the ground.
   EXPECT_NEAR(both.summary.support_reaction_N.z(), 60e3, 1e-3);
 
-  // Of the tower alone the forces are the same, to the default tolerance of 1e-9 of a block's weight: its courses are found, and
-  // with them another first step.
+  // Of the tower alone the forces are the same, to the default tolerance of 1e-9 of a block's weight: its
+  // courses are found, and with them another first step.
   const Answer alone = answer_of(folder, tower());
   EXPECT_EQ(alone.summary.status, Status::stable);
   EXPECT_TRUE(alone.summary.parts.empty());

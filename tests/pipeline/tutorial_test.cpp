@@ -1,4 +1,5 @@
-// The numbers of the tutorials, docs/getting-started.md and docs/import.md, against the runs that they describe (slow).
+// The numbers of the tutorials, docs/getting-started.md and docs/import.md, against the runs that they
+// describe (slow).
 
 #include <regex>
 

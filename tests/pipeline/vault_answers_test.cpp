@@ -62,10 +62,10 @@ Vec2 turned(const Vec2& arm) {
   return {-arm.y(), arm.x()};
 }
 
-// The right springing sinks by d. The two blocks turn together about the inner edge A of the left springing and the outer
-// edge B of the right one, by d / AB, because both edges lie at the same height; the crown stays closed. Each springing opens at
-// its other edge, a thickness away: t d / (inner + outer radius). The angle of 3e-4 is the relative error of first-order
-// geometry, and stiff joints add 1e-4.
+// The right springing sinks by d. The two blocks turn together about the inner edge A of the left springing
+// and the outer edge B of the right one, by d / AB, because both edges lie at the same height; the crown
+// stays closed. Each springing opens at its other edge, a thickness away: t d / (inner + outer radius). The
+// angle of 3e-4 is the relative error of first-order geometry, and stiff joints add 1e-4.
 TEST(VaultAnswers, ASettledTwoBlockArchOpensAtItsSpringings) {
   const Arch arch{2, 3.0, 3.8};
   const double sinks = 2e-3;
@@ -87,8 +87,8 @@ supports: {{moves: [{{blocks: [3], displacement: [0, 0, {}]}}]}}
   }
 }
 
-/// The load factor of one mechanism of four hinges, `edges`: bit set, hinge at the extrados. None where joints would overlap, or
-/// where the load does no work.
+/// The load factor of one mechanism of four hinges, `edges`: bit set, hinge at the extrados. None where
+/// joints would overlap, or where the load does no work.
 std::optional<double> factor_of(const Arch& arch, const std::array<int, 4>& joints, unsigned edges,
                                 const Vec2& load_at, double load) {
   std::array<Vec2, 4> hinge;
@@ -124,7 +124,8 @@ std::optional<double> factor_of(const Arch& arch, const std::array<int, 4>& join
   return std::nullopt;
 }
 
-// The kinematic theorem: of all mechanisms the one with the least factor decides. Friction is high enough to exclude sliding.
+// The kinematic theorem: of all mechanisms the one with the least factor decides. Friction is high enough to
+// exclude sliding.
 TEST(VaultAnswers, TheLoadFactorAtTheQuarterIsThatOfFourHinges) {
   const Arch arch{10, 3.0, 3.8};
   const double load = 1000.0;
@@ -163,7 +164,8 @@ analysis: {{type: limit, limit: {{parameter: load, low: 0, high: 10000}}}}
       << slurp(folder.file("post/answers.json"));
 }
 
-// Each springing of a barrel carries half its weight: per metre half of density, gravity and the area of the section.
+// Each springing of a barrel carries half its weight: per metre half of density, gravity and the area of the
+// section.
 TEST(VaultAnswers, ABarrelRestsOnItsSpringingsByHalfItsWeightPerMetre) {
   const Arch arch{12, 3.0, 3.6};
   const double length = 5.0;
@@ -183,9 +185,10 @@ TEST(VaultAnswers, ABarrelRestsOnItsSpringingsByHalfItsWeightPerMetre) {
   }
 }
 
-// One thrust in all tables: the forces of the joints on the supports along the horizontal direction outwards at the centroid of the joint
-// (docs/results.md). rings.csv, reactions.csv, post/summary.json, the ranges of the solver and the verification manual compute it
-// apart; the tolerance is their rounding. Taken at the contact points, or at the hull of a joint, the thrust of the octagon differs by 2e-4.
+// One thrust in all tables: the forces of the joints on the supports along the horizontal direction outwards
+// at the centroid of the joint (docs/results.md). rings.csv, reactions.csv, post/summary.json, the ranges of
+// the solver and the verification manual compute it apart; the tolerance is their rounding. Taken at the
+// contact points, or at the hull of a joint, the thrust of the octagon differs by 2e-4.
 TEST(VaultAnswers, TheThrustHasOneDefinition) {
   for (const std::string surface :
        {"{type: dome, span: 8, radius_ratio: 0.6, thickness: 0.6, crown_angle_deg: 60}",

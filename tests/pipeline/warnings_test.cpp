@@ -1,5 +1,5 @@
-// Warnings about implausible input: once on the terminal of a run of three programs, kept in its files, shown in the
-// report, and errors with --strict.
+// Warnings about implausible input: once on the terminal of a run of three programs, kept in its files, shown
+// in the report, and errors with --strict.
 
 #include <fstream>
 

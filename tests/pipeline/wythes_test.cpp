@@ -1,5 +1,5 @@
-// Results per wythe, from the case to the tables: a wall of two leaves, with and without headers, and a small dome of two
-// shells with a solid base.
+// Results per wythe, from the case to the tables: a wall of two leaves, with and without headers, and a small
+// dome of two shells with a solid base.
 
 #include <cmath>
 #include <numeric>
@@ -46,8 +46,9 @@ Case two_leaves(double push, double down) {
   return scene;
 }
 
-// The back leaf leans away from the front one, so that neither helps the other. At the depth z below the top, a length of
-// wall has N = down t + gamma t z and M = push t z: the normal forces act M / N from the middle, towards the back (position 0).
+// The back leaf leans away from the front one, so that neither helps the other. At the depth z below the top,
+// a length of wall has N = down t + gamma t z and M = push t z: the normal forces act M / N from the middle,
+// towards the back (position 0).
 TEST(Wythes, EachLeafOfAWallCarriesItsOwnLoad) {
   const double push = 60.0, down = 1000.0;
   const ProgramFolder folder;

@@ -19,14 +19,15 @@ inline bool on_path(const std::string& program) {
   return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-/// True if a test that needs Chromium can run. Continuous integration sets CUPOLA_REQUIRE_BROWSER, so that the test runs
-/// there in any case.
+/// True if a test that needs Chromium can run. Continuous integration sets CUPOLA_REQUIRE_BROWSER, so that
+/// the test runs there in any case.
 inline bool has_browser() {
   return std::getenv("CUPOLA_REQUIRE_BROWSER") != nullptr || on_path("chromium");
 }
 
-/// Headless Chromium without network, which draws by software. It is driven through two pipes, with messages in JSON that
-/// end with a zero byte (https://chromedevtools.github.io/devtools-protocol, --remote-debugging-pipe).
+/// Headless Chromium without network, which draws by software. It is driven through two pipes, with messages
+/// in JSON that end with a zero byte (https://chromedevtools.github.io/devtools-protocol,
+/// --remote-debugging-pipe).
 class Browser {
  public:
   using Json = nlohmann::json;
@@ -95,7 +96,8 @@ class Browser {
     std::signal(SIGPIPE, SIG_IGN);  // a Chromium that died is an error, not the end of the tests
     process_ = ::fork();
     if (process_ == 0) {
-      // Chromium reads from descriptor 3 and writes to 4; copies first, because the pipes may have these numbers.
+      // Chromium reads from descriptor 3 and writes to 4; copies first, because the pipes may have these
+      // numbers.
       const int reads = ::dup(to[0]), writes = ::dup(from[1]), quiet = ::open("/dev/null", O_WRONLY);
       ::dup2(quiet, 2);
       ::dup2(::fcntl(reads, F_DUPFD, 10), 3);

@@ -13,7 +13,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Exports a column of three blocks whose resultants act at (0.5, 0.3) to a file with this ending; returns its text.
+/// Exports a column of three blocks whose resultants act at (0.5, 0.3) to a file with this ending; returns
+/// its text.
 std::string exported_column(const std::string& ending, Status status = Status::stable) {
   const std::string folder = test::fresh_folder("exported");
   const Assembly a = test::column(3);
@@ -28,7 +29,8 @@ std::string exported_column(const std::string& ending, Status status = Status::s
   return read_text(folder + "/column" + ending);
 }
 
-// Closed form: bed k carries the weight above it at (0.5, 0.3). The sums of four corner forces differ from it by rounding.
+// Closed form: bed k carries the weight above it at (0.5, 0.3). The sums of four corner forces differ from it
+// by rounding.
 TEST(ExportRun, GivesTheInterfacesOfACompasFileTheirForces) {
   const Json graph = Json::parse(exported_column(".json"))["data"]["graph"]["data"];
   const double weight = 1.2 * 0.8 * 0.5 * 1800.0 * test::kGravity;

@@ -8,7 +8,8 @@ inline RangeEnd bounded_end(double value, double bound, int frame) {
   return {RangeOutcome::bounded, value, bound, frame};
 }
 
-/// A thrust with both ends, a hoop force without maximum, a share, and a joint force whose minimum was not found.
+/// A thrust with both ends, a hoop force without maximum, a share, and a joint force whose minimum was not
+/// found.
 inline std::vector<ForceRange> some_ranges() {
   return {
       {"thrust", "N", bounded_end(12.1e6, 12.1e6 * (1 - 1e-8), 1), bounded_end(40e6, 40e6, 2), 20e6},
@@ -42,7 +43,8 @@ inline MovingRun moving_range_run(const Assembly& a) {
   return run;
 }
 
-/// Frame 0 of a column at rest, and frames 1 to 7 whose resultants act at other points; the time is the number.
+/// Frame 0 of a column at rest, and frames 1 to 7 whose resultants act at other points; the time is the
+/// number.
 inline std::vector<Frame> range_frames(const Assembly& a) {
   std::vector<Frame> frames;
   for (int i = 0; i <= 7; ++i) {

@@ -9,8 +9,8 @@
 namespace cupola {
 namespace {
 
-/// Counts in format strings whose noun is always in the plural: "{} blocks" prints "1 blocks". They go through
-/// counted() instead. "between blocks {} and {}" is no count.
+/// Counts in format strings whose noun is always in the plural: "{} blocks" prints "1 blocks". They go
+/// through counted() instead. "between blocks {} and {}" is no count.
 std::vector<std::string> plurals_in(const std::string& source) {
   static const std::regex seam("\"\\s*\n\\s*\"");
   static const std::regex plural(

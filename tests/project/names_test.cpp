@@ -1,4 +1,5 @@
-// Names of the libraries: two types of one name in one namespace are undefined behaviour where libraries are linked together.
+// Names of the libraries: two types of one name in one namespace are undefined behaviour where libraries are
+// linked together.
 
 #include <map>
 #include <regex>

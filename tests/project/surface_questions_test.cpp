@@ -1,4 +1,5 @@
-// Only the room of surfaces may ask what kind a surface is; the reader and the generators may pass it on; all others ask the sheets.
+// Only the room of surfaces may ask what kind a surface is; the reader and the generators may pass it on; all
+// others ask the sheets.
 
 #include <regex>
 

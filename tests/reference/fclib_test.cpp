@@ -179,9 +179,9 @@ void write_global(const std::string& path, Sparse M, Sparse H, VecX f, VecX w, V
   ASSERT_NE(fclib_write_global(&global, path.c_str()), 0);
 }
 
-// Two point masses of 2 kg one on the other, pressed down by 2 N s each. The upper one is pushed by 1.5 N s, of which
-// friction takes 0.5 * 2 N s: it slides at 0.5 / 2 m/s. The ground carries 4 N s and the friction, 1 <= 0.6 * 4 N s. Both
-// forces follow from equilibrium.
+// Two point masses of 2 kg one on the other, pressed down by 2 N s each. The upper one is pushed by 1.5 N s,
+// of which friction takes 0.5 * 2 N s: it slides at 0.5 / 2 m/s. The ground carries 4 N s and the friction, 1
+// <= 0.6 * 4 N s. Both forces follow from equilibrium.
 TEST(Fclib, SolvesAGlobalProblemWithAKnownSolution) {
   Sparse M(6, 6), H(6, 6);
   M.setIdentity();

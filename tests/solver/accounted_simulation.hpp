@@ -14,8 +14,8 @@
 
 namespace cupola::testing {
 
-/// A simulation that throws std::runtime_error unless its account of energy closes in every step: to 1e-6 of what was
-/// dissipated, or of the peak of the kinetic or the elastic energy.
+/// A simulation that throws std::runtime_error unless its account of energy closes in every step: to 1e-6 of
+/// what was dissipated, or of the peak of the kinetic or the elastic energy.
 class AccountedSimulation : public Simulation {
  public:
   using Simulation::Simulation;

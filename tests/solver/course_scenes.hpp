@@ -11,9 +11,10 @@ namespace cupola::testing {
 constexpr double kGamma = 18000.0;  // N/m3, weight of brickwork
 constexpr int kFirstCourse = 5;
 
-/// Courses of bricks on a bed whose slope gravity gives (tilted_gravity): x up to down the slope, y along the course, z normal
-/// to the bed. Ring 0 is one free block, a slab with, on request, an upright as high as all courses at both ends of the clear
-/// length; the courses above are rings kFirstCourse, kFirstCourse + 1, ... in stack bond, so that the slab has hardened. Blocks: fixed floor, slab, bricks course by course along y.
+/// Courses of bricks on a bed whose slope gravity gives (tilted_gravity): x up to down the slope, y along the
+/// course, z normal to the bed. Ring 0 is one free block, a slab with, on request, an upright as high as all
+/// courses at both ends of the clear length; the courses above are rings kFirstCourse, kFirstCourse + 1, ...
+/// in stack bond, so that the slab has hardened. Blocks: fixed floor, slab, bricks course by course along y.
 struct CourseSpec {
   int bricks = 3, courses = 1;
   double length = 0.34;  ///< of a brick, along the course, m
@@ -51,8 +52,8 @@ inline Assembly make_course(const CourseSpec& spec) {
   return assembly;
 }
 
-/// Adds sector k of n of a body of revolution about z, with radial heads: a prism over the meridian quadrilateral (r, z), whose sides
-/// 0-1, 1-2, 2-3, 3-0 are lower bed, extrados, upper bed and intrados.
+/// Adds sector k of n of a body of revolution about z, with radial heads: a prism over the meridian
+/// quadrilateral (r, z), whose sides 0-1, 1-2, 2-3, 3-0 are lower bed, extrados, upper bed and intrados.
 inline void add_sector(const std::array<Eigen::Vector2d, 4>& meridian, int k, int n, bool fixed, int ring,
                        Assembly* assembly) {
   add_block({.density = kGamma / kG, .fixed = fixed, .ring = ring}, assembly);
@@ -69,9 +70,9 @@ inline void add_sector(const std::array<Eigen::Vector2d, 4>& meridian, int k, in
   add_prism_part(start, end, FaceKind::head, assembly);
 }
 
-/// One course on a bed that falls towards the axis at theta, with radial heads. Ring 0: the n blocks of the bed and, on request, every
-/// second block of the course, as an upright; ring 1: the (other) blocks of the course. No block is fixed: hold ring 0 by
-/// hold_below.
+/// One course on a bed that falls towards the axis at theta, with radial heads. Ring 0: the n blocks of the
+/// bed and, on request, every second block of the course, as an upright; ring 1: the (other) blocks of the
+/// course. No block is fixed: hold ring 0 by hold_below.
 struct RingSpec {
   int n = 12;
   double theta = 0.0, radius = 3.0;  ///< rad; m, of the middle of the bed
@@ -99,8 +100,8 @@ inline Assembly make_ring(const RingSpec& spec) {
   return assembly;
 }
 
-/// Spherical dome with its middle surface of the radius, from the equator (z = 0) upwards: `rings` rings of n blocks over equal
-/// angles of `step`, on a fixed ring.
+/// Spherical dome with its middle surface of the radius, from the equator (z = 0) upwards: `rings` rings of n
+/// blocks over equal angles of `step`, on a fixed ring.
 inline Assembly make_sphere(double radius, double thickness, double step, int rings, int n) {
   Assembly assembly;
   assembly.title = "sphere";
@@ -131,7 +132,8 @@ inline JointLawChange joint_law(double friction, double cohesion = 0.0) {
   return law;
 }
 
-/// Staged construction of such courses, block by block with carried state, under Coulomb's law. Hardened joints are glued.
+/// Staged construction of such courses, block by block with carried state, under Coulomb's law. Hardened
+/// joints are glued.
 inline Case course_case(double theta, double fresh_friction) {
   Case scene;
   scene.loads.gravity = tilted_gravity(std::tan(theta));

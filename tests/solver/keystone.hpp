@@ -4,8 +4,8 @@
 
 namespace cupola::testing {
 
-/// Keystone of 1 m between fixed walls whose distance grows downwards by `slope` on each side: forces that carry it exist from friction
-/// `slope` on.
+/// Keystone of 1 m between fixed walls whose distance grows downwards by `slope` on each side: forces that
+/// carry it exist from friction `slope` on.
 inline Assembly keystone(double slope) {
   Assembly assembly;
   const double foot = 1.0 + slope, head = 1.0;

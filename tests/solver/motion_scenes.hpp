@@ -33,8 +33,8 @@ inline Vec3 tilted_gravity(double tan_a) {
   return kG * Vec3(std::sin(a), 0.0, -std::cos(a));
 }
 
-/// Adds to the last block a convex part between two quadrilaterals, corner by corner; the first is counter-clockwise seen from
-/// outside. The sides 0-1, 1-2, 2-3, 3-0 are bed, extrados, bed, intrados.
+/// Adds to the last block a convex part between two quadrilaterals, corner by corner; the first is
+/// counter-clockwise seen from outside. The sides 0-1, 1-2, 2-3, 3-0 are bed, extrados, bed, intrados.
 inline void add_prism_part(const std::array<Vec3, 4>& front, const std::array<Vec3, 4>& back, FaceKind ends,
                            Assembly* assembly) {
   const int first = static_cast<int>(assembly->vertices.size());
@@ -132,9 +132,9 @@ inline Assembly wedge_between_walls(double lean_deg) {
   return assembly;
 }
 
-/// Two prisms of 1 m along y that lean against each other at `lean` from the vertical, on a fixed floor. Their
-/// feet reach from `foot` to `foot` + `width` from the axis; they touch on a vertical face. Blocks: floor, card
-/// at -x, card at +x.
+/// Two prisms of 1 m along y that lean against each other at `lean` from the vertical, on a fixed floor.
+/// Their feet reach from `foot` to `foot` + `width` from the axis; they touch on a vertical face. Blocks:
+/// floor, card at -x, card at +x.
 struct LeaningCards {
   double lean;                      ///< rad
   double foot = 0.5, width = 0.02;  ///< m

@@ -56,7 +56,8 @@ double end_of_range(const ReferenceRow& row) {
   return *end.value / unit_of(row, summary);
 }
 
-/// Least or largest horizontal force at a springing over the weight, of the semicircular arch of 27 voussoirs.
+/// Least or largest horizontal force at a springing over the weight, of the semicircular arch of 27
+/// voussoirs.
 double end_of_arch_thrust(const ReferenceRow& row) {
   ArchSurface arch;
   arch.span = 2.0 - 0.15;

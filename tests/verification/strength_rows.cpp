@@ -22,8 +22,8 @@ Case strong_case(Case scene, const JointStrength& strength, int subdivide) {
   return scene;
 }
 
-/// A point of the interaction surface of a bed of kWidth x kDepth under the weight N of its block: plastic stress blocks
-/// of the push F over `compressed` and of the pull f over the rest,
+/// A point of the interaction surface of a bed of kWidth x kDepth under the weight N of its block: plastic
+/// stress blocks of the push F over `compressed` and of the pull f over the rest,
 ///
 ///     N = F b x - f b (t - x),   M = b x (t - x) (F + f) / 2,   V = c A + mu N
 ///

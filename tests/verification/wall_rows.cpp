@@ -43,7 +43,8 @@ double critical_load(int courses, bool whole_first) {
                         testing::ferris_wall(courses, whole_first));
 }
 
-/// Wall 3 of Ferris and Tin-Loi (2001): courses from the bottom, lengths in blocks of 0.4 m, an opening negative.
+/// Wall 3 of Ferris and Tin-Loi (2001): courses from the bottom, lengths in blocks of 0.4 m, an opening
+/// negative.
 Assembly wall_with_window() {
   constexpr double kLength = 0.4, kHeight = 0.175;  // m
   using Course = std::vector<double>;

@@ -19,15 +19,15 @@ struct DirectTrial {
   int iterations = 0;
 };
 
-/// The critical value between a value with an admissible state and one for which a mechanism proves that there
-/// is none.
+/// The critical value between a value with an admissible state and one for which a mechanism proves that
+/// there is none.
 struct DirectLimit {
   bool found = false;
   bool unlimited = false;  ///< not found because the structure stands at every value in one direction
   bool no_state = false;   ///< not found because a mechanism moves at every value
   double admissible = 0.0, moving = 0.0;
-  /// Just beyond `moving` the mechanism proves in exact arithmetic that no forces balance the loads (motion_proof.hpp). Otherwise
-  /// none do of up to `resisting_forces` times those found (conic_bounds.hpp).
+  /// Just beyond `moving` the mechanism proves in exact arithmetic that no forces balance the loads
+  /// (motion_proof.hpp). Otherwise none do of up to `resisting_forces` times those found (conic_bounds.hpp).
   bool motion_proven = false;
   double resisting_forces = kLargestForces;
   RigidScene at_admissible, at_moving;
@@ -45,27 +45,28 @@ using ReportTrial = std::function<void(const DirectTrial&)>;
 
 /// Critical value of a parameter on which the loads depend smoothly. Each iteration maximises (or minimises)
 /// the multiplier t of the loads w(x) + t w'(x), linear in x, and moves x by t: one solve where the loads are
-/// linear in the parameter, a few for a tilt. `low` and `high`: an admissible state exists at one of them. If one exists
-/// at both, and the loads that grow with the parameter have one by themselves, there is no limit. `in_unit`: from the values of the
-/// search to those of messages.
+/// linear in the parameter, a few for a tilt. `low` and `high`: an admissible state exists at one of them. If
+/// one exists at both, and the loads that grow with the parameter have one by themselves, there is no limit.
+/// `in_unit`: from the values of the search to those of messages.
 DirectLimit limit_of_loads(
     const SceneAt& scene_at, double low, double high, double relative_width, const ReportTrial& report,
     const std::function<double(double)>& in_unit = [](double value) { return value; });
 
-/// Critical value of a parameter of the joints: the root of the pull alpha that the contacts need (pull_solve.hpp). Friction
-/// and extent of the joints, on which the conditions depend linearly: Newton's method with the derivative that the mechanism
-/// gives, on rough solves, until its next step would not leave the width required; then a solve on either side of the root;
-/// friction below 1e-8 counts as none. Thickness: the secant method. A bracket that always contains the root safeguards both.
+/// Critical value of a parameter of the joints: the root of the pull alpha that the contacts need
+/// (pull_solve.hpp). Friction and extent of the joints, on which the conditions depend linearly: Newton's
+/// method with the derivative that the mechanism gives, on rough solves, until its next step would not leave
+/// the width required; then a solve on either side of the root; friction below 1e-8 counts as none.
+/// Thickness: the secant method. A bracket that always contains the root safeguards both.
 DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, double relative_width,
                             LimitSearch::Parameter parameter, const ReportTrial& report);
 
-/// The least peak stress, Pa: the smallest p for which an admissible state exists whose normal forces are at most p times
-/// the areas of their contact points,
+/// The least peak stress, Pa: the smallest p for which an admissible state exists whose normal forces are at
+/// most p times the areas of their contact points,
 ///
 ///     minimise p,   D gamma + w = 0,   gamma in Y,   gamma_n,i <= p A_i
 ///
-/// One conic programme. `moving`: no state has less. Requires compliance per area (InputError), with which contact
-/// points stand for areas.
+/// One conic programme. `moving`: no state has less. Requires compliance per area (InputError), with which
+/// contact points stand for areas.
 DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportTrial& report);
 
 /// A limit that was not found, and why.

@@ -27,8 +27,8 @@ struct RangeObjective {
   ForceFunctional value;
   std::optional<ForceFunctional> over = std::nullopt;
   std::optional<std::pair<int, int>> joint = std::nullopt;  ///< as in ForceRange
-  /// The mean over the images of the joint about the axis, in an analysis of one sector: the value of all states that
-  /// repeat.
+  /// The mean over the images of the joint about the axis, in an analysis of one sector: the value of all
+  /// states that repeat.
   bool mean_of_images = false;
 
   double operator()(const JointForces& forces) const;

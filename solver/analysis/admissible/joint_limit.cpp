@@ -73,7 +73,8 @@ double estimate_root(double low, double high, double relative_width, const Joint
   return x;
 }
 
-/// Solves just below and just above the estimated root, farther away if both are on one side or one does not decide.
+/// Solves just below and just above the estimated root, farther away if both are on one side or one does not
+/// decide.
 Ends ends_around(double root, double low, double high, double relative_width, PullTrials* trials) {
   constexpr double kFarther = 8.0;
   double down = 0.45 * relative_width * root, up = down;

@@ -8,8 +8,8 @@
 
 namespace cupola {
 
-/// Two values on either side of the root, which the secant method and bisection close. Values between them that do not decide are left
-/// out: the search then closes in on them from both sides.
+/// Two values on either side of the root, which the secant method and bisection close. Values between them
+/// that do not decide are left out: the search then closes in on them from both sides.
 class PullSearch {
  public:
   /// Solves with pulls of different signs.
@@ -17,10 +17,11 @@ class PullSearch {
   double width() const { return std::abs(admissible.value - moving.value); }
   double middle() const { return 0.5 * (admissible.value + moving.value); }
   /// The next value to try: just before the root of the linear model, and just behind it once the moving end
-  /// is that close; the middle if there is no such root, or if the last one did not halve f. Beside values that did not decide: the
-  /// middle between them and the farther end.
+  /// is that close; the middle if there is no such root, or if the last one did not halve f. Beside values
+  /// that did not decide: the middle between them and the farther end.
   double next(double enough) const;
-  /// True if the width is `enough`, or if further solves would hardly come closer to the values that did not decide.
+  /// True if the width is `enough`, or if further solves would hardly come closer to the values that did not
+  /// decide.
   bool is_closed(double enough) const;
   void include(PullSolve solve);  ///< that decided
   void leave_out(double value);   ///< that did not decide

@@ -9,14 +9,13 @@ namespace cupola {
 /// The smallest value of an objective over all admissible states, or the largest.
 struct RangeSolution {
   RangeEnd end;  ///< without frame
-  VecX
-      gamma;  ///< N: the state; of an unbounded end the self-stress, its largest contact force one block weight
+  VecX gamma;    ///< N: the state; of an unbounded end a self-stress whose largest force is one block weight
   int iterations = 0;
   bool of_sector = false;  ///< one sector was solved
 };
 
-/// `towards`: 1 for the smallest value, -1 for the largest. The scene must have an admissible state. With `sector`, if the
-/// objective repeats around the axis, one sector is solved and its forces are repeated.
+/// `towards`: 1 for the smallest value, -1 for the largest. The scene must have an admissible state. With
+/// `sector`, if the objective repeats around the axis, one sector is solved and its forces are repeated.
 ///
 /// A ratio n(gamma) / d(gamma), d >= 0, is made linear as Charnes and Cooper (1962), "Programming with linear
 /// fractional functionals": with gamma' = t gamma and t >= 0,

@@ -5,9 +5,9 @@
 
 namespace cupola {
 
-/// The objectives that a quantity stands for: one, or one per joint. Axes, centroids and areas are those of the
-/// assembly as built. Throws InputError for a quantity that the model does not have: the thrust of a wall, the joint of
-/// blocks that do not touch, the reaction of a block that rests on no support.
+/// The objectives that a quantity stands for: one, or one per joint. Axes, centroids and areas are those of
+/// the assembly as built. Throws InputError for a quantity that the model does not have: the thrust of a
+/// wall, the joint of blocks that do not touch, the reaction of a block that rests on no support.
 std::vector<RangeObjective> range_objectives(const ForceQuantity& quantity, const Case& scene,
                                              const Model& model, const ContactSet& contacts);
 

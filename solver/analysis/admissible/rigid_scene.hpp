@@ -21,13 +21,15 @@ struct RigidScene {
   ConicProblem problem;  ///< equilibrium under the loads at time 0, without an objective
 };
 
-/// Every contact within `contact.margin` counts as closed, as in a static analysis; a tie carries only tension, a strut only compression. `joint_extent` scales the distances of
-/// the contact points from the centroid of their joint (all faces between two blocks), and its square their areas.
-/// Throws InputError for a joint with cohesion but without friction.
+/// Every contact within `contact.margin` counts as closed, as in a static analysis; a tie carries only
+/// tension, a strut only compression. `joint_extent` scales the distances of the contact points from the
+/// centroid of their joint (all faces between two blocks), and its square their areas. Throws InputError for
+/// a joint with cohesion but without friction.
 RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly,
                        double joint_extent = 1.0);
 
-/// The frame of the forces gamma (N) on the assembly as built. law_violation: excess over the limits of the joints.
+/// The frame of the forces gamma (N) on the assembly as built. law_violation: excess over the limits of the
+/// joints.
 Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time);
 
 /// Balance of the forces gamma (N), recomputed from points and world forces.

@@ -39,7 +39,8 @@ DirectionLimit limit_towards(const Case& scene, const RigidScene& rest, double a
   return {true, -bounds.upper, -std::min(bounds.lower, bounds.upper)};
 }
 
-/// The largest number of equal sectors around the z axis into which the scene divides, of those that divide `count`.
+/// The largest number of equal sectors around the z axis into which the scene divides, of those that divide
+/// `count`.
 int equal_sectors(const RigidScene& scene, int count) {
   for (int sectors = count; sectors > 1; --sectors) {
     if (count % sectors != 0) continue;

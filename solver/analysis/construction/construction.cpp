@@ -141,8 +141,8 @@ void Construction::lay(const std::vector<int>& blocks, int ring) {
   build_problem(std::nullopt);
 }
 
-/// A joint whose compliance changes keeps its forces: the elastic displacements that they cause with the new compliance
-/// become part of its reference.
+/// A joint whose compliance changes keeps its forces: the elastic displacements that they cause with the new
+/// compliance become part of its reference.
 void Construction::harden(const Model& before, const Model& after) {
   for (size_t i = 0; i < complete_.points.size(); ++i) {
     const Contact& contact = complete_.points[i];

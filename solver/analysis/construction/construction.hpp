@@ -24,8 +24,8 @@ struct BuiltState {
   std::vector<BuiltContact> joints;  ///< by contact of the complete assembly (nc)
 };
 
-/// The part of a scene that one stage solves: blocks that are laid and not held, and the contacts that they have with each
-/// other and with held and fixed blocks.
+/// The part of a scene that one stage solves: blocks that are laid and not held, and the contacts that they
+/// have with each other and with held and fixed blocks.
 struct StageProblem {
   Model model;
   ContactSet contacts;
@@ -34,10 +34,11 @@ struct StageProblem {
   std::vector<int> rows;  ///< index of each contact in the complete assembly
 };
 
-/// A structure that is built stage by stage. Displacements are small: equilibrium is that of the geometry as designed, whose contacts
-/// are detected once, and each stage adds its displacements to gaps and elastic slips. A block is laid stress-free where the
-/// structure then is: the gaps of its joints are those of the design, whatever their neighbours moved before.
-/// Without analysis.staged.carry every stage starts from the state as designed.
+/// A structure that is built stage by stage. Displacements are small: equilibrium is that of the geometry as
+/// designed, whose contacts are detected once, and each stage adds its displacements to gaps and elastic
+/// slips. A block is laid stress-free where the structure then is: the gaps of its joints are those of the
+/// design, whatever their neighbours moved before. Without analysis.staged.carry every stage starts from the
+/// state as designed.
 class Construction {
  public:
   Construction(const Case& scene, const Assembly& assembly,
@@ -57,7 +58,8 @@ class Construction {
   const StaticOptions& options() const { return options_; }
   const BuiltState& state() const { return state_; }
   void restore(BuiltState state, int ring);
-  /// m: by which the most compressed fresh head joint has closed since it was laid, in the equilibrium of the last solve.
+  /// m: by which the most compressed fresh head joint has closed since it was laid, in the equilibrium of the
+  /// last solve.
   double head_squeeze(const StaticSolution& solution) const;
   bool any_free() const { return !problem_.model.free_blocks.empty(); }
 

@@ -20,8 +20,8 @@ struct FallingBlock {
   double speed = 0.0;       ///< of its centroid, over that of the fastest block
 };
 
-/// The blocks whose centroids move at a tenth of the largest speed or more. `v`: velocities of the free blocks (6 nb), of any
-/// amplitude.
+/// The blocks whose centroids move at a tenth of the largest speed or more. `v`: velocities of the free
+/// blocks (6 nb), of any amplitude.
 std::vector<FallingBlock> falling_blocks(const Model& model, const VecX& v);
 
 }  // namespace cupola

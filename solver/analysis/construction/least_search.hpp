@@ -7,8 +7,8 @@
 
 namespace cupola {
 
-/// Searches for the least value of a property with which each of a sequence of structures stands. The bracket of the last one
-/// is tried first, because neighbours need about the same.
+/// Searches for the least value of a property with which each of a sequence of structures stands. The bracket
+/// of the last one is tried first, because neighbours need about the same.
 class LeastSearch {
  public:
   /// `first`: value tried first; `most`: largest value tried.
@@ -19,8 +19,8 @@ class LeastSearch {
     bool needs_none = false;  ///< stands at zero
     Bracket bracket;          ///< if it does not
   };
-  /// Result::bracket.found is false, with the reason, if no value up to `most` is found with which it stands, or if a solve at
-  /// zero does not converge.
+  /// Result::bracket.found is false, with the reason, if no value up to `most` is found with which it stands,
+  /// or if a solve at zero does not converge.
   Result find(const TryValue& solve);
 
   /// For checkpoints: the last bracket found, values at which a structure stands and moves.

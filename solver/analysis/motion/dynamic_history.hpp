@@ -24,7 +24,8 @@ struct RunEnergy {
   double peak_kinetic = 0.0;
 
   void include(const StepReport& report);
-  /// worst_error over the larger of what was dissipated and the largest kinetic energy; nothing if neither is above 0.
+  /// worst_error over the larger of what was dissipated and the largest kinetic energy; nothing if neither is
+  /// above 0.
   std::optional<double> relative_error() const;
 };
 

@@ -7,8 +7,8 @@
 
 namespace cupola {
 
-/// Decides whether a motion has come to rest: over the last `thresholds.window` seconds, so that a turning point is not taken
-/// for rest, and without a trend, so that slow creep is not.
+/// Decides whether a motion has come to rest: over the last `thresholds.window` seconds, so that a turning
+/// point is not taken for rest, and without a trend, so that slow creep is not.
 class RestWindow {
  public:
   /// After each step.

@@ -42,8 +42,8 @@ struct Mechanism {
 Mechanism find_mechanism(const Model& model, const State& start, const ContactSet& contacts,
                          const ContactProblem& problem, const VecX& v);
 
-/// Writes the mechanism as a frame at 1 s, with its largest speed scaled to 1 m/s, and as two tables. `forces`
-/// (N, nc), `violations` (nc) and `owner` are those of the frame.
+/// Writes the mechanism as a frame at 1 s, with its largest speed scaled to 1 m/s, and as two tables.
+/// `forces` (N, nc), `violations` (nc) and `owner` are those of the frame.
 void write_mechanism(const Model& model, const State& start, const ContactSet& contacts,
                      const ContactMemories& memories, const Mechanism& mechanism, const JointForces& forces,
                      const std::vector<double>& violations, const std::string& owner,

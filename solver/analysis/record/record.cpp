@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kSlipping = 1.0 - 1e-6;  // friction use from which a contact counts as slipping
 
-/// Share of the compressive strength that a push uses, or of the tensile strength that a pull uses, which friction ends
-/// at cohesion / mu.
+/// Share of the compressive strength that a push uses, or of the tensile strength that a pull uses, which
+/// friction ends at cohesion / mu.
 double strength_use(const JointStrength& strength, double mu, double normal_force) {
   if (normal_force >= 0.0) return normal_force / strength.compression;
   const double tension = mu > 0.0 ? std::min(strength.tension, strength.cohesion / mu) : strength.tension;

@@ -47,8 +47,8 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
                  const JointForces& forces, const std::vector<double>& violations,
                  const ContactMemories& memories, const std::vector<Vec3>& displacement);
 
-/// Appends, without force, the points of `built`, the contacts as built in the poses of the frame, that stand farther apart than
-/// `margin` (m) and that `found`, the contacts of the frame, no longer holds.
+/// Appends, without force, the points of `built`, the contacts as built in the poses of the frame, that stand
+/// farther apart than `margin` (m) and that `found`, the contacts of the frame, no longer holds.
 void append_parted(const ContactSet& built, const ContactSet& found, double margin, ContactTable* table);
 
 /// Sets the fields of the summary that follow from the contacts and blocks of a frame, except displacement

@@ -9,12 +9,14 @@ namespace cupola {
 StaticOptions static_options(const Analysis& analysis);
 /// Options of the static start of a motion.
 StaticOptions start_options(const Analysis& analysis);
-/// Options of static solves of which the verdict counts: trials of a limit analysis, stages of a construction.
+/// Options of static solves of which the verdict counts: trials of a limit analysis, stages of a
+/// construction.
 StaticOptions verdict_options(const Analysis& analysis);
 
 /// True if a limit analysis computes its critical value by conic programmes instead of bisection.
 bool uses_direct_limit(const Analysis& analysis);
-/// The parameter changes what the joints can bear, not the loads: its direct search takes several conic programmes.
+/// The parameter changes what the joints can bear, not the loads: its direct search takes several conic
+/// programmes.
 bool changes_joints(LimitSearch::Parameter parameter);
 /// The relative width of the final bracket of a limit analysis, given or by default.
 double bracket_width(const Analysis& analysis);

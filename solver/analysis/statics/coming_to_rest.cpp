@@ -52,8 +52,8 @@ void ComingToRest::adapt(double contraction) {
   if (h > trial_.h) set_step(h);
 }
 
-/// By how much the next iterate may miss the control displacement, over g h^2: in the iteration after it, the rest appears as
-/// inertia.
+/// By how much the next iterate may miss the control displacement, over g h^2: in the iteration after it, the
+/// rest appears as inertia.
 double ComingToRest::control_share() const {
   constexpr double kShare = 1e-2;  // of the residual, and of the displacement
   const double largest = kShare * options_.control->displacement / (trial_.h * trial_.h * acceleration_);

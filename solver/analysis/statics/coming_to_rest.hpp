@@ -7,8 +7,8 @@
 
 namespace cupola {
 
-/// The proximal-point iteration with steps as long as the compliance permits: a few accurate solves. Under a control each iteration
-/// also finds its time (length_control.hpp).
+/// The proximal-point iteration with steps as long as the compliance permits: a few accurate solves. Under a
+/// control each iteration also finds its time (length_control.hpp).
 class ComingToRest : public ProximalPoint {
  public:
   ComingToRest(const Model& model, const State& start, const ContactSet& contacts,

@@ -6,30 +6,33 @@
 
 namespace cupola {
 
-/// A static solve from `start`, repeated where joints with strength break until their damage is right (joint_damage.hpp).
-/// `memories` has that damage. Sets the number of solves.
+/// A static solve from `start`, repeated where joints with strength break until their damage is right
+/// (joint_damage.hpp). `memories` has that damage. Sets the number of solves.
 StaticSolution solve_breaking(const Model& model, const State& start, const ContactSet& contacts,
                               const StaticOptions& options, ContactMemories* memories, int* solves);
 
-/// Sequence of equilibria of a structure whose loads and supports change slowly in time. Each step detects the contacts anew
-/// and is a static solve from the last equilibrium; joints keep their slip, opening and damage.
+/// Sequence of equilibria of a structure whose loads and supports change slowly in time. Each step detects
+/// the contacts anew and is a static solve from the last equilibrium; joints keep their slip, opening and
+/// damage.
 ///
-/// Each solve balances the forces in the geometry in which it starts, so that an equilibrium is off by the displacement of its
-/// step. With PathGeometry::end more solves follow in each step, each from where the last one ended and at the same time,
-/// until one moves no block by more than 1e-8 of the smallest: forces and geometry then belong to each other. Where these
-/// solves move the blocks further than the step itself did, the structure does not stand.
+/// Each solve balances the forces in the geometry in which it starts, so that an equilibrium is off by the
+/// displacement of its step. With PathGeometry::end more solves follow in each step, each from where the last
+/// one ended and at the same time, until one moves no block by more than 1e-8 of the smallest: forces and
+/// geometry then belong to each other. Where these solves move the blocks further than the step itself did,
+/// the structure does not stand.
 class EquilibriumPath {
  public:
   EquilibriumPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options,
                   PathGeometry geometry = PathGeometry::start);
 
-  /// Static solve at the time `value`. If it finds an equilibrium the path advances to it; otherwise it stays.
+  /// Static solve at the time `value`. If it finds an equilibrium the path advances to it; otherwise it
+  /// stays.
   StaticSolution advance(double value);
   /// The same by a displacement of the control, at a time that is found.
   StaticSolution advance_by(const LengthControl& control);
 
-  /// The last equilibrium and its contacts, as bytes from which a path of the same scene continues with the same bits.
-  /// restore() throws std::runtime_error if they do not fit.
+  /// The last equilibrium and its contacts, as bytes from which a path of the same scene continues with the
+  /// same bits. restore() throws std::runtime_error if they do not fit.
   std::string save() const;
   void restore(const std::string& bytes);
 
@@ -44,8 +47,8 @@ class EquilibriumPath {
   double dissipated() const { return dissipated_; }  ///< J, in the joints in the last step
   const ContactSet& contacts() const { return contacts_; }
   const ContactMemories& memories() const { return memories_; }
-  /// Adds to a frame of the last equilibrium the points of the joints as built whose faces have parted by more than the margin
-  /// of detection: the problem no longer holds them, and they carry nothing.
+  /// Adds to a frame of the last equilibrium the points of the joints as built whose faces have parted by
+  /// more than the margin of detection: the problem no longer holds them, and they carry nothing.
   void list_parted(Frame* frame) const;
 
  private:

@@ -36,7 +36,8 @@ bool FollowingPath::shorten_step() {
   return true;
 }
 
-/// After an iteration that reduced the residual by less than a digit: the step follows the number of Newton iterations.
+/// After an iteration that reduced the residual by less than a digit: the step follows the number of Newton
+/// iterations.
 void FollowingPath::adapt(double contraction) {
   constexpr double kSlow = 0.1, kBelowFailed = 0.7, kForgetting = 1.2, kNear = 1e-4;
   if (contraction <= kSlow) return;
@@ -59,8 +60,8 @@ double FollowingPath::advance() {
   return contraction;
 }
 
-/// True if blocks have moved by 100 times the settlement since the residual last fell by a quarter below its lowest
-/// value. During a collapse it fluctuates above that value.
+/// True if blocks have moved by 100 times the settlement since the residual last fell by a quarter below its
+/// lowest value. During a collapse it fluctuates above that value.
 bool FollowingPath::moves_far() {
   constexpr double kFall = 0.75, kFar = 100.0;
   // Heads softer than the bed engage after a slip that is long compared with the settlement on the bed.

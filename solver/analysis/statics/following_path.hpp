@@ -6,8 +6,9 @@
 
 namespace cupola {
 
-/// The proximal-point iteration by pseudo-transient continuation, for non-associated laws and compliant joints (static_solve.hpp): many
-/// coarse solves, whose step follows the iterations that Newton's method needs.
+/// The proximal-point iteration by pseudo-transient continuation, for non-associated laws and compliant
+/// joints (static_solve.hpp): many coarse solves, whose step follows the iterations that Newton's method
+/// needs.
 class FollowingPath : public ProximalPoint {
  public:
   FollowingPath(const Model& model, const State& start, const ContactSet& contacts,

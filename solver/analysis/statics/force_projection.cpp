@@ -41,8 +41,8 @@ double energy_norm(const ContactProblem& p, const VecX& gamma) {
   return std::sqrt(squared);
 }
 
-/// The admissible impulse that has the tangential part of gamma, or 0 for gamma_n <= 0 in a dry joint. Shear beyond
-/// what the compressive strength permits is cut.
+/// The admissible impulse that has the tangential part of gamma, or 0 for gamma_n <= 0 in a dry joint. Shear
+/// beyond what the compressive strength permits is cut.
 Vec3 made_admissible(const ContactLaw& law, const Vec3& gamma) {
   if (!is_loaded(law, gamma)) return Vec3::Zero();
   double n = std::clamp(gamma[0], -law.tension_limit(), law.strength.compression);

@@ -26,8 +26,8 @@ class ForceProjection {
   /// sqrt(1e-3 gravity / m).
   bool is_stable(const ContactSolution& x, double gravity);
 
-  /// True if impulses in exact equilibrium next to those of x are proven to exist (exact_equilibrium.hpp). Replaces the factor that the
-  /// other functions share: call it last.
+  /// True if impulses in exact equilibrium next to those of x are proven to exist (exact_equilibrium.hpp).
+  /// Replaces the factor that the other functions share: call it last.
   bool proves_equilibrium(const ContactSolution& x);
 
   /// Bounds the distance of the impulses from those of the exact static solution. None if no forces in the

@@ -16,8 +16,8 @@ struct Value {
 
 using Function = std::function<std::optional<double>(double)>;
 
-/// Where between a and b to look next, as a share of the way from a: inverse quadratic interpolation through a, b and the
-/// argument c tried before where Chandrupatla's criterion trusts it, else the middle.
+/// Where between a and b to look next, as a share of the way from a: inverse quadratic interpolation through
+/// a, b and the argument c tried before where Chandrupatla's criterion trusts it, else the middle.
 double next_share(const Value& a, const Value& b, const Value& c) {
   const double xi = (a.x - b.x) / (c.x - b.x), phi = (a.f - b.f) / (c.f - b.f);
   if (!(1.0 - std::sqrt(1.0 - xi) < phi && phi < std::sqrt(xi))) return 0.5;

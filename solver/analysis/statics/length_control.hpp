@@ -7,12 +7,13 @@
 
 namespace cupola {
 
-/// Control of a path of equilibria by the displacement of one block, or of one block relative to another, instead of by time: the
-/// time, to which loads, supports and friction follow their functions, becomes an unknown. The path then passes a largest load
-/// and follows the descending branch; a displacement across the crack that opens also follows branches on which the displacement
-/// of the load falls (indirect displacement control: R. de Borst 1987, "Computation of post-bifurcation and post-failure behavior of
-/// strain-softening solids", Computers & Structures 25(2), 211-224). De Borst solves for the load factor by two right-hand sides of
-/// one matrix; here contacts make the problem nonsmooth, and the time is a root.
+/// Control of a path of equilibria by the displacement of one block, or of one block relative to another,
+/// instead of by time: the time, to which loads, supports and friction follow their functions, becomes an
+/// unknown. The path then passes a largest load and follows the descending branch; a displacement across the
+/// crack that opens also follows branches on which the displacement of the load falls (indirect displacement
+/// control: R. de Borst 1987, "Computation of post-bifurcation and post-failure behavior of strain-softening
+/// solids", Computers & Structures 25(2), 211-224). De Borst solves for the load factor by two right-hand
+/// sides of one matrix; here contacts make the problem nonsmooth, and the time is a root.
 struct LengthControl {
   int block = 0;
   int relative_to = -1;                 ///< block; -1: the world
@@ -35,11 +36,12 @@ struct RootSearch {
   double tolerance = 0.0;  ///< of the value of the function
 };
 
-/// The last argument at which `f` was evaluated: its value there is within the tolerance, the bracket of the root as narrow as
-/// rounding admits, or the root beyond the bound. Steps that grow fourfold find a bracket; bisection and inverse quadratic
-/// interpolation narrow it (T. R. Chandrupatla 1997, "A new hybrid quadratic/bisection algorithm for finding the zero of a
-/// nonlinear function without using derivatives", Advances in Engineering Software 28, 145-149), because `f` has kinks where joints
-/// yield. None if `f` failed.
+/// The last argument at which `f` was evaluated: its value there is within the tolerance, the bracket of the
+/// root as narrow as rounding admits, or the root beyond the bound. Steps that grow fourfold find a bracket;
+/// bisection and inverse quadratic interpolation narrow it (T. R. Chandrupatla 1997, "A new hybrid
+/// quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives",
+/// Advances in Engineering Software 28, 145-149), because `f` has kinks where joints yield. None if `f`
+/// failed.
 std::optional<double> find_root(const RootSearch& search,
                                 const std::function<std::optional<double>(double)>& f);
 

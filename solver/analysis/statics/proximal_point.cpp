@@ -63,7 +63,8 @@ ContactSolverOptions ProximalPoint::solve_options() const {
   return solve;
 }
 
-/// One contact solve from the guess in trial_. `before`: velocities of the last iterate; `free`: those without forces.
+/// One contact solve from the guess in trial_. `before`: velocities of the last iterate; `free`: those
+/// without forces.
 void ProximalPoint::attempt(const ContactSolverOptions& solve, const VecX& before, const VecX& free) {
   ContactProblem& problem = step_.problem;
   const VecX rest = problem.v_star;
@@ -109,7 +110,8 @@ double ProximalPoint::advance() {
   return contraction;
 }
 
-/// The verdict on a contact solve that is too inexact to start the next iteration from. None: the step was shortened.
+/// The verdict on a contact solve that is too inexact to start the next iteration from. None: the step was
+/// shortened.
 std::optional<StaticSolution> ProximalPoint::judge_failed_solve() {
   if (trial_.solve.usable() && best_.h == 0.0) best_ = trial_;
   if (accepts(trial_)) return finish_accepted();

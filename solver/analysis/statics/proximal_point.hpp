@@ -17,8 +17,9 @@ constexpr double kSolveShare = 0.1;
 /// the residual of a contact solve to the latter, which is far larger where small blocks carry large loads.
 double weight_over_load(const Model& model, double acceleration);
 
-/// The proximal-point iteration of one scene (static_solve.hpp): what coming to rest (coming_to_rest.hpp) and following a path
-/// (following_path.hpp) have in common. They differ in the step, in its accuracy, and in what they call a motion.
+/// The proximal-point iteration of one scene (static_solve.hpp): what coming to rest (coming_to_rest.hpp) and
+/// following a path (following_path.hpp) have in common. They differ in the step, in its accuracy, and in
+/// what they call a motion.
 class ProximalPoint {
  public:
   virtual ~ProximalPoint() = default;
@@ -27,8 +28,8 @@ class ProximalPoint {
   StaticSolution run();
 
  protected:
-  /// How accurate a contact solve must be while the residual is large: the smaller of `coarse` and `share` of the residual, as an
-  /// inexact proximal-point method requires.
+  /// How accurate a contact solve must be while the residual is large: the smaller of `coarse` and `share` of
+  /// the residual, as an inexact proximal-point method requires.
   struct Pace {
     int max_solves;
     double coarse, share;
@@ -38,8 +39,8 @@ class ProximalPoint {
 
   /// One contact solve, or several under a control, from the last iterate.
   virtual void iterate() = 0;
-  /// A shorter step makes the contact problem easier, because inertia carries a larger share. False if this was
-  /// tried often enough.
+  /// A shorter step makes the contact problem easier, because inertia carries a larger share. False if this
+  /// was tried often enough.
   virtual bool shorten_step() = 0;
   /// Adapts the step to the contraction of the last iteration.
   virtual void adapt(double contraction) = 0;

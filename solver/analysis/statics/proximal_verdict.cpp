@@ -10,8 +10,9 @@
 namespace cupola {
 namespace {
 
-/// Lower bound of the sum of normal forces of any equilibrium, over the sum found or the sum of the loads if that is larger, from which
-/// a proof of the motion is sought and, failing that, a motion without proof is reported.
+/// Lower bound of the sum of normal forces of any equilibrium, over the sum found or the sum of the loads if
+/// that is larger, from which a proof of the motion is sought and, failing that, a motion without proof is
+/// reported.
 constexpr double kFarFromEquilibrium = 100.0;
 
 /// A lower bound with two digits, rounded down.

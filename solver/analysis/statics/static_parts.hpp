@@ -9,7 +9,8 @@
 
 namespace cupola {
 
-/// The verdicts of the parts of a structure that no contact connects, so that a loose stone does not decide that of the rest.
+/// The verdicts of the parts of a structure that no contact connects, so that a loose stone does not decide
+/// that of the rest.
 struct StaticParts {
   std::vector<PartVerdict> verdicts;  ///< the largest part first
   /// All parts that stand, if the largest does, and their equilibrium.
@@ -17,13 +18,13 @@ struct StaticParts {
   StaticSolution solution;
 };
 
-/// Solves every part by itself, then those that stand together. None where contacts or ties connect all blocks, or where the
-/// parts are more than a hundred: as many solves.
+/// Solves every part by itself, then those that stand together. None where contacts or ties connect all
+/// blocks, or where the parts are more than a hundred: as many solves.
 std::optional<StaticParts> solve_by_parts(const Model& model, const State& start, const ContactSet& contacts,
                                           const ContactMemories& memories, const StaticOptions& options);
 
-/// Writes the verdicts into the summary, whose status becomes that of the worst part. If the largest part stands, the summary
-/// describes the equilibrium of all that do, and its frame is written.
+/// Writes the verdicts into the summary, whose status becomes that of the worst part. If the largest part
+/// stands, the summary describes the equilibrium of all that do, and its frame is written.
 void add_parts(const StaticParts& parts, const Model& model, const StaticOptions& options, Summary* summary,
                const AnalysisSinks& sinks);
 

@@ -39,7 +39,8 @@ void turn_into_motion(const Model& model, const State& start, const VecX& loads,
                : "");
 }
 
-/// Asks the conic solver where no verdict was reached, or where exact forces next to those found are not proven to exist.
+/// Asks the conic solver where no verdict was reached, or where exact forces next to those found are not
+/// proven to exist.
 void decide(const Model& model, const State& start, const VecX& loads, const StaticOptions& options,
             StaticSolution* solution) {
   options.log("static  the conic solver decides whether exact forces exist");
@@ -95,9 +96,10 @@ double largest_displacement_of(const StaticSolution& solution) {
   return largest_speed(solution.step_solution.v) * solution.h;
 }
 
-/// True if the path showed nothing: it ended without a verdict, or called a motion steady before any block had moved by 1 % of the
-/// smallest, or as far as in the equilibrium under the associated law. Stiff joints beside soft ones, or nearly rigid ones, do that, and
-/// slender towers, which sway by far more than they settle.
+/// True if the path showed nothing: it ended without a verdict, or called a motion steady before any block
+/// had moved by 1 % of the smallest, or as far as in the equilibrium under the associated law. Stiff joints
+/// beside soft ones, or nearly rigid ones, do that, and slender towers, which sway by far more than they
+/// settle.
 bool shows_nothing(const Model& model, const StaticSolution& solution, const StaticSolution& associated) {
   constexpr double kShare = 0.01;
   if (solution.outcome != StaticOutcome::moving) return solution.outcome == StaticOutcome::unconverged;

@@ -26,8 +26,8 @@ struct StaticOptions {
   double time_advance = 0.0;                 ///< time by which loads and supports advance, s
   /// If set, that time is an unknown, and `time_advance` its first guess.
   std::optional<LengthControl> control = {};
-  /// Non-associated laws: only the path from the start counts, not an equilibrium found from the associated solution, whose
-  /// dilatancy may have jammed joints. Motions must reach 5 % of the smallest block.
+  /// Non-associated laws: only the path from the start counts, not an equilibrium found from the associated
+  /// solution, whose dilatancy may have jammed joints. Motions must reach 5 % of the smallest block.
   bool follow_from_start = false;
   std::function<void(const std::string&)> log = [](const std::string&) {};
 };
@@ -48,10 +48,11 @@ constexpr auto enum_names(StaticOutcome) {
 /// The best iterate, with its accuracy.
 struct StaticSolution {
   StaticOutcome outcome = StaticOutcome::unconverged;
-  /// Of an equilibrium: forces in exact equilibrium inside the limits of the joints exist (exact_equilibrium.hpp). Of a motion: no
-  /// forces balance the loads (motion_proof.hpp).
+  /// Of an equilibrium: forces in exact equilibrium inside the limits of the joints exist
+  /// (exact_equilibrium.hpp). Of a motion: no forces balance the loads (motion_proof.hpp).
   bool proven = false;
-  /// Of a motion without proof under the associated law: forces in equilibrium would have to be at least so many times the loads.
+  /// Of a motion without proof under the associated law: forces in equilibrium would have to be at least so
+  /// many times the loads.
   double forces_over_loads = 0.0;
   std::string message;
   double h = 0.0;                 ///< s, step of the proximal-point iteration
@@ -83,39 +84,43 @@ struct StaticSolution {
 /// takes a single iteration with a large h, which leaves a share of inertia in the forces.
 ///
 /// Where no equilibrium exists under the associated law, the increments tend to a mechanism u with w . u > 0
-/// that opens every joint or slides along it. A motion is proven where such a mechanism holds in exact arithmetic: the increment,
-/// corrected by a motion that opens every contact, or the one that the conic solver finds (motion_proof.hpp). An equilibrium is proven
-/// where forces next to those found balance the loads exactly (exact_equilibrium.hpp). Where they do not, the conic solver decides: it
-/// gives such forces, or the mechanism that makes the answer `moving`.
+/// that opens every joint or slides along it. A motion is proven where such a mechanism holds in exact
+/// arithmetic: the increment, corrected by a motion that opens every contact, or the one that the conic
+/// solver finds (motion_proof.hpp). An equilibrium is proven where forces next to those found balance the
+/// loads exactly (exact_equilibrium.hpp). Where they do not, the conic solver decides: it gives such forces,
+/// or the mechanism that makes the answer `moving`.
 ///
-/// Non-associated laws (dilatancy below 1, Coulomb's law at 0) have no such theory: several equilibria may exist,
-/// and a steady motion does not exclude an equilibrium. The associated problem is solved first: what it proves
-/// to move also moves under the other laws, because they admit the same forces. If no compliant contact slips in
-/// its solution, this solves every flow rule. Otherwise the iterations follow a path from the solution with all
-/// contacts sticking, by pseudo-transient continuation (Kelley, Keyes 1998, "Convergence analysis of
-/// pseudo-transient continuation"): h grows where Newton's method converges in a few iterations and shrinks where
-/// it fails. The inertia term makes each point of the path easy, and the joints close before they slide. Structures
-/// near collapse slide slowly over a long way: where the imbalance falls by less than 30 %, half of the last
-/// displacement, scaled by h^2, is added to v_star (momentum, Polyak 1964, "Some methods of speeding up the
-/// convergence of iteration methods"). Elsewhere momentum would carry blocks past an equilibrium. The path ends in
-/// one of four ways:
+/// Non-associated laws (dilatancy below 1, Coulomb's law at 0) have no such theory: several equilibria may
+/// exist, and a steady motion does not exclude an equilibrium. The associated problem is solved first: what
+/// it proves to move also moves under the other laws, because they admit the same forces. If no compliant
+/// contact slips in its solution, this solves every flow rule. Otherwise the iterations follow a path from
+/// the solution with all contacts sticking, by pseudo-transient continuation (Kelley, Keyes 1998,
+/// "Convergence analysis of pseudo-transient continuation"): h grows where Newton's method converges in a few
+/// iterations and shrinks where it fails. The inertia term makes each point of the path easy, and the joints
+/// close before they slide. Structures near collapse slide slowly over a long way: where the imbalance falls
+/// by less than 30 %, half of the last displacement, scaled by h^2, is added to v_star (momentum, Polyak
+/// 1964, "Some methods of speeding up the convergence of iteration methods"). Elsewhere momentum would carry
+/// blocks past an equilibrium. The path ends in one of four ways:
 ///
 ///   equilibrium   the residuals meet the tolerance
-///   moving        blocks moved by 100 times the first settlement, and the imbalance did not fall by a quarter below
-///                 its lowest value in that time
+///   moving        blocks moved by 100 times the first settlement, and the imbalance did not fall by a
+///                 quarter below its lowest value in that time
 ///   unconverged   h became too short: Newton's method fails on every step
 ///   unconverged   the imbalance is still above the tolerance after 250 steps
 ///
-/// Where the path shows nothing (unconverged, or a motion of less than 1 % of the smallest block), the proximal-
-/// point iteration above is tried from the associated solution; its equilibrium counts, nothing else of it.
+/// Where the path shows nothing (unconverged, or a motion of less than 1 % of the smallest block), the
+/// proximal-point iteration above is tried from the associated solution; its equilibrium counts, nothing
+/// else of it.
 ///
-/// Under a control of the length (length_control.hpp) each iteration also finds the time at which the control displacement
-/// is the one asked for. Under the associated law that displacement is the work-conjugate of the force on the control block, if no other
-/// load depends on time; the time is then the multiplier of a convex constraint, and the theory above holds. Under the
-/// other laws, and for other controls, the iteration is the same; `moving` is never the outcome.
+/// Under a control of the length (length_control.hpp) each iteration also finds the time at which the control
+/// displacement is the one asked for. Under the associated law that displacement is the work-conjugate of the
+/// force on the control block, if no other load depends on time; the time is then the multiplier of a convex
+/// constraint, and the theory above holds. Under the other laws, and for other controls, the iteration is the
+/// same; `moving` is never the outcome.
 ///
-/// A path in the dilatancy, from the associated solution to Coulomb's, is shorter far from collapse. Near collapse
-/// it passes through states that exist only because joints have opened: slip grows as 1 / dilatancy there.
+/// A path in the dilatancy, from the associated solution to Coulomb's, is shorter far from collapse. Near
+/// collapse it passes through states that exist only because joints have opened: slip grows as 1 / dilatancy
+/// there.
 StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options);
 

@@ -55,8 +55,8 @@ double first_static_step(const Model& model, const State& start, const ContactSe
   const double displacement =
       courses * gap + courses * largest_compliance(model, start, contacts) * load / std::max(1, at_supports) +
       imposed_displacement(model, start, options) + (options.control ? options.control->displacement : 0.0);
-  // Rigid joints that close but for rounding of the geometry: no step is too long, and a short one would take rounding
-  // for gaps.
+  // Rigid joints that close but for rounding of the geometry: no step is too long, and a short one would take
+  // rounding for gaps.
   constexpr double kRounding = 1e-12;  // of the smallest block
   if (displacement == 0.0 || (largest_compliance(model, start, contacts) == 0.0 &&
                               displacement <= kRounding * courses * smallest_block_size(*model.assembly)))

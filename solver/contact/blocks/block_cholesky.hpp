@@ -14,8 +14,9 @@ namespace cupola {
 ///     own rows of panel p:      dense Cholesky (LAPACK)
 ///     rows below its own rows:  multiplied by the inverse transpose of the own rows
 ///
-/// The structure is kept while the pattern does not change. Runs on num_threads() threads, with the same bits for
-/// any number of them. (CHOLMOD's own numeric phase leaves the threads to BLAS, whose sums depend on their number.)
+/// The structure is kept while the pattern does not change. Runs on num_threads() threads, with the same bits
+/// for any number of them. (CHOLMOD's own numeric phase leaves the threads to BLAS, whose sums depend on
+/// their number.)
 ///
 /// For a plane pattern only the rows x, z and rot y of each block are factorised. The other rows must be
 /// those of the identity, as they are in whitened problems.
@@ -28,8 +29,8 @@ class BlockCholesky {
   bool has_factor() const { return valid_; }
   const BlockPattern& pattern() const { return pattern_; }  ///< of the last factorisation
   VecX solve(const VecX& rhs) const;                        ///< requires has_factor()
-  /// An approximate solution for preconditioners; requires has_factor(). The first call after a factorisation copies the factor to single
-  /// precision, unless it is too ill-conditioned for it.
+  /// An approximate solution for preconditioners; requires has_factor(). The first call after a factorisation
+  /// copies the factor to single precision, unless it is too ill-conditioned for it.
   VecX solve_approximately(const VecX& rhs);
   long long num_nonzeros() const;  ///< of the factor
 

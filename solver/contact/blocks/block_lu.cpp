@@ -100,8 +100,8 @@ bool BlockLu::factorize_own_rows(int panel) {
   return info == 0;
 }
 
-/// Multiplies the rows of the tile below the panel's own rows by the inverse of the own rows: with S D = T R, the
-/// row exchanges S and the triangles T and R, X D = B has the solution X = B R^-1 T^-1 S.
+/// Multiplies the rows of the tile below the panel's own rows by the inverse of the own rows: with S D = T R,
+/// the row exchanges S and the triangles T and R, X D = B has the solution X = B R^-1 T^-1 S.
 void BlockLu::divide(int panel, const PanelTile& tile) {
   const int columns = structure_.num_columns(panel);
   const int first = std::max(tile.first, columns);

@@ -21,19 +21,19 @@ UnsymmetricBlockMatrix assemble_jacobian(const ContactProblem& problem, const Co
 /// Matrix times vector (6 nb).
 VecX multiply(const BlockPattern& pattern, const UnsymmetricBlockMatrix& matrix, const VecX& x);
 
-/// Sparse left-looking factor A = L D U of an UnsymmetricBlockMatrix by panels (factor_structure.hpp). D holds the
-/// own rows and columns of the panels; L and U have identities there. With W = D U:
+/// Sparse left-looking factor A = L D U of an UnsymmetricBlockMatrix by panels (factor_structure.hpp). D
+/// holds the own rows and columns of the panels; L and U have identities there. With W = D U:
 ///
-///     D_p, L_p, W_p <- A_p - sum over earlier panels q of L_q W_q     (own rows, rows below them, columns beside them)
+///     D_p, L_p, W_p <- A_p - sum over earlier panels q of L_q W_q  (own rows, rows below, columns beside)
 ///     D_p:  dense LU with row exchanges (LAPACK)
 ///     L_p <- L_p D_p^-1
 ///
-/// Rows are exchanged within the own rows of a panel only. That is enough for contact problems, whose matrix is the
-/// identity plus contact stiffnesses that are unsymmetric only where contacts slide; Newton's method corrects
-/// rounding errors.
+/// Rows are exchanged within the own rows of a panel only. That is enough for contact problems, whose matrix
+/// is the identity plus contact stiffnesses that are unsymmetric only where contacts slide; Newton's method
+/// corrects rounding errors.
 ///
-/// The structure is kept while the pattern does not change. Runs on num_threads() threads, with the same bits for
-/// any number of them.
+/// The structure is kept while the pattern does not change. Runs on num_threads() threads, with the same bits
+/// for any number of them.
 ///
 /// For a plane pattern only the rows x, z and rot y of each block are factorised. The other rows must be
 /// those of the identity, as they are in whitened problems.

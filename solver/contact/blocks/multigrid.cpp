@@ -18,8 +18,9 @@ namespace {
 constexpr int kCoarsest = 1500;  // blocks; a factorisation takes a few hundredths of a second
 constexpr int kPiece = 4096;     // rows that a sweep visits in sequence
 constexpr double kOperationsPerEntry = 72.0;
-/// Below this mean of the diagonal, where 1 is inertia, a level has no coarser one. In the collapse of 11,568 bricks
-/// (means of 60 to 250) a step then takes 13 % less time, as sweeps need few CG iterations by themselves.
+/// Below this mean of the diagonal, where 1 is inertia, a level has no coarser one. In the collapse of 11,568
+/// bricks (means of 60 to 250) a step then takes 13 % less time, as sweeps need few CG iterations by
+/// themselves.
 constexpr double kSoft = 300.0;
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -171,7 +172,8 @@ void sweep_backward(const SingleBlockRows& A, const std::vector<Mat6>& inverse, 
   });
 }
 
-/// Completes a forward sweep from x = 0 to a symmetric one within each piece: x <- (1 + D^-1 U)^-1 x with the upper triangle U.
+/// Completes a forward sweep from x = 0 to a symmetric one within each piece: x <- (1 + D^-1 U)^-1 x with the
+/// upper triangle U.
 void complete_sweep(const SingleBlockRows& A, const std::vector<Mat6>& inverse, VecX* x) {
   share_pieces(A, [&](int first, int last) {
     for (int i = last - 1; i >= first; --i) {

@@ -19,8 +19,8 @@ namespace cupola {
 /// blocks; those of a cycle grow linearly. CG takes 15 to 90 cycles to six digits for 20,000 to 80,000
 /// bricks.
 ///
-/// Levels whose matrix is mostly inertia, as in motions with steps of milliseconds, need no coarser ones: the hierarchy
-/// ends there with a symmetric sweep.
+/// Levels whose matrix is mostly inertia, as in motions with steps of milliseconds, need no coarser ones: the
+/// hierarchy ends there with a symmetric sweep.
 ///
 /// Matrices are read in single precision, in which they remain symmetric, because a cycle is memory-bound.
 /// Vectors, and the matrix that CG multiplies with, are in double precision.

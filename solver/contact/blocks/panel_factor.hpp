@@ -13,8 +13,8 @@ struct PanelTile {
 };
 std::vector<PanelTile> panel_tiles(int num_rows);
 
-/// Subtracts from the rows of a tile the products A_q B_q^T of the earlier panels q, where A and B are factors
-/// with the structure and `unknowns` per block, and `target` is the factor to which the tile belongs.
+/// Subtracts from the rows of a tile the products A_q B_q^T of the earlier panels q, where A and B are
+/// factors with the structure and `unknowns` per block, and `target` is the factor to which the tile belongs.
 struct PanelProducts {
   const FactorStructure& structure;
   int unknowns;
@@ -38,9 +38,10 @@ struct PanelSteps {
   std::function<void(int panel, const PanelTile& tile)> divide;
 };
 
-/// Factorises all panels on num_threads() threads: first by subtrees, then panel by panel by tiles of rows. The
-/// result has the same bits for any number of threads: BLAS itself is single-threaded, the tiles do not depend on the
-/// number of threads, and sums follow the order of the panels. False if a step failed. Throws Interrupted.
+/// Factorises all panels on num_threads() threads: first by subtrees, then panel by panel by tiles of rows.
+/// The result has the same bits for any number of threads: BLAS itself is single-threaded, the tiles do not
+/// depend on the number of threads, and sums follow the order of the panels. False if a step failed. Throws
+/// Interrupted.
 [[nodiscard]] bool factorize_panels(const FactorStructure& structure, int unknowns, const PanelSteps& steps);
 
 }  // namespace cupola

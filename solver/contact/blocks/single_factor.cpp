@@ -13,8 +13,9 @@ namespace cupola {
 
 SingleFactor::SingleFactor(const FactorStructure& structure, int unknowns,
                            const std::vector<double>& values) {
-  // The rounding of L changes the solution by about 6e-8 times the condition number of L L^T. The smallest eigenvalue of systems
-  // M + D G D^T with M = I is at least 1, and the largest is of the size of the largest squared diagonal entry of L.
+  // The rounding of L changes the solution by about 6e-8 times the condition number of L L^T. The smallest
+  // eigenvalue of systems M + D G D^T with M = I is at least 1, and the largest is of the size of the largest
+  // squared diagonal entry of L.
   constexpr double kLargest = 1e3;
   const int m = unknowns;
   double largest = 0.0;

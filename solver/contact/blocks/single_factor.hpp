@@ -6,8 +6,8 @@
 
 namespace cupola {
 
-/// Copy of a Cholesky factor in single precision, for preconditioners. The own rows T of a panel are inverted, and the rows B
-/// below them multiplied by that inverse:
+/// Copy of a Cholesky factor in single precision, for preconditioners. The own rows T of a panel are
+/// inverted, and the rows B below them multiplied by that inverse:
 ///
 ///     L y = b:      y = T^-1 b,            b below <- b below - (B T^-1) b
 ///     L^T x = y:    x = T^-T y - (B T^-1)^T x below

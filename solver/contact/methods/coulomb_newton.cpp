@@ -99,8 +99,8 @@ bool solve_direction(const BlockPattern& pattern, const UnsymmetricBlockMatrix& 
   return d->allFinite();
 }
 
-/// Semismooth Newton from `w`, with a line search on |F|. True if no block of F exceeds `tolerance`; otherwise w
-/// is the last iterate. Gives up where |F| has not halved in six iterations.
+/// Semismooth Newton from `w`, with a line search on |F|. True if no block of F exceeds `tolerance`;
+/// otherwise w is the last iterate. Gives up where |F| has not halved in six iterations.
 bool solve_subproblem(const CoulombSubproblem& sub, double tolerance, const SolveOptions& options,
                       BlockLu* lu, VecX* w, SolveSummary* summary) {
   constexpr int kMaxIterations = 30, kPatience = 6;

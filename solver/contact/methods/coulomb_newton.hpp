@@ -16,13 +16,14 @@ namespace cupola {
 /// solution with all contacts sticking. As F is not the gradient of a cost, Newton may end in a minimum of
 /// |F|. The smaller h, that is the larger the share of inertia, the rarer this is.
 ///
-/// Rigid contacts, and compliant ones where plain Newton fails, are solved by the proximal point method: Gamma
-/// takes the compliance E + R and the velocity D^T v + b - R gamma_k. Its fixed point solves the given problem
-/// for any R >= 0. R is a share of the Delassus block of each contact: it grows tenfold where Newton fails and
-/// shrinks where it succeeds. A given max_iterations excludes this second attempt.
+/// Rigid contacts, and compliant ones where plain Newton fails, are solved by the proximal point method:
+/// Gamma takes the compliance E + R and the velocity D^T v + b - R gamma_k. Its fixed point solves the given
+/// problem for any R >= 0. R is a share of the Delassus block of each contact: it grows tenfold where Newton
+/// fails and shrinks where it succeeds. A given max_iterations excludes this second attempt.
 ///
-/// The solver object keeps the symbolic factor while the same pairs of blocks touch, and the share of R with which the last solve
-/// ended: where that suits the next problem too, a single proximal point solves it, and the last factor preconditions it.
+/// The solver object keeps the symbolic factor while the same pairs of blocks touch, and the share of R with
+/// which the last solve ended: where that suits the next problem too, a single proximal point solves it, and
+/// the last factor preconditions it.
 ///
 /// Converged when excess() of the residuals is <= 1.
 class CoulombNewton {

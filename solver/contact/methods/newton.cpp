@@ -58,8 +58,9 @@ class Stagnation {
   }
   /// Residuals may rise for some iterations while the cost decreases, but not for this many.
   bool is_final() const { return without_gain_ >= 12; }
-  /// Multigrid misses very soft modes. It is given up after so many iterations without a residual below all since the largest: from a
-  /// good guess the residual rises at first, by a factor of up to 100. Brick domes take up to ten.
+  /// Multigrid misses very soft modes. It is given up after so many iterations without a residual below all
+  /// since the largest: from a good guess the residual rises at first, by a factor of up to 100. Brick domes
+  /// take up to ten.
   static constexpr int kMultigridLimit = 15;
   bool ends_multigrid() const { return since_best_ >= kMultigridLimit; }
 
@@ -165,8 +166,8 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
   constexpr double kCostRounding = 4e-16;
   constexpr double kExactSlope = 1e-6;   // beyond this the next Newton step gains more than the line search
   constexpr double kInexactSlope = 0.1;  // sufficient for an inexact direction
-  // From this iteration on block descent follows also the directions that come from factors. Of steps from rest with much sliding it
-  // saves half the time and more. Most solves end before.
+  // From this iteration on block descent follows also the directions that come from factors. Of steps from
+  // rest with much sliding it saves half the time and more. Most solves end before.
   constexpr int kSlow = 10;
   constexpr double kNegligible = 0.1;  // gradient of a block that BlockDescent skips, of the tolerance
   double last_residual = residual(point);

@@ -8,8 +8,8 @@
 namespace cupola {
 
 /// True if multigrid-preconditioned CG is faster than Cholesky: 10,000 blocks or more, not plane. With
-/// multigrid a static solve takes two thirds of the time at 11,568 blocks and two fifths at 82,048, and the first steps of a
-/// collapse of 11,568 blocks a quarter. In the plane factors are small.
+/// multigrid a static solve takes two thirds of the time at 11,568 blocks and two fifths at 82,048, and the
+/// first steps of a collapse of 11,568 blocks a quarter. In the plane factors are small.
 bool has_many_blocks(const ContactProblem& problem);
 
 /// Default of max_iterations.
@@ -29,9 +29,10 @@ int usual_newton_iterations(const ContactProblem& problem);
 /// full 6x6 blocks, and in the cold start, which is the solution with all contacts sticking.
 ///
 /// With many blocks (has_many_blocks) multigrid-preconditioned conjugate gradients replace the factorisation.
-/// They serve statics and motions, and reduce the residual to a tenth at first and further as Newton converges (Eisenstat and Walker 1996).
-/// If they fail, the direction comes from a factor. A sweep of BlockDescent follows every step with multigrid, and with factors every
-/// step from the tenth on; otherwise a few contacts that still change their region would delay the whole structure.
+/// They serve statics and motions, and reduce the residual to a tenth at first and further as Newton
+/// converges (Eisenstat and Walker 1996). If they fail, the direction comes from a factor. A sweep of
+/// BlockDescent follows every step with multigrid, and with factors every step from the tenth on; otherwise a
+/// few contacts that still change their region would delay the whole structure.
 ///
 /// The solver object keeps the ordering and the symbolic factor while the same pairs of blocks touch.
 ///

@@ -10,9 +10,9 @@ namespace cupola {
 
 namespace {
 
-/// Preconditioned conjugate gradients from d = 0. Returns the norm of the last residual over that of the first, in the norm
-/// of the preconditioner (a small residual in stiff directions may hide a large error in soft ones); 1 on breakdown
-/// (infinite values, loss of positive definiteness).
+/// Preconditioned conjugate gradients from d = 0. Returns the norm of the last residual over that of the
+/// first, in the norm of the preconditioner (a small residual in stiff directions may hide a large error in
+/// soft ones); 1 on breakdown (infinite values, loss of positive definiteness).
 template <class Multiply, class Precondition>
 double conjugate_gradients(const Multiply& multiply, const Precondition& precondition, const VecX& rhs,
                            double forcing, int max_iterations, VecX* d, SolveSummary* summary) {

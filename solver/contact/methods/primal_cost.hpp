@@ -6,10 +6,11 @@ namespace cupola {
 
 /// The primal objective of a whitened problem (M = I, all E > 0) at a point w, after Castro et al. (2022):
 ///
-///     cost(w) = 1/2 |w - w_star|^2 + sum_i 1/2 gamma_i^T E_i gamma_i - gamma_i . z_i,   gamma_i = gamma(y_i),
-///     y_i = J_i^T w + b_i,   z_i = y_i + E_i gamma_i
+///     cost(w) = 1/2 |w - w_star|^2 + sum_i 1/2 gamma_i^T E_i gamma_i - gamma_i . z_i,
+///     gamma_i = gamma(y_i),   y_i = J_i^T w + b_i,   z_i = y_i + E_i gamma_i
 ///
-/// gamma_i . z_i is zero for dry joints and minus the plastic dissipation at a strength. The cost is strongly convex and continuously differentiable. The momentum balance holds at its minimum.
+/// gamma_i . z_i is zero for dry joints and minus the plastic dissipation at a strength. The cost is strongly
+/// convex and continuously differentiable. The momentum balance holds at its minimum.
 struct PrimalPoint {
   VecX w;         ///< (6 nb)
   VecX y;         ///< J^T w + b (3 nc)

@@ -19,8 +19,9 @@ constexpr double kProximalShare = 1e-4;
 constexpr double kLargestRoundingResidual = 1e-2;  // a larger momentum residual is not due to rounding
 constexpr int kRescueOuterIterations = 40;
 
-/// Blocks at rest under the impulses of the guess, if their residuals are those of a solution. Many impulses of rigid contacts balance
-/// the same loads, so that any others would be no better. The momentum residual alone excludes most motions, at a tenth of the cost.
+/// Blocks at rest under the impulses of the guess, if their residuals are those of a solution. Many impulses
+/// of rigid contacts balance the same loads, so that any others would be no better. The momentum residual
+/// alone excludes most motions, at a tenth of the cost.
 std::optional<SolveSummary> keep_at_rest(const ContactProblem& problem, const ContactSolverOptions& options,
                                          ContactSolution* solution) {
   if (solution->gamma.size() != problem.b.size()) return std::nullopt;

@@ -11,10 +11,10 @@ namespace cupola {
 /// Solves contact problems of any compliance (zero included), friction law and method. Keeps the ordering and
 /// the symbolic and numeric factor between calls.
 ///
-/// Convex problems (associated law, all E > 0) go straight to the method (method_table.hpp). All other flow rules
-/// go to coulomb_newton.hpp if the method is Newton's. The other methods solve convex problems only: they take
-/// De Saxce's outer iterations (outer_iterations.hpp), as do primal methods with zero compliance. A given
-/// max_iterations excludes all second attempts.
+/// Convex problems (associated law, all E > 0) go straight to the method (method_table.hpp). All other flow
+/// rules go to coulomb_newton.hpp if the method is Newton's. The other methods solve convex problems only:
+/// they take De Saxce's outer iterations (outer_iterations.hpp), as do primal methods with zero compliance. A
+/// given max_iterations excludes all second attempts.
 class ContactSolver {
  public:
   SolveSummary solve(const ContactProblem& problem, const ContactSolverOptions& options,

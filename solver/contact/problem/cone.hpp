@@ -7,8 +7,8 @@
 
 namespace cupola {
 
-/// Region of the set of admissible impulses that a contact is in. A frictionless closed contact without cohesion
-/// counts as slipping.
+/// Region of the set of admissible impulses that a contact is in. A frictionless closed contact without
+/// cohesion counts as slipping.
 enum class ContactRegion {
   stick,          ///< inside
   slip,           ///< shear at its limit
@@ -55,22 +55,22 @@ inline bool is_rigid(const ContactLaw& law) {
 std::optional<int> first_rigid_contact(const ContactProblem& problem);
 
 /// Impulse of a compliant contact at the relative velocity y = D^T v + b (m/s, normal first): the gamma in
-/// the set Y (contact_problem.hpp) whose plastic velocity z = y + E gamma is zero in stick and obeys the flow rule
-/// elsewhere. For dry joints these are three regions (theta: dilatancy):
+/// the set Y (contact_problem.hpp) whose plastic velocity z = y + E gamma is zero in stick and obeys the flow
+/// rule elsewhere. For dry joints these are three regions (theta: dilatancy):
 ///
 ///     separation  y_n >= theta mu |y_t|            gamma = 0
 ///     stick       |y_t| / e_t <= mu (-y_n) / e_n   gamma = -E^-1 y
 ///     slip        otherwise                        gamma = a (1, -mu y_t / |y_t|),
 ///                                                  a = (-y_n + theta mu |y_t|) / (e_n + theta mu^2 e_t)
 ///
-/// With cohesion c, tension T and compression F the stick impulse is -E^-1 y with its normal component limited to
-/// [-T, F], as long as its shear does not exceed c + mu gamma_n; otherwise the contact slips at
+/// With cohesion c, tension T and compression F the stick impulse is -E^-1 y with its normal component
+/// limited to [-T, F], as long as its shear does not exceed c + mu gamma_n; otherwise the contact slips at
 ///
 ///     gamma_n = (-y_n + theta mu (|y_t| - e_t c)) / (e_n + theta mu^2 e_t), limited to [-T, F],
 ///     gamma_t = -(c + mu gamma_n) y_t / |y_t|
 ///
-/// At theta = 1 this is the projection of -E^-1 y on Y in the norm of E, and -z is an outward normal of Y at gamma.
-/// At theta = 0 the normal impulse is -y_n / e_n, limited to [-T, F].
+/// At theta = 1 this is the projection of -E^-1 y on Y in the norm of E, and -z is an outward normal of Y at
+/// gamma. At theta = 0 the normal impulse is -y_n / e_n, limited to [-T, F].
 ///
 /// Castro, Permenter, Han (2022), "An unconstrained convex formulation of compliant contact", section on
 /// regularised friction, without strength. Our sign of y differs: y_n > 0 opens the contact.

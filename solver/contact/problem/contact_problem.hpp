@@ -27,14 +27,15 @@ struct ContactStrength {
 ///
 ///     M (v - v_star) = D gamma,     gamma in Y  _|_  D^T v + b + E gamma in Y*          (paper eq. 9-13)
 ///
-/// Y is the product of the cones |gamma_t| <= mu gamma_n. Joints with strength replace the cone by the convex set
+/// Y is the product of the cones |gamma_t| <= mu gamma_n. Joints with strength replace the cone by the convex
+/// set
 ///
 ///     |gamma_t| <= cohesion + mu gamma_n,   -tension <= gamma_n <= compression
 ///
-/// and the second condition by: -(D^T v + b + E gamma) is an outward normal of that set at gamma. The paper writes N = D^T M^-1 D - E with
-/// E = -K^-1/h^2; here E is positive and added. This is the associated law, a convex problem. Under Coulomb's
-/// law De Saxce's term mu |u_t| is added to the normal component of the dual variable (FrictionLaw in
-/// assembly/model/choices.hpp, outer_iterations.hpp).
+/// and the second condition by: -(D^T v + b + E gamma) is an outward normal of that set at gamma. The paper
+/// writes N = D^T M^-1 D - E with E = -K^-1/h^2; here E is positive and added. This is the associated law, a
+/// convex problem. Under Coulomb's law De Saxce's term mu |u_t| is added to the normal component of the dual
+/// variable (FrictionLaw in assembly/model/choices.hpp, outer_iterations.hpp).
 ///
 /// Conventions: six unknowns per free block, linear then angular velocity, world axes, about the centroid.
 /// Three rows per contact, the normal first, then two tangents. The normal points from block a to block b.
@@ -61,7 +62,8 @@ struct ContactProblem {
   int num_contacts() const { return static_cast<int>(block_a.size()); }
 
   /// Checks sizes, finite values, M symmetric positive definite, E >= 0, mu >= 0, equal E for both tangents,
-  /// strengths >= 0, two different blocks per contact, h > 0. Throws std::invalid_argument that names the first violation.
+  /// strengths >= 0, two different blocks per contact, h > 0. Throws std::invalid_argument that names the
+  /// first violation.
   void validate() const;
   /// The message of validate(), or an empty string for a valid problem.
   std::string defect() const;

@@ -28,7 +28,8 @@ double required_normal_force(const ContactProblem& problem, const VecX& v) {
     else
       largest_without_limit = std::max(largest_without_limit, delta);
   }
-  // Two bounds: all contacts that approach supply the missing work, or those without a limit what crushing cannot.
+  // Two bounds: all contacts that approach supply the missing work, or those without a limit what crushing
+  // cannot.
   const auto required = [&](double supplied, double delta) {
     if (!(work > (1.0 + kRounding) * supplied)) return 0.0;
     return delta > 0.0 ? (work - supplied) / (delta * problem.h) : std::numeric_limits<double>::infinity();

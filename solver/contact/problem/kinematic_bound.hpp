@@ -18,8 +18,9 @@ namespace cupola {
 ///
 ///     sum_i  c |u_t| + T (u_n - mu |u_t|)+,
 ///
-/// and no more than F delta where their compression F is finite. The other contacts then supply the rest of the work. Where
-/// there are none that approach and the dissipation cannot reach the work, there is no equilibrium.
+/// and no more than F delta where their compression F is finite. The other contacts then supply the rest of
+/// the work. Where there are none that approach and the dissipation cannot reach the work, there is no
+/// equilibrium.
 ///
 ///     infinity    if v opens every joint or slides along it (u in Y*) while the loads do work:
 ///                 the kinematic theorem of limit analysis, or the dissipation cannot

@@ -13,9 +13,9 @@ struct Residuals {
   /// sqrt(mean mass) * reference_speed: the unbalanced impulse relative to the weight of a mean block.
   double momentum = 0.0;
   /// |gamma - P(gamma - rho (y + s n))| / |gamma| with y = D^T v + b + E gamma, P the projection on the cone,
-  /// and s = (1 - dilatancy) mu |y_t|, De Saxce's term (0: associated law). rho_i = 1/E_i and P is in the norm of E_i; where E_i = 0,
-  /// rho_i = 1/trace(N_ii) and P is Euclidean. For gamma = 0: 0 if that is correct, otherwise 1. One number
-  /// for all contacts: contact_law_errors() shows where the law is violated.
+  /// and s = (1 - dilatancy) mu |y_t|, De Saxce's term (0: associated law). rho_i = 1/E_i and P is in the
+  /// norm of E_i; where E_i = 0, rho_i = 1/trace(N_ii) and P is Euclidean. For gamma = 0: 0 if that is
+  /// correct, otherwise 1. One number for all contacts: contact_law_errors() shows where the law is violated.
   double contact_law = 0.0;
   /// Zero compliance only: max over rigid contacts of |gamma - P(gamma - rho (y + s n))| / (rho
   /// reference_speed), the speed by which a contact violates its law. contact_law is weighted by impulses and

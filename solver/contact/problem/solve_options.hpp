@@ -16,10 +16,12 @@ struct SolveOptions {
   /// m/s, > 0: h |g|, the speed that a free block gains in the step. Makes residuals relative.
   double reference_speed = 0.0;
   std::optional<int> max_iterations;  ///< >= 1; none: the default of the method
-  /// Newton only: directions by multigrid-preconditioned conjugate gradients; none: if has_many_blocks() (newton.hpp).
+  /// Newton only: directions by multigrid-preconditioned conjugate gradients; none: if has_many_blocks()
+  /// (newton.hpp).
   std::optional<bool> multigrid;
-  /// Newton without multigrid only: keep the factor from step to step as the preconditioner of conjugate gradients, and renew
-  /// it when they need more than 25 iterations. Faster while few contacts change state, at the same accuracy.
+  /// Newton without multigrid only: keep the factor from step to step as the preconditioner of conjugate
+  /// gradients, and renew it when they need more than 25 iterations. Faster while few contacts change state,
+  /// at the same accuracy.
   bool lag_factor = false;
 
   /// Throws std::invalid_argument with name, value and rule.
@@ -30,8 +32,8 @@ struct SolveOptions {
 struct ContactSolverOptions : SolveOptions {
   ContactMethod method = ContactMethod::newton;
   FlowRule law;
-  /// Rigid contacts only: try first whether blocks at rest under the impulses of the guess are the solution. For time steps, in
-  /// which a structure at rest then keeps its impulses.
+  /// Rigid contacts only: try first whether blocks at rest under the impulses of the guess are the solution.
+  /// For time steps, in which a structure at rest then keeps its impulses.
   bool try_rest = false;
 };
 

@@ -18,7 +18,8 @@ std::vector<double> column(const Samples& samples, size_t k) {
   return values;
 }
 
-// Quantiles from tables and closed forms. Of the lognormal distribution with mean 1 and deviation 1 the median is 1/sqrt(2).
+// Quantiles from tables and closed forms. Of the lognormal distribution with mean 1 and deviation 1 the
+// median is 1/sqrt(2).
 TEST(Ensemble, InvertsTheDistributionFunctions) {
   EXPECT_NEAR(std::stod(value_at(NormalValues{10.0, 2.0}, 0.975)), 10.0 + 2.0 * 1.959963984540054, 1e-12);
   EXPECT_NEAR(std::stod(value_at(LognormalValues{1.0, 1.0}, 0.5)), std::sqrt(0.5), 1e-15);
@@ -31,8 +32,8 @@ TEST(Ensemble, InvertsTheDistributionFunctions) {
   EXPECT_EQ(value_at(SeedValues{}, 0.5), "1073741824");
 }
 
-// Mean and deviation of 4000 values lie within four standard errors: deviation / sqrt(n), and deviation / sqrt(2 n) and more for the
-// longer tail of the lognormal distribution.
+// Mean and deviation of 4000 values lie within four standard errors: deviation / sqrt(n), and deviation /
+// sqrt(2 n) and more for the longer tail of the lognormal distribution.
 TEST(Ensemble, DrawsTheMeanAndDeviationThatItIsGiven) {
   const Ensemble ensemble{4000,
                           1,
@@ -49,7 +50,8 @@ TEST(Ensemble, DrawsTheMeanAndDeviationThatItIsGiven) {
   }
 }
 
-// The stream is that of std::mt19937_64, whose 10000th number for its default seed the C++ standard gives (26.6.6).
+// The stream is that of std::mt19937_64, whose 10000th number for its default seed the C++ standard gives
+// (26.6.6).
 TEST(Ensemble, UsesTheEngineOfTheStandard) {
   std::mt19937_64 engine;
   engine.discard(9999);

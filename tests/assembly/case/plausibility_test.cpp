@@ -1,4 +1,5 @@
-// Values that a case file admits but masonry hardly has: every check, at values that a user would write by mistake.
+// Values that a case file admits but masonry hardly has: every check, at values that a user would write by
+// mistake.
 #include "assembly/case/plausibility.hpp"
 
 #include <filesystem>

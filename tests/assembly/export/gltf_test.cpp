@@ -22,8 +22,8 @@ std::pair<Vec3, Vec3> box_of_node(const Json& file, const Json& node) {
   return {vector_of(positions["min"]), vector_of(positions["max"])};
 }
 
-// The cube spans 0.1..0.2 in x, 0..1/3 in y and 0..1 in z (tests/assembly/scene.hpp): y up, it spans 0..1 in y and
-// -1/3..0 in z. Positions are floats of numbers below 1, hence 1e-7.
+// The cube spans 0.1..0.2 in x, 0..1/3 in y and 0..1 in z (tests/assembly/scene.hpp): y up, it spans 0..1 in
+// y and -1/3..0 in z. Positions are floats of numbers below 1, hence 1e-7.
 TEST(Gltf, TurnsTheBlocksUpright) {
   const Assembly a = test::two_block_assembly();
   const Json file = Json::parse(gltf_text({a, {}, {}}));

@@ -7,7 +7,8 @@
 namespace cupola::obj_test {
 namespace {
 
-// A line end in a name would begin a statement of the file, # a comment, and a final backslash would swallow the next line.
+// A line end in a name would begin a statement of the file, # a comment, and a final backslash would swallow
+// the next line.
 TEST(Obj, EscapesNames) {
   Assembly a = test::two_block_assembly();
   a.blocks[0].name = "one\nv 1 2 3";

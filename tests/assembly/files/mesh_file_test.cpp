@@ -286,7 +286,8 @@ TEST(PvdFile, RoundTripsTimesAndNames) {
   }
 }
 
-// ParaView sorts the files by time and merges those of one time: a path past its largest load would be shuffled.
+// ParaView sorts the files by time and merges those of one time: a path past its largest load would be
+// shuffled.
 TEST(PvdFile, NumbersFilesWhoseTimesDoNotIncrease) {
   const std::string path = test::fresh_folder("a") + "/series.pvd";
   for (const double last : {0.5, 0.25}) {

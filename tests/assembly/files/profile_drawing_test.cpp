@@ -1,4 +1,5 @@
-// Sections drawn as SVG paths: lines, arcs, curves and their transforms against points of the drawn curve; errors.
+// Sections drawn as SVG paths: lines, arcs, curves and their transforms against points of the drawn curve;
+// errors.
 
 #include "assembly/files/profile_drawing.hpp"
 
@@ -34,7 +35,8 @@ std::string message_of(const std::string& body) {
   return "";
 }
 
-/// Largest distance of the points of cubic curves from the ellipse with the half axes a and b about the origin, over a.
+/// Largest distance of the points of cubic curves from the ellipse with the half axes a and b about the
+/// origin, over a.
 double error_on_ellipse(const ProfileTable& t, double a, double b) {
   double most = 0.0;
   for (size_t i = 0; i + 1 < t.r.size(); ++i)
@@ -93,7 +95,8 @@ TEST(ProfileDrawing, LinesAndCurvesKeepTheirOrder) {
   EXPECT_NEAR((t.curves[1]->second - Eigen::Vector2d(2.0, 6.0)).norm(), 0.0, 1e-14);
 }
 
-// A whole pointed section ends at its point, between two strokes, and a whole flat curve in the middle of one.
+// A whole pointed section ends at its point, between two strokes, and a whole flat curve in the middle of
+// one.
 TEST(ProfileDrawing, AWholeSectionIsCutAtItsAxis) {
   const ProfileTable pointed = path_of("M 0,0 A 80,80 0 0 1 50,-62.449979984 A 80,80 0 0 1 100,0");
   ASSERT_EQ(pointed.r.size(), 2u);

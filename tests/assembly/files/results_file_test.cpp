@@ -171,7 +171,8 @@ TEST(ResultsFile, AnOpenCourseIsLabelledByItsShare) {
   EXPECT_EQ(frame.label, "course 3, 40 % laid");
 }
 
-// Version 0.2 wrote no roles. The frames of an unbounded end and of a static start that failed are in no fixture.
+// Version 0.2 wrote no roles. The frames of an unbounded end and of a static start that failed are in no
+// fixture.
 TEST(ResultsFile, OldFramesGetTheirRoleFromTheSummary) {
   const auto role = [](const Summary& summary, int index, const Frame& of = {}) {
     Frame frame = of;
@@ -224,7 +225,8 @@ TEST(ResultsFile, TextFilesThatChangedAreRefused) {
   EXPECT_NE(error_of("stages.csv").find("is not listed in summary.json"), std::string::npos);
 }
 
-// A kill between the last step and summary.json: the run that is resumed has no step left that would write the table.
+// A kill between the last step and summary.json: the run that is resumed has no step left that would write
+// the table.
 TEST(ResultsFile, ARunResumedAtItsEndKeepsItsTables) {
   const std::string folder = test::fresh_folder("results"), hash = example_summary().assembly_hash;
   {

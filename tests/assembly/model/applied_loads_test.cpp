@@ -40,7 +40,8 @@ TEST(AppliedLoads, ALanternWeighsItsNewtonsOrItsMass) {
   EXPECT_EQ(applied_loads(loads, assembly).at(0).force.z(), -600.0);
 }
 
-// A moment must move no centroid, and have no symmetric part: the mean stress of a block is the symmetric part of sum x f^T.
+// A moment must move no centroid, and have no symmetric part: the mean stress of a block is the symmetric
+// part of sum x f^T.
 TEST(AppliedLoads, AMomentIsAPureCouple) {
   const Assembly assembly = test::two_block_assembly();
   Loads loads;

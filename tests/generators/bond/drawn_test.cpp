@@ -72,12 +72,13 @@ TEST_P(Gallery, HasTheBlocksCountedByHand) {
       GetParam().uprights);
 }
 
-// Stretcher: 3 courses of 6, 3 of 5 and two halves. Stack: 6 of 6. Header course over stretchers, English: 3 of 6, 3 of 11
-// and two halves. Flemish: 4 stretchers and 4 headers a course; every other course begins and ends with parts of a
-// stretcher, of 1 and 3 letters of 4. Monk: lowest course 4 4 2 4 4 2 4 letters, the one above it 3 2 4 4 2 4 4 1, whose
-// first and last are cut. Basket: 3 periods of 8 and the lower halves of 3 more. Pinwheel: 4 by 2 periods of 5.
-// Herringbone: 9 flat blocks in even courses, 3 4 3 in odd ones, whose first and last in course 3 are cut; uprights: 9 c,
-// and e in courses 0 (cut), 1 to 2, 3 to 4 and 5 (cut), 3 each.
+// Stretcher: 3 courses of 6, 3 of 5 and two halves. Stack: 6 of 6. Header course over stretchers, English: 3
+// of 6, 3 of 11 and two halves. Flemish: 4 stretchers and 4 headers a course; every other course begins and
+// ends with parts of a stretcher, of 1 and 3 letters of 4. Monk: lowest course 4 4 2 4 4 2 4 letters, the one
+// above it 3 2 4 4 2 4 4 1, whose first and last are cut. Basket: 3 periods of 8 and the lower halves of 3
+// more. Pinwheel: 4 by 2 periods of 5. Herringbone: 9 flat blocks in even courses, 3 4 3 in odd ones, whose
+// first and last in course 3 are cut; uprights: 9 c, and e in courses 0 (cut), 1 to 2, 3 to 4 and 5 (cut), 3
+// each.
 INSTANTIATE_TEST_SUITE_P(
     Bonds, Gallery,
     testing::Values(GalleryBond{{"ccddddcc", "aaaabbbb"}, 0, 18 + 21, 6, 0},
@@ -101,7 +102,8 @@ TEST(Drawn, IsTheRunningBondOfTheSameBlocks) {
 }
 
 TEST(Drawn, ASpiralClimbsByItsShift) {
-  // An upright of 3 courses and one letter, moved by one letter every 3 courses, beside flat blocks of 3 letters.
+  // An upright of 3 courses and one letter, moved by one letter every 3 courses, beside flat blocks of 3
+  // letters.
   const BondPattern spiral = drawn_bond(drawn({"addd", "accc", "abbb"}, 1), ring(16, 9));
   int uprights = 0;
   for (const BondBlock& block : spiral.blocks) uprights += block.kind == BlockKind::herringbone ? 1 : 0;
@@ -192,8 +194,8 @@ TEST(DrawnWythes, ShareHeaders) {
   EXPECT_EQ(member_names(wythes({{"ba", "ab"}, {"dc", "cd"}})).size(), 2u) << "nothing in common";
 }
 
-// The same wall as wythes of running bond and bonders: the cuts are the same, and two cells belong to one block in both or
-// in neither.
+// The same wall as wythes of running bond and bonders: the cuts are the same, and two cells belong to one
+// block in both or in neither.
 TEST(DrawnWythes, AreTheEnglishBondOfBonders) {
   Masonry masonry;
   for (const char* name : {"p", "q"}) {
@@ -230,8 +232,8 @@ TEST(DrawnWythes, AreRefusedIfALetterGoesOnThroughThem) {
                InputError);
 }
 
-// What a drawing means, checked cell by cell: neighbours of one letter belong to one block, others do not; a block is
-// connected, because its cells were reached from its first.
+// What a drawing means, checked cell by cell: neighbours of one letter belong to one block, others do not; a
+// block is connected, because its cells were reached from its first.
 TEST(Drawn, RandomDrawingsGiveBlocksOrNameALetter) {
   std::mt19937 random(1);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };

@@ -415,8 +415,8 @@ TEST_F(Import, SuspectsThatYIsUpward) {
   EXPECT_EQ(report.doubt_of_axes, "");
 }
 
-// Two faces of the block are warped by 0.1 m. The bilinear surface through four corners halves the difference of the volumes
-// with either diagonal: each raised corner lifts the top by a quarter on average.
+// Two faces of the block are warped by 0.1 m. The bilinear surface through four corners halves the difference
+// of the volumes with either diagonal: each raised corner lifts the top by a quarter on average.
 TEST_F(Import, ComparesTheVolumeWithTheDrawing) {
   std::string text = obj_box("a", 0, 0, 1);
   text.replace(text.find("v 1.000000 1 1.000000"), 21, "v 1.000000 1 1.100000");

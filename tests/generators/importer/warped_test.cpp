@@ -129,8 +129,8 @@ void expect_same_vault(const Surface& surface, Noise kind, int decimals, bool pl
     EXPECT_LT(warped.model.max_joint_gap, 4.0 * noise);
   }
   EXPECT_LT(warped.model.max_planarity_error, 1e-9 * size) << "parts are bounded by planes";
-  // A corner of a rectangle of two by three points is up to 1.5 noises from their plane of least squares, the largest
-  // row sum of identity minus hat matrix. One of two by two points is up to one noise from it.
+  // A corner of a rectangle of two by three points is up to 1.5 noises from their plane of least squares, the
+  // largest row sum of identity minus hat matrix. One of two by two points is up to one noise from it.
   EXPECT_LE(warped.import->flatness.warp, 1.5 * noise);
   EXPECT_GT(warped.import->flatness.warp, 0.2 * noise);
   EXPECT_GT(warped.import->snapped_facets, 800);

@@ -16,7 +16,8 @@ namespace {
 constexpr int kCourses = 28, kSectors = 28;  // of the case
 constexpr double kRadius = 43.3 / 2.0, kCrown = 78.0 * std::numbers::pi / 180.0;
 
-/// Integral of the distance from the axis over the section of course k between two radii: a trapezium with straight sides.
+/// Integral of the distance from the axis over the section of course k between two radii: a trapezium with
+/// straight sides.
 double section_moment(int k, double inside, double outside) {
   std::array<Eigen::Vector2d, 4> p;
   for (int i = 0; i < 4; ++i) {
@@ -31,8 +32,8 @@ double section_moment(int k, double inside, double outside) {
   return moment;
 }
 
-/// Of the slices between given shares of a sector: a slice whose sides are an angle phi apart and whose faces are plane between
-/// them sweeps the volume sin(phi) times the moment of its section.
+/// Of the slices between given shares of a sector: a slice whose sides are an angle phi apart and whose faces
+/// are plane between them sweeps the volume sin(phi) times the moment of its section.
 double sweep(std::initializer_list<double> cuts) {
   double sum = 0.0, last = std::nan("");
   for (const double cut : cuts) {

@@ -116,7 +116,8 @@ TEST(CutBodies, AHeldCutHasASupport) {
   EXPECT_GT(assembly.blocks.back().centroid.y(), 3.3);
 }
 
-// A hemisphere over a square: the volume between two spheres inside the square, by quadrature over the square.
+// A hemisphere over a square: the volume between two spheres inside the square, by quadrature over the
+// square.
 TEST(CutBodies, ASailVaultStandsOverASquare) {
   VaultSurface dome;
   dome.profile.span = 14.0;
@@ -191,8 +192,8 @@ double half_width(double radius, int n, double z) {
   return 0.0;
 }
 
-// A barrel along y and a smaller one along x that meets its side: both volumes by slices at equal height, in which all is
-// rectangles with sides linear in z between the beds, so that Simpson's rule is exact there.
+// A barrel along y and a smaller one along x that meets its side: both volumes by slices at equal height, in
+// which all is rectangles with sides linear in z between the beds, so that Simpson's rule is exact there.
 TEST(CutBodies, ALunetteIsCutUnderTheOtherBarrel) {
   constexpr int n = 12, m = 10;  // courses, even: a joint in the crown
   constexpr double kMain = 4.0, kSmall = 1.5, kThick = 0.6, kThin = 0.4, kEnd = 6.0, kLong = 8.0;

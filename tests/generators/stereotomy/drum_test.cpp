@@ -51,8 +51,8 @@ Case with_windows(const Openings& group) {
   return c;
 }
 
-/// m2, between two parallel lines at the distances a and a + t from the axis, and two planes through the axis that cut the
-/// nearer line at a distance `width`.
+/// m2, between two parallel lines at the distances a and a + t from the axis, and two planes through the axis
+/// that cut the nearer line at a distance `width`.
 double area_between(double width, double a, double t) {
   return 0.5 * width / a * ((a + t) * (a + t) - a * a);
 }
@@ -162,7 +162,8 @@ TEST(Drum, HasAnOpeningWhereItIsPlaced) {
   }
 }
 
-// A narrow opening on a wide one: the lintel of the wide one becomes two corbels, and only the upper lintel is whole.
+// A narrow opening on a wide one: the lintel of the wide one becomes two corbels, and only the upper lintel
+// is whole.
 TEST(Drum, StepsOpeningsThatStandOnEachOther) {
   Case c = with_windows(openings(1.6, 1.0, 0.5));
   c.geometry.members[0].openings.push_back(openings(0.8, 1.5, 0.5));

@@ -1,4 +1,5 @@
-// Groin vaults: volumes against the closed form, stones across the groins counted by hand, supports, affine images.
+// Groin vaults: volumes against the closed form, stones across the groins counted by hand, supports, affine
+// images.
 
 #include <cmath>
 #include <map>
@@ -95,7 +96,8 @@ TEST(GroinVault, VolumeIsTheClosedForm) {
       }
 }
 
-/// Stones per course of webs of 5 courses in one stone each, over a square: 2, 2 and 1 course a web from the supports to the crown.
+/// Stones per course of webs of 5 courses in one stone each, over a square: 2, 2 and 1 course a web from the
+/// supports to the crown.
 std::map<int, int> stones_per_course(Groins groins) {
   const Assembly assembly = generate(case_of(groin_over(4, Kind::semicircle, groins), StackBond{5, 1, 2}));
   std::map<int, int> count;

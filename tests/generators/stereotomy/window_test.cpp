@@ -73,8 +73,8 @@ double section_moment(int k, double height) {
   return moment;
 }
 
-// Radial planes d apart cut from course k the volume sin(d) times the integral of rho over its section, because
-// the horizontal sections between the chords are triangles with that sine.
+// Radial planes d apart cut from course k the volume sin(d) times the integral of rho over its section,
+// because the horizontal sections between the chords are triangles with that sine.
 TEST(Window, BricksOfTheDomeHaveTheVolumesOfTheClosedForm) {
   constexpr double kSlice = pi / 4 / (kBricks * kVerticals);
   const Assembly bricks = cut_assembly(window_case(dome(), brick_herringbone()));
@@ -229,7 +229,8 @@ TEST(Window, LeftIsTheMirrorImageOfRight) {
     }
 }
 
-// Where spirals cross, the cells of uprights are those of the right-hand ones and those of the left-hand ones.
+// Where spirals cross, the cells of uprights are those of the right-hand ones and those of the left-hand
+// ones.
 TEST(Window, CrossingPairCoversTheCellsOfBothHands) {
   const auto upright = [](Chirality chirality) {
     const BondPattern bond =
@@ -249,8 +250,8 @@ TEST(Window, CrossingPairCoversTheCellsOfBothHands) {
   EXPECT_GT(crossings, 0);
 }
 
-// The bond is that of a ring, cut where the window ends. On a sail every course has a block across the corner, a
-// quarter and three quarters of which remain; on the dome odd courses have one.
+// The bond is that of a ring, cut where the window ends. On a sail every course has a block across the
+// corner, a quarter and three quarters of which remain; on the dome odd courses have one.
 TEST(Window, CutsAndMarksTheBlocksAcrossItsEnds) {
   for (const bool is_octagon : {false, true}) {
     const Assembly bricks =

@@ -108,7 +108,8 @@ TEST(Wythes, OfAnEnglishBondAlternateByCourse) {
   EXPECT_EQ(report.islands, 1);
 }
 
-// A header takes a third of the spacing from the stretchers of both leaves, and stands over the middle of one below.
+// A header takes a third of the spacing from the stretchers of both leaves, and stands over the middle of one
+// below.
 TEST(Wythes, OfAFlemishBondAlternateInTheCourse) {
   Case c = two_leaves(4);
   const RunningBond bond{4, 5, 2};
@@ -146,9 +147,9 @@ TEST(Wythes, ShareTheBedsOfTheFinest) {
   EXPECT_LT(report.max_overlap, 1e-9);
 }
 
-/// Volume of the facets of one layer of a dome between meridian half-planes `delta` (rad) apart: between two planes, the
-/// chords at radius rho are 2 rho sin(delta / 2) long and advance by cos(delta / 2) per rho, so that
-/// V = S sin(delta) x the integral of rho over the section, which is made of plane quadrilaterals.
+/// Volume of the facets of one layer of a dome between meridian half-planes `delta` (rad) apart: between two
+/// planes, the chords at radius rho are 2 rho sin(delta / 2) long and advance by cos(delta / 2) per rho, so
+/// that V = S sin(delta) x the integral of rho over the section, which is made of plane quadrilaterals.
 double faceted_volume(const std::vector<std::array<Eigen::Vector2d, 4>>& section, int slices) {
   double moment = 0.0;
   for (const auto& q : section)
@@ -159,7 +160,8 @@ double faceted_volume(const std::vector<std::array<Eigen::Vector2d, 4>>& section
   return slices * std::sin(2.0 * pi / slices) * std::abs(moment);
 }
 
-// Two shells of a dome that taper towards the eye, the cavity between them filled in the lowest courses and by eight ribs.
+// Two shells of a dome that taper towards the eye, the cavity between them filled in the lowest courses and
+// by eight ribs.
 TEST(Wythes, OfADomeTaperAndLeaveACavity) {
   constexpr int kRings = 10, kBlocks = 16, kSlices = 32;
   Case c;
@@ -217,8 +219,8 @@ TEST(Wythes, OfADomeTaperAndLeaveACavity) {
   EXPECT_NEAR(volume.at("rib"), 0.25 * faceted_volume(section(1, 2, 2, kRings), kSlices), rounding);
 }
 
-/// An octagonal vault of two shells: corner ribs that reach through both in every other course, and lie in the cavity in
-/// the courses between, so that warped joints between wythes occur on both sides of the cavity.
+/// An octagonal vault of two shells: corner ribs that reach through both in every other course, and lie in
+/// the cavity in the courses between, so that warped joints between wythes occur on both sides of the cavity.
 Case two_shells() {
   Case c;
   c.geometry.surface = OctagonalVault{};
@@ -266,7 +268,8 @@ TEST(Wythes, OfAStageEndAtItsTop) {
   for (const Block& block : assembly.blocks) EXPECT_LT(block.ring, 5);
 }
 
-// Bricks of a course over a sail, between held ends: two wythes with headers in every third course fill the sector of one.
+// Bricks of a course over a sail, between held ends: two wythes with headers in every third course fill the
+// sector of one.
 TEST(Wythes, OfAWindowFillItsSector) {
   Case plain;
   OctagonalVault vault;

@@ -150,8 +150,8 @@ TEST(DrawnVolume, OfTheKeyStone) {
               h / 3 * polygon * (inner * inner + outer * outer + inner * outer), 1e-13);
 }
 
-// Steiner: the area between a curve of length L and its parallel at t is L t + phi t^2 / 2, phi the angle by which the
-// normal turns. The extrapolated volume of the barrel is exact to 1e-8.
+// Steiner: the area between a curve of length L and its parallel at t is L t + phi t^2 / 2, phi the angle by
+// which the normal turns. The extrapolated volume of the barrel is exact to 1e-8.
 TEST(DrawnProfile, HasTheAreaOfItsEquation) {
   const double a = 5.0, h = 4.0, t = 0.5, R = (a * a + h * h) / (2 * h);
   double c = 4.0;  // of the catenary, by Newton
@@ -186,7 +186,8 @@ TEST(DrawnProfile, BasketsMeetSmoothlyAndReachTheirRise) {
   const SurfaceMap map = make_surface(vault_on(Plan::Kind::line, basket), 9);
   EXPECT_NEAR(map.intrados(4.5, 0).z(), 4.0, 1e-12);
   EXPECT_NEAR(map.intrados(0, 0).x(), 6.0, 1e-12);
-  // Equal courses, although two radii meet: a chord is shorter than its arc s by s^3 / (24 r^2) = 0.036 m at most.
+  // Equal courses, although two radii meet: a chord is shorter than its arc s by s^3 / (24 r^2) = 0.036 m at
+  // most.
   for (int k = 0; k + 1 < 9; ++k)
     EXPECT_NEAR((map.intrados(k + 1, 0) - map.intrados(k, 0)).norm(),
                 (map.intrados(1, 0) - map.intrados(0, 0)).norm(), 0.036);
@@ -292,7 +293,8 @@ void expect_laid_or_refused(int count, unsigned seed) {
   EXPECT_GT(laid, count / 2);
 }
 
-// Over a triangle the cones of the beds are twice as steep at mid-sail as at the corners, and meet inside a thick shell.
+// Over a triangle the cones of the beds are twice as steep at mid-sail as at the corners, and meet inside a
+// thick shell.
 TEST(DrawnErrors, CoursesThatFoldAreRefusedWithTheirPlace) {
   VaultSurface v = vault_on(Plan::Kind::polygon, profile_of(Kind::ellipse, 9.5, 3.1), 0.8);
   v.plan.sides = 3;

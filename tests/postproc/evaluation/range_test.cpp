@@ -47,8 +47,8 @@ TEST(RangeEvaluation, OnlyBoundedEndsWithAFrameHaveAThrustLine) {
   EXPECT_FALSE(e.meridians[0].greatest_thrust);
 }
 
-// The time of a frame is its number: the loads must not follow their time function there. The frame of an unbounded
-// end shows a self-stress, on which no load acts.
+// The time of a frame is its number: the loads must not follow their time function there. The frame of an
+// unbounded end shows a self-stress, on which no load acts.
 TEST(RangeEvaluation, AllStatesBearTheSameLoadsAndSelfStressesNone) {
   const Assembly a = column_as_arch();
   Case scene = test::column_case();

@@ -151,7 +151,8 @@ TEST(ShellMaps, OfAnArchRunAcrossIt) {
   EXPECT_NE(utilisation_map(map, {}).title.find("over the arch"), std::string::npos);
   EXPECT_NE(thrust_figure(e, e.meridians.front()).caption.find("resultant of the full width"),
             std::string::npos);
-  // Outwards of an arch is along x: by the slanting direction from the z axis a barrel lost a fifth of its thrust.
+  // Outwards of an arch is along x: by the slanting direction from the z axis a barrel lost a fifth of its
+  // thrust.
   EXPECT_EQ(outward_at({-3.0, 2.0, 0.0}, true), Vec3(-1, 0, 0));
   EXPECT_EQ(outward_at({-3.0, 4.0, 0.0}, false), Vec3(-0.6, 0.8, 0));
 }

@@ -44,7 +44,8 @@ TEST(Cracks, AreWiderThanTheFloorOfLengths) {
   for (const JointWrench& joint : e.last.joints.wrenches) EXPECT_EQ(joint.opening, 0.0);
 }
 
-// A joint with tensile strength that pulls has a gap but no crack: what counts is the opening beyond its elastic elongation.
+// A joint with tensile strength that pulls has a gap but no crack: what counts is the opening beyond its
+// elastic elongation.
 TEST(Cracks, AreNotTheElasticElongationOfAJoint) {
   Evaluation e = evaluated_with(2e-3);
   ContactTable& contacts = e.last.frame.contacts;

@@ -22,7 +22,8 @@ struct Gap {
   double inner = 0.0, outer = 0.0;
 };
 
-/// Head joints of ring_vault(4, 8, 0), of which those named (ring, slot) are open at the low side of that block.
+/// Head joints of ring_vault(4, 8, 0), of which those named (ring, slot) are open at the low side of that
+/// block.
 class Vault {
  public:
   explicit Vault(const std::map<std::pair<int, int>, Gap>& open)
@@ -96,7 +97,8 @@ class Vault {
   Evaluation evaluation_;
 };
 
-/// Two toothed cracks: one through both faces of all four courses at 45 to 67.5 degrees, one at the outer face of two.
+/// Two toothed cracks: one through both faces of all four courses at 45 to 67.5 degrees, one at the outer
+/// face of two.
 std::map<std::pair<int, int>, Gap> two_cracks() {
   return {{{0, 1}, {2e-3, 4e-3}}, {{1, 1}, {2e-3, 5e-3}}, {{2, 1}, {1e-3, 4e-3}},
           {{3, 1}, {1e-3, 3e-3}}, {{1, 5}, {0.0, 1e-3}},  {{2, 5}, {0.0, 2e-3}}};
@@ -119,7 +121,8 @@ TEST(ShellCracks, FollowTheHeadJointsFromCourseToCourse) {
   EXPECT_NEAR(cracks[0].rotation, 3e-3 / 1.0, 1e-4) << "outer less inner gap over the depth";
 }
 
-// Joints next to each other in one course are two cracks, and what is below a fiftieth of the widest is left out.
+// Joints next to each other in one course are two cracks, and what is below a fiftieth of the widest is left
+// out.
 TEST(ShellCracks, DoNotRunAlongACourse) {
   const std::vector<ShellCrack> cracks =
       Vault({{{0, 1}, {2e-3, 4e-3}}, {{0, 2}, {2e-3, 4e-3}}, {{3, 6}, {7e-5, 7e-5}}}).cracks();
@@ -134,8 +137,8 @@ std::string written(const std::string& text) {
   return path;
 }
 
-// Places at 45, 135, 225 and 315 degrees. The first crack has the volume (4 + 5 + 4 + 3 + 2 + 2 + 1 + 1) mm, the second 3 mm times the area
-// of two points each; 60 and 40 % were seen.
+// Places at 45, 135, 225 and 315 degrees. The first crack has the volume (4 + 5 + 4 + 3 + 2 + 2 + 1 + 1) mm,
+// the second 3 mm times the area of two points each; 60 and 40 % were seen.
 TEST(ObservedCracks, AgreeByTheOverlapOfTheirShares) {
   Vault vault(two_cracks());
   vault.evaluation().scene.postproc.observed =

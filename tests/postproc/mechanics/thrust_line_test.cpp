@@ -145,10 +145,10 @@ TEST(ThrustLine, BedInsideABlockCarriesThePieceAbove) {
   }
 }
 
-// Beds of 1.2 x 0.8 m, whose four corners stand for 0.24 m2 each. A force in the middle presses on the whole bed, one on a face
-// on half of it, at the face.
-// Across a wide arch the blocks of a course may hold each other: forces along the bed, at right angles to the arch, with a
-// torsion about its normal. They shift the line of action of the wrench, but not the point where the bed presses.
+// Beds of 1.2 x 0.8 m, whose four corners stand for 0.24 m2 each. A force in the middle presses on the whole
+// bed, one on a face on half of it, at the face. Across a wide arch the blocks of a course may hold each
+// other: forces along the bed, at right angles to the arch, with a torsion about its normal. They shift the
+// line of action of the wrench, but not the point where the bed presses.
 TEST(ThrustLine, OfAnArchIsAtTheContactPoints) {
   const Assembly a = test::column(3);
   Frame frame = test::column_at_rest(a, 9.81, 0.0, 0.6, 0.4);

@@ -1,4 +1,5 @@
-// Thrust lines and sums of the wythes of a vault: two leaves in the rings 0 and 3, bonders through both in the rings 1 and 2.
+// Thrust lines and sums of the wythes of a vault: two leaves in the rings 0 and 3, bonders through both in
+// the rings 1 and 2.
 
 #include <cmath>
 #include <numbers>
@@ -97,7 +98,8 @@ JointWrench bed_joint(int lower, int upper, int ring, const Vec3& at, const Vec3
   return joint;
 }
 
-/// A force in every joint, in the plane of its slot: `outward` and `upward`, N, at the share `position` of the wythe.
+/// A force in every joint, in the plane of its slot: `outward` and `upward`, N, at the share `position` of
+/// the wythe.
 struct Push {
   double outward, upward, position;
   Vec3 force(int slot) const {

@@ -215,7 +215,8 @@ TEST(FirstScreen, AMotionBeginsWithHowFarAndWhen) {
   EXPECT_EQ(numbers[3].value, "0.4 m/s");
 }
 
-// The upper two of three blocks slide off the lowest one and tip: the bed at 0.5 m slides at full speed and opens at x = 0.
+// The upper two of three blocks slide off the lowest one and tip: the bed at 0.5 m slides at full speed and
+// opens at x = 0.
 TEST(FirstScreen, AMechanismShowsWhichJointsGiveWay) {
   const Assembly a = test::column(3);
   Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);

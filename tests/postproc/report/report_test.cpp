@@ -1,5 +1,5 @@
-// The report in a headless browser and the files for ParaView in ParaView, opened as a user opens them. A test
-// is skipped if the program that it needs is not installed.
+// The report in a headless browser and the files for ParaView in ParaView, opened as a user opens them. A
+// test is skipped if the program that it needs is not installed.
 
 #include "postproc/report/report.hpp"
 
@@ -69,8 +69,8 @@ std::string analysed_column(const std::string& name, Status status = Status::sta
   return folder + "/post";
 }
 
-/// Opens a page `width` pixels wide and expects that it fits, that all its images load, and that it complains of nothing.
-/// Returns the number of images.
+/// Opens a page `width` pixels wide and expects that it fits, that all its images load, and that it complains
+/// of nothing. Returns the number of images.
 int images_in_browser(const std::string& page, int width) {
   Browser browser(width);
   browser.open(page);
@@ -233,7 +233,8 @@ std::string sliding_column(Status status, AnalysisType analysis) {
   return folder + "/post";
 }
 
-// Nothing that interprets an equilibrium: neither safety, balance, certificate nor a displacement without amplitude.
+// Nothing that interprets an equilibrium: neither safety, balance, certificate nor a displacement without
+// amplitude.
 TEST(Report, ShowsTheMotionOfARunThatFoundNoEquilibrium) {
   for (const auto& [status, analysis, says] :
        {std::tuple{Status::collapsed, AnalysisType::dynamic,
@@ -317,7 +318,8 @@ TEST(Report, LimitsHaveAUnit) {
   EXPECT_EQ(phrase("acceleration", 0.1), "an acceleration of 0.1 g");
 }
 
-// Block wrenches and strips are different resultants; a report that gives one largest couple contradicts its captions.
+// Block wrenches and strips are different resultants; a report that gives one largest couple contradicts its
+// captions.
 TEST(Report, NamesTheResultantOfEveryCoupleLength) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
   e.last.fields[1].couple_length = 0.173;

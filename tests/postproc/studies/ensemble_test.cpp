@@ -15,7 +15,8 @@
 namespace cupola::ensemble_test {
 namespace {
 
-// Without a hit the high end is 1 - 0.025^(1/n). 5 of 20: Clopper and Pearson's interval as tabulated, 0.0866 to 0.4910.
+// Without a hit the high end is 1 - 0.025^(1/n). 5 of 20: Clopper and Pearson's interval as tabulated, 0.0866
+// to 0.4910.
 TEST(EnsembleStatistics, IntervalsOfProbabilities) {
   EXPECT_EQ(clopper_pearson(0, 10).low, 0.0);
   EXPECT_NEAR(clopper_pearson(0, 10).high, 1.0 - std::pow(0.025, 0.1), 1e-12);
@@ -25,8 +26,9 @@ TEST(EnsembleStatistics, IntervalsOfProbabilities) {
   EXPECT_NEAR(clopper_pearson(5, 20).high, 0.4910, 5e-5);
 }
 
-// A block on an incline of slope 0.5 slides where its lognormal friction is less. The exact probability lies in at least 181 of 200
-// intervals: with a coverage of 95 % fewer are as improbable as 4e-3, and the coverage of Clopper and Pearson is more.
+// A block on an incline of slope 0.5 slides where its lognormal friction is less. The exact probability lies
+// in at least 181 of 200 intervals: with a coverage of 95 % fewer are as improbable as 4e-3, and the coverage
+// of Clopper and Pearson is more.
 TEST(EnsembleStatistics, IntervalsCoverTheExactProbability) {
   const double mean = 0.6, deviation = 0.1, slope = 0.5;
   const double s2 = std::log1p(std::pow(deviation / mean, 2));
@@ -77,8 +79,8 @@ TEST(EnsembleStatistics, RankCorrelation) {
   EXPECT_TRUE(std::isnan(rank_correlation({1, 1, 1}, {1, 2, 3})));
 }
 
-// Ishigami's function sin x + 7 sin^2 y + 0.1 z^4 sin x on [-pi, pi]^3 has the first-order indices 0.3139, 0.4424 and 0 (T. Ishigami and
-// T. Homma, 1990). The tolerance is four standard errors, 1 / sqrt(n) each.
+// Ishigami's function sin x + 7 sin^2 y + 0.1 z^4 sin x on [-pi, pi]^3 has the first-order indices 0.3139,
+// 0.4424 and 0 (T. Ishigami and T. Homma, 1990). The tolerance is four standard errors, 1 / sqrt(n) each.
 TEST(EnsembleStatistics, FirstOrderIndicesOfIshigamisFunction) {
   constexpr int kMembers = 10000;
   std::mt19937_64 engine(1);
@@ -131,8 +133,8 @@ Samples ishigami_design(size_t pairs, bool blocks, std::vector<double>* y) {
   return samples;
 }
 
-// The total indices are 0.5576, 0.4424 and 0.2437 (T. Ishigami and T. Homma, 1990): z acts together with x only. With 4000 pairs the
-// intervals of 95 % hold them and are narrower than 0.1.
+// The total indices are 0.5576, 0.4424 and 0.2437 (T. Ishigami and T. Homma, 1990): z acts together with x
+// only. With 4000 pairs the intervals of 95 % hold them and are narrower than 0.1.
 TEST(EnsembleStatistics, TotalIndicesOfIshigamisFunction) {
   const double first[] = {0.3139, 0.4424, 0.0}, total[] = {0.5576, 0.4424, 0.2437};
   for (const bool blocks : {false, true}) {

@@ -37,8 +37,8 @@ TEST(SweepTable, ReportsMissingMembersAndHowFarTheyGot) {
   EXPECT_EQ(to_display(table.rows[3][3]), "no assembly: see the output of the run");
 }
 
-// Thrust, margin, crack and critical value, each with its unit; failed members in an amber banner, no link to a report that does not
-// exist, and the table for LaTeX.
+// Thrust, margin, crack and critical value, each with its unit; failed members in an amber banner, no link to
+// a report that does not exist, and the table for LaTeX.
 TEST(SweepTable, HasTheResultsOfTheMembers) {
   const ScratchFolder scratch;
   const std::vector<SweptKey> sweep = {{"joints.friction", {"0.1", "0.2"}}};
@@ -91,7 +91,8 @@ Table table_of_four() {
   return table;
 }
 
-// One curve per thickness, named by it; times are no results; stable members have filled points (7), others open ones (6).
+// One curve per thickness, named by it; times are no results; stable members have filled points (7), others
+// open ones (6).
 TEST(SweepFigure, DrawsResultsOverTheFirstKey) {
   const Figure f = sweep_figure({{"joints.friction", {"0.2", "0.4"}}, {"geometry.thickness", {"1", "2"}}},
                                 table_of_four());

@@ -20,7 +20,8 @@ namespace {
 
 using nlohmann::json;
 
-/// The elements of an array as the format describes them: planes of bytes, zigzag code, differences, step, origin.
+/// The elements of an array as the format describes them: planes of bytes, zigzag code, differences, step,
+/// origin.
 std::vector<double> decoded(const std::string& bytes, const std::string& name) {
   std::uint32_t length = 0;
   std::memcpy(&length, bytes.data(), 4);

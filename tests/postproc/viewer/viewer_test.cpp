@@ -218,7 +218,8 @@ TEST(Viewer, SavesAPictureForPrintWithItsLegend) {
   EXPECT_GE(scale["ends"].size(), 2u);
 }
 
-// In every standard view the model touches two opposite edges of the picture, but for 4 %, and lies in its middle.
+// In every standard view the model touches two opposite edges of the picture, but for 4 %, and lies in its
+// middle.
 TEST(Viewer, TheModelFillsThePicture) {
   if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
   Browser browser;

@@ -35,7 +35,8 @@ double half_weight(const Assembly& arch) {
   return 0.5 * free_weight(arch, testing::kG);
 }
 
-// The thrust of an arch whose supports spread falls to the least of its range, before the geometry changes: 1e-5 m of 1 m.
+// The thrust of an arch whose supports spread falls to the least of its range, before the geometry changes:
+// 1e-5 m of 1 m.
 TEST(Spreading, LowersTheThrustToTheLeastOfItsRange) {
   const Assembly arch = testing::make_arch({.voussoirs = 12, .thickness = 0.2});
   const PathResult path = run(spreading(arch, 1e-5, 1e-13, 4), arch);
@@ -54,7 +55,8 @@ TEST(Spreading, LowersTheThrustToTheLeastOfItsRange) {
   EXPECT_NEAR(last, least, 1e-4 * least);
 }
 
-// tests/reference/spreading_arch.py 5 0.15: hinges at crown and haunch, and the resultant in the moved geometry.
+// tests/reference/spreading_arch.py 5 0.15: hinges at crown and haunch, and the resultant in the moved
+// geometry.
 constexpr double kCollapse = 0.054625673;  // m, spread of each support
 const std::vector<std::pair<double, double>> kThrust{
     {0.013656418, 0.377401248}, {0.027312836, 0.403405154}, {0.040969255, 0.433091063}};
@@ -75,8 +77,9 @@ double error_of_thrust(PathGeometry geometry, int steps) {
   return error;
 }
 
-// The error of equilibria in the geometry at the start of each step halves with the step. In that at the end a hundredth is left:
-// turning by d in a step moves the edges of a hinge past each other by r d^2 / 2, which adds up over the steps.
+// The error of equilibria in the geometry at the start of each step halves with the step. In that at the end
+// a hundredth is left: turning by d in a step moves the edges of a hinge past each other by r d^2 / 2, which
+// adds up over the steps.
 TEST(Spreading, EquilibriaHoldInTheGeometryAtTheEnd) {
   const double coarse = error_of_thrust(PathGeometry::start, 12),
                fine = error_of_thrust(PathGeometry::start, 24);
@@ -117,8 +120,8 @@ TEST(Heat, AHeldStackPushesByTheComplianceOfItsJoints) {
   EXPECT_NEAR(std::abs(path.rows.back()[2]), force, 1e-6 * force);
 }
 
-// A column whose temperature grows along x, on a smooth floor, bends away from the hot side, by alpha g z^2 / 2 at the height z, and no
-// joint opens.
+// A column whose temperature grows along x, on a smooth floor, bends away from the hot side, by alpha g z^2 /
+// 2 at the height z, and no joint opens.
 TEST(Heat, AFreeColumnBendsWithoutOpening) {
   const Assembly column = testing::stack_of_cubes(0.4, {1000, 1000, 1000, 1000});
   Case scene = testing::make_case(0.6, 1e-13, 0.01);
@@ -180,8 +183,9 @@ TEST(Heat, OfEverythingChangesNoForce) {
               1e-10);
 }
 
-// A block on an incline under cycles of heat. It sticks at a point, its neutral point, while the rest of its base slides; the neutral point of
-// heating lies uphill of that of cooling, and the block creeps down by the strain times their distance.
+// A block on an incline under cycles of heat. It sticks at a point, its neutral point, while the rest of its
+// base slides; the neutral point of heating lies uphill of that of cooling, and the block creeps down by the
+// strain times their distance.
 
 /// m per cycle, of a base of 1 m whose pressure is even, on the slope tan(beta) with friction 0.5.
 double drift(double tan_beta, Compliance compliance, int subdivide) {
@@ -229,7 +233,8 @@ TEST(Ratcheting, OfOneQuadraticPatchBeginsAtTwoThirdsOfTheFriction) {
     EXPECT_NEAR(drift(tan_beta, area, 1), kStrain, 1e-3 * kStrain) << tan_beta << ", less elastic travel";
 }
 
-/// The distance of the neutral points over the length: where the weights from the uphill end reach (1 - r) / 2, with r = tan(beta) / mu.
+/// The distance of the neutral points over the length: where the weights from the uphill end reach (1 - r) /
+/// 2, with r = tan(beta) / mu.
 double neutral_distance(double r, int n) {
   const double reach = 0.5 * (1.0 - r);
   double sum = 0.0;

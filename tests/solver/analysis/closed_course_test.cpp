@@ -5,8 +5,8 @@
 
 #include "tests/solver/construction_runs.hpp"
 
-// Closed courses, courses between uprights, and whole domes against closed forms. theta: slope of the bed; w = gamma d h: weight of a course
-// per length; d: depth; h: height; rho: radius.
+// Closed courses, courses between uprights, and whole domes against closed forms. theta: slope of the bed; w
+// = gamma d h: weight of a course per length; d: depth; h: height; rho: radius.
 
 namespace cupola::closed_course_test {
 namespace {
@@ -31,8 +31,9 @@ Case ring_case(double fresh_friction) {
   return scene;
 }
 
-// A closed course on a bed of friction mu_b = tan phi needs the hoop force N = w rho tan(theta - phi), for n blocks of weight W:
-// W tan(theta - phi) / (2 sin(pi / n)). It has that force where its heads are soft, so that the bed slides.
+// A closed course on a bed of friction mu_b = tan phi needs the hoop force N = w rho tan(theta - phi), for n
+// blocks of weight W: W tan(theta - phi) / (2 sin(pi / n)). It has that force where its heads are soft, so
+// that the bed slides.
 TEST(Construction, ClosedRingHoldsItselfByItsHoopForce) {
   for (const double friction : {0.0, 0.2}) {
     const RingSpec ring{.n = 12, .theta = 38.7 * kDeg};
@@ -50,8 +51,9 @@ TEST(Construction, ClosedRingHoldsItselfByItsHoopForce) {
   }
 }
 
-// The last block closes the ring: every open course needs cohesion, the closed one none. The first block slides down the steepest
-// slope; one at the free end of a course slides along its radial head, alpha off that slope.
+// The last block closes the ring: every open course needs cohesion, the closed one none. The first block
+// slides down the steepest slope; one at the free end of a course slides along its radial head, alpha off
+// that slope.
 TEST(Construction, TheOpenCourseNeedsCohesionAndTheClosedRingNone) {
   const RingSpec ring{.n = 12, .theta = 38.7 * kDeg};
   const Assembly assembly = make_ring(ring);
@@ -70,8 +72,9 @@ TEST(Construction, TheOpenCourseNeedsCohesionAndTheClosedRingNone) {
   EXPECT_EQ(built.stages[11].at("least_stands"), "0") << built.stages[11].at("note");
 }
 
-// A block between two uprights with radial heads, without friction: each head carries N = W tan(theta) / (2 sin(pi / n)) and
-// closes by its compliance c N / A. The block slips by 2 rho / (L cos theta) times that squeeze.
+// A block between two uprights with radial heads, without friction: each head carries N = W tan(theta) / (2
+// sin(pi / n)) and closes by its compliance c N / A. The block slips by 2 rho / (L cos theta) times that
+// squeeze.
 TEST(Construction, WedgeSlipsByTheSqueezeOfItsHeads) {
   const RingSpec ring{.n = 24, .theta = 45.0 * kDeg, .uprights = true};
   const Assembly assembly = make_ring(ring);
@@ -98,9 +101,9 @@ TEST(Construction, WedgeSlipsByTheSqueezeOfItsHeads) {
   EXPECT_NEAR(slips[1] / slips[0], 20.0, 0.5);
 }
 
-// With friction mu_h in its heads the same block needs N = W sin theta / (2 [sin(pi / n) cos theta + mu_h cos alpha]), where
-// alpha is the angle of the heads to the steepest slope: q / (kappa + 2 mu_h / L) for short blocks. It slides into that state, because
-// its heads are soft.
+// With friction mu_h in its heads the same block needs N = W sin theta / (2 [sin(pi / n) cos theta + mu_h cos
+// alpha]), where alpha is the angle of the heads to the steepest slope: q / (kappa + 2 mu_h / L) for short
+// blocks. It slides into that state, because its heads are soft.
 TEST(Construction, WedgeBetweenUprightsNeedsLessThrustWithFrictionInItsHeads) {
   const RingSpec ring{.n = 24, .theta = 45.0 * kDeg, .uprights = true};
   const Assembly assembly = make_ring(ring);
@@ -121,8 +124,9 @@ TEST(Construction, WedgeBetweenUprightsNeedsLessThrustWithFrictionInItsHeads) {
   }
 }
 
-// Membrane of a spherical dome that is open above the height H: the hoop force is zero at z with H = z (2 - z^2 / R^2), whatever was
-// laid first, because membranes are statically determinate. On a base that lets it spread there is no bending.
+// Membrane of a spherical dome that is open above the height H: the hoop force is zero at z with H = z (2 -
+// z^2 / R^2), whatever was laid first, because membranes are statically determinate. On a base that lets it
+// spread there is no bending.
 TEST(Construction, OpenDomeHasNoHoopForceAtHalfItsHeight) {
   const double R = 10.0, step = 5.0 * kDeg;
   const int n = 16, rings = 9;

@@ -22,8 +22,9 @@ using testing::normal_force;
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 
-// Column of m cubes of weight W with joints of compliance c over the area A. A block is laid where the one below then is, and settles by
-// what is laid on the joints below it from then on: W c / A per joint and stage. The joint of the block just laid is fresh.
+// Column of m cubes of weight W with joints of compliance c over the area A. A block is laid where the one
+// below then is, and settles by what is laid on the joints below it from then on: W c / A per joint and
+// stage. The joint of the block just laid is fresh.
 TEST(Construction, CarriedColumnSettlesFromTheBirthOfEachBlock) {
   const int m = 4;
   const Assembly column = testing::stack_of_cubes(1.0, std::vector<double>(m, 1000.0));
@@ -55,7 +56,8 @@ TEST(Construction, CarriedColumnSettlesFromTheBirthOfEachBlock) {
   }
 }
 
-// Two courses below the course laid, instead of all, change neither the verdict nor the cohesion; a stack of courses settles less.
+// Two courses below the course laid, instead of all, change neither the verdict nor the cohesion; a stack of
+// courses settles less.
 TEST(Construction, HoldingLowerCoursesKeepsTheLeastCohesion) {
   const double theta = 38.7 * kDeg;
   const CourseSpec course{.bricks = 2, .courses = 6};
@@ -139,8 +141,8 @@ TEST(Construction, CuringInterpolatesBetweenAges) {
   }
 }
 
-// Two courses of weight q per area down the slope, half a day apart, in mortar that hardens from c to 2.5 q in a day: the upper bed needs
-// c = q, the lower one (c + 2.5 q) / 2 = 2 q once it carries both.
+// Two courses of weight q per area down the slope, half a day apart, in mortar that hardens from c to 2.5 q
+// in a day: the upper bed needs c = q, the lower one (c + 2.5 q) / 2 = 2 q once it carries both.
 TEST(Construction, CuringMortarCarriesTheNextCourseByItsAge) {
   const double theta = 22.9 * kDeg, q = kGamma * CourseSpec{}.height * std::sin(theta);
   Case scene = course_case(theta, 0.0);

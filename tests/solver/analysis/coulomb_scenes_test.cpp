@@ -37,16 +37,16 @@ void expect_verdict(const Case& input, const Assembly& assembly, bool standing, 
 }
 
 /// Plate-bande: n equal blocks in a row over the clear length L (m), of depth d (m) and 1 m wide, with
-/// vertical joints. Block 0 is a fixed upright at the left. Block 1, the upright at the right, is fixed too, or
-/// stands on a plinth and weighs 100 times the row. The free upright is ring 1, everything else ring 0.
+/// vertical joints. Block 0 is a fixed upright at the left. Block 1, the upright at the right, is fixed too,
+/// or stands on a plinth and weighs 100 times the row. The free upright is ring 1, everything else ring 0.
 struct PlateBande {
   int n = 2;
   double L = 4.0, d = 1.0;
   bool free_upright = false;
 
   double load() const { return 1000.0 * kG * d; }  ///< q, N/m
-  /// Thrust of the arch inside the row whose joints are open at the bottom in the middle and at the top of the
-  /// uprights: the largest moment at a joint over the depth. N.
+  /// Thrust of the arch inside the row whose joints are open at the bottom in the middle and at the top of
+  /// the uprights: the largest moment at a joint over the depth. N.
   double arch_thrust() const {
     const double odd = n % 2 == 0 ? 1.0 : 1.0 - 1.0 / (n * n);
     return load() * L * L / (8.0 * d) * odd;
@@ -73,8 +73,8 @@ Assembly PlateBande::assembly() const {
 }
 
 // Between fixed uprights the thrust comes from the rotation of the blocks only, because a block that slides
-// along an upright neither opens nor presses the joint. The thrust is that of the arch, H, for any compliance,
-// as all joints have the same, and each upright takes q L / 2 by friction: the row stands if
+// along an upright neither opens nor presses the joint. The thrust is that of the arch, H, for any
+// compliance, as all joints have the same, and each upright takes q L / 2 by friction: the row stands if
 //
 //     mu >= q L / (2 H) = 4 d / L   (n even),   4 d / L n^2 / (n^2 - 1)   (n odd).
 //
@@ -119,8 +119,9 @@ TEST(CoulombScenes, PlateBandeAgainstAFreeUprightNeedsItsThrust) {
   }
 }
 
-// A keystone between walls that lean outward by beta. As it sinks on joints of equal compliance along and across, the
-// friction that it needs is 1 / tan(beta) times the normal force. With less it slides, and each wall carries
+// A keystone between walls that lean outward by beta. As it sinks on joints of equal compliance along and
+// across, the friction that it needs is 1 / tan(beta) times the normal force. With less it slides, and each
+// wall carries
 //
 //     N (sin beta + mu cos beta) = W / 2,   thrust N (cos beta - mu sin beta)
 //
@@ -164,8 +165,9 @@ TEST(CoulombScenes, LeaningCardsNeedTheFrictionOfTheAssociatedLaw) {
 
 // Walls of ten courses (Ferris and Tin-Loi 2001) under a horizontal load. Linear programmes give the limits
 // 0.58000 and 0.59282 under the associated law, the second with whole blocks at the ends of the first course.
-// Coulomb's law admits the same forces, so that it cannot carry more. Below the limit no reference decides: `stable`
-// is verified by the residuals of equilibrium and of the law, which are computed independently of the solver.
+// Coulomb's law admits the same forces, so that it cannot carry more. Below the limit no reference decides:
+// `stable` is verified by the residuals of equilibrium and of the law, which are computed independently of
+// the solver.
 TEST(CoulombScenes, WallsOfTenCoursesCarryAtMostTheAssociatedLoad) {
   for (const bool whole_first : {false, true}) {
     const double limit = whole_first ? 0.59282 : 0.58000;
@@ -178,9 +180,10 @@ TEST(CoulombScenes, WallsOfTenCoursesCarryAtMostTheAssociatedLoad) {
   }
 }
 
-// Wall 1 of the same paper carries 0.640 under Coulomb's law and 0.643 under the associated one. Between them, blocks at
-// rest under the associated forces solve the contact problem of rigid joints under Coulomb's law too. A solver that takes
-// this solution, which costs a fifth, turns Coulomb's limits into associated ones.
+// Wall 1 of the same paper carries 0.640 under Coulomb's law and 0.643 under the associated one. Between
+// them, blocks at rest under the associated forces solve the contact problem of rigid joints under Coulomb's
+// law too. A solver that takes this solution, which costs a fifth, turns Coulomb's limits into associated
+// ones.
 TEST(CoulombScenes, RigidWallMovesBelowTheAssociatedLimit) {
   const Assembly wall = testing::ferris_wall(6, false);
   for (const double load : {0.62, 0.6415}) {

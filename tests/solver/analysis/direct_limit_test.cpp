@@ -35,8 +35,8 @@ double critical(const Case& scene, const Assembly& assembly) {
   return summary.critical ? summary.critical->value : std::nan("");
 }
 
-// The whole tower tips about the edge of its lowest bed: tan(tilt) = width / height. The tolerance is a tenth of
-// the default width of the bracket of a load, which the status stable says was reached.
+// The whole tower tips about the edge of its lowest bed: tan(tilt) = width / height. The tolerance is a tenth
+// of the default width of the bracket of a load, which the status stable says was reached.
 TEST(DirectLimit, SlenderTowerTipsAtItsBase) {
   for (const int cubes : {1, 10, 200, 500}) {
     const double exact = std::atan(1.0 / cubes) * 180.0 / std::numbers::pi;
@@ -68,7 +68,8 @@ TEST(DirectLimit, TheWeightIsVertical) {
   }
 }
 
-// A load on top of a column has no limit: the state shown is that of the case, not that of an end of the bracket.
+// A load on top of a column has no limit: the state shown is that of the case, not that of an end of the
+// bracket.
 TEST(DirectLimit, WithoutALimitTheLoadsAreThoseOfTheCase) {
   const Assembly box = testing::box_on_floor({1.0, 0.5, 0.2});
   const double weight = free_weight(box, testing::kG);
@@ -116,8 +117,8 @@ Case strong_case(Parameter parameter, double low, double high, double friction,
   return scene;
 }
 
-// A block of 1 x 0.5 x 0.2 m slides at the acceleration mu + c A / W, and on the slope a at mu = tan a - c A / (W cos a).
-// Its compressive strength may be missing, far away or near, but is not reached.
+// A block of 1 x 0.5 x 0.2 m slides at the acceleration mu + c A / W, and on the slope a at mu = tan a - c A
+// / (W cos a). Its compressive strength may be missing, far away or near, but is not reached.
 TEST(DirectLimit, CohesionAddsToFriction) {
   const Assembly box = testing::box_on_floor({1.0, 0.5, 0.2});
   const double weight = 1000.0 * 0.1 * testing::kG, cohesion = 0.25 * weight / 0.5;
@@ -151,7 +152,8 @@ TEST(DirectLimit, RefusesCohesionWithoutFriction) {
   EXPECT_THROW(run_limit(scene, testing::box_on_floor({1.0, 0.5, 0.2}), {}), InputError);
 }
 
-// The resultant at the base of a tilted cube lies tan(a) / 2 of its side from the middle, whose half is the extent.
+// The resultant at the base of a tilted cube lies tan(a) / 2 of its side from the middle, whose half is the
+// extent.
 TEST(DirectLimit, LeastExtentOfTheJoints) {
   Case scene = limit_case(Parameter::joint_extent, 0.01, 1.0, 0.7);
   scene.analysis.limit.relative_width = 1e-5;
@@ -161,8 +163,8 @@ TEST(DirectLimit, LeastExtentOfTheJoints) {
       << "Newton's method; the secant method takes 14";
 }
 
-// What Newton's method follows is the derivative of the pull: against differences over 1e-4 of the value, whose error is of
-// the order of their square and of the 1e-9 of a solve over the step.
+// What Newton's method follows is the derivative of the pull: against differences over 1e-4 of the value,
+// whose error is of the order of their square and of the 1e-9 of a solve over the step.
 TEST(DirectLimit, TheMechanismGivesTheDerivativeOfThePull) {
   const Assembly arch = testing::make_arch({.voussoirs = 12, .thickness = 0.16});
   for (const auto& [parameter, x] :
@@ -198,7 +200,8 @@ TEST(DirectLimit, BracketsHaveTheWidthRequested) {
   }
 }
 
-// Pulls of 1 - x, which decide outside 1 +- `doubt` only. A search closes in on that from both sides, to half its width.
+// Pulls of 1 - x, which decide outside 1 +- `doubt` only. A search closes in on that from both sides, to half
+// its width.
 TEST(PullSearch, ClosesInOnValuesThatDoNotDecide) {
   const auto at = [](double x) {
     PullSolve solve;
@@ -287,8 +290,8 @@ TEST(DirectLimit, LeastPeakStressOfAPier) {
   EXPECT_EQ(run_limit(scene, pier, {}).value().status, Status::moving);
 }
 
-// A brick tips about the edge of its base: half width over half height, here about the y axis first. Friction would
-// let it slide at 0.7.
+// A brick tips about the edge of its base: half width over half height, here about the y axis first. Friction
+// would let it slide at 0.7.
 TEST(Robustness, BrickTipsAboutItsLongEdge) {
   Case scene = testing::make_case(0.7, 1e-8, 0.01);
   scene.analysis.type = AnalysisType::static_;
@@ -301,8 +304,8 @@ TEST(Robustness, BrickTipsAboutItsLongEdge) {
   EXPECT_EQ(summary.robustness->directions, 8);
 }
 
-// A square tower of bricks turned by its place has four equal sectors: two of eight directions represent all, and have the limits
-// that analyses of one direction find.
+// A square tower of bricks turned by its place has four equal sectors: two of eight directions represent all,
+// and have the limits that analyses of one direction find.
 TEST(Robustness, EqualSectorsHaveEqualLimits) {
   std::vector<testing::BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true}};
   for (const double x : {-1.0, 1.0}) {

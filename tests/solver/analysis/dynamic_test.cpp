@@ -117,13 +117,14 @@ TEST(Painleve, SlidingRodKeepsFiniteSpeedsAndGainsNoEnergy) {
         }
 }
 
-/// A rod that leans by `lean` towards +x and slides on the edge of its foot, on which a step of length h acts:
+/// A rod that leans by `lean` towards +x and slides on the edge of its foot, on which a step of length h
+/// acts:
 ///
 ///     w_foot = (speed, -g h) + W p,     p = (T, N) the impulse, W the inverse mass of the foot,
 ///
-/// with W_xz < 0. A foot that slides towards -x has the friction T = mu N, which lowers its normal acceleration by
-/// mu |W_xz| N. From mu = W_zz / |W_xz| on no sliding solution exists: the foot jams ("impact without collision",
-/// Genot and Brogliato 1999, Eur. J. Mech. A 18:653).
+/// with W_xz < 0. A foot that slides towards -x has the friction T = mu N, which lowers its normal
+/// acceleration by mu |W_xz| N. From mu = W_zz / |W_xz| on no sliding solution exists: the foot jams ("impact
+/// without collision", Genot and Brogliato 1999, Eur. J. Mech. A 18:653).
 struct SlidingRod {
   double lean;
   Vec3 size = Vec3(0.02, 0.02, 1.0);  ///< m
@@ -145,9 +146,9 @@ struct SlidingRod {
   }
 };
 
-// Under Coulomb's law, 3 % below the friction at which the foot jams it slides on, slowed by the friction of the
-// weight alone; 3 % above it stops in one step of any length, and the rod loses the energy of the motion of its foot.
-// A foot that slides towards +x never jams.
+// Under Coulomb's law, 3 % below the friction at which the foot jams it slides on, slowed by the friction of
+// the weight alone; 3 % above it stops in one step of any length, and the rod loses the energy of the motion
+// of its foot. A foot that slides towards +x never jams.
 TEST(Painleve, FootJamsFromTheFrictionAtWhichNoSlidingSolutionExists) {
   constexpr double kSpeed = 5.0, h = 1e-4;
   for (const double lean : {0.3, 0.4636, 0.7}) {
@@ -317,7 +318,8 @@ TEST(Accuracy, IsTheWorstOfTheRun) {
   EXPECT_LT(worst.certified_force_error.value().step, s.steps);
 }
 
-// A block that falls by 0.1 m: with steps of no less than 20 ms the impact misses 1 um, with short ones it does not.
+// A block that falls by 0.1 m: with steps of no less than 20 ms the impact misses 1 um, with short ones it
+// does not.
 TEST(Accuracy, SaysThatTheTimeErrorWasMissed) {
   const Assembly assembly = testing::make_boxes(
       {{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true}, {.center = {0, 0, 0.6}}});

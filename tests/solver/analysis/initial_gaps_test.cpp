@@ -30,8 +30,9 @@ double rise(const Assembly& assembly, ContactDetection::InitialGaps gaps) {
   return frame.blocks.displacement[3].z();
 }
 
-// Each pier has four contact points. A middle pier that is 0.1 mm too low carries nothing, because the slab sinks by 0.03 mm only; one that
-// is as much too high lifts the slab off the others. Where that is an error of the drawing, all twelve points carry.
+// Each pier has four contact points. A middle pier that is 0.1 mm too low carries nothing, because the slab
+// sinks by 0.03 mm only; one that is as much too high lifts the slab off the others. Where that is an error
+// of the drawing, all twelve points carry.
 TEST(InitialGaps, CountAsDrawnOrAsErrorsOfTheDrawing) {
   using enum ContactDetection::InitialGaps;
   constexpr double kError = 1e-4;

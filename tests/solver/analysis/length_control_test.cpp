@@ -77,8 +77,8 @@ Case softening_case(int steps, double length) {
   return scene;
 }
 
-/// A force in the plane of their bed pushes the upper of two blocks, of which the lower stands on a base that is soft in
-/// shear. The bed softens. Blocks: floor, lower, upper.
+/// A force in the plane of their bed pushes the upper of two blocks, of which the lower stands on a base that
+/// is soft in shear. The bed softens. Blocks: floor, lower, upper.
 Assembly soft_couplet() {
   return testing::make_boxes({{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true},
                               {.center = {0, 0, 0.1}, .size = {1, 0.2, 0.2}, .ring = 0},
@@ -96,8 +96,8 @@ Case soft_couplet_case(int steps) {
   return scene;
 }
 
-/// Cohesive force of a bed whose slip grows from `before` to `slip`, m: the mean over the step of c A (1 - s / s_c), which is 0 from
-/// s_c on.
+/// Cohesive force of a bed whose slip grows from `before` to `slip`, m: the mean over the step of c A (1 - s
+/// / s_c), which is 0 from s_c on.
 double softened(double before, double slip) {
   const auto work = [](double s) {
     const double share = std::min(1.0, s / kBroken);
@@ -106,8 +106,9 @@ double softened(double before, double slip) {
   return (work(slip) - work(before)) / (slip - before);
 }
 
-// The lower block springs back farther than the bed slips while it softens: c_soft c > s_c. Under growing forces it would break
-// suddenly, and under a growing displacement of the upper block as well. Relative to the lower block, slip = displacement - c_stiff tau.
+// The lower block springs back farther than the bed slips while it softens: c_soft c > s_c. Under growing
+// forces it would break suddenly, and under a growing displacement of the upper block as well. Relative to
+// the lower block, slip = displacement - c_stiff tau.
 TEST(LengthControl, FollowsTheSnapBackOfASofteningBedOnASoftBase) {
   const Assembly assembly = soft_couplet();
   const double friction = kFriction * kWeight, peak = kCohesion * kArea;
@@ -134,7 +135,8 @@ TEST(LengthControl, FollowsTheSnapBackOfASofteningBedOnASoftBase) {
   }
 }
 
-// Coulomb's law: the shear falls from c A + mu N to mu N along the slip, and the work beyond friction is the fracture energy.
+// Coulomb's law: the shear falls from c A + mu N to mu N along the slip, and the work beyond friction is the
+// fracture energy.
 Case pushed_case(int steps, double pressure, double length) {
   Case scene = softening_case(steps, length);
   scene.loads.forces.push_back({BlockRef{1}, Vec3(0, 0, 0.1), Vec3(0, 0, -pressure * kArea), {}});
@@ -164,9 +166,9 @@ TEST(LengthControl, FollowsTheSofteningOfAShearedBedUnderItsOwnForce) {
   }
 }
 
-// A dry block that a horizontal force at its centre tilts about its edge: F = W tan(asin(x_c / R)) with x_c the distance of the centre
-// from the edge, which falls from the first moment on. A step is solved in the geometry at its start, so that the force is that
-// of the displacement before, plus what the joint shortens.
+// A dry block that a horizontal force at its centre tilts about its edge: F = W tan(asin(x_c / R)) with x_c
+// the distance of the centre from the edge, which falls from the first moment on. A step is solved in the
+// geometry at its start, so that the force is that of the displacement before, plus what the joint shortens.
 TEST(LengthControl, FollowsABlockThatTiltsToItsUnstableBalance) {
   const Vec3 size(0.5, 0.4, 1.0);
   const double radius = 0.5 * std::hypot(size.x(), size.z());

@@ -67,8 +67,8 @@ TEST(Bisect, KeepsUndecidedValuesInsideTheBracket) {
   EXPECT_NE(bracket.message.find("undecided from 0.30"), std::string::npos) << bracket.message;
 }
 
-// A width below the spacing of doubles cannot be reached. The middle of adjacent doubles is either of them, by the
-// parity of their last bits, so several intervals are tried.
+// A width below the spacing of doubles cannot be reached. The middle of adjacent doubles is either of them,
+// by the parity of their last bits, so several intervals are tried.
 TEST(Bisect, EndsAtAdjacentDoublesBesideUndecidedValues) {
   for (int k = 0; k < 20; ++k) {
     const double low = 0.3 + 0.001 * k, high = low + 1e-6;
@@ -83,8 +83,8 @@ TEST(Bisect, EndsAtAdjacentDoublesBesideUndecidedValues) {
   }
 }
 
-// Both laws admit the same forces, so that what the associated law proves to move moves under Coulomb's law too. The direct
-// method and the bisection share no search.
+// Both laws admit the same forces, so that what the associated law proves to move moves under Coulomb's law
+// too. The direct method and the bisection share no search.
 TEST(Limit, NoArchStandsUnderCoulombsLawBelowTheAssociatedCriticalFriction) {
   for (const double thickness : {0.14, 0.2, 0.4})
     for (const int voussoirs : {9, 12}) {

@@ -19,7 +19,8 @@ using testing::make_course;
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 
-// A brick at the free end of a course stands if c >= gamma h (sin theta - mu_b cos theta), wherever it lies in the course.
+// A brick at the free end of a course stands if c >= gamma h (sin theta - mu_b cos theta), wherever it lies
+// in the course.
 TEST(Construction, FreeEndBrickNeedsTheCohesionOfItsOwnWeight) {
   const CourseSpec course{.bricks = 2};
   const Assembly assembly = make_course(course);
@@ -40,7 +41,8 @@ TEST(Construction, FreeEndBrickNeedsTheCohesionOfItsOwnWeight) {
     }
 }
 
-// The same with a given cohesion, sought in the friction of the bed: mu_b >= tan theta - c / (gamma h cos theta).
+// The same with a given cohesion, sought in the friction of the bed: mu_b >= tan theta - c / (gamma h cos
+// theta).
 TEST(Construction, FreeEndBrickNeedsTheFrictionThatItsCohesionLeaves) {
   const CourseSpec course{.bricks = 2};
   const Assembly assembly = make_course(course);
@@ -112,8 +114,8 @@ TEST(Construction, FreeUprightTipsWhereItsWeightLeavesItsBase) {
   }
 }
 
-// Embedded on both sides with cohesion c over the height h_e it holds if 2 c d h_e >= W sin theta; its bed has neither friction nor
-// cohesion.
+// Embedded on both sides with cohesion c over the height h_e it holds if 2 c d h_e >= W sin theta; its bed
+// has neither friction nor cohesion.
 TEST(Construction, EmbeddedUprightHoldsByTheCohesionOfItsSides) {
   const CourseSpec upright{.bricks = 1, .length = 0.05, .height = 0.12, .uprights = true};
   const Assembly assembly = make_course(upright);

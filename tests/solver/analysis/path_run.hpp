@@ -45,8 +45,8 @@ inline PathResult run(const Case& scene, const Assembly& assembly) {
   return result;
 }
 
-/// Two blocks of 1 x 0.5 x 0.2 m, bonded so strongly to a floor and to a support above that only the bed between them
-/// breaks. Blocks: floor, lower, upper, support.
+/// Two blocks of 1 x 0.5 x 0.2 m, bonded so strongly to a floor and to a support above that only the bed
+/// between them breaks. Blocks: floor, lower, upper, support.
 inline Assembly couplet() {
   return testing::make_boxes({{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true},
                               {.center = {0, 0, 0.1}, .size = {1, 0.5, 0.2}, .ring = 0},

@@ -8,8 +8,8 @@
 namespace cupola::path_test {
 namespace {
 
-// Double cantilever: the support turns about an axis 0.5 m beside the joint, which opens to three to one. The work
-// dissipated is the fracture energy, whatever the number of steps.
+// Double cantilever: the support turns about an axis 0.5 m beside the joint, which opens to three to one. The
+// work dissipated is the fracture energy, whatever the number of steps.
 TEST(Path, ADoubleCantileverDissipatesItsFractureEnergy) {
   const Assembly assembly = couplet();
   for (const int steps : {7, 20, 50}) {
@@ -35,8 +35,8 @@ TEST(Path, ADoubleCantileverDissipatesItsFractureEnergy) {
   }
 }
 
-// Couplet (half a triplet) in shear: the work beyond friction is the fracture energy, and the largest force c A + mu N up to
-// the softening within a step. Without normal force and with one that the support keeps.
+// Couplet (half a triplet) in shear: the work beyond friction is the fracture energy, and the largest force c
+// A + mu N up to the softening within a step. Without normal force and with one that the support keeps.
 TEST(Path, AShearedCoupletDissipatesItsFractureEnergy) {
   const Assembly assembly = couplet();
   for (const double pressure : {0.0, 2e5}) {
@@ -74,8 +74,8 @@ TEST(Path, AShearedCoupletDissipatesItsFractureEnergy) {
   }
 }
 
-// A joint opened to half of its damage, closed again and opened again: it closes without force until its faces touch,
-// pushes elastically, and pulls again from where it stopped, with half of its strength.
+// A joint opened to half of its damage, closed again and opened again: it closes without force until its
+// faces touch, pushes elastically, and pulls again from where it stopped, with half of its strength.
 TEST(Path, ACrackClosesAndOpensAgain) {
   Case scene = couplet_case(60);
   const double broken = 2.0 * kEnergy.tension / kStrength.tension;
@@ -94,7 +94,8 @@ TEST(Path, ACrackClosesAndOpensAgain) {
     if (std::abs(row[0] - 2.0) < 1e-6) closed = row[2];
     if (row[0] > 2.0) reopened = std::max(reopened, row[2]);
   }
-  // The strength is the mean over the last of 20 steps to half the opening, less the elongation of three joints.
+  // The strength is the mean over the last of 20 steps to half the opening, less the elongation of three
+  // joints.
   const double elastic = 3 * kCompliance * kStrength.tension / broken;
   EXPECT_NEAR(at_one, (0.5 + 0.5 * 0.5 / 20) / (1 - elastic) * pull + kWeight, 0.003 * pull);
   EXPECT_NEAR(halfway, kWeight, 1e-3 * kWeight);
@@ -103,9 +104,10 @@ TEST(Path, ACrackClosesAndOpensAgain) {
   for (size_t k = 1; k < result.rows.size(); ++k) EXPECT_GE(result.rows[k][3], result.rows[k - 1][3] - 1e-9);
 }
 
-// Two blocks lean on each other over a span of 2 m. Their supports spread by s each: both turn about the inner edges of
-// their springings by the angle at which the crown hinge, 1 m above, comes down, and the crown opens by 2 d sin(angle)
-// at its lower edge. Faces farther apart than the margin are no contacts any more; the frame lists them all the same.
+// Two blocks lean on each other over a span of 2 m. Their supports spread by s each: both turn about the
+// inner edges of their springings by the angle at which the crown hinge, 1 m above, comes down, and the crown
+// opens by 2 d sin(angle) at its lower edge. Faces farther apart than the margin are no contacts any more;
+// the frame lists them all the same.
 TEST(Path, TheCrownOfATwoBlockArchOpensAsItsHingesSay) {
   Assembly arch;
   const auto voussoir = [&arch](std::array<Eigen::Vector2d, 4> quad, bool mirrored, bool fixed) {
@@ -148,7 +150,8 @@ TEST(Path, TheCrownOfATwoBlockArchOpensAsItsHingesSay) {
   EXPECT_NEAR(widest, 2.0 * 0.5 * std::sin(angle), 0.15 * std::sin(angle));
 }
 
-/// Largest shear that a bed under N at a third of its width carries, over c A, by a force that grows in `steps`.
+/// Largest shear that a bed under N at a third of its width carries, over c A, by a force that grows in
+/// `steps`.
 double shear_over_cohesion(JointFailure failure, int steps) {
   const double cohesion = 1e5, normal = 2e4;
   Case scene = testing::make_case(0.0, 0.0, 0.01);
@@ -170,8 +173,8 @@ double shear_over_cohesion(JointFailure failure, int steps) {
   return result.largest_force() / (cohesion * kArea);
 }
 
-// Without friction and under N at e = t/3, a brittle bed carries c on its compressed half, 3 (t/2 - e), while a plastic one
-// carries c everywhere. Eight pieces place the edge of the compressed zone to 1/8.
+// Without friction and under N at e = t/3, a brittle bed carries c on its compressed half, 3 (t/2 - e), while
+// a plastic one carries c everywhere. Eight pieces place the edge of the compressed zone to 1/8.
 TEST(Path, BrittleCohesionCountsOnTheCompressedAreaOnly) {
   EXPECT_NEAR(shear_over_cohesion(JointFailure::plastic, 20), 1.0, 0.01);
   EXPECT_NEAR(shear_over_cohesion(JointFailure::brittle, 20), 0.5, 0.0625);

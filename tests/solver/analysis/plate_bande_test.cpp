@@ -5,7 +5,8 @@
 
 #include "tests/solver/construction_runs.hpp"
 
-// Courses with parallel heads between two uprights, laid at once. theta: slope of the bed; L: clear length; d: depth; h: height.
+// Courses with parallel heads between two uprights, laid at once. theta: slope of the bed; L: clear length;
+// d: depth; h: height.
 
 namespace cupola::plate_bande_test {
 namespace {
@@ -20,9 +21,10 @@ using testing::make_course;
 
 constexpr double kTheta = 38.7 * std::numbers::pi / 180.0;
 
-// A course with parallel heads between uprights slides as a whole under Coulomb's law: nothing presses its heads, even where an arch
-// could stand (mu_h > 4 d / L). Dilatancy jams it at any friction. In stiff and in rigid joints the jammed state, which a static
-// solve finds that does not follow the path from the start, must not be taken for one of Coulomb's law.
+// A course with parallel heads between uprights slides as a whole under Coulomb's law: nothing presses its
+// heads, even where an arch could stand (mu_h > 4 d / L). Dilatancy jams it at any friction. In stiff and in
+// rigid joints the jammed state, which a static solve finds that does not follow the path from the start,
+// must not be taken for one of Coulomb's law.
 TEST(Construction, PlateBandeBetweenUprightsJamsOnlyUnderTheAssociatedLaw) {
   const CourseSpec course{.bricks = 4, .length = 0.68, .uprights = true};  // L = 8 d
   const Assembly assembly = make_course(course);
@@ -41,8 +43,9 @@ TEST(Construction, PlateBandeBetweenUprightsJamsOnlyUnderTheAssociatedLaw) {
       }
 }
 
-/// Four bricks between a held upright (y < 0) and a free one, which slides without friction along the course: it stands on a fixed
-/// plinth, and a fixed stop takes its weight down the slope. The free upright is ring kFirstCourse - 1, all that is held is ring 0.
+/// Four bricks between a held upright (y < 0) and a free one, which slides without friction along the course:
+/// it stands on a fixed plinth, and a fixed stop takes its weight down the slope. The free upright is ring
+/// kFirstCourse - 1, all that is held is ring 0.
 struct FreeUprightScene {
   double L = 2.72, d = 0.34, h = 0.05;  // L = 8 d
 
@@ -70,9 +73,10 @@ struct FreeUprightScene {
   }
 };
 
-// With q = gamma d h (sin theta - mu_b cos theta) - c d the course needs N = q / min(2 mu_h / L, 8 d / L^2): its heads slide, or it
-// opens as an arch from L = 4 d / mu_h on, here at mu_h = 0.5. The bed takes its share where the course slides as a whole, not where it turns
-// about hinges: friction and cohesion of the bed are tried with mu_h below 0.5 only.
+// With q = gamma d h (sin theta - mu_b cos theta) - c d the course needs N = q / min(2 mu_h / L, 8 d / L^2):
+// its heads slide, or it opens as an arch from L = 4 d / mu_h on, here at mu_h = 0.5. The bed takes its share
+// where the course slides as a whole, not where it turns about hinges: friction and cohesion of the bed are
+// tried with mu_h below 0.5 only.
 TEST(Construction, PlateBandeNeedsItsThrustAndSwitchesFromSlidingToHinging) {
   struct Row {
     double head, bed, cohesion;

@@ -1,5 +1,5 @@
-// Ranges of forces over all admissible states, against closed forms. Independently computed ranges of arches and domes
-// are rows of the verification manual.
+// Ranges of forces over all admissible states, against closed forms. Independently computed ranges of arches
+// and domes are rows of the verification manual.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -63,7 +63,8 @@ double weight_of(const Assembly& assembly) {
   return free_weight(assembly, testing::kG);
 }
 
-// A leg carries the most when the slab rests on the inner corner of this leg and the outer corner of the opposite one.
+// A leg carries the most when the slab rests on the inner corner of this leg and the outer corner of the
+// opposite one.
 TEST(Range, LegOfATable) {
   const Assembly slab = table(1.5, 0.2);
   const double inner = 1.4, outer = 1.6, weight = weight_of(slab);
@@ -95,7 +96,8 @@ TEST(Range, ClosesWhereEquilibriumDetermines) {
   expect_ends(summary.ranges[1], -0.2 * weight, -0.2 * weight, weight);
 }
 
-// A block held by friction between two walls: each presses with at least W / (2 mu), and with any larger force.
+// A block held by friction between two walls: each presses with at least W / (2 mu), and with any larger
+// force.
 TEST(Range, JammedBlockHasNoLargestForce) {
   const Assembly jammed = testing::make_boxes(
       {{.center = {-1, 0, 0}, .fixed = true}, {.center = {0, 0, 0}}, {.center = {1, 0, 0}, .fixed = true}});
@@ -145,7 +147,8 @@ TEST(Range, ShareAndRatioOfTheBase) {
   expect_ends(summary.ranges[1], least / most, most / least, 1.0);
 }
 
-// At both ends of a ratio, whose forces are found up to a factor, the strength of the feet is used but not exceeded.
+// At both ends of a ratio, whose forces are found up to a factor, the strength of the feet is used but not
+// exceeded.
 TEST(Range, RatioOfFeetWithStrength) {
   const Assembly pier = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true},
                                              {.center = {-1, 0, 0.5}},
@@ -215,8 +218,9 @@ TEST(Range, RefusesWhatTheModelDoesNotHave) {
             std::string::npos);
 }
 
-// A cube of weight W hangs on three ties in a row, symmetric about its middle, each of which yields at Y = 0.4 W: the ties at the
-// ends carry T each and the one in the middle S = W - 2 T, so that T lies in [(W - Y) / 2, Y] and S in [W - 2 Y, Y].
+// A cube of weight W hangs on three ties in a row, symmetric about its middle, each of which yields at Y =
+// 0.4 W: the ties at the ends carry T each and the one in the middle S = W - 2 T, so that T lies in [(W - Y)
+// / 2, Y] and S in [W - 2 Y, Y].
 TEST(Range, OfTiesThatYield) {
   const Assembly cube = testing::make_boxes(
       {{.center = {0, 0, 3}, .size = {4, 4, 1}, .fixed = true}, {.center = {0, 0, 1}, .size = {1, 1, 1}}});

@@ -1,4 +1,5 @@
-// Points held in one direction without friction, both ways: in statics, limits, ranges, motions and paths, against closed forms.
+// Points held in one direction without friction, both ways: in statics, limits, ranges, motions and paths,
+// against closed forms.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -37,7 +38,8 @@ Case pushed_wall(double force) {
   return scene;
 }
 
-// Both halves turn about their toes. Of a unit of displacement at mid-height the wall rises so much that F = 2 W t / h.
+// Both halves turn about their toes. Of a unit of displacement at mid-height the wall rises so much that F =
+// 2 W t / h.
 TEST(Restraints, HoldTheHeadOfAWallInALimit) {
   const Assembly assembly = wall();
   const double weight = free_weight(assembly, testing::kG);
@@ -57,7 +59,8 @@ TEST(Restraints, HoldTheHeadOfAWallInALimit) {
   EXPECT_NEAR(loose.critical->value, kThickness / kHeight, 2e-6 * exact);
 }
 
-// A step is solved in the geometry at its start, in which the wall has already moved: the force lags by less than one step.
+// A step is solved in the geometry at its start, in which the wall has already moved: the force lags by less
+// than one step.
 TEST(Restraints, HoldTheHeadOfAWallAlongAPath) {
   const Assembly assembly = wall();
   const double weight = free_weight(assembly, testing::kG), exact = 2.0 * kThickness / kHeight;
@@ -94,7 +97,8 @@ TEST(Restraints, CarryAForceOfBothSigns) {
   }
 }
 
-// A box that is not pushed: the shear of its bed may be anything that friction admits, because the restraint balances it.
+// A box that is not pushed: the shear of its bed may be anything that friction admits, because the restraint
+// balances it.
 TEST(Restraints, WidenARange) {
   const Assembly box = testing::box_on_floor({1.0, 1.0, 0.2});
   const double weight = free_weight(box, testing::kG);
@@ -131,9 +135,10 @@ TEST(Restraints, OfAFixedBlockAreRefused) {
   EXPECT_THROW(testing::simulate(scene, box), InputError);
 }
 
-// A rigid footing of width b on joints of compliance c per area, such as soil of subgrade modulus 1/c, under its weight W and a
-// horizontal force H at height a: it sinks by c W / A and turns by c H a / I about the axis through the middle of its base, with
-// I = l b^3 / 12, as long as the whole base is pressed (H a < W b / 6).
+// A rigid footing of width b on joints of compliance c per area, such as soil of subgrade modulus 1/c, under
+// its weight W and a horizontal force H at height a: it sinks by c W / A and turns by c H a / I about the
+// axis through the middle of its base, with I = l b^3 / 12, as long as the whole base is pressed (H a < W b /
+// 6).
 TEST(ElasticSupports, SinkAndTurnAFootingByItsClosedForm) {
   constexpr double kB = 2.0, kL = 3.0, kZ = 1.0, kC = 2e-8, kH = 4000.0;
   const Assembly box = testing::box_on_floor({kB, kL, kZ});

@@ -130,8 +130,8 @@ TEST(StaticSolve, FindsTheReactionsOfABlockOnFourSpringsAtEveryTolerance) {
   }
 }
 
-// A beam on three supports. The middle one has settled by 20 mm, three times the margin within which faces make a joint:
-// the joint stays in the problem, open by the settlement and without force.
+// A beam on three supports. The middle one has settled by 20 mm, three times the margin within which faces
+// make a joint: the joint stays in the problem, open by the settlement and without force.
 TEST(StaticSolve, KeepsTheJointThatASupportHasLeft) {
   const Assembly beam =
       testing::make_boxes({{.center = {-1, 0, -0.2}, .size = {0.4, 0.4, 0.4}, .fixed = true},
@@ -157,8 +157,9 @@ TEST(StaticSolve, KeepsTheJointThatASupportHasLeft) {
   EXPECT_NEAR(largest, 0.02, 1e-6);
 }
 
-// A beam on two supports, of which one moves outwards by d, along its joint. Two joints of four points each are springs in series,
-// T = d / (2 c / 4), until the joint slides at mu W / 2. The balance of statics is far below 1e-6 W.
+// A beam on two supports, of which one moves outwards by d, along its joint. Two joints of four points each
+// are springs in series, T = d / (2 c / 4), until the joint slides at mu W / 2. The balance of statics is far
+// below 1e-6 W.
 TEST(StaticSolve, ASupportThatMovesAlongItsJointPullsByFriction) {
   const Assembly beam =
       testing::make_boxes({{.center = {-1, 0, -0.2}, .size = {0.4, 0.4, 0.4}, .fixed = true},
@@ -202,8 +203,8 @@ TEST(StaticSolve, CertifiesTheForcesOfATowerOf200Blocks) {
   }
 }
 
-// The same for 20 random walls with strength, near enough to their limits that points yield in tension, shear and
-// compression.
+// The same for 20 random walls with strength, near enough to their limits that points yield in tension, shear
+// and compression.
 TEST(StaticSolve, CertifiedErrorBoundsTheTrueErrorOfRandomWallsWithStrength) {
   int compared = 0, pulled = 0, crushed = 0;
   for (unsigned seed = 1; compared < 20; ++seed) {

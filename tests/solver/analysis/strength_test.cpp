@@ -55,10 +55,10 @@ double largest_eccentricity(double n, const JointStrength& strength, int subdivi
   return largest(0.0, 0.5 * kWidth, [&](double e) { return outcome({0, 0, -n}, e, strength, subdivide); });
 }
 
-// A normal force n at e on a width t that carries at most fc: e = t/2 (1 - n / (fc b t)) (Heyman 1966, "The stone
-// skeleton", section on finite strength). The points of the quadrature replace the edge of the compressed zone: the
-// error is of second order in the size of a piece. The constant is measured; with five points the errors reach a
-// third.
+// A normal force n at e on a width t that carries at most fc: e = t/2 (1 - n / (fc b t)) (Heyman 1966, "The
+// stone skeleton", section on finite strength). The points of the quadrature replace the edge of the
+// compressed zone: the error is of second order in the size of a piece. The constant is measured; with five
+// points the errors reach a third.
 TEST(StrengthStatics, EccentricityTendsToThatOfTheCompressedZone) {
   constexpr double kConstant = 0.75;
   const JointStrength strength{.compression = 1e6};
@@ -76,8 +76,8 @@ TEST(StrengthStatics, EccentricityTendsToThatOfTheCompressedZone) {
   }
 }
 
-// In a plane scene the points that differ only in y are merged between the faces, so that forces out of the plane balance;
-// divided joints have more than two of them on a line.
+// In a plane scene the points that differ only in y are merged between the faces, so that forces out of the
+// plane balance; divided joints have more than two of them on a line.
 TEST(StrengthStatics, PlaneScenesWithDividedJointsBalance) {
   for (const int subdivide : {1, 2, 5}) {
     Case scene = make_strong_case({.cohesion = 1e5}, subdivide);
@@ -102,10 +102,10 @@ TEST(StrengthStatics, ShearIsCohesionPlusFriction) {
   }
 }
 
-// Interaction of N, V and M on a bed of width t: with tension f the plastic stress blocks of a pull f over t - x and a push
-// F over x carry N = F b x - f b (t - x) at M = b x (t - x) (F + f) / 2; shear c A + mu N is independent of M
-// where mu > 0 and all points are at -f or F, if each point slides: |t| <= c + mu n holds point by point. The error of M is of
-// second order in the size of a piece, as that of the eccentricity.
+// Interaction of N, V and M on a bed of width t: with tension f the plastic stress blocks of a pull f over t
+// - x and a push F over x carry N = F b x - f b (t - x) at M = b x (t - x) (F + f) / 2; shear c A + mu N is
+// independent of M where mu > 0 and all points are at -f or F, if each point slides: |t| <= c + mu n holds
+// point by point. The error of M is of second order in the size of a piece, as that of the eccentricity.
 TEST(StrengthStatics, BendingTendsToThatOfThePlasticStressBlocks) {
   const JointStrength strength{.tension = 1e5, .cohesion = 1e6, .compression = 5e5};
   for (const int subdivide : {1, 2, 4, 8}) {
@@ -123,7 +123,8 @@ TEST(StrengthStatics, BendingTendsToThatOfThePlasticStressBlocks) {
   }
 }
 
-// The horizontal acceleration of the ground that makes a block slide is mu + c A / W, by bisection under both laws.
+// The horizontal acceleration of the ground that makes a block slide is mu + c A / W, by bisection under both
+// laws.
 TEST(StrengthStatics, CriticalAccelerationOfACohesiveBlock) {
   const Assembly assembly = testing::box_on_floor({1.0, 0.5, 0.1});
   const double weight = assembly.blocks[1].mass * testing::kG;
@@ -155,8 +156,8 @@ TEST(StrengthStatics, TensionEndsAtTheStrengthOrTheApexOfTheCone) {
   }
 }
 
-// The dry block rocks about its edge at e = t/2; with tension the pull on the other edge holds it: plastic stress
-// blocks of ft over t - x and of an unlimited push on the edge give N (e - t/2) = ft b t^2 / 2.
+// The dry block rocks about its edge at e = t/2; with tension the pull on the other edge holds it: plastic
+// stress blocks of ft over t - x and of an unlimited push on the edge give N (e - t/2) = ft b t^2 / 2.
 // Friction leaves cohesion / mu of a larger tension: the share that a pull uses is relative to what is left.
 TEST(StrengthStatics, SharesOfStrengthCountWhatFrictionLeavesOfTheTension) {
   for (const auto& [force, share] : {std::pair{0.9 * 1e5 * kArea, 0.9}, {-0.3 * 2e6 * kArea, 0.3}}) {

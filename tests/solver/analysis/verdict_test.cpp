@@ -1,4 +1,5 @@
-// What a verdict proves: `stable` and `moving` of a static analysis against limits in closed form, under both laws.
+// What a verdict proves: `stable` and `moving` of a static analysis against limits in closed form, under both
+// laws.
 
 #include <cmath>
 
@@ -41,8 +42,9 @@ struct Scene {
   }
 };
 
-// A ratio of forces to loads is no proof: near the critical friction the forces of the equilibrium grow without bound. Under Coulomb's law
-// compliant joints that open as the keystone sinks carry nothing, so that it falls at any friction. That has no proof.
+// A ratio of forces to loads is no proof: near the critical friction the forces of the equilibrium grow
+// without bound. Under Coulomb's law compliant joints that open as the keystone sinks carry nothing, so that
+// it falls at any friction. That has no proof.
 TEST(Verdict, KeystoneIsProvenToMoveBelowItsCriticalFrictionOnly) {
   for (const double slope : {0.1, 0.3, 0.5})
     for (const double distance : {-1e-2, -1e-3, -1e-4, 1e-4, 1e-3, 2e-3, 1e-2})
@@ -77,7 +79,8 @@ TEST(VerdictSlow, NoTowerOf500StandsAboveItsLimitAtAnyAccuracy) {
   expect_no_tower_above_its_limit(500);
 }
 
-// Half of the limit tilt: no bed opens near its edge, and no joint slides. Elastic sway is far larger than the first settlement.
+// Half of the limit tilt: no bed opens near its edge, and no joint slides. Elastic sway is far larger than
+// the first settlement.
 TEST(Verdict, SlenderTowerStandsAtHalfOfItsLimit) {
   for (const double compliance : {1e-9, 1e-8})
     for (const FrictionLaw law : kLaws) {
@@ -107,7 +110,8 @@ TEST(Verdict, SlenderTowerIsJudgedNextToItsLimit) {
     }
 }
 
-// 9 mm are less than 1 % of the block, the default of `contact.margin`: the cube rests on its support in every analysis.
+// 9 mm are less than 1 % of the block, the default of `contact.margin`: the cube rests on its support in
+// every analysis.
 TEST(Verdict, CubeAboveItsSupportStandsInEveryAnalysis) {
   const Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true},
                                                  {.center = {0, 0, 0.509}, .size = {1, 1, 1}}});
@@ -150,7 +154,8 @@ TEST(Verdict, BracketOfBisectionContainsTheLimit) {
   }
 }
 
-// A keystone stands from the slope of its walls on. Near it an equilibrium needs large forces, which is no proof that none exists.
+// A keystone stands from the slope of its walls on. Near it an equilibrium needs large forces, which is no
+// proof that none exists.
 TEST(Verdict, BisectionOfAKeystoneTakesNoLargeForcesForAMotion) {
   for (const double slope : {0.1, 0.5}) {
     Case input = testing::make_case(0.5, 1e-9, 0.01);
@@ -167,7 +172,8 @@ TEST(Verdict, BisectionOfAKeystoneTakesNoLargeForcesForAMotion) {
   }
 }
 
-// A solve of few iterations shows nothing: the frame is that of an unfinished solve, which the postprocessor reports.
+// A solve of few iterations shows nothing: the frame is that of an unfinished solve, which the postprocessor
+// reports.
 TEST(Verdict, LimitThatShowsNothingHasAFrame) {
   Case input = testing::make_case(0.5, 1e-9, 0.01);
   input.analysis.type = AnalysisType::limit;
@@ -185,7 +191,8 @@ TEST(Verdict, LimitThatShowsNothingHasAFrame) {
   EXPECT_EQ(frames, 1) << summary.message;
 }
 
-// A cube of friction 0.5 tilts by 26.57 degrees. The ends of the bracket are said in its unit, and a frame shows what they showed.
+// A cube of friction 0.5 tilts by 26.57 degrees. The ends of the bracket are said in its unit, and a frame
+// shows what they showed.
 TEST(Verdict, EndsOfALimitWithoutBracketAreShown) {
   const Assembly box = testing::box_on_floor({1, 1, 0.2});
   Case input = testing::make_case(0.5, 1e-9, 0.01);
@@ -210,8 +217,8 @@ TEST(Verdict, EndsOfALimitWithoutBracketAreShown) {
   expect(0.1, 0.9, "stands at both ends of the bracket, 0.1 and 0.9");
 }
 
-// A cube on four points carries its weight with forces of a quarter each: exact ones exist next to forces that are wrong by 1 %, not next
-// to forces that tip it.
+// A cube on four points carries its weight with forces of a quarter each: exact ones exist next to forces
+// that are wrong by 1 %, not next to forces that tip it.
 TEST(ExactEquilibrium, ExistsNextToForcesThatNearlyBalance) {
   const Scene scene(testing::make_case(0.5, 1e-9, 0.01), testing::box_on_floor({1, 1, 1}));
   const StepOptions step{.h = 1.0, .time_advance = 0.0};

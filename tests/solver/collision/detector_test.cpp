@@ -198,7 +198,8 @@ TEST(ContactDetector, CarriesContactsAlongUntilABlockHasMoved) {
   EXPECT_EQ(detector.num_detections(), 2);
 }
 
-// A wall that moves and turns as one body keeps its contacts: only motion between two blocks needs a new detection.
+// A wall that moves and turns as one body keeps its contacts: only motion between two blocks needs a new
+// detection.
 TEST(ContactDetector, BlocksThatMoveTogetherKeepTheirContacts) {
   const Assembly scene = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4);
   ContactDetector detector(scene, {});
@@ -218,8 +219,9 @@ TEST(ContactDetector, BlocksThatMoveTogetherKeepTheirContacts) {
   EXPECT_EQ(detector.num_detections(), 1);
 }
 
-// Contacts computed for some pairs only, in random motion of all blocks: the same joints as those of a new detection, with points
-// and gaps that differ by no more than the motion between two detections, a quarter of the margin.
+// Contacts computed for some pairs only, in random motion of all blocks: the same joints as those of a new
+// detection, with points and gaps that differ by no more than the motion between two detections, a quarter of
+// the margin.
 TEST(ContactDetector, PairsComputedAgainAgreeWithANewDetection) {
   const Assembly scene = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 4);
   ContactDetector detector(scene, {});

@@ -111,12 +111,13 @@ TEST(EdgeContact, IsContinuousWithTheFaceContact) {
 /// Nearest points of two separate unit cubes.
 struct Nearest {
   double distance = 1e300;  ///< m
-  /// Number of faces of its cube on which each of the two points lies: 1 inside a face, 2 on an edge, 3 at a vertex.
+  /// Number of faces of its cube on which each of the two points lies: 1 inside a face, 2 on an edge, 3 at a
+  /// vertex.
   int faces_a = 0, faces_b = 0;
 };
 
-/// From sampled points on the faces of each cube projected onto the other: slow, but independent of the separating
-/// axes.
+/// From sampled points on the faces of each cube projected onto the other: slow, but independent of the
+/// separating axes.
 Nearest sampled_distance(const Pose& a, const Pose& b, int n) {
   Nearest best;
   const auto num_faces = [](const Vec3& on_cube) {
@@ -143,9 +144,9 @@ Nearest sampled_distance(const Pose& a, const Pose& b, int n) {
   return best;
 }
 
-// Random cubes near each other have a contact if and only if they are within the margin. A vertex that is nearest to a
-// vertex or an edge makes one only as it gets closer: no force acts between them before a face or two edges meet. The
-// gap of a face contact is at most the distance.
+// Random cubes near each other have a contact if and only if they are within the margin. A vertex that is
+// nearest to a vertex or an edge makes one only as it gets closer: no force acts between them before a face
+// or two edges meet. The gap of a face contact is at most the distance.
 TEST(EdgeContact, RandomBoxesAgreeWithSampledDistance) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;

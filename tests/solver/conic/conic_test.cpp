@@ -76,8 +76,8 @@ TEST(Conic, RedundantPointsChangeNothing) {
     ASSERT_EQ(solution.outcome, ConicOutcome::optimal) << mu;
     EXPECT_NEAR(solution.multipliers[0], std::min(mu, 5.0), kAgrees * std::min(mu, 5.0)) << mu;
   }
-  // The half at x < 0 carries the least where it presses at its edge, 1/2 from the middle, and the other half at its
-  // nearest points, 1/14 from it.
+  // The half at x < 0 carries the least where it presses at its edge, 1/2 from the middle, and the other half
+  // at its nearest points, 1/14 from it.
   ConicProblem problem = conic(block_on_many_points({.mu = 0.3}));
   for (int i = 0; i < 32; ++i) problem.cost[3 * i] = 1.0;
   const auto [least, largest] = range(problem);
@@ -161,8 +161,8 @@ TEST(Conic, RangeOfARatio) {
   EXPECT_GT(solution.multipliers[0], 0.0);
 }
 
-// 200 cubes, each closed joint a hinge at x = 0.5 m: the loads drive the mechanism at width / height. Bounds to 1e-6 need a
-// mechanism without the rounding of 800 contacts.
+// 200 cubes, each closed joint a hinge at x = 0.5 m: the loads drive the mechanism at width / height. Bounds
+// to 1e-6 need a mechanism without the rounding of 800 contacts.
 TEST(Conic, OpeningMotionSharpensTheBoundOfASlenderTower) {
   ConicProblem problem = conic(scenes::stack(std::vector(200, 1000.0), 0.01, {.mu = 2.0}));
   maximise_load(&problem, sideways(problem));
@@ -177,8 +177,8 @@ TEST(Conic, OpeningMotionSharpensTheBoundOfASlenderTower) {
   EXPECT_LE(sharp.upper - sharp.lower, rough.upper - rough.lower);
 }
 
-// A cube of weight W sinks at e into its bed of four points: the load does W e, and forces of N W / 400 at each point as much
-// from N = 100 on.
+// A cube of weight W sinks at e into its bed of four points: the load does W e, and forces of N W / 400 at
+// each point as much from N = 100 on.
 TEST(Conic, StatesUpToWhichForcesAMotionIsDriven) {
   const ConicProblem problem = conic(scenes::stack({1000.0}, 0.01, {.mu = 0.5}));
   const double weight = -problem.load[2];
@@ -210,8 +210,8 @@ TEST(Conic, NoMotionOpensAJammedBlock) {
   EXPECT_EQ(solution.v, VecX::Ones(6));
 }
 
-// One of its joints that yields need not open: the motion that pushes the block into it is a proof once the load exceeds what both
-// joints resist.
+// One of its joints that yields need not open: the motion that pushes the block into it is a proof once the
+// load exceeds what both joints resist.
 TEST(MotionProof, JointThatYieldsNeedNotOpen) {
   constexpr double kYield = 1000.0, kFriction = 0.4;  // N per point
   scenes::Scene scene(0.01, {0, 0, -scenes::kGravity});

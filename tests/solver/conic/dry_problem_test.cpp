@@ -1,4 +1,5 @@
-// Joints with strength in conic problems: closed forms at every limit, and what proves that there is no state.
+// Joints with strength in conic problems: closed forms at every limit, and what proves that there is no
+// state.
 #include <limits>
 
 #include "tests/solver/conic/conic_scenes.hpp"
@@ -29,8 +30,8 @@ ConicProblem in_plane(ConicProblem problem) {
   return problem;
 }
 
-/// Largest horizontal load over the weight W of a block of 1 x 1 x 0.2 m on four points at its corners: it slides at
-/// mu W + 4 c, and tips when the rear points pull with 2 T or when the front points press with 2 F.
+/// Largest horizontal load over the weight W of a block of 1 x 1 x 0.2 m on four points at its corners: it
+/// slides at mu W + 4 c, and tips when the rear points pull with 2 T or when the front points press with 2 F.
 double exact_load(double mu, const ContactStrength& s, double weight) {
   const double slides = mu * weight + 4 * s.cohesion;
   const double pulls = (weight / 2 + 2 * std::min(s.tension, s.cohesion / mu)) / 0.1;
@@ -57,8 +58,8 @@ TEST(ConicStrength, HorizontalLoadSlidesTipsOrCrushes) {
         maximise_load(&problem, sideways(problem));
         const double exact = exact_load(mu, s, W);
         const ConicSolution solution = solve_conic(problem);
-        // Where it turns about points at their tension that friction holds in place, rounding may stop the solve short of
-        // 1e-9; the bounds say what is proven.
+        // Where it turns about points at their tension that friction holds in place, rounding may stop the
+        // solve short of 1e-9; the bounds say what is proven.
         EXPECT_TRUE(solution.outcome == ConicOutcome::optimal || solution.outcome == ConicOutcome::stalled);
         EXPECT_NEAR(solution.multipliers[0], exact, kAgrees * exact);
         const ConicBounds bounds = conic_bounds(problem, solution);
@@ -100,8 +101,8 @@ TEST(ConicStrength, CompressionBoundsTheForcesOfAJammedBlock) {
   EXPECT_NEAR(range(problem).second, F, kAgrees * F);
 }
 
-// The table of conic_test.cpp: N_++ = W (1 + x + y) / 4 + t over N_+- = W (1 + x - y) / 4 - t is least at the smallest t
-// that the strength of the legs admits. The strength grows with the multiplier, as in range_end().
+// The table of conic_test.cpp: N_++ = W (1 + x + y) / 4 + t over N_+- = W (1 + x - y) / 4 - t is least at the
+// smallest t that the strength of the legs admits. The strength grows with the multiplier, as in range_end().
 TEST(ConicStrength, RangeOfARatio) {
   const double W = 1000.0, x = 0.3, y = -0.2;
   ConicProblem problem = conic(scenes::table(W, x, y, 0.01, {.mu = 0.4}));

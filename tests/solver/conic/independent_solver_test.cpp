@@ -1,4 +1,5 @@
-// Least values of linear objectives over all admissible states, against cvxopt (Debian package python3-cvxopt).
+// Least values of linear objectives over all admissible states, against cvxopt (Debian package
+// python3-cvxopt).
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

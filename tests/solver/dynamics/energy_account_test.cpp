@@ -130,8 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
                       second_order(sliding_box(FrictionLaw::coulomb)), second_order(loaded_arch())),
     [](const auto& motion) { return motion.param.name; });
 
-// A box that falls from 0.3 m loses its kinetic energy in the impact. The step in which it touches is not known better
-// than to h, and with it the speed.
+// A box that falls from 0.3 m loses its kinetic energy in the impact. The step in which it touches is not
+// known better than to h, and with it the speed.
 TEST(EnergyAccountTerms, OfAnImpactIsTheKineticEnergyOfTheApproach) {
   const double height = 0.3, h = 5e-4;
   Motion motion{"", testing::box_on_floor({1.0, 1.0, 0.5}), make_case(0.3, 0.0, h),

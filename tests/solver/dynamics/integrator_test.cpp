@@ -42,7 +42,8 @@ double spring_error(double h, double alpha) {
   return simulation.state().poses[1].p_WB.z() - 0.5 - exact;
 }
 
-// The exact motion is smooth. The first two steps are of first order, which costs a constant number of local errors h^2.
+// The exact motion is smooth. The first two steps are of first order, which costs a constant number of local
+// errors h^2.
 TEST(GeneralizedAlpha, ASpringIsOfSecondOrder) {
   EXPECT_NEAR(observed_order(1e-3, [](double h) { return spring_error(h, 0.0); }), 2.0, 0.1);
   EXPECT_NEAR(observed_order(1e-3, [](double h) { return spring_error(h, 5e-3); }), 2.0, 0.1);
@@ -86,7 +87,8 @@ TEST(GeneralizedAlpha, RockingIsFarMoreAccurateThanEuler) {
   EXPECT_LT(alpha, 0.05 * euler) << alpha << " against " << euler;
 }
 
-// A block that falls flat on the floor stays there, with rigid contacts and with compliant ones that the step does not resolve.
+// A block that falls flat on the floor stays there, with rigid contacts and with compliant ones that the step
+// does not resolve.
 TEST(GeneralizedAlpha, AnImpactGivesNoEnergy) {
   for (const double compliance : {0.0, 1e-10}) {
     const Assembly assembly = testing::box_on_floor({1.0, 1.0, 0.5});

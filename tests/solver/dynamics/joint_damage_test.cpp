@@ -64,8 +64,8 @@ TEST(JointsInMotion, ABlockHangsByTension) {
   EXPECT_LT(largest_speed(simulation.state().v), 1e-9);
 }
 
-// Under 0.95 W / A it falls at (1 - 0.95) g. One step is far longer than the period of the joint, so that the joint
-// yields from the first step on and the velocity is exact.
+// Under 0.95 W / A it falls at (1 - 0.95) g. One step is far longer than the period of the joint, so that the
+// joint yields from the first step on and the velocity is exact.
 TEST(JointsInMotion, ABlockFallsThatIsTooHeavyForItsTension) {
   Case scene = glued_case({.tension = 0.95 * kMass * kG / kArea, .cohesion = 1e6}, 1e-3);
   const Assembly assembly = hung_block();
@@ -79,8 +79,8 @@ TEST(JointsInMotion, ABlockFallsThatIsTooHeavyForItsTension) {
   EXPECT_EQ(largest_damage(simulation), 0.0);  // plastic
 }
 
-// A glued block is knocked upwards: the joint brakes it, v^2 / 2 = (g + T A / m) w, does not pull it back, so that it
-// falls under gravity alone. First order in the step of 1/200 of the rise.
+// A glued block is knocked upwards: the joint brakes it, v^2 / 2 = (g + T A / m) w, does not pull it back, so
+// that it falls under gravity alone. First order in the step of 1/200 of the rise.
 TEST(JointsInMotion, AnOpenJointDoesNotPullItsBlockBack) {
   constexpr double kV = 0.1, kH = 1e-5, kPull = 4 * kMass * kG;
   Case scene = glued_case({.tension = kPull / kArea, .cohesion = 1e6}, kH);
@@ -109,8 +109,8 @@ TEST(JointsInMotion, AnOpenJointDoesNotPullItsBlockBack) {
   EXPECT_LE(simulation.energy().total(), before) << "it bounces on its compliance, without gaining energy";
 }
 
-// On an incline it slides if W sin a > c A + mu W cos a, then with the difference over the mass. Under the associated law
-// the gap of the first step, h mu |u|, remains.
+// On an incline it slides if W sin a > c A + mu W cos a, then with the difference over the mass. Under the
+// associated law the gap of the first step, h mu |u|, remains.
 TEST(JointsInMotion, CohesionHoldsABlockOnAnIncline) {
   const Vec3 gravity = testing::tilted_gravity(1.0);
   const Assembly assembly = testing::box_on_floor(kSize, kDensity);
@@ -135,7 +135,8 @@ TEST(JointsInMotion, CohesionHoldsABlockOnAnIncline) {
   }
 }
 
-/// Dissipated until the joint is broken, J, besides the work of friction, under a force that pulls the block away.
+/// Dissipated until the joint is broken, J, besides the work of friction, under a force that pulls the block
+/// away.
 struct Broken {
   double opening = 0.0, shear = 0.0;  ///< J: work of tension and of cohesion
   double mixed = 0.0;                 ///< sum of |(work of tension / G_I A, work of cohesion / G_II A)|
@@ -187,8 +188,8 @@ TEST(SofteningJoints, DissipateTheirFractureEnergyInShear) {
   }
 }
 
-// The damage grows by |(dw / w_c, ds / s_c)|, so that the work of a part of it is |(d D_I / G_I, d D_II / G_II)| = 2 (1 - d) dd,
-// which sums to 1 whatever the ratio of opening to slip.
+// The damage grows by |(dw / w_c, ds / s_c)|, so that the work of a part of it is |(d D_I / G_I, d D_II /
+// G_II)| = 2 (1 - d) dd, which sums to 1 whatever the ratio of opening to slip.
 TEST(SofteningJoints, MixTheModesByTheQuadraticRule) {
   const Broken broken = break_joint({2e5, 0, 1.5e5}, 1e-4);
   EXPECT_GT(broken.opening, 5.0);
@@ -218,8 +219,8 @@ TEST(SofteningJoints, ContinueFromACheckpointWithTheSameBits) {
   EXPECT_EQ(largest_damage(simulation), 1.0);
 }
 
-// Brittle joints lose both strengths at once: without friction, so that all points bear the same, a block on an incline slides
-// with W sin a as soon as that exceeds c A.
+// Brittle joints lose both strengths at once: without friction, so that all points bear the same, a block on
+// an incline slides with W sin a as soon as that exceeds c A.
 TEST(BrittleJoints, SlideAsDryOnesOnceTheyAreBroken) {
   const Vec3 gravity = testing::tilted_gravity(1.0);
   const Assembly assembly = testing::box_on_floor(kSize, kDensity);

@@ -12,8 +12,9 @@ namespace {
 
 constexpr int kSeeds = 4000;
 
-// Over the seeds: mean 1, the coefficient of variation asked for, and the correlation exp(-(r / length)^2) of the logarithms in any
-// direction. Tolerances are four standard errors, of a correlation rho (1 - rho^2) / sqrt(n).
+// Over the seeds: mean 1, the coefficient of variation asked for, and the correlation exp(-(r / length)^2) of
+// the logarithms in any direction. Tolerances are four standard errors, of a correlation rho (1 - rho^2) /
+// sqrt(n).
 TEST(RandomField, HasTheMomentsAndTheCorrelationLengthAskedFor) {
   const double variation = 0.2, length = 3.0, s2 = std::log1p(variation * variation);
   for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(0, 0.6, 0.8)})
@@ -46,8 +47,8 @@ TEST(RandomField, DependsOnSeedAndQuantityOnly) {
   EXPECT_EQ(RandomField().at(point), 1.0);
 }
 
-// Where the field is as good as constant over a joint, its mean over the joint is its value there; a joint that is longer than the
-// correlation length has a smaller variation.
+// Where the field is as good as constant over a joint, its mean over the joint is its value there; a joint
+// that is longer than the correlation length has a smaller variation.
 TEST(RandomField, IsAveragedOverTheJoint) {
   const std::vector<Vec3> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   const RandomField smooth(1, "friction", 1e4, 0.3);

@@ -34,8 +34,9 @@ void expect_accurate(const StepReport& report, double tolerance) {
   EXPECT_LE(excess(report.residuals, tolerance), 1.0);
 }
 
-// An arch stands on its abutments for 200 steps. Once its speeds are rounding errors or zero it stays where it is, to the last
-// bit; before that each step may move it by the tolerance times the free fall g h^2 of one step.
+// An arch stands on its abutments for 200 steps. Once its speeds are rounding errors or zero it stays where
+// it is, to the last bit; before that each step may move it by the tolerance times the free fall g h^2 of one
+// step.
 class ArchAtRest : public ::testing::TestWithParam<FrictionLaw> {};
 TEST_P(ArchAtRest, StaysWhereItIs) {
   const Assembly assembly = testing::make_arch({.voussoirs = 15, .thickness = 0.2});
@@ -65,8 +66,9 @@ INSTANTIATE_TEST_SUITE_P(BothLaws, ArchAtRest,
                          ::testing::Values(FrictionLaw::associated, FrictionLaw::coulomb),
                          test_names({"Associated", "Coulomb"}));
 
-// The friction falls from 0.6 to 0.1 over a second on a slope of 0.3. The block must leave its rest when the friction is that of the
-// slope, at 0.6 s, and then slide under Coulomb's law: v = g cos a (0.5 t^2 / 2), t from then, less one step.
+// The friction falls from 0.6 to 0.1 over a second on a slope of 0.3. The block must leave its rest when the
+// friction is that of the slope, at 0.6 s, and then slide under Coulomb's law: v = g cos a (0.5 t^2 / 2), t
+// from then, less one step.
 TEST(RigidRest, EndsWhenTheImpulsesNoLongerObeyTheLaw) {
   const Assembly assembly = testing::box_on_floor({1.0, 0.5, 0.2});
   Case scene = rigid_case(0.6);
@@ -84,7 +86,8 @@ TEST(RigidRest, EndsWhenTheImpulsesNoLongerObeyTheLaw) {
   EXPECT_NEAR(simulation.state().v[0], exact, 1.1 * kG * cos_a * 0.5 * slide * 0.5 * 0.01);
 }
 
-// The tangents of a level bed jump by 90 degrees where its normal leans by a rounding error. Its impulses must not turn with them.
+// The tangents of a level bed jump by 90 degrees where its normal leans by a rounding error. Its impulses
+// must not turn with them.
 TEST(WarmStart, KeepsImpulsesWhereTangentsJump) {
   const Assembly assembly = testing::box_on_floor({1.0, 0.5, 0.2});
   Case scene = rigid_case(0.6);

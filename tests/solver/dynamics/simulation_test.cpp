@@ -39,7 +39,8 @@ TEST(RecoveryLimit, DoesNotChangeElasticDepth) {
   }
 }
 
-/// Velocity and depth of a block of weight W = 9810 N on four contacts of c = 1e-8 m/N after 60 steps of the literal scheme.
+/// Velocity and depth of a block of weight W = 9810 N on four contacts of c = 1e-8 m/N after 60 steps of the
+/// literal scheme.
 struct Sinking {
   double velocity, depth;
 };
@@ -53,10 +54,10 @@ Sinking sink_literally(double h, double alpha, double recovery_speed) {
   return {simulation.state().v[2], 0.5 - simulation.state().poses[1].p_WB.z()};
 }
 
-// Paper eq. 14, 15 at a contact that has penetrated by more than eps_u (h + alpha): b_n = -eps_u, so that u_n - eps_u + E gamma_n = 0
-// with E = c / (h (h + alpha)). Four contacts balance the weight with gamma_n = W h / 4, so that the block sinks at
-// -u_n = c W / (4 (h + alpha)) - eps_u, whatever its depth. The way to that speed shrinks by 1 + 4 h (h + alpha) / (c m), at least 11, in
-// every step.
+// Paper eq. 14, 15 at a contact that has penetrated by more than eps_u (h + alpha): b_n = -eps_u, so that u_n
+// - eps_u + E gamma_n = 0 with E = c / (h (h + alpha)). Four contacts balance the weight with gamma_n = W h /
+// 4, so that the block sinks at -u_n = c W / (4 (h + alpha)) - eps_u, whatever its depth. The way to that
+// speed shrinks by 1 + 4 h (h + alpha) / (c m), at least 11, in every step.
 TEST(RecoveryLimit, LetsLoadedContactsSinkInTheLiteralScheme) {
   const double W = 1000.0 * kG;
   for (const double h : {0.01, 0.005})

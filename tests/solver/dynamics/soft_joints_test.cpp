@@ -20,8 +20,8 @@ Case per_area(double normal) {
   return scene;
 }
 
-// Ten cubes of side s = 0.2 m: the joint under cube k from the top carries k rho g s, so that the top sinks by
-// c rho g s (1 + ... + 10) = 55 c rho g s; 1 % of the height of 2 m at c = 1.85e-7 m3/N.
+// Ten cubes of side s = 0.2 m: the joint under cube k from the top carries k rho g s, so that the top sinks
+// by c rho g s (1 + ... + 10) = 55 c rho g s; 1 % of the height of 2 m at c = 1.85e-7 m3/N.
 TEST(SoftJoints, WarnWhereTheTopOfAStackSinksByAHundredthOfItsHeight) {
   const Assembly stack = testing::stack_of_cubes(0.2, std::vector<double>(10, 1000.0));
   EXPECT_TRUE(warnings_of(per_area(1.8e-7), stack).empty());

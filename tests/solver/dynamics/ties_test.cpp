@@ -134,8 +134,8 @@ TEST(Rod, PushesAndPulls) {
   }
 }
 
-// Ring of n blocks on a frictionless floor, each under an equal outward radial force Q. A closed polygon of bars through their
-// centroids carries Q / (2 sin(pi / n)), which is H r for a force H per length.
+// Ring of n blocks on a frictionless floor, each under an equal outward radial force Q. A closed polygon of
+// bars through their centroids carries Q / (2 sin(pi / n)), which is H r for a force H per length.
 class RingOfBlocks : public ::testing::TestWithParam<double> {};
 
 TEST_P(RingOfBlocks, ChainCarriesTheHoopForce) {
@@ -187,7 +187,8 @@ Case on_two_ties(double k, double yield, double load) {
   return scene;
 }
 
-// Two of four equal ties yield at Y under the load P > 4 Y: the others carry the rest and give the displacement.
+// Two of four equal ties yield at Y under the load P > 4 Y: the others carry the rest and give the
+// displacement.
 TEST(YieldingTie, CarriesItsYieldForceInStatics) {
   const double k = 1e6, Y = 1000.0, P = 6000.0;
   const Assembly assembly = hanging_cube();
@@ -232,8 +233,9 @@ TEST(YieldingTie, IsProvenNotToHoldMoreThanItsYieldForce) {
   }
 }
 
-// Elastic, perfectly plastic spring under a suddenly applied weight, implicit Euler: the trial force of each step is cut off at
-// the yield force Y, and the rest of the elongation is plastic. The account of energy closes.
+// Elastic, perfectly plastic spring under a suddenly applied weight, implicit Euler: the trial force of each
+// step is cut off at the yield force Y, and the rest of the elongation is plastic. The account of energy
+// closes.
 TEST(YieldingTie, InMotionIsTheImplicitEulerSpringThatYields) {
   const Assembly assembly = hanging_cube();
   const double h = 0.002, k = 1e6, m = 1000.0, Y = 1.2 * m * kG, w2 = k / m;
@@ -264,8 +266,8 @@ TEST(YieldingTie, InMotionIsTheImplicitEulerSpringThatYields) {
   EXPECT_NEAR(simulation.memories().ties[0].yielded / plastic, 1.0, 1e-6);
 }
 
-// Two inclined bars of rise f and half span a, each of weight W, on a frictionless floor and tied at their feet: the tie
-// carries H = W a / (2 f) within the depth of the crown joint.
+// Two inclined bars of rise f and half span a, each of weight W, on a frictionless floor and tied at their
+// feet: the tie carries H = W a / (2 f) within the depth of the crown joint.
 TEST(Tie, HoldsATwoBarArch) {
   const double a = 4.0, f = 3.0, e = 0.01, width = 1.0;
   Assembly assembly = testing::make_boxes({{.center = {0, 0.5, -0.5}, .size = {20, 4, 1}, .fixed = true}});

@@ -42,8 +42,8 @@ TEST(BlockCholesky, MatchesADenseFactor) {
   }
 }
 
-// Rounding the factor to single precision, 6e-8, changes a well-conditioned solution by less than 1e-4. A system with entries
-// from 1 to 1e10 is solved in double precision.
+// Rounding the factor to single precision, 6e-8, changes a well-conditioned solution by less than 1e-4. A
+// system with entries from 1 to 1e10 is solved in double precision.
 TEST(BlockCholesky, SolvesApproximatelyInSinglePrecisionWhereThatIsAccurate) {
   Problem p = dome_hessian(9, 12);
   const VecX rhs = random_vector(6 * p.pattern.num_blocks());

@@ -248,7 +248,8 @@ TEST(Newton, EndsSlowSolvesByBlockDescent) {
   EXPECT_LE(summary.iterations, 40);
 }
 
-// The residual rises at first, and is smaller than at the start only after more iterations than multigrid gets without progress.
+// The residual rises at first, and is smaller than at the start only after more iterations than multigrid
+// gets without progress.
 TEST(NewtonWithMultigridSlow, IsKeptWhileTheResidualFalls) {
   const SolveSummary summary = step_from_rest(80, 0.05, true);
   EXPECT_EQ(summary.ending, SolveEnding::converged) << summary.message;

@@ -25,8 +25,8 @@ double energy(const ContactLaw& law, const Vec3& y, const Vec3& gamma) {
   return gamma.dot(0.5 * times_compliance(law, gamma) + y);
 }
 
-/// Slow, independent reference: for a given normal impulse the best shear is known; the energy is convex in the
-/// normal impulse, which golden-section search finds to about the root of the rounding.
+/// Slow, independent reference: for a given normal impulse the best shear is known; the energy is convex in
+/// the normal impulse, which golden-section search finds to about the root of the rounding.
 Vec3 slow_impulse(const ContactLaw& law, const Vec3& y) {
   const double y_t = y.tail<2>().norm();
   const Eigen::Vector2d t = y_t > 0.0 ? Eigen::Vector2d(y.tail<2>() / y_t) : Eigen::Vector2d::UnitX();
@@ -159,7 +159,8 @@ TEST(Strength, CostIsThePotentialOfTheImpulses) {
       constexpr double kStep = 1e-5;
       for (int k = 0; k < 3; ++k) {
         const Vec3 e = kStep * Vec3::Unit(k);
-        // The impulse is Lipschitz with 1 / e <= 2 per axis, so that a central difference errs by 2 kStep at kinks.
+        // The impulse is Lipschitz with 1 / e <= 2 per axis, so that a central difference errs by 2 kStep at
+        // kinks.
         EXPECT_NEAR((cost(y + e) - cost(y - e)) / (2.0 * kStep), -contact_impulse(law, y)[k], 2.0 * kStep);
       }
     }
