@@ -7,7 +7,8 @@ namespace cupola {
 
 inline constexpr double kThinnest = 0.002, kThickest = 20.0;  // m, plausible thickness
 inline constexpr double kLightest = 3e3,
-                        kHeaviest = 8e4;  // N/m3, plausible weights: aerated concrete to steel
+                        kHeaviest = 8e4;   // N/m3, plausible weights: aerated concrete to steel
+inline constexpr int kMostRings = 100000;  // a typing error gives a message rather than exhausts memory
 
 // The keys of each section of the case file, one line per key; see Section. A new key requires a member of
 // the struct, which holds its default, and one line in the declaration.
@@ -17,6 +18,7 @@ void declare_swept_key(Section& s, SweptKey& swept);
 void declare_ensemble(Section& s, Ensemble& ensemble);
 void declare_sample_file(Section& s, SampleFile& samples);
 void declare_geometry(Section& s, Geometry& geometry);
+void declare_import(Section& s, ImportedBlocks& import);
 /// Warns of a length of the structure (m) in another unit.
 void expect_length(const Section& s, const char* key, double value, double low = 0.05, double high = 250.0);
 /// The key `thickness` of a surface, which wythes replace. Warns above `most`, m.

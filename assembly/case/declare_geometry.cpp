@@ -8,11 +8,6 @@
 namespace cupola {
 namespace {
 
-// Bounds on the grid, so that a typing error gives a message rather than exhausts memory. The largest study
-// of the project has 1.3 million cells.
-constexpr double kMostCells = 2e7;
-constexpr int kMostRings = 100000;
-
 /// An angle of a vault. Angles in radians are at most pi.
 void expect_angle(const Section& s, const char* key, double value) {
   s.expect({key, value, "deg", 4.0, 180.0, kRadians, ""});
@@ -88,135 +83,6 @@ void declare_surface(Section& s, Surface& surface) {
 
 namespace {
 
-void declare_grid(Section& s, int& rings, int& blocks_per_ring, int& refine) {
-  s.integer("rings", rings, {.min = 1, .max = kMostRings},
-            "number of rings of a dome, courses of a wall, or voussoirs of an arch");
-  s.integer("blocks_per_ring", blocks_per_ring, {.min = 1, .max = kMostCells},
-            "number of whole blocks in each ring; at least 3 on a closed ring");
-  s.integer(
-      "refine", refine, {.min = 1, .max = 1000},
-      "split each course into this many courses and each block into this many blocks, in the same bond");
-}
-
-/// `slices`: cells per whole block along the ring.
-template <class SomeBond>
-void check_cells(const Section& s, const SomeBond& bond, double slices) {
-  const double courses = 1.0 * bond.rings * bond.refine;
-  s.rule(courses <= kMostRings, "refine", "rings x refine must be <= 1e5; reduce one of them");
-  s.rule(courses * bond.blocks_per_ring * bond.refine * slices <= kMostCells, "blocks_per_ring",
-         "rings x blocks_per_ring x slices x refine^2 must be <= 2e7 cells; reduce one of them");
-}
-
-constexpr const char* kPhase = "block widths from the first corner to the first head joint or spiral";
-constexpr const char* kNoPhase = "joints avoid corners";
-
-void declare_running_bond(Section& s, RunningBond& bond) {
-  declare_grid(s, bond.rings, bond.blocks_per_ring, bond.refine);
-  s.integer("slices_per_block", bond.slices_per_block, {.min = 2, .max = 64},
-            "convex cells per block along the ring; an even number");
-  s.optional_number("phase", bond.phase, {.min = 0, .below = 1}, kNoPhase, kPhase);
-  s.rule(bond.slices_per_block % 2 == 0, "slices_per_block",
-         "must be even, because odd rings are shifted by half a block");
-  check_cells(s, bond, bond.slices_per_block);
-}
-
-void declare_stack_bond(Section& s, StackBond& bond) {
-  declare_grid(s, bond.rings, bond.blocks_per_ring, bond.refine);
-  s.integer("slices_per_block", bond.slices_per_block, {.min = 1, .max = 64},
-            "convex cells per block along the ring");
-  s.optional_number("phase", bond.phase, {.min = 0, .below = 1}, kNoPhase, kPhase);
-  check_cells(s, bond, bond.slices_per_block);
-}
-
-void declare_herringbone_bond(Section& s, HerringboneBond& bond) {
-  declare_grid(s, bond.rings, bond.blocks_per_ring, bond.refine);
-  s.integer("spirals", bond.spirals, {.min = 1, .max = kMostRings},
-            "number of spirals, or of meridian strips");
-  s.integer("rings_per_vertical", bond.rings_per_vertical, {.min = 1, .max = 1000},
-            "height of an upright block, in rings");
-  s.integer("verticals_per_block", bond.verticals_per_block, {.min = 1, .max = 1000},
-            "width of a whole block over the width of an upright block");
-  s.choice("path", bond.path, "upright blocks climb in spirals or straight up the meridians");
-  s.choice(
-      "chirality", bond.chirality,
-      "right: spirals climb counter-clockwise, seen from above; both: spirals of either hand, which cross");
-  s.integer(
-      "embedment", bond.embedment, {.min = -1},
-      "courses by which the uprights in the last course built stand in the courses below, one upright per "
-      "spiral and course; -1: a new one in each course, so that uprights of every embedment stand side by "
-      "side");
-  s.rule(bond.embedment < bond.rings_per_vertical, "embedment", "must be < rings_per_vertical");
-  s.rule(bond.embedment < 0 || bond.refine == 1, "embedment", "requires refine: 1");
-  s.choice("beside", bond.beside,
-           "head joints of the flat blocks: step with the spirals, keep a half bond, or lie on meridians");
-  s.optional_number("phase", bond.phase, {.min = 0, .below = 1}, kNoPhase, kPhase);
-  s.integer("slices_per_vertical", bond.slices_per_vertical, {.min = 1, .max = 64},
-            "convex cells per upright block along the ring");
-  s.rule(bond.beside != HerringboneBond::Beside::half ||
-             bond.verticals_per_block * bond.slices_per_vertical % 2 == 0,
-         "beside",
-         "half requires an even number of slices per block; change verticals_per_block or "
-         "slices_per_vertical so that their product is even");
-  check_cells(s, bond, 1.0 * bond.verticals_per_block * bond.slices_per_vertical);
-}
-
-void declare_fill_bond(Section& s, FillBond& bond) {
-  declare_grid(s, bond.rings, bond.blocks_per_ring, bond.refine);
-  s.integer("slices_per_block", bond.slices_per_block, {.min = 1, .max = 64},
-            "number of positions per mean block width where a head joint may lie");
-  s.number("narrowest", bond.narrowest, {.above = 0, .max = 1},
-           "width of the narrowest block over the mean width");
-  s.number("widest", bond.widest, {.min = 1, .max = 10}, "width of the widest block over the mean width");
-  check_cells(s, bond, bond.slices_per_block);
-}
-
-void declare_drawn_bond(Section& s, DrawnBond& bond) {
-  s.integer("rings", bond.rings, {.min = 1, .max = kMostRings}, "number of courses");
-  s.texts("rows", bond.rows,
-          "the drawing, seen from outside, the uppermost course first: cells of one letter that touch form a "
-          "block, a point is empty");
-  s.required_number("letter_length", bond.letter_length, {.unit = "m", .above = 0},
-                    "length of a letter along the first bed, on the intrados");
-  s.integer("shift", bond.shift, {.min = -100000, .max = 100000},
-            "letters by which the drawing moves along where it is repeated above itself");
-  s.optional_number("phase", bond.phase, {.min = 0, .max = 100000}, kNoPhase,
-                    "letters from the first corner, or the end of a wall, to the drawing");
-  s.integer(
-      "refine", bond.refine, {.min = 1, .max = 1000},
-      "split each course into this many courses and each block into this many blocks, in the same bond");
-  s.rule(!bond.rows.empty() && !bond.rows.front().empty(), "rows",
-         "is missing: give the rows of the drawing, for example [aaaabbbb, ccddddcc]");
-  size_t cells = 0;
-  for (size_t i = 0; i < bond.rows.size(); ++i) {
-    const std::string& row = bond.rows[i];
-    cells += row.size();
-    s.rule(row.size() == bond.rows.front().size(), "rows",
-           fmt::format("all rows must have the same number of letters: row {} has {}, the first {}", i,
-                       row.size(), bond.rows.front().size()));
-    s.rule(std::ranges::all_of(row, [](char c) { return c > ' ' && c <= '~'; }), "rows",
-           fmt::format("row {} has a blank or a letter outside ASCII", i));
-  }
-  s.rule(cells <= kMostCells / 20, "rows", "a drawing has at most 1e6 letters");
-}
-
-}  // namespace
-
-void declare_bond(Section& s, Bond& bond) {
-  s.variant<Bond>(
-      "type", bond,
-      {alternative<Bond>("running", "running bond: odd rings shifted by half a block", declare_running_bond),
-       alternative<Bond>("stack", "stack bond: head joints aligned", declare_stack_bond),
-       alternative<Bond>("herringbone",
-                         "herringbone bond: upright blocks climb through whole blocks laid flat",
-                         declare_herringbone_bond),
-       alternative<Bond>("fill", "blocks of unequal width whose head joints avoid those of the ring below",
-                         declare_fill_bond),
-       alternative<Bond>("drawn", "a bond drawn in letters, repeated over the surface", declare_drawn_bond)},
-      "how the shell is cut into blocks");
-}
-
-namespace {
-
 void declare_window(Section& s, Window& window) {
   s.required_number(
       "height", window.height, {.unit = "m", .above = 0},
@@ -279,45 +145,6 @@ void declare_chain(Section& s, Chain& chain) {
 
 void declare_stage(Section& s, Stage& stage) {
   s.required_integer("rings", stage.rings, {.min = 1, .max = kMostRings}, "number of rings built so far");
-}
-
-void declare_block_density(Section& s, BlockDensity& change) {
-  s.texts("blocks", change.blocks, "names of the blocks");
-  s.required_number("density", change.density, {.unit = "kg/m3", .above = 0}, "density of these blocks");
-  s.expect({"density", change.density, "kg/m3", kLightest / 9.81, kHeaviest / 9.81,
-            "in t/m3 or kN/m3? Write 1800", "a unit weight in N/m3? Divide by 9.81"});
-}
-
-void declare_import(Section& s, ImportedBlocks& import) {
-  s.file("file", import.path, "file, or folder of files, with the blocks to import", true);
-  s.choice("format", import.format,
-           "format of the file; automatic: chosen by the file name extension (.json: compas, .csv and .txt: "
-           "bricks)");
-  s.optional_number("metres_per_unit", import.metres_per_unit, {.unit = "m", .above = 0}, "1",
-                    "length of the file's unit in metres; required if the model would be larger than 1 km or "
-                    "smaller than 50 mm");
-  s.choice("up", import.up, "axis of the file that points upward");
-  s.texts("supports", import.supports, "names of the blocks to fix");
-  s.flag("flagged_supports", import.flagged_supports, "fix the blocks that the file marks as fixed");
-  s.optional_number("fixed_below", import.fixed_below, {.unit = "m"}, "none",
-                    "fix the blocks whose centroid lies below this height");
-  s.choice("fixed_by", import.fixed_by,
-           "fix the blocks with a corner in the lowest plane of the model, or those with a single neighbour");
-  s.optional_vector3("axis", import.axis, {.unit = "m"}, "through the centroid of the supports",
-                     "a point of the vertical axis from which `outward` points");
-  s.list("densities", import.densities, "densities of particular blocks", declare_block_density);
-  s.file("springs", import.springs, "file of springs that carry tension only (brick CSV)");
-  s.file("rods", import.rods, "file of rigid rods (brick CSV)");
-  s.optional_number(
-      "facet_angle", import.facet_angle, {.unit = "rad", .above = 0, .max = 0.1}, "from the data",
-      "merge neighbouring triangles whose normals differ by less than this into one plane facet");
-  s.optional_number("snap", import.snap, {.unit = "m", .min = 0}, "from the data",
-                    "move facing facets closer than this into a common plane; 0: leave them");
-  s.retired("weld",
-            "remove it: vertices closer than 1e-6 of the block size are merged; let the program that made "
-            "the file merge others");
-  s.retired("most_overlap", "contact.margin is the largest overlap, in all programs");
-  s.retired("joint_gap", "contact.margin is the largest gap of a joint, in all programs");
 }
 
 }  // namespace

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "assembly/base/named_enum.hpp"
+
+namespace cupola {
+
+/// A convex body that a member loses: a half-space, or a prism.
+struct Cut {
+  enum class Kind : std::uint8_t { plane, prism, cylinder, under };
+  enum class Axis : std::uint8_t { x, y, z };
+  /// What lies behind the faces of the cut: nothing, a fixed support, or the same stones, parted by a joint.
+  enum class As : std::uint8_t { free, held, joint };
+  enum class Face : std::uint8_t { extrados, intrados };
+
+  Kind kind = Kind::plane;
+  As as = As::free;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< m, of a plane
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< not 0, into what is lost
+  Axis axis = Axis::y;                                ///< along a prism or cylinder
+  std::vector<double> u,
+      v;  ///< m, corners of the convex outline of a prism: (y, z), (x, z) or (x, y) across its axis
+  double centre_u = 0.0, centre_v = 0.0, radius = 1.0;  ///< m, of a cylinder, a prism over a regular polygon
+  int sides = 16;                                       ///< >= 3, of that polygon
+  std::optional<double> from, to;                       ///< m, along the axis; none: without end
+  std::string member;          ///< a barrel: what lies under its `face`, from end to end, is taken away
+  Face face = Face::extrados;  ///< of that member
+};
+constexpr auto enum_names(Cut::Axis) {
+  return std::array{"x", "y", "z"};
+}
+constexpr auto enum_names(Cut::As) {
+  return std::array{"free", "held", "joint"};
+}
+constexpr auto enum_names(Cut::Face) {
+  return std::array{"extrados", "intrados"};
+}
+
+}  // namespace cupola
