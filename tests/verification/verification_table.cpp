@@ -156,9 +156,9 @@ Document write_manual(const std::vector<ManualRow>& rows) {
   Document out;
   out.heading(1, "Verification manual");
   out.paragraph(
-      "Each row compares a result with a value that this program did not produce. `make -f Makefile.cases "
-      "verification` computes the rows and writes this page from `tests/verification/references.yaml`. Every "
-      "row is also a test (`ctest -R verification/`). \"The same\" refers to the problem before.");
+      "Each row compares a result with a value that this program did not produce, and is a test (`ctest -R "
+      "verification/`). `make -f Makefile.cases verification` writes this page from "
+      "`tests/verification/references.yaml`. \"The same\" refers to the problem before.");
   out.table(counts(rows));
   write_failures(rows, &out);
   for (const auto& [chapter, title] : chapters()) {
