@@ -15,6 +15,9 @@
   that the number before the comment quotes, rounded to its digits. Parts with spaces stand in quotes, the first
   cells of a row are joined by "|", and a fifth part multiplies the cell. `114<!--= PAGE count right verdict-->` counts
   the rows of all tables of the page with that text under that heading; "*" is any text.
+- "Ten mistakes", "eight steps", "six pictures" before the first section of a page are as many as the page has.
+- No sentence says that something is not modelled which has a key of its own.
+- docs/site.yml lists every page of docs/.
 """
 import pathlib
 import re
@@ -33,6 +36,9 @@ BLOCK = re.compile(r"^<!-- table (\S+) -->$(.*?)^<!-- end -->$", re.S | re.M)
 COMMAND = re.compile(r"make -f (?:[~\w./]*/)?Makefile\.cases((?: +[\w.=\'/-]+)+)")
 TIME = re.compile(r"(?:(half an?|an?|\d+|two|three|four|five|ten) )?(second|minute|hour)s?\b")
 QUOTE = re.compile(r"([-+]?\d[\d,]*\.?\d*(?:[eE][-+]?\d+)?)<!--=\s*(.*?)-->", re.S)
+NUMBERS = "zero one two three four five six seven eight nine ten eleven twelve".split()
+COUNTED = {"mistakes": r"^## \d+\.", "steps": r"^(?:## |\*\*)?\d+\.", "pictures": r"^!\["}
+MODELLED = re.compile(r"\b(cohesion|tension|tensile|compressive|dilatancy|chains|ties|wythes|cracks(?! through))\b")
 
 
 def prose(text):
@@ -169,8 +175,21 @@ def quoted_numbers(root, name, text):
     return faults
 
 
+def counted_lists(name, text):
+    said = re.findall(rf"\b({'|'.join(NUMBERS)})\s+(?:\w+\s+){{0,2}}({'|'.join(COUNTED)})\b", text.partition("\n## ")[0], re.I)
+    counts = [(number, what, len(re.findall(COUNTED[what], text, re.M))) for number, what in said]
+    return [f"{name}: {number} {what}, but the page has {count}" for number, what, count in counts
+            if NUMBERS.index(number.lower()) != count]
+
+
+def modelled_after_all(name, text):
+    said = [sentence for sentence in re.split(r"\.\s|\n\n|\n\|", text) if "not modelled" in sentence.lower()]
+    return [f"{name}: not modelled, but has keys: {found[0]}" for sentence in said for found in MODELLED.finditer(sentence)]
+
+
 def faults_of(root, remeasure):
     faults, known, times = [], names_of_make(root), durations(root)
+    site = (root / "docs/site.yml").read_text()
     pages = sorted([*root.glob("docs/*.md"), *root.glob("docs/data/*.md"), root / "tests/benchmark/README.md", root / "assembly/FORMAT.md",
                     *(root / folder / "README.md" for folder in (".", "cases", "generators", "solver", "postproc"))])
     for page in pages:
@@ -178,6 +197,8 @@ def faults_of(root, remeasure):
         faults += [] if name in GENERATED else wide_lines(name, text)
         faults += revisions(name, text, remeasure) + quoted_numbers(root, name, text)
         faults += dead_commands(name, text, known) + wrong_durations(name, text, times)
+        faults += counted_lists(name, text) + modelled_after_all(name, text)
+        faults += [f"{name}: not in docs/site.yml"] if name.startswith("docs/") and name not in site else []
     name = "CONTRIBUTING.md"
     return faults + wrong_durations(name, (root / name).read_text(), times)
 
@@ -198,6 +219,8 @@ def check_the_checks(root):
     assert wrong_durations("p", "| p | t | arch; b | 3 minutes; 1 minute |", {"arch": 60})
     assert not wrong_durations("p", "    make -f Makefile.cases arch   # a minute", {"arch": 60})
     assert count_of(table, "*", "max") == 1 and count_of(table, "a", "run") == 1 and count_of(table, "b", "run") == 0
+    assert counted_lists("p", "# Two likely mistakes\n## 1. a") and not counted_lists("p", "# A page\nTwo pictures\n![\n![\n")
+    assert modelled_after_all("p", "Not modelled: creep, cohesion. a") and not modelled_after_all("p", "Not modelled: soil. Ties")
     page = 'docs/data/ranges.md ranges brunelleschi_friction0.4 max'
     assert not quoted_numbers(root, "p", f"0.41<!--= {page}-->") and quoted_numbers(root, "p", f"0.42<!--= {page}-->")
     assert quoted_numbers(root, "p", f"0.41<!--= {page} x-->") and quoted_numbers(root, "p", "word<!--= x-->")
