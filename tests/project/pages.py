@@ -17,7 +17,7 @@
   the rows of all tables of the page with that text under that heading; "*" is any text.
 - "Ten mistakes", "eight steps", "six pictures" before the first section of a page are as many as the page has.
 - No sentence says that something is not modelled which has a key of its own.
-- docs/site.yml lists every page of docs/.
+- docs/site.yml lists every page of docs/; a test that a page names, `Suite.Name` or `Suite.`, exists.
 """
 import pathlib
 import re
@@ -175,6 +175,16 @@ def quoted_numbers(root, name, text):
     return faults
 
 
+def names_of_tests(root):
+    found = (re.findall(r"\bTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\)", file.read_text()) for file in root.glob("tests/**/*.cpp"))
+    return {f"{suite}.{test}" for pairs in found for suite, test in pairs}
+
+
+def dead_tests(name, text, tests):
+    said = re.findall(r"`([A-Z][A-Za-z0-9]+\.(?:[A-Z]\w*)?)`", text)
+    return [f"{name}: {test}: no such test" for test in said if not any(known.startswith(test) for known in tests)]
+
+
 def counted_lists(name, text):
     said = re.findall(rf"\b({'|'.join(NUMBERS)})\s+(?:\w+\s+){{0,2}}({'|'.join(COUNTED)})\b", text.partition("\n## ")[0], re.I)
     counts = [(number, what, len(re.findall(COUNTED[what], text, re.M))) for number, what in said]
@@ -189,14 +199,14 @@ def modelled_after_all(name, text):
 
 def faults_of(root, remeasure):
     faults, known, times = [], names_of_make(root), durations(root)
-    site = (root / "docs/site.yml").read_text()
+    site, tests = (root / "docs/site.yml").read_text(), names_of_tests(root)
     pages = sorted([*root.glob("docs/*.md"), *root.glob("docs/data/*.md"), root / "tests/benchmark/README.md", root / "assembly/FORMAT.md",
                     *(root / folder / "README.md" for folder in (".", "cases", "generators", "solver", "postproc"))])
     for page in pages:
         name, text = str(page.relative_to(root)), page.read_text()
         faults += wide_lines(name, text) + revisions(name, text, remeasure) + quoted_numbers(root, name, text)
         faults += dead_commands(name, text, known) + wrong_durations(name, text, times)
-        faults += counted_lists(name, text) + modelled_after_all(name, text)
+        faults += counted_lists(name, text) + modelled_after_all(name, text) + dead_tests(name, text, tests)
         faults += [f"{name}: not in docs/site.yml"] if name.startswith("docs/") and name not in site else []
     name = "CONTRIBUTING.md"
     return faults + wrong_durations(name, (root / name).read_text(), times)
@@ -218,6 +228,7 @@ def check_the_checks(root):
     assert wrong_durations("p", "| p | t | arch; b | 3 minutes; 1 minute |", {"arch": 60})
     assert not wrong_durations("p", "    make -f Makefile.cases arch   # a minute", {"arch": 60})
     assert count_of(table, "*", "max") == 1 and count_of(table, "a", "run") == 1 and count_of(table, "b", "run") == 0
+    assert dead_tests("p", "`Arch.Stands`", {"Arch.Falls"}) and not dead_tests("p", "`Arch.`, `Arch.Stands`", {"Arch.Stands"})
     assert counted_lists("p", "# Two likely mistakes\n## 1. a") and not counted_lists("p", "# A page\nTwo pictures\n![\n![\n")
     assert modelled_after_all("p", "Not modelled: creep, cohesion. a") and not modelled_after_all("p", "Not modelled: soil. Ties")
     page = 'docs/data/ranges.md ranges brunelleschi_friction0.4 max'
