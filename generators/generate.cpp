@@ -13,6 +13,7 @@
 #include "generators/chains.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
 #include "generators/surface/make_surface.hpp"
+#include "generators/varied_density.hpp"
 
 namespace cupola {
 namespace {
@@ -67,6 +68,7 @@ void refuse_floating(const std::vector<Storey>& storeys, const Assembly& assembl
 
 Assembly cut_storeys(const Case& input, const std::vector<Storey>& storeys) {
   Assembly assembly = cut_blocks(storeys, cut_options(input));
+  if (input.geometry.imperfections) vary_density(*input.geometry.imperfections, &assembly);
   add_chains(input.geometry.chains, refinement_of(*finest_bond(last_member(input.geometry))), storeys.back(),
              &assembly);
   assembly.title = input.title;
@@ -95,10 +97,11 @@ Assembly generate(const Case& input, GenerateReport* report) {
   if (!report) report = &unused;
   const Geometry& geometry = input.geometry;
   if (geometry.imported) {
-    if (geometry.imperfections)
-      throw InputError("imperfections: not available for imported blocks; remove this section");
+    if (geometry.imperfections && geometry.imperfections->of_shape())
+      throw InputError("imperfections: gap and noise are not available for imported blocks; remove them");
     report->import.emplace();
     Assembly assembly = import_blocks(*geometry.imported, input.material.density(), &*report->import);
+    if (geometry.imperfections) vary_density(*geometry.imperfections, &assembly);
     assembly.title = input.title;
     assembly.geometry_hash = input.geometry_hash;
     Case resolved = input;

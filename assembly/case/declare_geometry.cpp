@@ -214,6 +214,15 @@ void declare_imperfections(Section& s, Imperfections& imperfections) {
   for (const auto& [key, value] : {std::pair("gap", imperfections.gap), {"noise", imperfections.noise}})
     s.expect({key, value, "m", 0.0, 0.05, "", kMillimetres});
   s.integer("seed", imperfections.seed, {.min = 0}, "seed of the random numbers");
+  s.optional_number("correlation_length", imperfections.correlation_length, {.unit = "m", .above = 0},
+                    "gaps and noise are independent numbers",
+                    "gaps, noise and density are functions of place, correlated by 1/e over this distance");
+  s.number("density", imperfections.density, {.min = 0, .max = 1},
+           "coefficient of variation of the density of free blocks");
+  s.rule(imperfections.density == 0.0 || imperfections.correlation_length, "density",
+         "requires correlation_length: the density is a function of place");
+  s.rule(!imperfections.correlation_length || imperfections.of_shape() || imperfections.density > 0.0,
+         "correlation_length", "has no effect without gap, noise or density");
 }
 
 }  // namespace cupola

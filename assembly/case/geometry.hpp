@@ -70,11 +70,19 @@ struct Stage {
   int rings = 0;  ///< rings built so far, >= 1
 };
 
-/// Random deviations from the ideal geometry. All faces stay plane.
+/// Random deviations from the drawing. All faces stay plane.
 struct Imperfections {
   double gap = 0.0;    ///< m, >= 0: every bed and head of every block recedes by up to half of this
   double noise = 0.0;  ///< m, >= 0: beds, head planes and skin corners move by up to this; joints stay closed
   int seed = 1;        ///< >= 0
+  /// m, > 0: gaps and noise are functions of place, whose normal numbers have the correlation
+  /// exp(-(r / length)^2) over the distance r; bonds of one seed read the same functions. None: each number is
+  /// independent.
+  std::optional<double> correlation_length = std::nullopt;
+  /// Coefficient of variation of the density of free blocks, a lognormal function of place with mean 1.
+  double density = 0.0;
+
+  bool of_shape() const { return gap > 0.0 || noise > 0.0; }
 };
 
 /// What is built: `members`, and behind them the one member that this is itself.

@@ -147,7 +147,7 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
   const size_t first_vertex = assembly->vertices.size();
   const MemberStart start{assembly->blocks.size(), assembly->parts.size()};
   const CellGrid grid = make_cell_grid(surface, shell.bond, shell.stage_rings);
-  GridPoints points(grid, options.imperfections);
+  GridPoints points(grid, options.imperfections, shell.placement);
   const bool stands = surface.webs == 0;  // on supports of its own beds, not of the finished groin vault
   if (stands && surface.first_bed_held && !surface.first_row_held)
     add_base_support(surface, cuts, options.support_width, options.base_blocks, options.density, assembly);

@@ -1,6 +1,9 @@
 #include "generators/stereotomy/grid_points.hpp"
 
 #include <cmath>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
 
@@ -14,26 +17,58 @@ double Random::uniform() {
   return static_cast<double>(z >> 11) * 0x1.0p-53;
 }
 
-GridPoints::GridPoints(const CellGrid& grid, const std::optional<Imperfections>& imperfections)
+GridPoints::GridPoints(const CellGrid& grid, const std::optional<Imperfections>& imperfections,
+                       const Eigen::Isometry3d& placement)
     : grid_(grid),
+      placement_(placement),
       gap_(imperfections ? imperfections->gap : 0.0),
       noise_(imperfections ? imperfections->noise : 0.0),
       random_(imperfections ? imperfections->seed : 0),
       num_columns_(grid.surface.closed ? grid.num_slices : grid.num_slices + 1),
       num_layers_(grid.num_wythes + 1) {
   if (grid.num_wythes > 1 && (gap_ > 0.0 || noise_ > 0.0))
-    throw InputError("imperfections: not available for a shell with wythes; remove this section");
+    throw InputError("imperfections: gap and noise are not available for a shell with wythes; remove them");
   if (grid.surface.key_stone && (gap_ > 0.0 || noise_ > 0.0))
-    throw InputError("imperfections: not available for a shell with a key stone; remove this section");
+    throw InputError(
+        "imperfections: gap and noise are not available for a shell with a key stone; remove them");
   bed_noise_.assign(grid.num_rows + 1, 0.0);
   cut_noise_.assign(num_columns_, 0.0);
   skin_noise_.assign(static_cast<size_t>(grid.num_rows + 1) * num_columns_ * num_layers_, 0.0);
+  skin_fields_.resize(num_layers_);
+  if (imperfections && imperfections->correlation_length) {
+    const auto field = [&](const std::string& quantity) {
+      return RandomField(imperfections->seed, quantity, *imperfections->correlation_length, 1.0);
+    };
+    gap_field_ = field("gap");
+    bed_field_ = field("bed");
+    cut_field_ = field("head");
+    for (int layer = 0; layer < num_layers_; ++layer)
+      skin_fields_[layer] = field(fmt::format("skin {}", layer));
+  }
   if (noise_ == 0.0) return;
   for (int bed = 1; bed <= grid.num_rows - (grid.surface.carries ? 1 : 0); ++bed)
-    bed_noise_[bed] = noise_ * random_.symmetric() / metres_per_bed(bed, 0);
+    bed_noise_[bed] = noise_ * symmetric(bed_field_, corner(bed, 0)) / metres_per_bed(bed, 0);
   for (int cut = 0; cut < num_columns_; ++cut)
-    if (!grid.is_corner(cut)) cut_noise_[cut] = noise_ * random_.symmetric() / metres_per_abscissa(0, cut);
-  for (double& shift : skin_noise_) shift = noise_ * random_.symmetric();
+    if (!grid.is_corner(cut))
+      cut_noise_[cut] = noise_ * symmetric(cut_field_, corner(0, cut)) / metres_per_abscissa(0, cut);
+  for (size_t k = 0; k < skin_noise_.size(); ++k) {
+    const int layer = static_cast<int>(k) % num_layers_,
+              column = static_cast<int>(k) / num_layers_ % num_columns_,
+              bed = static_cast<int>(k) / num_layers_ / num_columns_;
+    skin_noise_[k] = noise_ * symmetric(skin_fields_[layer], corner(bed, column));
+  }
+}
+
+double GridPoints::uniform(const std::optional<RandomField>& field, const Vec3& place) {
+  return field ? field->quantile_at(placement_ * place) : random_.uniform();
+}
+
+double GridPoints::symmetric(const std::optional<RandomField>& field, const Vec3& place) {
+  return 2.0 * uniform(field, place) - 1.0;
+}
+
+Vec3 GridPoints::corner(int bed, int cut) const {
+  return grid_.surface.intrados(bed, grid_.abscissa(cut));
 }
 
 double GridPoints::metres_per_bed(int bed, int cut) const {
@@ -60,7 +95,6 @@ Vec3 GridPoints::point(double bed_shift, double cut_shift, int bed, int cut, int
 }
 
 bool GridPoints::bulges_along_rising_diagonal(int bed, int cut) const {
-  const auto corner = [&](int b, int c) { return grid_.surface.intrados(b, grid_.abscissa(c)); };
   const Vec3 origin = corner(bed, cut);
   const Vec3 right = corner(bed, cut + 1) - origin, up = corner(bed + 1, cut) - origin;
   const Vec3 opposite = corner(bed + 1, cut + 1) - origin;
@@ -94,12 +128,15 @@ void GridPoints::start_block(int bond_block) {
   own_.clear();
   const int row = grid_.first_row(bond_block);
   const auto [left, right] = slices_in_row(grid_, bond_block, row);
-  const auto opening = [&] { return 0.5 * gap_ * random_.uniform(); };  // m
-  sides_ = {row, grid_.last_row(bond_block) + 1, left, right, 0, 0, 0, 0};
-  sides_.lower_gap = opening() / metres_per_bed(sides_.lower + 1, left);
-  sides_.upper_gap = opening() / metres_per_bed(sides_.upper, left);
-  sides_.left_gap = opening() / metres_per_abscissa(row, left);
-  sides_.right_gap = opening() / metres_per_abscissa(row, right - 1);
+  const int top = grid_.last_row(bond_block) + 1;
+  const auto opening = [&](const Vec3& from, const Vec3& to) {  // m
+    return 0.5 * gap_ * uniform(gap_field_, 0.5 * (from + to));
+  };
+  sides_ = {row, top, left, right, 0, 0, 0, 0};
+  sides_.lower_gap = opening(corner(row, left), corner(row, right)) / metres_per_bed(row + 1, left);
+  sides_.upper_gap = opening(corner(top, left), corner(top, right)) / metres_per_bed(top, left);
+  sides_.left_gap = opening(corner(row, left), corner(top, left)) / metres_per_abscissa(row, left);
+  sides_.right_gap = opening(corner(row, right), corner(top, right)) / metres_per_abscissa(row, right - 1);
 }
 
 int GridPoints::vertex(int bed, int cut, int layer, Assembly* assembly) {

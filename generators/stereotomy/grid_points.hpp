@@ -1,9 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <tuple>
 #include <vector>
 
+#include <Eigen/Geometry>
+
+#include "assembly/model/random_field.hpp"
 #include "generators/stereotomy/cell_grid.hpp"
 
 namespace cupola {
@@ -12,8 +16,7 @@ namespace cupola {
 class Random {
  public:
   explicit Random(int seed) : state_(static_cast<std::uint64_t>(seed)) {}
-  double uniform();                                     ///< [0, 1)
-  double symmetric() { return 2.0 * uniform() - 1.0; }  ///< [-1, 1)
+  double uniform();  ///< [0, 1)
 
  private:
   std::uint64_t state_;
@@ -27,9 +30,14 @@ class Random {
 ///   closed. The first bed, and the last bed of an arch or drum, stay where they are.
 /// - Gaps give every block its own corners. Its beds and heads move inwards by random fractions of gap / 2,
 ///   measured on the intrados.
+/// - With a correlation length the random numbers are functions of place: of the middle of a bed or head on
+///   the intrados, of its end on the first cut or bed where a whole bed or head plane moves, and of each
+///   corner.
 class GridPoints {
  public:
-  GridPoints(const CellGrid& grid, const std::optional<Imperfections>& imperfections);
+  /// `placement`: of the member, for imperfections that are functions of place.
+  GridPoints(const CellGrid& grid, const std::optional<Imperfections>& imperfections,
+             const Eigen::Isometry3d& placement);
 
   bool flat_skins() const { return grid_.surface.flat_skins && noise_ == 0.0; }
   /// Where skins are not plane: true if the layers of a cell bulge outwards along the diagonal from its lower
@@ -48,10 +56,16 @@ class GridPoints {
   Vec3 point(double bed_shift, double cut_shift, int bed, int cut, int layer) const;
   double metres_per_bed(int bed, int cut) const;
   double metres_per_abscissa(int bed, int cut) const;
+  double uniform(const std::optional<RandomField>& field, const Vec3& place);    ///< [0, 1)
+  double symmetric(const std::optional<RandomField>& field, const Vec3& place);  ///< [-1, 1)
+  Vec3 corner(int bed, int cut) const;                                           ///< on the intrados
 
   const CellGrid& grid_;
+  Eigen::Isometry3d placement_;
   double gap_ = 0.0, noise_ = 0.0;  // m
   Random random_;
+  std::optional<RandomField> gap_field_, bed_field_, cut_field_;  // none: independent numbers
+  std::vector<std::optional<RandomField>> skin_fields_;           // one per layer
   int num_columns_ = 0, num_layers_ = 0, first_vertex_ = 0, first_layer_ = 0;
   std::vector<double> bed_noise_, cut_noise_, skin_noise_;  // bed units, abscissa units, m
 

@@ -116,9 +116,10 @@ Storey make_member(const Geometry& geometry, const Member& member, const std::st
                                             courses, stage > 0 ? stage : courses, geometry.support_width)
                            : make_surface(member.surface, courses, thicknesses(member.wythes));
   if (geometry.affine && surface.webs == 0) apply(*geometry.affine, &surface);
-  if (surface.webs > 0 && (geometry.imperfections || stage > 0))
-    throw InputError(fmt::format("{}: not available for a groin vault; remove this section",
-                                 stage > 0 ? "geometry.stage" : "imperfections"));
+  if (surface.webs > 0 && stage > 0)
+    throw InputError("geometry.stage: not available for a groin vault; remove this section");
+  if (surface.webs > 0 && geometry.imperfections && geometry.imperfections->of_shape())
+    throw InputError("imperfections: gap and noise are not available for a groin vault; remove them");
   const BondGrid grid{surface.num_rings(),
                       surface.closed,
                       surface.extent,

@@ -6,7 +6,7 @@
 
 #include "assembly/case/case.hpp"
 #include "solver/collision/contact_set.hpp"
-#include "solver/dynamics/random_field.hpp"
+#include "assembly/model/random_field.hpp"
 
 namespace cupola {
 

@@ -1,7 +1,10 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
 #include "assembly/files/content_hash.hpp"
+#include "assembly/model/random_field.hpp"
 #include "generators/generate.hpp"
 #include "tests/generators/models.hpp"
 
@@ -62,6 +65,60 @@ TEST(Imperfections, DependOnTheSeedOnly) {
   };
   EXPECT_EQ(hash(3), hash(3));
   EXPECT_NE(hash(3), hash(4));
+}
+
+// Over a correlation length far above the model every number is that of the origin, whatever the bond. The
+// beds of a wall are level, so that a joint opens by the two halves of it.
+TEST(Imperfections, OfACorrelationLengthAreTheSameFunctionForEveryBond) {
+  const double length = 1e9, gap = 1e-3;
+  const double expected = gap * RandomField(3, "gap", length, 1.0).quantile_at(Vec3::Zero());
+  for (const int per_ring : {8, 16}) {
+    Case c = imperfect(WallSurface{12.0, 10.0, 1.0}, gap, 0.0, 3);
+    c.geometry.bond = RunningBond{10, per_ring, 4, {}};
+    c.geometry.imperfections->correlation_length = length;
+    ModelReport report;
+    check_and_report(c, &report);
+    EXPECT_NEAR(report.max_overlap, -expected, 1e-6 * gap) << "12 m over 1e9 m, times a slope of at most 80";
+  }
+}
+
+TEST(Imperfections, OfAShortCorrelationLengthDifferFromPlaceToPlace) {
+  Case c = imperfect(DomeSurface{}, 1e-3, 1e-3, 3);
+  const std::string independent = content_hash(cut_assembly(c));
+  c.geometry.imperfections->correlation_length = 2.0;
+  const std::string correlated = content_hash(cut_assembly(c));
+  EXPECT_NE(correlated, independent);
+  EXPECT_EQ(correlated, content_hash(cut_assembly(c)));
+  c.geometry.imperfections->correlation_length = 4.0;
+  EXPECT_NE(content_hash(cut_assembly(c)), correlated);
+}
+
+// Free blocks have the density of the field at their place, supports that of the case; what is finer than a
+// block averages out over it.
+TEST(Imperfections, OfTheDensityFollowTheField) {
+  Case c = imperfect(DomeSurface{}, 0.0, 0.0, 1);
+  const Assembly plain = cut_assembly(c);
+  c.geometry.imperfections = Imperfections{.seed = 5, .correlation_length = 1e9, .density = 0.2};
+  const Assembly uniform = cut_assembly(c);
+  const double factor = RandomField(5, "density", 1e9, 0.2).at(Vec3::Zero());
+  for (size_t b = 0; b < plain.blocks.size(); ++b) {
+    const double expected = plain.blocks[b].fixed ? 1.0 : factor;
+    EXPECT_NEAR(uniform.blocks[b].density / plain.blocks[b].density, expected, 1e-6);
+    EXPECT_NEAR(uniform.blocks[b].mass / plain.blocks[b].mass, expected, 1e-6);
+    EXPECT_TRUE(uniform.blocks[b].inertia.isApprox(expected * plain.blocks[b].inertia, 1e-6));
+  }
+  const auto deviation = [&](double length) {
+    c.geometry.imperfections->correlation_length = length;
+    double sum = 0.0, squares = 0.0, count = 0.0;
+    for (const Block& block : cut_assembly(c).blocks) {
+      if (block.fixed) continue;
+      const double x = block.density / c.material.density();
+      sum += x, squares += x * x, ++count;
+    }
+    return std::sqrt(squares / count - sum * sum / count / count);
+  };
+  EXPECT_GT(deviation(5.0), 0.1) << "0.2 at one place; a dome of 36 m has some 20 independent ones";
+  EXPECT_LT(deviation(0.5), 0.1) << "a block of 7 x 2 x 2 m averages over some 100 independent places";
 }
 
 TEST(Imperfections, ThatAreTooLargeAreRejected) {

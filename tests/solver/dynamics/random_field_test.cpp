@@ -1,5 +1,5 @@
 // Random fields: moments and correlation over many seeds, and the laws of joints that read them.
-#include "solver/dynamics/random_field.hpp"
+#include "assembly/model/random_field.hpp"
 
 #include <cmath>
 
@@ -37,6 +37,18 @@ TEST(RandomField, HasTheMomentsAndTheCorrelationLengthAskedFor) {
       const double rho = std::exp(-(r / length) * (r / length));
       EXPECT_NEAR(ab / std::sqrt(a2 * b2), rho, 4.0 * (1.0 - rho * rho) / std::sqrt(kSeeds)) << r;
     }
+}
+
+// Four standard errors of a mean and of a share of uniform numbers.
+TEST(RandomField, HasUniformQuantiles) {
+  double mean = 0.0, below = 0.0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const double u = RandomField(seed, "gap", 2.0, 1.0).quantile_at(Vec3(1.0, 2.0, 3.0));
+    mean += u / kSeeds;
+    below += (u < 0.1 ? 1.0 : 0.0) / kSeeds;
+  }
+  EXPECT_NEAR(mean, 0.5, 4.0 * std::sqrt(1.0 / 12.0 / kSeeds));
+  EXPECT_NEAR(below, 0.1, 4.0 * std::sqrt(0.1 * 0.9 / kSeeds));
 }
 
 TEST(RandomField, DependsOnSeedAndQuantityOnly) {

@@ -18,11 +18,16 @@ class RandomField {
   RandomField(int seed, const std::string& quantity, double length, double variation);
 
   double at(const Vec3& point) const;
+  /// Share of all seeds whose value at this point is smaller: uniform in (0, 1), with the same correlation of
+  /// the normal numbers behind it.
+  double quantile_at(const Vec3& point) const;
   /// Mean over a convex polygon (m), by the values at the centroids of the triangles of a fan.
   double mean_over(std::span<const Vec3> polygon) const;
   bool is_constant() const { return deviation_ == 0.0; }
 
  private:
+  double normal_at(const Vec3& point) const;
+
   Eigen::Matrix<double, Eigen::Dynamic, 3> waves_;  ///< 1/m (number of waves x 3)
   Eigen::ArrayXd phases_;
   double deviation_ = 0.0;  ///< of the logarithm

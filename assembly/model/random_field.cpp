@@ -1,4 +1,4 @@
-#include "solver/dynamics/random_field.hpp"
+#include "assembly/model/random_field.hpp"
 
 #include <algorithm>
 #include <array>
@@ -83,10 +83,18 @@ RandomField::RandomField(int seed, const std::string& quantity, double length, d
   }
 }
 
+double RandomField::normal_at(const Vec3& point) const {
+  return std::sqrt(2.0 / kWaves) * ((waves_ * point).array() + phases_).cos().sum();
+}
+
 double RandomField::at(const Vec3& point) const {
   if (is_constant()) return 1.0;
-  const double normal = std::sqrt(2.0 / kWaves) * ((waves_ * point).array() + phases_).cos().sum();
-  return std::exp(deviation_ * normal - 0.5 * deviation_ * deviation_);
+  return std::exp(deviation_ * normal_at(point) - 0.5 * deviation_ * deviation_);
+}
+
+double RandomField::quantile_at(const Vec3& point) const {
+  CUPOLA_ASSERT(!is_constant());
+  return 0.5 * std::erfc(-normal_at(point) / std::numbers::sqrt2);
 }
 
 double RandomField::mean_over(std::span<const Vec3> polygon) const {
