@@ -176,7 +176,7 @@ def values_of(model):
     """Friction and compliances in force, from run.yaml."""
     import yaml
     joints = yaml.safe_load((model.work / "results/run.yaml").read_text())["joints"]
-    return joints["friction"], {side: joints["compliance"][side] for side in ("normal", "tangential")}
+    return float(joints["friction"]), {side: float(joints["compliance"][side]) for side in ("normal", "tangential")}  # 2e-8 is text to yaml
 
 
 def distinct(fits, apart):
