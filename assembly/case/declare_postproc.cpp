@@ -2,6 +2,7 @@
 #include <cctype>
 
 #include "assembly/case/declare.hpp"
+#include "assembly/files/seen_cracks.hpp"
 
 namespace cupola {
 namespace {
@@ -52,6 +53,7 @@ void declare_postproc(Section& s, Postproc& postproc) {
   s.file("observed", postproc.observed,
          "cracks seen on the building, with which those of the run are compared: a CSV file with the columns "
          "azimuth_deg and width_m (0: none)");
+  if (!postproc.observed.empty()) read_seen_cracks(postproc.observed);  // before any work is done
   s.rule(names_differ(postproc.planes), "planes", "two planes have the same name");
 }
 

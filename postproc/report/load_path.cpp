@@ -27,6 +27,10 @@ Table path_table(const CsvFile& csv) {
   for (size_t row = 0; row < csv.rows.size(); ++row)
     t.rows.push_back({csv.number(row, time), csv.number(row, displacement), csv.number(row, force),
                       csv.number(row, work), csv.number(row, damage)});
+  if (std::ranges::find(csv.columns, "widest_gap_m") == csv.columns.end()) return t;  // version 0.2
+  t.columns.push_back({"widest_gap_m", "m", "widest gap of an open joint"});
+  for (size_t row = 0; row < csv.rows.size(); ++row)
+    t.rows[row].push_back(csv.number(row, csv.column("widest_gap_m")));
   return t;
 }
 

@@ -5,37 +5,19 @@
 
 #include <fmt/format.h>
 
-#include "assembly/base/error.hpp"
-#include "postproc/tables/csv_file.hpp"
+#include "assembly/files/seen_cracks.hpp"
 
 namespace cupola {
 namespace {
 
 constexpr double kFullTurn = 360.0;  // deg
 
-std::vector<ObservedPlace> read_places(const std::string& path) {
-  const CsvFile csv = read_csv(path);
-  const size_t azimuth = csv.column("azimuth_deg"), width = csv.column("width_m");
-  std::vector<ObservedPlace> places;
+std::vector<ObservedPlace> places_of(const std::vector<SeenCrack>& seen) {
   double sum = 0.0;
-  for (size_t row = 0; row < csv.rows.size(); ++row) {
-    ObservedPlace place;
-    place.azimuth = csv.number(row, azimuth);
-    place.width = csv.number(row, width);
-    const bool known = std::isfinite(place.azimuth) && std::isfinite(place.width) && place.width >= 0.0;
-    const bool follows = places.empty() || (place.azimuth > places.back().azimuth &&
-                                            place.azimuth < places.front().azimuth + kFullTurn);
-    if (!known || !follows)
-      throw InputError(
-          FileLocation{path, static_cast<int>(row) + 2, 1},
-          "each row needs an azimuth_deg above that of the row before, all within one turn, and a "
-          "width_m >= 0, where 0 means that no crack was seen");
-    places.push_back(place);
-    sum += place.width;
-  }
-  if (places.size() < 2 || sum == 0.0)
-    throw InputError(FileLocation{path}, "must hold at least two places, and a crack at one of them");
-  for (ObservedPlace& place : places) place.observed_share = place.width / sum;
+  for (const SeenCrack& crack : seen) sum += crack.width;
+  std::vector<ObservedPlace> places;
+  for (const SeenCrack& crack : seen)
+    places.push_back({.azimuth = crack.azimuth, .width = crack.width, .observed_share = crack.width / sum});
   return places;
 }
 
@@ -49,17 +31,25 @@ void set_sectors(std::vector<ObservedPlace>* places) {
   }
 }
 
-ObservedPlace& place_of(double azimuth_deg, std::vector<ObservedPlace>* places) {
-  return *std::ranges::min_element(*places, {}, [&](const ObservedPlace& place) {
+/// The places nearest to an azimuth: one, or two that are as near.
+std::vector<ObservedPlace*> places_near(double azimuth_deg, std::vector<ObservedPlace>* places) {
+  constexpr double kAsNear = 1e-6;  // deg, far above the rounding of azimuths
+  const auto distance = [&](const ObservedPlace& place) {
     return std::abs(std::remainder(azimuth_deg - place.azimuth, kFullTurn));
-  });
+  };
+  double least = kFullTurn;
+  for (const ObservedPlace& place : *places) least = std::min(least, distance(place));
+  std::vector<ObservedPlace*> nearest;
+  for (ObservedPlace& place : *places)
+    if (distance(place) <= least + kAsNear) nearest.push_back(&place);
+  return nearest;
 }
 
 }  // namespace
 
 std::optional<CrackAgreement> crack_agreement(const Evaluation& e) {
   if (e.scene.postproc.observed.empty() || !at_rest(e)) return std::nullopt;
-  CrackAgreement out{read_places(e.scene.postproc.observed)};
+  CrackAgreement out{places_of(read_seen_cracks(e.scene.postproc.observed))};
   set_sectors(&out.places);
   const ContactTable& c = e.last.frame.contacts;
   double volume = 0.0;
@@ -67,9 +57,11 @@ std::optional<CrackAgreement> crack_agreement(const Evaluation& e) {
     const double gap = c.crack_opening.empty() ? c.gap[i] : c.crack_opening[i];
     const bool is_head = c.kind[i] == JointKind::head || c.kind[i] == JointKind::other;
     if (!is_head || c.normal_force[i] > 0.0 || gap <= e.last.joints.floor.length) continue;
-    ObservedPlace& place = place_of(azimuth(c.point[i]) * kDegrees, &out.places);
-    place.model_width = std::max(place.model_width, gap);
-    place.model_volume += gap * c.area[i];
+    const std::vector<ObservedPlace*> nearest = places_near(azimuth(c.point[i]) * kDegrees, &out.places);
+    for (ObservedPlace* place : nearest) {
+      place->model_width = std::max(place->model_width, gap);
+      place->model_volume += gap * c.area[i] / static_cast<double>(nearest.size());
+    }
     volume += gap * c.area[i];
   }
   for (ObservedPlace& place : out.places) {

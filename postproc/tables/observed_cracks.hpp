@@ -12,7 +12,7 @@ namespace cupola {
 /// nearest to it.
 struct ObservedPlace {
   double azimuth = 0.0;       ///< deg
-  double width = 0.0;         ///< m, >= 0; 0: none was seen
+  double width = 0.0;         ///< m, seen there
   double sector = 0.0;        ///< share of the full turn
   double model_width = 0.0;   ///< m, widest gap of a head joint in the sector
   double model_volume = 0.0;  ///< m3, gap times area of the open contact points of its head joints
@@ -33,8 +33,7 @@ struct CrackAgreement {
   double agreement = 0.0, by_chance = 0.0;
 };
 
-/// None without `postproc.observed`, or if the run has no equilibrium. Throws InputError for a file that
-/// cannot be read or has no crack.
+/// None without `postproc.observed`, or if the run has no equilibrium.
 std::optional<CrackAgreement> crack_agreement(const Evaluation& evaluation);
 
 const Columns<ObservedPlace>& observed_columns();

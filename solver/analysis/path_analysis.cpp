@@ -25,6 +25,7 @@ namespace {
 struct PathRow {
   double time, displacement, force, dissipated, mean_damage;
   int solves;
+  double widest_gap;
 };
 
 constexpr CsvColumn<PathRow> kPathColumns[] = {
@@ -34,6 +35,7 @@ constexpr CsvColumn<PathRow> kPathColumns[] = {
     {"dissipated_J", [](const PathRow& r) { return fmt::format("{:.9g}", r.dissipated); }},
     {"mean_damage", [](const PathRow& r) { return fmt::format("{:.6g}", r.mean_damage); }},
     {"solves", [](const PathRow& r) { return std::to_string(r.solves); }},
+    {"widest_gap_m", [](const PathRow& r) { return fmt::format("{:.9g}", r.widest_gap); }},
 };
 
 }  // namespace
@@ -64,6 +66,16 @@ namespace {
 constexpr double kShortestStep = 1.0 / 64;  // of a regular one
 constexpr double kRounding = 1e-12;         // of times, relative
 constexpr double kClose = 0.1;              // part of a step of length that may be missing
+
+/// m, of the points of open joints; 0 if all are closed.
+double widest_gap(const ContactTable& contacts) {
+  double widest = 0.0;
+  for (int i = 0; i < contacts.size(); ++i) {
+    if (contacts.normal_force[i] > 0.0) continue;
+    widest = std::max(widest, contacts.crack_opening.empty() ? contacts.gap[i] : contacts.crack_opening[i]);
+  }
+  return widest;
+}
 
 /// The force that a support exerts on the blocks, or the loads on all blocks if the control block is free.
 Vec3 control_force(const Model& model, const ContactSet& contacts, const StaticSolution& solution,
@@ -202,9 +214,14 @@ void PathRun::tabulate(const Frame& frame, const StaticSolution& solution) {
     area += frame.contacts.area[i];
   }
   const double mean_damage = area > 0.0 ? damage / area : 0.0;
-  progress_.table += csv_row(kPathColumns, PathRow{path_.value(), displacement(), force, progress_.dissipated,
-                                                   mean_damage, path_.solves()}) +
-                     "\n";
+  const PathRow row{path_.value(),
+                    displacement(),
+                    force,
+                    progress_.dissipated,
+                    mean_damage,
+                    path_.solves(),
+                    widest_gap(frame.contacts)};
+  progress_.table += csv_row(kPathColumns, row) + "\n";
   sinks_.table("path.csv", progress_.table);
   const std::string line =
       fmt::format("time {:9.4g} s  displacement {:11.4e} m  force {:11.4e} N  damage {:6.4f}  {}",

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "assembly/base/error.hpp"
 #include "postproc/tables/observed_cracks.hpp"
 #include "tests/postproc/models.hpp"
 
@@ -152,13 +151,16 @@ TEST(ObservedCracks, AgreeByTheOverlapOfTheirShares) {
   EXPECT_EQ(found.places[0].model_width, 5e-3);
 }
 
-TEST(ObservedCracks, ErrorsNameTheRow) {
-  Vault vault({});
-  for (const char* text : {"azimuth_deg,width_m\n45,0.006\n30,0\n", "azimuth_deg,width_m\n45,0\n90,0\n",
-                           "azimuth_deg,width_m\n45,-1\n90,1\n", "azimuth_deg,width\n45,1\n90,1\n"}) {
-    vault.evaluation().scene.postproc.observed = written(text);
-    EXPECT_THROW(crack_agreement(vault.evaluation()), InputError) << text;
+// A joint at 45 degrees is as near to the place at 0 as to that at 90, whatever the rounding of its azimuth.
+TEST(ObservedCracks, BetweenTwoPlacesCountHalfForEach) {
+  Vault vault({{{0, 1}, {2e-3, 4e-3}}});
+  vault.evaluation().scene.postproc.observed = written("azimuth_deg,width_m\n0,0.006\n90,0\n180,0\n270,0\n");
+  const CrackAgreement found = crack_agreement(vault.evaluation()).value();
+  for (const int place : {0, 1}) {
+    EXPECT_NEAR(found.places[place].model_share, 0.5, 1e-12);
+    EXPECT_EQ(found.places[place].model_width, 4e-3);
   }
+  EXPECT_NEAR(found.agreement, 0.5, 1e-12);
 }
 
 }  // namespace
