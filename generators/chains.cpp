@@ -1,6 +1,7 @@
 #include "generators/chains.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -73,13 +74,30 @@ struct Run {
 /// The level of one chain in its member.
 class Level {
  public:
-  Level(const Chain& chain, std::string key, int refinement, const Storey& shell)
+  Level(const Chain& chain, std::string key, const Storey& shell)
       : chain_(chain), key_(std::move(key)), shell_(shell) {
-    if (chain.course >= 0) bed_ = (chain.course + 0.5) * refinement * shell.surface.rows_per_ring;
+    if (chain.course >= 0) bed_ = (chain.course + 0.5) * shell.refinement * shell.surface.rows_per_ring;
   }
   Vec3 point(double abscissa) const { return at(bed(abscissa), abscissa, chain_.place); }
   int block(double abscissa, const BlockFinder& blocks) const {
-    const double level = bed(abscissa);
+    return block_on(bed(abscissa), abscissa, blocks);
+  }
+  /// The anchors of a rod, on both sides of a barrel.
+  std::pair<Anchor, Anchor> across(double abscissa, const BlockFinder& blocks) const {
+    int crown = 0;
+    for (int row = 1; row <= shell_.surface.num_rows; ++row)
+      if (own(row, abscissa, chain_.place).z() > own(crown, abscissa, chain_.place).z()) crown = row;
+    std::array<Anchor, 2> anchors;
+    for (const auto& [i, foot] : {std::pair(0, 0), {1, shell_.surface.num_rows}}) {
+      const double level = bed(abscissa, foot, crown);
+      anchors[i] = {block_on(level, abscissa, blocks), at(level, abscissa, chain_.place)};
+    }
+    return {anchors[0], anchors[1]};
+  }
+  double bed(double abscissa) const { return bed_ ? *bed_ : bed(abscissa, 0.0, shell_.surface.num_rows); }
+
+ private:
+  int block_on(double level, double abscissa, const BlockFinder& blocks) const {
     const double thickness = (at(level, abscissa, 1.0) - at(level, abscissa, 0.0)).norm();
     const int found = blocks.block_at(at(level, abscissa, chain_.place), kMostOutside * thickness);
     if (found < 0)
@@ -89,26 +107,26 @@ class Level {
                       key_, chain_.place));
     return found;
   }
-  double bed(double abscissa) const {
-    if (bed_) return *bed_;
-    double low = 0.0, high = shell_.surface.num_rows;
-    const double height = *chain_.height, bottom = at(low, abscissa, chain_.place).z(),
-                 top = at(high, abscissa, chain_.place).z();
+  /// The bed at the height of the chain, between a lower bed and a higher one.
+  double bed(double abscissa, double low, double high) const {
+    const double height = *chain_.height, bottom = own(low, abscissa, chain_.place).z(),
+                 top = own(high, abscissa, chain_.place).z();
     if (height <= bottom || height >= top)
       throw InputError(fmt::format("{}.height = {}: the masonry reaches from {:.6g} to {:.6g} m there", key_,
                                    height, bottom, top));
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
-      (at(middle, abscissa, chain_.place).z() < height ? low : high) = middle;
+      (own(middle, abscissa, chain_.place).z() < height ? low : high) = middle;
     }
     return low;
   }
-
- private:
-  Vec3 at(double bed, double abscissa, double place) const {
+  /// A point in the frame of the member.
+  Vec3 own(double bed, double abscissa, double place) const {
     const SurfaceMap& surface = shell_.surface;
-    return shell_.placement *
-           Vec3((1.0 - place) * surface.intrados(bed, abscissa) + place * surface.extrados(bed, abscissa));
+    return (1.0 - place) * surface.intrados(bed, abscissa) + place * surface.extrados(bed, abscissa);
+  }
+  Vec3 at(double bed, double abscissa, double place) const {
+    return shell_.placement * own(bed, abscissa, place);
   }
 
   const Chain& chain_;
@@ -154,6 +172,18 @@ std::vector<std::pair<Anchor, Anchor>> clamps(const Level& level, const std::vec
   return pairs;
 }
 
+std::vector<std::pair<Anchor, Anchor>> rods(const Level& level, const Chain& chain, const Storey& shell,
+                                            const BlockFinder& blocks, const std::string& key) {
+  std::vector<std::pair<Anchor, Anchor>> pairs;
+  const double length = shell.surface.extent;
+  for (const double at : chain.at.empty() ? std::vector{0.5 * length} : chain.at) {
+    if (at > length)
+      throw InputError(fmt::format("{}.at = {}: the barrel is {:.6g} m long", key, at, length));
+    pairs.push_back(level.across(at, blocks));
+  }
+  return pairs;
+}
+
 std::vector<Anchor> polygon(const Level& level, const Chain& chain, const Storey& shell,
                             const BlockFinder& blocks) {
   const SurfaceMap& surface = shell.surface;
@@ -190,17 +220,22 @@ BuiltTie built_tie(const std::pair<Anchor, Anchor>& ends, const Chain& chain, in
 
 }  // namespace
 
-void add_chains(const std::vector<Chain>& chains, int refinement, const Storey& shell, Assembly* assembly) {
+void add_chains(const std::vector<Chain>& chains, const std::vector<Storey>& storeys, Assembly* assembly) {
   if (chains.empty()) return;
   const BlockFinder blocks(*assembly);
   for (size_t c = 0; c < chains.size(); ++c) {
     const Chain& chain = chains[c];
     const std::string key = fmt::format("geometry.chains[{}]", c);
-    const Level level(chain, key, refinement, shell);
-    const double top = level.bed(0.0) / shell.surface.rows_per_ring;
-    if (shell.stage_rings > 0 && std::floor(top) >= shell.stage_rings) continue;
+    const auto named = std::ranges::find(storeys, chain.member, &Storey::name);
+    const Storey& shell = named == storeys.end() ? storeys.back() : *named;
+    const Level level(chain, key, shell);
+    if (shell.stage_rings > 0 &&
+        std::floor(level.bed(0.0) / shell.surface.rows_per_ring) >= shell.stage_rings)
+      continue;
     std::vector<std::pair<Anchor, Anchor>> bars;
-    if (chain.type == Chain::Type::clamps) {
+    if (chain.type == Chain::Type::rods) {
+      bars = rods(level, chain, shell, blocks, key);
+    } else if (chain.type == Chain::Type::clamps) {
       bars = clamps(level, runs_of_blocks(level, shell.bond.cuts, shell.surface.extent, blocks), chain, key);
     } else {
       const std::vector<Anchor> anchors = polygon(level, chain, shell, blocks);

@@ -9,7 +9,6 @@
 #include "assembly/case/keys_without_effect.hpp"
 #include "assembly/case/plausibility.hpp"
 #include "assembly/model/block_names.hpp"
-#include "generators/bond/make_bond.hpp"
 #include "generators/chains.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
 #include "generators/surface/make_surface.hpp"
@@ -32,7 +31,8 @@ CutOptions cut_options(const Case& input) {
 std::optional<double> smooth_volume(const Storey& shell) {
   const SurfaceMap& surface = shell.surface;
   if (std::ranges::count(shell.bond.block_of, kVoid) > 0 || surface.key_stone || surface.webs > 0 ||
-      !shell.cuts.empty() || !std::ranges::all_of(surface.wythes, &Thickness::constant))
+      !surface.smooth_beds || !shell.cuts.empty() ||
+      !std::ranges::all_of(surface.wythes, &Thickness::constant))
     return std::nullopt;
   return surface.shell_volume ? *surface.shell_volume : extrapolated_shell_volume(surface);
 }
@@ -69,8 +69,7 @@ void refuse_floating(const std::vector<Storey>& storeys, const Assembly& assembl
 Assembly cut_storeys(const Case& input, const std::vector<Storey>& storeys) {
   Assembly assembly = cut_blocks(storeys, cut_options(input));
   if (input.geometry.imperfections) vary_density(*input.geometry.imperfections, &assembly);
-  add_chains(input.geometry.chains, refinement_of(*finest_bond(last_member(input.geometry))), storeys.back(),
-             &assembly);
+  add_chains(input.geometry.chains, storeys, &assembly);
   assembly.title = input.title;
   assembly.geometry_hash = input.geometry_hash;
   return assembly;

@@ -18,6 +18,9 @@ void declare_swept_key(Section& s, SweptKey& swept);
 void declare_ensemble(Section& s, Ensemble& ensemble);
 void declare_sample_file(Section& s, SampleFile& samples);
 void declare_geometry(Section& s, Geometry& geometry);
+void declare_chain(Section& s, Chain& chain);
+/// The rules between a chain and the member in which it lies.
+void check_chain(const Section& s, const Geometry& geometry, const Chain& chain);
 void declare_import(Section& s, ImportedBlocks& import);
 /// Warns of a length of the structure (m) in another unit.
 void expect_length(const Section& s, const char* key, double value, double low = 0.05, double high = 250.0);

@@ -103,46 +103,6 @@ void declare_affine(Section& s, Affine& affine) {
   s.number("rake", affine.rake, {}, "rise along the axis of a barrel, per length");
 }
 
-void declare_chain(Section& s, Chain& chain) {
-  s.text("name", chain.name, "name in tables and figures; by default its number");
-  s.choice("type", chain.type,
-           "polygon: straight bars between anchors in the masonry; clamps: a bar across each head joint");
-  s.integer("course", chain.course, {.min = -1, .max = kMostRings},
-            "course in whose middle the chain lies; -1: at height");
-  s.optional_number("height", chain.height, {.unit = "m"}, "that of the course",
-                    "height of the chain above the springing, instead of a course");
-  s.number("place", chain.place, {.above = 0, .below = 1},
-           "place in the thickness, from 0 at the intrados to 1 at the extrados");
-  s.integer("links", chain.links, {.min = 0, .max = kMostRings},
-            "bars of a polygon, equal in azimuth, from a corner; 0: from block to block");
-  s.number("clamp_length", chain.clamp_length, {.unit = "m", .above = 0},
-           "length of a clamp, half on each side of its joint");
-  s.integer("long_blocks", chain.long_blocks, {.min = 0, .max = kMostRings},
-            "number of equal blocks that replace those of the bond in the course; 0: those of the bond");
-  s.number("axial_stiffness", chain.axial_stiffness, {.unit = "N", .above = 0},
-           "modulus times section of a bar");
-  s.expect({"axial_stiffness", chain.axial_stiffness, "N", 1e5, 1e12, "in kN? 1 kN is 1000 N",
-            "a modulus in N/m2? It is modulus times section"});
-  s.optional_number("yield_force", chain.yield_force, {.unit = "N", .above = 0}, "none",
-                    "tension at which a bar elongates plastically");
-  if (chain.yield_force)
-    s.expect({"yield_force", *chain.yield_force, "N", 1e3, 1e10, "in kN? 1 kN is 1000 N",
-              "a strength in N/m2? It is strength times section"});
-  s.number("slack", chain.slack, {.unit = "m", .min = 0}, "elongation at which each bar begins to carry");
-  s.number("prestress", chain.prestress, {.unit = "N", .min = 0}, "tension as built");
-  const bool polygon = chain.type == Chain::Type::polygon;
-  s.rule((chain.course >= 0) != chain.height.has_value(), "course",
-         "a chain has either a course or a height");
-  s.rule(polygon || chain.links == 0, "links", "requires type: polygon");
-  s.rule(polygon || chain.course >= 0, "height", "clamps require a course");
-  s.rule(!polygon || chain.clamp_length == Chain{}.clamp_length, "clamp_length", "requires type: clamps");
-  s.rule(chain.links == 0 || chain.links >= 3, "links", "must be 0 or at least 3");
-  s.rule(chain.long_blocks == 0 || (chain.long_blocks >= 3 && chain.course >= 0), "long_blocks",
-         "requires a course, and at least 3 blocks");
-  s.rule(chain.slack == 0.0 || chain.prestress == 0.0, "slack", "a chain has either slack or prestress");
-  s.rule(!chain.yield_force || chain.prestress <= *chain.yield_force, "prestress", "must be <= yield_force");
-}
-
 void declare_stage(Section& s, Stage& stage) {
   s.required_integer("rings", stage.rings, {.min = 1, .max = kMostRings}, "number of rings built so far");
 }
@@ -158,7 +118,8 @@ void declare_geometry(Section& s, Geometry& geometry) {
   if (geometry.has_shell) {
     declare_shape(s, geometry);
   } else {
-    for (const char* key : {"on", "at", "bond", "wythes", "bonders", "openings"})
+    for (const char* key :
+         {"on", "beside", "at", "copies", "mirror", "bond", "wythes", "bonders", "openings", "cuts"})
       s.refuse(
           key,
           "remove this key: geometry has no surface of its own, and each of geometry.members has this key");
@@ -172,7 +133,7 @@ void declare_geometry(Section& s, Geometry& geometry) {
       "counted in it",
       declare_window);
   s.optional_section("stage", geometry.stage, "build only the lower rings", declare_stage);
-  s.list("chains", geometry.chains, "closed chains of iron, stone or timber round a dome or vault",
+  s.list("chains", geometry.chains, "chains round a dome or vault, and tie rods across a barrel",
          declare_chain);
   for (size_t i = 0; i < geometry.chains.size(); ++i)
     if (geometry.chains[i].name.empty()) geometry.chains[i].name = fmt::format("chain {}", i);
@@ -190,21 +151,17 @@ void declare_geometry(Section& s, Geometry& geometry) {
   s.rule(!geometry.window || (closed && members_of(geometry).size() == 1), "window",
          "requires a dome or an octagonal vault, and no members");
   const bool has_copies =
-      std::ranges::any_of(members_of(geometry), [](const Member* m) { return m->copies.has_value(); });
-  s.rule(!has_copies || (!geometry.window && !geometry.stage && geometry.chains.empty()), "chains",
-         "chains, stage and window require members without copies");
+      std::ranges::any_of(members_of(geometry), [](const Member* m) { return m->copies || m->mirror; });
+  s.rule(!has_copies || (!geometry.window && !geometry.stage), "stage",
+         "stage and window require members without copies");
   if (!geometry.window && geometry.has_shell) check_closed_bonds(s, geometry);
   const bool whole = !geometry.window && closed;
-  s.rule(geometry.chains.empty() || whole, "chains", "requires a whole dome or octagonal vault");
+  s.rule(geometry.chains.empty() || !geometry.window, "chains", "requires a whole vault without a window");
   s.rule(!geometry.affine || !geometry.window, "affine", "requires a whole vault without a window");
   s.rule(!geometry.affine || geometry.affine->rake == 0.0 || !closed, "affine",
          "rake requires an arch or barrel, whose first bed stays plane");
   s.rule(geometry.base_blocks == 1 || whole, "base_blocks", "requires a whole dome or octagonal vault");
-  for (const Chain& chain : geometry.chains)
-    s.rule(chain.course < rings, "chains", "course must be < bond.rings");
-  for (const Chain& chain : geometry.chains)
-    s.rule(chain.long_blocks == 0 || member.wythes.empty(), "chains",
-           "long_blocks requires a shell without wythes");
+  for (const Chain& chain : geometry.chains) check_chain(s, geometry, chain);
 }
 
 void declare_imperfections(Section& s, Imperfections& imperfections) {

@@ -108,6 +108,29 @@ void declare_copies(Section& s, Copies& copies) {
   s.rule(copies.about.has_value() != (copies.by.norm() > 0.0), "about", "give one of about and by");
 }
 
+void declare_beside(Section& s, Beside& beside) {
+  s.text("member", beside.member, "a member before it in the list, or one of its copies: NAME 2");
+  s.choice("side", beside.side, "its side on which this one stands, along its own axes");
+  s.rule(!beside.member.empty(), "member", "is missing: give the name of a member");
+}
+
+void declare_mirror(Section& s, Mirror& mirror) {
+  s.vector3("point", mirror.point, {.unit = "m"}, "point of the plane");
+  s.vector3("normal", mirror.normal, {}, "normal of the plane");
+  s.rule(mirror.normal.z() == 0.0 && mirror.normal.norm() > 0.0, "normal",
+         "must be horizontal, and not zero");
+}
+
+/// `at` of a member beside another: along the side it would change nothing.
+void check_place_beside(const Section& s, const Member& member) {
+  if (!member.at || !member.beside) return;
+  using enum Beside::Side;
+  const bool along_x = member.beside->side == right || member.beside->side == left;
+  s.rule(member.at->origin[along_x ? 0 : 1] == 0.0, "at",
+         fmt::format("origin counts from that of {}, and its {} is fixed by `beside`: write 0",
+                     member.beside->member, along_x ? "x" : "y"));
+}
+
 }  // namespace
 
 void check_closed_bonds(const Section& s, const Member& member) {
@@ -126,8 +149,15 @@ void declare_member(Section& s, Member& member) {
 
 void declare_shape(Section& s, Member& member) {
   s.text("on", member.on, "member on whose last bed this one stands; without it, on supports of its own");
-  s.optional_section("at", member.at, "where the member stands, without `on`; by default at the origin",
-                     declare_place);
+  s.optional_section("beside", member.beside,
+                     "member next to which this one stands, up to a common vertical plane", declare_beside);
+  s.optional_section(
+      "at", member.at,
+      "where the member stands, without `on`; by default at the origin, or at that of `beside`",
+      declare_place);
+  check_place_beside(s, member);
+  s.rule(!member.beside || member.on.empty(), "beside",
+         fmt::format("a member that stands on {} lies on its axis; move that one", member.on));
   s.rule(!member.at || member.on.empty(), "at",
          fmt::format("a member that stands on {} lies on its axis; move that one", member.on));
   s.optional_section("copies", member.copies,
@@ -135,6 +165,11 @@ void declare_shape(Section& s, Member& member) {
                      declare_copies);
   s.rule(!member.copies || member.on.empty(), "copies",
          fmt::format("a member that stands on {} is copied with it: give `copies` there", member.on));
+  s.optional_section("mirror", member.mirror,
+                     "a mirror image of the member, and of the members that stand on it: NAME 2",
+                     declare_mirror);
+  s.rule(!member.mirror || (member.on.empty() && !member.copies), "mirror",
+         "requires a member without `on` and `copies`");
   s.section("surface", member.surface, "shape of the masonry", declare_surface);
   declare_masonry(s, member);
   s.list("openings", member.openings, "windows in a closed member, each under a lintel in one block",

@@ -173,8 +173,17 @@ void declare_vault(Section& s, VaultSurface& vault) {
   s.section("profile", vault.profile, "section of the vault", declare_profile);
   expect_length(s, "profile.span", vault.profile.width());
   declare_shell_thickness(s, vault.thickness, kThickest, "thickness, normal to the profile");
-  s.choice("beds", vault.beds, "plane and normal to the profile, on cones about the axis, or level");
-  s.choice("courses", vault.courses, "what is equal from course to course, along the drawn line");
+  s.choice("beds", vault.beds,
+           "plane and normal to the profile, on cones about the axis, level, or at bed_angles_deg");
+  s.numbers(
+      "bed_angles_deg", vault.bed_angles_deg, {.unit = "deg", .min = -90, .max = 180},
+      "rise of given beds outwards: from the first to the last, of an arch to the crown, at equal numbers "
+      "of courses; linear between");
+  s.rule((vault.beds == VaultSurface::Beds::given) == !vault.bed_angles_deg.empty(), "bed_angles_deg",
+         "belongs to beds: given, and only there");
+  s.rule(vault.bed_angles_deg.size() != 1, "bed_angles_deg", "must be at least 2 angles");
+  s.choice("courses", vault.courses,
+           "what is equal from course to course: length along the drawn line, height, or turn of its normal");
   s.choice("line", vault.line, "what the profile draws");
   s.number("eye", vault.eye, {.unit = "m", .min = 0},
            "distance of the last bed from the axis, on the drawn line; 0: the end of the profile");

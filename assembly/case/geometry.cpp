@@ -38,6 +38,20 @@ std::vector<const Member*> members_of(const Geometry& geometry) {
   return members;
 }
 
+const Member* member_named(const Geometry& geometry, const std::string& name) {
+  const std::vector<const Member*> members = members_of(geometry);
+  if (name.empty()) return members.back();
+  const Member* base = nullptr;  // of the stack, whose members are copied with it
+  for (const Member* member : members) {
+    if (member->name == name) return member;
+    if (member->on.empty()) base = member;
+    const int count = base->copies ? base->copies->count : base->mirror ? 2 : 1;
+    for (int copy = 2; copy <= count; ++copy)
+      if (name == fmt::format("{} {}", member->name, copy)) return member;
+  }
+  return nullptr;
+}
+
 std::string key_of_member(const Geometry& geometry, size_t i) {
   return i == geometry.members.size() ? "geometry" : fmt::format("geometry.members[{}]", i);
 }

@@ -30,17 +30,20 @@ constexpr auto enum_names(Window::Ends) {
   return std::array{"free", "held"};
 }
 
-/// A closed chain round a dome or vault: a level in the masonry, and the bars that go round it there.
+/// A closed chain round a dome or vault, or tie rods across a barrel: a level in the masonry, and the bars
+/// there.
 struct Chain {
   /// `polygon`: straight bars between anchors in the masonry. `clamps`: a bar across each head joint, as of a
-  /// course of stone clamped with iron.
-  enum class Type : std::uint8_t { polygon, clamps };
+  /// course of stone clamped with iron. `rods`: a bar from one side of a barrel to the other at each of `at`.
+  enum class Type : std::uint8_t { polygon, clamps, rods };
 
   std::string name;
+  std::string member;  ///< in which it lies, or a copy of it; "": the last
   Type type = Type::polygon;
   int course = -1;               ///< in whose middle it lies, counted before refinement; -1: at `height`
-  std::optional<double> height;  ///< m, z of all anchors
-  double place = 0.5;            ///< in the thickness, in (0, 1): 0 intrados, 1 extrados
+  std::optional<double> height;  ///< m, z of all anchors in the frame of the member
+  double place = 0.5;            ///< in the thickness, in [0, 1]: 0 intrados, 1 extrados
+  std::vector<double> at;        ///< m along a barrel, of rods; none: one in the middle
   int links = 0;  ///< of a polygon, equal in azimuth, the first from a corner; 0: from block to block
   double clamp_length = 0.3;          ///< m, > 0, half on each side of the joint
   int long_blocks = 0;                ///< equal blocks that replace those of the bond in the course; 0: none
@@ -50,7 +53,7 @@ struct Chain {
   double prestress = 0.0;             ///< N, >= 0, tension as built
 };
 constexpr auto enum_names(Chain::Type) {
-  return std::array{"polygon", "clamps"};
+  return std::array{"polygon", "clamps", "rods"};
 }
 
 /// A map of all points of the masonry, which keeps planes and convexity: elliptic domes, raking barrels.
@@ -100,8 +103,10 @@ struct Geometry : Member {
   int base_blocks = 1;
 };
 
-/// All members, in the order of their courses; `window`, `stage` and `chains` belong to the last.
+/// All members, in the order of their courses; `window` and `stage` belong to the last.
 std::vector<const Member*> members_of(const Geometry& geometry);
+/// The member with a name, also if it is that of a copy, "NAME 2"; the last for "", null for others.
+const Member* member_named(const Geometry& geometry, const std::string& name);
 /// "geometry.members[i]", or "geometry" behind them.
 std::string key_of_member(const Geometry& geometry, size_t i);
 inline const Member& last_member(const Geometry& geometry) {

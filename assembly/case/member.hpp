@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +32,23 @@ struct Place {
   double rotate_deg = 0.0;                           ///< about the vertical through the origin
 };
 
+/// Next to which other member a member stands: both reach up to a common vertical plane.
+struct Beside {
+  enum class Side : std::uint8_t { right, left, behind, before };  ///< x, -x, y, -y of the other member
+
+  std::string member;  ///< a member before it in the list, or one of its copies
+  Side side = Side::right;
+};
+constexpr auto enum_names(Beside::Side) {
+  return std::array{"x", "-x", "y", "-y"};
+}
+
+/// A mirror image of a member, and of what stands on it.
+struct Mirror {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< m, of the plane
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< horizontal, not 0
+};
+
 /// Equal copies of a member, and of what stands on it: each follows from the one before by a turn about the
 /// vertical through a point, or by a move.
 struct Copies {
@@ -42,9 +61,11 @@ struct Copies {
 /// its springing.
 struct Member : Masonry {
   std::string name = "shell";
-  std::string on;           ///< name of the member on whose last bed it stands; "": on supports of its own
-  std::optional<Place> at;  ///< none: at the origin, or on the axis of the member below
+  std::string on;  ///< name of the member on whose last bed it stands; "": on supports of its own
+  std::optional<Beside> beside;
+  std::optional<Place> at;  ///< none: at the origin, that of `beside`, or on the axis of the member below
   std::optional<Copies> copies;
+  std::optional<Mirror> mirror;
   Surface surface = DomeSurface{};
   std::vector<Openings> openings;
   std::vector<Cut> cuts;  ///< in its own coordinates, before `at`

@@ -75,10 +75,10 @@ struct Profile {
 
 /// Any profile carried along any plan.
 struct VaultSurface {
-  /// Plane normal to the profile; cones about the axis; level.
-  enum class Beds : std::uint8_t { normal, conical, level };
-  /// What is equal from course to course.
-  enum class Courses : std::uint8_t { length, height };
+  /// Plane normal to the profile; cones about the axis; level; at given angles.
+  enum class Beds : std::uint8_t { normal, conical, level, given };
+  /// What is equal from course to course; the angle is that of the normals.
+  enum class Courses : std::uint8_t { length, height, angle };
   /// The line that the profile draws.
   enum class Line : std::uint8_t { intrados, middle, extrados };
 
@@ -86,6 +86,9 @@ struct VaultSurface {
   Profile profile;
   double thickness = 1.0;  ///< m, > 0, normal to the profile
   Beds beds = Beds::normal;
+  /// deg above the horizontal, outwards, of given beds: from the first bed to the last, of an arch to the crown,
+  /// at equal numbers of courses; linear between.
+  std::vector<double> bed_angles_deg;
   Courses courses = Courses::length;
   Line line = Line::intrados;
   double eye = 0.0;           ///< m, >= 0, r of the last bed on the drawn line; 0: the end of the profile
@@ -110,10 +113,10 @@ struct VaultSurface {
   }
 };
 constexpr auto enum_names(VaultSurface::Beds) {
-  return std::array{"normal", "conical", "level"};
+  return std::array{"normal", "conical", "level", "given"};
 }
 constexpr auto enum_names(VaultSurface::Courses) {
-  return std::array{"length", "height"};
+  return std::array{"length", "height", "angle"};
 }
 constexpr auto enum_names(VaultSurface::Line) {
   return std::array{"intrados", "middle", "extrados"};

@@ -58,6 +58,11 @@ const Sheet* Assembly::sheet_of(int ring) const {
   return found == sheets.end() ? nullptr : &*found;
 }
 
+Sheet Assembly::axis_of(int ring) const {
+  const Sheet* sheet = sheet_of(ring);
+  return sheet ? *sheet : Sheet{};
+}
+
 std::pair<int, int> Assembly::stack_of(int ring) const {
   std::pair<int, int> stack{0, num_rings};
   for (const Sheet& sheet : sheets) {

@@ -117,6 +117,8 @@ struct Assembly {
   }
   /// The sheet to which a course belongs; null if there is none.
   const Sheet* sheet_of(int ring) const;
+  /// That sheet, whose axis its whole stack has; without sheets the z axis.
+  Sheet axis_of(int ring) const;
   /// Rings [first, second) of the stack of sheets to which a course belongs; all rings without sheets.
   std::pair<int, int> stack_of(int ring) const;
   /// Horizontal unit vector outwards at a point (m) of a course, see Sheet::outward; of walls and imported

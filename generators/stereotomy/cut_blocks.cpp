@@ -112,11 +112,25 @@ void drop_unused_vertices(Assembly* assembly) {
   for (int& v : assembly->face_vertices) v = new_id[v];
 }
 
-/// Moves the vertices from `first` on.
-void place(const Eigen::Isometry3d& placement, size_t first, Assembly* assembly) {
-  if (placement.matrix() == Eigen::Matrix4d::Identity()) return;  // to the bit
+/// Moves the vertices from `first` on. A reflection reverses the faces from `first_face` on.
+void place(const Storey& shell, size_t first, int first_face, Assembly* assembly) {
+  if (shell.placement.matrix() == Eigen::Matrix4d::Identity()) return;  // to the bit
   for (size_t v = first; v < assembly->vertices.size(); ++v)
-    assembly->vertices[v] = placement * assembly->vertices[v];
+    assembly->vertices[v] = shell.placement * assembly->vertices[v];
+  if (!shell.is_reflected()) return;
+  for (int f = first_face; f < assembly->num_faces(); ++f)
+    std::reverse(assembly->face_vertices.begin() + assembly->face_vertex_start[f],
+                 assembly->face_vertices.begin() + assembly->face_vertex_start[f + 1]);
+}
+
+/// Numbers the sails of a reflected member the other way round, as its azimuth.
+void reflect_sails(int num_sails, const MemberStart& start, Assembly* assembly) {
+  for (size_t b = start.block; b < assembly->blocks.size(); ++b) {
+    Block& block = assembly->blocks[b];
+    if (block.fixed) continue;
+    block.sail = num_sails - 1 - block.sail;
+    block.sail_position = -block.sail_position;
+  }
 }
 
 /// The bodies of the cuts of a storey, in its coordinates.
@@ -136,6 +150,8 @@ std::vector<CutBody> bodies_of(const Storey& storey, std::span<const Storey> sto
     bodies.push_back(
         {cut, moved(body_under(*other, cut.face, key), storey.placement.inverse() * other->placement), key});
   }
+  for (const Plane& limit : storey.limits)
+    bodies.push_back({{}, {{-limit.normal, -limit.offset}}, storey.key + ".beside", true});
   return bodies;
 }
 
@@ -146,6 +162,7 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
   const std::vector<double>& cuts = shell.bond.cuts;
   const size_t first_vertex = assembly->vertices.size();
   const MemberStart start{assembly->blocks.size(), assembly->parts.size()};
+  const int first_face = assembly->num_faces();
   const CellGrid grid = make_cell_grid(surface, shell.bond, shell.stage_rings);
   GridPoints points(grid, options.imperfections, shell.placement);
   const bool stands = surface.webs == 0;  // on supports of its own beds, not of the finished groin vault
@@ -171,7 +188,8 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
     for (size_t v = first_vertex; v < assembly->vertices.size(); ++v)
       assembly->vertices[v] = shell.affine->image(assembly->vertices[v]);
   cut_bodies(bodies_of(shell, storeys), start, options.support_width, options.density, assembly);
-  place(shell.placement, first_vertex, assembly);
+  place(shell, first_vertex, first_face, assembly);
+  if (shell.is_reflected() && surface.sail_width > 0.0) reflect_sails(num_sails_of(surface), start, assembly);
   assembly->num_rings = surface.rings_below + shell.num_rings();
   const Vec3 x_axis = shell.placement.linear().col(0);
   assembly->sheets.push_back({shell.name, surface.rings_below, shell.num_rings(), surface.closed,

@@ -79,12 +79,17 @@ class Carving {
   }
 
   /// Takes a body from all pieces; the faces of the cut.
-  std::vector<std::vector<Vec3>> take(const std::vector<Plane>& body, const std::string& key) {
+  std::vector<std::vector<Vec3>> take(const std::vector<Plane>& body, bool from_supports,
+                                      const std::string& key) {
     ConvexClip clip(body, rounding_, assembly_);
     std::vector<Cell> left;
     std::vector<std::vector<Vec3>> faces;
     bool any = false;
     for (Cell& cell : cells_) {
+      if (from_supports && !assembly_->blocks[cell.block].fixed) {
+        left.push_back(std::move(cell));
+        continue;
+      }
       std::vector<ConvexPiece> pieces = clip.outside(cell.piece);
       const bool whole =
           pieces.size() == 1 && pieces.front().faces.size() == cell.piece.faces.size() &&
@@ -102,7 +107,7 @@ class Carving {
       if (!whole) touched_.push_back(cell.block);
     }
     cells_ = std::move(left);
-    if (!any)
+    if (!any && !from_supports)
       throw InputError(key +
                        ": the cut takes nothing; its coordinates, in m, are those of the member before `at`");
     if (std::ranges::none_of(cells_, [&](const Cell& c) { return !assembly_->blocks[c.block].fixed; }))
@@ -332,11 +337,11 @@ void cut_bodies(const std::vector<CutBody>& bodies, const MemberStart& start, do
   Carving carving(start, assembly);
   std::vector<std::vector<std::vector<Vec3>>> faces(bodies.size());
   for (size_t i = 0; i < bodies.size(); ++i) {
-    const auto& [cut, planes, key] = bodies[i];
+    const auto& [cut, planes, key, from_supports] = bodies[i];
     if (cut.as == Cut::As::joint)
       carving.part(planes, key);
     else
-      faces[i] = carving.take(planes, key);
+      faces[i] = carving.take(planes, from_supports, key);
   }
   carving.write();
   for (size_t i = 0; i < bodies.size(); ++i)

@@ -18,6 +18,7 @@ struct CutBody {
   Cut cut;
   std::vector<Plane> planes;
   std::string key;
+  bool from_supports = false;  ///< only from these, of which it may take nothing
 };
 
 /// Takes the bodies of the cuts from the blocks of the last member, supports included.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include "generators/bond/make_bond.hpp"
 #include "generators/bond/wythe_bond.hpp"
 #include "generators/stereotomy/opening_places.hpp"
+#include "generators/stereotomy/placement.hpp"
 #include "generators/surface/make_surface.hpp"
 #include "generators/surface/window.hpp"
 
@@ -93,14 +93,17 @@ std::vector<std::string> names_of(const Geometry& geometry, const Member& member
   std::vector<std::string> names = member_names(member);
   if (&member != &last_member(geometry))
     for (std::string& name : names) name = member.name + " " + name;
-  const bool alone = members_of(geometry).size() == 1 && !geometry.copies && member.openings.empty();
+  const bool alone =
+      members_of(geometry).size() == 1 && !geometry.copies && !geometry.mirror && member.openings.empty();
   if (names.empty() && !alone) names = {member.name};
   return names;
 }
 
-void lay_chains(const Geometry& geometry, const BondGrid& grid, int refinement, BondPattern* bond) {
+void lay_chains(const Geometry& geometry, const Member& member, const BondGrid& grid, int refinement,
+                BondPattern* bond) {
   for (size_t c = 0; c < geometry.chains.size(); ++c)
-    if (const Chain& chain = geometry.chains[c]; chain.long_blocks > 0)
+    if (const Chain& chain = geometry.chains[c];
+        chain.long_blocks > 0 && member_named(geometry, chain.member) == &member)
       lay_long_blocks(grid, chain.course * refinement, (chain.course + 1) * refinement - 1, chain.long_blocks,
                       fmt::format("geometry.chains[{}]", c), bond);
 }
@@ -130,14 +133,14 @@ Storey make_member(const Geometry& geometry, const Member& member, const std::st
                       thickness_of_first_course(surface)};
   BondPattern bond = lay_masonry(member, surface, grid);
   std::vector<std::string> names = names_of(geometry, member);
-  if (last) lay_chains(geometry, grid, refinement, &bond);
+  lay_chains(geometry, member, grid, refinement, &bond);
   if (!member.openings.empty()) {
     lay_openings(grid, opening_places(member.openings, surface, key + ".openings"),
                  static_cast<int>(names.size()), &bond);
     names.push_back(member.name + " lintel");
   }
   if (geometry.window) bond = with_supports(bond, surface.held_end);
-  return {member.name, std::move(surface), std::move(bond), std::move(names), stage};
+  return {member.name, std::move(surface), std::move(bond), std::move(names), stage, refinement};
 }
 
 /// Bonds and surfaces do not know where they are laid, and their errors name keys of the geometry itself.
@@ -150,65 +153,6 @@ Storey named_member(const Geometry& geometry, size_t i) {
   } catch (const InputError& error) {
     const std::string text = error.what();  // begins with "error: "
     throw InputError("in " + key + ": " + text.substr(text.find(' ') + 1));
-  }
-}
-
-/// z of a bed that is level, m. `what` names it in the message if it is not.
-double level_of(const SurfaceMap& surface, double bed, const std::string& what) {
-  const double z = surface.intrados(bed, surface.first_corner).z();
-  double farthest = 0.0;
-  constexpr int kSteps = 8;
-  for (int i = 0; i <= kSteps; ++i)
-    for (const int layer : {0, surface.num_wythes()})
-      farthest = std::max(farthest, std::abs(surface.point(bed, surface.extent * i / kSteps, layer).z() - z));
-  const double size = (surface.intrados(bed, 0.0) - surface.extrados(bed, 0.0)).norm();
-  if (farthest > 1e-9 * size)
-    throw InputError(fmt::format(
-        "{} is not level: it rises or falls by {:.3g} m; a member stands on a level bed", what, farthest));
-  return z;
-}
-
-/// Puts a member on the one below it, whose last bed must be as level as its own first.
-void stand_on(const std::string& key, Storey* lower, Storey* storey) {
-  const std::string on = fmt::format("{}.on = {}: ", key, lower->name);
-  if (lower->surface.carries)
-    throw InputError(on + "nothing can stand on its last bed, behind which a support or a key stone lies");
-  const double top = level_of(lower->surface, lower->surface.num_rows, on + "its last bed");
-  const double foot = level_of(storey->surface, 0.0, on + "the first bed of " + storey->name);
-  storey->placement = lower->placement * Eigen::Translation3d(0.0, 0.0, top - foot);
-  storey->stands_on_previous = true;
-  storey->surface.first_bed_held = false;
-  lower->surface.carries = true;
-}
-
-Eigen::Isometry3d isometry(const Place& place) {
-  constexpr double kRadians = std::numbers::pi / 180.0;
-  return Eigen::Translation3d(place.origin) *
-         Eigen::AngleAxisd(place.rotate_deg * kRadians, Eigen::Vector3d::UnitZ());
-}
-
-/// The motion from one copy to the next.
-Eigen::Isometry3d step_of(const Copies& copies) {
-  if (!copies.about) return Eigen::Isometry3d(Eigen::Translation3d(copies.by));
-  const double turn = 2.0 * std::numbers::pi / copies.count;
-  return Eigen::Translation3d(*copies.about) * Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) *
-         Eigen::Translation3d(-*copies.about);
-}
-
-/// Appends the copies of the stack that begins with storey `first`.
-void copy_stack(const Copies& copies, size_t first, std::vector<Storey>* storeys) {
-  const size_t end = storeys->size();
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  for (int copy = 2; copy <= copies.count; ++copy) {
-    motion = step_of(copies) * motion;
-    for (size_t i = first; i < end; ++i) {
-      Storey storey = (*storeys)[i];
-      storey.name += fmt::format(" {}", copy);
-      for (std::string& label : storey.members) label += fmt::format(" {}", copy);
-      storey.placement = motion * storey.placement;
-      storey.surface.rings_below = storeys->back().surface.rings_below + storeys->back().num_rings();
-      storeys->push_back(std::move(storey));
-    }
   }
 }
 
@@ -226,7 +170,8 @@ std::vector<Storey> make_storeys(const Geometry& geometry) {
     storey.key = key_of_member(geometry, i);
     if (!storeys.empty())
       storey.surface.rings_below = storeys.back().surface.rings_below + storeys.back().num_rings();
-    if (members[i]->at) storey.placement = isometry(*members[i]->at);
+    if (members[i]->at) storey.placement = placement_at(*members[i]->at);
+    if (members[i]->beside) stand_beside(*members[i]->beside, storey.key, storeys, &storey);
     if (members[i]->on.empty()) {
       first = i;
       first_storey = storeys.size();
@@ -235,8 +180,9 @@ std::vector<Storey> make_storeys(const Geometry& geometry) {
     }
     storeys.push_back(std::move(storey));
     const bool ends_stack = i + 1 == members.size() || members[i + 1]->on.empty();
-    if (ends_stack && members[first]->copies) copy_stack(*members[first]->copies, first_storey, &storeys);
+    if (ends_stack) copy_stack(*members[first], first_storey, &storeys);
   }
+  limit_neighbours(&storeys);
   return storeys;
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "assembly/case/geometry.hpp"
+#include "assembly/model/assembly.hpp"
 #include "generators/bond/bond_pattern.hpp"
 #include "generators/surface/surface_map.hpp"
 
@@ -19,13 +20,17 @@ struct Storey {
   BondPattern bond;  ///< with the support of a window as blocks of its own, below and beside the courses
   std::vector<std::string> members;  ///< of the bond's labels: wythes and groups of bonders; none: one wythe
   int stage_rings = 0;               ///< of the stage; 0: the complete model
+  int refinement = 1;                ///< courses laid for each course of the bond as written
   Eigen::Isometry3d placement =
-      Eigen::Isometry3d::Identity();  ///< from the coordinates of the surface to the world
+      Eigen::Isometry3d::Identity();  ///< from the coordinates of the surface to the world; a mirror image
+                                      ///< is reflected
   bool stands_on_previous = false;
   std::vector<Cut> cuts = {};
   std::string key = {};               ///< of the member, for messages
   std::optional<Affine> affine = {};  ///< of a groin vault, after its webs are cut
+  std::vector<Plane> limits = {};     ///< of its supports: n.x <= offset, in the coordinates of the surface
 
+  bool is_reflected() const { return placement.linear().determinant() < 0.0; }
   /// Courses of the assembly. Those of a web are counted from both springings up to the crown.
   int num_rings() const {
     if (surface.webs > 0) return (surface.num_rings() + 1) / 2;

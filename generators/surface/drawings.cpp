@@ -74,27 +74,24 @@ std::vector<ProfilePiece> outside_eye(std::vector<ProfilePiece> pieces, double e
   return pieces;
 }
 
-/// The part of a profile from the first place on where `is_above` holds. It must hold at the end.
+/// The part of a profile above the last place where `is_above` does not hold; empty if that is its end. A
+/// horseshoe may be above at its springing, too.
 template <class Test>
 std::vector<ProfilePiece> part_above(std::vector<ProfilePiece> pieces, const Test& is_above) {
   constexpr int kSteps = 200;
-  for (size_t i = 0; i < pieces.size(); ++i)
-    for (int k = 0; k <= kSteps; ++k) {
-      double high = k / static_cast<double>(kSteps), low = std::max(0.0, high - 1.0 / kSteps);
-      if (!is_above(pieces[i], high)) continue;
+  for (size_t i = pieces.size(); i-- > 0;)
+    for (int k = kSteps; k >= 0; --k) {
+      double low = k / static_cast<double>(kSteps), high = std::min(1.0, low + 1.0 / kSteps);
+      if (is_above(pieces[i], low)) continue;
       for (int n = 0; n < 60; ++n) {  // to rounding
         const double middle = 0.5 * (low + high);
         (is_above(pieces[i], middle) ? high : low) = middle;
       }
-      pieces.erase(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(i));
-      if (high == 1.0) {
-        pieces.erase(pieces.begin());
-      } else if (high > 0.0) {
-        pieces.front() = piece_from(pieces.front(), high);
-      }
+      pieces.erase(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(k == kSteps ? i + 1 : i));
+      if (k < kSteps) pieces.front() = piece_from(pieces.front(), high);
       return pieces;
     }
-  return {};
+  return pieces;
 }
 
 /// Draws one web of a groin vault, from its first bed over the crown to the last. A bed at the half-width r
@@ -348,6 +345,7 @@ Drawing drawing_of(const VaultSurface& vault) {
   Drawing drawing{.profile = profile_pieces(vault.profile),
                   .plan = vault.plan,
                   .beds = vault.beds,
+                  .bed_angles_deg = vault.bed_angles_deg,
                   .courses = vault.courses,
                   .thickness = vault.thickness,
                   .rows_per_ring = vault.voussoir_segments,

@@ -29,6 +29,9 @@ struct Section {
   double corner = 1.0, middle = 1.0;  // factors on r
   OctagonalVault::Extrados extrados = normal;
   double drawn_depth = 0.0;
+  std::vector<double> bed_angles = {};  // rad, of given beds
+  double num_rows = 0.0;
+  bool mirrored = false;
 
   Vec2 corner_point(double place) const { return scaled(beds->point(place), corner); }
   Vec2 corner_normal(double bed, double place) const { return normal_of(bed, place, corner); }
@@ -37,6 +40,16 @@ struct Section {
     const Vec2 n = outward_normal(scaled(beds->derivative(place), factor));
     if (!beds->is_kink(bed)) return n;
     return (n + outward_normal(scaled(beds->derivative_above(place), factor))).normalized();
+  }
+  /// Direction of a given bed outwards.
+  Vec2 given_direction(double bed) const {
+    const double end = mirrored ? 0.5 * num_rows : num_rows;
+    const bool beyond = mirrored && bed > end;
+    const double spans = static_cast<double>(bed_angles.size() - 1);
+    const double at = std::clamp((beyond ? num_rows - bed : bed) / end * spans, 0.0, spans);
+    const size_t i = std::min(static_cast<size_t>(at), bed_angles.size() - 2);
+    const double angle = std::lerp(bed_angles[i], bed_angles[i + 1], at - static_cast<double>(i));
+    return {beyond ? -std::cos(angle) : std::cos(angle), std::sin(angle)};
   }
   /// On the section normal to the side, at a depth (m) behind the intrados.
   Vec2 layer(double place, double from_intrados) const {
@@ -69,6 +82,14 @@ Vec2 plane_bed_point(const Section& section, Beds beds, double bed, double depth
     if (section.extrados == OctagonalVault::Extrados::bed) return section.layer(place, depth);
     const auto above = [&](double u) { return section.layer(u, depth).y() - on_line.y(); };
     return {section.layer(place_where(above, place), depth).x(), on_line.y()};
+  }
+  if (beds == Beds::given) {
+    const Vec2 along = section.given_direction(bed);
+    const auto off_bed = [&](double u) {
+      const Vec2 p = section.layer(u, depth) - on_line;
+      return p.x() * along.y() - p.y() * along.x();
+    };
+    return section.layer(place_where(off_bed, place), depth);
   }
   if (!section.beds->is_kink(bed)) return section.layer(place, depth);
   const Vec2 along = section.normal_of(bed, place, section.middle);
@@ -252,6 +273,15 @@ SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
                                                drawing.mirrored);
   section.extrados = drawing.extrados;
   section.drawn_depth = drawing.drawn_depth;
+  section.num_rows = rings * drawing.rows_per_ring;
+  section.mirrored = drawing.mirrored;
+  for (const double angle : drawing.bed_angles_deg) section.bed_angles.push_back(angle * pi / 180.0);
+  if (!section.bed_angles.empty() && drawing.mirrored && rings % 2 == 0 &&
+      drawing.bed_angles_deg.back() != 90.0)
+    throw InputError(
+        fmt::format("geometry.surface.bed_angles_deg: ends with {}, but must end with 90, because an "
+                    "even number of courses has a bed at the crown",
+                    drawing.bed_angles_deg.back()));
   if (plan.kind == Plan::Kind::polygon)
     (plan.measured_at == Plan::MeasuredAt::corner ? section.middle : section.corner) =
         plan.measured_at == Plan::MeasuredAt::corner ? std::cos(pi / plan.sides)
@@ -260,8 +290,9 @@ SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
   surface.rows_per_ring = drawing.rows_per_ring;
   surface.num_rows = rings * drawing.rows_per_ring;
   surface.extent = 2.0 * pi;
-  surface.last_bed_held = is_line && drawing.profile.back().derivative(1.0).y() < 0.0;
+  surface.last_bed_held = is_line && (drawing.mirrored || drawing.profile.back().derivative(1.0).y() < 0.0);
   surface.key_stone = drawing.key_stone;
+  surface.smooth_beds = drawing.bed_angles_deg.size() <= 2;
   if (plan.kind == Plan::Kind::groin) {
     surface.webs = plan.sides;
     surface.groins = plan.groins;

@@ -12,6 +12,7 @@ struct Drawing {
   std::vector<ProfilePiece> profile;
   Plan plan;
   VaultSurface::Beds beds = VaultSurface::Beds::normal;
+  std::vector<double> bed_angles_deg = {};  ///< see VaultSurface
   VaultSurface::Courses courses = VaultSurface::Courses::length;
   OctagonalVault::Extrados extrados = OctagonalVault::Extrados::normal;
   double drawn_depth = 0.0;  ///< m, of the drawn line behind the intrados
@@ -36,6 +37,8 @@ struct Drawing {
 ///       (x / cos psi - r_k) n_z = (z - z_k) n_r,
 ///   (x, z) on the layer's mid-sail section, (r_k, z_k) on the corner section with its normal n. z is then
 ///   computed from the bed, so that bed facets are plane to rounding.
+///
+/// `given` beds are as `normal` ones, at their angles.
 ///
 /// A kink of the profile is a bed in the bisector of its two normals.
 ///

@@ -95,6 +95,12 @@ ProfileBeds::ProfileBeds(std::vector<ProfilePiece> pieces, int rings, int rows_p
     Run& run = runs_.back();
     run.end = i + 1;
     run.sizes.push_back(size(i, 0.0, 1.0));
+    if (!(run.sizes.back() > 0.0))
+      throw InputError(
+          fmt::format("geometry.surface.courses = {}: the piece of the profile from ({:.6g}, {:.6g}) m has "
+                      "none to divide; "
+                      "use length",
+                      to_string(by), pieces_[i].at(0.0).x(), pieces_[i].at(0.0).y()));
     run.size += run.sizes.back();
     whole += run.sizes.back();
   }
@@ -123,7 +129,12 @@ ProfileBeds::ProfileBeds(std::vector<ProfilePiece> pieces, int rings, int rows_p
 
 double ProfileBeds::size(int i, double from, double to) const {
   const ProfilePiece& piece = pieces_[i];
-  if (by_ == VaultSurface::Courses::height) return piece.at(to).y() - piece.at(from).y();
+  if (by_ == VaultSurface::Courses::height) return std::abs(piece.at(to).y() - piece.at(from).y());
+  if (by_ == VaultSurface::Courses::angle) {
+    if (piece.even) return (to - from) * piece.turn;
+    const Vec2 a = piece.derivative(from), b = piece.derivative(to);
+    return std::atan2(cross(a, b), a.dot(b));
+  }
   if (piece.even) return (to - from) * piece.derivative(0.5).norm();
   double sum = 0.0;
   const int panels = to - from > 1.0 / kPanels ? kPanels : 1;
@@ -133,7 +144,7 @@ double ProfileBeds::size(int i, double from, double to) const {
 }
 
 double ProfileBeds::inverse(int piece, double target, double whole) const {
-  if (by_ == VaultSurface::Courses::length && pieces_[piece].even) return target / whole;
+  if (by_ != VaultSurface::Courses::height && pieces_[piece].even) return target / whole;
   double low = 0.0, high = 1.0, below = 0.0;
   for (int panel = 0; panel < kPanels; ++panel) {
     low = 1.0 * panel / kPanels;

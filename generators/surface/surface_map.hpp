@@ -32,6 +32,7 @@ struct SurfaceMap {
   double held_end = 0.0;        ///< range of the abscissa of the fixed masonry beyond each end; 0: none
   bool flat_slices = false;     ///< the cells of one ring and one facet form an exactly convex solid
   bool flat_rings = false;      ///< so do the cells of one facet in successive rings
+  bool smooth_beds = true;      ///< their directions change smoothly from bed to bed
   bool flat_skins = true;       ///< the four corners of a cell on one skin are coplanar
   bool first_bed_held = true;   ///< a fixed support stands behind the first bed
   bool last_bed_held = false;   ///< and behind the last

@@ -185,7 +185,81 @@ void expect_refused(const Case& c, const char* phrase) {
   }
 }
 
+/// A semicircular barrel of 8 m, 1 m thick and 4 m long, in courses of four blocks.
+Case barrel(const Chain& chain) {
+  Case c;
+  VaultSurface surface;
+  surface.plan.kind = Plan::Kind::line;
+  surface.plan.length = 4.0;
+  surface.profile.span = 8.0;
+  c.geometry.surface = surface;
+  c.geometry.bond = StackBond{15, 4, 1};
+  c.geometry.chains = {chain};
+  return c;
+}
+
+TEST(Rods, CrossABarrelAtTheirHeight) {
+  Chain chain;
+  chain.type = Chain::Type::rods;
+  chain.height = 1.5;
+  chain.place = 0.25;
+  chain.at = {0.5, 2.7};
+  chain.axial_stiffness = 2e8;
+  const Assembly assembly = generate(barrel(chain));
+  ASSERT_EQ(assembly.ties.size(), 2u);
+  // 5 m is the outer radius. The stones are polygons; the points of one bed lie on a straight line, in the
+  // middle of a course up to 0.02 m inside the circle of 4.25 m: 4.25 (1 - cos(pi / 30)).
+  const double x = std::sqrt(4.25 * 4.25 - 1.5 * 1.5);
+  for (size_t i = 0; i < 2; ++i) {
+    const BuiltTie& tie = assembly.ties[i];
+    EXPECT_NEAR(tie.point_a.x(), x, 0.03);
+    EXPECT_NEAR(tie.point_b.x(), -tie.point_a.x(), kRounding);
+    for (const Vec3& end : {tie.point_a, tie.point_b}) {
+      EXPECT_NEAR(end.y(), chain.at[i], kRounding);
+      EXPECT_NEAR(end.z(), 1.5, kRounding);
+    }
+    EXPECT_NE(tie.block_a, tie.block_b);
+    EXPECT_LT(distance_outside(assembly, tie.block_a, tie.point_a), 0.0);
+    EXPECT_LT(distance_outside(assembly, tie.block_b, tie.point_b), 0.0);
+    EXPECT_NEAR(tie.stiffness * tie.length, 2e8, 1.0);
+  }
+}
+
+TEST(Rods, LieInTheMemberThatTheyName) {
+  Chain chain;
+  chain.type = Chain::Type::rods;
+  chain.height = 1.5;
+  const Case alone = barrel(chain);
+  Case both = alone;
+  Member first = alone.geometry, second = alone.geometry;
+  first.name = "first";
+  first.at = Place{{100.0, 0.0, 2.0}, 0.0};
+  first.copies = Copies{.count = 2, .by = Vec3(0.0, 50.0, 0.0)};
+  both.geometry.members = {first};
+  both.geometry.chains[0].member = "first 2";
+  const Assembly here = generate(alone), there = generate(both);
+  ASSERT_EQ(there.ties.size(), 1u);
+  EXPECT_LT((there.ties[0].point_a - here.ties[0].point_a - Vec3(100.0, 50.0, 2.0)).norm(), kRounding);
+  EXPECT_EQ(there.blocks[there.ties[0].block_a].member, 1) << "of first and first 2, which lay the courses";
+}
+
+TEST(Chain, LiesOnTheExtradosAtPlaceOne) {
+  Chain chain;
+  chain.height = 2.0;
+  chain.place = 1.0;
+  const Assembly assembly = generate(hemisphere(chain));
+  ASSERT_EQ(assembly.ties.size(), 12u);
+  for (const BuiltTie& tie : assembly.ties) EXPECT_NEAR(tie.point_a.norm(), 6.0, kRounding);
+}
+
 TEST(Chain, RefusesWhatDoesNotFitTheMasonry) {
+  Chain rod;
+  rod.type = Chain::Type::rods;
+  rod.height = 6.0;
+  expect_refused(barrel(rod), "geometry.chains[0].height = 6: the masonry reaches from 0 to ");
+  rod.height = 1.5;
+  rod.at = {5.0};
+  expect_refused(barrel(rod), "geometry.chains[0].at = 5: the barrel is 4 m long");
   Chain high;
   high.height = 40.0;
   expect_refused(octagon(high), "geometry.chains[0].height = 40: the masonry reaches from 0 to ");

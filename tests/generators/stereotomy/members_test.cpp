@@ -1,8 +1,10 @@
 // Several members: on each other, beside each other, and what is refused.
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
@@ -101,6 +103,118 @@ TEST(Members, HaveCopies) {
   pier.copies = Copies{.count = 3, .by = Vec3(0.0, 7.0, 1.0)};
   const Assembly steps = check_and_report(members_case({pier, top}), &row);
   EXPECT_LT((steps.sheets[4].origin - Vec3(6.0, 14.0, 2.0)).norm(), 1e-14);
+}
+
+/// A barrel over walls, as long as it is wide.
+Member nave() {
+  VaultSurface barrel;
+  barrel.plan.kind = Plan::Kind::line;
+  barrel.plan.length = 4.0;
+  barrel.profile.kind = Profile::Kind::chain;
+  barrel.profile.points = {{3.0, 3.0, 0.0}, {0.0, 4.0, 7.0}, {0.0, 3.0}, {}};
+  barrel.thickness = 1.0;
+  Member member;
+  member.name = "nave";
+  member.surface = barrel;
+  member.bond = RunningBond{16, 4, 2};
+  return member;
+}
+
+/// A quarter of a circle that rises to a vertical bed between 3 and 3.5 m.
+Member buttress() {
+  VaultSurface half;
+  half.plan.kind = Plan::Kind::line;
+  half.plan.length = 1.0;
+  half.profile.kind = Profile::Kind::chain;
+  half.profile.points = {{2.5, 2.5, 0.5}, {0.0, 1.0, 3.0}, {0.0, 2.0}, {}};
+  half.thickness = 0.5;
+  Member member;
+  member.name = "buttress";
+  member.surface = half;
+  member.bond = StackBond{8, 1, 2};
+  member.beside = Beside{"nave", Beside::Side::right};
+  member.at = Place{{0.0, 1.3, 0.0}, 0.0};
+  return member;
+}
+
+// Two flying buttresses lean on the walls of a nave: both meet its face at x = 4 and x = -4, and both push.
+TEST(Members, LeanOnOthersAndHaveMirrorImages) {
+  Member leaning = buttress();
+  leaning.mirror = Mirror{};
+  ModelReport report;
+  const Assembly assembly = check_and_report(members_case({nave(), leaning}), &report);
+  EXPECT_EQ(report.islands, 1);
+  ASSERT_EQ(assembly.sheets.size(), 3u);
+  EXPECT_EQ(assembly.sheets[2].name, "buttress 2");
+  EXPECT_LT((assembly.sheets[1].origin - Vec3(3.5, 1.3, 0.0)).norm(), 1e-14) << "0.5 m before the wall";
+  std::array<double, 3> volume{}, moment{};  // of the members, about x = 0
+  for (const Block& block : assembly.blocks) {
+    if (block.fixed) continue;
+    const size_t member = block.ring < 16 ? 0 : block.ring < 24 ? 1 : 2;
+    volume[member] += block.volume;
+    moment[member] += block.volume * block.centroid.x();
+  }
+  EXPECT_NEAR(volume[2] / volume[1], 1.0, 1e-13);
+  EXPECT_NEAR(moment[2] / moment[1], -1.0, 1e-13);
+  int leaning_blocks = 0;
+  for (const Part& part : assembly.parts)
+    if (assembly.blocks[part.block].ring == 15 + 8 || assembly.blocks[part.block].ring == 15 + 16) {
+      Eigen::AlignedBox3d box;
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+        for (const int v : assembly.face(f)) box.extend(assembly.vertices[v]);
+      EXPECT_NEAR(std::min(std::abs(box.min().x()), std::abs(box.max().x())), 4.0, 1e-14);
+      ++leaning_blocks;
+    }
+  EXPECT_GT(leaning_blocks, 1);
+}
+
+// A mirror image of a member that is its own mirror image is the member.
+TEST(Members, AMirroredDomeIsTheDome) {
+  Member dome = tower("dome", 10.0);
+  VaultSurface surface = std::get<VaultSurface>(dome.surface);
+  surface.plan.kind = Plan::Kind::polygon;
+  surface.plan.sides = 6;
+  dome.surface = surface;
+  dome.bond = HerringboneBond{.rings = 6, .blocks_per_ring = 12, .spirals = 2, .phase = 0.3};
+  dome.mirror = Mirror{{8.0, 0.0, 0.0}, {2.0, 0.0, 0.0}};
+  const Assembly assembly = generate(members_case({dome}));
+  const size_t half = assembly.blocks.size() / 2;
+  ASSERT_EQ(assembly.blocks.size(), 2 * half);
+  EXPECT_LT((assembly.sheets[1].origin - Vec3(16.0, 0.0, 0.0)).norm(), 1e-14);
+  for (size_t b = 0; b < half; ++b) {
+    const Block &one = assembly.blocks[b], &image = assembly.blocks[half + b];
+    EXPECT_NEAR(image.volume / one.volume, 1.0, 1e-12);
+    EXPECT_LT((Vec3(16.0 - one.centroid.x(), one.centroid.y(), one.centroid.z()) - image.centroid).norm(),
+              1e-13);
+    if (one.fixed) continue;
+    // The sail and the position in it follow from the azimuth in the frame of the image.
+    const Vec3 own = assembly.sheets[1].own(image.centroid);
+    const double turn = 2.0 * std::numbers::pi, azimuth = std::atan2(own.y(), own.x());
+    const double sails = (azimuth < 0.0 ? azimuth + turn : azimuth) / turn * 6.0;
+    EXPECT_LE(std::abs(image.sail + 0.5 * (1.0 + image.sail_position) - sails), 0.25) << b;
+  }
+}
+
+// Supports end at the common plane: each stone stands on one support, and no support reaches into a neighbour.
+TEST(Members, BesideEachOtherShareNoSupport) {
+  Member aisle = nave();
+  aisle.name = "aisle";
+  aisle.beside = Beside{"nave", Beside::Side::left};
+  ModelReport one, both;
+  check_and_report(members_case({nave()}), &one);
+  const Assembly assembly = check_and_report(members_case({nave(), aisle}), &both);
+  EXPECT_EQ(both.num_supports, 2 * one.num_supports);
+  EXPECT_GT(both.num_joints, 2 * one.num_joints) << "the walls touch";
+  for (const Part& part : assembly.parts) {
+    if (!assembly.blocks[part.block].fixed) continue;
+    double low = 1e9, high = -1e9;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      for (const int v : assembly.face(f)) {
+        low = std::min(low, assembly.vertices[v].x());
+        high = std::max(high, assembly.vertices[v].x());
+      }
+    EXPECT_TRUE(high <= -4.0 + 1e-13 || low >= -4.0 - 1e-13) << low << " to " << high;
+  }
 }
 
 std::string message_of(const Case& c) {

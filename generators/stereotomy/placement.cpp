@@ -1,0 +1,149 @@
+#include "generators/stereotomy/placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+
+namespace cupola {
+namespace {
+
+/// z of a bed that is level, m. `what` names it in the message if it is not.
+double level_of(const SurfaceMap& surface, double bed, const std::string& what) {
+  const double z = surface.intrados(bed, surface.first_corner).z();
+  double farthest = 0.0;
+  constexpr int kSteps = 8;
+  for (int i = 0; i <= kSteps; ++i)
+    for (const int layer : {0, surface.num_wythes()})
+      farthest = std::max(farthest, std::abs(surface.point(bed, surface.extent * i / kSteps, layer).z() - z));
+  const double size = (surface.intrados(bed, 0.0) - surface.extrados(bed, 0.0)).norm();
+  if (farthest > 1e-9 * size)
+    throw InputError(fmt::format(
+        "{} is not level: it rises or falls by {:.3g} m; a member stands on a level bed", what, farthest));
+  return z;
+}
+
+/// The largest coordinate of a member along a horizontal direction of its own frame, m. A plane cut across
+/// that direction ends it.
+double reach(const Storey& storey, const Vec3& direction) {
+  const SurfaceMap& surface = storey.surface;
+  double farthest = -std::numeric_limits<double>::infinity();
+  const auto include = [&](const Vec3& p) { farthest = std::max(farthest, direction.dot(p)); };
+  if (surface.webs > 0) {
+    const double apothem = surface.extent, half_angle = std::numbers::pi / surface.webs;
+    for (int corner = 0; corner < surface.webs; ++corner) {
+      const double a = std::numbers::pi / 2 + (2 * corner + 1) * half_angle;
+      const Vec3 p = apothem / std::cos(half_angle) * Vec3(std::cos(a), std::sin(a), 0.0);
+      include(storey.affine ? storey.affine->image(p) : p);
+    }
+  } else {
+    for (int bed = 0; bed <= surface.num_rows; ++bed)
+      for (const double abscissa : storey.bond.cuts)
+        for (const int layer : {0, surface.num_wythes()}) include(surface.point(bed, abscissa, layer));
+  }
+  for (const Cut& cut : storey.cuts)
+    if (cut.kind == Cut::Kind::plane && cut.normal.normalized().dot(direction) > 1.0 - 1e-12)
+      farthest = std::min(farthest, direction.dot(cut.point));
+  return farthest;
+}
+
+/// The motion from one copy to the next.
+Eigen::Isometry3d step_of(const Copies& copies) {
+  if (!copies.about) return Eigen::Isometry3d(Eigen::Translation3d(copies.by));
+  const double turn = 2.0 * std::numbers::pi / copies.count;
+  return Eigen::Translation3d(*copies.about) * Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) *
+         Eigen::Translation3d(-*copies.about);
+}
+
+/// The reflection in a plane.
+Eigen::Isometry3d reflection_in(const Mirror& mirror) {
+  const Vec3 normal = mirror.normal.normalized();
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() -= 2.0 * normal * normal.transpose();
+  motion.translation() = 2.0 * normal.dot(mirror.point) * normal;
+  return motion;
+}
+
+}  // namespace
+
+Eigen::Isometry3d placement_at(const Place& place) {
+  constexpr double kRadians = std::numbers::pi / 180.0;
+  return Eigen::Translation3d(place.origin) *
+         Eigen::AngleAxisd(place.rotate_deg * kRadians, Eigen::Vector3d::UnitZ());
+}
+
+void stand_on(const std::string& key, Storey* lower, Storey* storey) {
+  const std::string on = fmt::format("{}.on = {}: ", key, lower->name);
+  if (lower->surface.carries)
+    throw InputError(on + "nothing can stand on its last bed, behind which a support or a key stone lies");
+  const double top = level_of(lower->surface, lower->surface.num_rows, on + "its last bed");
+  const double foot = level_of(storey->surface, 0.0, on + "the first bed of " + storey->name);
+  storey->placement = lower->placement * Eigen::Translation3d(0.0, 0.0, top - foot);
+  storey->stands_on_previous = true;
+  storey->surface.first_bed_held = false;
+  lower->surface.carries = true;
+}
+
+void stand_beside(const Beside& beside, const std::string& key, const std::vector<Storey>& storeys,
+                  Storey* storey) {
+  const auto other = std::ranges::find(storeys, beside.member, &Storey::name);
+  if (other == storeys.end()) {
+    std::vector<std::string> names;
+    for (const Storey& before : storeys) names.push_back(before.name);
+    const std::string near = nearest_name(beside.member, names);
+    throw InputError(fmt::format("{}.beside.member = {}: must be a member before {} in the list{}", key,
+                                 beside.member, storey->name,
+                                 near.empty() ? "" : fmt::format("; did you mean {}?", near)));
+  }
+  using enum Beside::Side;
+  const bool along_x = beside.side == right || beside.side == left;
+  const double sign = beside.side == right || beside.side == behind ? 1.0 : -1.0;
+  const Vec3 out = sign * (along_x ? Vec3::UnitX() : Vec3::UnitY());
+  const Vec3 own_in = storey->placement.linear().transpose() * -out;
+  const double plane = reach(*other, out);
+  const double own = reach(*storey, own_in);  // of the side that faces the other member
+  const double shift = plane + own - out.dot(storey->placement.translation());
+  storey->limits.push_back({own_in, own});
+  storey->placement = other->placement * Eigen::Translation3d(shift * out) * storey->placement;
+}
+
+void limit_neighbours(std::vector<Storey>* storeys) {
+  std::vector<std::pair<Storey*, Plane>> limits;
+  for (const Storey& one : *storeys)
+    for (const Plane& limit : one.limits) {
+      const Vec3 normal = one.placement.linear() * limit.normal;  // of the world
+      const double offset = limit.offset + normal.dot(one.placement.translation());
+      for (Storey& other : *storeys) {
+        if (&one == &other) continue;
+        const Plane own{other.placement.linear().transpose() * -normal,
+                        normal.dot(other.placement.translation()) - offset};
+        constexpr double kTouches = 1e-9;  // m per m from the origin
+        if (std::abs(reach(other, own.normal) - own.offset) <= kTouches * (1.0 + std::abs(offset)))
+          limits.emplace_back(&other, own);
+      }
+    }
+  for (auto& [storey, limit] : limits) storey->limits.push_back(limit);
+}
+
+void copy_stack(const Member& member, size_t first, std::vector<Storey>* storeys) {
+  const size_t end = storeys->size();
+  const int count = member.copies ? member.copies->count : member.mirror ? 2 : 1;
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  for (int copy = 2; copy <= count; ++copy) {
+    motion = (member.copies ? step_of(*member.copies) : reflection_in(*member.mirror)) * motion;
+    for (size_t i = first; i < end; ++i) {
+      Storey storey = (*storeys)[i];
+      storey.name += fmt::format(" {}", copy);
+      for (std::string& label : storey.members) label += fmt::format(" {}", copy);
+      storey.placement = motion * storey.placement;
+      storey.surface.rings_below = storeys->back().surface.rings_below + storeys->back().num_rings();
+      storeys->push_back(std::move(storey));
+    }
+  }
+}
+
+}  // namespace cupola
