@@ -178,14 +178,6 @@ std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput&
   return resultants;
 }
 
-/// Azimuth of a meridian of the case, degrees; none without a meridian of this name.
-std::optional<double> meridian_named(const std::string& name, const Evaluation& e) {
-  if (!is_vault(e)) return std::nullopt;
-  for (const Meridian& meridian : e.scene.postproc.meridians)
-    if (meridian.name == name) return meridian.azimuth_deg;
-  return std::nullopt;
-}
-
 /// Per block, true if a frame of a construction leaves it out: blocks not laid yet, and courses held as
 /// supports. Neither rests on a joint of the frame. Empty unless a stage is shown.
 std::vector<bool> blocks_left_out(const Evaluation& e) {
@@ -337,11 +329,8 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   for (const CutPlane& plane : scene.postproc.planes)
     e.planes.push_back(
         plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads, e.last.frame.ties));
-  const std::optional<double> rib = meridian_named("rib", e), mid_sail = meridian_named("mid_sail", e);
-  if (rib && mid_sail && e.assembly.members.empty() &&
-      !scene.geometry.imported)  // beds follow the period of one bond
-    e.rib_over_mid_sail =
-        rib_ratio(thrust_input(e, e.last), last_member(scene.geometry).bond, *rib, *mid_sail);
+  if (e.assembly.members.empty() && !scene.geometry.imported && !scene.geometry.window)  // one bond
+    e.rib_over_mid_sail = rib_ratio(thrust_input(e, e.last), last_member(scene.geometry).bond);
   return e;
 }
 

@@ -85,7 +85,7 @@ struct Evaluation {
   std::vector<MeridianEvaluation> meridians;
   std::vector<SectionEvaluation> sections;
   std::vector<PlaneCut> planes;
-  std::optional<RibRatio> rib_over_mid_sail;  ///< if the case names the meridians `rib` and `mid_sail`
+  std::optional<RibRatio> rib_over_mid_sail;  ///< of a whole vault with sails, of one member and bond
   std::optional<int> lost_joints;             ///< loaded in the first frame, gone in the last; none: unknown
   std::vector<std::string> warnings;          ///< what the reader must know before using the numbers
   std::vector<std::string> unreadable;        ///< parts of the results that are missing or damaged

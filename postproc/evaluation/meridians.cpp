@@ -24,7 +24,7 @@ std::vector<Drawn> drawn_meridians(const Evaluation& e, const Sheet& sheet, bool
   using enum Sheet::ThrustLines;
   const auto name = [&](const std::string& own) { return alone ? own : sheet.name + " " + own; };
   if (sheet.thrust_lines == one) return {{alone ? "arch" : sheet.name, std::nullopt, sheet.first_ring}};
-  if (sheet.thrust_lines != by_azimuth || !sheet.is_central()) return {};
+  if (sheet.thrust_lines != by_azimuth) return {};
   std::vector<Drawn> meridians;
   for (const Meridian& meridian : e.scene.postproc.meridians)
     meridians.push_back({name(meridian.name), meridian.azimuth_deg, sheet.first_ring});
@@ -97,7 +97,8 @@ std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {
          .least_thrust = {},
          .greatest_thrust = {}});
     if (drawn.azimuth_deg)
-      meridians.back().hoop = hoop_forces(e.assembly, e.last.joints, *drawn.azimuth_deg, e.last.frame.ties);
+      meridians.back().hoop =
+          hoop_forces(e.assembly, e.last.joints, *drawn.azimuth_deg, e.last.frame.ties, drawn.ring);
   }
   return meridians;
 }

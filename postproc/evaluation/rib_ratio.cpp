@@ -8,10 +8,12 @@ namespace cupola {
 namespace {
 
 /// Sum of r over the meridians at the same place in every sail, by bed.
-std::map<int, double> summed_resultants(const ThrustInput& input, double azimuth_deg, int sails) {
+std::map<int, double> summed_resultants(const ThrustInput& input, double azimuth_deg, const Sheet& sheet) {
   std::map<int, double> sums;
-  for (int sail = 0; sail < sails; ++sail)
-    for (const ThrustPoint& p : thrust_line(input, "", azimuth_deg + 360.0 * sail / sails).points)
+  for (int sail = 0; sail < sheet.sails; ++sail)
+    for (const ThrustPoint& p :
+         thrust_line(input, "", azimuth_deg + 360.0 * sail / sheet.sails, std::nullopt, sheet.first_ring)
+             .points)
       sums[p.bed] += p.r;
   return sums;
 }
@@ -26,11 +28,11 @@ int bond_period(const Bond& bond) {
   return std::holds_alternative<RunningBond>(bond) ? 2 : 1;
 }
 
-std::optional<RibRatio> rib_ratio(const ThrustInput& input, const Bond& bond, double rib_deg,
-                                  double mid_sail_deg) {
-  const int sails = input.assembly->sheets.back().sails;
-  const std::map<int, double> rib = summed_resultants(input, rib_deg, sails);
-  const std::map<int, double> mid_sail = summed_resultants(input, mid_sail_deg, sails);
+std::optional<RibRatio> rib_ratio(const ThrustInput& input, const Bond& bond) {
+  if (input.assembly->sheets.empty() || input.assembly->sheets.back().sails < 2) return std::nullopt;
+  const Sheet& sheet = input.assembly->sheets.back();
+  const std::map<int, double> rib = summed_resultants(input, 0.0, sheet);
+  const std::map<int, double> mid_sail = summed_resultants(input, 180.0 / sheet.sails, sheet);
   std::vector<double> ratios;
   for (const auto& [bed, r] : rib)
     if (const auto same = mid_sail.find(bed); same != mid_sail.end() && same->second > 0.0)
@@ -40,7 +42,7 @@ std::optional<RibRatio> rib_ratio(const ThrustInput& input, const Bond& bond, do
   if (ratios.size() >= period) ratios.resize(ratios.size() / period * period);
   const auto [smallest, largest] = std::minmax_element(ratios.begin(), ratios.end());
   return RibRatio{std::accumulate(ratios.begin(), ratios.end(), 0.0) / static_cast<double>(ratios.size()),
-                  *smallest, *largest, sails, static_cast<int>(ratios.size())};
+                  *smallest, *largest, sheet.sails, static_cast<int>(ratios.size())};
 }
 
 }  // namespace cupola

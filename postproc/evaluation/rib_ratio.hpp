@@ -23,9 +23,7 @@ struct RibRatio {
 /// stood.
 int bond_period(const Bond& bond);
 
-/// The ratio for strips at the azimuths of one rib and one mid-sail, repeated in every sail. None without
-/// common beds.
-std::optional<RibRatio> rib_ratio(const ThrustInput& input, const Bond& bond, double rib_deg,
-                                  double mid_sail_deg);
+/// The ratio of the uppermost stack: a sail begins at azimuth 0. None without sails or common beds.
+std::optional<RibRatio> rib_ratio(const ThrustInput& input, const Bond& bond);
 
 }  // namespace cupola

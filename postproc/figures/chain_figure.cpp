@@ -23,12 +23,27 @@ std::vector<std::vector<double>> bars_by_azimuth(const TieTable& ties, int chain
   return rows;
 }
 
+/// True if a chain goes round a closed member; false for tie rods.
+bool is_round(const Evaluation& e, int chain) {
+  const TieTable& ties = e.last.frame.ties;
+  for (int i = 0; i < ties.size(); ++i)
+    if (ties.chain[i] == chain) return e.assembly.axis_of(e.assembly.blocks[ties.block_a[i]].ring).closed;
+  return false;
+}
+
 }  // namespace
+
+bool has_chains_round(const Evaluation& e) {
+  for (size_t c = 0; c < e.chains.size(); ++c)
+    if (is_round(e, static_cast<int>(c))) return true;
+  return false;
+}
 
 Figure chain_figure(const Evaluation& e) {
   constexpr std::array kColours{kBlue, kOrange, kGreen, kPurple, kSky};
   double largest = 0.0;
-  for (const ChainForces& chain : e.chains) largest = std::max(largest, chain.greatest);
+  for (size_t c = 0; c < e.chains.size(); ++c)
+    if (is_round(e, static_cast<int>(c))) largest = std::max(largest, e.chains[c].greatest);
   const ForceUnit unit = force_unit(largest);
   Figure f;
   f.name = "chains";
@@ -41,6 +56,7 @@ Figure chain_figure(const Evaluation& e) {
   std::string plots;
   for (size_t c = 0; c < e.chains.size(); ++c) {
     const ChainForces& chain = e.chains[c];
+    if (!is_round(e, static_cast<int>(c))) continue;
     const char* colour = kColours[c % kColours.size()];
     const std::string data = fmt::format("chain{}", c);
     const auto rows = bars_by_azimuth(e.last.frame.ties, static_cast<int>(c), unit.per_newton);

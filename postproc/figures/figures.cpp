@@ -149,7 +149,7 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
     if (!cut.polygons.empty()) figures.push_back(plane_figure(e, cut));
   for (const MeridianEvaluation& m : e.meridians)
     if (!m.hoop.empty()) figures.push_back(hoop_figure(m));
-  if (!e.chains.empty()) figures.push_back(chain_figure(e));
+  if (has_chains_round(e)) figures.push_back(chain_figure(e));
   MapScales scales;
   for (const ShellMap& map : maps) scales.include(map);
   for (const ShellMap& map : maps)

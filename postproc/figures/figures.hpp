@@ -50,7 +50,10 @@ Figure plane_figure(const Evaluation& evaluation, const PlaneCut& cut);
 /// Hoop force across a meridian over the height, through head and bed joints.
 Figure hoop_figure(const MeridianEvaluation& meridian);
 
-/// Tension of the bars of all chains over the azimuth.
+/// True if a chain goes round a closed member, unlike tie rods.
+bool has_chains_round(const Evaluation& evaluation);
+
+/// Tension of the bars of all such chains over the azimuth.
 Figure chain_figure(const Evaluation& evaluation);
 
 /// Displacement, speed and support reaction over time.

@@ -88,9 +88,10 @@ std::string JointMap::axes() const {
     }
   const double margin = 0.03 * (high - low) + 1e-3;
   return fmt::format(
-      "set xrange [{}:{}]\nset yrange [-0.3:{}]\nset ytics {}\nset xlabel '{}'\nset ylabel '{}'\nunset "
+      "set xrange [{}:{}]\nset yrange [{}:{}]\nset ytics {}\nset xlabel '{}'\nset ylabel '{}'\nunset "
       "grid\n",
-      low - margin, high + margin, map_.num_rings + 0.3, std::max(1, (map_.num_rings + 7) / 8),
+      low - margin, high + margin, map_.first_ring - 0.3, map_.num_rings + 0.3,
+      std::max(1, (map_.num_rings - map_.first_ring + 7) / 8),
       map_.vault  ? "azimuth (deg)"
       : map_.arch ? "y (m)"
                   : "x (m)",

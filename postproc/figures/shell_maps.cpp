@@ -20,9 +20,11 @@ std::string map_axes(const ShellMap& map) {
   return (map.vault ? "set xrange [-180:180]\nset xtics 45\nset xlabel 'azimuth (deg)'\n"
                     : fmt::format("set xlabel '{} (m)'\n", map.arch ? "y" : "x")) +
          fmt::format(
-             "set yrange [0:{}]\nset ytics {}\nset ylabel '{}'\nunset grid\nset style fill solid 1 noborder\n"
+             "set yrange [{}:{}]\nset ytics {}\nset ylabel '{}'\nunset grid\nset style fill solid 1 "
+             "noborder\n"
              "set key at graph 1,1 right bottom horizontal\n",
-             map.num_rings, std::max(1, (map.num_rings + 7) / 8), map.vault ? "ring" : "course");
+             map.first_ring, map.num_rings, std::max(1, (map.num_rings - map.first_ring + 7) / 8),
+             map.vault ? "ring" : "course");
 }
 
 /// One panel: the boxes whose value is a number in colour, negative ones with a dot that remains without

@@ -30,18 +30,18 @@ struct Range {
 };
 
 /// The points of a thrust line, interrupted where its position is undefined.
-Rows line_rows(const ThrustLine& line, bool arch) {
+Rows line_rows(const ThrustLine& line) {
   Rows rows;
   for (const ThrustPoint& p : line.points)
-    rows.push_back(p.is_placed() ? std::vector{profile_abscissa(line, arch, p.point), p.point.z()}
+    rows.push_back(p.is_placed() ? std::vector{profile_abscissa(line, p.point), p.point.z()}
                                  : std::vector<double>{});
   return rows;
 }
 
 /// Data blocks of a thrust figure: skins, beds, thrust lines, lines of action, envelope, graphs.
-std::string thrust_data(const MeridianEvaluation& m, bool arch, const ForceUnit& unit) {
+std::string thrust_data(const MeridianEvaluation& m, const ForceUnit& unit) {
   const ThrustLine& line = m.thrust;
-  const auto at = [&](const Vec3& p) { return std::vector{profile_abscissa(line, arch, p), p.z()}; };
+  const auto at = [&](const Vec3& p) { return std::vector{profile_abscissa(line, p), p.z()}; };
   Rows skins[2], thirds[2], beds, action, envelope, graphs, pressed;
   double longest = 0.0;
   for (const ThrustPoint& p : line.points) longest = std::max(longest, p.r);
@@ -62,16 +62,16 @@ std::string thrust_data(const MeridianEvaluation& m, bool arch, const ForceUnit&
       const Vec3 reach = longest > 0.0 ? Vec3(1.5 * thickness / longest * p.force) : Vec3(Vec3::Zero());
       action.insert(action.end(), {at(p.point - reach), at(p.point + reach), {}});
     }
-    graphs.push_back({arch ? 0.5 * (p.intrados.x() + p.extrados.x()) : p.height(), unit.per_newton * p.r,
-                      unit.per_newton * p.v, p.couple_length, p.face_distance});
+    graphs.push_back({line.arch ? profile_abscissa(line, 0.5 * (p.intrados + p.extrados)) : p.height(),
+                      unit.per_newton * p.r, unit.per_newton * p.v, p.couple_length, p.face_distance});
   }
   for (const Vec3& p : line.envelope) envelope.push_back(at(p));
   std::string ends;
-  if (m.least_thrust) ends += data_block("least", line_rows(*m.least_thrust, arch));
-  if (m.greatest_thrust) ends += data_block("greatest", line_rows(*m.greatest_thrust, arch));
+  if (m.least_thrust) ends += data_block("least", line_rows(*m.least_thrust));
+  if (m.greatest_thrust) ends += data_block("greatest", line_rows(*m.greatest_thrust));
   return data_block("intrados", skins[0]) + data_block("extrados", skins[1]) +
          data_block("inner", thirds[0]) + data_block("outer", thirds[1]) + data_block("beds", beds) +
-         data_block("thrust", line_rows(line, arch)) + data_block("action", action) +
+         data_block("thrust", line_rows(line)) + data_block("action", action) +
          data_block("envelope", envelope) + data_block("graphs", graphs) + data_block("pressed", pressed) +
          ends;
 }
@@ -131,7 +131,7 @@ std::string vault_panels(const MeridianEvaluation& m, int width, int height, con
     if (line == nullptr) continue;
     for (const ThrustPoint& p : line->points)
       for (const Vec3& q : {p.intrados, p.extrados, p.is_placed() ? p.point : p.intrados}) {
-        x.add(profile_abscissa(*line, false, q));
+        x.add(profile_abscissa(*line, q));
         z.add(q.z());
       }
   }
@@ -196,8 +196,8 @@ std::string arch_panels(const ForceUnit& unit, const std::string& profile, const
 }  // namespace
 
 Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
-  const bool arch = !is_vault(e);
   const ThrustLine& line = m.thrust;
+  const bool arch = line.arch;
   const double couple = line.largest_couple_length();
   double largest = 0.0;
   for (const ThrustPoint& p : line.points) {
@@ -233,7 +233,7 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
   f.height = arch ? 900 : 560;
   const std::string profile = m.wythes.empty() ? profile_plot(m, e.summary, zones) : wythe_profile(wythes);
   f.commands =
-      plot_style() + thrust_data(m, arch, unit) + wythes.data +
+      plot_style() + thrust_data(m, unit) + wythes.data +
       (arch ? arch_panels(unit, profile, wythes) : vault_panels(m, f.width, f.height, unit, profile, wythes));
   return f;
 }

@@ -26,11 +26,11 @@ constexpr const char* kBonderSection = "#dfe4e8";
 
 /// The plane of a meridian, or the middle of the width of an arch. It is shifted by a hair, since joints may
 /// lie in it.
-Plane plane_of(const ThrustLine& line, bool arch) {
+Plane plane_of(const ThrustLine& line) {
   constexpr double kHair = 1e-6;  // m
-  if (arch) return {Vec3::UnitY(), line.points.front().intrados.y() + kHair};
-  const double angle = line.azimuth_deg / kDegrees;
-  return {Vec3(-std::sin(angle), std::cos(angle), 0.0), kHair};
+  const Vec3 along = line.axis.towards(line.azimuth_deg / kDegrees), normal(-along.y(), along.x(), 0.0);
+  const Vec3& on = line.arch ? line.points.front().intrados : line.axis.origin;
+  return {normal, normal.dot(on) + kHair};
 }
 
 /// The outlines of the cut blocks of a member, and whether it is a wythe.
@@ -39,22 +39,22 @@ struct CutMember {
   bool is_wythe = true;
 };
 
-std::vector<CutMember> cut_members(const Evaluation& e, const ThrustLine& line, bool arch) {
+std::vector<CutMember> cut_members(const Evaluation& e, const ThrustLine& line) {
   std::vector<CutMember> cut(e.assembly.members.size());
-  for (const CutPolygon& polygon : cut_by_plane(e.assembly, plane_of(line, arch))) {
+  for (const CutPolygon& polygon : cut_by_plane(e.assembly, plane_of(line))) {
     const Block& block = e.assembly.blocks[polygon.block];
-    if (block.fixed || (!arch && profile_abscissa(line, arch, block.centroid) <= 0.0)) continue;
+    if (block.fixed || (!line.arch && profile_abscissa(line, block.centroid) <= 0.0)) continue;
     Rows& rows = cut[block.member].outlines;
     cut[block.member].is_wythe = e.shell.wythes[polygon.block] == WytheRange{block.member, block.member + 1};
-    for (const Vec3& p : polygon.outline) rows.push_back({profile_abscissa(line, arch, p), p.z()});
-    rows.push_back({profile_abscissa(line, arch, polygon.outline.front()), polygon.outline.front().z()});
+    for (const Vec3& p : polygon.outline) rows.push_back({profile_abscissa(line, p), p.z()});
+    rows.push_back({profile_abscissa(line, polygon.outline.front()), polygon.outline.front().z()});
     rows.push_back({});
   }
   return cut;
 }
 
-void add_section(const Evaluation& e, const ThrustLine& line, bool arch, WytheCurves* out) {
-  const std::vector<CutMember> cut = cut_members(e, line, arch);
+void add_section(const Evaluation& e, const ThrustLine& line, WytheCurves* out) {
+  const std::vector<CutMember> cut = cut_members(e, line);
   for (int m = 0; m < static_cast<int>(cut.size()); ++m) {
     if (cut[m].outlines.empty()) continue;
     const std::string name = fmt::format("cut_{}", m);
@@ -67,16 +67,17 @@ void add_section(const Evaluation& e, const ThrustLine& line, bool arch, WytheCu
 
 }  // namespace
 
-double profile_abscissa(const ThrustLine& line, bool arch, const Vec3& point) {
-  const double angle = arch ? 0.0 : line.azimuth_deg / kDegrees;
-  return std::cos(angle) * point.x() + std::sin(angle) * point.y();
+double profile_abscissa(const ThrustLine& line, const Vec3& point) {
+  const double angle = line.azimuth_deg / kDegrees;
+  const Vec3 own = line.axis.own(point);
+  return std::cos(angle) * own.x() + std::sin(angle) * own.y();
 }
 
 WytheCurves wythe_curves(const Evaluation& e, const MeridianEvaluation& m, const ForceUnit& unit) {
   WytheCurves out;
   if (m.wythes.empty()) return out;
-  const bool arch = !is_vault(e);
-  add_section(e, m.thrust, arch, &out);
+  const bool arch = m.thrust.arch;
+  add_section(e, m.thrust, &out);
   for (const ThrustLine& line : m.wythes) {
     Rows profile, graphs;
     int last = -1;
@@ -84,10 +85,10 @@ WytheCurves wythe_curves(const Evaluation& e, const MeridianEvaluation& m, const
       if (p.bed != last + 1)
         for (Rows* rows : {&profile, &graphs}) rows->emplace_back();
       last = p.bed;
-      profile.push_back(p.is_placed() ? std::vector{profile_abscissa(line, arch, p.point), p.point.z()}
+      profile.push_back(p.is_placed() ? std::vector{profile_abscissa(line, p.point), p.point.z()}
                                       : std::vector<double>{});
-      graphs.push_back({arch ? 0.5 * (p.intrados.x() + p.extrados.x()) : p.height(), unit.per_newton * p.r,
-                        p.couple_length, p.face_distance});
+      graphs.push_back({arch ? profile_abscissa(line, 0.5 * (p.intrados + p.extrados)) : p.height(),
+                        unit.per_newton * p.r, p.couple_length, p.face_distance});
     }
     const std::string name = fmt::format("wythe_{}", *line.wythe), curves = name + "_graphs";
     const char* colour = colours_of(e.shell, *line.wythe).line;

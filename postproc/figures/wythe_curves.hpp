@@ -18,7 +18,8 @@ struct WytheCurves {
 WytheCurves wythe_curves(const Evaluation& evaluation, const MeridianEvaluation& meridian,
                          const ForceUnit& unit);
 
-/// Abscissa of a profile: horizontal distance from the axis in the plane of the meridian; x for an arch.
-double profile_abscissa(const ThrustLine& line, bool arch, const Vec3& point);
+/// Abscissa of a profile: horizontal distance from the axis in the plane of the meridian; its own x for an
+/// arch.
+double profile_abscissa(const ThrustLine& line, const Vec3& point);
 
 }  // namespace cupola

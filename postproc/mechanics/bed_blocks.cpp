@@ -8,15 +8,15 @@
 
 namespace cupola {
 
-std::map<int, BlockBed> blocks_on(const std::vector<BedFacet>& bed) {
+std::map<int, BlockBed> blocks_on(const std::vector<BedFacet>& bed, const Sheet& axis) {
   std::map<int, BlockBed> blocks;
   for (const BedFacet& facet : bed) {
     const auto [entry, is_new] = blocks.try_emplace(facet.block);
     BlockBed& block = entry->second;
-    const double a = azimuth(facet.intrados_a);
+    const double a = azimuth(axis.own(facet.intrados_a));
     if (is_new) block.from = block.to = a;
     for (const Vec3& corner : {facet.intrados_a, facet.intrados_b}) {
-      const double angle = block.from + wrapped(azimuth(corner) - block.from);
+      const double angle = block.from + wrapped(azimuth(axis.own(corner)) - block.from);
       block.from = std::min(block.from, angle);
       block.to = std::max(block.to, angle);
     }

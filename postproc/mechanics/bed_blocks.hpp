@@ -11,12 +11,12 @@ namespace cupola {
 /// The facets of one block on one bed, their range of azimuths and their mean plane.
 struct BlockBed {
   std::vector<const BedFacet*> facets;
-  double from = 0.0, to = 0.0;  // rad, unwrapped
+  double from = 0.0, to = 0.0;  // rad about the axis, unwrapped
   Plane plane;
 };
 
-/// The blocks on a bed.
-std::map<int, BlockBed> blocks_on(const std::vector<BedFacet>& bed);
+/// The blocks on a bed; `axis`: of its stack.
+std::map<int, BlockBed> blocks_on(const std::vector<BedFacet>& bed, const Sheet& axis);
 
 /// Share of the thickness of the shell at a point in the plane of the bed, from its distances to the inner
 /// and outer edges of the nearest facet.

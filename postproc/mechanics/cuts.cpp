@@ -37,17 +37,23 @@ std::vector<CutPolygon> cut_by_plane(const Assembly& assembly, const Plane& plan
 }
 
 std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& joints, double azimuth_deg,
-                                 const TieTable& ties) {
+                                 const TieTable& ties, int ring) {
   const double angle = azimuth_deg * std::numbers::pi / 180.0;
-  const Vec3 outwards(std::cos(angle), std::sin(angle), 0.0);
-  const Vec3 along(-std::sin(angle), std::cos(angle), 0.0);
-  const auto positive = [&](int block) { return along.dot(assembly.blocks[block].centroid) > 0.0; };
+  const Sheet axis = assembly.axis_of(ring);
+  const auto [first, end] = assembly.stack_of(ring);
+  const Vec3 outwards = axis.towards(angle), along(-outwards.y(), outwards.x(), 0.0);
+  const Vec3 foot(axis.origin.x(), axis.origin.y(), 0.0);
+  const auto positive = [&](int block) { return along.dot(assembly.blocks[block].centroid - foot) > 0.0; };
+  const auto is_of_stack = [&, first = first, end = end](int block) {
+    return assembly.blocks[block].ring >= first && assembly.blocks[block].ring < end;
+  };
   std::map<int, HoopRow> rows;
   std::map<int, int> counts;
   for (const JointWrench& joint : joints.wrenches) {
     const int a = joint.block_a, b = joint.block_b;
     if (assembly.blocks[a].fixed || assembly.blocks[b].fixed || positive(a) == positive(b)) continue;
-    if (outwards.dot(joint.patch.centroid) <= 0.0) continue;  // beyond the axis
+    if (!is_of_stack(a) || !is_of_stack(b)) continue;
+    if (outwards.dot(joint.patch.centroid - foot) <= 0.0) continue;  // beyond the axis
     const double force = along.dot(wrench_on(joint, positive(b) ? b : a).force);
     HoopRow& row = rows[joint.ring];
     row.ring = joint.ring;
@@ -57,14 +63,14 @@ std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& 
   }
   for (int i = 0; i < ties.size(); ++i) {
     const int a = ties.block_a[i], b = ties.block_b[i];
-    if (positive(a) == positive(b) || outwards.dot(ties.point_a[i]) <= 0.0) continue;
+    if (positive(a) == positive(b) || outwards.dot(ties.point_a[i] - foot) <= 0.0) continue;
     const Vec3 on_b = tie_force_on_b(ties, i);
     if (const auto row = rows.find(assembly.blocks[a].ring); row != rows.end())
       row->second.tie_force += along.dot(positive(b) ? on_b : Vec3(-on_b));
   }
   std::vector<HoopRow> out;
-  for (auto& [ring, row] : rows) {
-    row.height /= counts[ring];
+  for (auto& [number, row] : rows) {
+    row.height /= counts[number];
     for (double* force : {&row.head_force, &row.bed_force, &row.tie_force})
       *force = above(*force, joints.floor.force);
     out.push_back(row);

@@ -27,9 +27,9 @@ struct HoopRow {
   double sum() const { return head_force + bed_force + tie_force; }
 };
 
-/// Forces across the meridian at an azimuth, one row per ring that has joints across it. A tie counts for the
-/// ring of its block a.
+/// Forces across the meridian at an azimuth about the axis of the stack with the course `ring`, one row per
+/// course of it that has joints across the meridian. A tie counts for the course of its block a.
 std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& joints, double azimuth_deg,
-                                 const TieTable& ties = {});
+                                 const TieTable& ties = {}, int ring = 0);
 
 }  // namespace cupola

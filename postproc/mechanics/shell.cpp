@@ -76,15 +76,16 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Median width in azimuth of the standard blocks, rad.
-double standard_width(const Assembly& assembly, const Shell& shell) {
+/// Median width in azimuth of the standard blocks of the courses [first, end), rad.
+double standard_width(const Assembly& assembly, const Shell& shell, int first, int end) {
+  const Sheet axis = assembly.axis_of(first);
   std::map<int, double> widths;  // rad, by block: range of azimuths on its own bed
-  for (const auto& bed : shell.beds)
-    for (const BedFacet& facet : bed)
-      if (!facet.internal && &bed != &shell.beds.back() &&
-          (assembly.blocks[facet.block].kind == BlockKind::standard ||
-           assembly.blocks[facet.block].kind == BlockKind::imported))
-        widths[facet.block] += std::abs(wrapped(azimuth(facet.intrados_b) - azimuth(facet.intrados_a)));
+  for (int bed = first; bed < end; ++bed)
+    for (const BedFacet& facet : shell.beds[bed])
+      if (!facet.internal && (assembly.blocks[facet.block].kind == BlockKind::standard ||
+                              assembly.blocks[facet.block].kind == BlockKind::imported))
+        widths[facet.block] +=
+            std::abs(wrapped(azimuth(axis.own(facet.intrados_b)) - azimuth(axis.own(facet.intrados_a))));
   std::vector<double> values;
   for (const auto& [block, width] : widths) values.push_back(width);
   return median(std::move(values));
@@ -192,7 +193,11 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
     }
   }
   facets.add_to(&shell);
-  shell.block_width_rad = standard_width(assembly, shell);
+  while (static_cast<int>(shell.block_width_rad.size()) < num_rings) {
+    const int first = static_cast<int>(shell.block_width_rad.size());
+    const int end = std::min(assembly.stack_of(first).second, num_rings);
+    shell.block_width_rad.resize(static_cast<size_t>(end), standard_width(assembly, shell, first, end));
+  }
   return shell;
 }
 

@@ -31,8 +31,9 @@ struct Shell {
   std::vector<std::vector<BedFacet>> beds;  ///< (num_rings + 1), facets of each bed
   std::vector<Vec3> progress;               ///< (num_rings), unit direction from ring to ring
   Vec3 up = Vec3::UnitZ();                  ///< against gravity
-  double block_width_rad = 0.0;             ///< rad, median width in azimuth of the standard blocks; 0: none
-  int num_wythes = 1;                       ///< numbers in use; some may have no blocks
+  /// (num_rings), rad, median width in azimuth of the standard blocks of the stack; 0: none.
+  std::vector<double> block_width_rad;
+  int num_wythes = 1;              ///< numbers in use; some may have no blocks
   std::vector<int> innermost;      ///< (num_wythes), number of the innermost wythe of the same drum or shell
   std::vector<WytheRange> wythes;  ///< per block, those that it occupies; all for supports
   /// (num_rings + 1) x (num_wythes + 1), share of the thickness at each layer of a bed; NaN where no facet

@@ -36,6 +36,8 @@ struct BedJoints {
 /// What one thrust line follows: a meridian, or none in an arch, and a wythe, or none for the whole
 /// thickness.
 struct Route {
+  Sheet axis;
+  double width = 0.0;              // rad, of the strip
   std::optional<double> meridian;  // rad
   std::optional<int> wythe;
   BedJoints beds;
@@ -87,10 +89,11 @@ Wrench wrench_onwards(const ThrustInput& in, int block) {
   return w;
 }
 
-/// The wrench turned about the z axis.
-Wrench turned(const Wrench& w, double angle) {
+/// The wrench turned about the axis.
+Wrench turned(const Wrench& w, double angle, const Sheet& axis) {
   const Mat3 R = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
-  return {R * w.point, R * w.force, R * w.moment};
+  const Vec3 foot(axis.origin.x(), axis.origin.y(), 0.0);
+  return {foot + R * (w.point - foot), R * w.force, R * w.moment};
 }
 
 /// Where the edges of a facet meet the meridian plane, or its middle in an arch. None if it does not cross
@@ -98,14 +101,15 @@ Wrench turned(const Wrench& w, double angle) {
 struct FacetEdges {
   Vec3 inner, outer;
 };
-std::optional<FacetEdges> edges_on(const BedFacet& f, std::optional<double> meridian) {
-  if (!meridian) return FacetEdges{0.5 * (f.intrados_a + f.intrados_b), 0.5 * (f.extrados_a + f.extrados_b)};
-  const Vec3 across(-std::sin(*meridian), std::cos(*meridian), 0.0);
-  const Vec3 outwards(std::cos(*meridian), std::sin(*meridian), 0.0);
-  const double a = across.dot(f.intrados_a), b = across.dot(f.intrados_b);
-  if (a * b > 0.0 || a == b || outwards.dot(f.intrados_a) <= 0.0) return std::nullopt;
+std::optional<FacetEdges> edges_on(const BedFacet& f, const Route& route) {
+  if (!route.meridian)
+    return FacetEdges{0.5 * (f.intrados_a + f.intrados_b), 0.5 * (f.extrados_a + f.extrados_b)};
+  const Vec3 outwards = route.axis.towards(*route.meridian), across(-outwards.y(), outwards.x(), 0.0);
+  const Vec3 foot(route.axis.origin.x(), route.axis.origin.y(), 0.0);
+  const double a = across.dot(f.intrados_a - foot), b = across.dot(f.intrados_b - foot);
+  if (a * b > 0.0 || a == b || outwards.dot(f.intrados_a - foot) <= 0.0) return std::nullopt;
   const auto meet = [&](const Vec3& p, const Vec3& q) {
-    const double s = across.dot(p), t = across.dot(q);
+    const double s = across.dot(p - foot), t = across.dot(q - foot);
     return s == t ? p : Vec3(p + s / (s - t) * (q - p));
   };
   return FacetEdges{meet(f.intrados_a, f.intrados_b), meet(f.extrados_a, f.extrados_b)};
@@ -113,15 +117,15 @@ std::optional<FacetEdges> edges_on(const BedFacet& f, std::optional<double> meri
 
 /// The place of a layer on the meridian, in an arch the mean over its width. If no facet ends at the layer
 /// there, it lies on the line through the edges of another one. None if the bed does not cross the meridian.
-std::optional<Vec3> place_of(const std::vector<BedFacet>& bed, double layer, std::optional<double> meridian) {
+std::optional<Vec3> place_of(const std::vector<BedFacet>& bed, double layer, const Route& route) {
   std::optional<Vec3> elsewhere;
   std::vector<Vec3> places;
   for (const BedFacet& f : bed) {
-    const std::optional<FacetEdges> edges = edges_on(f, meridian);
+    const std::optional<FacetEdges> edges = edges_on(f, route);
     if (!edges) continue;
     if (f.from == layer || f.to == layer) {
       places.push_back(f.from == layer ? edges->inner : edges->outer);
-      if (meridian) break;
+      if (route.meridian) break;
     }
     if (!elsewhere)
       elsewhere = edges->inner + (layer - f.from) / (f.to - f.from) * (edges->outer - edges->inner);
@@ -134,9 +138,9 @@ std::optional<Vec3> place_of(const std::vector<BedFacet>& bed, double layer, std
 
 /// Finds the skins of the bed at two layers in the meridian plane. False if the bed does not cross the
 /// meridian.
-bool find_skins(const std::vector<BedFacet>& bed, const Layers& layers, std::optional<double> meridian,
+bool find_skins(const std::vector<BedFacet>& bed, const Layers& layers, const Route& route,
                 ThrustPoint* point) {
-  const auto inner = place_of(bed, layers.inner, meridian), outer = place_of(bed, layers.outer, meridian);
+  const auto inner = place_of(bed, layers.inner, route), outer = place_of(bed, layers.outer, route);
   if (!inner || !outer) return false;
   point->intrados = *inner;
   point->extrados = *outer;
@@ -198,15 +202,15 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
   sum.point = 0.5 * (point->intrados + point->extrados);
   double weighted_position = 0.0, pressing = 0.0;
   const Vec3& onwards = in.shell->direction(bed);
-  for (const auto& [id, block] : blocks_on(in.shell->beds[bed])) {
-    const double share = meridian ? overlap(block, *meridian, in.shell->block_width_rad) : 1.0;
+  for (const auto& [id, block] : blocks_on(in.shell->beds[bed], route.axis)) {
+    const double share = meridian ? overlap(block, *meridian, route.width) : 1.0;
     if (share <= 0.0) continue;
     if (wythe && is_undivided(in, route, id, bed)) return false;
     if (wythe && !in.shell->wythes[id].contains(*wythe)) continue;
     const Wrench w = wythe ? wrench_in_wythe(in, route, id, bed) : wrench_at_bed(in, id, bed);
     if (w.force.norm() == 0.0) continue;
     const double turn = meridian ? *meridian - 0.5 * (block.from + block.to) : 0.0;
-    sum.add(share * turned(w, turn));
+    sum.add(share * turned(w, turn, route.axis));
     const bool stands = bed == in.shell->num_rings() || in.assembly->blocks[id].ring == bed;
     // Forces that hold each other along the bed, as across a wide arch, shift the line of action of the
     // block's wrench.
@@ -234,8 +238,8 @@ void find_compressed_zone(const ThrustInput& in, int bed, const Layers& layers, 
   const bool last = bed == in.shell->num_rings();
   const ContactTable& c = *in.contacts;
   double force = 0.0, area = 0.0;
-  for (const auto& [id, block] : blocks_on(in.shell->beds[bed])) {
-    if (route.meridian && overlap(block, *route.meridian, in.shell->block_width_rad) <= 0.0) continue;
+  for (const auto& [id, block] : blocks_on(in.shell->beds[bed], route.axis)) {
+    if (route.meridian && overlap(block, *route.meridian, route.width) <= 0.0) continue;
     if (!last && in.assembly->blocks[id].ring != bed) continue;
     for (const JointWrench* of_block : route.joints(*in.shell, id, bed)) {
       const JointWrench& joint = *of_block;
@@ -279,12 +283,6 @@ std::optional<Vec3> meeting(const ThrustPoint& p, const ThrustPoint& q, const Ve
   return meet;
 }
 
-/// rad, about the vertical, of the plane of an arch.
-double turn_of(const Assembly& assembly, int ring) {
-  const Sheet* sheet = assembly.sheet_of(ring);
-  return sheet ? sheet->turn : 0.0;
-}
-
 }  // namespace
 
 double ThrustLine::largest_couple_length() const {
@@ -319,19 +317,23 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
   ThrustLine line;
   line.name = name;
   line.azimuth_deg = azimuth_deg.value_or(0.0);
+  line.arch = !azimuth_deg;
   line.wythe = wythe;
   std::optional<double> meridian;
   if (azimuth_deg) meridian = *azimuth_deg * std::numbers::pi / 180.0;
-  const Route route{meridian, wythe, BedJoints(input)};
+  const auto [first, end] = input.assembly->stack_of(ring);
+  line.axis = input.assembly->axis_of(first);
+  const std::vector<double>& widths = input.shell->block_width_rad;
+  const double width = first < static_cast<int>(widths.size()) ? widths[first] : 0.0;
+  const Route route{line.axis, width, meridian, wythe, BedJoints(input)};
   std::optional<WytheRange> wythes;
   if (wythe) wythes = WytheRange{*wythe, *wythe + 1};
-  const auto [first, end] = input.assembly->stack_of(ring);
   const int last = end < input.shell->num_rings() ? end - 1 : input.shell->num_rings();
   for (int bed = first; bed <= last; ++bed) {
     ThrustPoint point;
     point.bed = bed;
     const std::optional<Layers> layers = layers_of(*input.shell, bed, wythes);
-    if (!layers || !find_skins(input.shell->beds[bed], *layers, meridian, &point)) continue;
+    if (!layers || !find_skins(input.shell->beds[bed], *layers, route, &point)) continue;
     if (!sum_strip(input, bed, *layers, route, &point)) continue;
     find_compressed_zone(input, bed, *layers, route, &point);
     line.points.push_back(point);
@@ -347,9 +349,7 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
     line.least_face_distance = std::min(line.least_face_distance, point.face_distance);
     line.least_geometric_safety = std::min(line.least_geometric_safety, point.geometric_safety);
   }
-  const Vec3 outwards = meridian ? Vec3(std::cos(*meridian), std::sin(*meridian), 0.0)
-                                 : Vec3(std::cos(turn_of(*input.assembly, first)),
-                                        std::sin(turn_of(*input.assembly, first)), 0.0);
+  const Vec3 outwards = line.axis.towards(meridian.value_or(0.0));
   for (size_t i = 1; i < line.points.size(); ++i) {
     if (!line.points[i - 1].is_placed() || !line.points[i].is_placed()) continue;
     if (const auto meet = meeting(line.points[i - 1], line.points[i], outwards))

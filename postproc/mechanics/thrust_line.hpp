@@ -42,7 +42,7 @@ struct ThrustPoint {
 /// The strip is one standard block wide and centred on the meridian. On every bed:
 ///
 /// - Each block in the strip counts with the share of its width that lies inside, and its wrench is turned
-///   about the z axis into the meridian plane. Where a herringbone crosses, several narrow blocks share the
+///   about the axis into the meridian plane. Where a herringbone crosses, several narrow blocks share the
 ///   strip.
 /// - If the bed runs through a block, the wrench is the one that balances the piece of the block above the
 ///   bed.
@@ -57,7 +57,9 @@ struct ThrustPoint {
 /// up to that of the whole thickness.
 struct ThrustLine {
   std::string name;
-  double azimuth_deg = 0.0;
+  double azimuth_deg = 0.0;          ///< about its axis, from the x axis of that sheet
+  Sheet axis;                        ///< the lowest sheet of its stack
+  bool arch = false;                 ///< along an arch, without azimuth
   std::optional<int> wythe;          ///< none: of the whole thickness
   std::vector<ThrustPoint> points;   ///< from the springing upwards
   std::vector<Vec3> envelope;        ///< m, intersections of successive lines of action
@@ -85,9 +87,8 @@ struct ThrustInput {
 /// bed runs through the block, it is the wrench that balances the piece of the block above the bed.
 Wrench wrench_at_bed(const ThrustInput& input, int block, int bed);
 
-/// Thrust line along a meridian of a vault about the z axis. Without azimuth: along an arch, where the strip
-/// is the full width. Without wythe: of the whole thickness. In a model of several stacks: of that with the
-/// course `ring`.
+/// Thrust line along a meridian of the stack with the course `ring`, about its axis. Without azimuth: along an
+/// arch, where the strip is the full width. Without wythe: of the whole thickness.
 ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg,
                        std::optional<int> wythe = std::nullopt, int ring = 0);
 

@@ -69,7 +69,7 @@ std::vector<WytheSum> wythe_sums(const Assembly& assembly, const Shell& shell, c
   std::vector<WytheSum> out;
   if (assembly.members.empty() || shell.num_rings() == 0) return out;
   std::vector<std::map<int, BlockBed>> beds;
-  for (const auto& bed : shell.beds) beds.push_back(blocks_on(bed));
+  for (const auto& bed : shell.beds) beds.push_back(blocks_on(bed, {}));
   Sums sums;
   for (const JointWrench& joint : joints.wrenches) {
     const WytheRange wythes = wythes_of(assembly, shell, joint);

@@ -25,18 +25,29 @@ double share_of(const Shell& shell, int bed, int wythe) {
   return 1.0;
 }
 
+/// The sheet in which a wythe has its first facet; none if it has no facet.
+const Sheet* sheet_of_wythe(const Evaluation& e, int wythe) {
+  for (int ring = 0; ring < e.shell.num_rings(); ++ring)
+    for (const BedFacet& f : e.shell.beds[ring])
+      if (e.shell.wythes[f.block].contains(wythe)) return e.assembly.sheet_of(ring);
+  return nullptr;
+}
+
 /// Adds the blocks on the beds of the map's wythe. Of the forces of a bonder it has the part in the wythe:
 /// mean stress times the thickness of the wythe.
-void add_boxes(const Evaluation& e, ShellMap* out) {
+void add_boxes(const Evaluation& e, const Sheet& axis, ShellMap* out) {
   struct Extent {
     double from, to;
     double part;  // of the block's thickness
   };
   std::map<std::pair<int, int>, Extent> extents;  // (block, ring)
-  for (int ring = 0; ring < out->num_rings; ++ring) {
+  for (int ring = out->first_ring; ring < out->num_rings; ++ring) {
     for (const BedFacet& f : e.shell.beds[ring]) {
       if (!e.shell.wythes[f.block].contains(out->number)) continue;
-      const auto place = [&](const Vec3& p) { return out->vault ? azimuth(p) : out->arch ? p.y() : p.x(); };
+      const auto place = [&](const Vec3& point) {
+        const Vec3 p = axis.own(point);
+        return out->vault ? azimuth(p) : out->arch ? p.y() : p.x();
+      };
       const double a = place(f.intrados_a);
       const double part =
           e.shell.wythes[f.block].count() == 1 ? 1.0 : share_of(e.shell, ring, out->number) / (f.to - f.from);
@@ -93,10 +104,21 @@ std::vector<ShellMap> shell_maps(const Evaluation& e) {
   std::vector<ShellMap> maps;
   if (e.shell.num_rings() == 0) return maps;
   const bool named = !e.assembly.members.empty();
+  Sheet all;
+  all.num_rings = e.shell.num_rings();
+  const Sheet& last = e.assembly.sheets.empty() ? all : e.assembly.sheets.back();
   for (int wythe = 0; wythe < e.shell.num_wythes; ++wythe) {
-    maps.push_back(
-        {is_vault(e), e.shell.num_rings(), {}, named ? e.assembly.members[wythe] : "", wythe, is_arch(e)});
-    add_boxes(e, &maps.back());
+    const Sheet* of_wythe = sheet_of_wythe(e, wythe);
+    const Sheet& sheet = of_wythe ? *of_wythe : last;
+    const bool closed = sheet.thrust_lines == Sheet::ThrustLines::by_azimuth;
+    maps.push_back({closed,
+                    std::min(sheet.first_ring + sheet.num_rings, e.shell.num_rings()),
+                    {},
+                    named ? e.assembly.members[wythe] : "",
+                    wythe,
+                    sheet.thrust_lines == Sheet::ThrustLines::one,
+                    sheet.first_ring});
+    add_boxes(e, sheet, &maps.back());
     if (named && maps.back().boxes.empty()) maps.pop_back();
   }
   return maps;

@@ -18,14 +18,16 @@ struct ShellBox {
   double friction_use = 0.0, kern = 0.0;            ///< NaN without a loaded joint
 };
 
-/// The unrolled shell, or one wythe of it: ring over azimuth, over x, or of an arch over y.
+/// The unrolled shell, or one wythe of it: ring over azimuth, over x, or of an arch over y, in the frame of
+/// its sheet.
 struct ShellMap {
   bool vault = false;  ///< azimuths
-  int num_rings = 0;
+  int num_rings = 0;   ///< the last ring is num_rings - 1
   std::vector<ShellBox> boxes;
   std::string wythe = {};  ///< its name; "" for a shell without wythes
   int number = 0;          ///< of the wythe, from the inside
   bool arch = false;       ///< along y, across the arch; not along x
+  int first_ring = 0;      ///< of its sheet
   /// The file names' beginning: "shell", "shell_x" or "shell_y".
   std::string table_name() const;
   std::string suffix() const;  ///< of the names of its files: "" or "_" and the wythe

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "postproc/tables/shell_map.hpp"
 #include "tests/pipeline/static_run.hpp"
 
 namespace cupola::members_test {
@@ -64,6 +65,65 @@ TEST(MembersSideBySide, HaveThrustLinesOfTheirOwn) {
     EXPECT_EQ(there.bed, 11 + k);
     EXPECT_NEAR(there.r / here.r, 1.0, 1e-6);
     EXPECT_NEAR(there.position, here.position, 1e-6);
+  }
+}
+
+/// A drum with a dome on it.
+std::vector<Member> tower(const std::string& name, const Place& place) {
+  VaultSurface wall, dome;
+  wall.profile.kind = Profile::Kind::straight;
+  wall.profile.span = 4.0;
+  wall.profile.height = 2.0;
+  wall.thickness = 0.8;
+  dome.profile.span = 4.0;
+  dome.thickness = 0.5;
+  dome.eye = 0.5;
+  Member low, high;
+  low.name = name;
+  low.at = place;
+  low.surface = wall;
+  low.bond = RunningBond{3, 8, 2};
+  high.name = name + " dome";
+  high.on = name;
+  high.surface = dome;
+  high.bond = RunningBond{5, 8, 2};
+  return {low, high};
+}
+
+// The thrust lines, hoop forces and maps of a dome do not depend on where it stands and how it is turned.
+TEST(MembersSideBySide, DomesHaveLinesAboutTheirOwnAxes) {
+  Case scene = two_arches();
+  scene.geometry.members = tower("here", {});
+  for (Member& member : tower("there", Place{{12.0, -7.0, 3.0}, 33.0}))
+    scene.geometry.members.push_back(member);
+  scene.postproc.meridians = {{"m", 20.0}};
+  const ProgramFolder folder;
+  const Evaluation e = solve_and_evaluate(scene, folder);
+  ASSERT_EQ(e.meridians.size(), 2u);
+  const ThrustLine &here = e.meridians[0].thrust, &there = e.meridians[1].thrust;
+  EXPECT_EQ(there.name, "there dome m");
+  ASSERT_EQ(here.points.size(), 8u);
+  ASSERT_EQ(there.points.size(), 8u);
+  constexpr double kBalance =
+      1e-6;  // of the forces, 1e4 times the solver's tolerance: positions divide by them
+  const Sheet axis = e.assembly.axis_of(8);
+  for (size_t k = 0; k < 8; ++k) {
+    EXPECT_NEAR(there.points[k].r / here.points[k].r, 1.0, kBalance);
+    EXPECT_NEAR(there.points[k].position, here.points[k].position, 1e-4);
+    EXPECT_LT((axis.own(there.points[k].intrados) - here.points[k].intrados - Vec3(0, 0, 3)).norm(), 1e-12);
+  }
+  ASSERT_EQ(e.meridians[1].hoop.size(), e.meridians[0].hoop.size());
+  for (size_t k = 0; k < e.meridians[0].hoop.size(); ++k) {
+    EXPECT_EQ(e.meridians[1].hoop[k].ring, 8 + e.meridians[0].hoop[k].ring);
+    EXPECT_NEAR(e.meridians[1].hoop[k].sum(), e.meridians[0].hoop[k].sum(), kBalance * here.points[0].r);
+  }
+  const std::vector<ShellMap> maps = shell_maps(e);
+  ASSERT_EQ(maps.size(), 4u);  // one per member
+  for (const int i : {0, 1}) {
+    EXPECT_EQ(maps[i + 2].first_ring, maps[i].first_ring + 8);
+    ASSERT_EQ(maps[i + 2].boxes.size(), maps[i].boxes.size());
+    for (size_t b = 0; b < maps[i].boxes.size(); ++b)
+      EXPECT_NEAR(std::remainder(maps[i + 2].boxes[b].from - maps[i].boxes[b].from, 360.0), 0.0, 1e-9);
   }
 }
 

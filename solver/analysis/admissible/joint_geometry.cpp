@@ -52,14 +52,13 @@ const BlockPair& JointGeometry::pair(int block_a, int block_b) const {
                          : fmt::format("block {} touches {}", first, block_labels(assembly_, neighbours))));
 }
 
-bool JointGeometry::is_arch() const {
-  return !assembly_.sheets.empty() && assembly_.sheets.back().thrust_lines == Sheet::ThrustLines::one;
-}
-
-Vec3 JointGeometry::outward(const Vec3& point) const {
+Vec3 JointGeometry::outward(const Vec3& point, int block) const {
   const bool imported = assembly_.sheets.empty();
-  if (!imported)
-    if (const std::optional<Vec3> outward = assembly_.sheets.back().outward(point)) return *outward;
+  if (!imported) {
+    const Sheet* own = assembly_.sheet_of(assembly_.blocks[block].ring);
+    const Sheet& sheet = own ? *own : assembly_.sheets.back();
+    if (const std::optional<Vec3> outward = sheet.outward(point)) return *outward;
+  }
   throw InputError(fmt::format(
       "analysis.range.quantities: {} no axis, so that `thrust` and `outward` are not defined; give "
       "a reaction or joint a `direction`",

@@ -25,11 +25,9 @@ class JointGeometry {
   const Pairs& pairs() const { return pairs_; }
   /// The joint of two blocks, in either order. Throws InputError if they do not touch.
   const BlockPair& pair(int block_a, int block_b) const;
-  /// Horizontal unit vector away from the axis of a vault, or from the middle of an arch. Throws InputError
-  /// for models without such an axis.
-  Vec3 outward(const Vec3& point) const;
-  /// Outward is one of two opposite directions.
-  bool is_arch() const;
+  /// Horizontal unit vector away from the axis of the vault, or from the middle of the arch, to which a free
+  /// block belongs. Throws InputError for blocks without such an axis.
+  Vec3 outward(const Vec3& point, int block) const;
 
  private:
   const Assembly& assembly_;

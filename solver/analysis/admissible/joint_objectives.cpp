@@ -14,10 +14,15 @@ namespace {
 
 constexpr const char* kQuantitiesKey = "analysis.range.quantities";
 
+/// Outwards at a joint, in the frame of one of its free blocks.
+Vec3 outward_at_joint(const JointForce& joint, const BlockPair& pair, const ForceScene& scene) {
+  return scene.joints.outward(pair.centroid, scene.fixed(joint.block_a) ? joint.block_b : joint.block_a);
+}
+
 /// Part of the direction of a quantity in the plane of the joint, unit.
 Vec3 in_plane(const JointForce& joint, const BlockPair& pair, const ForceScene& scene) {
   constexpr double kNormal = 1e-6;  // sine of the angle to the normal from which a direction lies along it
-  const Vec3 given = joint.direction ? joint.direction->normalized() : scene.joints.outward(pair.centroid);
+  const Vec3 given = joint.direction ? joint.direction->normalized() : outward_at_joint(joint, pair, scene);
   const Vec3 d = given - pair.normal * pair.normal.dot(given);
   if (d.norm() <= kNormal)
     throw InputError(fmt::format("{}: the direction is normal to joint {}-{}; give one in its plane",
@@ -56,7 +61,7 @@ RangeObjective objective_of(const JointForce& joint, const ForceScene& scene) {
   }
   const Vec3 direction = joint.component == shear ? in_plane(joint, pair, scene)
                          : joint.direction        ? *joint.direction
-                                                  : scene.joints.outward(pair.centroid);
+                                                  : outward_at_joint(joint, pair, scene);
   ForceFunctional force = scene.zero();
   scene.add(pair, joint.block_b, direction, &force);
   return {name, "N", force};
@@ -76,7 +81,7 @@ RangeObjective objective_of(const HoopForce& hoop, const ForceScene& scene) {
     if (in_ring(a) == in_ring(b)) continue;
     for (const int i : pair.contacts) {
       const Contact& contact = scene.contacts.points[i];
-      const Vec3 direction = kMean * scene.joints.outward(contact.point_a);
+      const Vec3 direction = kMean * scene.joints.outward(contact.point_a, in_ring(a) ? a : b);
       f.contacts[i] = in_ring(contact.block_b) ? direction : Vec3(-direction);
     }
   }
@@ -86,7 +91,7 @@ RangeObjective objective_of(const HoopForce& hoop, const ForceScene& scene) {
     const int block = scene.model.free_blocks[k];
     const Vec3 force = loads.segment<3>(6 * static_cast<Eigen::Index>(k));
     if (in_ring(block))
-      f.constant += kMean * scene.joints.outward(scene.assembly.blocks[block].centroid).dot(force);
+      f.constant += kMean * scene.joints.outward(scene.assembly.blocks[block].centroid, block).dot(force);
   }
   return {fmt::format("hoop force of ring {}", hoop.ring), "N", f, {}, {}};
 }

@@ -1,5 +1,6 @@
 #include "solver/analysis/admissible/range_objectives.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
@@ -64,30 +65,38 @@ ForceFunctional Objectives::on_supports(const std::set<int>& blocks, const Direc
   for (const auto& [key, pair] : scene_.joints.pairs()) {
     const auto [a, b] = key;
     if (scene_.fixed(a) == scene_.fixed(b)) continue;
-    if (blocks.contains(a) || blocks.contains(b))
-      scene_.add(pair, scene_.fixed(a) ? a : b, direction(pair.centroid), &f);
+    const auto [support, block] = scene_.fixed(a) ? std::pair(a, b) : std::pair(b, a);
+    if (blocks.contains(support) || blocks.contains(block))
+      scene_.add(pair, support, direction(pair.centroid, block), &f);
   }
   return f;
 }
 
 ForceFunctional Objectives::weight_of(const std::set<int>& blocks, double factor) const {
-  return on_supports(blocks, [factor](const Vec3&) { return Vec3(factor * kDown); });
+  return on_supports(blocks, [factor](const Vec3&, int) { return Vec3(factor * kDown); });
 }
 
+/// Of the last stack, in a model of several.
 std::vector<RangeObjective> Objectives::operator()(const BaseThrust&) const {
-  const auto direction = [this](const Vec3& point) -> Vec3 {
-    const Vec3 outward = scene_.joints.outward(point);
-    return scene_.joints.is_arch() && outward.x() < 0.0 ? Vec3::Zero() : outward;  // one springing
+  const Assembly& assembly = scene_.assembly;
+  const Sheet last = assembly.sheets.empty() ? Sheet{} : assembly.sheets.back();
+  const bool is_arch = last.thrust_lines == Sheet::ThrustLines::one;
+  const auto direction = [&](const Vec3& point, int block) -> Vec3 {
+    const Vec3 outward = scene_.joints.outward(point, block);
+    return is_arch && outward.dot(last.towards(0.0)) < 0.0 ? Vec3::Zero() : outward;  // one springing
   };
-  return {{"thrust", "N", on_supports(base_blocks(), direction), {}, {}}};
+  std::set<int> blocks = base_blocks();
+  const int first = assembly.stack_of(last.first_ring).first;
+  std::erase_if(blocks, [&](int block) { return std::max(assembly.blocks[block].ring, 0) < first; });
+  return {{"thrust", "N", on_supports(blocks, direction), {}, {}}};
 }
 
 std::vector<RangeObjective> Objectives::operator()(const BlockReaction& reaction) const {
   check_block(scene_.assembly, reaction.block);
   const bool vertical = reaction.component == BlockReaction::Component::vertical;
-  const auto direction = [&](const Vec3& point) {
+  const auto direction = [&](const Vec3& point, int block) {
     if (reaction.direction) return *reaction.direction;
-    return vertical ? kDown : scene_.joints.outward(point);
+    return vertical ? kDown : scene_.joints.outward(point, block);
   };
   if (!scene_.fixed(reaction.block)) base_blocks({BaseBlocks::Group::listed, {reaction.block}});
   const std::string name =
