@@ -2,22 +2,39 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "assembly/export/block_union.hpp"
 
 namespace cupola {
 namespace {
 
-/// True if every edge joins two faces. The parts of generated blocks share vertices, and all faces between
-/// them are `internal`; parts of imported blocks may touch along a part of a face.
+/// True if every edge joins two faces, which run along it in opposite directions. The parts of generated
+/// blocks share vertices, and all faces between them are `internal`; those of cut and of imported blocks may
+/// meet in other faces, or along a part of a face.
 bool is_closed(const BlockSurface& surface) {
-  std::map<std::pair<int, int>, int> balance;  // of the directions in which faces run along an edge
+  std::map<std::pair<int, int>, int> runs;  // of faces along an edge, in one direction
   for (const std::vector<int>& face : surface.faces)
-    for (size_t i = 0; i < face.size(); ++i) {
-      const int a = face[i], b = face[(i + 1) % face.size()];
-      balance[std::minmax(a, b)] += a < b ? 1 : -1;
-    }
-  return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
+    for (size_t i = 0; i < face.size(); ++i) ++runs[{face[i], face[(i + 1) % face.size()]}];
+  return std::all_of(runs.begin(), runs.end(), [&](const auto& run) {
+    return run.second == 1 && runs.contains({run.first.second, run.first.first});
+  });
+}
+
+/// True if the faces hang together by their vertices. The two arms of a stone of a groin vault have vertices
+/// of their own.
+bool is_connected(const BlockSurface& surface) {
+  std::vector<int> parent(surface.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const std::vector<int>& face : surface.faces)
+    for (const int v : face) parent[root(v)] = root(face.front());
+  return std::all_of(surface.faces.begin(), surface.faces.end(), [&](const std::vector<int>& face) {
+    return root(face.front()) == root(surface.faces.front().front());
+  });
 }
 
 /// Number of a vertex within `distance` of a point, which is added if there is none.
@@ -72,7 +89,8 @@ std::vector<BlockSurface> block_surfaces(const ExportModel& model) {
     }
   }
   for (size_t b = 0; b < surfaces.size(); ++b)
-    if (parts_of[b].size() > 1 && !is_closed(surfaces[b])) surfaces[b] = united_surface(model, parts_of[b]);
+    if (parts_of[b].size() > 1 && !(is_closed(surfaces[b]) && is_connected(surfaces[b])))
+      surfaces[b] = united_surface(model, parts_of[b]);
   return surfaces;
 }
 

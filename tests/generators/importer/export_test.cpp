@@ -44,8 +44,23 @@ std::vector<std::pair<std::string, Case>> models() {
   spirals.geometry.bond = herringbone;
   Case octagon = dome_case(8, 16, 2);
   octagon.geometry.surface = OctagonalVault{};
-  return {
-      {"dome", dome_case(6, 8, 2)}, {"spirals", spirals}, {"octagon", octagon}, {"wall", wall_case(4, 3)}};
+  // Stones in several parts that share no faces: a round hole, and stones with an arm in each of two webs.
+  Case hole = wall_case(6, 4);
+  Cut cut;
+  cut.kind = Cut::Kind::cylinder;
+  cut.centre_u = 5.0;
+  cut.centre_v = 3.0;
+  cut.radius = 1.2;
+  cut.sides = 8;
+  hole.geometry.cuts = {cut};
+  Case groin = dome_case(9, 3, 2);
+  VaultSurface webs;
+  webs.plan.kind = Plan::Kind::groin;
+  webs.plan.sides = 4;
+  webs.thickness = 0.5;
+  groin.geometry.surface = webs;
+  return {{"dome", dome_case(6, 8, 2)}, {"spirals", spirals}, {"octagon", octagon},
+          {"wall", wall_case(4, 3)},    {"hole", hole},       {"groin", groin}};
 }
 
 TEST(Export, ComesBackThroughObjAndCompas) {
