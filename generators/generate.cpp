@@ -8,7 +8,9 @@
 #include "assembly/base/error.hpp"
 #include "assembly/case/keys_without_effect.hpp"
 #include "assembly/case/plausibility.hpp"
+#include "assembly/model/applied_loads.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/model/block_region.hpp"
 #include "generators/chains.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
 #include "generators/surface/make_surface.hpp"
@@ -75,6 +77,24 @@ Assembly cut_storeys(const Case& input, const std::vector<Storey>& storeys) {
   return assembly;
 }
 
+/// The case with numbers for the names of blocks. Throws InputError for blocks, members and faces that the
+/// assembly does not have: the solver would refuse them later.
+Case resolved_case(const Case& input, const Assembly& assembly) {
+  Case resolved = input;
+  resolve_block_names(assembly, &resolved.loads, &resolved.ties, &resolved.supports);
+  applied_loads(resolved.loads, assembly);
+  for (const PairTie& tie : resolved.ties.pairs)
+    for (const int block : {tie.block_a.number, tie.block_b.number})
+      check_block_exists(assembly, block, "ties.pairs");
+  for (const Restraint& restraint : resolved.supports.restraints)
+    check_block_exists(assembly, restraint.block, "supports.restraints");
+  for (const SupportMove& move : resolved.supports.moves)
+    blocks_of_region(move.region, assembly, true, "supports.moves");
+  for (size_t i = 0; i < resolved.loads.heat.size(); ++i)
+    blocks_of_region(resolved.loads.heat[i].region, assembly, false, fmt::format("loads.heat[{}]", i));
+  return resolved;
+}
+
 /// The assembly with what the checks found and what is doubtful about its case.
 Assembly with_report(Assembly assembly, const GenerateReport& report, const Case& scene) {
   assembly.check_report = to_text(report);
@@ -103,8 +123,6 @@ Assembly generate(const Case& input, GenerateReport* report) {
     if (geometry.imperfections) vary_density(*geometry.imperfections, &assembly);
     assembly.title = input.title;
     assembly.geometry_hash = input.geometry_hash;
-    Case resolved = input;
-    resolve_block_names(assembly, &resolved.loads, &resolved.ties, &resolved.supports);
     const auto check = [&] {
       report->model =
           check_model(assembly,
@@ -116,6 +134,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
     if (fix_ends(*geometry.imported, report->model.joint_faces, &assembly) > 0) check();
     report->import->courses = set_courses(report->model.joint_faces, geometry.imported->axis, &assembly);
     refuse_keys_without_effect(input, assembly);
+    const Case resolved = resolved_case(input, assembly);
     return with_report(std::move(assembly), *report, resolved);
   }
   const std::vector<Storey> storeys = make_storeys(geometry);
@@ -132,15 +151,14 @@ Assembly generate(const Case& input, GenerateReport* report) {
   report->model = check_model(assembly, tolerances);
   refuse_floating(storeys, assembly, report->model);
   if (!geometry.stage) report->model.shell_volume = smooth_volume(storeys);
-  Case resolved = input;
-  resolve_block_names(assembly, &resolved.loads, &resolved.ties, &resolved.supports);
+  const Case resolved = resolved_case(input, assembly);
   return with_report(std::move(assembly), *report, resolved);
 }
 
 Assembly generate_again(const Case& input, Assembly assembly, const GenerateReport& report) {
   assembly.title = input.title;
   refuse_keys_without_effect(input, assembly);
-  return with_report(std::move(assembly), report, input);
+  return with_report(std::move(assembly), report, resolved_case(input, assembly));
 }
 
 bool have_same_blocks(const Case& a, const Case& b) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/block_names.hpp"
 #include "assembly/model/loaded_faces.hpp"
 
 namespace cupola {
@@ -54,6 +55,7 @@ int block_at(const Assembly& assembly, const Vec3& point) {
 void add_shared_force(const BlockForce& load, const Assembly& assembly, int time,
                       std::vector<PointForce>* forces) {
   const SharingBlocks& over = *load.over;
+  check_member_exists(assembly, over.member, "loads.forces");
   const auto carries = [&](const Block& block) {
     return !block.fixed && (over.course < 0 || block.ring == over.course) &&
            is_of_member(assembly, block, over.member);
@@ -103,10 +105,7 @@ void add_block_force(const BlockForce& load, const Assembly& assembly, int time,
   if (load.spread) return add_spread_force(load, assembly, time, forces);
   const int number =
       load.block == BlockForce::kAtPoint ? block_at(assembly, load.point.value()) : load.block.number;
-  const int num_blocks = static_cast<int>(assembly.blocks.size());
-  if (number >= num_blocks)
-    throw InputError(
-        fmt::format("loads.forces: block {}: the assembly has blocks 0 to {}", number, num_blocks - 1));
+  check_block_exists(assembly, number, "loads.forces");
   const Block& block = assembly.blocks[number];
   if (block.fixed)
     throw InputError(fmt::format("loads.forces: block {} is fixed; apply the force to a free block", number));
@@ -116,6 +115,7 @@ void add_block_force(const BlockForce& load, const Assembly& assembly, int time,
 
 void add_face_load(const FaceLoad& load, const Assembly& assembly, const Vec3& gravity, int time,
                    std::vector<PointForce>* forces) {
+  check_member_exists(assembly, load.member, "loads.faces");
   const std::vector<LoadedFace> faces =
       faces_of_kind(assembly, std::array{load.faces}, load.from_ring, load.to_ring, load.member);
   if (faces.empty())

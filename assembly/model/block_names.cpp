@@ -99,6 +99,24 @@ void resolve_block_names(const Assembly& assembly, std::vector<ForceQuantity>* q
     for (BlockRef* block : blocks_of(&quantity)) names.resolve("analysis.range.quantities", block);
 }
 
+void check_block_exists(const Assembly& assembly, int block, const std::string& key) {
+  const int num_blocks = static_cast<int>(assembly.blocks.size());
+  if (block < 0 || block >= num_blocks)
+    throw InputError(fmt::format("{}: block {} does not exist: the assembly has blocks 0 to {}", key, block,
+                                 num_blocks - 1));
+}
+
+void check_member_exists(const Assembly& assembly, const std::string& member, const std::string& key) {
+  if (member.empty() || std::ranges::find(assembly.members, member) != assembly.members.end()) return;
+  const std::string near = nearest_name(member, assembly.members);
+  std::string names;
+  for (const std::string& name : assembly.members) names += (names.empty() ? "" : ", ") + name;
+  throw InputError(fmt::format("{}: no member is named '{}'{}", key, member,
+                               !near.empty()              ? fmt::format("; did you mean '{}'?", near)
+                               : assembly.members.empty() ? "; a model of one shell has no named members"
+                                                          : "; the members are " + names));
+}
+
 void resolve_block_name(const Assembly& assembly, const char* key, BlockRef* block) {
   BlockNames(assembly).resolve(key, block);
 }

@@ -23,6 +23,11 @@ void resolve_block_names(const Assembly& assembly, std::vector<ForceQuantity>* q
 /// `key` of the case is for the message.
 void resolve_block_name(const Assembly& assembly, const char* key, BlockRef* block);
 
+/// Throws InputError that begins with `key` for a block that does not exist.
+void check_block_exists(const Assembly& assembly, int block, const std::string& key);
+/// The same for the name of a member, wythe or group of bonders, with the nearest name; "" names none.
+void check_member_exists(const Assembly& assembly, const std::string& member, const std::string& key);
+
 /// What to do about an imported model without supports.
 inline constexpr const char* kNoBlockIsFixed =
     "no block is fixed: set geometry.import.supports, flagged_supports, fixed_by or fixed_below";

@@ -138,10 +138,8 @@ PathRun::PathRun(const Case& scene, const Assembly& assembly, const AnalysisSink
 }
 
 int PathRun::checked_block(int block) const {
-  const size_t count = model_.assembly->blocks.size();
-  if (block < static_cast<int>(count)) return block;
-  throw InputError(fmt::format(
-      "analysis.path.control: block {} does not exist: the assembly has blocks 0 to {}", block, count - 1));
+  check_block_exists(*model_.assembly, block, "analysis.path.control");
+  return block;
 }
 
 /// Of the control along its direction, m.

@@ -7,8 +7,8 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/model/block_region.hpp"
 #include "assembly/model/loaded_faces.hpp"
-#include "solver/dynamics/block_region.hpp"
 
 namespace cupola {
 namespace {

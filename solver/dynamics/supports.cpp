@@ -4,7 +4,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/files/time_table.hpp"
-#include "solver/dynamics/block_region.hpp"
+#include "assembly/model/block_region.hpp"
 
 namespace cupola {
 namespace {

@@ -13,17 +13,10 @@
 namespace cupola {
 namespace {
 
-void check_block(const Assembly& assembly, int block, const char* key) {
-  const int num_blocks = static_cast<int>(assembly.blocks.size());
-  if (block < 0 || block >= num_blocks)
-    throw InputError(fmt::format("{}: block {} does not exist: the assembly has blocks 0 to {}", key, block,
-                                 num_blocks - 1));
-}
-
 /// The tie between two points of the assembly as generated. Its force is zero at `tie.length`.
 Tie make_tie(const Assembly& assembly, BuiltTie tie, const char* key) {
-  check_block(assembly, tie.block_a, key);
-  check_block(assembly, tie.block_b, key);
+  check_block_exists(assembly, tie.block_a, key);
+  check_block_exists(assembly, tie.block_b, key);
   if (tie.block_a == tie.block_b)
     throw InputError(
         fmt::format("{}: both ends are on block {}; a tie connects two blocks", key, tie.block_a));
@@ -49,8 +42,8 @@ Tie make_tie(const Assembly& assembly, BuiltTie tie, const char* key) {
 /// longer by `slack`.
 Tie pair_tie(const Assembly& assembly, const PairTie& pair) {
   constexpr const char* key = "ties.pairs";
-  check_block(assembly, pair.block_a, key);
-  check_block(assembly, pair.block_b, key);
+  check_block_exists(assembly, pair.block_a, key);
+  check_block_exists(assembly, pair.block_b, key);
   BuiltTie tie;
   tie.block_a = pair.block_a;
   tie.block_b = pair.block_b;
@@ -70,7 +63,7 @@ Tie pair_tie(const Assembly& assembly, const PairTie& pair) {
 /// The bar of a restraint: from the ground, at the distance of a block, to the held point.
 Tie restraint_bar(const Assembly& assembly, const Restraint& restraint) {
   constexpr const char* key = "supports.restraints";
-  check_block(assembly, restraint.block, key);
+  check_block_exists(assembly, restraint.block, key);
   const Block& block = assembly.blocks[restraint.block];
   if (block.fixed)
     throw InputError(fmt::format("{}: block {} is fixed already; remove this restraint", key,

@@ -49,10 +49,7 @@ std::set<int> listed(const Assembly& assembly, const std::set<int>& base,
 }  // namespace
 
 void check_block(const Assembly& assembly, int block) {
-  if (block < 0 || block >= static_cast<int>(assembly.blocks.size()))
-    throw InputError(
-        fmt::format("analysis.range.quantities: block {} does not exist: the assembly has blocks 0 to {}",
-                    block, assembly.blocks.size() - 1));
+  check_block_exists(assembly, block, "analysis.range.quantities");
 }
 
 std::set<int> blocks_on_supports(const Assembly& assembly, const JointGeometry& joints) {

@@ -78,7 +78,8 @@ TEST(AppliedLoads, LoadsWithoutABlockOrFaceAreRefused) {
   Assembly assembly = test::two_block_assembly();
   Loads loads;
   loads.forces.emplace_back().block = 2;
-  EXPECT_EQ(refusal_of(loads, assembly), "error: loads.forces: block 2: the assembly has blocks 0 to 1");
+  EXPECT_EQ(refusal_of(loads, assembly),
+            "error: loads.forces: block 2 does not exist: the assembly has blocks 0 to 1");
   loads.forces[0].block = 0;
   EXPECT_EQ(refusal_of(loads, assembly),
             "error: loads.forces: block 0 is fixed; apply the force to a free block");

@@ -45,7 +45,7 @@ std::vector<std::pair<std::string, Case>> models() {
   Case octagon = dome_case(8, 16, 2);
   octagon.geometry.surface = OctagonalVault{};
   // Stones in several parts that share no faces: a round hole, and stones with an arm in each of two webs.
-  Case hole = wall_case(6, 4);
+  Case hole = wall_case(4, 3);
   Cut cut;
   cut.kind = Cut::Kind::cylinder;
   cut.centre_u = 5.0;
@@ -53,7 +53,7 @@ std::vector<std::pair<std::string, Case>> models() {
   cut.radius = 1.2;
   cut.sides = 8;
   hole.geometry.cuts = {cut};
-  Case groin = dome_case(9, 3, 2);
+  Case groin = dome_case(5, 2, 2);
   VaultSurface webs;
   webs.plan.kind = Plan::Kind::groin;
   webs.plan.sides = 4;

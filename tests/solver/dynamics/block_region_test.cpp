@@ -1,4 +1,4 @@
-#include "solver/dynamics/block_region.hpp"
+#include "assembly/model/block_region.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "solver/dynamics/block_region.hpp"
+#include "assembly/model/block_region.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,24 +16,9 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-void check_member(const BlockRegion& region, const Assembly& assembly, const std::string& key) {
-  if (region.member.empty() || std::ranges::find(assembly.members, region.member) != assembly.members.end())
-    return;
-  const std::string near = nearest_name(region.member, assembly.members);
-  std::string names;
-  for (const std::string& name : assembly.members) names += (names.empty() ? "" : ", ") + name;
-  throw InputError(fmt::format("{}: no member is named '{}'{}", key, region.member,
-                               !near.empty()              ? fmt::format("; did you mean '{}'?", near)
-                               : assembly.members.empty() ? "; a model of one shell has no named members"
-                                                          : "; the members are " + names));
-}
-
 void check_blocks(const BlockRegion& region, const Assembly& assembly, bool fixed, const std::string& key) {
-  const int num_blocks = static_cast<int>(assembly.blocks.size());
   for (const int block : region.blocks) {
-    if (block < 0 || block >= num_blocks)
-      throw InputError(fmt::format("{}: block {} does not exist: the assembly has blocks 0 to {}", key, block,
-                                   num_blocks - 1));
+    check_block_exists(assembly, block, key);
     if (assembly.blocks[block].fixed != fixed)
       throw InputError(
           fixed ? fmt::format("{}: block {} is not fixed; only supports can be moved", key, block)
@@ -63,7 +48,7 @@ bool is_in(const Sector& sector, double azimuth) {
 
 std::vector<RegionBlock> blocks_of_region(const BlockRegion& region, const Assembly& assembly, bool fixed,
                                           const std::string& key) {
-  check_member(region, assembly, key);
+  check_member_exists(assembly, region.member, key);
   check_blocks(region, assembly, fixed, key);
   std::vector<RegionBlock> found;
   for (int block = 0; block < static_cast<int>(assembly.blocks.size()); ++block) {
