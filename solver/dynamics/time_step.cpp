@@ -1,6 +1,7 @@
 #include "solver/dynamics/time_step.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -93,6 +94,15 @@ void set_past(const Model& model, const State& state, const ContactSet& contacts
   step->acceleration = accelerations(step->problem, f + generalized_impulse(step->problem, filtered));
 }
 
+constexpr std::array kOutOfPlane{1, 3, 5};  // of the velocities of a block that moves in the x-z plane
+
+/// Nothing holds a plane scene in its plane: over the long steps of statics, the rounding of its loads would
+/// turn blocks out of it.
+void stay_in_plane(VecX* v) {
+  for (const int out : kOutOfPlane)
+    for (Eigen::Index row = out; row < v->size(); row += 6) (*v)[row] = 0.0;
+}
+
 /// v + M^-1 (h f + D (p - gamma)), with the gyroscopic moment in the middle of the step if it has one.
 void set_free_velocities(const Model& model, const State& state, const StepOptions& options,
                          StepProblem* step) {
@@ -165,12 +175,15 @@ void set_tie_laws(const Model& model, const State& state, const ContactMemories&
   }
 }
 
-/// Restricts all rows to motion in the x-z plane.
+/// Restricts all rows and masses to motion in the x-z plane.
 void drop_rows_out_of_plane(ContactProblem* problem) {
   problem->plane = true;
-  for (std::vector<Mat63>* D : {&problem->D_a, &problem->D_b})
-    for (Mat63& rows : *D)
-      for (const int out : {1, 3, 5}) rows.row(out).setZero();
+  for (const int out : kOutOfPlane) {
+    for (std::vector<Mat63>* D : {&problem->D_a, &problem->D_b})
+      for (Mat63& rows : *D) rows.row(out).setZero();
+    for (Mat6& M : problem->M)
+      for (const int in : {0, 2, 4}) M(out, in) = M(in, out) = 0.0;
+  }
 }
 
 /// Adds the imposed velocities of supports to b.
@@ -236,7 +249,9 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
   set_rows(model, state, contacts, &step);
   if (model.plane) drop_rows_out_of_plane(&step.problem);
   set_past(model, state, contacts, memories, options, &step);
+  if (model.plane) stay_in_plane(&step.acceleration);
   set_free_velocities(model, state, options, &step);
+  if (model.plane) stay_in_plane(&step.problem.v_star);
   set_contact_laws(model, state, contacts, memories, options, &step);
   set_tie_laws(model, state, memories, options, step.num_contacts, &step.problem);
   if (!model.support_motions.empty()) add_support_velocities(model, state, contacts, options, &step);
