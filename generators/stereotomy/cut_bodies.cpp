@@ -344,9 +344,12 @@ void cut_bodies(const std::vector<CutBody>& bodies, const MemberStart& start, do
       faces[i] = carving.take(planes, from_supports, key);
   }
   carving.write();
-  for (size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].cut.as == Cut::As::held)
-      add_support(bodies[i].cut, faces[i], support_width, density, assembly);
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].cut.as != Cut::As::held) continue;
+    if (faces[i].empty())
+      throw InputError(bodies[i].key + ".as = held: the plane meets a support only, and no stone to be held");
+    add_support(bodies[i].cut, faces[i], support_width, density, assembly);
+  }
 }
 
 }  // namespace cupola

@@ -254,6 +254,10 @@ TEST(CutBodies, AreRefusedIfTheyTakeNothingOrAll) {
   EXPECT_NE(message_of(wall({plane({0, 9, 0}, {0, 1, 0}, Cut::As::joint)}))
                 .find("geometry.cuts[0]: the plane parts no block"),
             std::string::npos);
+  // The support under the wall reaches 1 m beyond its end.
+  EXPECT_NE(message_of(wall({plane({0, kLength + 0.5, 0}, {0, 1, 0}, Cut::As::held)}))
+                .find("geometry.cuts[0].as = held: the plane meets a support only"),
+            std::string::npos);
   Cut under;
   under.kind = Cut::Kind::under;
   under.member = "nave";
