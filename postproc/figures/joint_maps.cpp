@@ -18,6 +18,22 @@ std::string segments(const JointMap::Rows& rows, const char* name, const std::st
   return rows.empty() ? "" : fmt::format(", ${} using 1:2:3:4{}", name, style);
 }
 
+/// The numbers of the widest cracks on the map, as in cracks.csv, each at its widest joint.
+JointMap::Rows numbers_of_cracks(const Evaluation& e, JointMap* map) {
+  constexpr size_t kMost = 12;
+  const std::vector<JointWrench>& joints = e.last.joints.wrenches;
+  JointMap::Rows numbers;
+  for (size_t k = 0; k < e.cracks.size() && numbers.size() < kMost; ++k) {
+    const int widest =
+        *std::ranges::max_element(e.cracks[k].joints, {}, [&](int joint) { return joints[joint].opening; });
+    const std::pair<int, int> blocks{joints[widest].block_a, joints[widest].block_b};
+    JointMap::Rows sides;
+    if (map->has(e.shell, blocks)) map->add(blocks, static_cast<double>(k), &sides);
+    if (!sides.empty()) numbers.push_back(sides.front());
+  }
+  return numbers;
+}
+
 std::string outline_plot() {
   return fmt::format("$outlines using 1:2:3:4:5:6 with boxxyerror fs empty lc rgb '{}' notitle", kGrey);
 }
@@ -87,12 +103,16 @@ Figure crack_map(const Evaluation& e, const ShellMap& shell) {
   f.height = 640;
   f.vector = map.is_small();
   if (joints.empty()) return f;
-  f.commands = plot_style() + map.outlines() + data_block("joints", joints) + map.axes() +
+  const JointMap::Rows numbers = numbers_of_cracks(e, &map);
+  if (!numbers.empty()) f.caption += " The numbers are those of the widest cracks in cracks.csv.";
+  f.commands = plot_style() + map.outlines() + data_block("joints", joints) + data_block("numbers", numbers) +
+               map.axes() +
                fmt::format(
                    "set palette defined (0 '#f6b26b', 0.5 '#c0392b', 1 '#4a0d2a')\nset cbrange [0:{}]\n"
                    "set cblabel 'gap (mm)'\nunset key\nplot ",
                    1e3 * widest) +
                outline_plot() + segments(joints, "joints", ":5 with vectors nohead lw 4 lc palette notitle") +
+               (numbers.empty() ? "" : ", $numbers using ($1+$3/2):($2+$4/2):5 with labels offset 1,0.5") +
                "\n";
   return f;
 }

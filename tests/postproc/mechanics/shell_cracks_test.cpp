@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "postproc/figures/figures.hpp"
 #include "postproc/tables/observed_cracks.hpp"
+#include "postproc/tables/shell_map.hpp"
 #include "tests/postproc/models.hpp"
 
 namespace cupola::shell_cracks_test {
@@ -37,6 +39,7 @@ class Vault {
       }
     shell_ = shell_of(assembly_, Vec3::UnitZ());
     evaluation_.assembly = assembly_;
+    evaluation_.shell = shell_;
     evaluation_.last.frame.contacts = contacts_;
     evaluation_.last.frame.role = FrameRole::path;
     evaluation_.last.joints = joint_wrenches(assembly_, contacts_, shell_);
@@ -127,6 +130,33 @@ TEST(ShellCracks, DoNotRunAlongACourse) {
       Vault({{{0, 1}, {2e-3, 4e-3}}, {{0, 2}, {2e-3, 4e-3}}, {{3, 6}, {7e-5, 7e-5}}}).cracks();
   ASSERT_EQ(cracks.size(), 2u);
   EXPECT_EQ(cracks[0].joints.size(), 1u);
+}
+
+/// The unrolled vault, each block as long as its head joints are apart.
+ShellMap unrolled() {
+  ShellMap map;
+  map.vault = true;
+  map.num_rings = kRings;
+  for (int ring = 0; ring < kRings; ++ring)
+    for (int slot = 0; slot < kBlocks; ++slot) {
+      const double from = 45.0 * (slot + (ring % 2 ? 0.5 : 0.0));
+      ShellBox& box = map.boxes.emplace_back();
+      box.block = ring * kBlocks + slot;
+      box.ring = ring;
+      box.from = from;
+      box.to = from + 45.0;
+    }
+  return map;
+}
+
+// Crack 0 is widest in ring 1, at 67.5 degrees, and crack 1 in ring 2, at 225 degrees.
+TEST(ShellCracks, HaveTheirNumbersOnTheMap) {
+  Vault vault(two_cracks());
+  Evaluation& e = vault.evaluation();
+  e.cracks = vault.cracks();
+  const std::string commands = crack_map(e, unrolled()).commands;
+  EXPECT_NE(commands.find("$numbers << EOD\n67.5 1 0 1 0 \n225 2 0 1 1 \nEOD"), std::string::npos)
+      << commands;
 }
 
 std::string written(const std::string& text) {
