@@ -12,6 +12,7 @@
 #include "assembly/model/block_names.hpp"
 #include "assembly/model/block_region.hpp"
 #include "generators/chains.hpp"
+#include "generators/importer/import_supports.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
 #include "generators/surface/make_surface.hpp"
 #include "generators/varied_density.hpp"

@@ -1,57 +1,18 @@
 #pragma once
 
-#include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "assembly/case/geometry.hpp"
 #include "assembly/model/assembly.hpp"
-#include "generators/importer/courses.hpp"
-#include "generators/importer/flatness.hpp"
-#include "generators/stereotomy/model_checks.hpp"
+#include "generators/importer/import_report.hpp"
 
 namespace cupola {
-
-/// Record of an import.
-struct ImportReport {
-  std::vector<BlockOrigin> origins;                                  ///< per block of the assembly
-  std::vector<int> parts;                                            ///< number of convex parts per block
-  int already_convex = 0, by_planes = 0, as_prisms = 0, by_nef = 0;  ///< surfaces per method
-  Flatness flatness;
-  double facet_angle = 0.0, snap = 0.0;  ///< in force: rad, m
-  bool chosen = false;                   ///< one of them follows from the data
-  std::optional<double> snap_of_gaps;    ///< m, from the gaps and overlaps between faces
-  int snapped_facets = 0;
-  int sliver_parts = 0;               ///< thinner than 1e-3 of their size
-  double largest_volume_error = 0.0;  ///< sum of the parts minus the block, over the block's volume
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< m, extents of the model
-  int doubled_faces = 0;                         ///< dropped
-  /// m3, of all blocks as drawn: the exact volume of four-sided faces that are warped (bilinear), fans about
-  /// the mean of the corners of other polygons.
-  double drawn_volume = 0.0;
-  double volume_of_parts = 0.0;  ///< m3, from which masses follow
-  int most_changed_block = 0;    ///< whose volume differs most from that of its drawing
-  double most_changed = 0.0;     ///< by this share of it
-  double unusual_size = 0.0;     ///< m, mean size of the blocks if the unit is doubtful
-  int ties = 0;
-  std::string doubt_of_axes;  ///< why another axis may be upward; empty: no doubt
-  CourseReport courses;
-};
 
 /// Reads blocks from files, repairs and checks their surfaces, and splits them into convex parts. Blocks keep
 /// the order of the file; the files of a folder are read by name. Faces between parts of one block are
 /// `internal`, all others `free`. `density` (kg/m3) applies to blocks without a density in the file or the
 /// case. `report` may be null. Throws InputError with block, file and line.
 Assembly import_blocks(const ImportedBlocks& source, double density, ImportReport* report = nullptr);
-
-/// Fixes the blocks with a single neighbour, if the case asks for it. Returns how many.
-int fix_ends(const ImportedBlocks& source, std::span<const FacePair> joints, Assembly* assembly);
-
-std::string to_text(const ImportReport& report);
-
-/// What the user must know about the import, one sentence each.
-std::vector<std::string> warnings_of(const ImportReport& report);
 
 /// The interfaces of a COMPAS file as contact points, in the CSV format of `contact: {method: file}`: one
 /// point per corner, the normal from block_a towards the centroid of block_b, gap zero, and equal shares of

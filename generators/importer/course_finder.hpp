@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generators/importer/joint_graph.hpp"
+
+namespace cupola {
+
+/// Blocks by course, each course in the order in which its stones lie.
+struct Courses {
+  std::vector<int> course;  ///< per block, -1 for a support
+  std::vector<std::vector<int>> stones;
+  std::vector<bool> closed;  ///< per course: one ring
+  std::string refusal;
+};
+
+/// Finds courses by the rules of set_courses().
+class CourseFinder {
+ public:
+  CourseFinder(const Assembly& assembly, const JointGraph& graph) : assembly_(assembly), graph_(graph) {}
+
+  /// Those that begin on the supports `from`.
+  Courses find(const std::vector<int>& from);
+
+  /// The faces of a block that meet a support or the course below.
+  const std::vector<int>& lower_bed(int block) const { return beds_[block]; }
+
+ private:
+  std::string labels(const std::vector<int>& blocks) const;
+  void set_beds(const std::vector<int>& course);
+  std::vector<int> beside(const std::vector<int>& course, int block) const;
+  double height_of(const std::vector<int>& stones) const;
+  bool leans_on_sides(int block) const;
+  void check(Courses* found) const;
+  bool put_in_order(const std::vector<int>& course, std::vector<int>* stones) const;
+
+  const Assembly& assembly_;
+  const JointGraph& graph_;
+  std::vector<std::vector<int>> beds_;  // per block
+};
+
+}  // namespace cupola

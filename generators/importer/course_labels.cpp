@@ -1,0 +1,127 @@
+#include "generators/importer/course_labels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+namespace cupola {
+namespace {
+
+constexpr double kRoundedAngle = 1e-12;  // rad
+
+/// The sheet of the blocks, and for each free block the directions along its course (t) and upwards on its
+/// bed (m).
+class Labels {
+ public:
+  Labels(const Courses& courses, const CourseFinder& finder, const JointGraph& graph, const Sheet& sheet,
+         Assembly* assembly)
+      : courses_(courses), finder_(finder), graph_(graph), sheet_(sheet), assembly_(*assembly) {}
+
+  void set() {
+    assembly_.num_rings = static_cast<int>(courses_.stones.size());
+    for (int k = 0; k < assembly_.num_rings; ++k) {
+      std::vector<int> stones = courses_.stones[k];
+      if (sheet_.closed) std::ranges::sort(stones, {}, [&](int b) { return azimuth_of(b); });
+      for (size_t slot = 0; slot < stones.size(); ++slot) {
+        Block& block = assembly_.blocks[stones[slot]];
+        block.ring = k;
+        block.slot = static_cast<int>(slot);
+        name_faces(stones, slot);
+      }
+    }
+    for (Part& part : assembly_.parts) {
+      part.ring = assembly_.blocks[part.block].ring;
+      if (assembly_.blocks[part.block].fixed) name_faces_of_support(part);
+    }
+  }
+
+ private:
+  /// rad, in [0, 2 pi), about the axis.
+  double azimuth_of(int block) const {
+    const Vec3 r = assembly_.blocks[block].centroid - sheet_.origin;
+    const double angle = std::atan2(r.y(), r.x());
+    return angle < -kRoundedAngle ? angle + 2.0 * std::numbers::pi : std::abs(angle);
+  }
+
+  /// Along the course: about the axis, across an arch, or from stone to stone.
+  Vec3 along(const std::vector<int>& stones, size_t slot) const {
+    using enum Sheet::ThrustLines;
+    const Block& block = assembly_.blocks[stones[slot]];
+    if (sheet_.thrust_lines == one)  // constant: outwards turns from the first springing to the last
+      return Eigen::AngleAxisd(sheet_.turn, Vec3::UnitZ()) * Vec3::UnitY();
+    if (sheet_.closed) return Vec3::UnitZ().cross(*sheet_.outward(block.centroid));
+    const Vec3 &before = assembly_.blocks[stones[slot > 0 ? slot - 1 : slot]].centroid,
+               &after = assembly_.blocks[stones[std::min(slot + 1, stones.size() - 1)]].centroid;
+    return (after - before).stableNormalized();
+  }
+
+  FaceKind kind_of_joint(int block, const std::vector<int>& others) const {
+    const int k = courses_.course[block];
+    const bool bed = std::ranges::any_of(others, [&](int other) { return courses_.course[other] != k; });
+    return bed ? FaceKind::bed : FaceKind::head;
+  }
+
+  void name_faces(const std::vector<int>& stones, size_t slot) {
+    const int b = stones[slot];
+    Vec3 m = Vec3::Zero();
+    for (const int f : finder_.lower_bed(b)) {
+      const std::vector<Vec3> polygon = face_points(assembly_, f);
+      m -= polygon_area(polygon) * polygon_plane(polygon).normal;
+    }
+    m.stableNormalize();
+    Vec3 t = along(stones, slot);
+    t = (t - t.dot(m) * m).stableNormalized();
+    Vec3 n = t.cross(m);
+    if (!sheet_.closed && sheet_.thrust_lines != Sheet::ThrustLines::one) {  // chains may run either way
+      const std::optional<Vec3> outward = sheet_.outward(assembly_.blocks[b].centroid);
+      if (n.dot(outward ? *outward : Vec3(Vec3::UnitY())) < 0.0) n = -n;
+    }
+    std::map<int, std::vector<int>> others;
+    for (const JointGraph::Face& face : graph_.faces[b]) others[face.face].push_back(face.other);
+    const bool last = courses_.course[b] + 1 == static_cast<int>(courses_.stones.size());
+    for (const Part& part : assembly_.parts) {
+      if (part.block != b) continue;
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+        FaceKind& kind = assembly_.face_kinds[f];
+        if (kind == FaceKind::internal) continue;
+        const auto joint = others.find(f);
+        kind = joint != others.end()
+                   ? kind_of_joint(b, joint->second)
+                   : kind_of_free(polygon_plane(face_points(assembly_, f)).normal, t, m, n, last);
+      }
+    }
+  }
+
+  static FaceKind kind_of_free(const Vec3& normal, const Vec3& t, const Vec3& m, const Vec3& n, bool last) {
+    const double through = normal.dot(n), up = normal.dot(m);
+    if (std::abs(through) > std::max(std::abs(up), std::abs(normal.dot(t))))
+      return through > 0.0 ? FaceKind::extrados : FaceKind::intrados;
+    return last && up > std::abs(normal.dot(t)) ? FaceKind::top : FaceKind::free;
+  }
+
+  void name_faces_of_support(const Part& part) {
+    for (const JointGraph::Face& face : graph_.faces[part.block])
+      if (!assembly_.blocks[face.other].fixed && face.face >= part.face_start &&
+          face.face < part.face_start + part.num_faces)
+        assembly_.face_kinds[face.face] = FaceKind::bed;
+  }
+
+  const Courses& courses_;
+  const CourseFinder& finder_;
+  const JointGraph& graph_;
+  const Sheet& sheet_;
+  Assembly& assembly_;
+};
+
+}  // namespace
+
+void label_courses(const Courses& courses, const CourseFinder& finder, const JointGraph& graph,
+                   const Sheet& sheet, Assembly* assembly) {
+  Labels(courses, finder, graph, sheet, assembly).set();
+}
+
+}  // namespace cupola

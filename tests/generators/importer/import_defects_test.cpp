@@ -1,0 +1,192 @@
+// Files that are refused or doubted, and with which words.
+
+#include <algorithm>
+
+#include <fmt/ranges.h>
+
+#include "generators/importer/readers.hpp"
+#include "tests/generators/importer/import_files.hpp"
+
+namespace cupola::import_test {
+namespace {
+
+TEST_F(Import, NamesTheDefectOfInvalidInput) {
+  const std::string box = obj_box("a", 0, 0, 1);
+  std::string open = box.substr(0, box.rfind("f "));
+  EXPECT_NE(
+      complaint(write("open.obj", open)).find("open.obj:1: error: block a: not closed, 4 boundary edges"),
+      std::string::npos)
+      << complaint(write("open.obj", open));
+
+  std::string inside_out;
+  const int faces[6][4] = {{1, 2, 3, 4}, {8, 7, 6, 5}, {5, 6, 2, 1},
+                           {6, 7, 3, 2}, {7, 8, 4, 3}, {8, 5, 1, 4}};
+  inside_out = box.substr(0, box.find("f "));
+  for (const auto& f : faces)
+    inside_out += "f " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]) +
+                  " " + std::to_string(f[3]) + "\n";
+  EXPECT_NE(complaint(write("turned.obj", inside_out)).find("block a: inside out"), std::string::npos);
+
+  std::string crossing = box;  // one corner of the top lies below the bottom
+  crossing.replace(crossing.find("v 1.000000 1 1.000000"), 21, "v 1.000000 1 -2.00000");
+  EXPECT_NE(complaint(write("crossing.obj", crossing)).find("block a: its surface intersects itself"),
+            std::string::npos)
+      << complaint(write("crossing.obj", crossing));
+
+  const std::string overlapping = box + obj_box("b", 0, 0.98, 9);
+  EXPECT_NE(complaint(write("overlap.obj", overlapping))
+                .find("overlap by 0.02 m, more than contact.margin = 0.01 m"),
+            std::string::npos)
+      << complaint(write("overlap.obj", overlapping));
+
+  const std::string twice = box + obj_box("a", 5, 0, 9);
+  EXPECT_NE(complaint(write("twice.obj", twice)).find("block a: the same name is used at"),
+            std::string::npos);
+
+  std::string nan = box;
+  nan.replace(nan.find("v 1.0"), 5, "v nan");
+  EXPECT_NE(
+      complaint(write("nan.obj", nan)).find("nan.obj:3: error: block a: 'nan00000' is not a finite number"),
+      std::string::npos)
+      << complaint(write("nan.obj", nan));
+
+  EXPECT_NE(complaint(write("empty.obj", box + "o nothing\n")).find("block nothing: no faces"),
+            std::string::npos);
+  EXPECT_NE(
+      complaint(write("huge.off", "OFF\n100000000 100000000 0\n0 0 0\n")).find("declares 100000000 items"),
+      std::string::npos);
+  std::string stl(80, ' ');
+  stl += std::string("\xff\xff\xff\x3f", 4);
+  EXPECT_NE(complaint(write("huge.stl", stl)).find("declares 1073741823 triangles"), std::string::npos);
+  EXPECT_NE(complaint(write("cut.json", "{\"data\": {\"graph\":")).find("cut.json:1: error: not valid JSON"),
+            std::string::npos);
+  EXPECT_NE(complaint((folder_ / "missing.obj").string()).find("no such file"), std::string::npos);
+}
+
+// Boxes on each other: the second reaches 0.02 m into the first, and the third 0.05 m into the second.
+TEST_F(Import, NamesAllOverlapsAtOnceWithTheMarginThatAdmitsThem) {
+  const std::string text = obj_box("a", 0, 0, 1) + obj_box("b", 0, 0.98, 9) + obj_box("c", 0, 1.93, 17);
+  const std::string found = complaint(write("three.obj", text));
+  for (const char* expected : {"blocks b and c (", "overlap by 0.05 m", "2 pairs overlap by more than that",
+                               "b and c by 0.05 m, a and b by 0.02 m", "increase contact.margin to 0.053 m"})
+    EXPECT_NE(found.find(expected), std::string::npos) << expected << " in: " << found;
+  EXPECT_EQ(found.find('\n'), std::string::npos) << found;
+}
+
+// The lid of every other box is missing.
+TEST_F(Import, NamesTheDefectsOfAllBlocksAtOnce) {
+  const auto open = [](const std::string& box) {
+    const size_t lid = box.find("f ", box.find("f ") + 1);
+    return box.substr(0, lid) + box.substr(box.find('\n', lid) + 1);
+  };
+  const std::string found = complaint(
+      write("open.obj", open(obj_box("a", 0, 0, 1)) + obj_box("b", 0, 1, 9) + open(obj_box("c", 0, 2, 17))));
+  for (const char* expected :
+       {"open.obj:1: error: block a: not closed, 4 boundary edges; block c: not closed"})
+    EXPECT_NE(found.find(expected), std::string::npos) << expected << " in: " << found;
+  EXPECT_EQ(found.find("block b"), std::string::npos) << found;
+}
+
+TEST_F(Import, DropsDoubledFacesWithAWarning) {
+  const std::string box = obj_box("a", 0, 0, 1);
+  const std::string again = box.substr(box.rfind("f "));
+  const std::string reversed = "f 1 2 3 4\n";
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path = write("doubled.obj", box + again + reversed);
+  GenerateReport report;
+  const Assembly model = generate(scene, &report);
+  EXPECT_NEAR(model.blocks.at(0).volume, 1.0, 1e-15);
+  EXPECT_EQ(report.import->doubled_faces, 2);
+  EXPECT_NE(fmt::format("{}", fmt::join(warnings_of(report), "|")).find("2 faces repeat another one"),
+            std::string::npos);
+}
+
+// A box of 1 m drawn in millimetres, and one of 2 km: nobody can know, so the unit is asked for.
+TEST_F(Import, AsksForTheUnitOfModelsThatAreNoStructures) {
+  std::string large = obj_box("a", 0, 0, 1);
+  for (size_t at = large.find("v 1.000000"); at != std::string::npos; at = large.find("v 1.000000"))
+    large.replace(at, 10, "v 2000.0");
+  const std::string path = write("large.obj", large);
+  EXPECT_NE(complaint(path).find("set geometry.import.metres_per_unit"), std::string::npos)
+      << complaint(path);
+  ImportedBlocks source;
+  source.path = path;
+  source.metres_per_unit = 1e-3;
+  EXPECT_NO_THROW(import_blocks(source, 1000.0));
+  source.metres_per_unit = 1.0;
+  EXPECT_NO_THROW(import_blocks(source, 1000.0));
+}
+
+std::string scaled(const std::string& obj, double factor) {
+  std::istringstream lines(obj);
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    double x = 0.0, y = 0.0, z = 0.0;
+    const bool vertex = std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3;
+    text += vertex ? fmt::format("v {} {} {}\n", factor * x, factor * y, factor * z) : line + "\n";
+  }
+  return text;
+}
+
+// A box of 30 m could be a structure, but is no stone.
+TEST_F(Import, DoubtsTheUnitOfBlocksThatAreNoStones) {
+  const std::string box = obj_box("a", 0, 0, 1), large = scaled(box, 30.0);
+  Case scene;
+  scene.geometry.imported.emplace();
+  const auto doubted = [&](const std::string& text) {
+    scene.geometry.imported->path = write("box.obj", text);
+    GenerateReport report;
+    generate(scene, &report);
+    return fmt::format("{}", fmt::join(warnings_of(report), "|")).find("if the file is not in metres") !=
+           std::string::npos;
+  };
+  EXPECT_FALSE(doubted(box));
+  EXPECT_TRUE(doubted(large));
+  scene.geometry.imported->metres_per_unit = 1.0;
+  EXPECT_FALSE(doubted(large));
+}
+
+// A tower along the file's y axis, whose base is the only support.
+TEST_F(Import, SuspectsThatYIsUpward) {
+  std::string lying, upright;
+  for (int i = 0; i < 4; ++i) upright += obj_box(fmt::format("{}", i), 0, i, 8 * i + 1);
+  for (size_t start = 0; start < upright.size();) {
+    const size_t end = upright.find('\n', start) + 1;
+    const std::string line = upright.substr(start, end - start);
+    double x = 0.0, y = 0.0, z = 0.0;
+    lying += std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3  // a turn about x
+                 ? fmt::format("v {:f} {:f} {:f}\n", x, z, -y)
+                 : line;
+    start = end;
+  }
+  ImportedBlocks source;
+  source.supports = {"0"};
+  ImportReport report;
+  source.path = write("upright.obj", upright);
+  import_blocks(source, 1000.0, &report);
+  EXPECT_EQ(report.doubt_of_axes, "");
+  source.path = write("lying.obj", lying);
+  import_blocks(source, 1000.0, &report);
+  EXPECT_NE(report.doubt_of_axes.find("geometry.import.up: y"), std::string::npos);
+  source.up = ImportedBlocks::UpAxis::y;
+  import_blocks(source, 1000.0, &report);
+  EXPECT_EQ(report.doubt_of_axes, "");
+}
+
+TEST_F(Import, RejectsLinksToFilesOutsideTheFolder) {
+  const std::string outside = write("box.off", kOffBox);
+  const auto folder = folder_ / "blocks";
+  std::filesystem::create_directory(folder);
+  write("blocks/a.off", kOffBox);
+  std::filesystem::create_symlink("a.off", folder / "b.off");
+  EXPECT_EQ(complaint(folder.string()).find("outside"), std::string::npos)
+      << "links inside the folder are allowed";
+  std::filesystem::create_symlink(outside, folder / "c.off");
+  EXPECT_NE(complaint(folder.string()).find("c.off: error: is a link to a file outside the folder"),
+            std::string::npos)
+      << complaint(folder.string());
+}
+
+}  // namespace
+}  // namespace cupola::import_test

@@ -1,0 +1,115 @@
+// What the importer makes of surfaces: common planes, volumes, densities, supports.
+
+#include <cmath>
+
+#include "tests/generators/importer/import_files.hpp"
+
+namespace cupola::import_test {
+namespace {
+
+TEST_F(Import, SnapsOpposedFacetsToOnePlane) {
+  ImportedBlocks source;
+  source.path = write("two.obj", obj_box("a", 0, 0, 1) + obj_box("b", 0, 1.0004, 9));
+  source.snap = 1e-3;
+  ImportReport report;
+  const Assembly model = import_blocks(source, 1.0, &report);
+  EXPECT_EQ(report.snapped_facets, 2);
+  double top = 0.0, bottom = 9.0;
+  for (int v = 0; v < 8; ++v) top = std::max(top, model.vertices[v].z());
+  for (int v = 8; v < 16; ++v) bottom = std::min(bottom, model.vertices[v].z());
+  EXPECT_NEAR(top, 1.0002, 1e-12);
+  EXPECT_NEAR(bottom, 1.0002, 1e-12);
+}
+
+/// Boxes on each other, each moved upwards by `errors` (m) from where it touches its neighbours.
+std::string stack(const std::vector<double>& errors) {
+  std::string text;
+  for (size_t i = 0; i < errors.size(); ++i)
+    text += obj_box(std::to_string(i), 0, static_cast<double>(i) + errors[i], 8 * static_cast<int>(i) + 1);
+  return text;
+}
+
+// Rounded coordinates let plane faces gape and overlap by tenths of a millimetre, here by up to 0.7 mm.
+TEST_F(Import, ClosesGapsAndOverlapsOfRoundedCoordinates) {
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path = write("rounded.obj", stack({0, 4e-4, -3e-4, 2e-4, -4e-4, 1e-4}));
+  scene.geometry.imported->supports = {"0"};
+  GenerateReport report;
+  generate(scene, &report);
+  EXPECT_NEAR(report.import->snap, 7e-4, 1e-9);  // twice the distance from the middle of the widest
+  EXPECT_LT(report.model.max_overlap, 1e-12);
+  EXPECT_LT(report.model.max_joint_gap, 1e-12);
+}
+
+// Openings that were drawn do not overlap anywhere and stay.
+TEST_F(Import, KeepsGapsThatWereDrawn) {
+  ImportedBlocks source;
+  source.path = write("open.obj", stack({0, 5e-4, 1e-3, 1.5e-3}));
+  ImportReport report;
+  import_blocks(source, 1.0, &report);
+  EXPECT_EQ(report.snap, 0.0);
+  EXPECT_EQ(report.snapped_facets, 0);
+}
+
+TEST_F(Import, FixesTheLowestBlocks) {
+  ImportedBlocks source;
+  source.path = write("tower.obj", obj_box("a", 0, 0, 1) + obj_box("b", 0, 1, 9) + obj_box("c", 0, 2, 17));
+  source.fixed_by = ImportedBlocks::SupportRule::lowest;
+  const Assembly model = import_blocks(source, 1000.0);
+  EXPECT_TRUE(model.blocks[0].fixed);
+  EXPECT_FALSE(model.blocks[1].fixed);
+  EXPECT_FALSE(model.blocks[2].fixed);
+}
+
+// Two faces of the block are warped by 0.1 m. The bilinear surface through four corners halves the difference
+// of the volumes with either diagonal: each raised corner lifts the top by a quarter on average.
+TEST_F(Import, ComparesTheVolumeWithTheDrawing) {
+  std::string text = obj_box("a", 0, 0, 1);
+  text.replace(text.find("v 1.000000 1 1.000000"), 21, "v 1.000000 1 1.100000");
+  ImportedBlocks source;
+  source.path = write("warped.obj", text);
+  ImportReport report;
+  const Assembly model = import_blocks(source, 1000.0, &report);
+  EXPECT_NEAR(report.drawn_volume, 1.025, 1e-12);
+  EXPECT_NEAR(report.volume_of_parts, model.blocks[0].volume, 1e-15);
+  double parts = 0.0;
+  for (const Part& part : model.parts) parts += part.volume;
+  EXPECT_NEAR(model.blocks[0].volume, parts, 1e-12);
+  EXPECT_NEAR(model.blocks[0].mass, 1000.0 * parts, 1e-9);
+}
+
+TEST_F(Import, AppliesDensitiesOfTheCase) {
+  ImportedBlocks source;
+  source.path = write("two.obj", obj_box("lower", 0, 0, 1) + obj_box("upper", 0.25, 1, 9));
+  source.densities = {{{"upper"}, 3510.0}};
+  const Assembly model = import_blocks(source, 2000.0);
+  EXPECT_NEAR(model.blocks[0].mass, 2000.0, 1e-9);
+  EXPECT_NEAR(model.blocks[1].mass, 3510.0, 1e-9);
+  source.densities = {{{"middle"}, 3510.0}};
+  EXPECT_THROW(import_blocks(source, 2000.0), InputError);
+}
+
+// A prism with 128 sides is one convex part with 256 vertices.
+TEST_F(Import, KeepsConvexBlocksWithManyVerticesWhole) {
+  const int n = 128;
+  std::string text = "o drum\n", lower = "f", upper = "f", sides;
+  for (int i = 0; i < n; ++i) {
+    const double a = 2.0 * M_PI * i / n;
+    text += fmt::format("v {0:.17g} {1:.17g} 0\nv {0:.17g} {1:.17g} 1\n", std::cos(a), std::sin(a));
+    const int next = (i + 1) % n;
+    upper += fmt::format(" {}", 2 * i + 2);
+    lower += fmt::format(" {}", 2 * (n - 1 - i) + 1);
+    sides += fmt::format("f {} {} {} {}\n", 2 * i + 1, 2 * next + 1, 2 * next + 2, 2 * i + 2);
+  }
+  ImportedBlocks source;
+  source.path = write("drum.obj", text + lower + "\n" + upper + "\n" + sides);
+  ImportReport report;
+  const Assembly model = import_blocks(source, 1.0, &report);
+  EXPECT_EQ(report.parts, std::vector<int>{1});
+  EXPECT_EQ(model.vertices.size(), 2u * n);
+  EXPECT_NEAR(model.blocks[0].volume, 0.5 * n * std::sin(2.0 * M_PI / n), 1e-12);
+}
+
+}  // namespace
+}  // namespace cupola::import_test
