@@ -133,7 +133,8 @@ Assembly generate(const Case& input, GenerateReport* report) {
     };
     check();
     if (fix_ends(*geometry.imported, report->model.joint_faces, &assembly) > 0) check();
-    report->import->courses = set_courses(report->model.joint_faces, geometry.imported->axis, &assembly);
+    report->import->courses = set_courses(report->model.joint_faces, report->import->course_numbers,
+                                          geometry.imported->axis, &assembly);
     refuse_keys_without_effect(input, assembly);
     const Case resolved = resolved_case(input, assembly);
     return with_report(std::move(assembly), *report, resolved);

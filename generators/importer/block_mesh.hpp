@@ -24,7 +24,8 @@ struct RawBlock {
   /// Convex parts as point clouds, for formats without faces.
   std::vector<std::vector<Vec3>> point_parts;
   bool fixed = false;
-  std::optional<double> density;  ///< kg/m3, if the file gives it
+  std::optional<double> density;   ///< kg/m3, if the file gives it
+  std::optional<int> course = {};  ///< its number, if the file gives it
 };
 
 /// Polygon where two blocks of a file touch, in the units and axes of the file.

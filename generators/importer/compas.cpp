@@ -117,6 +117,7 @@ std::vector<RawBlock> read_compas(const std::string& path) {
     const auto density = node.find("density");
     if (density != node.end() && density->is_number() && density->get<double>() > 0.0)
       block.density = density->get<double>();
+    block.course = course_in(node);
     blocks.push_back(std::move(block));
   }
   return blocks;

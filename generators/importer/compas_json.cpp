@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
@@ -48,11 +50,21 @@ struct Walk {
   FileLocation where;
   std::string stem;             ///< of the file, for blocks without a name of their own
   std::string key;              ///< of the innermost element that is numbered
-  const Json* nodes = nullptr;  ///< of a separate graph that says which blocks are supports
+  const Json* nodes = nullptr;  ///< of a separate graph that says which blocks are supports, and courses
   std::set<std::string> names;
   std::vector<RawBlock> blocks;
   bool support = false;
+  std::optional<int> course;
 };
+
+/// The course of the mesh, from where is_support() looks.
+std::optional<int> course_of(const Json& data, const Walk& walk) {
+  std::optional<int> course = walk.course;
+  if (const auto attributes = data.find("attributes"); !course && attributes != data.end())
+    course = course_in(*attributes);
+  if (!course && walk.nodes && walk.nodes->contains(walk.key)) course = course_in((*walk.nodes)[walk.key]);
+  return course;
+}
 
 bool is_support(const Json& data, const Walk& walk) {
   const auto attributes = data.find("attributes");
@@ -71,6 +83,7 @@ void add_mesh(const Json& node, const Json& data, Walk* walk) {
   walk->names.insert(name);
   RawBlock block{name, walk->where, {}, {}, is_support(data, *walk), {}};
   block.mesh = read_mesh_of(data, walk->where, fmt::format("block {}", name));
+  block.course = course_of(data, *walk);
   if (block.mesh.faces.empty()) throw InputError(walk->where, fmt::format("block {}: no faces", name));
   walk->blocks.push_back(std::move(block));
 }
@@ -87,9 +100,11 @@ void find_meshes(const Json& node, Walk* walk) {
   if (const auto moved = node.find("transformation"); moved != node.end() && !moved->is_null())
     throw InputError(walk->where, "an element has a transformation; apply it before the export");
   const bool outer = walk->support;
+  const std::optional<int> outer_course = walk->course;
   const std::string outer_key = walk->key;
   if (const auto flag = node.find("is_support"); flag != node.end() && flag->is_boolean())
     walk->support = flag->get<bool>();
+  if (const std::optional<int> course = course_in(node)) walk->course = course;
   std::vector<std::string> keys;
   for (const auto& [key, child] : node.items()) keys.push_back(key);
   std::ranges::sort(keys, {}, [](const std::string& key) {
@@ -102,6 +117,7 @@ void find_meshes(const Json& node, Walk* walk) {
     walk->key = outer_key;
   }
   walk->support = outer;
+  walk->course = outer_course;
 }
 
 }  // namespace
@@ -121,6 +137,15 @@ const Json& descend(const Json& node, std::initializer_list<const char*> keys, c
     here = &(*here)[key];
   }
   return *here;
+}
+
+std::optional<int> course_in(const Json& attributes) {
+  if (!attributes.is_object()) return std::nullopt;
+  const auto number = attributes.find("course");
+  if (number == attributes.end() || !number->is_number_integer() || number->get<std::int64_t>() < 0 ||
+      number->get<std::int64_t>() > std::numeric_limits<int>::max())
+    return std::nullopt;
+  return number->get<int>();
 }
 
 PolygonMesh read_mesh_of(const Json& data, const FileLocation& where, const std::string& block) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,16 @@ int line_of(const std::string& text, size_t byte);
 const Json& descend(const Json& node, std::initializer_list<const char*> keys, const FileLocation& where,
                     const std::string& what);
 
+/// The number of the course that the attributes of a block state, at least 0.
+std::optional<int> course_in(const Json& attributes);
+
 /// The mesh of a block: `vertex` (key: x, y, z) and `face` (key: keys of its corners). Throws InputError that
 /// names block, vertex or face.
 PolygonMesh read_mesh_of(const Json& data, const FileLocation& where, const std::string& block);
 
 /// The blocks of a file of COMPAS that is no assembly: every mesh in it, in the order of the file, whether in
-/// nested lists or as the geometry of an element of a model. An element that says `is_support` is fixed.
+/// nested lists or as the geometry of an element of a model. An element that says `is_support` is fixed;
+/// `course` numbers its course.
 /// Empty if there is no mesh.
 std::vector<RawBlock> read_compas_meshes(const Json& root, const std::string& path);
 

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "assembly/model/block_names.hpp"
+#include "generators/importer/courses.hpp"
 
 namespace cupola {
 namespace {
@@ -36,34 +40,58 @@ double distance_of_faces(const Assembly& assembly, const std::vector<int>& from,
 
 }  // namespace
 
+CourseFinder::CourseFinder(const Assembly& assembly, const JointGraph& graph, std::span<const int> numbers)
+    : assembly_(assembly), graph_(graph), numbers_(numbers) {
+  std::vector<int> without;
+  for (int b = 0; b < static_cast<int>(numbers.size()); ++b)
+    if (!assembly.blocks[b].fixed && numbers[b] == kNoCourse) without.push_back(b);
+  if (!without.empty())
+    throw InputError(fmt::format(
+        "geometry.import: the file numbers the courses of other blocks, but not of {}", labels(without)));
+}
+
 Courses CourseFinder::find(const std::vector<int>& from) {
-  const std::vector<int> distance = graph_.distances(assembly_, from);
   Courses found;
-  found.course.assign(distance.size(), -1);
-  std::vector<int> unreached;
-  int last = -1;
-  for (int b = 0; b < static_cast<int>(distance.size()); ++b) {
-    if (assembly_.blocks[b].fixed) continue;
-    if (distance[b] == JointGraph::kFar) {
-      unreached.push_back(b);
-      continue;
-    }
-    found.course[b] = distance[b] - 1;
-    last = std::max(last, found.course[b]);
-  }
-  if (!unreached.empty() || last < 0) {
-    found.refusal =
-        unreached.empty() ? "no block is free" : "no joints lead from a support to " + labels(unreached);
-    return found;
-  }
+  found.course = numbers_.empty() ? courses_by_distance(from, &found.refusal) : courses_by_number(from);
+  const int last = *std::ranges::max_element(found.course);
+  if (last < 0 && found.refusal.empty()) found.refusal = "no block is free";
+  if (!found.refusal.empty()) return found;
   set_beds(found.course);
   found.stones.resize(static_cast<size_t>(last) + 1);
-  for (int b = 0; b < static_cast<int>(distance.size()); ++b)
+  for (int b = 0; b < static_cast<int>(found.course.size()); ++b)
     if (found.course[b] >= 0) found.stones[found.course[b]].push_back(b);
   check(&found);
   if (found.refusal.empty())
     for (std::vector<int>& stones : found.stones) found.closed.push_back(put_in_order(found.course, &stones));
   return found;
+}
+
+std::vector<int> CourseFinder::courses_by_distance(const std::vector<int>& from, std::string* refusal) const {
+  std::vector<int> course = graph_.distances(assembly_, from), unreached;
+  for (int b = 0; b < static_cast<int>(course.size()); ++b) {
+    if (!assembly_.blocks[b].fixed && course[b] == JointGraph::kFar) unreached.push_back(b);
+    course[b] = assembly_.blocks[b].fixed ? -1 : course[b] - 1;
+  }
+  if (!unreached.empty()) *refusal = "no joints lead from a support to " + labels(unreached);
+  return course;
+}
+
+/// The ranks of the numbers, counted from the end that lies on the supports.
+std::vector<int> CourseFinder::courses_by_number(const std::vector<int>& from) const {
+  std::map<int, int> rank;
+  for (size_t b = 0; b < numbers_.size(); ++b)
+    if (!assembly_.blocks[b].fixed) rank[numbers_[b]] = 0;
+  int next = 0;
+  for (auto& [number, its_rank] : rank) its_rank = next++;
+  int lowest = next;
+  for (const int support : from)
+    for (const int b : graph_.neighbours[support])
+      if (!assembly_.blocks[b].fixed) lowest = std::min(lowest, rank[numbers_[b]]);
+  std::vector<int> course(numbers_.size(), -1);
+  for (size_t b = 0; b < numbers_.size(); ++b)
+    if (!assembly_.blocks[b].fixed)
+      course[b] = lowest == 0 ? rank[numbers_[b]] : next - 1 - rank[numbers_[b]];
+  return course;
 }
 
 std::string CourseFinder::labels(const std::vector<int>& blocks) const {
@@ -73,11 +101,17 @@ std::string CourseFinder::labels(const std::vector<int>& blocks) const {
 
 void CourseFinder::set_beds(const std::vector<int>& course) {
   beds_.assign(course.size(), {});
-  for (int b = 0; b < static_cast<int>(course.size()); ++b)
+  const auto add = [&](int b, bool on_support) {
     for (const JointGraph::Face& face : graph_.faces[b])
-      if (course[b] >= 0 && course[face.other] == course[b] - 1 &&
+      if (course[face.other] < course[b] && (course[face.other] < 0) == on_support &&
           std::ranges::find(beds_[b], face.face) == beds_[b].end())
         beds_[b].push_back(face.face);
+  };
+  for (int b = 0; b < static_cast<int>(course.size()); ++b) {
+    if (course[b] < 0) continue;
+    add(b, false);
+    if (beds_[b].empty()) add(b, true);
+  }
 }
 
 std::vector<int> CourseFinder::beside(const std::vector<int>& course, int block) const {
@@ -113,13 +147,15 @@ bool CourseFinder::leans_on_sides(int block) const {
 }
 
 void CourseFinder::check(Courses* found) const {
-  std::vector<int> crowded, stepped, leaning;
+  std::vector<int> hanging, crowded, stepped, leaning;
   for (const std::vector<int>& stones : found->stones) {
     const double height = height_of(stones);
     for (const int b : stones) {
       const std::vector<int> next = beside(found->course, b);
-      if (next.size() > 2) crowded.push_back(b);
+      if (beds_[b].empty()) hanging.push_back(b);
       if (leans_on_sides(b)) leaning.push_back(b);
+      if (!numbers_.empty()) continue;
+      if (next.size() > 2) crowded.push_back(b);
       if (std::ranges::any_of(next, [&](int other) {
             return distance_of_faces(assembly_, beds_[b], beds_[other]) > kEndToEnd * height;
           }))
@@ -130,6 +166,7 @@ void CourseFinder::check(Courses* found) const {
     if (stones.empty()) return;
     found->refusal += (found->refusal.empty() ? "" : "; ") + std::string(what) + ": " + labels(stones);
   };
+  add("stones that lie on none of a lower number, and on no support", hanging);
   add("stones with more than two neighbours in their course", crowded);
   add("stones whose lower bed does not meet that of their neighbour end to end", stepped);
   add("stones that meet the course below by their sides, too", leaning);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,10 @@ struct Courses {
   std::string refusal;
 };
 
-/// Finds courses by the rules of set_courses().
+/// Finds courses by the rules of set_courses(), or takes those of the numbers of the file.
 class CourseFinder {
  public:
-  CourseFinder(const Assembly& assembly, const JointGraph& graph) : assembly_(assembly), graph_(graph) {}
+  CourseFinder(const Assembly& assembly, const JointGraph& graph, std::span<const int> numbers);
 
   /// Those that begin on the supports `from`.
   Courses find(const std::vector<int>& from);
@@ -28,6 +29,8 @@ class CourseFinder {
 
  private:
   std::string labels(const std::vector<int>& blocks) const;
+  std::vector<int> courses_by_distance(const std::vector<int>& from, std::string* refusal) const;
+  std::vector<int> courses_by_number(const std::vector<int>& from) const;
   void set_beds(const std::vector<int>& course);
   std::vector<int> beside(const std::vector<int>& course, int block) const;
   double height_of(const std::vector<int>& stones) const;
@@ -37,6 +40,7 @@ class CourseFinder {
 
   const Assembly& assembly_;
   const JointGraph& graph_;
+  std::span<const int> numbers_;        // of courses in the file, per block; empty: none
   std::vector<std::vector<int>> beds_;  // per block
 };
 

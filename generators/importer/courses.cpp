@@ -78,12 +78,13 @@ bool ends_on(const std::vector<int>& supports, const Courses& courses, const Joi
 
 }  // namespace
 
-CourseReport set_courses(std::span<const FacePair> joints, const std::optional<Vec3>& axis,
-                         Assembly* assembly) {
+CourseReport set_courses(std::span<const FacePair> joints, std::span<const int> numbers,
+                         const std::optional<Vec3>& axis, Assembly* assembly) {
   using enum Sheet::ThrustLines;
   const JointGraph graph(*assembly, joints);
   std::vector<std::vector<int>> groups = graph.groups_of_supports(*assembly);
   CourseReport report;
+  report.of_file = !numbers.empty();
   if (groups.empty()) {
     report.refusal = "no support has a joint";
     return report;
@@ -102,7 +103,7 @@ CourseReport set_courses(std::span<const FacePair> joints, const std::optional<V
   const Vec3 middle = groups.size() == 2 ? Vec3(0.5 * (footings[0].centroid + footings[1].centroid))
                                          : footing_of(*assembly, graph, supports).centroid;
 
-  CourseFinder finder(*assembly, graph);
+  CourseFinder finder(*assembly, graph, numbers);
   Courses courses;
   const bool spans = d.head<2>().norm() > kOnAxis * size_of(*assembly);
   if (spans) {

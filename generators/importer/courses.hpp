@@ -10,9 +10,12 @@
 
 namespace cupola {
 
+constexpr int kNoCourse = -1;  ///< of a block whose course the file does not state
+
 /// What was found out about the courses of imported blocks.
 struct CourseReport {
-  int courses = 0;   ///< 0: none were found
+  int courses = 0;       ///< 0: none were found
+  bool of_file = false;  ///< the file numbers them
   std::string kind;  ///< "rings about a vertical axis", "an arch", "a wall" or "from several springers ..."
   std::string refusal;  ///< why there are none
 };
@@ -26,9 +29,12 @@ struct CourseReport {
 /// quarter of the height of the course, and if each stone lies on the course below with one side. Else the
 /// assembly remains as it is and the refusal names the stones.
 ///
+/// `numbers` of the file, per block, from either end, replace the distances and the first two rules; each stone must
+/// lie on a support or on a stone of a lower course. Throws InputError if only some free blocks have one.
+///
 /// `axis` is a point of the vertical axis of a vault (m); none: through the centroid of the faces of the
 /// supports. `joints` are those of check_model().
-CourseReport set_courses(std::span<const FacePair> joints, const std::optional<Vec3>& axis,
-                         Assembly* assembly);
+CourseReport set_courses(std::span<const FacePair> joints, std::span<const int> numbers,
+                         const std::optional<Vec3>& axis, Assembly* assembly);
 
 }  // namespace cupola

@@ -79,6 +79,7 @@ void append_blocks(const std::vector<RawBlock>& raw, const Surfaces& surfaces,
       assembly->blocks.push_back(block);
       report->origins.push_back({raw[b].name, raw[b].where});
       report->parts.push_back(0);
+      report->course_numbers.push_back(raw[b].course.value_or(kNoCourse));
     }
     const Decomposition pieces = decompose(surfaces.meshes[m], raw[b].name, options);
     using enum Decomposition::Method;
@@ -150,6 +151,8 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
 
   Assembly assembly;
   append_blocks(raw, surfaces, options, density, &assembly, report);
+  if (std::ranges::all_of(report->course_numbers, [](int number) { return number == kNoCourse; }))
+    report->course_numbers.clear();
   compute_mass_properties(&assembly);
   compare_volumes(drawn, assembly, report);
   report->unusual_size = unusual_size(source, *report);

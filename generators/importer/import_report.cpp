@@ -45,7 +45,8 @@ std::string to_text(const ImportReport& r) {
       "{:.6g} m3\n",
       r.low.x(), r.high.x(), r.low.y(), r.high.y(), r.low.z(), r.high.z(), r.volume_of_parts, r.drawn_volume);
   if (r.courses.courses > 0)
-    text += fmt::format("{} found: {}\n", counted(r.courses.courses, "course"), r.courses.kind);
+    text += fmt::format("{} {}: {}\n", counted(r.courses.courses, "course"),
+                        r.courses.of_file ? "as the file numbers them" : "found", r.courses.kind);
   else if (!r.courses.refusal.empty())
     text += fmt::format("no courses: {}\n", r.courses.refusal);
   constexpr int kListed = 10;

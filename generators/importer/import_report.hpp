@@ -35,7 +35,8 @@ struct ImportReport {
   double most_changed = 0.0;     ///< by this share of it
   double unusual_size = 0.0;     ///< m, mean size of the blocks if the unit is doubtful
   int ties = 0;
-  std::string doubt_of_axes;  ///< why another axis may be upward; empty: no doubt
+  std::string doubt_of_axes;        ///< why another axis may be upward; empty: no doubt
+  std::vector<int> course_numbers;  ///< per block, as in the file; kNoCourse: none; empty: the file has none
   CourseReport courses;
 };
 

@@ -1,4 +1,7 @@
+#include <charconv>
 #include <map>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -25,6 +28,16 @@ int vertex_index(const TextLines& lines, std::string_view word, size_t num_verti
   return static_cast<int>(index) - 1;
 }
 
+/// N of the name "course N" of a group.
+std::optional<int> course_in(std::string_view group) {
+  constexpr std::string_view kPrefix = "course ";
+  if (!group.starts_with(kPrefix)) return std::nullopt;
+  group.remove_prefix(kPrefix.size());
+  int number = 0;
+  const auto [end, error] = std::from_chars(group.data(), group.data() + group.size(), number);
+  return error == std::errc() && end == group.data() + group.size() ? std::optional(number) : std::nullopt;
+}
+
 /// Copies the vertices that a block uses, in the order of their first use.
 void keep_used_vertices(const std::vector<Vec3>& all, RawBlock* block) {
   std::map<int, int> local;
@@ -43,12 +56,21 @@ std::vector<RawBlock> read_obj(const std::string& path) {
   std::vector<Vec3> vertices;
   std::vector<RawBlock> blocks;
   bool has_objects = false;
+  std::optional<int> course;  // of the group in force
   while (lines.next()) {
     const auto& words = lines.words();
     if (words[0] == "v") {
       vertices.push_back(lines.point(1));
-    } else if (words[0] == "o" || (words[0] == "g" && !has_objects)) {
-      has_objects = has_objects || words[0] == "o";
+    } else if (words[0] == "g" && has_objects) {
+      course = words.size() > 1 ? course_in(lines.rest(1)) : std::nullopt;
+    } else if (words[0] == "o" || words[0] == "g") {
+      if (words[0] == "o" && !has_objects) {
+        has_objects = true;
+        if (!blocks.empty() && blocks.back().mesh.faces.empty()) {  // a group of objects
+          course = course_in(blocks.back().name);
+          blocks.pop_back();
+        }
+      }
       const std::string name = words.size() > 1 ? std::string(lines.rest(1)) : std::to_string(blocks.size());
       blocks.push_back({name, lines.where(), {}, {}, false, {}});
       lines.enter(fmt::format("block {}", name));
@@ -58,6 +80,7 @@ std::vector<RawBlock> read_obj(const std::string& path) {
       for (size_t i = 1; i < words.size(); ++i)
         face.push_back(vertex_index(lines, words[i], vertices.size()));
       if (face.size() < 3) lines.fail("f: a face must have at least three vertices");
+      if (blocks.back().mesh.faces.empty() && has_objects) blocks.back().course = course;
       blocks.back().mesh.faces.push_back(face);
     }
   }

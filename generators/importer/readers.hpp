@@ -11,7 +11,7 @@ namespace cupola {
 // throws InputError with file and line for invalid content.
 
 /// Wavefront OBJ: one block per `o`, or per `g` in a file without `o`. A name is the rest of its line, blanks
-/// included. Only `v` and `f` are read besides.
+/// included. A group `course N` numbers the course of the blocks in it. Only `v` and `f` are read besides.
 std::vector<RawBlock> read_obj(const std::string& path);
 
 /// OFF, PLY (ascii, binary little- and big-endian) and STL (ascii, binary). The blocks are the connected
@@ -21,7 +21,7 @@ std::vector<RawBlock> read_ply(const std::string& path);
 std::vector<RawBlock> read_stl(const std::string& path);
 
 /// COMPAS assembly JSON: data.graph.data.node[k].block.data.{vertex, face}; `is_support` fixes a block. The
-/// attributes `name` (else k) and `density` (kg/m3) of the node are read if they are there.
+/// attributes `name` (else k), `density` (kg/m3) and `course` of the node are read if they are there.
 std::vector<RawBlock> read_compas(const std::string& path);
 
 /// Contact faces of a COMPAS assembly file: data.graph.data.edge[u][v].interfaces[].data.points.

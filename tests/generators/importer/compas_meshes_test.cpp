@@ -87,7 +87,7 @@ TEST(CompasMeshes, FormerVersionsAreRead) {
   std::string apart, nodes, within;
   for (const int i : {0, 2, 10}) {  // as text, 10 is before 2
     const std::string comma = i > 0 ? ", " : "", key = fmt::format("{}\"{}\": ", comma, i),
-                      flag = fmt::format("\"is_support\": {}", i == 10);
+                      flag = fmt::format("\"is_support\": {}, \"course\": {}", i == 10, i + 3);
     apart += key + former_cube(i);
     nodes += key + "{" + flag + "}";
     within += key + R"({"block": {"dtype": "compas_assembly/Block", "value": )" + former_cube(i) + "}, " +
@@ -103,6 +103,7 @@ TEST(CompasMeshes, FormerVersionsAreRead) {
     EXPECT_EQ(blocks[2].mesh.vertices.front().z(), 10.0);
     EXPECT_FALSE(blocks[0].fixed || blocks[1].fixed);
     EXPECT_TRUE(blocks[2].fixed);
+    EXPECT_EQ(blocks[1].course, 5);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "generators/importer/courses.hpp"
 
+#include <array>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "assembly/export/export.hpp"
 #include "generators/generate.hpp"
 #include "tests/fresh_folder.hpp"
+#include "tests/generators/importer/import_files.hpp"
 #include "tests/generators/models.hpp"
 
 namespace cupola::courses_test {
@@ -106,6 +108,56 @@ TEST(Courses, AreRefusedForHerringboneWithTheStonesThatBreakThem) {
            report.import->courses.refusal.find(number) != std::string::npos;
   });
   EXPECT_TRUE(names_an_upright) << report.import->courses.refusal;
+}
+
+/// A wall on a footing with a step of half a stone: c stands on the ground, e beside it on the step, and d on
+/// e. `numbers` of the courses of c, e, d; 0: none.
+CourseReport stepped_wall(const std::array<int, 3>& numbers) {
+  std::string text = import_test::obj_box("ground", 0, -1, 1) + import_test::obj_box("step", 1.1, -0.5, 9);
+  const std::array<std::pair<const char*, Eigen::Vector2d>, 3> stones{
+      {{"c", {0.0, 0.0}}, {"e", {1.0, 0.5}}, {"d", {1.0, 1.5}}}};
+  for (size_t i = 0; i < stones.size(); ++i) {
+    text += numbers[i] > 0 ? fmt::format("g course {}\n", numbers[i]) : "g\n";
+    const auto& [name, at] = stones[i];
+    text += import_test::obj_box(name, at.x(), at.y(), 17 + 8 * static_cast<int>(i));
+  }
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path = test::fresh_folder("stepped") + "/wall.obj";
+  scene.geometry.imported->supports = {"ground", "step"};
+  std::ofstream(scene.geometry.imported->path) << text;
+  GenerateReport report;
+  const Assembly found = generate(scene, &report);
+  const CourseReport& courses = report.import->courses;
+  for (size_t i = 0; i < stones.size() && courses.courses > 0; ++i) {
+    EXPECT_EQ(found.blocks[2 + i].ring, i == 2 ? 1 : 0) << i;
+  }
+  return courses;
+}
+
+// The lower beds of c and e, neighbours in the first course, do not meet.
+TEST(Courses, OfTheFileOverrideThoseFound) {
+  const std::string found = stepped_wall({0, 0, 0}).refusal;
+  EXPECT_NE(found.find("does not meet that of their neighbour end to end: blocks c, e"), std::string::npos)
+      << found;
+  const CourseReport upwards = stepped_wall({4, 4, 7}), downwards = stepped_wall({7, 7, 4});
+  EXPECT_EQ(upwards.courses, 2) << upwards.refusal;
+  EXPECT_EQ(downwards.courses, 2) << downwards.refusal;
+  EXPECT_TRUE(upwards.of_file);
+}
+
+TEST(Courses, OfTheFileAreRefusedWithTheStonesThatBreakThem) {
+  try {
+    stepped_wall({1, 0, 2});
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("of other blocks, but not of block e"), std::string::npos)
+        << error.what();
+  }
+  const std::string refusal = stepped_wall({1, 1, 1}).refusal;
+  EXPECT_NE(refusal.find("stones that lie on none of a lower number, and on no support: block d"),
+            std::string::npos)
+      << refusal;
 }
 
 TEST(Courses, OutwardIsAwayFromAGivenAxis) {

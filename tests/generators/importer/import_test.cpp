@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "generators/importer/readers.hpp"
 #include "tests/generators/importer/import_files.hpp"
 #include "tests/generators/meshes.hpp"
 
@@ -27,6 +28,18 @@ TEST_F(Import, ReadsObjObjectsAsBlocks) {
 }
 
 // Blender writes names with blanks, and a `#` inside a word is part of it.
+// A group is in force until the next one, from before the first object on.
+TEST_F(Import, GroupsOfObjObjectsNumberTheirCourses) {
+  const std::string text = "g course 7\n" + obj_box("a", 0, 0, 1) + "g course 9\n" + obj_box("b", 0, 1, 9) +
+                           obj_box("c", 1, 1, 17) + "g course x\n" + obj_box("d", 0, 2, 25);
+  const std::vector<RawBlock> blocks = read_obj(write("groups.obj", text));
+  ASSERT_EQ(blocks.size(), 4u);
+  EXPECT_EQ(blocks[0].course, 7);
+  EXPECT_EQ(blocks[1].course, 9);
+  EXPECT_EQ(blocks[2].course, 9);
+  EXPECT_FALSE(blocks[3].course.has_value());
+}
+
 TEST_F(Import, KeepsBlanksInTheNamesOfObjObjects) {
   ImportedBlocks source;
   source.path = write("two.obj", obj_box("Mesh 0  # a comment", 0, 0, 1) + obj_box("Mesh 1#b", 0.25, 1, 9));
