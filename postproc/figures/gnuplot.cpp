@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,13 +13,16 @@
 namespace cupola {
 namespace {
 
-/// A temporary file, deleted at the end of its scope.
-struct TemporaryFile {
+/// A folder that is deleted with its files at the end of its scope.
+struct TemporaryFolder {
   std::string path;
-  ~TemporaryFile() {
+  explicit TemporaryFolder(std::string name) : path(std::move(name)) { make_folder(path); }
+  ~TemporaryFolder() {
     std::error_code ignored;
-    std::filesystem::remove(path, ignored);
+    std::filesystem::remove_all(path, ignored);
   }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 };
 
 /// Terminal and size of a file. A PDF has its size in inches of 96 pixels and its font in points.
@@ -30,55 +34,108 @@ std::string terminal_of(const Figure& figure, const std::string& ending) {
                      figure.width, figure.height);
 }
 
-/// Replaces the date of a PDF, so that the same run writes the same bytes. Cairo 1.16 ignores
+/// Replaces the date in the text of a PDF, so that the same run writes the same bytes. Cairo 1.16 ignores
 /// SOURCE_DATE_EPOCH.
-void remove_date(const std::string& path) {
+void remove_date(std::string* text) {
   const std::string key = "/CreationDate (D:", epoch = "19700101000000";
-  std::string text = read_text(path);
-  const size_t at = text.find(key);
-  if (at == std::string::npos || at + key.size() + epoch.size() > text.size()) return;
-  write_text_atomically(path, text.replace(at + key.size(), epoch.size(), epoch));
+  const size_t at = text->find(key);
+  if (at == std::string::npos || at + key.size() + epoch.size() > text->size()) return;
+  text->replace(at + key.size(), epoch.size(), epoch);
 }
 
-std::string draw(const std::string& folder, const Figure& figure, const char* ending) {
-  const std::string out = in_folder(folder, figure.name + ending);
-  const TemporaryFile script{in_folder(folder, "." + figure.name + ".run.gp")};
-  const TemporaryFile log{in_folder(folder, "." + figure.name + ".log")};
+/// A file that gnuplot draws.
+struct Drawing {
+  const Figure* figure;
+  std::string ending;
+  std::string path, side;  ///< its place, and where it is until it is complete
   std::string problem;
-  write_atomically(out, [&](const std::string& side) {
-    const std::string head = fmt::format(
-        "set terminal {} enhanced background '#ffffff'\nset output '{}'\nset termoption noenhanced\n",
-        terminal_of(figure, ending), gnuplot_text(side));
-    write_text_atomically(script.path, head + figure.commands + "unset output\n");
-    const int status = run_process({"gnuplot", script.path}, log.path);
-    if (status == kNotFound) problem = "gnuplot is not installed";
-    if (status != 0 && status != kNotFound) problem = "gnuplot: " + last_line(read_text(log.path));
-    if (problem.find("out of memory") != std::string::npos)
-      throw SystemError(fmt::format("{}: gnuplot ran out of memory", out));
-    // Without enough memory, Cairo writes nothing and reports no error.
-    if (status == 0 && (!std::filesystem::exists(side) || std::filesystem::file_size(side) == 0))
-      throw SystemError(fmt::format("{}: gnuplot wrote an empty file, as it does when memory runs out", out));
-    if (!problem.empty()) write_text_atomically(side, "");
-    if (problem.empty() && ending == std::string(".pdf")) remove_date(side);
-    return true;
-  });
-  if (!problem.empty()) std::filesystem::remove(out);
-  return problem;
+};
+
+std::string commands_of(const Drawing& drawing) {
+  return fmt::format(
+             "reset session\nset terminal {} enhanced background '#ffffff'\nset output '{}'\n"
+             "set termoption noenhanced\n",
+             terminal_of(*drawing.figure, drawing.ending), gnuplot_text(drawing.side)) +
+         drawing.figure->commands + "unset output\n";
+}
+
+constexpr const char* kDrawn = "cupola: drawn";  // printed after each drawing
+
+size_t num_drawn(const std::string& log) {
+  size_t count = 0;
+  for (size_t at = 0; (at = log.find(fmt::format("{}\n", kDrawn), at)) != std::string::npos; ++at) ++count;
+  return count;
+}
+
+/// Draws the figures from `first` on in one process, whose start takes as long as two drawings. Returns the
+/// first that was not drawn, with its problem, or the end.
+size_t draw(const TemporaryFolder& folder, size_t first, std::vector<Drawing>* drawings) {
+  const std::string script = in_folder(folder.path, "run.gp"), log = in_folder(folder.path, "run.log");
+  std::string commands;
+  for (size_t k = first; k < drawings->size(); ++k)
+    commands += commands_of((*drawings)[k]) + fmt::format("print '{}'\n", kDrawn);
+  write_text_atomically(script, commands);
+  const int status = run_process({"gnuplot", script}, log);
+  if (status == kNotFound) {
+    for (Drawing& drawing : *drawings) drawing.problem = "gnuplot is not installed";
+    return drawings->size();
+  }
+  if (status == 0) return drawings->size();
+  const std::string text = read_text(log);
+  const size_t failed = first + num_drawn(text);
+  if (failed >= drawings->size()) throw SystemError("gnuplot: " + last_line(text));
+  Drawing& drawing = (*drawings)[failed];
+  drawing.problem = "gnuplot: " + last_line(text);
+  if (drawing.problem.find("out of memory") != std::string::npos)
+    throw SystemError(fmt::format("{}: gnuplot ran out of memory", drawing.path));
+  return failed;
+}
+
+/// Moves a complete file to its place, or removes the one that an earlier run left.
+void put_in_place(const Drawing& drawing) {
+  if (!drawing.problem.empty()) {
+    std::filesystem::remove(drawing.path);
+    return;
+  }
+  // Without enough memory, Cairo writes nothing and reports no error.
+  if (!std::filesystem::exists(drawing.side) || std::filesystem::file_size(drawing.side) == 0)
+    throw SystemError(
+        fmt::format("{}: gnuplot wrote an empty file, as it does when memory runs out", drawing.path));
+  std::string text = read_text(drawing.side);
+  if (drawing.ending == ".pdf") remove_date(&text);
+  write_text_atomically(drawing.path, text);
 }
 
 }  // namespace
 
 std::vector<std::string> draw_figures(const std::string& folder, const std::vector<Figure>& figures) {
   make_folder(folder);
-  std::vector<std::string> problems;
+  const TemporaryFolder side(in_folder(folder, ".drawing"));
+  std::vector<Drawing> drawings;
   for (const Figure& figure : figures) {
     write_text_atomically(in_folder(folder, figure.name + ".gp"),
                           fmt::format("# {}\n# gnuplot -p {}.gp\n{}", gnuplot_text(figure.title), figure.name,
                                       figure.commands));
-    std::string problem = draw(folder, figure, figure.vector ? ".svg" : ".png");
-    if (problem.empty() && figure.vector) problem = draw(folder, figure, ".pdf");
-    if (!problem.empty())
-      problems.push_back(fmt::format("figure {} was not drawn: {}", figure.name, problem));
+    const auto add = [&](const char* ending) {
+      const std::string name = figure.name + ending;
+      drawings.push_back({&figure, ending, in_folder(folder, name), in_folder(side.path, name), ""});
+    };
+    add(figure.vector ? ".svg" : ".png");
+    if (figure.vector) add(".pdf");
+  }
+  // gnuplot ends at the first error; the figures after it are drawn by another process.
+  for (size_t next = 0; next < drawings.size();) {
+    const size_t failed = next = draw(side, next, &drawings);
+    while (next < drawings.size() && drawings[next].figure == drawings[failed].figure)
+      drawings[next++].problem = drawings[failed].problem;
+  }
+  std::vector<std::string> problems;
+  const Figure* reported = nullptr;
+  for (const Drawing& drawing : drawings) {
+    put_in_place(drawing);
+    if (drawing.problem.empty() || reported == drawing.figure) continue;
+    reported = drawing.figure;
+    problems.push_back(fmt::format("figure {} was not drawn: {}", reported->name, drawing.problem));
   }
   return problems;
 }

@@ -3,6 +3,7 @@
 #include "postproc/figures/figures.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -193,6 +194,32 @@ TEST(Figures, HaveNoDate) {
   const std::string folder = test::fresh_folder("figures");
   ASSERT_TRUE(draw_figures(folder, {figure}).empty());
   EXPECT_NE(read_text(folder + "/line.pdf").find("/CreationDate (D:19700101000000"), std::string::npos);
+}
+
+// gnuplot ends at the first error, and its settings would reach the next figure.
+TEST(Figures, DoNotDependOnEachOther) {
+  const auto figure = [](const char* name, const char* commands) {
+    Figure made;
+    made.name = name;
+    made.commands = commands;
+    return made;
+  };
+  const Figure plain = figure("plain", "plot x\n");
+  const std::string alone = test::fresh_folder("alone"), together = test::fresh_folder("together");
+  ASSERT_TRUE(draw_figures(alone, {plain}).empty());
+  const std::vector<std::string> problems =
+      draw_figures(together, {figure("first", "set logscale y\nset multiplot\nplot 1\nunset multiplot\n"),
+                              plain, figure("broken", "plot nothing\n"),
+                              figure("worse", "plot '/no/such/file'\n"), figure("last", "plot x\n")});
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_TRUE(problems[0].starts_with("figure broken was not drawn: gnuplot: ")) << problems[0];
+  EXPECT_NE(problems[0].find("undefined variable: nothing"), std::string::npos) << problems[0];
+  EXPECT_TRUE(problems[1].starts_with("figure worse was not drawn: gnuplot: ")) << problems[1];
+  EXPECT_EQ(read_text(together + "/plain.pdf"), read_text(alone + "/plain.pdf"));
+  for (const char* file : {"/first.pdf", "/last.svg", "/last.pdf"})
+    EXPECT_TRUE(std::filesystem::exists(together + file)) << file;
+  EXPECT_FALSE(std::filesystem::exists(together + "/broken.svg"));
+  EXPECT_FALSE(std::filesystem::exists(together + "/.drawing"));
 }
 
 // A chart of zeros has no message.
