@@ -57,7 +57,7 @@ double total_thickness(const std::vector<Thickness>& wythes, double height) {
   return sum;
 }
 
-/// Throws where the beds of a course meet inside the shell, so that a skin turns back.
+/// Throws where the beds of a course meet inside the shell, so that a skin turns back, or both do.
 void refuse_folds(const SurfaceMap& map) {
   std::vector<double> abscissae{0.0, 0.5 * map.extent};
   for (size_t i = 0; i < map.corners.size(); ++i) {
@@ -68,7 +68,9 @@ void refuse_folds(const SurfaceMap& map) {
     for (const double abscissa : abscissae) {
       const Vec3 inner = map.intrados(bed + 1, abscissa) - map.intrados(bed, abscissa);
       const Vec3 outer = map.extrados(bed + 1, abscissa) - map.extrados(bed, abscissa);
-      if (inner.dot(outer) > 0.0) continue;
+      const Vec3 along = map.intrados(bed, abscissa + 1e-3 * map.extent) - map.intrados(bed, abscissa);
+      const Vec3 through = map.extrados(bed, abscissa) - map.intrados(bed, abscissa);
+      if (inner.dot(outer) > 0.0 && through.cross(along).dot(inner) > 0.0) continue;
       const Vec3 at = map.extrados(bed, abscissa);
       throw InputError(
           fmt::format("geometry.surface: course {} folds about ({:.4g}, {:.4g}, {:.4g}) m, where its two "

@@ -372,11 +372,19 @@ TEST(DrawnErrors, CoursesThatFoldAreRefusedWithTheirPlace) {
   v.beds = VaultSurface::Beds::conical;
   v.line = VaultSurface::Line::middle;
   v.eye = 1.1;
-  try {
-    generate(case_of(v, 6, 9));
-    ADD_FAILURE() << "laid";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("folds about ("), std::string::npos) << error.what();
+  VaultSurface inside_out = vault_on(Plan::Kind::polygon, profile_of(Kind::basket, 12.0, 2.3), 0.9);
+  inside_out.plan.sides = 3;  // both skins of a course turn back
+  inside_out.profile.haunch_radius = 1.6;
+  inside_out.beds = VaultSurface::Beds::conical;
+  inside_out.courses = VaultSurface::Courses::height;
+  inside_out.eye = 1.4;
+  for (const VaultSurface& surface : {v, inside_out}) {
+    try {
+      generate(case_of(surface, 6, 9));
+      ADD_FAILURE() << "laid";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("folds about ("), std::string::npos) << error.what();
+    }
   }
 }
 
