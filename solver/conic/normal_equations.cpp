@@ -63,7 +63,12 @@ bool NormalEquations::factorize(std::vector<Mat3> V, const MatX& coupling, const
 }
 
 VecX NormalEquations::multiply(const VecX& v) const {
-  return generalized_impulse(p_.contacts, times_G(relative_velocity(p_.contacts, v)));
+  VecX product = VecX::Zero(v.size());
+  for (int i = 0; i < p_.contacts.num_contacts(); ++i) {
+    const Vec3 scaled = V_[i] * relative_velocity(p_.contacts, i, v);
+    add_impulse(p_.contacts, i, V_[i].transpose() * scaled, &product);
+  }
+  return product;
 }
 
 VecX NormalEquations::solve(const VecX& f) const {
@@ -72,11 +77,12 @@ VecX NormalEquations::solve(const VecX& f) const {
   VecX x = factor_.solve(f);
   VecX r = f - multiply(x);
   const double enough = kEnough * f.norm();
-  VecX z = factor_.solve(r), direction = z;
-  double rz = r.dot(z);
   VecX best = x;
   double least = r.norm();
-  for (int k = 0; k < kMaxIterations && r.norm() > enough; ++k) {
+  if (least <= enough) return best;
+  VecX z = factor_.solve(r), direction = z;
+  double rz = r.dot(z);
+  for (int k = 0; k < kMaxIterations; ++k) {
     const VecX product = multiply(direction);
     const double curvature = direction.dot(product);
     if (!(curvature > 0.0) || !(rz > 0.0)) break;
@@ -86,6 +92,7 @@ VecX NormalEquations::solve(const VecX& f) const {
       least = r.norm();
       best = x;
     }
+    if (least <= enough || k + 1 == kMaxIterations) break;
     z = factor_.solve(r);
     const double next = r.dot(z);
     direction = z + next / rz * direction;
