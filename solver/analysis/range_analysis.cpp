@@ -99,7 +99,8 @@ void RangeSearchRun::write_frame(const std::string& end, RangeSolution* solution
 bool RangeSearchRun::run(std::vector<ForceRange>* ranges) {
   constexpr double kWork = 1e12;  // of one batch: always worth all threads
   const int count = static_cast<int>(objectives_.size());
-  const int batch = std::max(1, num_threads() / 2);
+  constexpr int kSolvesPerThread = 8;  // of a batch, which ends when the last of them does
+  const int batch = num_threads() == 1 ? 1 : num_threads() * kSolvesPerThread / 2;
   for (int first = 0; first < count; first += batch) {
     if (sinks_.interrupted()) return false;
     const int size = std::min(batch, count - first);
