@@ -66,7 +66,8 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
                   ? std::make_shared<const Assembly>(with_thickness(assembly, value))
                   : std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {});
     const bool shrinks = limit.parameter == LimitSearch::Parameter::joint_extent;
-    return rigid_scene(case_at(scene, value), std::move(at), shrinks ? value : 1.0);
+    return rigid_scene(case_at(scene, value), std::move(at), shrinks ? value : 1.0,
+                       limit.parameter == LimitSearch::Parameter::peak_stress);
   };
   int trials = 0;
   const auto report = [&](const DirectTrial& trial) {

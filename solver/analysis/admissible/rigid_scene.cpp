@@ -13,6 +13,34 @@ namespace cupola {
 
 namespace {
 
+/// Removes the points inside the faces of dry joints: a force there, within the cone about the normal, is the
+/// sum of parallel forces at the corners. Faces that are not quite plane keep their points.
+void keep_corners(ContactSet* contacts) {
+  constexpr double kParallel = 1e-12;  // rounding of unit normals
+  struct Face {
+    int corners = 0, inner = 0;
+    double area = 0.0;
+    bool plane = true;
+    Vec3 normal = Vec3::Zero();
+  };
+  std::vector<Face> faces(contacts->patches.size());
+  for (const Contact& point : contacts->points) {
+    Face& face = faces[point.patch];
+    if (face.normal.isZero(0.0)) face.normal = point.normal;
+    face.plane = face.plane && (point.normal - face.normal).norm() <= kParallel;
+    ++(point.id.corner >= 0 ? face.corners : face.inner);
+    face.area += point.area;
+  }
+  const auto is_reduced = [&](int patch) {
+    return faces[patch].plane && faces[patch].inner > 0 &&
+           faces[patch].corners == static_cast<int>(contacts->patches[patch].polygon.size());
+  };
+  std::erase_if(contacts->points,
+                [&](const Contact& point) { return point.id.corner < 0 && is_reduced(point.patch); });
+  for (Contact& point : contacts->points)
+    if (is_reduced(point.patch)) point.area = faces[point.patch].area / faces[point.patch].corners;
+}
+
 void scale_joints(const Assembly& assembly, double extent, ContactSet* contacts) {
   const JointGeometry joints(assembly, *contacts);
   for (const auto& [key, pair] : joints.pairs()) {
@@ -37,13 +65,15 @@ void require_friction_with_cohesion(const ContactProblem& problem) {
 
 }  // namespace
 
-RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly, double joint_extent) {
+RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly, double joint_extent,
+                       bool all_points) {
   RigidScene rigid;
   rigid.assembly = std::move(assembly);
   rigid.model = make_model(scene, *rigid.assembly);
   rigid.start = state_at_rest(rigid.model);
   ContactDetector detector(*rigid.assembly, detection_options(scene));
   rigid.contacts = detector.update(rigid.start.poses);
+  if (!all_points && !scene.joints.have_strength()) keep_corners(&rigid.contacts);
   if (joint_extent != 1.0) scale_joints(*rigid.assembly, joint_extent, &rigid.contacts);
   rigid.memories = match_memories({}, rigid.contacts.points);
 

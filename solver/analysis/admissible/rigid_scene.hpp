@@ -16,7 +16,7 @@ struct RigidScene {
   std::shared_ptr<const Assembly> assembly;
   Model model;
   State start;
-  ContactSet contacts;  ///< those of a static analysis: all within `contact.margin`
+  ContactSet contacts;  ///< those of a static analysis, all within `contact.margin`, or enough of them
   ContactMemories memories;
   ConicProblem problem;  ///< equilibrium under the loads at time 0, without an objective
 };
@@ -25,8 +25,11 @@ struct RigidScene {
 /// tension, a strut only compression. `joint_extent` scales the distances of the contact points from the
 /// centroid of their joint (all faces between two blocks), and its square their areas. Throws InputError for
 /// a joint with cohesion but without friction.
-RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly,
-                       double joint_extent = 1.0);
+///
+/// Dry joints have the points at the corners of their faces only, which carry the same forces and moments as
+/// all points; with `all_points`, for stresses, they have all.
+RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assembly, double joint_extent = 1.0,
+                       bool all_points = false);
 
 /// The frame of the forces gamma (N) on the assembly as built. law_violation: excess over the limits of the
 /// joints.

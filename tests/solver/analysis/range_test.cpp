@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/analysis/admissible/rigid_scene.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
@@ -68,10 +69,37 @@ double weight_of(const Assembly& assembly) {
 TEST(Range, LegOfATable) {
   const Assembly slab = table(1.5, 0.2);
   const double inner = 1.4, outer = 1.6, weight = weight_of(slab);
-  const ForceRange leg =
-      range_of(range_case(0.5, {BlockReaction{0, BlockReaction::Component::vertical, {}}}), slab);
-  expect_ends(leg, 0.0, weight * outer / (inner + outer), weight);
-  EXPECT_NEAR(leg.chosen.value(), weight / 4, 1e-6 * weight);
+  for (const auto per : {Compliance::Per::point, Compliance::Per::area}) {
+    Case scene = range_case(0.5, {BlockReaction{0, BlockReaction::Component::vertical, {}}});
+    scene.joints.compliance.per = per;
+    const ForceRange leg = range_of(scene, slab);
+    expect_ends(leg, 0.0, weight * outer / (inner + outer), weight);
+    EXPECT_NEAR(leg.chosen.value(), weight / 4, 1e-6 * weight);
+  }
+}
+
+// The corners of a dry face carry what all its points do. Strength belongs to areas, and needs all points.
+TEST(Range, DryFacesHaveTheirCornersOnly) {
+  const Assembly slab = table(1.5, 0.2);
+  Case scene = range_case(0.5, {});
+  scene.joints.compliance.per = Compliance::Per::area;
+  const auto contacts = [&](bool all_points) {
+    return rigid_scene(scene, std::shared_ptr<const Assembly>(&slab, [](const Assembly*) {}), 1.0, all_points)
+        .contacts;
+  };
+  const auto area = [](const ContactSet& set) {
+    double sum = 0.0;
+    for (const Contact& contact : set.points) sum += contact.area;
+    return sum;
+  };
+  const ContactSet corners = contacts(false), all = contacts(true);
+  EXPECT_EQ(corners.points.size(), 16u) << "four legs of four corners";
+  EXPECT_EQ(all.points.size(), 20u) << "and four centres";
+  EXPECT_NEAR(area(corners), 4 * 0.2 * 0.2, 1e-12) << "rounding";
+  EXPECT_NEAR(area(all), 4 * 0.2 * 0.2, 1e-12);
+  for (const Contact& corner : corners.points) EXPECT_NEAR(corner.area, 0.01, 1e-13);
+  scene.joints.strength.compression = 1e6;
+  EXPECT_EQ(contacts(false).points.size(), 20u);
 }
 
 // Equilibrium alone determines these; friction and redundant contacts make no difference.
