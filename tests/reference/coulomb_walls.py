@@ -9,7 +9,7 @@ load; where they reach zero, forces in equilibrium and a mechanism belong to eac
 from the last two that move. It depends on the start, because Coulomb's law does not fix the forces.
 
   coulomb_walls.py 6 0.65 0.642 0.641 0.6405     0.6396, seconds
-  coulomb_walls.py 10 0.57 0.561                 0.5602, some minutes
+  coulomb_walls.py 10 0.59 0.563 0.561           0.5600, a quarter of an hour
 """
 
 import sys
