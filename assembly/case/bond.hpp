@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -88,17 +89,26 @@ struct FillBond {
 /// letter rows[R - 1 - r mod R][(c - shift * floor(r / R)) mod C] of the R rows of C letters, as seen from
 /// outside. The cells of one letter that are connected through their faces form a block; `.` is empty.
 struct DrawnBond {
+  /// Upright blocks have joints and colours of their own. By shape, a block is upright if it is taller than
+  /// wide.
+  enum class LetterKind : std::uint8_t { by_shape, flat, upright };
+
   int rings = 40;
   std::vector<std::string> rows;  ///< the uppermost course first, all of one length
   double letter_length = 0.1;     ///< m, > 0, along the intrados of the first bed
   int shift = 0;  ///< letters by which the drawing moves along where it is repeated above itself
   std::optional<double> phase =
-      {};          ///< letters from the first corner, or the end of a wall, to the drawing; none: 1/2 on
-                   ///< a vault with corners, so that no joint lies on a corner, else 0
-  int refine = 1;  ///< >= 1
+      {};  ///< letters from the first corner, or the end of a wall, to the drawing; none: 1/2 on
+           ///< a vault with corners, so that no joint lies on a corner, else 0
+  std::vector<std::pair<char, LetterKind>> kinds = {};  ///< of letters; others are by_shape
+  int refine = 1;                                       ///< >= 1
 
   char letter(int column, int row) const;  ///< of a cell of the infinite pattern
+  LetterKind kind_of(char letter) const;
 };
+constexpr auto enum_names(DrawnBond::LetterKind) {
+  return std::array{"by_shape", "flat", "upright"};
+}
 
 using Bond = std::variant<RunningBond, StackBond, HerringboneBond, FillBond, DrawnBond>;
 

@@ -14,7 +14,7 @@ namespace cupola {
 
 /// A convex body that a member loses: a half-space, or a prism.
 struct Cut {
-  enum class Kind : std::uint8_t { plane, prism, cylinder, under };
+  enum class Kind : std::uint8_t { plane, prism, cylinder, under, over };
   enum class Axis : std::uint8_t { x, y, z };
   /// What lies behind the faces of the cut: nothing, a fixed support, or the same stones, parted by a joint.
   enum class As : std::uint8_t { free, held, joint };
@@ -30,7 +30,9 @@ struct Cut {
   double centre_u = 0.0, centre_v = 0.0, radius = 1.0;  ///< m, of a cylinder, a prism over a regular polygon
   int sides = 16;                                       ///< >= 3, of that polygon
   std::optional<double> from, to;                       ///< m, along the axis; none: without end
-  std::string member;          ///< a barrel: what lies under its `face`, from end to end, is taken away
+  /// A barrel: what lies under its `face`, from end to end, is taken away. Or a groin vault: what lies over
+  /// its intrados, which its supports continue downwards.
+  std::string member;
   Face face = Face::extrados;  ///< of that member
 };
 constexpr auto enum_names(Cut::Axis) {

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -93,6 +95,18 @@ void declare_fill_bond(Section& s, FillBond& bond) {
   check_cells(s, bond, bond.slices_per_block);
 }
 
+/// The letters of the drawing are the keys.
+void declare_kinds(Section& s, DrawnBond& bond) {
+  std::set<char> letters;
+  for (const std::string& row : bond.rows) letters.insert(row.begin(), row.end());
+  letters.erase('.');
+  for (const char letter : letters) {
+    auto kind = DrawnBond::LetterKind::by_shape;
+    s.choice(std::string(1, letter), kind, "kind of its blocks");
+    if (kind != DrawnBond::LetterKind::by_shape) bond.kinds.emplace_back(letter, kind);
+  }
+}
+
 void declare_drawn_bond(Section& s, DrawnBond& bond) {
   s.integer("rings", bond.rings, {.min = 1, .max = kMostRings}, "number of courses");
   s.texts("rows", bond.rows,
@@ -120,6 +134,10 @@ void declare_drawn_bond(Section& s, DrawnBond& bond) {
            fmt::format("row {} has a blank or a letter outside ASCII", i));
   }
   s.rule(cells <= kMostCells / 20, "rows", "a drawing has at most 1e6 letters");
+  s.section("kinds", bond,
+            "LETTER: flat or upright, the joints and colours of its blocks; by_shape: upright if taller than "
+            "wide",
+            declare_kinds);
 }
 
 }  // namespace

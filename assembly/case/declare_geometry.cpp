@@ -100,6 +100,7 @@ void declare_window(Section& s, Window& window) {
 
 void declare_affine(Section& s, Affine& affine) {
   s.vector3("scale", affine.scale, {.above = 0}, "factors along x, y and z");
+  s.number("lean", affine.lean, {}, "move along the axis of a barrel, per height: its arches lean");
   s.number("rake", affine.rake, {}, "rise along the axis of a barrel, per length");
 }
 
@@ -158,8 +159,8 @@ void declare_geometry(Section& s, Geometry& geometry) {
   const bool whole = !geometry.window && closed;
   s.rule(geometry.chains.empty() || !geometry.window, "chains", "requires a whole vault without a window");
   s.rule(!geometry.affine || !geometry.window, "affine", "requires a whole vault without a window");
-  s.rule(!geometry.affine || geometry.affine->rake == 0.0 || !closed, "affine",
-         "rake requires an arch or barrel, whose first bed stays plane");
+  s.rule(!geometry.affine || (geometry.affine->rake == 0.0 && geometry.affine->lean == 0.0) || !closed,
+         "affine", "lean and rake require an arch or barrel");
   s.rule(geometry.base_blocks == 1 || whole, "base_blocks", "requires a whole dome or octagonal vault");
   for (const Chain& chain : geometry.chains) check_chain(s, geometry, chain);
 }

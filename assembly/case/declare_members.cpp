@@ -75,13 +75,21 @@ void declare_under_cut(Section& s, Cut& cut) {
   s.rule(!cut.member.empty(), "member", "is missing: give the name of a member");
 }
 
+void declare_over_cut(Section& s, Cut& cut) {
+  cut.kind = Cut::Kind::over;
+  s.text("member", cut.member, "a groin vault of the case: what lies over its intrados is taken away");
+  s.rule(!cut.member.empty(), "member", "is missing: give the name of a member");
+}
+
 void declare_cut(Section& s, Cut& cut) {
-  s.variant<Cut>("type", cut,
-                 {{"plane", "all on one side of a plane", declare_plane_cut},
-                  {"prism", "a door, a window, a sector: a prism over a convex polygon", declare_prism_cut},
-                  {"cylinder", "a round window: a prism over a regular polygon", declare_cylinder_cut},
-                  {"under", "a lunette: what lies under another barrel", declare_under_cut}},
-                 "body that is taken away");
+  s.variant<Cut>(
+      "type", cut,
+      {{"plane", "all on one side of a plane", declare_plane_cut},
+       {"prism", "a door, a window, a sector: a prism over a convex polygon", declare_prism_cut},
+       {"cylinder", "a round window: a prism over a regular polygon", declare_cylinder_cut},
+       {"under", "a lunette: what lies under another barrel", declare_under_cut},
+       {"over", "the back of a rib: what lies over the intrados of a groin vault", declare_over_cut}},
+      "body that is taken away");
 }
 
 void declare_place(Section& s, Place& place) {

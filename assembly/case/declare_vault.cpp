@@ -67,6 +67,8 @@ void declare_plan(Section& s, Plan& plan) {
                   "from_height", p.from_height, {.unit = "m", .above = 0},
                   "where the extrados of the first beds is half as long as the shell is thick",
                   "height above the springing of the first beds, under which the supports lie");
+              section.integer("springers", p.springers, {.min = 0, .max = 1000},
+                              "courses above the supports that are one stone at each corner, on a level bed");
             })},
       "line over which the vault stands");
 }

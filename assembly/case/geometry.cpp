@@ -22,6 +22,11 @@ char DrawnBond::letter(int column, int row) const {
              [static_cast<size_t>(moved - num_columns * floor_division(moved, num_columns))];
 }
 
+DrawnBond::LetterKind DrawnBond::kind_of(char letter) const {
+  const auto found = std::ranges::find(kinds, letter, &std::pair<char, LetterKind>::first);
+  return found == kinds.end() ? LetterKind::by_shape : found->second;
+}
+
 double Thickness::at(double height) const {
   if (constant() || height <= heights.front()) return values.front();
   const auto above = std::ranges::upper_bound(heights, height);

@@ -61,9 +61,11 @@ constexpr auto enum_names(Chain::Type) {
 struct Affine {
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< along the axes, > 0
   double rake = 0.0;                                ///< rise of z per m of y, of a barrel
+  double lean = 0.0;                                ///< move along y per m of z, of a barrel, before that
 
   Eigen::Vector3d image(const Eigen::Vector3d& point) const {
     Eigen::Vector3d p = scale.cwiseProduct(point);
+    p.y() += lean * p.z();
     p.z() += rake * p.y();
     return p;
   }

@@ -100,7 +100,8 @@ Object object_of(const SchemaKey& key) {
       items["^" + name + "\\[[0-9]+\\]$"] =
           Object{{"description", "an item of " + name + " of the case that this one extends"}};
   }
-  Object object = {{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
+  const bool has_names = key.order.empty();  // of the case, such as the letters of a drawing
+  Object object = {{"type", "object"}, {"additionalProperties", has_names}, {"properties", properties}};
   if (!items.empty()) object["patternProperties"] = items;
   return object;
 }

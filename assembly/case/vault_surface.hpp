@@ -32,6 +32,8 @@ struct Plan {
   /// m, of a groin vault: its first beds, on the drawn line above the springing; none: where their extrados
   /// is half as long as the shell is thick.
   std::optional<double> from_height;
+  /// >= 0, courses of a groin vault above its supports that are one stone at each corner, on a level bed.
+  int springers = 0;
 
   /// True if courses are rings about the z axis.
   bool closed() const { return kind != Kind::line && kind != Kind::groin; }

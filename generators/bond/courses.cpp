@@ -1,11 +1,14 @@
 #include "generators/bond/courses.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "generators/bond/drawn.hpp"
 
 namespace cupola {
 namespace {
@@ -21,34 +24,34 @@ double phase_of(std::optional<double> phase, int refine, const BondGrid& grid) {
   return refine % 2 == 1 ? std::fmod(kRunningCornerPhase * refine, 1.0) : kRunningCornerPhase;
 }
 
+/// Two courses of whole blocks, the upper one moved along by `shift` letters. On a ring the drawing goes round
+/// once, so that any number of blocks closes it.
+DrawnBond two_courses(int blocks, int letters, int shift) {
+  DrawnBond drawing;
+  const int columns = blocks * letters;
+  for (const int upper : {1, 0}) {
+    std::string row;
+    for (int c = 0; c < columns; ++c) {
+      const int block = (c + columns - upper * shift) % columns / letters;
+      const bool closes = block + 1 == blocks && blocks % 2 == 1;  // between two blocks of the first letter
+      row += "abcdef"[3 * upper + (closes ? 2 : block % 2)];
+    }
+    drawing.rows.push_back(row);
+  }
+  return drawing;
+}
+
 template <class Courses>
 BondPattern courses(const Courses& bond, int odd_shift, const BondGrid& grid) {
   if (bond.phase && *bond.phase != 0.0 && !grid.closed)
     throw InputError(
         fmt::format("geometry.bond.phase = {}: must be 0 on an open surface, where courses start at the end",
                     *bond.phase));
-  const int m = bond.slices_per_block;
-  const int blocks_per_ring = bond.blocks_per_ring * bond.refine;
-  const int num_slices = blocks_per_ring * m;
-  const double slices = m * phase_of(bond.phase, bond.refine, grid);
-  const int whole = static_cast<int>(std::floor(slices));
-  BondPattern pattern;
-  pattern.num_rings = grid.num_rings;
-  pattern.cuts = equal_cuts(grid.extent, grid.extent * (slices - whole) / num_slices, num_slices);
-  pattern.block_of.resize(static_cast<size_t>(grid.num_rings) * num_slices);
-
-  for (int ring = 0; ring < grid.num_rings; ++ring) {
-    const int shift = (ring % 2 == 0 ? 0 : odd_shift) + whole;
-    const int first_block = static_cast<int>(pattern.blocks.size());
-    const bool half_ends = !grid.closed && shift != 0;
-    pattern.blocks.resize(pattern.blocks.size() + blocks_per_ring + (half_ends ? 1 : 0));
-    for (int s = 0; s < num_slices; ++s) {
-      const int slot = grid.closed ? ((s - shift) % num_slices + num_slices) % num_slices / m
-                                   : (half_ends ? (s + m - shift) / m : s / m);
-      pattern.at(ring, s) = first_block + slot;
-    }
-  }
-  split_at_corners(grid, &pattern);
+  const int m = bond.slices_per_block, blocks_per_ring = bond.blocks_per_ring * bond.refine;
+  const DrawnBond drawing = two_courses(grid.closed ? std::max(blocks_per_ring, 2) : 2, m, odd_shift);
+  BondPattern pattern =
+      lay_drawing(drawing, grid, blocks_per_ring * m, m * phase_of(bond.phase, bond.refine, grid));
+  std::ranges::fill(pattern.blocks, BondBlock{});  // halves at the ends are as regular as whole blocks
   return pattern;
 }
 

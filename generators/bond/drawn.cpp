@@ -46,10 +46,12 @@ double phase_of(const DrawnBond& bond, const BondGrid& grid) {
 /// The drawing on the cells of a course, which it covers from slice 0 on.
 class Laying {
  public:
-  Laying(const DrawnBond& bond, const BondGrid& grid, int num_letters)
-      : grid_(grid), drawing_({&bond}), num_letters_(num_letters) {
-    const double phase = phase_of(bond, grid);
-    offset_ = static_cast<int>(std::floor(phase));
+  Laying(const DrawnBond& bond, const BondGrid& grid, int num_letters, double phase)
+      : bond_(bond),
+        grid_(grid),
+        drawing_({&bond}),
+        num_letters_(num_letters),
+        offset_(static_cast<int>(std::floor(phase))) {
     pattern_.num_rings = grid.num_rings;
     pattern_.cuts = equal_cuts(grid.extent, grid.closed ? grid.extent * (phase - offset_) / num_letters : 0.0,
                                num_letters);
@@ -57,7 +59,6 @@ class Laying {
   }
 
   BondPattern lay() && {
-    check_ring();
     for (int ring = 0; ring < grid_.num_rings; ++ring)
       for (int slice = 0; slice < num_letters_; ++slice)
         if (pattern_.at(ring, slice) == kVoid && kind_at(ring, slice) >= 0) lay_block(ring, slice);
@@ -68,15 +69,6 @@ class Laying {
  private:
   int kind_at(int ring, int slice) const { return drawing_.block_of(slice - offset_, ring, 0); }
   int wrap(int slice) const { return grid_.closed ? (slice + num_letters_) % num_letters_ : slice; }
-
-  void check_ring() const {
-    for (const DrawnBlock& block : drawing_.blocks())
-      if (grid_.closed && block.width >= num_letters_)
-        throw InputError(
-            fmt::format("geometry.bond.rows: a block of {} letters {} does not fit into a ring of {}; make "
-                        "letter_length shorter",
-                        block.width, block.letter, num_letters_));
-  }
 
   void lay_block(int ring, int slice) {
     const int kind = kind_at(ring, slice), id = static_cast<int>(pattern_.blocks.size());
@@ -92,11 +84,17 @@ class Laying {
       }
     }
     const DrawnBlock& whole = drawing_.blocks()[static_cast<size_t>(kind)];
-    const double width = whole.width * grid_.length / num_letters_, height = whole.height * grid_.thickness;
     BondBlock block{.truncated = static_cast<int>(cells.size()) < whole.cells, .letter = whole.letter};
-    if (height > width && whole.height > 1) block.kind = BlockKind::herringbone;
+    if (is_upright(whole)) block.kind = BlockKind::herringbone;
     pattern_.blocks.push_back(block);
     whole_width_.push_back(whole.width);
+  }
+
+  bool is_upright(const DrawnBlock& whole) const {
+    const DrawnBond::LetterKind kind = bond_.kind_of(whole.letter);
+    if (kind != DrawnBond::LetterKind::by_shape) return kind == DrawnBond::LetterKind::upright;
+    const double width = whole.width * grid_.length / num_letters_, height = whole.height * grid_.thickness;
+    return height > width && whole.height > 1;
   }
 
   /// Neighbouring cells of one letter belong to one block, because they touch.
@@ -137,19 +135,33 @@ class Laying {
     pattern_.blocks = std::move(kept);
   }
 
+  const DrawnBond& bond_;
   const BondGrid& grid_;
   BondDrawing drawing_;
-  int num_letters_, offset_ = 0;
+  int num_letters_, offset_;
   BondPattern pattern_;
   std::vector<int> whole_width_;  // letters, of each block as drawn
 };
 
 }  // namespace
 
-BondPattern drawn_bond(const DrawnBond& bond, const BondGrid& grid) {
-  BondPattern pattern = Laying(bond, grid, letters_of(bond, grid)).lay();
+BondPattern lay_drawing(const DrawnBond& bond, const BondGrid& grid, int num_letters, double phase) {
+  BondPattern pattern = Laying(bond, grid, num_letters, phase).lay();
   split_at_corners(grid, &pattern);
   return pattern;
+}
+
+BondPattern drawn_bond(const DrawnBond& bond, const BondGrid& grid) {
+  const int num_letters = letters_of(bond, grid);
+  const BondDrawing drawing({&bond});
+  if (grid.closed)
+    for (const DrawnBlock& block : drawing.blocks())
+      if (block.width >= num_letters)
+        throw InputError(
+            fmt::format("geometry.bond.rows: a block of {} letters {} does not fit into a ring of {}; make "
+                        "letter_length shorter",
+                        block.width, block.letter, num_letters));
+  return lay_drawing(bond, grid, num_letters, phase_of(bond, grid));
 }
 
 }  // namespace cupola

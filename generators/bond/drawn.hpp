@@ -14,4 +14,8 @@ namespace cupola {
 /// that is not a whole number of letters on an open surface.
 BondPattern drawn_bond(const DrawnBond& bond, const BondGrid& grid);
 
+/// The same with so many letters along a course, of which `phase`, whole on an open surface, lie before the
+/// drawing.
+BondPattern lay_drawing(const DrawnBond& bond, const BondGrid& grid, int num_letters, double phase);
+
 }  // namespace cupola

@@ -139,19 +139,26 @@ std::vector<CutBody> bodies_of(const Storey& storey, std::span<const Storey> sto
   for (size_t i = 0; i < storey.cuts.size(); ++i) {
     const Cut& cut = storey.cuts[i];
     const std::string key = fmt::format("{}.cuts[{}]", storey.key, i);
-    if (cut.kind != Cut::Kind::under) {
-      bodies.push_back({cut, body_of(cut), key});
+    if (cut.kind != Cut::Kind::under && cut.kind != Cut::Kind::over) {
+      bodies.push_back({cut, {body_of(cut)}, key});
       continue;
     }
     const auto other = std::ranges::find(storeys, cut.member, &Storey::name);
-    if (other == storeys.end() || &*other == &storey || other->surface.closed || other->surface.webs > 0)
-      throw InputError(
-          fmt::format("{}.member = {}: must be another member, over a plan of type line", key, cut.member));
-    bodies.push_back(
-        {cut, moved(body_under(*other, cut.face, key), storey.placement.inverse() * other->placement), key});
+    const bool is_over = cut.kind == Cut::Kind::over;
+    if (other == storeys.end() || &*other == &storey || other->surface.closed ||
+        (other->surface.webs > 0) != is_over)
+      throw InputError(fmt::format("{}.member = {}: must be another member, over a plan of type {}", key,
+                                   cut.member, is_over ? "groin" : "line"));
+    bodies.push_back({cut, {}, key});
+    if (is_over)
+      bodies.back().bodies = bodies_over(*other);
+    else
+      bodies.back().bodies = {body_under(*other, cut.face, key)};
+    for (std::vector<Plane>& body : bodies.back().bodies)
+      body = moved(std::move(body), storey.placement.inverse() * other->placement);
   }
   for (const Plane& limit : storey.limits)
-    bodies.push_back({{}, {{-limit.normal, -limit.offset}}, storey.key + ".beside", true});
+    bodies.push_back({{}, {{{-limit.normal, -limit.offset}}}, storey.key + ".beside", true});
   return bodies;
 }
 

@@ -78,35 +78,12 @@ class Carving {
     for (const Cell& cell : cells_) volumes_[cell.block - start.block] += volume_of(*assembly, cell.piece);
   }
 
-  /// Takes a body from all pieces; the faces of the cut.
-  std::vector<std::vector<Vec3>> take(const std::vector<Plane>& body, bool from_supports,
+  /// Takes bodies from all pieces; the faces of the cut.
+  std::vector<std::vector<Vec3>> take(const std::vector<std::vector<Plane>>& bodies, bool from_supports,
                                       const std::string& key) {
-    ConvexClip clip(body, rounding_, assembly_);
-    std::vector<Cell> left;
     std::vector<std::vector<Vec3>> faces;
     bool any = false;
-    for (Cell& cell : cells_) {
-      if (from_supports && !assembly_->blocks[cell.block].fixed) {
-        left.push_back(std::move(cell));
-        continue;
-      }
-      std::vector<ConvexPiece> pieces = clip.outside(cell.piece);
-      const bool whole =
-          pieces.size() == 1 && pieces.front().faces.size() == cell.piece.faces.size() &&
-          std::ranges::none_of(pieces.front().faces, [](const auto& f) { return f.plane >= 0; });
-      any = any || !whole;
-      for (ConvexPiece& piece : pieces) {
-        if (volume_of(*assembly_, piece) <= std::pow(1e3 * rounding_, 3)) continue;
-        for (ConvexPiece::Face& face : piece.faces) {
-          if (face.plane >= 0 && !assembly_->blocks[cell.block].fixed)
-            faces.push_back(points_of(*assembly_, face));
-          face.plane = -1;
-        }
-        left.push_back({cell.part, std::move(piece), cell.block, cell.side, cell.is_changed || !whole});
-      }
-      if (!whole) touched_.push_back(cell.block);
-    }
-    cells_ = std::move(left);
+    for (const std::vector<Plane>& body : bodies) any = take_one(body, from_supports, &faces) || any;
     if (!any && !from_supports)
       throw InputError(key +
                        ": the cut takes nothing; its coordinates, in m, are those of the member before `at`");
@@ -190,6 +167,36 @@ class Carving {
   }
 
  private:
+  /// Takes a body, and adds the faces of the cut; true if it met a block.
+  bool take_one(const std::vector<Plane>& body, bool from_supports, std::vector<std::vector<Vec3>>* faces) {
+    ConvexClip clip(body, rounding_, assembly_);
+    std::vector<Cell> left;
+    bool any = false;
+    for (Cell& cell : cells_) {
+      if (from_supports && !assembly_->blocks[cell.block].fixed) {
+        left.push_back(std::move(cell));
+        continue;
+      }
+      std::vector<ConvexPiece> pieces = clip.outside(cell.piece);
+      const bool whole =
+          pieces.size() == 1 && pieces.front().faces.size() == cell.piece.faces.size() &&
+          std::ranges::none_of(pieces.front().faces, [](const auto& f) { return f.plane >= 0; });
+      any = any || !whole;
+      for (ConvexPiece& piece : pieces) {
+        if (volume_of(*assembly_, piece) <= std::pow(1e3 * rounding_, 3)) continue;
+        for (ConvexPiece::Face& face : piece.faces) {
+          if (face.plane >= 0 && !assembly_->blocks[cell.block].fixed)
+            faces->push_back(points_of(*assembly_, face));
+          face.plane = -1;
+        }
+        left.push_back({cell.part, std::move(piece), cell.block, cell.side, cell.is_changed || !whole});
+      }
+      if (!whole) touched_.push_back(cell.block);
+    }
+    cells_ = std::move(left);
+    return any;
+  }
+
   /// The block as laid from which a block was separated.
   int origin(int block) const {
     const int laid = static_cast<int>(assembly_->blocks.size());
@@ -337,11 +344,11 @@ void cut_bodies(const std::vector<CutBody>& bodies, const MemberStart& start, do
   Carving carving(start, assembly);
   std::vector<std::vector<std::vector<Vec3>>> faces(bodies.size());
   for (size_t i = 0; i < bodies.size(); ++i) {
-    const auto& [cut, planes, key, from_supports] = bodies[i];
+    const auto& [cut, taken, key, from_supports] = bodies[i];
     if (cut.as == Cut::As::joint)
-      carving.part(planes, key);
+      carving.part(taken.front(), key);
     else
-      faces[i] = carving.take(planes, from_supports, key);
+      faces[i] = carving.take(taken, from_supports, key);
   }
   carving.write();
   for (size_t i = 0; i < bodies.size(); ++i) {

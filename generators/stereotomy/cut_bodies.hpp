@@ -13,10 +13,11 @@ struct MemberStart {
   size_t block = 0, part = 0;
 };
 
-/// A cut and its body, n.x <= offset for all planes, in the coordinates of its member; its key for messages.
+/// A cut and its bodies, n.x <= offset for all planes of one, in the coordinates of its member; its key for
+/// messages.
 struct CutBody {
   Cut cut;
-  std::vector<Plane> planes;
+  std::vector<std::vector<Plane>> bodies;
   std::string key;
   bool from_supports = false;  ///< only from these, of which it may take nothing
 };

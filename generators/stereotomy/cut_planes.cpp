@@ -97,6 +97,62 @@ std::vector<Plane> body_under(const Storey& barrel, Cut::Face face, const std::s
   return planes;
 }
 
+namespace {
+
+/// A plane after an affine map, which keeps orientations.
+Plane image_of(const Plane& plane, const Affine& affine) {
+  const Vec3 u = plane.normal.unitOrthogonal(), v = plane.normal.cross(u);
+  const Vec3 point = plane.offset * plane.normal, image = affine.image(point);
+  const Vec3 normal =
+      Vec3(affine.image(point + u) - image).cross(affine.image(point + v) - image).normalized();
+  return {normal, normal.dot(image)};
+}
+
+}  // namespace
+
+std::vector<std::vector<Plane>> bodies_over(const Storey& vault) {
+  const SurfaceMap& web = vault.surface;
+  std::vector<std::vector<Plane>> of_web;
+  const auto add = [&](const Vec3& point, const Vec3& outward) {
+    of_web.push_back({{-outward.normalized(), -outward.normalized().dot(point)}});
+  };
+  for (const int bed : {0, web.num_rows}) {
+    const Vec3 edge = web.intrados(bed, 0.0), outward = web.extrados(bed, 0.0) - edge;
+    if (web.springers == 0) {
+      add(edge, outward);
+    } else {
+      add(edge, {outward.x(), 0.0, 0.0});
+      of_web.back().push_back({Vec3::UnitZ(), edge.z()});
+    }
+  }
+  for (int bed = 0; bed < web.num_rows; ++bed) {
+    const Vec3 edge = web.intrados(bed, 0.0);
+    Vec3 outward = Vec3::UnitY().cross(web.intrados(bed + 1, 0.0) - edge);
+    if (outward.dot(web.extrados(bed, 0.0) - edge) < 0.0) outward = -outward;
+    add(edge, outward);
+  }
+  std::vector<std::vector<Plane>> bodies;
+  for (int i = 0; i < web.webs; ++i) {
+    const Eigen::Isometry3d turn(Eigen::AngleAxisd(2.0 * std::numbers::pi * i / web.webs, Vec3::UnitZ()));
+    for (std::vector<Plane> body : of_web) {
+      for (const int side : {0, 1}) body.push_back({groin_cut(web.webs, side).normal, 0.0});
+      body = moved(std::move(body), turn);
+      if (vault.affine)
+        for (Plane& plane : body) plane = image_of(plane, *vault.affine);
+      bodies.push_back(std::move(body));
+    }
+  }
+  return bodies;
+}
+
+Cut groin_cut(int webs, int side) {
+  Cut cut;
+  cut.kind = Cut::Kind::plane;
+  cut.normal = {(side == 0 ? 1.0 : -1.0) * std::cos(std::numbers::pi / webs),
+                -std::sin(std::numbers::pi / webs), 0.0};
+  return cut;
+}
+
 std::vector<Plane> moved(std::vector<Plane> planes, const Eigen::Isometry3d& placement) {
   for (Plane& plane : planes) {
     const Vec3 point = placement * (plane.offset * plane.normal);

@@ -11,7 +11,9 @@
 #include <set>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "generators/stereotomy/convex_clip.hpp"
 #include "generators/stereotomy/cut_planes.hpp"
 
@@ -22,19 +24,12 @@ using std::numbers::pi;
 using Groins = Plan::Groins;
 constexpr std::array kSides{0, 1};  // right and left, seen from the axis
 
-/// The plane of a groin of the web behind the side y = apothem; what lies beyond it is lost.
-Cut groin_cut(int webs, int side) {
-  Cut cut;
-  cut.kind = Cut::Kind::plane;
-  cut.normal = {(side == 0 ? 1.0 : -1.0) * std::cos(pi / webs), -std::sin(pi / webs), 0.0};
-  return cut;
-}
-
 /// A convex piece of a stone of the web.
 struct Piece {
   Part part;
   ConvexPiece shape;
   int stone = 0;  ///< of the web
+  int side = 0;   ///< of kSides, on which its corner lies
 };
 
 class Crossing {
@@ -43,7 +38,9 @@ class Crossing {
       : shell_(shell), options_(options), assembly_(assembly), turned_(static_cast<size_t>(webs())) {
     for (size_t p = start.part; p < assembly->parts.size(); ++p) {
       const Part& part = assembly->parts[p];
-      pieces_.push_back({part, piece_of(*assembly, part), part.block - static_cast<int>(start.block)});
+      const int row = part.ring - shell.surface.rings_below;
+      pieces_.push_back({part, piece_of(*assembly, part), part.block - static_cast<int>(start.block),
+                         2 * row < shell.surface.num_rings() ? 0 : 1});
       pieces_.back().part.ring = level_of(part.ring);
     }
     stones_.assign(assembly->blocks.begin() + static_cast<std::ptrdiff_t>(start.block),
@@ -93,6 +90,32 @@ class Crossing {
   }
 
   double rounding() const { return 1e-9 * size_; }  // m
+
+  /// Joins the stones of the lowest courses at each corner, and adds what lies between them and a level bed
+  /// through the lowest edge of the first beds.
+  void join_springers() {
+    if (shell_.surface.springers == 0) return;
+    std::vector<int> first(webs(), -1);  // stone of all webs, per corner
+    for (const Piece& piece : pieces_) {
+      if (piece.part.ring >= shell_.surface.rings_below + shell_.surface.springers) continue;
+      stones_[piece.stone].kind = BlockKind::standard;
+      for (int web = 0; web < webs(); ++web) {
+        int& of_corner = first[(web + piece.side) % webs()];
+        if (of_corner < 0) of_corner = node(web, piece.stone);
+        unite(of_corner, node(web, piece.stone));
+      }
+    }
+    std::vector<Piece> wedges;
+    for (const int side : kSides) {
+      for (const auto& [piece, face] : first_beds(side))
+        for (const ConvexPiece& wedge : wedges_under(face, side)) {
+          wedges.push_back({piece.part, wedge, piece.stone, side});
+          for (const ConvexPiece::Face& bed : wedge.faces)
+            if (bed.kind == FaceKind::bed && bed.plane >= 0) level_beds_[side].push_back(bed);
+        }
+    }
+    pieces_.insert(pieces_.end(), wedges.begin(), wedges.end());
+  }
 
   void add_supports() {
     const std::array feet{foot(0), foot(1)};
@@ -222,21 +245,58 @@ class Crossing {
     }
   }
 
-  /// The prisms behind the first bed of the web (right) or the last.
-  std::vector<ConvexPiece> foot(int side) {
+  /// Down, normal to the first bed of the web (right) or the last.
+  Vec3 down_from(int side) const {
     const SurfaceMap& surface = shell_.surface;
     const int bed = side == 0 ? 0 : surface.num_rows, inside = side == 0 ? 1 : bed - 1;
     const Vec3 corner = surface.intrados(bed, 0.0);
-    Vec3 down = (surface.extrados(bed, 0.0) - corner).cross(Vec3::UnitY()).normalized();
-    if (down.dot(surface.intrados(inside, 0.0) - corner) > 0.0) down = -down;
-    ConvexClip clip(body_of(groin_cut(webs(), side)), 1e-12 * size_, assembly_);
-    std::vector<ConvexPiece> prisms;
+    const Vec3 along = (surface.extrados(bed, 0.0) - corner).cross(Vec3::UnitY()).normalized();
+    return along.dot(surface.intrados(inside, 0.0) - corner) > 0.0 ? Vec3(-along) : along;
+  }
+  /// The faces of the first bed (right) or the last, with their pieces.
+  std::vector<std::pair<Piece, ConvexPiece::Face>> first_beds(int side) const {
+    const Vec3 corner = shell_.surface.intrados(side == 0 ? 0 : shell_.surface.num_rows, 0.0);
+    const Vec3 down = down_from(side);
+    std::vector<std::pair<Piece, ConvexPiece::Face>> beds;
     for (const Piece& piece : pieces_)
       for (const ConvexPiece::Face& face : piece.shape.faces)
         if (face.kind == FaceKind::bed && lies_in(face, down, down.dot(corner)))
-          for (const ConvexPiece& prism : clip.outside(prism_behind(face, options_.support_width * down)))
-            prisms.push_back(prism);
+          beds.emplace_back(piece, face);
+    return beds;
+  }
+  /// The prisms on which the web stands on one side.
+  std::vector<ConvexPiece> foot(int side) {
+    ConvexClip clip(body_of(groin_cut(webs(), side)), 1e-12 * size_, assembly_);
+    std::vector<ConvexPiece> prisms;
+    const auto add = [&](const ConvexPiece::Face& face, const Vec3& down) {
+      for (const ConvexPiece& prism : clip.outside(prism_behind(face, options_.support_width * down)))
+        prisms.push_back(prism);
+    };
+    for (const ConvexPiece::Face& bed : level_beds_[side]) add(bed, -Vec3::UnitZ());
+    if (shell_.surface.springers == 0)
+      for (const auto& [piece, face] : first_beds(side)) add(face, down_from(side));
     return prisms;
+  }
+  /// What lies between a face of the first bed and a level bed, whose faces have a plane.
+  std::vector<ConvexPiece> wedges_under(const ConvexPiece::Face& face, int side) {
+    const int bed = side == 0 ? 0 : shell_.surface.num_rows;
+    const auto [low, high] =
+        std::minmax({shell_.surface.intrados(bed, 0.0).z(), shell_.surface.extrados(bed, 0.0).z()});
+    const Vec3 down = down_from(side);
+    ConvexClip under({Plane{Vec3::UnitZ(), low}}, 1e-12 * size_, assembly_);
+    ConvexClip beyond_groin(body_of(groin_cut(webs(), side)), 1e-12 * size_, assembly_);
+    std::vector<ConvexPiece> wedges;
+    for (const ConvexPiece& above :
+         under.outside(prism_behind(face, 2.0 * (high - low) / std::abs(down.z()) * down)))
+      for (ConvexPiece wedge : beyond_groin.outside(above)) {
+        for (ConvexPiece::Face& f : wedge.faces) {
+          const bool is_level = f.plane >= 0 && lies_in(f, -Vec3::UnitZ(), -low);
+          if (is_level) f.kind = FaceKind::bed;
+          if (!is_level) f.plane = -1;
+        }
+        wedges.push_back(std::move(wedge));
+      }
+    return wedges;
   }
   ConvexPiece prism_behind(const ConvexPiece::Face& face, const Vec3& depth) {
     const std::vector<int>& top = face.vertices;
@@ -255,11 +315,12 @@ class Crossing {
   const Storey& shell_;
   const CutOptions& options_;
   Assembly* assembly_;
-  double size_ = 0.0;                       // m
-  std::vector<Piece> pieces_;               // of the web
-  std::vector<Block> stones_;               // of the web
-  std::vector<int> group_;                  // of the stones of all webs
-  std::vector<std::map<int, int>> turned_;  // per web, vertices of the first
+  double size_ = 0.0;                                         // m
+  std::vector<Piece> pieces_;                                 // of the web
+  std::array<std::vector<ConvexPiece::Face>, 2> level_beds_;  // of springers, per side
+  std::vector<Block> stones_;                                 // of the web
+  std::vector<int> group_;                                    // of the stones of all webs
+  std::vector<std::map<int, int>> turned_;                    // per web, vertices of the first
 };
 
 /// True if two faces are the same polygon, seen from its two sides.
@@ -289,12 +350,17 @@ void cross_webs(const Storey& shell, const MemberStart& start, const CutOptions&
   std::vector<CutBody> bodies;
   for (const int side : kSides) {
     const Cut cut = groin_cut(shell.surface.webs, side);
-    bodies.push_back({cut, body_of(cut), shell.key});
+    bodies.push_back({cut, {body_of(cut)}, shell.key});
   }
   cut_bodies(bodies, start, options.support_width, options.density, assembly);
+  if (2 * shell.surface.springers >= shell.surface.num_rings())
+    throw InputError(fmt::format(
+        "{}.surface.plan.springers = {}: must be below {}, the courses from the supports to the crown",
+        shell.key, shell.surface.springers, (shell.surface.num_rings() + 1) / 2));
   Crossing crossing(shell, start, options, assembly);
+  crossing.join_springers();
   crossing.join();
-  crossing.add_supports();
+  if (shell.surface.first_bed_held) crossing.add_supports();
   crossing.add_stones();
   mark_internal_faces(start.part, crossing.rounding(), assembly);
 }

@@ -14,7 +14,8 @@ namespace cupola {
 /// wythe the two with the largest faces on the groin, if neither is joined across this groin already. Stones
 /// that touch two groins so become one key stone. Courses are counted from the supports to the crown. The
 /// supports are prisms behind the first and last beds of the webs, one block per corner, cut by the planes of
-/// the groins.
+/// the groins. Springers are one stone per corner instead of the lowest courses, on a level bed under which
+/// the supports lie, or another member.
 void cross_webs(const Storey& shell, const MemberStart& start, const CutOptions& options, Assembly* assembly);
 
 }  // namespace cupola

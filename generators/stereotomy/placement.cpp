@@ -27,6 +27,15 @@ double level_of(const SurfaceMap& surface, double bed, const std::string& what) 
   return z;
 }
 
+/// z of the level beds of springers, m.
+double level_of_springers(const Storey& vault, const std::string& what) {
+  if (vault.surface.springers == 0 || (vault.affine && vault.affine->rake != 0.0))
+    throw InputError(what +
+                     " are not level: a member stands on level beds; give plan.springers, and no rake");
+  const double low = std::min(vault.surface.intrados(0, 0.0).z(), vault.surface.extrados(0, 0.0).z());
+  return vault.affine ? vault.affine->scale.z() * low : low;
+}
+
 /// The largest coordinate of a member along a horizontal direction of its own frame, m. A plane cut across
 /// that direction ends it.
 double reach(const Storey& storey, const Vec3& direction) {
@@ -76,16 +85,23 @@ Eigen::Isometry3d placement_at(const Place& place) {
          Eigen::AngleAxisd(place.rotate_deg * kRadians, Eigen::Vector3d::UnitZ());
 }
 
-void stand_on(const std::string& key, Storey* lower, Storey* storey) {
+void stand_on(const std::string& key, const std::optional<Copies>& copies, Storey* lower, Storey* storey) {
   const std::string on = fmt::format("{}.on = {}: ", key, lower->name);
   if (lower->surface.carries)
     throw InputError(on + "nothing can stand on its last bed, behind which a support or a key stone lies");
   const double top = level_of(lower->surface, lower->surface.num_rows, on + "its last bed");
+  storey->surface.first_bed_held = false;
+  lower->surface.carries = true;
+  if (storey->surface.webs > 0) {
+    const double rise = lower->placement.translation().z() + top -
+                        level_of_springers(*storey, on + "the first beds of " + storey->name);
+    const Vec3 axis = copies && copies->about ? *copies->about : lower->placement.translation();
+    storey->placement = Eigen::Translation3d(axis.x(), axis.y(), rise);
+    return;
+  }
   const double foot = level_of(storey->surface, 0.0, on + "the first bed of " + storey->name);
   storey->placement = lower->placement * Eigen::Translation3d(0.0, 0.0, top - foot);
   storey->stands_on_previous = true;
-  storey->surface.first_bed_held = false;
-  lower->surface.carries = true;
 }
 
 void stand_beside(const Beside& beside, const std::string& key, const std::vector<Storey>& storeys,

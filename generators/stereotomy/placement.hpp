@@ -12,8 +12,9 @@ namespace cupola {
 
 /// From the coordinates of a member to those in which its place is given.
 Eigen::Isometry3d placement_at(const Place& place);
-/// Puts a member on the one below it, whose last bed must be as level as its own first.
-void stand_on(const std::string& key, Storey* lower, Storey* storey);
+/// Puts a member on the one below it, whose last bed must be as level as its own first. A groin vault lies on
+/// the axis about which the member below has `copies`, and begins a stack of its own.
+void stand_on(const std::string& key, const std::optional<Copies>& copies, Storey* lower, Storey* storey);
 /// Puts a member beside one of those before it, and ends its supports at their common plane. Its placement on
 /// entry counts from the other member.
 void stand_beside(const Beside& beside, const std::string& key, const std::vector<Storey>& storeys,

@@ -168,20 +168,23 @@ std::vector<Storey> make_storeys(const Geometry& geometry) {
     storey.cuts = members[i]->cuts;
     if (storey.surface.webs > 0) storey.affine = geometry.affine;
     storey.key = key_of_member(geometry, i);
+    if (members[i]->on.empty()) {
+      if (i > 0) copy_stack(*members[first], first_storey, &storeys);
+      if (members[i]->at) storey.placement = placement_at(*members[i]->at);
+      if (members[i]->beside) stand_beside(*members[i]->beside, storey.key, storeys, &storey);
+    } else {
+      stand_on(storey.key, members[first]->copies, &storeys.back(), &storey);
+      if (!storey.stands_on_previous) copy_stack(*members[first], first_storey, &storeys);
+    }
     if (!storeys.empty())
       storey.surface.rings_below = storeys.back().surface.rings_below + storeys.back().num_rings();
-    if (members[i]->at) storey.placement = placement_at(*members[i]->at);
-    if (members[i]->beside) stand_beside(*members[i]->beside, storey.key, storeys, &storey);
-    if (members[i]->on.empty()) {
+    if (!storey.stands_on_previous) {  // a stack begins; a groin vault stands on several
       first = i;
       first_storey = storeys.size();
-    } else {
-      stand_on(storey.key, &storeys.back(), &storey);
     }
     storeys.push_back(std::move(storey));
-    const bool ends_stack = i + 1 == members.size() || members[i + 1]->on.empty();
-    if (ends_stack) copy_stack(*members[first], first_storey, &storeys);
   }
+  copy_stack(*members[first], first_storey, &storeys);
   limit_neighbours(&storeys);
   return storeys;
 }

@@ -296,6 +296,7 @@ SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
   if (plan.kind == Plan::Kind::groin) {
     surface.webs = plan.sides;
     surface.groins = plan.groins;
+    surface.springers = plan.springers;
   }
   surface.carries = surface.last_bed_held || surface.key_stone;
   const bool even = std::ranges::all_of(drawing.profile, &ProfilePiece::even);

@@ -40,6 +40,7 @@ struct SurfaceMap {
   bool key_stone = false;       ///< one stone lies on the whole last bed
   int webs = 0;                 ///< > 0: this is one of the webs of a groin vault, before they are cut
   Plan::Groins groins = Plan::Groins::bonded;  ///< of these webs
+  int springers = 0;                           ///< courses of them that are one stone at each corner
   bool carries = false;  ///< a support, a key stone or another surface lies on the last bed
   double datum = 0.0;    ///< m, z from which heights count: the springing, or the foot of a drum
   int rings_below = 0;   ///< courses of the drum below the first bed

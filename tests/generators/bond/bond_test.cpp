@@ -88,6 +88,14 @@ TEST(RunningBond, OverlapsByHalfABlockAndKeepsAQuarterFromCorners) {
   }
 }
 
+// A window may be one block wide: its courses are whole, or two halves.
+TEST(RunningBond, BreaksJointsInAWindowOfOneBlock) {
+  BondGrid grid{2, false, 1.0, {}};
+  grid.window = true;
+  const BondPattern bond = make_bond(RunningBond{2, 1, 2}, grid);
+  EXPECT_EQ(bond.block_of, (std::vector<int>{0, 0, 1, 2}));
+}
+
 // Each ring has three verticals of width w/3 per spiral. All other blocks are whole; there are no slivers.
 TEST(Herringbone, HasThreeVerticalsPerSpiralInEveryRing) {
   const BondGrid grid{40, true, 2 * pi, {}};

@@ -125,7 +125,7 @@ TEST(GroinVault, AffineImageHasTheVolumeTimesTheDeterminant) {
   Case scene = case_of(groin_over(4), RunningBond{13, 5, 2});
   ModelReport square, oblong;
   check_and_report(scene, &square);
-  scene.geometry.affine = Affine{{1.0, 1.5, 0.8}, 0.1};
+  scene.geometry.affine = Affine{{1.0, 1.5, 0.8}, 0.1, 0.2};
   check_and_report(scene, &oblong);
   EXPECT_NEAR(oblong.volume, 1.2 * square.volume, 1e-12 * square.volume);
   EXPECT_EQ(oblong.num_blocks, square.num_blocks);

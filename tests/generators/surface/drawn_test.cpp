@@ -134,6 +134,34 @@ TEST(DrawnVolume, OfStretchedDomesAndRakingBarrels) {
   EXPECT_NEAR(free_volume(barrel), level, 1e-12 * level);
 }
 
+// Arches that lean against a wall, which cuts them off: at a height z they are the length less lean z long.
+TEST(DrawnVolume, OfArchesThatLeanAgainstAWall) {
+  VaultSurface v = vault_on(Plan::Kind::line, profile_of(Kind::semicircle));
+  v.plan.length = 6.0;
+  const SurfaceMap map = make_surface(v, 8);
+  double area = 0.0, moment = 0.0;  // m2, and m3 about z = 0
+  for (int k = 0; k < map.num_rows; ++k)
+    for (const auto& corners : {std::array{map.point(k, 0, 0), map.point(k, 0, 1), map.point(k + 1, 0, 1)},
+                                {map.point(k, 0, 0), map.point(k + 1, 0, 1), map.point(k + 1, 0, 0)}}) {
+      const double triangle = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+      area += triangle;
+      moment += triangle * (corners[0].z() + corners[1].z() + corners[2].z()) / 3.0;
+    }
+  Case scene = case_of(v);
+  scene.geometry.affine = Affine{.lean = -0.4};
+  EXPECT_NEAR(free_volume(scene), 6.0 * area, 1e-12 * area);
+  Cut wall;
+  wall.normal = {0.0, -1.0, 0.0};
+  wall.as = Cut::As::held;
+  scene.geometry.cuts = {wall};
+  const double expected = 6.0 * area - 0.4 * moment;
+  EXPECT_NEAR(free_volume(scene), expected, 1e-12 * expected);
+  ModelReport report;
+  check_and_report(scene, &report);
+  EXPECT_LT(report.max_overlap, 2e-11 * 10.0);
+  EXPECT_LT(report.max_joint_gap, 2e-11 * 10.0);
+}
+
 // A frustum over an n-gon: h / 3 (A + B + sqrt(A B)).
 TEST(DrawnVolume, OfTheKeyStone) {
   Case scene = case_of(vault_on(Plan::Kind::circle, profile_of(Kind::semicircle)));
