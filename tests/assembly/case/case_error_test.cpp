@@ -55,6 +55,12 @@ TEST_P(BadCaseFile, GivesOneLineWithPlaceKeyAndRule) {
 const BadCase kBadCases[] = {
     {"Negative", kGood + "  friction: -0.4\n", "bad.yaml:6:13: error: joints.friction = -0.4: must be >= 0"},
     {"Nan", kGood + "  friction: .nan\n", "bad.yaml:6:13: error: joints.friction = .nan: must be a number"},
+    {"KindOfNoLetter",
+     "geometry: {surface: {type: wall}, bond: {type: drawn, letter_length: 1, rows: [ab], kinds: {z: "
+     "flat}}}\n",
+     "bad.yaml:1:93: error: geometry.bond.kinds.z: unknown key; did you mean a?"},
+    {"LeaningDome", "geometry: {affine: {lean: 0.2}, surface: {type: dome}, bond: {type: running}}\n",
+     "bad.yaml:1:20: error: geometry.affine = {...}: lean and rake require an arch or barrel"},
     {"NanWord", kGood + "  friction: nan\n",
      "bad.yaml:6:13: error: joints.friction = nan: must be a finite number"},
     {"Infinite", kGood + "  friction: inf\n",
