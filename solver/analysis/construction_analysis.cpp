@@ -4,6 +4,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
+#include "assembly/base/pace.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/files/byte_archive.hpp"
 #include "assembly/files/csv_columns.hpp"
@@ -87,7 +88,7 @@ struct ConstructionProgress {
   int least_stage = 0;
   std::optional<std::pair<double, double>> last_bracket;  // of the search
   std::string first_failure;  // stage and message of the first one that does not stand
-  bool unconverged = false, ended = false;
+  bool unconverged = false, ended = false, failed = false;
   bool all_proven = true, motion_proven = false;  // one motion is enough to refute the construction
   std::string stages_csv, failures_csv;
 };
@@ -96,7 +97,7 @@ template <class Archive>
 void visit(Archive& archive, ConstructionProgress& x) {
   archive(x.next, x.ring, x.solved, x.standing, x.need_none, x.undecided, x.iterations, x.worst_balance,
           x.worst, x.least_stands, x.least_moves, x.least_stage, x.last_bracket, x.first_failure,
-          x.unconverged, x.ended, x.all_proven, x.motion_proven, x.stages_csv, x.failures_csv);
+          x.unconverged, x.ended, x.failed, x.all_proven, x.motion_proven, x.stages_csv, x.failures_csv);
 }
 template <class Archive>
 void visit(Archive& archive, BuiltContact& x) {
@@ -131,7 +132,10 @@ class ConstructionRun {
   LeastSearch::Result find_least();
   void record(const LaidBlocks& stage, const StaticSolution& solution, const LeastSearch::Result& least);
   void record_failure(const LaidBlocks& stage, const std::vector<FallingBlock>& falling);
+  bool has_frame(int stage, bool stands, bool may_end) const;
   std::string checkpoint() const;
+  void save();
+  void write_tables() const;
   void judge();
 
   const StagedConstruction& staged_;
@@ -143,6 +147,7 @@ class ConstructionRun {
   ConstructionProgress progress_;
   std::vector<FallingBlock> falling_;  // in the failing trial of the search nearest to the least value
   Summary summary_;
+  Pace saving_;
 };
 
 ConstructionRun::ConstructionRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks)
@@ -230,20 +235,30 @@ std::string least_note(const LeastSearch::Result& least, StagedConstruction::Lea
   return least.needs_none ? fmt::format("stands without {}", to_string(property)) : least.bracket.message;
 }
 
+/// Of a long construction, every n-th stage has a frame, so that the frames of n blocks laid one by one take a
+/// space proportional to n, and so have the first stage that fails, those with which the construction may end,
+/// and the last one.
+bool ConstructionRun::has_frame(int stage, bool stands, bool may_end) const {
+  constexpr int kMost = 100;
+  const int count = static_cast<int>(stages_.size()), every = (count + kMost - 1) / kMost;
+  return stage % every == 0 || stage + 1 == count ||
+         (!stands && (may_end || progress_.first_failure.empty()));
+}
+
 void ConstructionRun::record(const LaidBlocks& stage, const StaticSolution& solution,
                              const LeastSearch::Result& least) {
   const int number = progress_.next;
   Frame frame = building_.frame(solution);
   frame.time = stage.ring - 1 + stage.share;
   set_role(stage_role(solution.outcome), fmt::format("stage {}", number), &frame);
-  sinks_.frame(frame);
+  const bool stands = solution.outcome == StaticOutcome::equilibrium;
+  if (has_frame(number, stands, staged_.carry && !least.bracket.found)) sinks_.frame(frame);
   summarize_static(solution, frame, building_.problem().model, building_.options().tolerance, &summary_);
   progress_.worst.include(solution.residuals, summary_.certified_force_error, summary_.forces_unique,
                           largest_violation(frame));
   if (!(summary_.accuracy.reached <= progress_.worst_balance))
     progress_.worst_balance = summary_.accuracy.reached;
 
-  const bool stands = solution.outcome == StaticOutcome::equilibrium;
   ++progress_.solved;
   progress_.standing += stands;
   progress_.need_none += least.needs_none;
@@ -272,7 +287,6 @@ void ConstructionRun::record(const LaidBlocks& stage, const StaticSolution& solu
     row.displacement = largest_displacement(frame);
   }
   progress_.stages_csv += csv_row(kConstructionColumns, row) + "\n";
-  sinks_.table("construction.csv", progress_.stages_csv);
   const std::string line =
       fmt::format("stage {:5d}  ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}", number, stage.ring,
                   row.free_blocks, to_string(solution.outcome), solution.speed_ratio, row.note);
@@ -281,10 +295,15 @@ void ConstructionRun::record(const LaidBlocks& stage, const StaticSolution& solu
 }
 
 void ConstructionRun::record_failure(const LaidBlocks& stage, const std::vector<FallingBlock>& falling) {
+  progress_.failed = true;
   for (const FallingBlock& block : falling)
     progress_.failures_csv +=
         csv_row(kFailureColumns, FailureRow{progress_.next, stage.ring, assembly_, block}) + "\n";
-  sinks_.table("failures.csv", progress_.failures_csv);
+}
+
+void ConstructionRun::write_tables() const {
+  if (progress_.solved > 0) sinks_.table("construction.csv", progress_.stages_csv);
+  if (progress_.failed) sinks_.table("failures.csv", progress_.failures_csv);
 }
 
 void ConstructionRun::judge() {
@@ -326,6 +345,11 @@ std::string ConstructionRun::checkpoint() const {
   return archive.bytes();
 }
 
+void ConstructionRun::save() {
+  write_tables();
+  sinks_.checkpoint(checkpoint());
+}
+
 std::optional<Summary> ConstructionRun::run() {
   const double started = wall_seconds();
   if (!sinks_.resume_from.empty()) {
@@ -339,11 +363,13 @@ std::optional<Summary> ConstructionRun::run() {
   }
   while (progress_.next < static_cast<int>(stages_.size()) && !progress_.ended) {
     if (progress_.next > 0) {
-      sinks_.checkpoint(checkpoint());
-      if (sinks_.interrupted()) return std::nullopt;
+      const bool interrupted = sinks_.interrupted();
+      if (interrupted || saving_.is_due()) saving_.run([this] { save(); });
+      if (interrupted) return std::nullopt;
     }
     if (!advance()) break;
   }
+  write_tables();
   summary_.steps = progress_.solved;
   summary_.iterations = progress_.iterations;
   summary_.solve_time_seconds = wall_seconds() - started;

@@ -4,6 +4,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
+#include "assembly/base/pace.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/files/byte_archive.hpp"
 #include "assembly/files/csv_columns.hpp"
@@ -119,6 +120,7 @@ class PathRun {
   PathProgress progress_;
   std::string last_failure_;
   Status last_status_ = Status::stable;
+  Pace saving_;
 };
 
 PathRun::PathRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks)
@@ -279,8 +281,9 @@ std::optional<Summary> PathRun::run() {
   }
   const double regular = options_.length.value_or(options_.end) / options_.steps;
   while (progress_.next <= options_.steps) {
-    sinks_.checkpoint(checkpoint());
-    if (sinks_.interrupted()) return std::nullopt;
+    const bool interrupted = sinks_.interrupted();
+    if (interrupted || saving_.is_due()) saving_.run([this] { sinks_.checkpoint(checkpoint()); });
+    if (interrupted) return std::nullopt;
     // The times of regular steps are exact; shorter ones lead to them. A length may be missed a little.
     double& step = progress_.step;
     const double target = regular * progress_.next;

@@ -77,6 +77,40 @@ TEST(Construction, HoldingLowerCoursesKeepsTheLeastCohesion) {
   EXPECT_NEAR(least[1] / least[0], 1.0, 0.01) << "brackets of 1 %";
 }
 
+// Of 120 stages every second one has a frame, and the last one; all have a row.
+TEST(Construction, LongOnesHaveFramesOfSomeStages) {
+  constexpr int kStages = 120;
+  std::vector<testing::BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {10, 400, 1}, .fixed = true}};
+  for (int k = 0; k < kStages; ++k) boxes.push_back({.center = {0, 3.0 * (k - kStages / 2), 0.5}});
+  Case scene = course_case(0.0, 0.4);
+  scene.joints.strength = {};
+  scene.analysis.staged.first_ring = 0;
+  const Built built = build(scene, testing::make_boxes(boxes));
+  ASSERT_EQ(built.stages.size(), static_cast<size_t>(kStages)) << built.summary.message;
+  ASSERT_EQ(built.frames.size(), static_cast<size_t>(kStages / 2 + 1));
+  for (size_t i = 0; i + 1 < built.frames.size(); ++i)
+    EXPECT_EQ(built.frames[i].owner, fmt::format("stage {}", 2 * i));
+  EXPECT_EQ(built.frames.back().owner, "stage 119");
+}
+
+// The tables reach the disk from time to time, and always at an interruption, together with the checkpoint.
+TEST(Construction, SavesWhatItHasWhenItIsInterrupted) {
+  std::string table, bytes;
+  int asked = 0;
+  AnalysisSinks sinks;
+  sinks.table = [&](const std::string& name, const std::string& text) {
+    if (name == "construction.csv") table = text;
+  };
+  sinks.checkpoint = [&](const std::string& written) { bytes = written; };
+  sinks.interrupted = [&] { return ++asked == 3; };
+  Case scene = course_case(0.0, 0.4);
+  scene.joints.strength = {};
+  scene.analysis.staged.first_ring = 0;
+  EXPECT_FALSE(run_analysis(scene, testing::stack_of_cubes(1.0, std::vector<double>(5, 1000.0)), sinks));
+  EXPECT_FALSE(bytes.empty());
+  EXPECT_EQ(testing::parse_rows(table).size(), 3u);
+}
+
 TEST(Construction, ResumesWithTheSameBits) {
   Case scene = course_case(38.7 * kDeg, 0.2);
   scene.analysis.staged.least = StagedConstruction::Least::cohesion;
