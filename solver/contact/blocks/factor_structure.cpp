@@ -1,6 +1,7 @@
 #include "solver/contact/blocks/factor_structure.hpp"
 
 #include <algorithm>
+#include <mutex>
 #include <new>
 #include <numeric>
 #include <utility>
@@ -34,6 +35,14 @@ class Analysis {
   cholmod_factor* L_ = nullptr;
 };
 
+/// Nested dissection. METIS draws from rand(), of which the process has one sequence, and starts that sequence
+/// anew in each call: two calls at once would take numbers from each other.
+bool dissect(cholmod_sparse* graph, std::vector<Index>* order, cholmod_common* common) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  return cholmod_l_metis(graph, nullptr, 0, 1, order->data(), common) != 0;
+}
+
 Analysis::Analysis(const BlockPattern& pattern) {
   cholmod_l_start(&common_);
   common_.print = 0;
@@ -50,8 +59,7 @@ Analysis::Analysis(const BlockPattern& pattern) {
   std::copy(pattern.row.begin(), pattern.row.end(), static_cast<Index*>(graph_->i));
 
   std::vector<Index> order(nb);
-  const bool ordered =
-      pattern.num_pairs() > 0 && cholmod_l_metis(graph_, nullptr, 0, 1, order.data(), &common_) != 0;
+  const bool ordered = pattern.num_pairs() > 0 && dissect(graph_, &order, &common_);
   throw_if_out_of_memory();
   if (!ordered) std::iota(order.begin(), order.end(), Index{0});  // no pairs to order
   common_.nmethods = 1;
