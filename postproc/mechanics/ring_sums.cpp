@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "assembly/base/error.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
@@ -70,12 +72,28 @@ void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, con
   }
 }
 
+/// The block of the first course of a stack that stands on another stack by this joint, whichever way the
+/// joint faces: a springer of a groin vault also leans on its pier.
+std::optional<int> on_other_stack(const Assembly& assembly, const JointWrench& joint) {
+  const auto ring = [&](int block) { return ring_above_support(assembly.blocks[block]); };
+  const auto [lower, upper] = ring(joint.block_a) < ring(joint.block_b)
+                                  ? std::pair(joint.block_a, joint.block_b)
+                                  : std::pair(joint.block_b, joint.block_a);
+  const bool stands =
+      ring(lower) >= 0 && ring(lower) < ring(upper) && assembly.stack_of(ring(upper)).first == ring(upper);
+  return stands ? std::optional(upper) : std::nullopt;
+}
+
 /// Fills in how evenly the blocks of each ring are loaded.
 void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
                     const std::vector<Wrench>& from_below, std::vector<RingSum>* rings) {
   std::vector<double> normal_force(from_below.size(), 0.0), area(from_below.size(), 0.0);
   std::vector<double> ring_area(rings->size(), 0.0);
   for (const JointWrench& joint : joints.wrenches) {
+    if (const auto springer = on_other_stack(assembly, joint); springer && joint.upper < 0) {
+      const int k = ring_above_support(assembly.blocks[*springer]);
+      (*rings)[k].radial_thrust -= assembly.outward(k, joint.centroid).dot(wrench_on(joint, *springer).force);
+    }
     if (joint.upper < 0 || assembly.blocks[joint.upper].fixed) continue;
     normal_force[joint.upper] += joint.normal_force;
     area[joint.upper] += joint.patch.area;

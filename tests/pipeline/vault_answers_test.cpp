@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "assembly/case/bundled.hpp"
 #include "assembly/case/case_reader.hpp"
 #include "assembly/files/summary_file.hpp"
 #include "postproc/mechanics/cracks.hpp"
@@ -220,6 +221,32 @@ TEST(VaultAnswers, TheThrustHasOneDefinition) {
     // The chosen state is that of the statics, to the tolerance of its residual.
     EXPECT_NEAR(ranges.ranges.at(0).chosen.value(), thrust, 1e-7 * e.summary.weight_N) << surface;
   }
+}
+
+// Each springer of a groin vault has two joints with its pier, of which one is no bed. The thrust is that of
+// both, in the statics and in the range, whose chosen state is that of the statics.
+TEST(VaultAnswers, TheThrustOnPiersCountsEveryJointOfTheSpringers) {
+  const ProgramFolder folder;
+  Case scene = read_case(bundled_folder() + "/groin_buttresses.yaml");
+  scene.analysis.type = AnalysisType::static_;
+  scene.analysis.range.quantities = {BaseThrust{}};
+  const Evaluation e = solve_and_evaluate(scene, folder);
+  const int first = e.assembly.sheets.back().first_ring;
+  double sum = 0.0;
+  for (const JointWrench& joint : e.last.joints.wrenches) {
+    const Block &a = e.assembly.blocks[joint.block_a], &b = e.assembly.blocks[joint.block_b];
+    if (std::min(a.ring, b.ring) >= first || std::max(a.ring, b.ring) != first) continue;
+    const int springer = a.ring == first ? joint.block_a : joint.block_b;
+    sum -= e.assembly.outward(first, joint.centroid).dot(wrench_on(joint, springer).force);
+  }
+  EXPECT_GT(sum, 0.1 * e.summary.weight_N);
+  EXPECT_NEAR(e.rings.at(first).radial_thrust, sum, 1e-9 * e.summary.weight_N);
+  Case range = scene;
+  range.analysis.type = AnalysisType::range;
+  const ForceRange thrust = run_range(range, e.assembly, {}).value().ranges.at(0);
+  EXPECT_NEAR(thrust.chosen.value(), sum, 1e-7 * e.summary.weight_N) << "to the residual of the statics";
+  EXPECT_LE(thrust.min.value.value(), sum);
+  EXPECT_GE(thrust.max.value.value(), sum);
 }
 
 }  // namespace
