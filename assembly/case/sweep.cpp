@@ -101,8 +101,13 @@ std::vector<SweepMember> members_of(const std::vector<SweptKey>& sweep, const st
         if (!fits_a_file_name(value))
           throw InputError(
               fmt::format("sweep of {}: the value `{}` becomes part of a file name and may contain only "
-                          "letters, digits, . - + and _",
-                          swept.key, value));
+                          "letters, digits, . - + and _{}",
+                          swept.key, value,
+                          value.starts_with('[')
+                              ? fmt::format("; sweep one component, such as {}[0], or give the values as the "
+                                            "columns of a file",
+                                            swept.key)
+                              : ""));
         longer.push_back({fmt::format("{}_{}{}", member.name, label(swept, sweep), value), member.settings});
         longer.back().settings.push_back(fmt::format("{}={}", swept.key, value));
       }

@@ -22,8 +22,10 @@ double level_of(const SurfaceMap& surface, double bed, const std::string& what) 
       farthest = std::max(farthest, std::abs(surface.point(bed, surface.extent * i / kSteps, layer).z() - z));
   const double size = (surface.intrados(bed, 0.0) - surface.extrados(bed, 0.0)).norm();
   if (farthest > 1e-9 * size)
-    throw InputError(fmt::format(
-        "{} is not level: it rises or falls by {:.3g} m; a member stands on a level bed", what, farthest));
+    throw InputError(
+        fmt::format("{} is not level: it rises or falls by {:.3g} m; a member stands on a level bed: give "
+                    "its surface beds: level, or beds: given with an angle of 0 there",
+                    what, farthest));
   return z;
 }
 

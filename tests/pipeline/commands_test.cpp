@@ -1,9 +1,13 @@
 // The commands besides the three stages, run as a user runs them: reports, bond maps, studies, comparisons,
 // explanations, pictures.
 
+#include <filesystem>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "assembly/case/bundled.hpp"
+#include "assembly/files/atomic_file.hpp"
 #include "tests/pipeline/program_run.hpp"
 
 namespace cupola::commands_test {
@@ -86,6 +90,26 @@ TEST(Commands, RefuseInterfacesOfGeneratedBlocks) {
   const ProgramRun run = folder.run("cupola-generate " + kWall + " --output w.vtu --contacts c.csv");
   EXPECT_EQ(run.code, 2);
   EXPECT_TRUE(contains(run.err, "generated blocks have no interfaces")) << run.err;
+}
+
+// A case whose members cannot be named would be refused only when somebody runs it.
+TEST(Commands, NameTheMembersOfEveryShippedSweepAndStudy) {
+  const ProgramFolder folder;
+  int found = 0;
+  for (const char* where : {"", "/gallery", "/studies"})
+    for (const auto& entry : std::filesystem::directory_iterator(bundled_folder() + where)) {
+      if (entry.path().extension() != ".yaml") continue;
+      const std::string text = read_text(entry.path());
+      const bool has_members = text.find("\nsweep:") != std::string::npos ||
+                               text.find("\nensemble:") != std::string::npos ||
+                               text.find("\nruns:") != std::string::npos;
+      if (!has_members) continue;
+      const ProgramRun run =
+          folder.run("cupola-post study " + entry.path().string() + " --members members.txt");
+      EXPECT_EQ(run.code, 0) << entry.path() << ": " << run.err;
+      ++found;
+    }
+  EXPECT_GT(found, 10);
 }
 
 TEST(Commands, TabulateASweepAndReportMissingMembers) {
