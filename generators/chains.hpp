@@ -6,8 +6,8 @@
 namespace cupola {
 
 /// Adds the ties of the chains of a case to an assembly that was cut from `storeys`. The ends of a tie lie on
-/// the surface that divides the thickness at Chain::place, in the middle of a course or at one height of their
-/// storey; each belongs to the block that it lies in. A chain above the courses of a stage is left out.
+/// the surface that divides the thickness at Chain::place, in the middle of a course or at one height of
+/// their storey; each belongs to the block that it lies in. A chain above the courses of a stage is left out.
 ///
 ///     k = E A / L,    natural length = L + slack - prestress / k,    L: distance of the ends
 ///

@@ -81,8 +81,8 @@ struct Imperfections {
   double noise = 0.0;  ///< m, >= 0: beds, head planes and skin corners move by up to this; joints stay closed
   int seed = 1;        ///< >= 0
   /// m, > 0: gaps and noise are functions of place, whose normal numbers have the correlation
-  /// exp(-(r / length)^2) over the distance r; bonds of one seed read the same functions. None: each number is
-  /// independent.
+  /// exp(-(r / length)^2) over the distance r; bonds of one seed read the same functions. None: each number
+  /// is independent.
   std::optional<double> correlation_length = std::nullopt;
   /// Coefficient of variation of the density of free blocks, a lognormal function of place with mean 1.
   double density = 0.0;

@@ -88,8 +88,8 @@ struct VaultSurface {
   Profile profile;
   double thickness = 1.0;  ///< m, > 0, normal to the profile
   Beds beds = Beds::normal;
-  /// deg above the horizontal, outwards, of given beds: from the first bed to the last, of an arch to the crown,
-  /// at equal numbers of courses; linear between.
+  /// deg above the horizontal, outwards, of given beds: from the first bed to the last, of an arch to the
+  /// crown, at equal numbers of courses; linear between.
   std::vector<double> bed_angles_deg;
   Courses courses = Courses::length;
   Line line = Line::intrados;

@@ -29,7 +29,8 @@ struct Sheet {
   bool has_ring(int ring) const { return ring >= first_ring && ring < first_ring + num_rings; }
   /// True if its axis is the z axis of the world.
   bool is_central() const { return origin.x() == 0.0 && origin.y() == 0.0 && turn == 0.0; }
-  /// A point (m) in its own frame, to which heights do not belong: its axis is the z axis, and an arch spans x.
+  /// A point (m) in its own frame, to which heights do not belong: its axis is the z axis, and an arch spans
+  /// x.
   Eigen::Vector3d own(const Eigen::Vector3d& point) const;
   /// Horizontal unit vector at an azimuth (rad) from its own x axis.
   Eigen::Vector3d towards(double azimuth) const;

@@ -24,8 +24,8 @@ double phase_of(std::optional<double> phase, int refine, const BondGrid& grid) {
   return refine % 2 == 1 ? std::fmod(kRunningCornerPhase * refine, 1.0) : kRunningCornerPhase;
 }
 
-/// Two courses of whole blocks, the upper one moved along by `shift` letters. On a ring the drawing goes round
-/// once, so that any number of blocks closes it.
+/// Two courses of whole blocks, the upper one moved along by `shift` letters. On a ring the drawing goes
+/// round once, so that any number of blocks closes it.
 DrawnBond two_courses(int blocks, int letters, int shift) {
   DrawnBond drawing;
   const int columns = blocks * letters;

@@ -29,8 +29,9 @@ struct CourseReport {
 /// quarter of the height of the course, and if each stone lies on the course below with one side. Else the
 /// assembly remains as it is and the refusal names the stones.
 ///
-/// `numbers` of the file, per block, from either end, replace the distances and the first two rules; each stone must
-/// lie on a support or on a stone of a lower course. Throws InputError if only some free blocks have one.
+/// `numbers` of the file, per block, from either end, replace the distances and the first two rules; each
+/// stone must lie on a support or on a stone of a lower course. Throws InputError if only some free blocks
+/// have one.
 ///
 /// `axis` is a point of the vertical axis of a vault (m); none: through the centroid of the faces of the
 /// supports. `joints` are those of check_model().

@@ -21,8 +21,8 @@ void stand_beside(const Beside& beside, const std::string& key, const std::vecto
                   Storey* storey);
 /// Ends the supports of members also at the planes up to which others stand beside them.
 void limit_neighbours(std::vector<Storey>* storeys);
-/// Appends the copies of the stack that begins with storey `first`, or its mirror image; `member`: that of its
-/// first storey.
+/// Appends the copies of the stack that begins with storey `first`, or its mirror image; `member`: that of
+/// its first storey.
 void copy_stack(const Member& member, size_t first, std::vector<Storey>* storeys);
 
 }  // namespace cupola

@@ -87,8 +87,8 @@ struct ThrustInput {
 /// bed runs through the block, it is the wrench that balances the piece of the block above the bed.
 Wrench wrench_at_bed(const ThrustInput& input, int block, int bed);
 
-/// Thrust line along a meridian of the stack with the course `ring`, about its axis. Without azimuth: along an
-/// arch, where the strip is the full width. Without wythe: of the whole thickness.
+/// Thrust line along a meridian of the stack with the course `ring`, about its axis. Without azimuth: along
+/// an arch, where the strip is the full width. Without wythe: of the whole thickness.
 ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg,
                        std::optional<int> wythe = std::nullopt, int ring = 0);
 

@@ -235,9 +235,9 @@ std::string least_note(const LeastSearch::Result& least, StagedConstruction::Lea
   return least.needs_none ? fmt::format("stands without {}", to_string(property)) : least.bracket.message;
 }
 
-/// Of a long construction, every n-th stage has a frame, so that the frames of n blocks laid one by one take a
-/// space proportional to n, and so have the first stage that fails, those with which the construction may end,
-/// and the last one.
+/// Of a long construction, every n-th stage has a frame, so that the frames of n blocks laid one by one take
+/// a space proportional to n, and so have the first stage that fails, those with which the construction may
+/// end, and the last one.
 bool ConstructionRun::has_frame(int stage, bool stands, bool may_end) const {
   constexpr int kMost = 100;
   const int count = static_cast<int>(stages_.size()), every = (count + kMost - 1) / kMost;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "assembly/case/case.hpp"
-#include "solver/collision/contact_set.hpp"
 #include "assembly/model/random_field.hpp"
+#include "solver/collision/contact_set.hpp"
 
 namespace cupola {
 

@@ -18,13 +18,13 @@ ProgramRun solve(const ProgramFolder& folder, const std::string& name, const std
 // default for one and 1e-12 for the other would give, are those of no material.
 TEST(PublicVaults, TheCrossVaultStandsWhateverTheStiffnessOfItsJoints) {
   const ProgramFolder folder;
-  for (const char* compliance : {"{normal: 1e-9, tangential: 2.4e-9, per: area}",
-                                 "{normal: 1e-10, tangential: 2.4e-10, per: area}",
-                                 "{normal: 1e-12, tangential: 2.4e-12, per: area}"})
+  for (const char* compliance :
+       {"{normal: 1e-9, tangential: 2.4e-9, per: area}", "{normal: 1e-10, tangential: 2.4e-10, per: area}",
+        "{normal: 1e-12, tangential: 2.4e-12, per: area}"})
     for (const char* law : {"associated", "coulomb"}) {
-      const ProgramRun run = solve(folder, "cross_vault",
-                                   fmt::format("--set analysis.friction_law={} --set 'joints.compliance={}'",
-                                               law, compliance));
+      const ProgramRun run =
+          solve(folder, "cross_vault",
+                fmt::format("--set analysis.friction_law={} --set 'joints.compliance={}'", law, compliance));
       EXPECT_EQ(run.code, 0) << run.err;
       EXPECT_NE(run.out.find("it stands: "), std::string::npos)
           << law << ", " << compliance << ": " << run.out;

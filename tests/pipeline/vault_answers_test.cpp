@@ -244,7 +244,8 @@ TEST(VaultAnswers, TheThrustOnPiersCountsEveryJointOfTheSpringers) {
   Case range = scene;
   range.analysis.type = AnalysisType::range;
   const ForceRange thrust = run_range(range, e.assembly, {}).value().ranges.at(0);
-  // A range takes "outwards" at the common centroid of both joints of a springer, the statics at that of each.
+  // A range takes "outwards" at the common centroid of both joints of a springer, the statics at that of
+  // each.
   EXPECT_NEAR(thrust.chosen.value(), sum, 1e-5 * sum);
   EXPECT_LE(thrust.min.value.value(), sum);
   EXPECT_GE(thrust.max.value.value(), sum);

@@ -35,8 +35,8 @@ class Analysis {
   cholmod_factor* L_ = nullptr;
 };
 
-/// Nested dissection. METIS draws from rand(), of which the process has one sequence, and starts that sequence
-/// anew in each call: two calls at once would take numbers from each other.
+/// Nested dissection. METIS draws from rand(), of which the process has one sequence, and starts that
+/// sequence anew in each call: two calls at once would take numbers from each other.
 bool dissect(cholmod_sparse* graph, std::vector<Index>* order, cholmod_common* common) {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);

@@ -80,11 +80,12 @@ TEST_P(Gallery, HasTheBlocksCountedByHand) {
 // more. Pinwheel: 4 by 2 periods of 5. Herringbone: 9 flat blocks in even courses, 3 4 3 in odd ones, whose
 // first and last in course 3 are cut; uprights: 9 c, and e in courses 0 (cut), 1 to 2, 3 to 4 and 5 (cut), 3
 // each. One spiral: 6 uprights in each period of 3 courses; beside them 6 flat blocks a course, and where the
-// drawing has moved by one letter 5 and pieces of 1 and 2 letters of 3. Two spirals in 8 letters, which move by 2
-// letters every 2 courses: 6 uprights a period; 6 flat blocks a course, in the second period 5 and pieces of 2
-// and 1. Groin vaults: along, 12 stones in even courses, 11 and two halves in odd ones. Across, 12 columns of 3
-// whole stones, and 12 of 2 between the halves of 2. Diagonal, 6 flat stones a course, but 5 and two halves in
-// course 3; 18 uprights y, 6 in each 2 courses; x in courses 0 (cut), 1 to 2, 3 to 4 and 5 (cut), 6 each.
+// drawing has moved by one letter 5 and pieces of 1 and 2 letters of 3. Two spirals in 8 letters, which move
+// by 2 letters every 2 courses: 6 uprights a period; 6 flat blocks a course, in the second period 5 and
+// pieces of 2 and 1. Groin vaults: along, 12 stones in even courses, 11 and two halves in odd ones. Across,
+// 12 columns of 3 whole stones, and 12 of 2 between the halves of 2. Diagonal, 6 flat stones a course, but 5
+// and two halves in course 3; 18 uprights y, 6 in each 2 courses; x in courses 0 (cut), 1 to 2, 3 to 4 and 5
+// (cut), 6 each.
 INSTANTIATE_TEST_SUITE_P(
     Bonds, Gallery,
     testing::Values(GalleryBond{{"ccddddcc", "aaaabbbb"}, 0, 18 + 21, 6, 0},

@@ -49,7 +49,8 @@ std::string error_of(const Case& scene) {
 }
 
 /// m3: what lies between the first beds and level ones. The section is a triangle with a right angle at the
-/// back: a leg is the bed, inclined by `rise`, and the other one continues the extrados; at x it is 3 - x long.
+/// back: a leg is the bed, inclined by `rise`, and the other one continues the extrados; at x it is 3 - x
+/// long.
 double wedges() {
   const double inner = 0.5 * kSpan, rise = std::acos((inner - 0.5 * kThick) / (inner + kThick));
   const double leg = kThick * std::tan(rise), area = 0.5 * kThick * leg;

@@ -195,7 +195,8 @@ TEST(Members, AMirroredDomeIsTheDome) {
   }
 }
 
-// Supports end at the common plane: each stone stands on one support, and no support reaches into a neighbour.
+// Supports end at the common plane: each stone stands on one support, and no support reaches into a
+// neighbour.
 TEST(Members, BesideEachOtherShareNoSupport) {
   Member aisle = nave();
   aisle.name = "aisle";

@@ -33,10 +33,10 @@ Case on_soil(AnalysisType type, double c, double force, TimeFunction time = {}) 
   return scene;
 }
 
-// Two fifths of the base lift off: of a force at the height a, the resultant lies e = H a / W from the middle, the
-// pressure is linear over 3 (b / 2 - e) and the footing turns by 2 c W / (l x^2). Its centroid moves by the
-// turn times its height. Points lie 16 to a side, and the pressed length ends between them: a third of their
-// distance squared over its own.
+// Two fifths of the base lift off: of a force at the height a, the resultant lies e = H a / W from the
+// middle, the pressure is linear over 3 (b / 2 - e) and the footing turns by 2 c W / (l x^2). Its centroid
+// moves by the turn times its height. Points lie 16 to a side, and the pressed length ends between them: a
+// third of their distance squared over its own.
 TEST(ElasticSupports, TurnAFootingThatLiftsOffAlongAPath) {
   constexpr double kC = 1e-10;
   const Assembly box = testing::box_on_floor({kB, kL, kZ});

@@ -174,8 +174,8 @@ TEST(LoadsInAnalyses, AMomentOverturnsThePileAlongAPath) {
   EXPECT_NEAR(path.rows.back()[0], 1.0 / 1.9, 0.1 / 64) << path.summary.message;
 }
 
-// A block on the floor under 1.5 times the overturning moment: it turns about its edge with (M - W b / 2) / I,
-// where I is that about the edge. In the first steps the angle does not change the arm.
+// A block on the floor under 1.5 times the overturning moment: it turns about its edge with (M - W b / 2) /
+// I, where I is that about the edge. In the first steps the angle does not change the arm.
 TEST(LoadsInAnalyses, AMomentTurnsABlockAboutItsEdgeInAMotion) {
   const double b = 1.0, z = 0.5, h = 1e-3;
   const Assembly box = testing::box_on_floor({b, 1.0, z});

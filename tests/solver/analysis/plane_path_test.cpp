@@ -37,7 +37,8 @@ TEST(PlanePath, RoundedLoadsDoNotTurnBlocksOutOfTheirPlane) {
   ASSERT_EQ(path.rows.size(), 61u) << path.summary.message;
   EXPECT_EQ(path.frames.back().blocks.displacement[1].y(), 0.0);
   const double moved = 2.0 * path.rows.back()[1] / kT;  // at mid-height, over the thickness
-  // The joints bear on a strip, not on an edge, and the geometry is that of the step before: docs/experiments.md.
+  // The joints bear on a strip, not on an edge, and the geometry is that of the step before:
+  // docs/experiments.md.
   EXPECT_NEAR(path.rows.back()[0], 2.0 * kT / kH * (1.0 - moved), 0.03 * 2.0 * kT / kH);
 }
 
