@@ -8,7 +8,6 @@
 #include "postproc/mechanics/ring_sums.hpp"
 
 namespace cupola {
-namespace {}  // namespace
 
 std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches& joints, const Vec3& gravity,
                                    const std::vector<bool>& left_out) {

@@ -94,8 +94,8 @@ TEST(BlockCholesky, GivesTheSameBitsForAnyNumberOfThreads) {
   set_num_threads(1);
 }
 
-// Ranges and ensembles analyse on many threads at once. METIS has one sequence of random numbers for all of
-// them, and mixed sequences give other orders: of 400 analyses some did, in most runs.
+// Ranges order their matrices on many threads at once. METIS has one sequence of random numbers for all of
+// them, and shared sequences give other orders.
 TEST(BlockCholesky, OrdersTheSameOnManyThreadsAtOnce) {
   const Problem p = dome_hessian(10, 16);
   const FactorStructure alone = analyze(p.pattern);
