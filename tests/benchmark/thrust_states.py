@@ -10,11 +10,19 @@ is another one.
 
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
 OTHER_POINTS = ("gjk", "gap", "area")
+LABELS = {"": "as in the case", "coulomb": "Coulomb's law", "at_once": "weight at once", "ramped": "weight over 2 s",
+          "per_area_soft": "per area, soft", "per_area_stiff": "per area, stiff", "area": "per area", "gap1": "gaps of up to 0.2 mm"}
 SLACK = 1e-6  # of the weight: the gap of the range and the residual of a static state
+
+
+def label(name):
+    name = re.sub(r"^gjk(\d*)$", lambda seed: f"perturbed GJK, seed {seed[1] or 1}", name)
+    return LABELS.get(name, name.replace("_", " "))
 
 
 def weight_and_summary(folder):
@@ -33,15 +41,15 @@ for folder in folders:
     value = post["thrust_over_weight"]
     if value is None:
         sys.exit(f"{folder}: not at rest")
-    name = folder.name.replace("dome_circular_state_", "").replace("dome_circular_", "").replace("dome_circular", "as in the case")
-    (other if any(word in name for word in OTHER_POINTS) else same).append((name.replace("_", " "), value))
+    name = folder.name.removeprefix("dome_circular").removeprefix("_state").removeprefix("_")
+    (other if any(word in name for word in OTHER_POINTS) else same).append((label(name), value))
     if not low - SLACK <= value <= high + SLACK:
         outside.append(f"{folder.name}: {value:.6f} outside {low:.6f} ... {high:.6f}")
 rows = same + other
-tics = ", ".join(f"'{name}' {i}" for i, (name, _) in enumerate(rows))
+tics = ", ".join(f'"{name}" {i}' for i, (name, _) in enumerate(rows))
 points = "".join(f"{value} {i} {int(i >= len(same))}\n" for i, (_, value) in enumerate(rows))
 subprocess.run(["gnuplot"], check=True, text=True, input=f"""
-set terminal pngcairo size 900,{140 + 20 * len(rows)} font 'Helvetica,11' background 'white' noenhanced
+set terminal pngcairo size 900,{120 + 20 * len(rows)} font 'Helvetica,11' background 'white' noenhanced
 set output '{picture}'
 $points << EOD
 {points}EOD
@@ -50,7 +58,8 @@ set yrange [{len(rows)}:-1]
 set xrange [{low - 0.03}:{high + 0.03}]
 set xlabel 'outward thrust over the weight'
 set grid x
-set key outside bottom center horizontal
+set key at screen 0.5,0.985 center top horizontal maxrows 1
+set tmargin 3
 set object rectangle from {low},graph 0 to {high},graph 1 fc rgb '#56B4E9' fs solid 0.25 noborder behind
 plot 1/0 w boxes lc rgb '#56B4E9' fs solid 0.25 title 'all admissible states', \\
   $points using ($3 == 0 ? $1 : 1/0):2 w p pt 7 ps 1.2 lc rgb '#D55E00' title 'states found', \\
