@@ -90,7 +90,7 @@ set size 1/3.,0.44
 set grid
 set xlabel 'displacement, mm'
 set xrange [0:4]
-set yrange [0:160]
+set yrange [0:200]
 set key top left"""]
 for i, (run, label, pressure, test) in enumerate(drawn):
     for name, folder in (("a", run), ("b", run + "_solid")):
