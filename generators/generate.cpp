@@ -12,6 +12,7 @@
 #include "assembly/model/block_names.hpp"
 #include "assembly/model/block_region.hpp"
 #include "generators/chains.hpp"
+#include "generators/importer/assembly_import.hpp"
 #include "generators/importer/import_supports.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
 #include "generators/surface/make_surface.hpp"
@@ -106,6 +107,20 @@ Assembly with_report(Assembly assembly, const GenerateReport& report, const Case
   return assembly;
 }
 
+/// An imported assembly of Cupola, checked as its joints are found by the solver.
+Assembly assembly_again(const Case& input, GenerateReport* report) {
+  Assembly assembly = import_assembly(*input.geometry.imported);
+  if (input.geometry.imperfections) vary_density(*input.geometry.imperfections, &assembly);
+  assembly.title = input.title;
+  assembly.geometry_hash = input.geometry_hash;
+  report->model = check_model(
+      assembly,
+      imported_tolerances(assembly, 0.0, joint_rule(smallest_block_size(assembly), input.contact.margin)));
+  refuse_keys_without_effect(input, assembly);
+  const Case resolved = resolved_case(input, assembly);
+  return with_report(std::move(assembly), *report, resolved);
+}
+
 }  // namespace
 
 Assembly cut_assembly(const Case& input) {
@@ -119,6 +134,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
   if (geometry.imported) {
     if (geometry.imperfections && geometry.imperfections->of_shape())
       throw InputError("imperfections: gap and noise are not available for imported blocks; remove them");
+    if (is_assembly_file(*geometry.imported)) return assembly_again(input, report);
     report->import.emplace();
     Assembly assembly = import_blocks(*geometry.imported, input.material.density(), &*report->import);
     if (geometry.imperfections) vary_density(*geometry.imperfections, &assembly);

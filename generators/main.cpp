@@ -57,7 +57,7 @@ ExitCode write_files(const OutputFiles& files, const Case& scene, const Assembly
     write_text_atomically(files.bond_map, bond_map_svg(scene.geometry));
   }
   if (!files.contacts.empty()) {
-    if (!scene.geometry.imported)
+    if (!report.import)
       throw InputError(
           "--contacts: requires an imported COMPAS assembly, generated blocks have no interfaces");
     make_parent(files.contacts);

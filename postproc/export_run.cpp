@@ -4,6 +4,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/export/export.hpp"
+#include "assembly/export/placed_assembly.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/program/warnings.hpp"
 #include "postproc/tables/mesh_parts.hpp"
@@ -28,16 +29,11 @@ ExportedJoint exported(const JointWrench& joint, const JointWrenches& joints, co
   return out;
 }
 
-std::vector<Eigen::Isometry3d> poses_of(const Evaluation& e) {
-  std::vector<Eigen::Isometry3d> poses;
-  if (e.last.frame.role != FrameRole::step && e.last.frame.role != FrameRole::path) return poses;
-  const BlockTable& blocks = e.last.frame.blocks;
-  for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
-    const Eigen::Vector4d& q = blocks.quaternion_wxyz[b];
-    poses.push_back(Eigen::Translation3d(blocks.position[b]) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]) *
-                    Eigen::Translation3d(-e.assembly.blocks[b].centroid));
-  }
-  return poses;
+/// Where a motion or a path ended; none for equilibria in the geometry as built.
+std::vector<Eigen::Isometry3d> poses_at_end(const Evaluation& e) {
+  const FrameRole role = e.last.frame.role;
+  if (role != FrameRole::step && role != FrameRole::path) return {};
+  return poses_of(e.assembly, e.last.frame.blocks);
 }
 
 }  // namespace
@@ -48,7 +44,7 @@ ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) 
   const EvaluatedRun run = evaluate_run(input);
   const Evaluation& e = run.evaluation;
   std::vector<std::string> warnings = e.warnings;
-  ExportModel model{e.assembly, poses_of(e), {}, common_scale(e)};
+  ExportModel model{e.assembly, poses_at_end(e), {}, common_scale(e)};
   if (at_rest(e))
     for (const JointWrench& joint : e.last.joints.wrenches)
       model.joints.push_back(exported(joint, e.last.joints, e.last.frame.contacts));

@@ -6,17 +6,30 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/export/formats.hpp"
+#include "assembly/export/placed_assembly.hpp"
+#include "assembly/files/assembly_file.hpp"
 #include "assembly/files/atomic_file.hpp"
 
 namespace cupola {
 namespace {
 
+template <std::string (*text)(const ExportModel&)>
+void write(const std::string& path, const ExportModel& model) {
+  write_text_atomically(path, text(model));
+}
+
+void write_placed_assembly(const std::string& path, const ExportModel& model) {
+  write_assembly(path, placed_assembly(model), "");
+}
+
 struct ExportFormat {
   const char* ending;
-  std::string (*text)(const ExportModel&);
+  void (*write)(const std::string& path, const ExportModel&);
 };
-constexpr std::array kFormats{ExportFormat{".gltf", gltf_text}, ExportFormat{".obj", obj_text},
-                              ExportFormat{".json", compas_text}, ExportFormat{".csv", blocks_csv}};
+constexpr std::array kFormats{ExportFormat{".gltf", write<gltf_text>}, ExportFormat{".obj", write<obj_text>},
+                              ExportFormat{".json", write<compas_text>},
+                              ExportFormat{".csv", write<blocks_csv>},
+                              ExportFormat{".vtu", write_placed_assembly}};
 
 const ExportFormat& format_of(const std::string& path) {
   for (const ExportFormat& format : kFormats)
@@ -31,10 +44,10 @@ void check_export_path(const std::string& path) {
 }
 
 void write_export(const std::string& path, const ExportModel& model) {
-  const std::string text = format_of(path).text(model);
+  const ExportFormat& format = format_of(path);
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty()) make_folder(folder.string());
-  write_text_atomically(path, text);
+  format.write(path, model);
 }
 
 }  // namespace cupola

@@ -7,7 +7,7 @@
 namespace cupola {
 
 /// Formats, chosen by the ending of the file.
-inline constexpr const char* kExportFormats = ".gltf, .obj, .json (COMPAS) or .csv";
+inline constexpr const char* kExportFormats = ".gltf, .obj, .json (COMPAS), .csv or .vtu (Cupola)";
 
 /// Throws InputError if the ending is none of them.
 void check_export_path(const std::string& path);

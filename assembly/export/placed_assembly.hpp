@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "assembly/export/export_model.hpp"
+
+namespace cupola {
+
+/// Maps the blocks as built to where they stand in a frame, per block.
+std::vector<Eigen::Isometry3d> poses_of(const Assembly& assembly, const BlockTable& blocks);
+
+/// The assembly with its blocks and ties where they stand: the masonry as built of an analysis in the moved
+/// geometry. Blocks no longer share vertices; courses, names and axes are those of the original.
+Assembly placed_assembly(const ExportModel& model);
+
+}  // namespace cupola
