@@ -33,12 +33,12 @@ struct BadJoints {
   PairValues slivers;   // width, m
 };
 
-/// Checks parts i and k.
-void examine_parts(const Assembly& assembly, const ContactDetector& detector,
-                   const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& any_width, int i, int k,
-                   BadJoints* bad) {
+/// Checks parts i and k; m, width of the widest patch that they share, 0: none.
+double examine_parts(const Assembly& assembly, const ContactDetector& detector,
+                     const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& any_width, int i, int k,
+                     BadJoints* bad) {
   const CollisionModel& model = detector.model();
-  if (separated_by_face(model, i, k, pose_ab, any_width.margin)) return;
+  if (separated_by_face(model, i, k, pose_ab, any_width.margin)) return 0.0;
   const int a = model.parts[i].block, b = model.parts[k].block;
   const double depth = -separation(model, i, k, pose_ab, any_width);
   if (depth > detector.margin())
@@ -47,10 +47,10 @@ void examine_parts(const Assembly& assembly, const ContactDetector& detector,
                     "geometry or increase contact.margin",
                     block_label(assembly, a), block_label(assembly, b), depth, detector.margin()));
   if (depth > kOverlap * model.smallest_block) keep_largest(&bad->overlaps, {a, b}, depth);
-  for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width)) {
-    const double width = polygon_width(patch.outline());
-    if (width < detector.narrow_phase().min_width) keep_largest(&bad->slivers, {a, b}, width);
-  }
+  double widest = 0.0;
+  for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width))
+    widest = std::max(widest, polygon_width(patch.outline()));
+  return widest;
 }
 
 /// Checks block a against the blocks of larger index.
@@ -63,9 +63,11 @@ void examine_block(const Assembly& assembly, const ContactDetector& detector, co
     if (!overlap(box_a, box(b))) continue;
     Eigen::Isometry3d pose_ab = Eigen::Isometry3d::Identity();
     pose_ab.translation() = poses[b].p_WB - poses[a].p_WB;
+    double widest = 0.0;  // parts of cut stones may share slivers of a joint that is wide as a whole
     for (int i = model.part_start[a]; i < model.part_start[a + 1]; ++i)
       for (int k = model.part_start[b]; k < model.part_start[b + 1]; ++k)
-        examine_parts(assembly, detector, pose_ab, any_width, i, k, bad);
+        widest = std::max(widest, examine_parts(assembly, detector, pose_ab, any_width, i, k, bad));
+    if (widest > 0.0 && widest < detector.narrow_phase().min_width) bad->slivers[{a, b}] = widest;
   }
 }
 

@@ -72,6 +72,16 @@ TEST(GeometryWarnings, ReportIgnoredSlivers) {
   EXPECT_TRUE(ContactDetector(scene, {}).update(initial_poses(scene)).points.empty());
 }
 
+// The second part of the block meets the floor along 0.0005 m only, the first along 1 m.
+TEST(GeometryWarnings, LeaveOutSliversOfAWideJoint) {
+  Assembly scene = make_boxes({{.size = {1.001, 1, 1}, .fixed = true}});
+  add_block({}, &scene);
+  add_box_part({.center = {0, 0, 1}}, false, true, &scene);
+  add_box_part({.center = {1, 0, 1}}, true, false, &scene);
+  compute_mass_properties(&scene);
+  EXPECT_TRUE(geometry_warnings(scene, {}).empty());
+}
+
 TEST(GeometryWarnings, ReportPartsThinnerThanTheMargin) {
   const Assembly scene = make_boxes({{.fixed = true}, {.center = {0, 0, 0.5005}, .size = {1, 1, 0.001}}});
   DetectionOptions options;
