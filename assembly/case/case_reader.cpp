@@ -46,7 +46,8 @@ std::string title_with(const std::string& title, const std::vector<std::string>&
 /// Reads a case without checking the members of its sweep.
 Case read_one_case(const std::string& path, const std::vector<std::string>& set_options) {
   Case the_case;
-  const CaseNode tree = load_case_tree(path, set_options, &the_case.inputs);
+  std::vector<std::string> not_inherited;
+  const CaseNode tree = load_case_tree(path, set_options, &the_case.inputs, &not_inherited);
   Section root(&tree, "", tree.where, path);
   root.collect_files(&the_case.inputs);
   std::vector<PlausibleRange> expected;
@@ -60,6 +61,7 @@ Case read_one_case(const std::string& path, const std::vector<std::string>& set_
   the_case.hash = hash_sections(root.effective(), solver_reads);
   the_case.geometry_hash = hash_sections(root.effective(), generator_reads);
   the_case.warnings = sentences(expected);
+  the_case.warnings.insert(the_case.warnings.begin(), not_inherited.begin(), not_inherited.end());
   for (std::string& unused : unused_tensions(the_case.joints)) the_case.warnings.push_back(std::move(unused));
   return the_case;
 }

@@ -89,7 +89,20 @@ std::string bundled_name(const std::string& file) {
 struct ExtendsChain {
   std::vector<fs::path> identities;
   std::vector<std::string> paths;
+  std::vector<std::string> warnings;
 };
+
+/// Takes from a case what the one that extends it does not inherit.
+void disinherit(const CaseNode& tree, const std::string& path, const std::string& base_name, CaseNode* base,
+                ExtendsChain* chain) {
+  for (const char* key : {"sweep", "ensemble"}) {
+    if (!base->find(key) || tree.find(key)) continue;
+    std::erase_if(base->entries, [&](const CaseNode::Entry& entry) { return entry.key == key; });
+    chain->warnings.push_back(
+        fmt::format("{} extends {}, but not its {}: this is one run; to run its members, repeat the {} here",
+                    fs::path(path).filename().string(), base_name, key, key));
+  }
+}
 
 CaseNode load_file(const std::string& path, const std::string& root_folder, ExtendsChain* chain) {
   chain->paths.push_back(path);
@@ -122,6 +135,7 @@ CaseNode load_file(const std::string& path, const std::string& root_folder, Exte
 
   tree.entries.erase(tree.entries.begin() + (extends - tree.entries.data()));
   CaseNode merged = load_file(base_path, bundled ? bundled_folder() : root_folder, chain);
+  disinherit(tree, path, fs::path(base_path).filename().string(), &merged, chain);
   overlay(&merged, tree);
   return merged;
 }
@@ -183,7 +197,7 @@ std::string path_inside(const std::string& root_folder, const std::string& from_
 }
 
 CaseNode load_case_tree(const std::string& path, const std::vector<std::string>& set_options,
-                        std::vector<std::string>* files) {
+                        std::vector<std::string>* files, std::vector<std::string>* warnings) {
   ExtendsChain chain;
   CaseNode tree = load_file(path, fs::path(path).parent_path().string(), &chain);
   // The options are merged into one tree first, so that their order does not matter if one changes a type.
@@ -192,6 +206,7 @@ CaseNode load_case_tree(const std::string& path, const std::vector<std::string>&
   for (const std::string& option : set_options) overlay(&options, parse_set_option(option));
   overlay(&tree, options);
   if (files) *files = chain.paths;
+  if (warnings) *warnings = chain.warnings;
   return tree;
 }
 

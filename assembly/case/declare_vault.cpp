@@ -108,11 +108,12 @@ void declare_profile(Section& s, Profile& profile) {
   using Kind = Profile::Kind;
   using Keys = void (*)(Section&, Profile&);
   constexpr Keys span = [](Section& section, Profile& p) {
-    section.number("span", p.span, {.unit = "m", .above = 0}, "span, or diameter, at the springing");
+    section.required_number("span", p.span, {.unit = "m", .above = 0}, "span, or diameter, at the springing");
   };
   constexpr Keys span_and_rise = [](Section& section, Profile& p) {
-    section.number("span", p.span, {.unit = "m", .above = 0}, "span, or diameter, at the springing");
-    section.number("rise", p.rise, {.unit = "m", .above = 0}, "height of the crown above the springing");
+    section.required_number("span", p.span, {.unit = "m", .above = 0}, "span, or diameter, at the springing");
+    section.required_number("rise", p.rise, {.unit = "m", .above = 0},
+                            "height of the crown above the springing");
   };
   const auto kind = [](Kind which, const std::string& name, const std::string& meaning, Keys shared,
                        Keys own = nullptr) {
@@ -149,7 +150,7 @@ void declare_profile(Section& s, Profile& profile) {
        kind(Kind::catenary, "catenary", "the shape of a hanging chain", span_and_rise),
        kind(Kind::straight, "straight", "a wall, pier or drum", span,
             [](Section& section, Profile& p) {
-              section.number("height", p.height, {.unit = "m", .above = 0}, "height");
+              section.required_number("height", p.height, {.unit = "m", .above = 0}, "height");
               section.number("batter", p.batter, {.min = -5, .max = 5}, "lean inwards, over the height");
             }),
        kind(Kind::chain, "chain", "lines and arcs from point to point", nullptr,

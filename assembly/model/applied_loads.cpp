@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
@@ -37,7 +38,8 @@ double distance_outside(const Assembly& assembly, const Part& part, const Vec3& 
   return outside;
 }
 
-/// The free block that contains the point, or whose faces it is least beyond.
+/// The free block that contains the point, or whose faces it is least beyond: at most a tenth of the size of
+/// the block, as the point of a curved skin lies beyond the chord of a facet. Throws InputError beyond that.
 int block_at(const Assembly& assembly, const Vec3& point) {
   int nearest = BlockForce::kAtPoint;
   double least = std::numeric_limits<double>::infinity();
@@ -49,6 +51,12 @@ int block_at(const Assembly& assembly, const Vec3& point) {
   }
   if (nearest == BlockForce::kAtPoint)
     throw InputError("loads.forces: the assembly has no free block to carry a force");
+  constexpr double kFarthest = 0.1;  // of the size of the block
+  if (least > kFarthest * std::cbrt(assembly.blocks[nearest].volume))
+    throw InputError(
+        fmt::format("loads.forces: ({:g}, {:g}, {:g}) m lies in the air, {:.3g} m beyond the faces of the "
+                    "nearest block, {}; move the point, or name the `block` that carries the force",
+                    point.x(), point.y(), point.z(), least, nearest));
   return nearest;
 }
 

@@ -243,6 +243,22 @@ TEST(Extends, OverridesTheKeysGivenAndKeepsTheOthers) {
   EXPECT_EQ(c.analysis.type, AnalysisType::dynamic);
 }
 
+// Members are run where the file itself says so: `make` finds sweeps and ensembles by it.
+TEST(Extends, LeavesASweepAndSaysSo) {
+  const ScratchFolder scratch;
+  scratch.write("dome.yaml", std::string(kDome) + "sweep: [{key: joints.friction, values: [0.1, 0.2]}]\n");
+  const Case c = read_case(scratch.write("top.yaml", "extends: dome.yaml\njoints: {friction: 0.5}\n"));
+  EXPECT_TRUE(c.sweep.empty());
+  ASSERT_FALSE(c.warnings.empty());
+  EXPECT_EQ(c.warnings.front(),
+            "top.yaml extends dome.yaml, but not its sweep: this is one run; to run its members, repeat the "
+            "sweep here");
+  const Case own = read_case(
+      scratch.write("own.yaml", "extends: dome.yaml\nsweep: [{key: joints.friction, values: [0.3]}]\n"));
+  ASSERT_EQ(own.sweep.size(), 1u);
+  EXPECT_EQ(own.sweep.front().values, std::vector<std::string>{"0.3"});
+}
+
 TEST(Extends, ErrorNamesTheFileThatContainsIt) {
   const ScratchFolder scratch;
   scratch.write("dome.yaml", std::string(kDome) + "output: {frames_every: 0}\n");

@@ -46,8 +46,17 @@ TEST(SharedLoads, APointChoosesTheBlockThatContainsItOrTheNearest) {
   };
   EXPECT_EQ(block_at({-0.9, 0, 1.5}), 4);
   EXPECT_EQ(block_at({-1.1, 0, 1.5}), 3);
-  EXPECT_EQ(block_at({0.5, 0, 2.2}), 4) << "above the wall";
-  EXPECT_EQ(block_at({1.0, 0, -0.4}), 2) << "in the ground, which is fixed";
+  EXPECT_EQ(block_at({0.5, 0, 2.1}), 4) << "above the wall, by less than a tenth of the cube root of 3 m3";
+  EXPECT_EQ(block_at({1.0, 0, -0.1}), 2) << "in the ground, which is fixed";
+  try {
+    block_at({0.5, 0, 2.2});
+    ADD_FAILURE() << "a force in the air";
+  } catch (const InputError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("lies in the air, 0.2 m beyond the faces of the nearest block, 4"),
+        std::string::npos)
+        << error.what();
+  }
 }
 
 // A cube tips about its edge where the moment is its weight times half of its width.
