@@ -16,8 +16,9 @@ namespace cupola {
 struct Cut {
   enum class Kind : std::uint8_t { plane, prism, cylinder, under, over };
   enum class Axis : std::uint8_t { x, y, z };
-  /// What lies behind the faces of the cut: nothing, a fixed support, or the same stones, parted by a joint.
-  enum class As : std::uint8_t { free, held, joint };
+  /// What lies behind the faces of the cut: nothing, a fixed support, the same stones, parted by a joint, or
+  /// another member, which loses what lies on this side.
+  enum class As : std::uint8_t { free, held, joint, mitre };
   enum class Face : std::uint8_t { extrados, intrados };
 
   Kind kind = Kind::plane;
@@ -32,6 +33,7 @@ struct Cut {
   std::optional<double> from, to;                       ///< m, along the axis; none: without end
   /// A barrel: what lies under its `face`, from end to end, is taken away. Or a groin vault: what lies over
   /// its intrados, which its supports continue downwards.
+  /// Of a mitre: the member behind it.
   std::string member;
   Face face = Face::extrados;  ///< of that member
 };
@@ -39,7 +41,7 @@ constexpr auto enum_names(Cut::Axis) {
   return std::array{"x", "y", "z"};
 }
 constexpr auto enum_names(Cut::As) {
-  return std::array{"free", "held", "joint"};
+  return std::array{"free", "held", "joint", "mitre"};
 }
 constexpr auto enum_names(Cut::Face) {
   return std::array{"extrados", "intrados"};

@@ -36,8 +36,11 @@ void declare_plane_cut(Section& s, Cut& cut) {
   s.rule(cut.normal.norm() > 0.0, "normal", "must not be zero");
   s.choice(
       "as", cut.as,
-      "what lies behind the faces of the cut: nothing, a fixed support, or the rest of the stones, parted by "
-      "a joint");
+      "what lies behind the faces of the cut: nothing, a fixed support, the rest of the stones, parted by a "
+      "joint, or another member, which loses what lies on this side");
+  s.text("member", cut.member, "of a mitre: the member behind the plane");
+  s.rule((cut.as == Cut::As::mitre) != cut.member.empty(), "member",
+         "belongs to as: mitre, and only there: the name of the member behind the plane");
 }
 
 void declare_prism_cut(Section& s, Cut& cut) {

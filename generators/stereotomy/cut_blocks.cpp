@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "generators/stereotomy/cut_planes.hpp"
 #include "generators/stereotomy/grid_points.hpp"
 #include "generators/stereotomy/groin_vault.hpp"
+#include "generators/stereotomy/meetings.hpp"
 #include "generators/stereotomy/support.hpp"
 
 namespace cupola {
@@ -135,12 +137,30 @@ void reflect_sails(int num_sails, const MemberStart& start, Assembly* assembly) 
 
 /// The bodies of the cuts of a storey, in its coordinates.
 std::vector<CutBody> bodies_of(const Storey& storey, std::span<const Storey> storeys) {
+/// The bodies that mitres of other storeys take from a storey: what lies before their planes.
+std::vector<CutBody> bodies_of_mitres(const Storey& storey, std::span<const Storey> storeys) {
+  std::vector<CutBody> bodies;
+  for (const Storey& other : storeys)
+    for (size_t i = 0; i < other.cuts.size(); ++i) {
+      const Cut& cut = other.cuts[i];
+      if (cut.as != Cut::As::mitre || cut.member != storey.name || &other == &storey) continue;
+      const Vec3 lost = cut.normal.normalized();
+      bodies.push_back({cut,
+                        {moved({{lost, lost.dot(cut.point)}}, storey.placement.inverse() * other.placement)},
+                        fmt::format("{}.cuts[{}].member = {}", other.key, i, cut.member)});
+    }
+  return bodies;
+}
+
   std::vector<CutBody> bodies;
   for (size_t i = 0; i < storey.cuts.size(); ++i) {
     const Cut& cut = storey.cuts[i];
     const std::string key = fmt::format("{}.cuts[{}]", storey.key, i);
     if (cut.kind != Cut::Kind::under && cut.kind != Cut::Kind::over) {
       bodies.push_back({cut, {body_of(cut)}, key});
+    if (cut.as == Cut::As::mitre &&
+        (cut.member == storey.name || std::ranges::find(storeys, cut.member, &Storey::name) == storeys.end()))
+      throw InputError(fmt::format("{}.member = {}: must be another member", key, cut.member));
       continue;
     }
     const auto other = std::ranges::find(storeys, cut.member, &Storey::name);
@@ -159,6 +179,7 @@ std::vector<CutBody> bodies_of(const Storey& storey, std::span<const Storey> sto
   }
   for (const Plane& limit : storey.limits)
     bodies.push_back({{}, {{{-limit.normal, -limit.offset}}}, storey.key + ".beside", true});
+  std::ranges::move(bodies_of_mitres(storey, storeys), std::back_inserter(bodies));
   return bodies;
 }
 
@@ -208,7 +229,13 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
 
 Assembly cut_blocks(std::span<const Storey> storeys, const CutOptions& options) {
   Assembly assembly;
-  for (const Storey& storey : storeys) add_storey(storey, storeys, options, &assembly);
+  std::vector<MemberStart> starts;
+  for (const Storey& storey : storeys) {
+    starts.push_back({assembly.blocks.size(), assembly.parts.size()});
+    add_storey(storey, storeys, options, &assembly);
+  }
+  starts.push_back({assembly.blocks.size(), assembly.parts.size()});
+  check_meetings(storeys, starts, &assembly);
   drop_unused_vertices(&assembly);
   CUPOLA_ASSERT(std::ranges::all_of(assembly.vertices, [](const Vec3& v) { return v.allFinite(); }));
   compute_mass_properties(&assembly);

@@ -125,6 +125,7 @@ void stand_beside(const Beside& beside, const std::string& key, const std::vecto
   const double plane = reach(*other, out);
   const double own = reach(*storey, own_in);  // of the side that faces the other member
   const double shift = plane + own - out.dot(storey->placement.translation());
+  storey->beside = beside.member;
   storey->limits.push_back({own_in, own});
   storey->placement = other->placement * Eigen::Translation3d(shift * out) * storey->placement;
 }
@@ -156,6 +157,7 @@ void copy_stack(const Member& member, size_t first, std::vector<Storey>* storeys
     for (size_t i = first; i < end; ++i) {
       Storey storey = (*storeys)[i];
       storey.name += fmt::format(" {}", copy);
+      storey.beside.clear();  // the first one stands there
       for (std::string& label : storey.members) label += fmt::format(" {}", copy);
       storey.placement = motion * storey.placement;
       storey.surface.rings_below = storeys->back().surface.rings_below + storeys->back().num_rings();

@@ -28,6 +28,7 @@ struct Storey {
   std::vector<Cut> cuts = {};
   std::string key = {};               ///< of the member, for messages
   std::optional<Affine> affine = {};  ///< of a groin vault, after its webs are cut
+  std::string beside = {};            ///< member that it touches in the plane of the first of its limits
   std::vector<Plane> limits = {};     ///< of its supports: n.x <= offset, in the coordinates of the surface
 
   bool is_reflected() const { return placement.linear().determinant() < 0.0; }

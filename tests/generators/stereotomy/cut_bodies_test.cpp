@@ -245,6 +245,58 @@ std::string message_of(const Case& c) {
   return "";
 }
 
+/// A corridor that turns a corner: a barrel along y up to its mitre with one along x.
+Case corridor(const Vec3& origin_of_second) {
+  Member first, second;
+  first.name = "first";
+  first.surface = barrel(4.0, 0.4, 8.0);
+  first.bond = RunningBond{9, 8, 2};
+  first.cuts = {plane({0.0, 5.0, 0.0}, {1.0, 1.0, 0.0}, Cut::As::mitre)};
+  first.cuts[0].member = "second";
+  second.name = "second";
+  second.surface = first.surface;
+  second.bond = first.bond;
+  second.at = Place{origin_of_second, -90.0};
+  Case c;
+  c.geometry.members = {first, second};
+  c.geometry.has_shell = false;
+  return c;
+}
+
+// Each barrel is 5 m long in its middle, and longer on one side by what it is shorter on the other. Its
+// section lies between two half polygons of 18 sides.
+TEST(CutBodies, AMitreCutsBothMembers) {
+  const Case c = corridor({-3.0, 5.0, 0.0});
+  ModelReport report;
+  const double section = 9.0 / 2.0 * std::sin(std::numbers::pi / 9) * (2.4 * 2.4 - 2.0 * 2.0);
+  EXPECT_NEAR(volume_of(c, &report), 2.0 * 5.0 * section, 1e-12 * 10.0);
+  EXPECT_EQ(report.islands, 1);
+  EXPECT_LT(report.max_joint_gap, 1e-10);
+  const Assembly assembly = cut_assembly(c);
+  double area = 0.0;  // m2, of both sides of the mitre: the section, seen at 45 degrees
+  for (const Part& part : assembly.parts) {
+    if (assembly.blocks[part.block].fixed) continue;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const std::vector<Vec3> points = face_points(assembly, f);
+      if (!std::ranges::all_of(points, [](const Vec3& p) { return std::abs(p.x() + p.y() - 5.0) < 1e-12; }))
+        continue;
+      area += polygon_area(points);
+      EXPECT_EQ(assembly.face_kinds[f], FaceKind::head);
+    }
+  }
+  EXPECT_NEAR(area, 2.0 * std::numbers::sqrt2 * section, 1e-12);
+}
+
+TEST(CutBodies, AMitreIsRefusedWhereTheMembersDoNotMeet) {
+  EXPECT_NE(message_of(corridor({-3.0, 5.0, 4.0})).find("no stone of first meets one of second on the plane"),
+            std::string::npos)
+      << message_of(corridor({-3.0, 5.0, 4.0}));
+  EXPECT_NE(message_of(corridor({5.0, 5.0, 0.0}))
+                .find("geometry.members[0].cuts[0].member = second: the cut takes nothing"),
+            std::string::npos)
+      << message_of(corridor({5.0, 5.0, 0.0}));
+}
+
 TEST(CutBodies, AreRefusedIfTheyTakeNothingOrAll) {
   EXPECT_NE(message_of(wall({plane({0, 9, 0}, {0, 1, 0})})).find("geometry.cuts[0]: the cut takes nothing"),
             std::string::npos);
