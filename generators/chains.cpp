@@ -94,6 +94,11 @@ class Level {
     }
     return {anchors[0], anchors[1]};
   }
+  /// Of the course at its level.
+  const std::vector<double>& cuts() const {
+    const int ring = static_cast<int>(bed(0.0)) / shell_.surface.rows_per_ring;
+    return shell_.bond.cuts_of(std::min(ring, shell_.bond.num_rings - 1));
+  }
   double bed(double abscissa) const { return bed_ ? *bed_ : bed(abscissa, 0.0, shell_.surface.num_rows); }
 
  private:
@@ -189,7 +194,7 @@ std::vector<Anchor> polygon(const Level& level, const Chain& chain, const Storey
   const SurfaceMap& surface = shell.surface;
   std::vector<Anchor> anchors;
   if (chain.links == 0) {
-    for (const Run& run : runs_of_blocks(level, shell.bond.cuts, surface.extent, blocks))
+    for (const Run& run : runs_of_blocks(level, level.cuts(), surface.extent, blocks))
       anchors.push_back({run.block, level.point(0.5 * (run.start + run.end))});
     return anchors;
   }
@@ -236,7 +241,7 @@ void add_chains(const std::vector<Chain>& chains, const std::vector<Storey>& sto
     if (chain.type == Chain::Type::rods) {
       bars = rods(level, chain, shell, blocks, key);
     } else if (chain.type == Chain::Type::clamps) {
-      bars = clamps(level, runs_of_blocks(level, shell.bond.cuts, shell.surface.extent, blocks), chain, key);
+      bars = clamps(level, runs_of_blocks(level, level.cuts(), shell.surface.extent, blocks), chain, key);
     } else {
       const std::vector<Anchor> anchors = polygon(level, chain, shell, blocks);
       for (size_t i = 0; i < anchors.size(); ++i)

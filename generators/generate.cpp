@@ -34,9 +34,8 @@ CutOptions cut_options(const Case& input) {
 /// height, whose breaks no extrapolation follows.
 std::optional<double> smooth_volume(const Storey& shell) {
   const SurfaceMap& surface = shell.surface;
-  if (std::ranges::count(shell.bond.block_of, kVoid) > 0 || surface.key_stone || surface.webs > 0 ||
-      !surface.smooth_beds || !shell.cuts.empty() ||
-      !std::ranges::all_of(surface.wythes, &Thickness::constant))
+  if (has_empty_cells(shell.bond) || surface.key_stone || surface.webs > 0 || !surface.smooth_beds ||
+      !shell.cuts.empty() || !std::ranges::all_of(surface.wythes, &Thickness::constant))
     return std::nullopt;
   return surface.shell_volume ? *surface.shell_volume : extrapolated_shell_volume(surface);
 }

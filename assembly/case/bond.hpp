@@ -92,11 +92,14 @@ struct DrawnBond {
   /// Upright blocks have joints and colours of their own. By shape, a block is upright if it is taller than
   /// wide.
   enum class LetterKind : std::uint8_t { by_shape, flat, upright };
+  /// Of a letter in courses that shorten: it narrows with them, or each course has letters of its own number.
+  enum class Length : std::uint8_t { narrowing, constant };
 
   int rings = 40;
   std::vector<std::string> rows;  ///< the uppermost course first, all of one length
   double letter_length = 0.1;     ///< m, > 0, along the intrados of the first bed
   int shift = 0;  ///< letters by which the drawing moves along where it is repeated above itself
+  Length length = Length::narrowing;
   std::optional<double> phase =
       {};  ///< letters from the first corner, or the end of a wall, to the drawing; none: 1/2 on
            ///< a vault with corners, so that no joint lies on a corner, else 0
@@ -108,6 +111,9 @@ struct DrawnBond {
 };
 constexpr auto enum_names(DrawnBond::LetterKind) {
   return std::array{"by_shape", "flat", "upright"};
+}
+constexpr auto enum_names(DrawnBond::Length) {
+  return std::array{"narrowing", "constant"};
 }
 
 using Bond = std::variant<RunningBond, StackBond, HerringboneBond, FillBond, DrawnBond>;

@@ -114,6 +114,10 @@ void declare_drawn_bond(Section& s, DrawnBond& bond) {
           "block, a point is empty");
   s.required_number("letter_length", bond.letter_length, {.unit = "m", .above = 0},
                     "length of a letter along the first bed, on the intrados");
+  s.choice(
+      "length", bond.length,
+      "of a letter in courses that shorten: it narrows with them, or is constant, so that each course has "
+      "a number of its own and begins anew at `phase`");
   s.integer("shift", bond.shift, {.min = -100000, .max = 100000},
             "letters by which the drawing moves along where it is repeated above itself");
   s.optional_number("phase", bond.phase, {.min = 0, .max = 100000}, kNoPhase,

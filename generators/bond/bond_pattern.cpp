@@ -59,6 +59,32 @@ void split_at_corners(const BondGrid& grid, BondPattern* pattern) {
   *pattern = std::move(split);
 }
 
+BondPattern stack_of_courses(const std::vector<BondPattern>& courses) {
+  BondPattern out;
+  out.num_rings = static_cast<int>(courses.size());
+  for (const BondPattern& course : courses) {
+    out.cuts_of_course.push_back(course.cuts);
+    if (course.cuts.size() > out.cuts.size()) out.cuts = course.cuts;
+  }
+  out.block_of.assign(static_cast<size_t>(out.num_rings) * out.num_slices(), kVoid);
+  for (int ring = 0; ring < out.num_rings; ++ring) {
+    const BondPattern& course = courses[static_cast<size_t>(ring)];
+    const int before = static_cast<int>(out.blocks.size());
+    out.blocks.insert(out.blocks.end(), course.blocks.begin(), course.blocks.end());
+    for (int slice = 0; slice < course.num_slices(); ++slice)
+      if (const int block = course.at(0, slice); block != kVoid) out.at(ring, slice) = before + block;
+  }
+  return out;
+}
+
+bool has_empty_cells(const BondPattern& pattern) {
+  for (int ring = 0; ring < pattern.num_rings; ++ring)
+    for (int slice = 0; slice < pattern.slices_of(ring); ++slice)
+      for (int wythe = 0; wythe < pattern.num_wythes; ++wythe)
+        if (pattern.at(ring, slice, wythe) == kVoid) return true;
+  return false;
+}
+
 void open_ring(double extent, double shift, BondPattern* pattern) {
   const double rounding = 1e-9 * extent;
   const int num_slices = pattern->num_slices();

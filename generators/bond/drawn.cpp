@@ -13,12 +13,17 @@ namespace {
 
 constexpr double kMostCellsOfDrawing = 2e7;
 
-/// Number of letters along a course.
+/// Drawings round a course of a length (m), or letters along a wall.
+double units_of(const DrawnBond& bond, int unit, double length) {
+  return std::max(1.0, std::round(length / (unit * bond.letter_length / bond.refine)));
+}
+
+/// Number of letters along the first course.
 int letters_of(const DrawnBond& bond, const BondGrid& grid) {
   constexpr double kLargestError = 0.05;  // of the length of a letter
   const double wanted = bond.letter_length / bond.refine;
   const int unit = grid.closed ? static_cast<int>(bond.rows.front().size()) : 1;
-  const double units = std::max(1.0, std::round(grid.length / (unit * wanted)));
+  const double units = units_of(bond, unit, grid.length);
   const double letters = units * unit, length = grid.length / letters;
   if (letters * grid.num_rings > kMostCellsOfDrawing)
     throw InputError(
@@ -46,12 +51,14 @@ double phase_of(const DrawnBond& bond, const BondGrid& grid) {
 /// The drawing on the cells of a course, which it covers from slice 0 on.
 class Laying {
  public:
-  Laying(const DrawnBond& bond, const BondGrid& grid, int num_letters, double phase)
+  /// `first_row`: of the drawing, on the first course of the grid.
+  Laying(const DrawnBond& bond, const BondGrid& grid, int num_letters, double phase, int first_row = 0)
       : bond_(bond),
         grid_(grid),
         drawing_({&bond}),
         num_letters_(num_letters),
-        offset_(static_cast<int>(std::floor(phase))) {
+        offset_(static_cast<int>(std::floor(phase))),
+        first_row_(first_row) {
     pattern_.num_rings = grid.num_rings;
     pattern_.cuts = equal_cuts(grid.extent, grid.closed ? grid.extent * (phase - offset_) / num_letters : 0.0,
                                num_letters);
@@ -67,7 +74,7 @@ class Laying {
   }
 
  private:
-  int kind_at(int ring, int slice) const { return drawing_.block_of(slice - offset_, ring, 0); }
+  int kind_at(int ring, int slice) const { return drawing_.block_of(slice - offset_, first_row_ + ring, 0); }
   int wrap(int slice) const { return grid_.closed ? (slice + num_letters_) % num_letters_ : slice; }
 
   void lay_block(int ring, int slice) {
@@ -138,10 +145,43 @@ class Laying {
   const DrawnBond& bond_;
   const BondGrid& grid_;
   BondDrawing drawing_;
-  int num_letters_, offset_;
+  int num_letters_, offset_, first_row_;
   BondPattern pattern_;
   std::vector<int> whole_width_;  // letters, of each block as drawn
 };
+
+/// Each course by itself, with its own number of letters.
+BondPattern lay_by_length(const DrawnBond& bond, const BondGrid& grid, double phase) {
+  const BondDrawing drawing({&bond});
+  for (const DrawnBlock& block : drawing.blocks())
+    if (block.height > 1)
+      throw InputError(fmt::format(
+          "geometry.bond.length = constant: a block of letters {} is {} courses high, but courses "
+          "differ in their numbers of letters; draw blocks of one course",
+          block.letter, block.height));
+  const int unit = static_cast<int>(bond.rows.front().size());
+  BondGrid course = grid;
+  course.num_rings = 1;
+  std::vector<BondPattern> courses;
+  for (int ring = 0; ring < grid.num_rings; ++ring) {
+    course.length = grid.lengths[static_cast<size_t>(ring)];
+    const double whole = unit * bond.letter_length / bond.refine;
+    if (course.length < 0.5 * whole)
+      throw InputError(
+          fmt::format("geometry.bond.length = constant: course {}, of {:.3g} m, is shorter than half a "
+                      "drawing of {:.3g} m; "
+                      "choose a larger eye or a shorter letter_length",
+                      ring, course.length, whole));
+    const int letters = unit * static_cast<int>(units_of(bond, unit, course.length));
+    courses.push_back(Laying(bond, course, letters, phase, ring).lay());
+    split_at_corners(course, &courses.back());
+    if (ring > 0 || !grid.round) continue;
+    course.corners.clear();  // in [0, extent), as the corners of a surface
+    for (int slice = 0; slice < courses.front().num_slices(); ++slice)
+      course.corners.push_back(std::fmod(courses.front().cuts[static_cast<size_t>(slice)], grid.extent));
+  }
+  return stack_of_courses(courses);
+}
 
 }  // namespace
 
@@ -153,6 +193,8 @@ BondPattern lay_drawing(const DrawnBond& bond, const BondGrid& grid, int num_let
 
 BondPattern drawn_bond(const DrawnBond& bond, const BondGrid& grid) {
   const int num_letters = letters_of(bond, grid);
+  const double phase = phase_of(bond, grid);
+  if (bond.length == DrawnBond::Length::constant) return lay_by_length(bond, grid, phase);
   const BondDrawing drawing({&bond});
   if (grid.closed)
     for (const DrawnBlock& block : drawing.blocks())
@@ -161,7 +203,7 @@ BondPattern drawn_bond(const DrawnBond& bond, const BondGrid& grid) {
             fmt::format("geometry.bond.rows: a block of {} letters {} does not fit into a ring of {}; make "
                         "letter_length shorter",
                         block.width, block.letter, num_letters));
-  return lay_drawing(bond, grid, num_letters, phase_of(bond, grid));
+  return lay_drawing(bond, grid, num_letters, phase);
 }
 
 }  // namespace cupola

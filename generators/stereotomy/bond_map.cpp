@@ -20,9 +20,10 @@ const char* colour(const CellGrid& grid, int block) {
   if (grid.is_support(block)) return "#b5b5b5";
   if (label.kind == BlockKind::herringbone) return label.truncated ? "#8c4a2f" : "#d9784b";
   if (label.member >= grid.num_wythes) return "#a9bf8c";
-  const auto [start, end] = slices_in_row(grid, block, grid.first_row(block));
+  const int row = grid.first_row(block);
+  const auto [start, end] = slices_in_row(grid, block, row);
   for (int cut = start + 1; cut < end; ++cut)
-    if (grid.is_corner(cut)) return "#7fa3c7";
+    if (grid.is_corner(row, cut)) return "#7fa3c7";
   return label.truncated ? "#cdb891" : "#e8dcc8";
 }
 
@@ -45,7 +46,7 @@ void draw_block(const CellGrid& grid, int block, const Scale& scale, std::string
     const auto slices = slices_in_row(grid, block, row);
     int end = row + 1;
     while (end <= grid.last_row(block) && slices_in_row(grid, block, end) == slices) ++end;
-    const double from = grid.abscissa(slices.first), to = grid.abscissa(slices.second);
+    const double from = grid.abscissa(row, slices.first), to = grid.abscissa(row, slices.second);
     draw(row, end, from, to);
     if (grid.surface.closed && to > grid.surface.extent + 1e-9)
       draw(row, end, from - grid.surface.extent, to - grid.surface.extent);

@@ -11,13 +11,21 @@ namespace cupola {
 namespace {
 
 void mark_corners(CellGrid* grid) {
-  grid->corner.assign(grid->num_slices + 1, 0);
   const double extent = grid->surface.extent;
-  for (int cut = 0; cut <= grid->num_slices; ++cut)
-    for (double corner : grid->surface.corners)
-      if (std::abs(grid->surface.closed ? std::remainder(grid->bond.cuts[cut] - corner, extent)
-                                        : grid->bond.cuts[cut] - corner) < 1e-9 * extent)
-        grid->corner[cut] = 1;
+  const auto mark = [&](const std::vector<double>& places, char as, const std::vector<double>& cuts,
+                        std::vector<char>* corner) {
+    for (size_t cut = 0; cut < cuts.size(); ++cut)
+      for (const double place : places)
+        if (std::abs(grid->surface.closed ? std::remainder(cuts[cut] - place, extent) : cuts[cut] - place) <
+            1e-9 * extent)
+          (*corner)[cut] = as;
+  };
+  for (int ring = 0; ring < (grid->bond.by_course() ? grid->bond.num_rings : 1); ++ring) {
+    const std::vector<double>& cuts = grid->bond.cuts_of(ring);
+    grid->corner.emplace_back(cuts.size(), '\0');
+    mark(grid->surface.facets, 1, cuts, &grid->corner.back());
+    mark(grid->surface.corners, 2, cuts, &grid->corner.back());
+  }
 }
 
 /// Wythes [start, end) that a block occupies.
@@ -45,7 +53,7 @@ bool is_box(const CellGrid& grid, int block) {
 void append_row(const CellGrid& grid, int row, std::pair<int, int> slices, std::pair<int, int> wythes,
                 std::vector<CellRange>* ranges) {
   for (int s = slices.first; s < slices.second; ++s) {
-    if (grid.surface.flat_slices && s > slices.first && !grid.is_corner(s))
+    if (grid.surface.flat_slices && s > slices.first && !grid.ends_facet(row, s))
       ranges->back().slice_end = s + 1;
     else
       ranges->push_back({row, row + 1, s, s + 1, wythes.first, wythes.second});
@@ -66,6 +74,28 @@ int owner_of(const CellGrid& grid, const CellRange& range) {
   return grid.owner(range.row_start, range.slice_start, range.wythe_start);
 }
 
+/// The cells of a course above or below that a range meets: those of the same cuts, or, where courses have
+/// cuts of their own, those between the same abscissae.
+CellRange in_row(const CellGrid& grid, const CellRange& range, int row) {
+  CellRange out = range;
+  out.row_start = row;
+  out.row_end = row + 1;
+  if (!grid.bond.by_course() || row < 0 || row >= grid.num_rows ||
+      grid.ring_index(row) == grid.ring_index(range.row_start))
+    return out;
+  const double rounding = 1e-9 * grid.surface.extent;
+  const double from = grid.abscissa(range.row_start, range.slice_start) + rounding,
+               to = grid.abscissa(range.row_start, range.slice_end) - rounding;
+  const std::vector<double>& cuts = grid.bond.cuts_of(grid.ring_index(row));
+  const double turns = std::floor((from - cuts.front()) / grid.surface.extent);
+  const auto above = std::ranges::upper_bound(cuts, from - turns * grid.surface.extent);
+  out.slice_start =
+      static_cast<int>(above - cuts.begin()) - 1 + static_cast<int>(turns) * grid.slices_of(row);
+  out.slice_end = out.slice_start + 1;
+  while (grid.abscissa(row, out.slice_end) < to) ++out.slice_end;
+  return out;
+}
+
 /// Kind of the face between a range and the cells `beyond` it: `joint` if one of them is built.
 FaceKind face_kind(const CellGrid& grid, const CellRange& range, const CellRange& beyond, FaceKind joint) {
   if (owner_of(grid, beyond) == owner_of(grid, range)) return FaceKind::internal;
@@ -75,9 +105,10 @@ FaceKind face_kind(const CellGrid& grid, const CellRange& range, const CellRange
 
 }  // namespace
 
-double CellGrid::abscissa(int cut) const {
-  if (!surface.closed) return bond.cuts[cut];
-  return bond.cuts[wrap(cut)] + (cut < 0 ? -surface.extent : cut >= num_slices ? surface.extent : 0.0);
+double CellGrid::abscissa(int row, int cut) const {
+  const std::vector<double>& cuts = bond.cuts_of(ring_index(row));
+  if (!surface.closed) return cuts[cut];
+  return cuts[wrap(row, cut)] + (cut < 0 ? -surface.extent : cut >= slices_of(row) ? surface.extent : 0.0);
 }
 
 std::pair<int, int> slices_in_row(const CellGrid& grid, int block, int row) {
@@ -106,7 +137,7 @@ CellGrid make_cell_grid(const SurfaceMap& surface, const BondPattern& bond, int 
   const int num_blocks = static_cast<int>(bond.blocks.size());
   grid.cells.resize(num_blocks);
   for (int row = 0; row < grid.num_rows; ++row)
-    for (int slice = 0; slice < grid.num_slices; ++slice)
+    for (int slice = 0; slice < grid.slices_of(row); ++slice)
       for (int wythe = 0; wythe < grid.num_wythes; ++wythe)
         if (const int block = grid.owner(row, slice, wythe); block != kVoid)
           grid.cells[block].push_back(grid.cell(row, slice, wythe));
@@ -153,9 +184,7 @@ std::vector<CellRange> convex_ranges(const CellGrid& grid, int block) {
 }
 
 FaceKind bed_kind(const CellGrid& grid, const CellRange& range, bool upper) {
-  CellRange beyond = range;
-  beyond.row_start = upper ? range.row_end : range.row_start - 1;
-  beyond.row_end = beyond.row_start + 1;
+  const CellRange beyond = in_row(grid, range, upper ? range.row_end : range.row_start - 1);
   const bool below = beyond.row_start < 0, above = beyond.row_start == grid.num_rows;
   if (grid.is_support(owner_of(grid, range)) && (below || above)) return FaceKind::free;
   if (below) return FaceKind::bed;

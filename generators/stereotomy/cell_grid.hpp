@@ -28,26 +28,34 @@ struct CellGrid {
   std::vector<std::vector<int>> cells;  ///< per bond block, ascending: see cell()
   std::vector<int> order;               ///< the bond blocks that are built, ring by ring in slot order
   std::vector<char> built;              ///< per bond block: 1 if it is built in this stage
-  std::vector<char> corner;  ///< per cut: 1 if two facets of the surface meet there; (num_slices + 1)
+  /// Per course with cuts of its own, else of all, and per cut: 1 if two facets of the surface meet there, 2
+  /// if they meet at one of its corners.
+  std::vector<std::vector<char>> corner;
 
-  int wrap(int slice) const { return surface.closed ? (slice + num_slices) % num_slices : slice; }
+  int ring_index(int row) const { return row / surface.rows_per_ring; }
+  int slices_of(int row) const { return bond.slices_of(ring_index(row)); }
+  int wrap(int row, int slice) const {
+    return surface.closed ? (slice + slices_of(row)) % slices_of(row) : slice;
+  }
   int cell(int row, int slice, int wythe) const { return (row * num_slices + slice) * num_wythes + wythe; }
   /// Bond block of a cell, or kVoid.
-  int owner(int row, int slice, int wythe) const {
-    return bond.at(row / surface.rows_per_ring, wrap(slice), wythe);
-  }
+  int owner(int row, int slice, int wythe) const { return bond.at(ring_index(row), wrap(row, slice), wythe); }
   bool is_built(int row, int slice, int wythe) const {
     const int block = owner(row, slice, wythe);
     return block != kVoid && built[block];
   }
-  bool is_corner(int cut) const { return corner[wrap(cut)]; }
-  int ring_of(int row) const {
-    return row / surface.rows_per_ring + surface.first_ring() + surface.rings_below;
-  }
+  bool is_corner(int row, int cut) const { return corner_at(row, cut) == 2; }
+  bool ends_facet(int row, int cut) const { return corner_at(row, cut) > 0; }
+  int ring_of(int row) const { return ring_index(row) + surface.first_ring() + surface.rings_below; }
   bool is_support(int block) const { return bond.blocks[block].kind == BlockKind::support; }
   int first_row(int block) const { return cells[block].front() / (num_slices * num_wythes); }
   int last_row(int block) const { return cells[block].back() / (num_slices * num_wythes); }
-  double abscissa(int cut) const;  ///< continues beyond the seam
+  double abscissa(int row, int cut) const;  ///< continues beyond the seam
+
+ private:
+  char corner_at(int row, int cut) const {
+    return corner[bond.by_course() ? ring_index(row) : 0][wrap(row, cut)];
+  }
 };
 
 /// With `stage_rings` > 0 only the blocks that begin below that ring of the surface are built.

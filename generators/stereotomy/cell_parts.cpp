@@ -23,7 +23,7 @@ void start_part(const CellGrid& grid, const CellRange& cells, Assembly* assembly
   Part part;
   part.block = static_cast<int>(assembly->blocks.size()) - 1;
   part.ring = assembly->blocks.back().fixed ? -1 : grid.ring_of(cells.row_start);
-  part.slice = grid.wrap(cells.slice_start);
+  part.slice = grid.wrap(cells.row_start, cells.slice_start);
   part.wythe = cells.wythe_start;
   part.face_start = assembly->num_faces();
   assembly->parts.push_back(part);
@@ -131,9 +131,10 @@ void add_parts(const CellGrid& grid, const CellRange& cells, GridPoints* points,
   for (const bool upper : {false, true})
     for (const bool outer : {false, true})
       for (const bool right : {false, true})
-        (outer ? cell.outer : cell.inner)[upper ? (right ? 2 : 3) : (right ? 1 : 0)] = points->vertex(
-            upper ? cells.row_end : cells.row_start, right ? cells.slice_end : cells.slice_start,
-            outer ? cells.wythe_end : cells.wythe_start, assembly);
+        (outer ? cell.outer : cell.inner)[upper ? (right ? 2 : 3) : (right ? 1 : 0)] =
+            points->vertex(cells.row_start, upper ? cells.row_end : cells.row_start,
+                           right ? cells.slice_end : cells.slice_start,
+                           outer ? cells.wythe_end : cells.wythe_start, assembly);
   cell.inner_kind = layer_kind(grid, cells, false);
   cell.outer_kind = layer_kind(grid, cells, true);
   cell.sides = {bed_kind(grid, cells, false), head_kind(grid, cells, true), bed_kind(grid, cells, true),

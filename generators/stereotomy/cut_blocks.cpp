@@ -29,14 +29,14 @@ int num_sails_of(const SurfaceMap& surface) {
 
 /// Sets the sail of the block's middle, the position in it, and whether a corner of the surface lies inside
 /// the block.
-void set_sail(const CellGrid& grid, std::pair<int, int> slices, Block* block) {
+void set_sail(const CellGrid& grid, int row, std::pair<int, int> slices, Block* block) {
   const SurfaceMap& surface = grid.surface;
   if (surface.sail_width == 0.0) return;
   const auto [start, end] = slices;
-  for (int cut = start + 1; cut < end; ++cut) block->rib = block->rib || grid.is_corner(cut);
+  for (int cut = start + 1; cut < end; ++cut) block->rib = block->rib || grid.is_corner(row, cut);
   const int num_sails = num_sails_of(surface);
-  const double middle =
-      (0.5 * (grid.abscissa(start) + grid.abscissa(end)) - surface.first_corner) / surface.sail_width;
+  const double middle = (0.5 * (grid.abscissa(row, start) + grid.abscissa(row, end)) - surface.first_corner) /
+                        surface.sail_width;
   const double sail =
       std::floor(middle + 1e-9);  // a middle on a corner belongs to the sail that begins there
   block->sail = (static_cast<int>(sail) % num_sails + num_sails) % num_sails;
@@ -55,7 +55,8 @@ Block make_block(const CellGrid& grid, int bond_block, double density) {
   block.ring = grid.ring_of(grid.first_row(bond_block));
   if (block.fixed) return block;
   block.num_rings = grid.ring_of(grid.last_row(bond_block)) - block.ring + 1;
-  set_sail(grid, slices_in_row(grid, bond_block, grid.first_row(bond_block)), &block);
+  const int row = grid.first_row(bond_block);
+  set_sail(grid, row, slices_in_row(grid, bond_block, row), &block);
   return block;
 }
 
@@ -73,10 +74,11 @@ void add_key_stone(const CellGrid& grid, int member, double density, GridPoints*
                              .slice = 0,
                              .face_start = assembly->num_faces()});
   std::vector<int> inner, outer;
-  for (int cut = 0; cut < grid.num_slices; ++cut) {
-    if (grid.surface.flat_slices && !grid.is_corner(cut)) continue;
-    inner.push_back(points->vertex(grid.num_rows, cut, 0, assembly));
-    outer.push_back(points->vertex(grid.num_rows, cut, grid.num_wythes, assembly));
+  const int last = grid.num_rows - 1;
+  for (int cut = 0; cut < grid.slices_of(last); ++cut) {
+    if (grid.surface.flat_slices && !grid.ends_facet(last, cut)) continue;
+    inner.push_back(points->vertex(last, grid.num_rows, cut, 0, assembly));
+    outer.push_back(points->vertex(last, grid.num_rows, cut, grid.num_wythes, assembly));
   }
   for (size_t i = 0; i < inner.size(); ++i) {
     const size_t j = (i + 1) % inner.size();
@@ -135,8 +137,6 @@ void reflect_sails(int num_sails, const MemberStart& start, Assembly* assembly) 
   }
 }
 
-/// The bodies of the cuts of a storey, in its coordinates.
-std::vector<CutBody> bodies_of(const Storey& storey, std::span<const Storey> storeys) {
 /// The bodies that mitres of other storeys take from a storey: what lies before their planes.
 std::vector<CutBody> bodies_of_mitres(const Storey& storey, std::span<const Storey> storeys) {
   std::vector<CutBody> bodies;
@@ -152,15 +152,17 @@ std::vector<CutBody> bodies_of_mitres(const Storey& storey, std::span<const Stor
   return bodies;
 }
 
+/// The bodies of the cuts of a storey, in its coordinates.
+std::vector<CutBody> bodies_of(const Storey& storey, std::span<const Storey> storeys) {
   std::vector<CutBody> bodies;
   for (size_t i = 0; i < storey.cuts.size(); ++i) {
     const Cut& cut = storey.cuts[i];
     const std::string key = fmt::format("{}.cuts[{}]", storey.key, i);
-    if (cut.kind != Cut::Kind::under && cut.kind != Cut::Kind::over) {
-      bodies.push_back({cut, {body_of(cut)}, key});
     if (cut.as == Cut::As::mitre &&
         (cut.member == storey.name || std::ranges::find(storeys, cut.member, &Storey::name) == storeys.end()))
       throw InputError(fmt::format("{}.member = {}: must be another member", key, cut.member));
+    if (cut.kind != Cut::Kind::under && cut.kind != Cut::Kind::over) {
+      bodies.push_back({cut, {body_of(cut)}, key});
       continue;
     }
     const auto other = std::ranges::find(storeys, cut.member, &Storey::name);
@@ -177,9 +179,9 @@ std::vector<CutBody> bodies_of_mitres(const Storey& storey, std::span<const Stor
     for (std::vector<Plane>& body : bodies.back().bodies)
       body = moved(std::move(body), storey.placement.inverse() * other->placement);
   }
+  std::ranges::move(bodies_of_mitres(storey, storeys), std::back_inserter(bodies));
   for (const Plane& limit : storey.limits)
     bodies.push_back({{}, {{{-limit.normal, -limit.offset}}}, storey.key + ".beside", true});
-  std::ranges::move(bodies_of_mitres(storey, storeys), std::back_inserter(bodies));
   return bodies;
 }
 
@@ -187,7 +189,7 @@ std::vector<CutBody> bodies_of_mitres(const Storey& storey, std::span<const Stor
 void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutOptions& options,
                 Assembly* assembly) {
   const SurfaceMap& surface = shell.surface;
-  const std::vector<double>& cuts = shell.bond.cuts;
+  const std::vector<double>& cuts = shell.bond.cuts_of(0);
   const size_t first_vertex = assembly->vertices.size();
   const MemberStart start{assembly->blocks.size(), assembly->parts.size()};
   const int first_face = assembly->num_faces();

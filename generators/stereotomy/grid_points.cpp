@@ -31,6 +31,9 @@ GridPoints::GridPoints(const CellGrid& grid, const std::optional<Imperfections>&
   if (grid.surface.key_stone && (gap_ > 0.0 || noise_ > 0.0))
     throw InputError(
         "imperfections: gap and noise are not available for a shell with a key stone; remove them");
+  if (grid.bond.by_course() && (gap_ > 0.0 || noise_ > 0.0))
+    throw InputError(
+        "imperfections: gap and noise are not available for a bond with length: constant; remove them");
   bed_noise_.assign(grid.num_rows + 1, 0.0);
   cut_noise_.assign(num_columns_, 0.0);
   skin_noise_.assign(static_cast<size_t>(grid.num_rows + 1) * num_columns_ * num_layers_, 0.0);
@@ -49,7 +52,7 @@ GridPoints::GridPoints(const CellGrid& grid, const std::optional<Imperfections>&
   for (int bed = 1; bed <= grid.num_rows - (grid.surface.carries ? 1 : 0); ++bed)
     bed_noise_[bed] = noise_ * symmetric(bed_field_, corner(bed, 0)) / metres_per_bed(bed, 0);
   for (int cut = 0; cut < num_columns_; ++cut)
-    if (!grid.is_corner(cut))
+    if (!grid.is_corner(0, cut))
       cut_noise_[cut] = noise_ * symmetric(cut_field_, corner(0, cut)) / metres_per_abscissa(0, cut);
   for (size_t k = 0; k < skin_noise_.size(); ++k) {
     const int layer = static_cast<int>(k) % num_layers_,
@@ -68,25 +71,25 @@ double GridPoints::symmetric(const std::optional<RandomField>& field, const Vec3
 }
 
 Vec3 GridPoints::corner(int bed, int cut) const {
-  return grid_.surface.intrados(bed, grid_.abscissa(cut));
+  return grid_.surface.intrados(bed, grid_.abscissa(0, cut));
 }
 
 double GridPoints::metres_per_bed(int bed, int cut) const {
   const int below = bed > 0 ? bed - 1 : 0;
-  const double a = grid_.abscissa(cut);
+  const double a = grid_.abscissa(0, cut);
   return (grid_.surface.intrados(below + 1, a) - grid_.surface.intrados(below, a)).norm();
 }
 
 double GridPoints::metres_per_abscissa(int bed, int cut) const {
   const int left = cut + 1 < num_columns_ || grid_.surface.closed ? cut : cut - 1;
-  const double a = grid_.abscissa(left), b = grid_.abscissa(left + 1);
+  const double a = grid_.abscissa(0, left), b = grid_.abscissa(0, left + 1);
   return (grid_.surface.intrados(bed, b) - grid_.surface.intrados(bed, a)).norm() / (b - a);
 }
 
-Vec3 GridPoints::point(double bed_shift, double cut_shift, int bed, int cut, int layer) const {
-  const int column = grid_.wrap(cut);
+Vec3 GridPoints::point(double bed_shift, double cut_shift, int row, int bed, int cut, int layer) const {
+  const int column = grid_.wrap(row, cut);
   const double b = bed + bed_noise_[bed] + bed_shift;
-  const double a = grid_.bond.cuts[column] + cut_noise_[column] + cut_shift;
+  const double a = grid_.abscissa(row, column) + cut_noise_[column] + cut_shift;
   Vec3 p = grid_.surface.point(b, a, layer);
   if (noise_ == 0.0) return p;
   const Vec3 across = grid_.surface.extrados(b, a) - grid_.surface.intrados(b, a);
@@ -94,10 +97,10 @@ Vec3 GridPoints::point(double bed_shift, double cut_shift, int bed, int cut, int
   return p + skin_noise_[corner] * across.normalized();
 }
 
-bool GridPoints::bulges_along_rising_diagonal(int bed, int cut) const {
-  const Vec3 origin = corner(bed, cut);
-  const Vec3 right = corner(bed, cut + 1) - origin, up = corner(bed + 1, cut) - origin;
-  const Vec3 opposite = corner(bed + 1, cut + 1) - origin;
+bool GridPoints::bulges_along_rising_diagonal(int row, int cut) const {
+  const Vec3 origin = corner(row, cut);
+  const Vec3 right = corner(row, cut + 1) - origin, up = corner(row + 1, cut) - origin;
+  const Vec3 opposite = corner(row + 1, cut + 1) - origin;
   // The height of the far corner above the plane of the other three, outwards.
   return right.cross(up).dot(opposite) >= 0.0;
 }
@@ -117,10 +120,19 @@ void GridPoints::make_shared(int first_layer, Assembly* assembly) {
   first_layer_ = first_layer;
   if (gap_ > 0.0) return;
   first_vertex_ = static_cast<int>(assembly->vertices.size());
-  for (int bed = 0; bed <= grid_.num_rows; ++bed)
-    for (int column = 0; column < num_columns_; ++column)
-      for (int layer = 0; layer < num_layers_; ++layer)
-        append(point(0.0, 0.0, bed, column, layer), bed, layer, assembly);
+  const int rows = grid_.surface.rows_per_ring;
+  const auto append_beds = [&](int row, int first_bed, int last_bed) {
+    const int columns = grid_.bond.by_course() ? grid_.slices_of(row) : num_columns_;
+    for (int bed = first_bed; bed <= last_bed; ++bed)
+      for (int column = 0; column < columns; ++column)
+        for (int layer = 0; layer < num_layers_; ++layer)
+          append(point(0.0, 0.0, row, bed, column, layer), bed, layer, assembly);
+  };
+  if (!grid_.bond.by_course()) return append_beds(0, 0, grid_.num_rows);
+  for (int row = 0; row < grid_.num_rows; row += rows) {
+    course_start_.push_back(static_cast<int>(assembly->vertices.size()) - first_vertex_);
+    append_beds(row, row, row + rows);
+  }
 }
 
 void GridPoints::start_block(int bond_block) {
@@ -139,9 +151,14 @@ void GridPoints::start_block(int bond_block) {
   sides_.right_gap = opening(corner(row, right), corner(top, right)) / metres_per_abscissa(row, right - 1);
 }
 
-int GridPoints::vertex(int bed, int cut, int layer, Assembly* assembly) {
+int GridPoints::vertex(int row, int bed, int cut, int layer, Assembly* assembly) {
   CUPOLA_ASSERT(bed >= 0 && bed <= grid_.num_rows);
-  if (gap_ == 0.0) return first_vertex_ + (bed * num_columns_ + grid_.wrap(cut)) * num_layers_ + layer;
+  if (grid_.bond.by_course()) {
+    const int ring = grid_.ring_index(row), from_first = bed - ring * grid_.surface.rows_per_ring;
+    return first_vertex_ + course_start_[ring] +
+           (from_first * grid_.slices_of(row) + grid_.wrap(row, cut)) * num_layers_ + layer;
+  }
+  if (gap_ == 0.0) return first_vertex_ + (bed * num_columns_ + grid_.wrap(row, cut)) * num_layers_ + layer;
   const auto [it, is_new] = own_.try_emplace({bed, cut, layer}, static_cast<int>(assembly->vertices.size()));
   if (!is_new) return it->second;
   const double bed_shift = bed == sides_.lower   ? sides_.lower_gap
@@ -150,7 +167,7 @@ int GridPoints::vertex(int bed, int cut, int layer, Assembly* assembly) {
   const double cut_shift = cut == sides_.left    ? sides_.left_gap
                            : cut == sides_.right ? -sides_.right_gap
                                                  : 0.0;
-  append(point(bed_shift, cut_shift, bed, cut, layer), bed, layer, assembly);
+  append(point(bed_shift, cut_shift, row, bed, cut, layer), bed, layer, assembly);
   return it->second;
 }
 

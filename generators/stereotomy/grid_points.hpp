@@ -30,6 +30,7 @@ class Random {
 ///   closed. The first bed, and the last bed of an arch or drum, stay where they are.
 /// - Gaps give every block its own corners. Its beds and heads move inwards by random fractions of gap / 2,
 ///   measured on the intrados.
+/// - Courses with cuts of their own have corners of their own.
 /// - With a correlation length the random numbers are functions of place: of the middle of a bed or head on
 ///   the intrados, of its end on the first cut or bed where a whole bed or head plane moves, and of each
 ///   corner.
@@ -42,23 +43,24 @@ class GridPoints {
   bool flat_skins() const { return grid_.surface.flat_skins && noise_ == 0.0; }
   /// Where skins are not plane: true if the layers of a cell bulge outwards along the diagonal from its lower
   /// left to its upper right corner, false if along the other.
-  bool bulges_along_rising_diagonal(int bed, int cut) const;
+  bool bulges_along_rising_diagonal(int row, int cut) const;
   /// Appends the shared vertices; call once, before the first block. If the shell has wythes, the layers of
   /// all vertices are counted from `first_layer`.
   void make_shared(int first_layer, Assembly* assembly);
   /// Call before the vertices of each block.
   void start_block(int bond_block);
-  /// Index of a corner of the current block; appends it if the block has its own corners.
-  int vertex(int bed, int cut, int layer, Assembly* assembly);
+  /// Index of a corner of the current block, on a bed of the course of `row`; appends it if the block has its
+  /// own corners.
+  int vertex(int row, int bed, int cut, int layer, Assembly* assembly);
 
  private:
   void append(const Vec3& point, int bed, int layer, Assembly* assembly) const;
-  Vec3 point(double bed_shift, double cut_shift, int bed, int cut, int layer) const;
+  Vec3 point(double bed_shift, double cut_shift, int row, int bed, int cut, int layer) const;
   double metres_per_bed(int bed, int cut) const;
   double metres_per_abscissa(int bed, int cut) const;
   double uniform(const std::optional<RandomField>& field, const Vec3& place);    ///< [0, 1)
   double symmetric(const std::optional<RandomField>& field, const Vec3& place);  ///< [-1, 1)
-  Vec3 corner(int bed, int cut) const;                                           ///< on the intrados
+  Vec3 corner(int bed, int cut) const;  ///< on the intrados; not of courses with cuts of their own
 
   const CellGrid& grid_;
   Eigen::Isometry3d placement_;
@@ -67,6 +69,7 @@ class GridPoints {
   std::optional<RandomField> gap_field_, bed_field_, cut_field_;  // none: independent numbers
   std::vector<std::optional<RandomField>> skin_fields_;           // one per layer
   int num_columns_ = 0, num_layers_ = 0, first_vertex_ = 0, first_layer_ = 0;
+  std::vector<int> course_start_;  // of courses with cuts of their own: vertices before theirs
   std::vector<double> bed_noise_, cut_noise_, skin_noise_;  // bed units, abscissa units, m
 
   struct Sides {

@@ -11,6 +11,7 @@
 #include "generators/bond/wythe_bond.hpp"
 #include "generators/stereotomy/opening_places.hpp"
 #include "generators/stereotomy/placement.hpp"
+#include "generators/surface/faceted.hpp"
 #include "generators/surface/make_surface.hpp"
 #include "generators/surface/window.hpp"
 
@@ -56,15 +57,15 @@ std::vector<double> course_heights(const SurfaceMap& surface) {
   return heights;
 }
 
-/// m, of the first bed, on the intrados.
-double length_of_first_bed(const SurfaceMap& surface) {
+/// m, of a bed, on the intrados.
+double length_of_bed(const SurfaceMap& surface, double bed) {
   constexpr int kSteps = 1000;  // beside the corners; the chords of a circle are 2e-6 too short
   std::vector<double> abscissae = surface.corners;
   for (int i = 0; i <= kSteps; ++i) abscissae.push_back(surface.extent * i / kSteps);
   std::ranges::sort(abscissae);
   double length = 0.0;
   for (size_t i = 1; i < abscissae.size(); ++i)
-    length += (surface.intrados(0, abscissae[i]) - surface.intrados(0, abscissae[i - 1])).norm();
+    length += (surface.intrados(bed, abscissae[i]) - surface.intrados(bed, abscissae[i - 1])).norm();
   return length;
 }
 
@@ -108,6 +109,27 @@ void lay_chains(const Geometry& geometry, const Member& member, const BondGrid& 
                       fmt::format("geometry.chains[{}]", c), bond);
 }
 
+/// True if the letters of a bond keep their length in courses that shorten. Throws InputError where they do
+/// not shorten, and for what requires joints in the same places in all courses.
+bool has_constant_length(const Geometry& geometry, const Member& member, bool closed) {
+  const auto is_constant = [](const Bond* bond) {
+    const auto* drawn = std::get_if<DrawnBond>(bond);
+    return drawn && drawn->length == DrawnBond::Length::constant;
+  };
+  if (std::ranges::none_of(bonds_of(member), is_constant)) return false;
+  const auto refuse = [](bool given, const char* what) {
+    if (given) throw InputError(fmt::format("geometry.bond.length = constant: {}", what));
+  };
+  refuse(!closed, "the courses of an open surface have one length; remove this key");
+  refuse(!member.wythes.empty(), "not available for wythes; give the shell one bond");
+  refuse(!member.openings.empty(), "not available with openings; cut windows by `cuts`");
+  refuse(geometry.window.has_value(), "not available with geometry.window; remove one of them");
+  for (const Chain& chain : geometry.chains)
+    refuse(chain.long_blocks > 0 && member_named(geometry, chain.member) == &member,
+           "not available with long_blocks of a chain; remove one of them");
+  return true;
+}
+
 /// A member in its own coordinates, as if it stood alone.
 Storey make_member(const Geometry& geometry, const Member& member, const std::string& key) {
   const bool last = &member == &last_member(geometry);
@@ -118,20 +140,30 @@ Storey make_member(const Geometry& geometry, const Member& member, const std::st
                            ? window_surface(member.surface, thicknesses(member.wythes), *geometry.window,
                                             courses, stage > 0 ? stage : courses, geometry.support_width)
                            : make_surface(member.surface, courses, thicknesses(member.wythes));
+  const SurfaceMap before_affine = surface;
   if (geometry.affine && surface.webs == 0) apply(*geometry.affine, &surface);
   if (surface.webs > 0 && stage > 0)
     throw InputError("geometry.stage: not available for a groin vault; remove this section");
   if (surface.webs > 0 && geometry.imperfections && geometry.imperfections->of_shape())
     throw InputError("imperfections: gap and noise are not available for a groin vault; remove them");
-  const BondGrid grid{surface.num_rings(),
-                      surface.closed,
-                      surface.extent,
-                      surface.corners,
-                      geometry.window.has_value(),
-                      stage,
-                      length_of_first_bed(surface),
-                      thickness_of_first_course(surface)};
+  BondGrid grid{surface.num_rings(),
+                surface.closed,
+                surface.extent,
+                surface.corners,
+                geometry.window.has_value(),
+                stage,
+                length_of_bed(surface, 0),
+                thickness_of_first_course(surface)};
+  if (has_constant_length(geometry, member, surface.closed)) {
+    grid.round = !surface.flat_slices;
+    for (int ring = 0; ring < surface.num_rings(); ++ring)
+      grid.lengths.push_back(length_of_bed(surface, ring * surface.rows_per_ring));
+  }
   BondPattern bond = lay_masonry(member, surface, grid);
+  if (grid.round) {
+    surface = faceted(before_affine, bond.cuts_of(0));
+    if (geometry.affine) apply(*geometry.affine, &surface);
+  }
   std::vector<std::string> names = names_of(geometry, member);
   lay_chains(geometry, member, grid, refinement, &bond);
   if (!member.openings.empty()) {

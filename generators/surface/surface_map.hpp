@@ -27,6 +27,7 @@ struct SurfaceMap {
   Sheet::ThrustLines thrust_lines = Sheet::ThrustLines::none;  ///< likewise
   double extent = 0.0;          ///< range of the abscissa: 2 pi, or the length in m
   std::vector<double> corners;  ///< ascending abscissae where facets meet, in [0, extent)
+  std::vector<double> facets;   ///< likewise, of a round surface made of plane facets; make_surface sets none
   double sail_width = 0.0;      ///< range of the abscissa over a sail; 0: the surface has no sails
   double first_corner = 0.0;    ///< abscissa where sail 0 begins
   double held_end = 0.0;        ///< range of the abscissa of the fixed masonry beyond each end; 0: none
