@@ -6,6 +6,7 @@
 
 #include "assembly/case/plausibility.hpp"
 #include "assembly/case/plausible_range.hpp"
+#include "assembly/model/applied_loads.hpp"
 #include "assembly/model/joint_rule.hpp"
 
 namespace cupola {
@@ -108,6 +109,29 @@ std::vector<std::string> lost_supports(const Case& scene, const Assembly& assemb
   return out;
 }
 
+/// Fill that hardly lies on anything. `weight`: of the free blocks, N.
+std::vector<std::string> idle_fill(const Loads& loads, const Assembly& assembly, double weight) {
+  constexpr double kIdle = 1e-3;  // of the weight: less changes no answer that a user sees
+  std::vector<std::string> out;
+  for (size_t i = 0; i < loads.faces.size(); ++i) {
+    if (!loads.faces[i].fill || loads.gravity.norm() == 0.0) continue;
+    Loads fill;
+    fill.gravity = loads.gravity;
+    fill.faces = {loads.faces[i]};
+    fill.faces[0].traction.setZero();
+    fill.faces[0].pressure = 0.0;
+    const std::vector<PointForce> forces = applied_loads(fill, assembly);
+    double down = 0.0;
+    for (const PointForce& force : forces) down -= force.force.z();
+    if (down >= kIdle * weight) continue;
+    out.push_back(fmt::format(
+        "loads.faces[{}].fill: up to z = {:g} m it weighs {:.3g} N, {:.1g} % of the blocks, on {} of their "
+        "faces; is the level that of the model, whose z counts from its own origin?",
+        i, loads.faces[i].fill->level, down, 100.0 * down / weight, forces.size()));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembly& assembly) {
@@ -137,6 +161,7 @@ std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembl
                       "m", 0.0, extent.size(), "", kMillimetres});
   std::vector<std::string> out = sentences(checks);
   for (std::string& text : cuts_beside(scene.postproc, points, extent)) out.push_back(std::move(text));
+  for (std::string& text : idle_fill(scene.loads, assembly, weight)) out.push_back(std::move(text));
   if (!varies(LimitSearch::Parameter::spread))
     for (std::string& text : lost_supports(scene, assembly)) out.push_back(std::move(text));
   return out;

@@ -14,14 +14,22 @@
 namespace cupola {
 namespace {
 
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
 /// Distributes a weight over the top faces by area, as forces along the unit vector `down` at the face
 /// centroids.
 void add_top_load(const Assembly& assembly, double weight, const Vec3& down, const char* key,
                   std::vector<PointForce>* forces) {
   CUPOLA_ASSERT(std::abs(down.norm() - 1.0) < 1e-9);
   const std::vector<LoadedFace> faces = faces_of_kind(assembly, std::array{FaceKind::top}, 0, kLastRing, "");
-  if (faces.empty())
-    throw InputError(fmt::format("loads.{}: the assembly has no faces of kind top to carry it", key));
+  if (faces.empty()) {
+    const auto highest = std::ranges::max_element(
+        assembly.blocks, {}, [](const Block& b) { return b.fixed ? -kFar : b.centroid.z(); });
+    throw InputError(fmt::format(
+        "loads.{}: the assembly has no faces of kind top to carry it; give it to the highest block as "
+        "loads.forces: [{{block: {}, force: [0, 0, {:.6g}]}}]",
+        key, highest - assembly.blocks.begin(), -weight));
+  }
   double total_area = 0.0;
   for (const LoadedFace& face : faces) total_area += face.area;
   for (const LoadedFace& face : faces)
@@ -131,19 +139,22 @@ void add_face_load(const FaceLoad& load, const Assembly& assembly, const Vec3& g
                                  load.member.empty() ? "" : " of " + load.member, load.from_ring,
                                  load.to_ring, to_string(load.faces)));
   const bool has_traction = load.traction.norm() > 0.0 || load.pressure != 0.0 || !load.fill;
+  const std::vector<bool> touched = load.fill ? touched_by_fill(faces) : std::vector<bool>();
   bool is_covered = !load.fill;
-  for (const LoadedFace& face : faces) {
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const LoadedFace& face = faces[i];
     if (has_traction)
       forces->push_back(
           {face.block, face.centroid, face.area * (load.traction - load.pressure * face.normal), time});
-    if (!load.fill) continue;
+    if (!load.fill || !touched[i]) continue;
     const auto [point, force] = fill_force(*load.fill, face, gravity);
     is_covered = is_covered || load.fill->stress(point.z()) > 0.0;
     if (force.norm() > 0.0) forces->push_back({face.block, point, force, time});
   }
   if (!is_covered)
-    throw InputError(fmt::format("loads.faces: the fill up to z = {:g} m covers none of the faces of kind {}",
-                                 load.fill->level, to_string(load.faces)));
+    throw InputError(
+        fmt::format("loads.faces: the fill up to z = {:g} m lies on none of the faces of kind {}",
+                    load.fill->level, to_string(load.faces)));
 }
 
 }  // namespace

@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace cupola {
 namespace {
 
 constexpr double kStandardGravity = 9.81;  // m/s2, as of Material::density
+constexpr double kUpright = 1e-9;          // cosine of a wall within rounding
+
+bool looks_up(const LoadedFace& face) {
+  return face.normal.z() > kUpright;
+}
 
 /// The part of a plane polygon with n.x <= offset; fewer than three points if there is none.
 std::vector<Vec3> below_plane(const std::vector<Vec3>& polygon, const Vec3& n, double offset) {
@@ -38,6 +44,41 @@ void integrate(const Fill& fill, const std::vector<Vec3>& polygon, double* sum, 
     *moment += area / 12.0 * (s * middle + sx);
   }
 }
+
+/// The columns above the faces that look up, by their least x.
+class Columns {
+ public:
+  explicit Columns(std::span<const LoadedFace> faces) {
+    for (const LoadedFace& face : faces) {
+      if (!looks_up(face)) continue;
+      const auto [low, high] = std::ranges::minmax(face.polygon, {}, [](const Vec3& p) { return p.x(); });
+      by_low_x_.emplace(low.x(), &face);
+      widest_ = std::max(widest_, high.x() - low.x());
+    }
+  }
+
+  /// True if a face lies below the point or at it.
+  bool contain(const Vec3& point) const {
+    const auto end = by_low_x_.upper_bound(point.x());
+    for (auto i = by_low_x_.lower_bound(point.x() - widest_); i != end; ++i)
+      if (lies_below(*i->second, point)) return true;
+    return false;
+  }
+
+ private:
+  static bool lies_below(const LoadedFace& face, const Vec3& point) {
+    if (face.normal.dot(point - face.centroid) < 0.0) return false;
+    for (size_t i = 0; i < face.polygon.size(); ++i) {
+      const Vec3 side = face.polygon[(i + 1) % face.polygon.size()] - face.polygon[i],
+                 to = point - face.polygon[i];
+      if (side.x() * to.y() - side.y() * to.x() < 0.0) return false;  // in plan
+    }
+    return true;
+  }
+
+  std::multimap<double, const LoadedFace*> by_low_x_;
+  double widest_ = 0.0;  // m
+};
 
 }  // namespace
 
@@ -85,14 +126,25 @@ Resultant fill_force(const Fill& fill, const LoadedFace& face, const Vec3& gravi
               (std::max(face.normal.z(), 0.0) * gravity + fill.horizontal * gravity.z() * level_normal)};
 }
 
+std::vector<bool> touched_by_fill(std::span<const LoadedFace> faces) {
+  constexpr double kOutside = 0.01;  // of the size of a face: nearer than that a column lies against it
+  const Columns columns(faces);
+  std::vector<bool> touched;
+  for (const LoadedFace& face : faces) {
+    const Vec3 outwards(face.normal.x(), face.normal.y(), 0.0);
+    touched.push_back(looks_up(face) || columns.contain(face.centroid + kOutside * std::sqrt(face.area) *
+                                                                            outwards.stableNormalized()));
+  }
+  return touched;
+}
+
 std::vector<SpreadShare> spread_shares(const Spread& spread, const Vec3& point,
                                        std::span<const LoadedFace> faces) {
   std::vector<SpreadShare> shares;
   double sum = 0.0;
   for (const LoadedFace& face : faces) {
     const double depth = point.z() - face.centroid.z();
-    constexpr double kUpright = 1e-9;  // rounding of walls
-    if (face.normal.z() <= kUpright || depth < 0.0) continue;
+    if (!looks_up(face) || depth < 0.0) continue;
     const double along_x = spread.x + 2.0 * spread.slope * depth,
                  along_y = spread.y + 2.0 * spread.slope * depth;
     std::vector<Vec3> loaded = face.polygon;

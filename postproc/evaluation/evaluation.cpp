@@ -14,6 +14,7 @@
 #include "assembly/files/content_hash.hpp"
 #include "assembly/model/thickness.hpp"
 #include "postproc/evaluation/meridians.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 
 namespace cupola {
 namespace {
@@ -116,6 +117,23 @@ void count_lost_joints(const ResultsReader& results, Evaluation* e) {
     e->warnings.push_back(
         fmt::format("{} that carried force in the first frame separated completely before the last",
                     counted(*e->lost_joints, "joint")));
+}
+
+/// Fill that presses harder from the side than a vault pushes back holds it up.
+void warn_of_props(Evaluation* e) {
+  const bool presses = std::ranges::any_of(
+      e->scene.loads.faces, [](const FaceLoad& load) { return load.fill && load.fill->horizontal > 0.0; });
+  if (!presses || !at_rest(*e) || e->summary.critical || !e->summary.ranges.empty() || e->rings.empty())
+    return;
+  for (const Sheet& sheet : e->assembly.sheets) {
+    const double thrust = e->rings.at(e->assembly.stack_of(sheet.first_ring).first).radial_thrust;
+    if (sheet.thrust_lines == Sheet::ThrustLines::none || thrust >= 0.0) continue;
+    e->warnings.push_back(fmt::format(
+        "{} pushes inwards with {}: the horizontal pressure of the fill holds it, and must come from a real "
+        "mass behind the fill; does it stand with `horizontal: 0`?",
+        sheet.name, force_text(-thrust)));
+    return;
+  }
 }
 
 /// N, force that an equilibrium leaves unbalanced on a block.
@@ -310,6 +328,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   const std::vector<bool> left_out = blocks_left_out(e);
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
                       e.last.frame.ties, left_out);
+  warn_of_props(&e);
   if (at_rest(e)) e.cracks = shell_cracks(e.assembly, e.last.frame.contacts, e.last.joints, e.axes);
   e.reactions = support_reactions(e.assembly, e.last.joints, e.axes);
   e.parts = connected_parts(e.assembly, e.last.joints);

@@ -1,5 +1,6 @@
 #include "assembly/model/applied_loads.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
@@ -93,7 +94,9 @@ TEST(AppliedLoads, LoadsWithoutABlockOrFaceAreRefused) {
     if (kind == FaceKind::top) kind = FaceKind::free;
   loads.lantern = TopLoad{0.1};
   EXPECT_EQ(refusal_of(loads, assembly),
-            "error: loads.lantern: the assembly has no faces of kind top to carry it");
+            fmt::format("error: loads.lantern: the assembly has no faces of kind top to carry it; give it to "
+                        "the highest block as loads.forces: [{{block: 1, force: [0, 0, {:.6g}]}}]",
+                        -0.1 * free_weight(assembly, 9.81)));
 }
 
 }  // namespace

@@ -46,6 +46,23 @@ TEST(Fill, PressesSidewaysByItsShare) {
   EXPECT_NEAR(of_below.force.x(), -0.4 * 20e3 * 8.0 * 4.0, 1e-9);
 }
 
+// Fill lies on the tread of a step, and so against its riser and under an overhang above the tread, not against
+// the free sides of the wall below the step, nor below an overhang above nothing.
+TEST(Fill, TouchesWhatItLiesOnOrAgainst) {
+  const LoadedFace tread = face_of({{0, 0, 0}, {1, 0, 0}, {1, 4, 0}, {0, 4, 0}}),
+                   riser = face_of({{0, 0, 0}, {0, 4, 0}, {0, 4, 2}, {0, 0, 2}}),
+                   overhang = face_of({{0, 0, 2}, {0, 4, 2}, {0.5, 4, 3}, {0.5, 0, 3}}),
+                   outer = face_of({{1, 4, 0}, {1, 0, 0}, {1, 0, -3}, {1, 4, -3}}),
+                   inner = face_of({{-1, 0, 0}, {-1, 4, 0}, {-1, 4, -3}, {-1, 0, -3}}),
+                   end = face_of({{0, 4, 0}, {1, 4, 0}, {1, 4, -3}, {0, 4, -3}});
+  ASSERT_EQ(riser.normal, Vec3::UnitX());
+  ASSERT_EQ(outer.normal, Vec3::UnitX());
+  ASSERT_LT(overhang.normal.z(), 0.0);
+  EXPECT_EQ(touched_by_fill(std::vector{tread, riser, overhang, outer, inner, end}),
+            (std::vector{true, true, true, false, false, false}));
+  EXPECT_EQ(touched_by_fill(std::vector{riser, overhang, outer}), (std::vector{false, false, false}));
+}
+
 // Layers add up: backing up to 1 m, and soil above it that rests on the backing or on the face.
 TEST(Fill, LayersAddUp) {
   const Fill backing{.level = 1.0, .from = {}, .unit_weight = 20e3},
