@@ -79,6 +79,15 @@ Eigen::Isometry3d reflection_in(const Mirror& mirror) {
   return motion;
 }
 
+/// True if the plane of a mirror is that of symmetry of an arch: it halves the distance of its springings.
+bool maps_onto_itself(const Mirror& mirror, const Storey& arch) {
+  constexpr double kRounding = 1e-9;  // m per m
+  const Vec3 first = arch.placement * arch.surface.intrados(0, 0.0),
+             last = arch.placement * arch.surface.intrados(arch.surface.num_rows, 0.0);
+  const Vec3 image = reflection_in(mirror) * first;
+  return (image - last).norm() <= kRounding * (first.norm() + last.norm());
+}
+
 }  // namespace
 
 Eigen::Isometry3d placement_at(const Place& place) {
@@ -87,7 +96,7 @@ Eigen::Isometry3d placement_at(const Place& place) {
          Eigen::AngleAxisd(place.rotate_deg * kRadians, Eigen::Vector3d::UnitZ());
 }
 
-void stand_on(const std::string& key, const std::optional<Copies>& copies, Storey* lower, Storey* storey) {
+void stand_on(const std::string& key, const Member& bearer, Storey* lower, Storey* storey) {
   const std::string on = fmt::format("{}.on = {}: ", key, lower->name);
   if (lower->surface.carries)
     throw InputError(on + "nothing can stand on its last bed, behind which a support or a key stone lies");
@@ -97,12 +106,18 @@ void stand_on(const std::string& key, const std::optional<Copies>& copies, Store
   if (storey->surface.webs > 0) {
     const double rise = lower->placement.translation().z() + top -
                         level_of_springers(*storey, on + "the first beds of " + storey->name);
-    const Vec3 axis = copies && copies->about ? *copies->about : lower->placement.translation();
+    const bool turned = bearer.copies && bearer.copies->about;
+    const Vec3 axis = turned ? *bearer.copies->about : lower->placement.translation();
     storey->placement = Eigen::Translation3d(axis.x(), axis.y(), rise);
     return;
   }
   const double foot = level_of(storey->surface, 0.0, on + "the first bed of " + storey->name);
   storey->placement = lower->placement * Eigen::Translation3d(0.0, 0.0, top - foot);
+  if (storey->surface.last_bed_held && bearer.mirror && maps_onto_itself(*bearer.mirror, *storey)) {
+    level_of(storey->surface, storey->surface.num_rows, on + "the last bed of " + storey->name);
+    storey->surface.last_bed_held = false;
+    return;
+  }
   storey->stands_on_previous = true;
 }
 

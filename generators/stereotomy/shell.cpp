@@ -205,12 +205,12 @@ std::vector<Storey> make_storeys(const Geometry& geometry) {
       if (members[i]->at) storey.placement = placement_at(*members[i]->at);
       if (members[i]->beside) stand_beside(*members[i]->beside, storey.key, storeys, &storey);
     } else {
-      stand_on(storey.key, members[first]->copies, &storeys.back(), &storey);
+      stand_on(storey.key, *members[first], &storeys.back(), &storey);
       if (!storey.stands_on_previous) copy_stack(*members[first], first_storey, &storeys);
     }
     if (!storeys.empty())
       storey.surface.rings_below = storeys.back().surface.rings_below + storeys.back().num_rings();
-    if (!storey.stands_on_previous) {  // a stack begins; a groin vault stands on several
+    if (!storey.stands_on_previous) {  // a stack begins, perhaps on several others
       first = i;
       first_storey = storeys.size();
     }

@@ -68,6 +68,53 @@ TEST(Members, MayStandAnywhere) {
   EXPECT_LT((b.blocks.back().centroid - moved_first).norm(), 1e-12);
 }
 
+// A barrel whose plane of symmetry is that of the mirror of a wall stands on the wall and on its image, without
+// supports of its own: its outward direction is that of its own axis.
+TEST(Members, ABarrelStandsOnAWallAndItsMirrorImage) {
+  Member wall = tower("wall", 6.0);
+  auto& low = std::get<VaultSurface>(wall.surface);
+  low.plan.kind = Plan::Kind::line;
+  low.plan.length = 5.0;
+  wall.bond = RunningBond{4, 3, 2};
+  wall.at = Place{{20.0, 3.0, 1.0}, 30.0};
+  const Vec3 across = Eigen::AngleAxisd(std::numbers::pi / 6.0, Vec3::UnitZ()) * Vec3::UnitX();
+  wall.mirror = Mirror{Vec3(20.0, 3.0, 0.0), across};
+  Member barrel = wall;
+  barrel.name = "barrel";
+  barrel.on = "wall";
+  barrel.at.reset();
+  barrel.mirror.reset();
+  auto& vault = std::get<VaultSurface>(barrel.surface);
+  vault.profile.kind = Profile::Kind::segmental;
+  vault.profile.rise = 1.5;
+  vault.thickness = 0.4;
+  vault.beds = VaultSurface::Beds::given;
+  vault.bed_angles_deg = {0.0, 90.0};
+  barrel.bond = RunningBond{11, 3, 2};
+  ModelReport report;
+  const Assembly assembly = check_and_report(members_case({wall, barrel}), &report);
+  EXPECT_EQ(report.islands, 1);
+  EXPECT_EQ(report.num_supports, 2) << "of the walls";
+  ASSERT_EQ(assembly.sheets.size(), 3u);
+  EXPECT_EQ(assembly.sheets[2].name, "barrel");
+  EXPECT_FALSE(assembly.sheets[2].on_previous);
+  EXPECT_LT((assembly.outward(8, Vec3(20.0, 3.0, 5.0) + across) - across).norm(), 1e-14);
+  // Beside the mirror's plane each wall bears a barrel of its own, with a support behind its other springing.
+  wall.mirror->point += 10.0 * across;
+  check_and_report(members_case({wall, barrel}), &report);
+  EXPECT_EQ(report.num_supports, 4);
+  vault.beds = VaultSurface::Beds::normal;
+  vault.bed_angles_deg.clear();
+  wall.mirror->point -= 10.0 * across;
+  try {
+    check_and_report(members_case({wall, barrel}), &report);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the first bed of barrel is not level"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Members, SideBySideAreStacksOfTheirOwn) {
   Member east = tower("east", 6.0), west = tower("west", 6.0);
   west.at = Place{{-11.0, 0.0, 0.0}, 0.0};
