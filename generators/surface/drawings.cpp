@@ -370,7 +370,8 @@ Drawing drawing_of(const VaultSurface& vault) {
   if (last.x() - drawing.drawn_depth < rounding)
     throw InputError(fmt::format(
         "geometry.surface.eye = {}: the profile reaches the axis at z = {:.6g} m; give the radius of an eye, "
-        "or of the key stone that closes it (key_stone: true), above {:.3g} m",
+        "or of the key stone that closes it (key_stone: true), above {:.3g} m; a solid tip on level beds is "
+        "loads.lantern: {{weight: N}}",
         vault.eye, last.y(), drawing.drawn_depth));
   return drawing;
 }

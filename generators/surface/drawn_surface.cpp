@@ -314,7 +314,8 @@ SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
                                kFlattest * drawing.thickness)
     throw InputError(
         "geometry.surface.key_stone = true: the last bed is level there, so that nothing would hold the "
-        "stone");
+        "stone; give beds: normal, or leave out key_stone and give what lies on the last bed as "
+        "loads.lantern: {weight: N}");
   return surface;
 }
 

@@ -321,6 +321,14 @@ TEST(DrawnErrors, NameTheKeyAndThePlace) {
   open.eye = 0.0;
   EXPECT_NE(error_of(open).find("geometry.surface.eye = 0: the profile reaches the axis at z = 5 m"),
             std::string::npos);
+  EXPECT_NE(error_of(open).find("a solid tip on level beds is loads.lantern: {weight: N}"),
+            std::string::npos);
+  VaultSurface level = vault_on(Plan::Kind::circle, profile_of(Kind::semicircle));
+  level.eye = 1.0;
+  level.key_stone = true;
+  level.beds = VaultSurface::Beds::level;
+  EXPECT_NE(error_of(level).find("give beds: normal, or leave out key_stone"), std::string::npos)
+      << error_of(level);
   VaultSurface folds = vault_on(Plan::Kind::line, profile_of(Kind::semicircle, 1.0), 1.0);
   folds.line = VaultSurface::Line::extrados;
   EXPECT_NE(error_of(folds).find("has a radius of 0.5 m"), std::string::npos);
