@@ -10,21 +10,26 @@
 namespace cupola {
 namespace {
 
+/// Marks the cuts at these places, on a closed surface also an extent before and behind them.
+void mark_cuts(const SurfaceMap& surface, const std::vector<double>& places, char as,
+               const std::vector<double>& cuts, std::vector<char>* corner) {
+  const double rounding = 1e-9 * surface.extent;
+  for (const double place : places)
+    for (const double turn : {-surface.extent, 0.0, surface.extent}) {
+      if (!surface.closed && turn != 0.0) continue;
+      const double at = place + turn;
+      for (auto cut = std::ranges::upper_bound(cuts, at - rounding);
+           cut != cuts.end() && *cut < at + rounding; ++cut)
+        (*corner)[static_cast<size_t>(cut - cuts.begin())] = as;
+    }
+}
+
 void mark_corners(CellGrid* grid) {
-  const double extent = grid->surface.extent;
-  const auto mark = [&](const std::vector<double>& places, char as, const std::vector<double>& cuts,
-                        std::vector<char>* corner) {
-    for (size_t cut = 0; cut < cuts.size(); ++cut)
-      for (const double place : places)
-        if (std::abs(grid->surface.closed ? std::remainder(cuts[cut] - place, extent) : cuts[cut] - place) <
-            1e-9 * extent)
-          (*corner)[cut] = as;
-  };
   for (int ring = 0; ring < (grid->bond.by_course() ? grid->bond.num_rings : 1); ++ring) {
     const std::vector<double>& cuts = grid->bond.cuts_of(ring);
     grid->corner.emplace_back(cuts.size(), '\0');
-    mark(grid->surface.facets, 1, cuts, &grid->corner.back());
-    mark(grid->surface.corners, 2, cuts, &grid->corner.back());
+    mark_cuts(grid->surface, grid->surface.facets, 1, cuts, &grid->corner.back());
+    mark_cuts(grid->surface, grid->surface.corners, 2, cuts, &grid->corner.back());
   }
 }
 

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
+#include "generators/stereotomy/separation.hpp"
 #include "generators/surface/profile.hpp"
 #include "tests/generators/models.hpp"
 
@@ -201,6 +202,40 @@ TEST(ConstantLength, BeginsEveryCourseAtItsPhase) {
     const double expected = start + (block.ring % 2 == 0 ? letter : 2.0 * letter);
     EXPECT_NEAR(std::remainder(middle - expected, 2.0 * letter), 0.0, 0.02 * letter) << block.ring;
   }
+}
+
+/// True if a block shares a patch with a face from its other side.
+bool meets_a_block(const Assembly& assembly, int block, int face) {
+  const std::vector<Vec3> points = face_points(assembly, face);
+  const Plane plane = polygon_plane(points);
+  return std::ranges::any_of(assembly.parts, [&](const Part& part) {
+    if (part.block == block) return false;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const std::vector<Vec3> other = face_points(assembly, f);
+      if (polygon_plane(other).normal.dot(plane.normal) > -1.0 + 1e-9) continue;
+      if (std::abs(plane.normal.dot(other.front()) - plane.offset) > 1e-9) continue;
+      if (overlap_width(points, other, plane.normal) > 1e-9) return true;
+    }
+    return false;
+  });
+}
+
+// Every fourth place of the even courses is empty, so that beds above and below them are free.
+TEST(ConstantLength, KindsOfFacesSayWhatLiesBehindThem) {
+  DrawnBond bond = bricks(5, 0.5);
+  bond.rows = {"cddc", "aa.b"};
+  const Assembly assembly = cut_assembly(case_of(vault(Plan::Kind::circle), bond));
+  std::map<FaceKind, int> count;
+  for (const Part& part : assembly.parts) {
+    if (assembly.blocks[part.block].fixed) continue;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const FaceKind kind = assembly.face_kinds[f];
+      if (kind != FaceKind::bed && kind != FaceKind::head && kind != FaceKind::free) continue;
+      ++count[kind];
+      EXPECT_EQ(meets_a_block(assembly, part.block, f), kind != FaceKind::free) << "face " << f;
+    }
+  }
+  for (const FaceKind kind : {FaceKind::bed, FaceKind::head, FaceKind::free}) EXPECT_GT(count[kind], 10);
 }
 
 TEST(ConstantLength, NamesWhatDoesNotFit) {
