@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -59,22 +60,22 @@ std::string text_of(const RangeEnd& end) {
   return end.value ? fmt::format("{:.10g}", *end.value) : to_string(end.outcome);
 }
 
-/// Both ends of every objective; frames are written in their order.
+/// Both ends of every objective, first all greatest values; frames are written in their order.
 class RangeSearchRun {
  public:
   RangeSearchRun(const RigidScene& scene, const std::vector<RangeObjective>& objectives, const Case& of_case,
-                 const AnalysisSinks& sinks)
-      : scene_(scene), objectives_(objectives), states_(of_case.analysis.range.states), sinks_(sinks) {
-    if (const int sectors = of_case.analysis.cyclic_sectors; sectors > 1) sector_.emplace(scene, sectors);
-  }
+                 const AnalysisSinks& sinks);
 
-  /// Solves all ends, as many at once as there are threads. False if the user wants to stop.
+  /// Solves the ends, as many at once as there are threads. False if the user wants to stop.
   [[nodiscard]] bool run(std::vector<ForceRange>* ranges);
   int solves() const { return solves_; }
   int iterations() const { return iterations_; }
   int of_sector() const { return of_sector_; }  ///< ranges for which one sector was solved
 
  private:
+  bool run(double towards, const std::vector<int>& ends, std::vector<ForceRange>* ranges);
+  std::vector<int> least_to_solve(std::vector<ForceRange>* ranges) const;
+  void find_vanishing(const RangeSolution& state);
   void write_frame(const std::string& end, RangeSolution* solution);
 
   const RigidScene& scene_;
@@ -82,9 +83,23 @@ class RangeSearchRun {
   const bool states_;
   const AnalysisSinks& sinks_;
   std::optional<SectorProblem> sector_;
-  int frames_ = 1;  // frame 0 is written before
+  std::vector<SparseX> never_less_;  ///< coefficients_in_dual_cone() of the objectives
+  std::vector<char> vanishes_;       ///< in a state of another end
+  int frames_ = 1;                   // frame 0 is written before
   int solves_ = 0, iterations_ = 0, of_sector_ = 0;
 };
+
+RangeSearchRun::RangeSearchRun(const RigidScene& scene, const std::vector<RangeObjective>& objectives,
+                               const Case& of_case, const AnalysisSinks& sinks)
+    : scene_(scene),
+      objectives_(objectives),
+      states_(of_case.analysis.range.states),
+      sinks_(sinks),
+      vanishes_(objectives.size(), 0) {
+  if (const int sectors = of_case.analysis.cyclic_sectors; sectors > 1) sector_.emplace(scene, sectors);
+  for (const RangeObjective& objective : objectives)
+    never_less_.push_back(coefficients_in_dual_cone(scene, objective));
+}
 
 /// `end`: "least thrust".
 void RangeSearchRun::write_frame(const std::string& end, RangeSolution* solution) {
@@ -96,36 +111,65 @@ void RangeSearchRun::write_frame(const std::string& end, RangeSolution* solution
   sinks_.frame(frame);
 }
 
-bool RangeSearchRun::run(std::vector<ForceRange>* ranges) {
+void RangeSearchRun::find_vanishing(const RangeSolution& state) {
+  constexpr double kNothing = 1e-9;  // of one block's weight; ConicOptions::tolerance
+  if (!state.admissible) return;
+  for (size_t i = 0; i < objectives_.size(); ++i) {
+    if (vanishes_[i] || never_less_[i].nonZeros() == 0) continue;
+    if (objectives_[i].mean_of_images && !state.of_sector) continue;
+    vanishes_[i] = never_less_[i].dot(state.gamma) <= kNothing * scene_.model.block_weight;
+  }
+}
+
+/// Those that no state found so far attains, or all where each shall have its own state.
+std::vector<int> RangeSearchRun::least_to_solve(std::vector<ForceRange>* ranges) const {
+  std::vector<int> ends;
+  for (size_t i = 0; i < objectives_.size(); ++i) {
+    const double least = objectives_[i].value.constant;
+    if (vanishes_[i] && !states_)
+      (*ranges)[i].min = {RangeOutcome::bounded, least, least, {}};
+    else
+      ends.push_back(static_cast<int>(i));
+  }
+  return ends;
+}
+
+bool RangeSearchRun::run(double towards, const std::vector<int>& ends, std::vector<ForceRange>* ranges) {
   constexpr double kWork = 1e12;  // of one batch: always worth all threads
-  const int count = static_cast<int>(objectives_.size());
+  const int count = static_cast<int>(ends.size());
   constexpr int kSolvesPerThread = 8;  // of a batch, which ends when the last of them does
-  const int batch = num_threads() == 1 ? 1 : num_threads() * kSolvesPerThread / 2;
+  const int batch = num_threads() == 1 ? 1 : num_threads() * kSolvesPerThread;
+  const std::string name = towards > 0.0 ? "least" : "greatest";
   for (int first = 0; first < count; first += batch) {
     if (sinks_.interrupted()) return false;
     const int size = std::min(batch, count - first);
-    std::vector<RangeSolution> found(static_cast<size_t>(2 * size));
-    share_loop(kWork, 2 * size, [&](int i) {
-      found[i] = range_end(scene_, objectives_[first + i / 2], i % 2 == 0 ? 1.0 : -1.0,
-                           sector_ ? &*sector_ : nullptr);
+    std::vector<RangeSolution> found(static_cast<size_t>(size));
+    share_loop(kWork, size, [&](int i) {
+      found[i] = range_end(scene_, objectives_[ends[first + i]], towards, sector_ ? &*sector_ : nullptr);
     });
     for (int i = 0; i < size; ++i) {
-      const RangeObjective& objective = objectives_[first + i];
-      ForceRange range{objective.quantity, objective.unit, {}, {}, {}, objective.joint};
-      of_sector_ += found[2 * i].of_sector ? 1 : 0;
-      write_frame("least " + range.quantity, &found[2 * i]);
-      write_frame("greatest " + range.quantity, &found[2 * i + 1]);
-      solves_ += 2;
-      iterations_ += found[2 * i].iterations + found[2 * i + 1].iterations;
-      range.min = found[2 * i].end;
-      range.max = found[2 * i + 1].end;
-      ranges->push_back(range);
-      sinks_.log(fmt::format("range {:4d} of {}  {:<36} {:>18} ... {:<18} {}", first + i + 1, count,
-                             range.quantity, text_of(range.min), text_of(range.max), range.unit));
-      sinks_.progress(static_cast<double>(first + i + 1) / count, range.quantity);
+      ForceRange& range = (*ranges)[ends[first + i]];
+      of_sector_ += found[i].of_sector && towards < 0.0 ? 1 : 0;
+      write_frame(fmt::format("{} {}", name, range.quantity), &found[i]);
+      find_vanishing(found[i]);
+      ++solves_;
+      iterations_ += found[i].iterations;
+      (towards > 0.0 ? range.min : range.max) = found[i].end;
+      sinks_.log(fmt::format("{:<8} end {:4d} of {}  {:<36} {:>18} {}", name, first + i + 1, count,
+                             range.quantity, text_of(found[i].end), range.unit));
+      sinks_.progress(0.5 * (static_cast<double>(first + i + 1) / count + (towards > 0.0 ? 1.0 : 0.0)),
+                      range.quantity);
     }
   }
   return true;
+}
+
+bool RangeSearchRun::run(std::vector<ForceRange>* ranges) {
+  std::vector<int> all(objectives_.size());
+  std::iota(all.begin(), all.end(), 0);
+  for (const RangeObjective& objective : objectives_)
+    ranges->push_back({objective.quantity, objective.unit, {}, {}, {}, objective.joint});
+  return run(-1.0, all, ranges) && run(1.0, least_to_solve(ranges), ranges);
 }
 
 /// Fills in the values of the chosen state, whose contacts may be others.

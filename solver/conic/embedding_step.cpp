@@ -161,11 +161,16 @@ EmbeddingStep Embedding::corrector(const EmbeddingResiduals& r, double sigma,
   return direction(r, sigma, targets);
 }
 
-/// Removes what rounding left of the rows that `step` should satisfy. The normal equations subtract large
-/// terms there; the rows themselves do not.
+/// Removes what rounding left of the rows that `step` should satisfy, down to a small share of the residuals
+/// or of the loads; with limits, whose slack magnifies it, as far as possible. The normal equations subtract
+/// large terms there; the rows themselves do not.
 void Embedding::refine(const EmbeddingResiduals& r, double remove, const Targets& targets,
                        EmbeddingStep* step) const {
   constexpr int kPasses = 3;
+  constexpr double kShare = 1e-2, kSmallest = 1e-14;  // the latter 1e-2 of ConicOptions::target
+  const double residual =
+      std::max({largest_entry(r.equilibrium), largest_entry(r.rows), largest_entry(r.multipliers)});
+  const double enough = limits_.size() > 0 ? 0.0 : std::max(kShare * residual, kSmallest * tau_);
   const Eigen::Index nq = q_.size(), nt = t_.size();
   double last = std::numeric_limits<double>::infinity();
   EmbeddingStep best = *step;
@@ -182,7 +187,7 @@ void Embedding::refine(const EmbeddingResiduals& r, double remove, const Targets
     if (!(error < last)) break;
     last = error;
     best = *step;
-    if (pass == kPasses) break;
+    if (error <= enough || pass == kPasses) break;
     const NormalEquations::Unknowns change = equations_.solve(-equilibrium, border);
     step->v += change.v;
     step->q += change.border.head(nq);

@@ -85,6 +85,7 @@ RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective
   constexpr double kProven =
       1e-6;  // relative: what a range promises, of a solution that rounding kept from its tolerance
   bool bounded = solution.outcome == ConicOutcome::optimal;
+  found.admissible = bounded && !objective.over;
   if (bounded || solution.outcome == ConicOutcome::stalled) {
     const ConicBounds bounds = conic_bounds(problem, solution);
     bounded = bounded || (bounds.imbalance <= kProven && bounds.relative_gap() <= kProven);
@@ -106,6 +107,18 @@ RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective
     found.gamma /= solution.multipliers[0];
   }
   return found;
+}
+
+SparseX coefficients_in_dual_cone(const RigidScene& scene, const RangeObjective& objective) {
+  constexpr double kRounding = 1e-12;  // of the axes of a contact, relative
+  const ContactProblem& p = scene.problem.contacts;
+  if (objective.over || scene.problem.has_strength()) return {};
+  const VecX c = objective.value.coefficients(scene.contacts);
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const Vec3 c_i = c.segment<3>(3 * i);
+    if (c_i[0] < p.mu[i] * c_i.tail<2>().norm() - kRounding * c_i.norm()) return {};
+  }
+  return c.sparseView();
 }
 
 double relative_gap(const ForceRange& range, double small) {

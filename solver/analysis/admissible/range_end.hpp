@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/SparseCore>
+
 #include "solver/analysis/admissible/force_functional.hpp"
 #include "solver/analysis/admissible/rigid_scene.hpp"
 #include "solver/analysis/admissible/sector_problem.hpp"
@@ -11,7 +13,8 @@ struct RangeSolution {
   RangeEnd end;  ///< without frame
   VecX gamma;    ///< N: the state; of an unbounded end a self-stress whose largest force is one block weight
   int iterations = 0;
-  bool of_sector = false;  ///< one sector was solved
+  bool of_sector = false;   ///< one sector was solved
+  bool admissible = false;  ///< gamma is a state, to the accuracy of solve_conic()
 };
 
 /// `towards`: 1 for the smallest value, -1 for the largest. The scene must have an admissible state. With
@@ -25,6 +28,12 @@ struct RangeSolution {
 /// The strength of joints is multiplied by t as well.
 RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective, double towards,
                         const SectorProblem* sector = nullptr);
+
+/// The coefficients (3 nc) of an objective that no forces of dry joints make less than its constant, such as
+/// a normal force: they lie in the dual cone Y*. Its least value is proven as soon as they vanish in a state
+/// of any other end. Empty for other objectives.
+using SparseX = Eigen::SparseVector<double>;
+SparseX coefficients_in_dual_cone(const RigidScene& scene, const RangeObjective& objective);
 
 /// |value - bound| of the worse end over the larger of the ends' sizes and `small`. 0 if no end is bounded.
 double relative_gap(const ForceRange& range, double small);
