@@ -49,6 +49,7 @@ struct PathProgress {
   double first_displacement = 0.0;  // m, of the control at time 0
   int equilibria = 0, iterations = 0;
   bool proven = true;  // all equilibria
+  bool moved = false;  // the last step tried was refused by a proof
   WorstOfRun worst;
   double worst_balance = 0.0, dissipated = 0.0;
   double largest_force = 0.0, time_of_largest = 0.0, displacement_of_largest = 0.0;
@@ -57,9 +58,9 @@ struct PathProgress {
 
 template <class Archive>
 void visit(Archive& archive, PathProgress& x) {
-  archive(x.next, x.step, x.time_step, x.first_displacement, x.equilibria, x.iterations, x.proven, x.worst,
-          x.worst_balance, x.dissipated, x.largest_force, x.time_of_largest, x.displacement_of_largest,
-          x.table);
+  archive(x.next, x.step, x.time_step, x.first_displacement, x.equilibria, x.iterations, x.proven, x.moved,
+          x.worst, x.worst_balance, x.dissipated, x.largest_force, x.time_of_largest,
+          x.displacement_of_largest, x.table);
 }
 
 namespace {
@@ -105,6 +106,7 @@ class PathRun {
   }
   bool at_end_of_time() const { return path_.value() > (1.0 - kRounding) * options_.end; }
   bool advance(double parameter);
+  bool refuse(StaticOutcome outcome, bool proven, double parameter, const std::string& reason);
   void record(const StaticSolution& solution);
   void tabulate(const Frame& frame, const StaticSolution& solution);
   std::string checkpoint() const;
@@ -153,8 +155,12 @@ double PathRun::displacement() const {
   return along(control_.block) - (control_.relative_to >= 0 ? along(control_.relative_to) : 0.0);
 }
 
-/// One step to `parameter`; true if it finds an equilibrium.
+/// One step to `parameter`; true if it finds an equilibrium. After a step that was proven to move, the conic
+/// solver is asked first, since shorter steps mostly move too.
 bool PathRun::advance(double parameter) {
+  if (progress_.moved && !options_.length && path_.surely_moves_at(parameter))
+    return refuse(StaticOutcome::moving, true, parameter,
+                  "no equilibrium exists: a mechanism that the loads drive and no joint resists proves it");
   const double time = path_.value();
   StaticSolution solution;
   if (options_.length && progress_.equilibria > 0) {
@@ -166,6 +172,7 @@ bool PathRun::advance(double parameter) {
   }
   progress_.iterations += solution.iterations;
   last_status_ = status_of(solution.outcome, solution.proven);
+  progress_.moved = last_status_ == motion(true);
   if (solution.outcome == StaticOutcome::equilibrium) {
     if (path_.value() != time) progress_.time_step = std::abs(path_.value() - time);
     record(solution);
@@ -177,8 +184,14 @@ bool PathRun::advance(double parameter) {
     sinks_.frame(frame);
     summarize_static(solution, frame, model_, path_.options().tolerance, &summary_);
   }
-  last_failure_ = fmt::format("{} at {:.6g} {}: {}", to_string(solution.outcome), parameter,
-                              options_.length ? "m" : "s", solution.message);
+  return refuse(solution.outcome, solution.proven, parameter, solution.message);
+}
+
+/// No equilibrium at `parameter`. Returns false.
+bool PathRun::refuse(StaticOutcome outcome, bool proven, double parameter, const std::string& reason) {
+  last_status_ = status_of(outcome, proven);
+  last_failure_ =
+      fmt::format("{} at {:.6g} {}: {}", to_string(outcome), parameter, options_.length ? "m" : "s", reason);
   sinks_.log(last_failure_);
   return false;
 }

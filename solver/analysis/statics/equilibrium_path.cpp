@@ -12,6 +12,7 @@
 #include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/static_step.hpp"
+#include "solver/conic/motion_proof.hpp"
 #include "solver/dynamics/energy_account.hpp"
 #include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/state_archive.hpp"
@@ -70,7 +71,8 @@ StaticSolution EquilibriumPath::advance_by(const LengthControl& control) {
   return advance_from(loaded_.state.time);
 }
 
-StaticSolution EquilibriumPath::solve_from(const LoadedState& from, double time_advance) {
+/// The scene of the next static solve: contacts at `from` and what the joints remember.
+void EquilibriumPath::prepare(const LoadedState& from, double time_advance) {
   start_ = from.state;
   contacts_ = detector_.num_detections() == 0 ? contacts_at_rest(start_, *model_.assembly, &detector_)
                                               : detector_.update(start_.poses);
@@ -78,6 +80,19 @@ StaticSolution EquilibriumPath::solve_from(const LoadedState& from, double time_
   memories_ = from.memories.as_built ? memories_at_rest(model_, start_, contacts_.points)
                                      : match_memories(from.memories, contacts_.points);
   options_.time_advance = time_advance;
+}
+
+bool EquilibriumPath::surely_moves_at(double value) {
+  options_.control.reset();
+  prepare(LoadedState(loaded_), value - loaded_.state.time);
+  if (model_.joints.has_strength()) begin_step(contacts_, &memories_);
+  const ContactProblem problem = first_static_problem(model_, start_, contacts_, memories_, options_).problem;
+  MotionProof proof(problem, problem.h * applied_forces(model_, start_, value));
+  return proof.search() == MotionProof::Answer::moves;
+}
+
+StaticSolution EquilibriumPath::solve_from(const LoadedState& from, double time_advance) {
+  prepare(from, time_advance);
   int solves = 0;
   StaticSolution solution = solve_breaking(model_, start_, contacts_, options_, &memories_, &solves);
   solves_ += solves;

@@ -30,6 +30,9 @@ class EquilibriumPath {
   StaticSolution advance(double value);
   /// The same by a displacement of the control, at a time that is found.
   StaticSolution advance_by(const LengthControl& control);
+  /// True if the conic solver proves that no forces balance the loads at the time `value`. It takes a small
+  /// part of the time in which a static solve comes to that verdict.
+  bool surely_moves_at(double value);
 
   /// The last equilibrium and its contacts, as bytes from which a path of the same scene continues with the
   /// same bits. restore() throws std::runtime_error if they do not fit.
@@ -53,6 +56,7 @@ class EquilibriumPath {
 
  private:
   StaticSolution advance_from(double guess);
+  void prepare(const LoadedState& from, double time_advance);
   StaticSolution solve_from(const LoadedState& from, double time_advance);
   /// Solves again where the last solve ended, until forces and geometry belong to each other.
   StaticSolution correct(StaticSolution solution);

@@ -192,7 +192,8 @@ TEST(Path, EndsWhereNoEquilibriumExists) {
   scene.analysis.path.control = LoadPath::Control{BlockRef{1}, {}, Vec3::UnitX()};
   const PathResult result = run(scene, assembly);
   EXPECT_EQ(result.summary.status, Status::moving);
-  EXPECT_NE(result.summary.message.find("the path ends at"), std::string::npos) << result.summary.message;
+  for (const char* part : {"the path ends at", "no equilibrium exists: a mechanism"})
+    EXPECT_NE(result.summary.message.find(part), std::string::npos) << result.summary.message;
   EXPECT_NEAR(result.largest_force(), 0.4 * weight, 0.1 / 64 * weight) << "the shortest step";
   EXPECT_EQ(result.frames.size(), result.rows.size());
 }
