@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Twenty trials of fit_movements.py on cases/barrel_cracked.yaml, whose hidden movements are drawn blind. Prints a CSV table.
+"""Twenty trials of fit_movements.py on cases/barrel_cracked.yaml, whose hidden movements are drawn blind. Prints a CSV table of how far
+the answers lie from the hidden movements, and writes WORK_FOLDER/trials.csv with a row per trial.
 
-  fit_trials.py BIN_FOLDER WORK_FOLDER [TRIALS] [--whole]
+  fit_trials.py BIN_FOLDER WORK_FOLDER [TRIALS] [--first NUMBER] [--whole]
 
 Each trial draws six numbers of one support at random, scales them until the widest crack has 20 to 40 mm, runs them with friction
-and compliance a fifth above or below those of the case, in finer steps and in the moved geometry, rounds the widest gaps of the open
+and compliance a fifth above or below those of the case, in the moved geometry, rounds the widest gaps of the open
 joints to 0.5 mm, and deletes half of the joints that are still open (with --whole: half of the cracks of cracks.csv, with all their
 joints). The fit knows the rest and the case. Said before the first run: a trial succeeds if its best fit lies within 20 % of the hidden
 movement, by the norm of the six numbers. Guessing is a random movement scaled to the widths. Finished trials in WORK_FOLDER are
@@ -22,7 +23,7 @@ import numpy
 import fit_movements
 
 CASE = pathlib.Path(__file__).resolve().parents[2] / "cases/barrel_cracked.yaml"
-FINER = ["analysis.path.steps=8", "analysis.path.geometry=end"]
+MOVED = ["analysis.path.steps=8", "analysis.path.geometry=end"]
 LARGEST = 0.2  # m
 READING = 0.0005  # m
 SUCCESS = 0.2
@@ -43,7 +44,7 @@ def rounded(openings):
 def draw(model, rng):
     """(hidden movement, openings) with a widest crack of 20 to 40 mm."""
     while True:
-        direction, asked, more = rng.normal(size=6), rng.uniform(0.022, 0.038), FINER + others(rng)
+        direction, asked, more = rng.normal(size=6), rng.uniform(0.022, 0.038), MOVED + others(rng)
         movement = 0.05 * direction / numpy.linalg.norm(direction)
         openings = model.openings(movement)
         if openings is None or max(openings.values()) == 0.0:
@@ -84,27 +85,37 @@ def hide(model, folder, seed, whole):
 def find(model, folder, seed):
     fit = fit_movements.Fit(model, fit_movements.read_seen(folder / "seen.csv"), LARGEST)
     noise, local, within = fit_movements.fits_of(fit, READING)
-    _, scale, cause = fit.single_causes()[0]
+    _, single = fit.single_causes()[0]
     guess = numpy.random.default_rng(10_000 + seed).normal(size=6)
     guess *= 0.05 / numpy.linalg.norm(guess)
     widths = fit.widths(guess)
     guess *= 0.0 if widths is None or not widths.any() else (fit.seen @ widths) / (widths @ widths)
     (folder / "found.json").write_text(json.dumps({
-        "noise": noise, "runs": model.runs, "single": (scale * cause).tolist(), "guess": guess.tolist(),
-        "local": [{"error": error, "movement": movement.tolist()} for error, movement, _ in local],
-        "within": len(within)}))
+        "noise": noise, "runs": model.runs, "single": single.tolist(), "guess": guess.tolist(),
+        "local": [{"error": error, "movement": point[:-2].tolist()} for _, error, point, _ in local],
+        "within": [k for k, one in enumerate(local) if any(one is other for other in within)]}))
 
 
 def row(folder, number):
     truth, found = (json.loads((folder / name).read_text()) for name in ("truth.json", "found.json"))
     hidden = numpy.array(truth["movement"])
-    off = lambda movement: float(numpy.linalg.norm(numpy.array(movement) - hidden) / numpy.linalg.norm(hidden))
-    within = found["local"][: found["within"]]
+    off = lambda movement: 100.0 * float(numpy.linalg.norm(numpy.array(movement) - hidden) / numpy.linalg.norm(hidden))
+    within = [off(found["local"][k]["movement"]) for k in found["within"]]
     return {"trial": number, "movement mm": 1000 * numpy.linalg.norm(hidden), "widest crack mm": 1000 * truth["widest"],
             "joints seen": truth["kept"], "noise mm": 1000 * found["noise"], "misfit mm": 1000 * found["local"][0]["error"],
-            "fits within": found["within"], "error of the best %": 100 * off(found["local"][0]["movement"]),
-            "of the nearest within %": 100 * min((off(one["movement"]) for one in within), default=numpy.nan),
-            "of a single cause %": 100 * off(found["single"]), "of a guess %": 100 * off(found["guess"])}
+            "runs": found["runs"], "fits within": len(within), "best": off(found["local"][0]["movement"]),
+            "nearest": min(within, default=numpy.nan), "single": off(found["single"]), "guess": off(found["guess"])}
+
+
+def summary(rows):
+    """(answer, errors in %) of all trials and of some."""
+    return [("the best fit", [row["best"] for row in rows]),
+            ("where it alone is within the noise", [row["best"] for row in rows if row["fits within"] == 1]),
+            ("where several are", [row["best"] for row in rows if row["fits within"] > 1]),
+            ("the nearest of these", [row["nearest"] for row in rows if row["fits within"] > 1]),
+            ("the best where none is", [row["best"] for row in rows if row["fits within"] == 0]),
+            ("a movement along or about one axis, scaled to the cracks", [row["single"] for row in rows]),
+            ("a random movement, scaled to the cracks", [row["guess"] for row in rows])]
 
 
 def main():
@@ -112,23 +123,29 @@ def main():
     parser.add_argument("programs", type=lambda text: pathlib.Path(text).resolve())
     parser.add_argument("work", type=pathlib.Path)
     parser.add_argument("trials", type=int, nargs="?", default=20)
+    parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--whole", action="store_true")
     given = parser.parse_args()
     given.work.mkdir(parents=True, exist_ok=True)
-    model, good = fit_movements.Model(given.programs, CASE, [], given.work), 0
-    for number in range(1, given.trials + 1):
+    model, rows = fit_movements.Model(given.programs, CASE, [], given.work), []
+    for number in range(given.first, given.first + given.trials):
         folder = given.work / f"{'whole' if given.whole else 'trial'}_{number:02}"
         folder.mkdir(parents=True, exist_ok=True)
         if not (folder / "seen.csv").exists():
             hide(model, folder, 100 + number, given.whole)
         if not (folder / "found.json").exists():
+            model.runs = 0
             find(model, folder, number)
-        cells = row(folder, number)
-        if number == 1:
-            print(",".join(cells))
-        print(",".join(f"{value:.3g}" for value in cells.values()), flush=True)
-        good += cells["error of the best %"] <= 100 * SUCCESS
-    print(f"{good} of {given.trials} within {100 * SUCCESS:g} %", file=sys.stderr)
+        rows.append(row(folder, number))
+        print(rows[-1], file=sys.stderr, flush=True)
+    with open(given.work / "trials.csv", "w", encoding="utf-8", newline="") as file:
+        table = csv.DictWriter(file, rows[0])
+        table.writeheader()
+        table.writerows(rows)
+    print(f"answer,trials,within {100 * SUCCESS:g} %,median error %,largest error %")
+    for answer, errors in summary(rows):
+        if errors:
+            print(f'"{answer}",{len(errors)},{sum(e <= 100 * SUCCESS for e in errors)},{numpy.median(errors):.3g},{max(errors):.3g}')
 
 
 if __name__ == "__main__":
