@@ -179,6 +179,21 @@ std::string bound_for_coulomb(const DirectLimit& limit) {
                      limit.moving < limit.admissible ? "larger" : "smaller");
 }
 
+/// True if the value that the case itself has lies in the bracket.
+bool holds_the_case(const Case& scene) {
+  using Parameter = LimitSearch::Parameter;
+  const LimitSearch& limit = scene.analysis.limit;
+  double own = 1.0;  // a factor
+  if (limit.parameter == Parameter::friction) own = scene.joints.friction;
+  if (limit.parameter == Parameter::tilt || limit.parameter == Parameter::acceleration) own = 0.0;
+  if (limit.parameter == Parameter::lantern) {  // a share of the weight
+    const TopLoad lantern = scene.loads.lantern.value_or(TopLoad{});
+    if (lantern.weight + lantern.mass > 0.0) return false;
+    own = lantern.weight_fraction;
+  }
+  return limit.parameter == Parameter::peak_stress || (limit.low <= own && own <= limit.high);
+}
+
 }  // namespace
 
 std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assembly,
@@ -197,7 +212,8 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
       state ? "the forces at a limit are one of the admissible states" : "no equilibrium was found";
   summary.forces_unique = {false,
                            state ? "they are one of the admissible states" : "no equilibrium was found"};
-  summary.status = limit.unlimited ? Status::stable : limit.no_state ? Status::moving : Status::unconverged;
+  const bool falls = limit.no_state && holds_the_case(scene);
+  summary.status = limit.unlimited ? Status::stable : falls ? Status::moving : Status::unconverged;
   summary.message = name + ": " + limit.message;
   if (limit.unlimited)
     write_state_of_case(scene, assembly, sinks, &summary);

@@ -18,8 +18,13 @@ DirectLimit not_found(std::string message) {
 }
 
 std::string at_both_ends(bool admissible, double low, double high) {
-  return fmt::format("the structure {} at both ends of the bracket, {:g} and {:g}; widen the bracket",
-                     admissible ? "stands" : "moves", low, high);
+  return admissible
+             ? fmt::format(
+                   "the structure stands at both ends of the bracket, {:g} and {:g}; widen the bracket", low,
+                   high)
+             : fmt::format(
+                   "the structure moves at both ends of the bracket, {:g} and {:g}; it must stand at one",
+                   low, high);
 }
 
 }  // namespace cupola

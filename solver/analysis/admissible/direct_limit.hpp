@@ -24,7 +24,7 @@ struct DirectTrial {
 struct DirectLimit {
   bool found = false;
   bool unlimited = false;  ///< not found because the structure stands at every value in one direction
-  bool no_state = false;   ///< not found because a mechanism moves at every value
+  bool no_state = false;   ///< not found because a mechanism moves at every value of the bracket
   double admissible = 0.0, moving = 0.0;
   /// Just beyond `moving` the mechanism proves in exact arithmetic that no forces balance the loads
   /// (motion_proof.hpp). Otherwise none do of up to `resisting_forces` times those found (conic_bounds.hpp).
@@ -71,7 +71,7 @@ DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportT
 
 /// A limit that was not found, and why.
 DirectLimit not_found(std::string message);
-/// Why: the structure stands, or moves, at both ends of the bracket, and what that shows.
+/// Why: the structure stands, or moves, at both ends of the bracket, and what to try.
 std::string at_both_ends(bool admissible, double low, double high);
 
 }  // namespace cupola

@@ -124,6 +124,11 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
       limit.message =
           fmt::format("no limit: the structure stands without friction (below {:g})", kNoFriction);
     }
+    // Joints with less friction or of less extent bear no force that the others do not.
+    if (parameter != LimitSearch::Parameter::thickness && !ends.above.admissible()) {
+      limit.no_state = true;
+      limit.message = fmt::format("the structure moves at every value from {:g} to {:g}", low, high);
+    }
     limit.trials = trials.count;
     limit.iterations = trials.iterations;
     if (ends.below.admissible()) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -69,10 +70,32 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
   return limit;
 }
 
-/// The structure moves at both ends of the bracket.
+/// The structure moves at both ends of the bracket. Where the loads are linear in the parameter, the values at
+/// which it stands form one interval, inside the bracket or outside.
 DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
                                const std::function<double(double)>& in_unit) {
   DirectLimit limit = not_found(at_both_ends(false, in_unit(low), in_unit(high)));
+  RigidScene scene;
+  const ConicProblem from_low = largest_multiplier(scene_at, low, 1.0, &scene);
+  const VecX missed = scene_at(high).problem.load - (from_low.load + (high - low) * from_low.load_columns);
+  if (missed.norm() <= 1e-9 * from_low.load.norm()) {  // of central differences
+    const ConicSolution greatest = solve_conic(from_low);
+    const bool bounded = greatest.outcome == ConicOutcome::optimal;
+    const double end = bounded ? low + greatest.multipliers[0] : std::numeric_limits<double>::infinity();
+    const std::string everywhere =
+        fmt::format("the structure moves at every value from {:g} to {:g}", in_unit(low), in_unit(high));
+    if (greatest.outcome == ConicOutcome::infeasible) {
+      limit.no_state = true;
+      limit.message = everywhere + ", because no multiple of the loads that grow with it holds the others";
+    } else if (bounded && end > low && end < high) {
+      limit.message += fmt::format("; it stands up to {:g}", in_unit(end));
+    } else if (bounded || greatest.outcome == ConicOutcome::unbounded) {
+      limit.no_state = true;
+      limit.message =
+          everywhere + (end < high ? fmt::format("; it stands only below, up to {:g}", in_unit(end))
+                                   : std::string("; it stands only above"));
+    }
+  }
   limit.at_moving = scene_at(low);
   limit.mechanism = solve_conic(limit.at_moving.problem).v;
   return limit;

@@ -231,14 +231,44 @@ TEST(PullSearch, ClosesInOnValuesThatDoNotDecide) {
   }
 }
 
+// With less friction no force is admissible that is not with more.
 TEST(DirectLimit, WhatStandsOrMovesThroughoutTheBracketHasNoCriticalFriction) {
   const Assembly arch = testing::make_arch({.voussoirs = 12, .thickness = 0.16});
-  for (const auto& [low, high, does] : {std::tuple{0.7, 0.9, "stands"}, std::tuple{0.05, 0.1, "moves"}}) {
-    const Summary summary = run_limit(limit_case(Parameter::friction, low, high, 0.7), arch, {}).value();
-    EXPECT_EQ(summary.status, Status::unconverged);
-    EXPECT_NE(summary.message.find(std::string(does) + " at both ends"), std::string::npos)
-        << summary.message;
-  }
+  const auto limit = [&](double low, double high, double friction) {
+    Case scene = limit_case(Parameter::friction, low, high, friction);
+    return run_limit(scene, arch, {}).value();
+  };
+  const Summary stands = limit(0.7, 0.9, 0.7), beyond = limit(0.05, 0.1, 0.7), within = limit(0.05, 0.1, 0.1);
+  EXPECT_EQ(stands.status, Status::unconverged);
+  EXPECT_NE(stands.message.find("stands at both ends"), std::string::npos) << stands.message;
+  for (const Summary& moves : {beyond, within})
+    EXPECT_NE(moves.message.find("moves at every value from 0.05 to 0.1"), std::string::npos)
+        << moves.message;
+  EXPECT_EQ(beyond.status, Status::unconverged) << "the case has a friction of 0.7";
+  EXPECT_EQ(within.status, Status::moving);
+}
+
+// A slab that its weight presses down and as much again pushes along x slides at a friction of 0.5. No force
+// along y changes that; one against x holds it from 0.5 to 1.5 times its weight, and the bracket misses both.
+TEST(DirectLimit, WhatNoLoadHoldsMovesAtEveryValue) {
+  const Assembly box = testing::box_on_floor({1, 1, 0.2});
+  Case scene = limit_case(Parameter::load, 0.0, 1000.0, 0.5);
+  const double weight = free_weight(box, 9.81);
+  scene.loads.gravity = Vec3(9.81, 0.0, -9.81);
+  scene.loads.forces = {{.block = BlockRef{1}, .point = {}, .force = Vec3(0.0, 1.0, 0.0), .time = {}}};
+  const Summary none = run_limit(scene, box, {}).value();
+  EXPECT_EQ(none.status, Status::moving);
+  EXPECT_NE(none.message.find("because no multiple"), std::string::npos) << none.message;
+  scene.loads.forces[0].force = Vec3(-weight, 0.0, 0.0);
+  const Summary some = run_limit(scene, box, {}).value();
+  EXPECT_EQ(some.status, Status::unconverged);
+  EXPECT_NE(some.message.find("it stands up to 1.5"), std::string::npos) << some.message;
+  scene.analysis.limit.low = 2.0;
+  const Summary beyond = run_limit(scene, box, {}).value();
+  EXPECT_EQ(beyond.status, Status::unconverged) << "the case has 1";
+  EXPECT_NE(beyond.message.find("moves at every value from 2 to 1000; it stands only below, up to 1.5"),
+            std::string::npos)
+      << beyond.message;
 }
 
 // On level beds rounding of the geometry decides about frictions of 1e-10.

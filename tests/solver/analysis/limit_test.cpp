@@ -43,7 +43,7 @@ TEST(Bisect, FindsABracketOrReportsWhyNot) {
   EXPECT_EQ(bisect(0.4, 1.0, {1e-6, 0.0}, step_at(0.3)).message,
             "the structure stands at both ends of the bracket, 0.4 and 1; widen the bracket");
   EXPECT_EQ(bisect(0.0, 0.2, {1e-6, 0.0}, step_at(0.3)).message,
-            "the structure moves at both ends of the bracket, 0 and 0.2; widen the bracket");
+            "the structure moves at both ends of the bracket, 0 and 0.2; it must stand at one");
   EXPECT_EQ(bisect(0.0, 1.0, {1e-6, 0.05}, step_at(0.3)).trials, 2 + 5) << "absolute width 1/32 < 0.05";
   const Bracket lost = bisect(0.0, 1.0, {1e-6, 0.0}, [&](double x) {
     return x == 0.5 ? LimitTrial{x, StaticOutcome::unconverged, 0.0} : step_at(0.3)(x);
