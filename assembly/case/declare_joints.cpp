@@ -151,9 +151,12 @@ void declare_joint_group(Section& s, RingJoints& joints) {
                      "lowest ring; a joint belongs to the ring of its upper block");
   joints.to = joints.from;
   s.integer("to", joints.to, {.min = 0}, "highest ring; default: the same as from");
-  s.choice("kind", joints.sort,
-           "which joints of these rings; laid_bed: every bed, including those on supports and of herringbone "
-           "blocks; laid_head: every head, including those of herringbone blocks");
+  s.choice(
+      "kind", joints.sort,
+      "which joints of these rings; other: those that are neither bed nor head of courses, nor of any kind "
+      "that a key of `joints` names, as a springer's with the side of its pier; laid_bed: every bed, "
+      "including those on supports and of herringbone blocks; laid_head: every head, including those of "
+      "herringbone blocks");
   s.rule(joints.from <= joints.to, "to", "must be >= from");
 }
 

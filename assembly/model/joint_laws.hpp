@@ -71,15 +71,19 @@ struct RingJoints {
     head,
     herringbone,
     base,
-    laid_bed,  ///< every bed, including those on supports and of herringbone blocks
-    laid_head  ///< every head, including those of herringbone blocks
+    laid_bed,   ///< every bed, including those on supports and of herringbone blocks
+    laid_head,  ///< every head, including those of herringbone blocks
+    wythe,
+    pieces,
+    other  ///< of none of these kinds, as that of a springer with the side of its pier
   };
   int from = 0, to = 0;  ///< rings, inclusive, of the upper block of the joint; the lowest is 0
   Sort sort = Sort::all;
   JointLawChange law;
 };
 constexpr auto enum_names(RingJoints::Sort) {
-  return std::array{"all", "bed", "head", "herringbone", "base", "laid_bed", "laid_head"};
+  return std::array{"all",      "bed",       "head",  "herringbone", "base",
+                    "laid_bed", "laid_head", "wythe", "pieces",      "other"};
 }
 
 /// Random factors on the values of joints, as functions of place: at each point lognormal with mean 1,

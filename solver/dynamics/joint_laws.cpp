@@ -73,6 +73,12 @@ bool applies_to(RingJoints::Sort group, JointClass kind) {
       return kind == JointClass::herringbone_bed || kind == JointClass::herringbone_other;
     case RingJoints::Sort::base:
       return kind == JointClass::base;
+    case RingJoints::Sort::wythe:
+      return kind == JointClass::wythe;
+    case RingJoints::Sort::pieces:
+      return kind == JointClass::pieces;
+    case RingJoints::Sort::other:
+      return kind == JointClass::other;
     case RingJoints::Sort::laid_bed:
       return kind == JointClass::bed || kind == JointClass::herringbone_bed || kind == JointClass::base;
     case RingJoints::Sort::laid_head:

@@ -59,6 +59,30 @@ TEST(JointLaws, LawOfARingOverridesLawOfAClassOverridesGeneralLaw) {
   EXPECT_EQ(laws.head.mu, 0.1) << "the last group that applies";
 }
 
+// A group of rings reaches each class of joint by its own kind, and only that class.
+TEST(JointLaws, EveryKindOfJointCanBeChosenInARing) {
+  Assembly stack = testing::stack_of_cubes(1.0, {1000.0, 1000.0});
+  Patch patch;
+  patch.block_a = 1;
+  patch.block_b = 2;
+  patch.ring = 1;
+  using Sort = RingJoints::Sort;
+  const auto friction_of = [&](Sort sort, JointKind kind, bool pieces) {
+    stack.blocks[1].name = pieces ? "brick#1" : "";
+    stack.blocks[2].name = pieces ? "brick#2" : "";
+    patch.kind = kind;
+    Joints joints;
+    joints.rings = {{.from = 1, .to = 1, .sort = sort, .law = with_friction(0.2)}};
+    return JointTable(joints, 2).law(stack, patch, 1.0).mu;
+  };
+  for (const Sort sort : {Sort::wythe, Sort::pieces, Sort::other}) {
+    EXPECT_EQ(friction_of(sort, JointKind::wythe, false), sort == Sort::wythe ? 0.2 : 0.4);
+    EXPECT_EQ(friction_of(sort, JointKind::other, true), sort == Sort::pieces ? 0.2 : 0.4);
+    EXPECT_EQ(friction_of(sort, JointKind::other, false), sort == Sort::other ? 0.2 : 0.4);
+    EXPECT_EQ(friction_of(sort, JointKind::bed, false), 0.4);
+  }
+}
+
 TEST(JointLaws, CompliancePerAreaIsDividedByTheArea) {
   const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 3, 2);
   Joints joints;
