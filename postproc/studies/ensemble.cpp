@@ -10,9 +10,12 @@
 #include "postproc/studies/ensemble_figures.hpp"
 #include "postproc/studies/ensemble_results.hpp"
 #include "postproc/studies/sweep.hpp"
+#include "postproc/studies/sweep_figure.hpp"
 
 namespace cupola {
 namespace {
+
+constexpr size_t kMostShown = 100;  // members from a file, as a table of the page
 
 /// The runs named in the second column of the table of ends, each once.
 std::vector<StudyRun> runs_at_the_ends(const Table& ends, const std::vector<StudyRun>& runs) {
@@ -59,6 +62,9 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
     good = good && failed.empty();
     if (!failed.empty())
       sentences.push_back(fmt::format("{}: {} failed: {}.", one.name, failed, endings(one.members)));
+    if (!one.runs->design)
+      if (std::string governs = governing_member(one.runs->samples.keys, one.members); !governs.empty())
+        sentences.push_back(std::move(governs));
     sentences.push_back(result_sentence(one));
   }
   add_headline(sentences, good, page);
@@ -68,8 +74,11 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
     if (const Figure figure = distribution_figure(all); !figure.commands.empty()) page->add_figures({figure});
   if (!differences.rows.empty()) page->add_table(differences);
   for (const EnsembleResults& one : all) {
-    page->write_csv(one.members);
     page->add("<h2>" + markup_text(one.name) + "</h2>\n");
+    if (!one.runs->design && one.members.rows.size() <= kMostShown)
+      page->add_table(one.members, in_readable_units(one.members));
+    else
+      page->write_csv(one.members);
     const std::vector<Bands> bands = bands_of(one, runs_folder);
     for (const Bands& band : bands) page->write_csv(band.table);
     for (const Figure& figure : {convergence_figure(one), bands_figure(bands)})

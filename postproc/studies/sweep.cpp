@@ -1,12 +1,15 @@
 #include "postproc/studies/sweep.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/base/error.hpp"
 #include "assembly/files/markup.hpp"
 #include "assembly/files/number_text.hpp"
 #include "assembly/model/status.hpp"
@@ -15,6 +18,12 @@
 
 namespace cupola {
 namespace {
+
+size_t column_named(const Table& table, const std::string& key) {
+  const auto found = std::ranges::find(table.columns, key, &Table::Column::key);
+  CUPOLA_ASSERT(found != table.columns.end());
+  return static_cast<size_t>(found - table.columns.begin());
+}
 
 /// The texts of a column, from the top; empty ones where it has no value.
 std::vector<std::string> texts_of(const Table& table, const std::string& key) {
@@ -41,6 +50,47 @@ std::string failures(const Table& table, const std::string& noun) {
     return status == "missing" || status == "unconverged";
   });
   return failed == 0 ? "" : fmt::format("{} of {}", failed, counted(table.rows.size(), noun));
+}
+
+namespace {
+
+/// The number of the row with the least value in a column, or the greatest; none without numbers.
+std::optional<size_t> row_at_the_end(const Table& table, size_t column, bool least) {
+  std::optional<size_t> found;
+  for (size_t r = 0; r < table.rows.size(); ++r) {
+    const double* value = std::get_if<double>(&table.rows[r][column]);
+    if (!value || !std::isfinite(*value)) continue;
+    const double* best = found ? std::get_if<double>(&table.rows[*found][column]) : nullptr;
+    if (!best || (least ? *value < *best : *value > *best)) found = r;
+  }
+  return found;
+}
+
+/// "7.716 at loads.forces[0].point[0] = -1.8 (bridge_run/0005)".
+std::string critical_at(const std::vector<std::string>& keys, const Table& table, size_t row,
+                        size_t critical) {
+  std::vector<std::string> settings;
+  for (const std::string& key : keys)
+    settings.push_back(fmt::format("{} = {}", key, to_display(table.rows[row][column_named(table, key)])));
+  const std::string& unit = table.columns[critical].unit;
+  return fmt::format("{:.4g}{} at {} ({})", std::get<double>(table.rows[row][critical]),
+                     unit.empty() || unit == "factor" ? "" : " " + unit, fmt::join(settings, ", "),
+                     to_display(table.rows[row][0]));
+}
+
+}  // namespace
+
+std::string governing_member(const std::vector<std::string>& keys, const Table& table) {
+  const size_t critical = column_named(table, "critical_value"),
+               margin = column_named(table, "margin_factor");
+  const size_t by = row_at_the_end(table, margin, true) ? margin : critical;
+  const auto least = row_at_the_end(table, by, true), greatest = row_at_the_end(table, by, false);
+  if (!least || !std::holds_alternative<double>(table.rows[*least][critical])) return "";
+  std::string text =
+      fmt::format("What governs: critical value {}.", critical_at(keys, table, *least, critical));
+  if (*greatest != *least && std::holds_alternative<double>(table.rows[*greatest][critical]))
+    text += fmt::format(" At the other end: {}.", critical_at(keys, table, *greatest, critical));
+  return text;
 }
 
 namespace {
@@ -97,6 +147,14 @@ std::string banner(const std::vector<SweptKey>& sweep, const Table& table) {
   const std::string runs = counted(table.rows.size(), "run");
   if (!failed.empty())
     return verdict_html(failed + " failed", where.empty() ? ended : ended + " " + where, false);
+  std::vector<std::string> keys;
+  for (const SweptKey& swept : sweep) keys.push_back(swept.key);
+  if (const std::string governs = governing_member(keys, table); !governs.empty()) {
+    const size_t stop = governs.find(". ");
+    return verdict_html(
+        governs.substr(0, stop == std::string::npos ? stop : stop + 1),
+        (stop == std::string::npos ? "" : governs.substr(stop + 2) + " ") + ended + " " + runs + ".", true);
+  }
   if (where.empty()) return verdict_html(ended, runs + ".", true);
   const bool all = standing == static_cast<std::ptrdiff_t>(table.rows.size());
   return verdict_html(fmt::format("It stands in {} of {}", standing, runs), where, all);
@@ -133,7 +191,9 @@ std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<Stud
   if (const Figure figure = sweep_figure(sweep, table); !figure.commands.empty()) page->add_figures({figure});
   page->add_table(table, in_readable_units(table));
   page->add_report_links(members, runs_folder);
-  return fmt::format("{}\n{}: {}\n", aligned_text(table), counted(members.size(), "run"), endings(table));
+  const std::string governs = governing_member(keys, table);
+  return fmt::format("{}\n{}: {}\n{}{}", aligned_text(table), counted(members.size(), "run"), endings(table),
+                     governs, governs.empty() ? "" : "\n");
 }
 
 }  // namespace cupola

@@ -22,6 +22,11 @@ std::string failures(const Table& sweep_table, const std::string& noun = "run");
 /// times are no results.
 std::vector<size_t> varying_columns(const std::vector<const Table*>& sweep_tables);
 
+/// The member of a table of limits that governs, with its critical value and the values of its keys, and the
+/// one at the other end: that of the least margin, or of the least critical value where the case has no value
+/// to compare. "" without critical values.
+std::string governing_member(const std::vector<std::string>& keys, const Table& sweep_table);
+
 /// Adds a sweep to a page: how the members ended, a figure, the table (sweep.csv), and links to the reports
 /// of the members. Returns the same as text.
 std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<StudyRun>& members,

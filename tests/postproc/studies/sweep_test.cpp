@@ -1,9 +1,11 @@
 // The table of a sweep: finished members with their numbers, missing members with a remark.
 #include "postproc/studies/sweep.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "assembly/files/atomic_file.hpp"
+#include "postproc/studies/ensemble.hpp"
 #include "postproc/studies/sweep_figure.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
 
@@ -74,6 +76,42 @@ TEST(SweepTable, HasTheResultsOfTheMembers) {
   const std::string latex = read_text(scratch.file("page/sweep.tex"));
   EXPECT_NE(latex.find("outward thrust (N)"), std::string::npos) << latex;
   EXPECT_NE(latex.find("dome\\_friction0.1 & 0.1 & stable"), std::string::npos) << latex;
+}
+
+// An axle at three places: the least factor governs, and the page begins with it. Of frictions the greatest
+// does, by the least margin.
+TEST(SweepTable, BeginsWithTheMemberThatGoverns) {
+  for (const bool friction : {false, true}) {
+    const ScratchFolder scratch;
+    const std::vector<SweptKey> sweep = {{"loads.forces[0].point[0]", {"-3", "-2", "-1"}}};
+    std::vector<StudyRun> members;
+    for (const SweepMember& member : members_of(sweep, "axle"))
+      members.push_back({member.name, "axle", member.settings});
+    const double critical[] = {9.5, 7.25, 8.0};
+    for (size_t i = 0; i < members.size(); ++i) {
+      scratch.write(members[i].name + "/results/summary.json",
+                    fmt::format(R"({{"status": "stable", "critical_value": {}, "critical_parameter": "{}"}})",
+                                critical[i], friction ? "friction" : "load"));
+      scratch.write(members[i].name + "/post/summary.json",
+                    fmt::format(R"({{"margin_factor": {}}})", friction ? 10.0 / critical[i] : critical[i]));
+    }
+    StudyPage page("Axles", scratch.file("page"));
+    const std::string text = add_sweep(sweep, members, scratch.folder(), &page);
+    page.write();
+    const std::string governs =
+        fmt::format("What governs: critical value {} at loads.forces[0].point[0] = {} ({}).",
+                    friction ? "9.5" : "7.25", friction ? "-3" : "-2", members[friction ? 0 : 1].name);
+    EXPECT_NE(text.find(governs), std::string::npos) << text;
+    EXPECT_NE(read_text(scratch.file("page/study.html")).find("<strong>" + governs + "</strong>"),
+              std::string::npos);
+    const std::vector<SampledRuns> file{{"axles", {{sweep[0].key}, {{"-3"}, {"-2"}, {"-1"}}}, {}, members}};
+    StudyPage table_page("Axles", scratch.file("table"));
+    add_ensembles(file, scratch.folder(), &table_page);
+    table_page.write();
+    const std::string html = read_text(scratch.file("table/study.html"));
+    EXPECT_NE(html.find("<strong>" + governs + "</strong>"), std::string::npos) << html;
+    EXPECT_LT(html.find("<td class=\"text\">" + members[2].name), html.find("Statistics of the results"));
+  }
 }
 
 /// A sweep over friction and thickness of four members with a critical value each.
