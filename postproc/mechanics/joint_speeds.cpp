@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "postproc/mechanics/mechanism_motion.hpp"
+
 namespace cupola {
 namespace {
 
@@ -36,12 +38,13 @@ JointSpeeds joint_speeds(const Assembly& assembly, const Frame& frame, const Joi
   return speeds;
 }
 
-GivesWay what_gives_way(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
-                        double friction) {
+MechanismMotion mechanism_motion(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
+                                 double friction) {
   constexpr double kMoves = 0.02;  // of the fastest block
   double fastest = 0.0;
   for (const Vec3& v : frame.blocks.velocity) fastest = std::max(fastest, v.norm());
-  GivesWay count;
+  const double least = kMoves * fastest;
+  MechanismMotion motion;
   for (const JointWrench& j : joints.wrenches) {
     Apart closest{std::numeric_limits<double>::infinity(), 0.0};  // where the joint opens least
     double widest = 0.0;
@@ -50,15 +53,22 @@ GivesWay what_gives_way(const Assembly& assembly, const Frame& frame, const Join
       if (apart.opening < closest.opening) closest = apart;
       widest = std::max(widest, apart.opening);
     }
-    const double least = kMoves * fastest;
-    if (closest.sliding > least && closest.opening <= friction * closest.sliding + least)
-      ++count.sliding;
-    else if (closest.opening > least)
-      ++count.opening;
-    else if (widest > least)
-      ++count.hinging;
+    const bool slides = closest.sliding > least && closest.opening <= friction * closest.sliding + least;
+    const bool parts = !slides && closest.opening > least;
+    if (!slides && !parts && widest <= least) continue;
+    ++(slides ? motion.joints.sliding : parts ? motion.joints.opening : motion.joints.hinging);
+    const double opens = std::max(widest - friction * closest.sliding, 0.0);
+    (parts ? motion.parting : motion.hinging) += opens;
+    motion.sliding += closest.sliding;
+    const int course = std::max(assembly.blocks[j.block_a].ring, assembly.blocks[j.block_b].ring);
+    motion.by_course[course] += opens + closest.sliding;
   }
-  return count;
+  return motion;
+}
+
+GivesWay what_gives_way(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
+                        double friction) {
+  return mechanism_motion(assembly, frame, joints, friction).joints;
 }
 
 }  // namespace cupola

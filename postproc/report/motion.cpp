@@ -73,8 +73,10 @@ void add_numbers_of_mechanism(const Evaluation& e, std::vector<KeyNumber>* out) 
        fmt::format("faster than a tenth of the fastest; they form {}", counted(bodies, "body", "bodies"))});
   const std::optional<MovingJoints> joints = moving_joints(e);
   if (!joints) return;
+  constexpr double kRounding = 1e-6;
   const auto add = [out](const char* name, double motion) {
-    out->push_back({name, fmt::format("{:.3g} %", 100.0 * motion), "of the speed of the fastest block"});
+    out->push_back({name, fmt::format("{:.3g} %", motion > kRounding ? 100.0 * motion : 0.0),
+                    "of the speed of the fastest block"});
   };
   add("Fastest sliding of a joint", joints->sliding.motion);
   add("Fastest opening of a joint", joints->opening.motion);

@@ -12,6 +12,8 @@
 #include "postproc/evaluation/margin.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/answers.hpp"
+#include "postproc/report/gives_way.hpp"
+#include "postproc/report/loads_text.hpp"
 #include "postproc/report/motion.hpp"
 #include "postproc/report/report.hpp"
 
@@ -66,9 +68,10 @@ bool shows_the_case(const Evaluation& e) {
 
 /// Why one equilibrium stands: what carries what, and after which motion.
 std::string carried_text(const Evaluation& e) {
+  const std::string loads = loads_text(e);
   const std::string carry =
-      fmt::format("The joint forces carry the weight of {}, {}", counted(e.summary.free_blocks, "block"),
-                  force_text(e.summary.weight_N));
+      fmt::format("The joint forces carry the weight of {}, {}{}{}", counted(e.summary.free_blocks, "block"),
+                  force_text(e.summary.weight_N), loads.empty() ? "" : ", ", loads);
   if (support_motion(e) > 0.0) return fmt::format("{}, although {}.", carry, moved_text(e));
   if (e.last.frame.role == FrameRole::step)
     return fmt::format("{}, at rest after {:.4g} s of motion.", carry, e.last.frame.time);
@@ -87,13 +90,16 @@ std::string collapsed_text(const Evaluation& e) {
 }
 
 /// "the shape of the blocks, their weight and loads, a coefficient of friction of 0.4, no crushing (not
-/// checked)".
+/// checked)". Loads have their sums unless the reason of the verdict gives them.
 std::string assumptions(const Evaluation& e) {
   const auto& critical = e.summary.critical;
+  const std::string loads = shows_the_case(e) ? "" : loads_text(e);
   std::vector<std::string> given{
       e.scene.geometry.imported ? "the shape of the imported blocks" : "the shape of the blocks",
       critical && critical->parameter == "load" ? "their weight, where the loads act and in which direction"
                                                 : "their weight and loads"};
+  if (!loads.empty())
+    given.back() += fmt::format(" (weight of {}, {})", force_text(e.summary.weight_N), loads);
   if (!critical || critical->parameter != "friction")
     given.push_back(fmt::format("a coefficient of friction of {:g}", e.scene.joints.friction));
   if (e.scene.joints.have_strength()) given.push_back("the strength of the joints");
@@ -174,6 +180,7 @@ std::string reason_for_verdict(const Evaluation& e) {
     text = limit_text(e);
   else
     text = verdict_text(s, e.last.frame.role);
+  if (const std::string how = how_it_gives_way(e); !how.empty()) text += " " + how;
   if (const std::string parts = parts_sentence(e); !parts.empty()) text += " " + parts;
   return text;
 }

@@ -1,5 +1,6 @@
 // Answers about arches and barrels that follow from statics and geometry alone.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "assembly/case/case_reader.hpp"
 #include "assembly/files/summary_file.hpp"
 #include "postproc/mechanics/cracks.hpp"
+#include "postproc/report/answers.hpp"
 #include "postproc/tables/post_summary.hpp"
 #include "tests/pipeline/static_run.hpp"
 #include "tests/verification/thrust.hpp"
@@ -249,6 +251,72 @@ TEST(VaultAnswers, TheThrustOnPiersCountsEveryJointOfTheSpringers) {
   EXPECT_NEAR(thrust.chosen.value(), sum, 1e-5 * sum);
   EXPECT_LE(thrust.min.value.value(), sum);
   EXPECT_GE(thrust.max.value.value(), sum);
+}
+
+/// A barrel of half a circle with a radius of 2 m on walls 1 m high that are part of it, under a fill.
+std::string barrel_on_walls(double horizontal) {
+  return fmt::format(
+      "geometry:\n  surface: {{type: vault, plan: {{type: line, length: 3}}, profile: {{type: chain, r: [2, "
+      "2, 0], z: "
+      "[0, 1, 3], radius: [0, 2]}}}}\n  wythes:\n    - {{name: masonry, thickness: {{heights: [1, 1.01], "
+      "values: "
+      "[1.2, 0.5]}}, bond: {{type: stack, rings: 16, blocks_per_ring: 2}}}}\njoints: {{friction: 0.7, "
+      "compliance: "
+      "{{per: area}}}}\nloads: {{faces: [{{fill: {{level: 4, unit_weight: 16000, horizontal: {}}}}}]}}\n",
+      horizontal);
+}
+
+// The horizontal pressure of a fill is that on the height of the extrados between the shoulder of the wall and
+// the crown, half on each side: k gamma L ((H - low)^2 - (H - high)^2) / 2. The walls, which are free, have none.
+TEST(VaultAnswers, FillPressesOnTheVaultAndNotOnItsFreeWalls) {
+  const ProgramFolder folder;
+  const Case scene = read(folder, barrel_on_walls(0.5));
+  const Assembly assembly = generate(scene);
+  double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0.0;
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      if (assembly.face_kinds[f] != FaceKind::extrados ||
+          polygon_plane(face_points(assembly, f)).normal.z() < 1e-9)
+        continue;
+      for (const Vec3& corner : face_points(assembly, f)) {
+        low = std::min(low, corner.z());
+        high = std::max(high, corner.z());
+      }
+    }
+  EXPECT_NEAR(low, 2.0 * (1.0 + std::numbers::pi) / 16, 1e-9)
+      << "the lower bed of the course at the shoulder";
+  for (const PointForce& force : applied_loads(scene.loads, assembly)) {
+    if (force.point.x() > 0.0) sum -= force.force.x();
+    EXPECT_GT(force.point.z(), low) << "on no wall";
+  }
+  const double exact = 0.5 * 16000.0 * 3.0 * 0.5 * (std::pow(4.0 - low, 2) - std::pow(4.0 - high, 2));
+  EXPECT_NEAR(sum, exact, 1e-9 * exact);
+}
+
+bool warns_of_fill(const Evaluation& e) {
+  return std::ranges::any_of(e.warnings, [](const std::string& warning) {
+    return warning.find("the horizontal pressure of the fill holds it") != std::string::npos;
+  });
+}
+
+// Nothing acts between the base and the springing, so that the thrust is the same at both. The second course
+// reaches over the springing: its lower bed is a sixteenth of 2 (1 + pi) m above the base. Fill that presses as
+// much sideways as downwards turns the thrust inwards.
+TEST(VaultAnswers, TheThrustHasItsLevelAndItsSign) {
+  const ProgramFolder folder;
+  const Evaluation e = solve_and_evaluate(read(folder, barrel_on_walls(0.3)), folder);
+  ASSERT_TRUE(at_rest(e)) << e.summary.message;
+  EXPECT_FALSE(warns_of_fill(e));
+  const KeyNumber thrust = thrust_answer(e).value();
+  EXPECT_NE(thrust.detail.find("at the base, z = 0 m; at the springing, z = 0.5177 m, " + thrust.value),
+            std::string::npos)
+      << thrust.detail;
+  EXPECT_EQ(thrust.detail.find("negative"), std::string::npos);
+  const ProgramFolder pressed_folder;
+  const Evaluation pressed = solve_and_evaluate(read(pressed_folder, barrel_on_walls(1.0)), pressed_folder);
+  ASSERT_TRUE(at_rest(pressed)) << pressed.summary.message;
+  EXPECT_TRUE(thrust_answer(pressed)->detail.starts_with("negative: inwards; "));
+  EXPECT_TRUE(warns_of_fill(pressed));
 }
 
 }  // namespace

@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "postproc/mechanics/mechanism_motion.hpp"
 #include "postproc/report/answers.hpp"
+#include "postproc/report/gives_way.hpp"
+#include "postproc/report/loads_text.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/report/worst_joints.hpp"
 #include "tests/postproc/scene.hpp"
@@ -186,6 +189,25 @@ TEST(FirstScreen, ReactionsPerMetreOfSupport) {
   EXPECT_NEAR(e.reactions[0].length, 1.2, 1e-12);
 }
 
+// 12 kN of fill and forces beside the weight: the verdict names them and their sum.
+TEST(FirstScreen, NamesTheLoadsBesideTheWeight) {
+  EXPECT_EQ(loads_text(test::column_evaluation(0.6, 0.4)), "");
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.acting.forces.resize(1);
+  e.acting.faces.resize(2);
+  e.acting.faces[0].fill = Fill{.level = 2.0, .from = {}, .unit_weight = 18e3};
+  e.summary.weight_N = 40e3;
+  e.last.loads = {{1, Vec3::Zero(), Vec3(3e3, 0, -8e3), 1},
+                  {1, Vec3::Zero(), Vec3(-3e3, 0, -1e3), 1},
+                  {2, Vec3::Zero(), Vec3(0, 0, -3e3), 0}};
+  EXPECT_EQ(loads_text(e), "fill of 9 kN and forces of 3 kN, 52 kN in all");
+  EXPECT_NE(reason_for_verdict(e).find("40 kN, fill of 9 kN and forces of 3 kN, 52 kN in all."),
+            std::string::npos)
+      << reason_for_verdict(e);
+  e.last.loads.push_back({2, Vec3::Zero(), Vec3(0, 0, -4e3), PointForce::kDeadLoad});
+  EXPECT_EQ(loads_text(e), "load on top of 4 kN, fill of 9 kN and forces of 3 kN, 56 kN in all");
+}
+
 TEST(FirstScreen, ARangeAnalysisGivesTheRangeInPlaceOfTheChosenThrust) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
   ForceRange range{.quantity = "thrust", .unit = "N", .min = {}, .max = {}, .chosen = 2e7};
@@ -234,6 +256,10 @@ TEST(FirstScreen, AMechanismShowsWhichJointsGiveWay) {
   EXPECT_EQ(numbers[1].value, "2 of 3");
   EXPECT_EQ(numbers[2].value, "100 %") << numbers[2].name;
   EXPECT_EQ(numbers[3].value, "0 %") << numbers[3].name;
+  EXPECT_NE(reason_for_verdict(e).find("It gives way by sliding (100 % of the motion of its joints): 1 joint "
+                                       "slides; 100 % of the motion is at course 1 (z = 0.5 m)."),
+            std::string::npos)
+      << reason_for_verdict(e);
   std::string html = first_screen(e, {}, nullptr, "");
   EXPECT_NE(html.find("Where it gives way"), std::string::npos);
   EXPECT_NE(
@@ -251,6 +277,21 @@ TEST(FirstScreen, AMechanismShowsWhichJointsGiveWay) {
   EXPECT_NEAR(joints->opening.motion, 0.6 / 2.0, 1e-12);
   EXPECT_NEAR(joints->sliding.motion, (2.0 - 0.25) / 2.0, 1e-12) << "the bed lies 0.25 m below the centroid";
   EXPECT_EQ(e.last.joints.wrenches[joints->opening.index].block_b, 3);
+
+  // The bed under block 2 turns with it about its edge at x = 1.2 m, and opens by 1.2 m/s at x = 0.
+  for (const size_t b : {2u, 3u}) {
+    const Vec3 arm = a.blocks[b].centroid - Vec3(1.2, 0.4, 0.5);
+    frame.blocks.velocity[b] = Vec3::UnitY().cross(arm);
+    frame.blocks.angular_velocity[b] = Vec3::UnitY();
+  }
+  e = evaluation("hinges");
+  const MechanismMotion motion = mechanism_motion(a, e.last.frame, e.last.joints, 0.4);
+  EXPECT_NEAR(motion.hinging, 1.2, 1e-12);
+  EXPECT_NEAR(motion.sliding, 0.0, 1e-12);
+  EXPECT_NE(reason_for_verdict(e).find("It gives way by hinging (100 %"), std::string::npos)
+      << reason_for_verdict(e);
+  e.last.frame.role = FrameRole::step;
+  EXPECT_EQ(how_it_gives_way(e), "") << "a motion in time is no mechanism";
 
   summary.status = Status::moving_unproven;
   html = first_screen(evaluation("unproven"), {}, nullptr, "");

@@ -1,0 +1,46 @@
+#include "postproc/report/loads_text.hpp"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "postproc/figures/plot_style.hpp"
+
+namespace cupola {
+namespace {
+
+enum class LoadGroup { on_top, fill, on_faces, forces };
+constexpr std::array kGroupNames{"load on top", "fill", "loads on faces", "forces"};
+
+/// `time`: of a PointForce, see load_times().
+LoadGroup group_of(const Loads& loads, int time) {
+  if (time == PointForce::kDeadLoad) return LoadGroup::on_top;
+  const size_t number = static_cast<size_t>(time);
+  if (number < loads.forces.size()) return LoadGroup::forces;
+  return loads.faces[number - loads.forces.size()].fill ? LoadGroup::fill : LoadGroup::on_faces;
+}
+
+}  // namespace
+
+std::string loads_text(const Evaluation& e) {
+  constexpr double kRounding = 1e-9;  // of the weight: forces that balance each other
+  std::array<double, kGroupNames.size()> down{};
+  for (const PointForce& load : e.last.loads)
+    down[static_cast<size_t>(group_of(e.acting, load.time))] -= load.force.dot(e.up);
+  double total = e.summary.weight_N;
+  std::vector<std::string> parts;
+  for (size_t i = 0; i < down.size(); ++i) {
+    if (std::abs(down[i]) <= kRounding * e.summary.weight_N) continue;
+    total += down[i];
+    parts.push_back(fmt::format("{} of {}", kGroupNames[i], force_text(down[i])));
+  }
+  if (parts.empty()) return "";
+  const std::string last = parts.back();
+  parts.pop_back();
+  return fmt::format("{}{}{}, {} in all", fmt::join(parts, ", "), parts.empty() ? "" : " and ", last,
+                     force_text(total));
+}
+
+}  // namespace cupola

@@ -1,0 +1,201 @@
+// The outward thrust: on which supports, per metre, at which level, and at the springing.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "assembly/base/counted.hpp"
+#include "postproc/figures/plot_style.hpp"
+#include "postproc/figures/range_text.hpp"
+#include "postproc/report/answers.hpp"
+#include "postproc/tables/range_values.hpp"
+
+namespace cupola {
+namespace {
+
+const ForceRange* range_of_thrust(const Evaluation& e) {
+  const auto& ranges = e.summary.ranges;
+  const auto found = std::find_if(ranges.begin(), ranges.end(),
+                                  [](const ForceRange& range) { return range.quantity == "thrust"; });
+  return found == ranges.end() ? nullptr : &*found;
+}
+
+std::string end_text(const RangeEnd& end, double value, const ForceRange& range) {
+  const std::string text = std::isinf(value)   ? (value > 0 ? "∞" : "-∞")
+                           : std::isnan(value) ? ""
+                                               : range_number(value, range);
+  return end.outcome == RangeOutcome::unconverged ? text + "?" : text;
+}
+
+/// The supports at which the thrust of the stack under a sheet counts: of an arch those at x > 0 in its own
+/// frame, to which its first course belongs.
+std::vector<Reaction> thrusting(const Evaluation& e, const Sheet& sheet) {
+  const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
+  const Vec3 own_x(std::cos(sheet.turn), std::sin(sheet.turn), 0.0);
+  std::vector<Reaction> at;
+  for (const Reaction& r : e.reactions) {
+    if (r.ring < first || r.ring >= end) continue;
+    const double x = own_x.dot(e.assembly.blocks[r.block].centroid - sheet.origin);
+    if (sheet.thrust_lines != Sheet::ThrustLines::one || x > 0.0) at.push_back(r);
+  }
+  return at;
+}
+
+/// m, of the supports along the shell; of an arch on other stacks, which has none, that of its first course.
+double length_of(const Evaluation& e, const Sheet& sheet, const std::vector<Reaction>& supports) {
+  double length = 0.0;
+  for (const Reaction& r : supports) length += r.length;
+  if (!supports.empty() || sheet.thrust_lines != Sheet::ThrustLines::one) return length;
+  const Vec3 along(-std::sin(sheet.turn), std::cos(sheet.turn), 0.0);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Part& part : e.assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      if (part.ring == sheet.first_ring)
+        for (const int v : e.assembly.face(f)) {
+          low = std::min(low, along.dot(e.assembly.vertices[v]));
+          high = std::max(high, along.dot(e.assembly.vertices[v]));
+        }
+  return std::max(high - low, 0.0);
+}
+
+/// The uppermost sheets of the stacks that push outwards, the last first.
+std::vector<const Sheet*> pushing_sheets(const Evaluation& e) {
+  std::vector<const Sheet*> pushing;
+  const std::vector<Sheet>& sheets = e.assembly.sheets;
+  for (size_t i = sheets.size(); i-- > 0;)
+    if ((i + 1 == sheets.size() || !sheets[i + 1].on_previous) && sheets[i].num_rings > 0 &&
+        sheets[i].thrust_lines != Sheet::ThrustLines::none)
+      pushing.push_back(&sheets[i]);
+  return pushing;
+}
+
+/// "14.1 kN/m over 5 m of support"; "" where the length is unknown.
+std::string per_metre(double thrust, double length) {
+  if (!(length > 0.0)) return "";
+  return fmt::format("{}/m over {} of support", force_text(thrust / length), length_text(length));
+}
+
+/// The cut under the lowest course of the stack of a sheet.
+const RingSum& base_of(const Evaluation& e, const Sheet& sheet) {
+  return e.rings.at(e.assembly.stack_of(sheet.first_ring).first);
+}
+
+/// The cut under the lowest course whose intrados leans, where a vault springs from its walls; null if all
+/// of the stack is upright.
+const RingSum* springing_of(const Evaluation& e, const Sheet& sheet) {
+  constexpr double kUpright = 1e-6;  // cosine; planes are exact to rounding
+  const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
+  int lowest = std::min(end, static_cast<int>(e.rings.size()));
+  const int none = lowest;
+  for (const Part& part : e.assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      if (part.ring >= first && part.ring < lowest && e.assembly.face_kinds[f] == FaceKind::intrados &&
+          std::abs(polygon_plane(face_points(e.assembly, f)).normal.z()) > kUpright)
+        lowest = part.ring;
+  return lowest < none ? &e.rings[lowest] : nullptr;
+}
+
+std::string at_level(const char* name, const RingSum& cut) {
+  constexpr double kShown = 1e-4;  // m
+  return fmt::format("at the {}, z = {:g} m", name, std::round(cut.height / kShown) * kShown + 0.0);
+}
+
+/// "at the springing, z = 0 m", or "at the base, z = -4.5 m; at the springing, z = 0 m, 21.3 kN".
+std::string level_text(const Evaluation& e, const Sheet& sheet) {
+  const RingSum &base = base_of(e, sheet), *springing = springing_of(e, sheet);
+  if (springing == &base) return at_level("springing", base);
+  if (!springing) return at_level("base", base);
+  return fmt::format("{}; {}, {}", at_level("base", base), at_level("springing", *springing),
+                     force_text(springing->radial_thrust));
+}
+
+KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
+  const std::string unit = range_unit(range).after_blank();
+  std::string detail = "certain for every history";
+  if (range.chosen)
+    detail +=
+        fmt::format("; the stiffness of the joints selects {}{}", range_number(*range.chosen, range), unit);
+  const std::vector<const Sheet*> pushing = pushing_sheets(e);
+  const double length =
+      pushing.empty() ? 0.0 : length_of(e, *pushing.front(), thrusting(e, *pushing.front()));
+  if (length > 0.0 && std::isfinite(least(range)) && std::isfinite(greatest(range)))
+    detail += fmt::format("; {}/m to {}/m over {} of support", force_text(least(range) / length),
+                          force_text(greatest(range) / length), length_text(length));
+  if (!pushing.empty() && !e.rings.empty()) {
+    const RingSum& base = base_of(e, *pushing.front());
+    detail += "; " + at_level(springing_of(e, *pushing.front()) == &base ? "springing" : "base", base);
+  }
+  if (least(range) < 0.0) detail += "; inwards where negative";
+  return {"Outward thrust",
+          fmt::format("{} to {}{}", end_text(range.min, least(range), range),
+                      end_text(range.max, greatest(range), range), unit),
+          detail};
+}
+
+/// "12 kN on each of 4 supports" or "3 kN to 12 kN, depending on the support"; "" for one support.
+std::string spread_over(const std::vector<Reaction>& supports) {
+  if (supports.size() < 2) return "";
+  const auto [lowest, highest] = std::ranges::minmax(supports, {}, &Reaction::outward);
+  if (highest.outward - lowest.outward <= 1e-3 * std::abs(highest.outward))
+    return fmt::format("{} on each of {}", force_text(highest.outward), counted(supports.size(), "support"));
+  return fmt::format("{} to {}, depending on the support",
+                     lowest.outward == 0.0 ? "0" : force_text(lowest.outward), force_text(highest.outward));
+}
+
+/// The thrusts of further stacks.
+std::vector<std::string> thrusts_of_others(const Evaluation& e, const std::vector<const Sheet*>& pushing) {
+  constexpr size_t kMost = 5;  // stacks
+  std::vector<std::string> out;
+  for (size_t i = 1; i < std::min(pushing.size(), kMost); ++i) {
+    const double other = base_of(e, *pushing[i]).radial_thrust;
+    const std::string along = per_metre(other, length_of(e, *pushing[i], thrusting(e, *pushing[i])));
+    out.push_back(
+        fmt::format("of {} {}{}{}", pushing[i]->name, force_text(other), along.empty() ? "" : ", ", along));
+  }
+  if (pushing.size() > kMost) out.emplace_back("of the others in rings.csv");
+  return out;
+}
+
+/// How the thrust of one equilibrium depends on what is not certain.
+std::string doubt_of(const Evaluation& e) {
+  if (e.summary.critical && !is_stage(e.last.frame.role))
+    return "at the critical value, not that of the case";
+  if (e.scene.joints.have_strength()) return "";
+  return "depends on the stiffness of the joints: the range over all states was not computed";
+}
+
+}  // namespace
+
+std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
+  if (const ForceRange* range = range_of_thrust(e)) return thrust_of_range(e, *range);
+  const std::vector<const Sheet*> pushing = pushing_sheets(e);
+  if (!at_rest(e) || pushing.empty() || e.rings.empty()) return std::nullopt;
+  const Sheet& shell = *pushing.front();
+  const bool alone = pushing.size() == 1;
+  const std::vector<Reaction> supports = thrusting(e, shell);
+  const double thrust = base_of(e, shell).radial_thrust;
+  if (thrust == 0.0 && is_stage(e.last.frame.role))
+    return std::nullopt;  // the course laid last rests on others
+  std::vector<std::string> details;
+  const auto add = [&details](std::string text) {
+    if (!text.empty()) details.push_back(std::move(text));
+  };
+  if (thrust < 0.0) add("negative: inwards");
+  // Joints of a smaller extent do not have the length of the supports.
+  const bool shrunk = e.summary.critical && e.summary.critical->parameter == "joint_extent";
+  std::string along = shrunk ? "" : per_metre(thrust, length_of(e, shell, supports));
+  if (is_arch(e) && !along.empty()) along = "on each side, " + along;
+  if (!alone) along = fmt::format("of {}{}{}", shell.name, along.empty() ? "" : ", ", along);
+  add(std::move(along));
+  add(level_text(e, shell));
+  add(spread_over(supports));
+  if (alone && e.summary.weight_N > 0.0)
+    add(fmt::format("{:.3g} of the weight", thrust / e.summary.weight_N));
+  for (std::string& other : thrusts_of_others(e, pushing)) add(std::move(other));
+  add(doubt_of(e));
+  return KeyNumber{"Outward thrust", force_text(thrust), fmt::format("{}", fmt::join(details, "; "))};
+}
+
+}  // namespace cupola
