@@ -60,8 +60,9 @@ void declare_fill(Section& s, Fill& fill) {
   s.required_number("unit_weight", fill.unit_weight, {.unit = "N/m3", .above = 0}, "weight per volume");
   s.expect({"unit_weight", fill.unit_weight, "N/m3", kLightest, kHeaviest, "in kN/m3? Write 18000",
             "too many digits? Soil weighs about 18000 N/m3"});
-  s.number("horizontal", fill.horizontal, {.min = 0, .max = 10},
-           "horizontal over vertical stress: 0 none, 0.5 loose soil at rest");
+  s.number(
+      "horizontal", fill.horizontal, {.min = 0, .max = 10},
+      "horizontal over vertical stress, on faces that it lies on or against: 0 none, 0.5 loose soil at rest");
   s.rule(!fill.from || *fill.from < fill.level, "from", "must lie below level");
 }
 

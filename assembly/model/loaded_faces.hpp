@@ -36,9 +36,9 @@ struct Resultant {
 /// so that in a limit analysis of tilt or acceleration the fill weighs as the blocks do.
 Resultant fill_force(const Fill& fill, const LoadedFace& face, const Vec3& gravity);
 
-/// Which faces a fill touches. Its body is the columns above the faces that look up, so that it lies on these,
-/// and beside a face with one of those columns just outside its centroid, such as the riser of a step. A free
-/// wall or an overhang has none.
+/// Which faces a fill touches. Its body is the columns above the faces that look up, so that it lies on
+/// these, and beside a face with one of those columns just outside its centroid, such as the riser of a step.
+/// A free wall or an overhang has none.
 std::vector<bool> touched_by_fill(std::span<const LoadedFace> faces);
 
 /// Shares of a force that spreads from a rectangle down to the faces below it: at the depth d of a face, the

@@ -12,7 +12,7 @@ namespace cupola {
 struct MechanismMotion {
   GivesWay joints;
   double hinging = 0.0, sliding = 0.0, parting = 0.0;  ///< m/s, sums over the joints
-  std::map<int, double> by_course;                     ///< m/s, of all three, by the course of the upper block
+  std::map<int, double> by_course;  ///< m/s, of all three, by the course of the upper block
 
   double sum() const { return hinging + sliding + parting; }
 };

@@ -19,8 +19,8 @@ std::string course_text(const Evaluation& e, int course) {
   return fmt::format("course {}{} (z = {:.3g} m)", course, of, e.rings[course].height);
 }
 
-/// "; 60 % of the motion is at course 7 (z = 4.5 m)": the courses that move most, until they make up half of the motion,
-/// at most three; "" without courses.
+/// "; 60 % of the motion is at course 7 (z = 4.5 m)": the courses that move most, until they make up half of
+/// the motion, at most three; "" without courses.
 std::string moving_courses(const Evaluation& e, const MechanismMotion& motion) {
   constexpr double kEnough = 0.5;
   constexpr size_t kMost = 3;

@@ -266,8 +266,9 @@ std::string barrel_on_walls(double horizontal) {
       horizontal);
 }
 
-// The horizontal pressure of a fill is that on the height of the extrados between the shoulder of the wall and
-// the crown, half on each side: k gamma L ((H - low)^2 - (H - high)^2) / 2. The walls, which are free, have none.
+// The horizontal pressure of a fill is that on the height of the extrados between the shoulder of the wall
+// and the crown, half on each side: k gamma L ((H - low)^2 - (H - high)^2) / 2. The walls, which are free,
+// have none.
 TEST(VaultAnswers, FillPressesOnTheVaultAndNotOnItsFreeWalls) {
   const ProgramFolder folder;
   const Case scene = read(folder, barrel_on_walls(0.5));
@@ -300,8 +301,8 @@ bool warns_of_fill(const Evaluation& e) {
 }
 
 // Nothing acts between the base and the springing, so that the thrust is the same at both. The second course
-// reaches over the springing: its lower bed is a sixteenth of 2 (1 + pi) m above the base. Fill that presses as
-// much sideways as downwards turns the thrust inwards.
+// reaches over the springing: its lower bed is a sixteenth of 2 (1 + pi) m above the base. Fill that presses
+// as much sideways as downwards turns the thrust inwards.
 TEST(VaultAnswers, TheThrustHasItsLevelAndItsSign) {
   const ProgramFolder folder;
   const Evaluation e = solve_and_evaluate(read(folder, barrel_on_walls(0.3)), folder);

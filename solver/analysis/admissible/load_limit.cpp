@@ -70,8 +70,8 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
   return limit;
 }
 
-/// The structure moves at both ends of the bracket. Where the loads are linear in the parameter, the values at
-/// which it stands form one interval, inside the bracket or outside.
+/// The structure moves at both ends of the bracket. Where the loads are linear in the parameter, the values
+/// at which it stands form one interval, inside the bracket or outside.
 DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
                                const std::function<double(double)>& in_unit) {
   DirectLimit limit = not_found(at_both_ends(false, in_unit(low), in_unit(high)));

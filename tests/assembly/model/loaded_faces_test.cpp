@@ -46,8 +46,8 @@ TEST(Fill, PressesSidewaysByItsShare) {
   EXPECT_NEAR(of_below.force.x(), -0.4 * 20e3 * 8.0 * 4.0, 1e-9);
 }
 
-// Fill lies on the tread of a step, and so against its riser and under an overhang above the tread, not against
-// the free sides of the wall below the step, nor below an overhang above nothing.
+// Fill lies on the tread of a step, and so against its riser and under an overhang above the tread, not
+// against the free sides of the wall below the step, nor below an overhang above nothing.
 TEST(Fill, TouchesWhatItLiesOnOrAgainst) {
   const LoadedFace tread = face_of({{0, 0, 0}, {1, 0, 0}, {1, 4, 0}, {0, 4, 0}}),
                    riser = face_of({{0, 0, 0}, {0, 4, 0}, {0, 4, 2}, {0, 0, 2}}),

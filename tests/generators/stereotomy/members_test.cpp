@@ -68,8 +68,8 @@ TEST(Members, MayStandAnywhere) {
   EXPECT_LT((b.blocks.back().centroid - moved_first).norm(), 1e-12);
 }
 
-// A barrel whose plane of symmetry is that of the mirror of a wall stands on the wall and on its image, without
-// supports of its own: its outward direction is that of its own axis.
+// A barrel whose plane of symmetry is that of the mirror of a wall stands on the wall and on its image,
+// without supports of its own: its outward direction is that of its own axis.
 TEST(Members, ABarrelStandsOnAWallAndItsMirrorImage) {
   Member wall = tower("wall", 6.0);
   auto& low = std::get<VaultSurface>(wall.surface);
