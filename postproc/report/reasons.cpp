@@ -99,7 +99,8 @@ std::string assumptions(const Evaluation& e) {
       critical && critical->parameter == "load" ? "their weight, where the loads act and in which direction"
                                                 : "their weight and loads"};
   if (!loads.empty())
-    given.back() += fmt::format(" (weight of {}, {})", force_text(e.summary.weight_N), loads);
+    given.back() += fmt::format(" (weight of {}, {}{})", force_text(e.summary.weight_N), loads,
+                                critical && !is_stage(e.last.frame.role) ? " at the critical value" : "");
   if (!critical || critical->parameter != "friction")
     given.push_back(fmt::format("a coefficient of friction of {:g}", e.scene.joints.friction));
   if (e.scene.joints.have_strength()) given.push_back("the strength of the joints");
