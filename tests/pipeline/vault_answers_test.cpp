@@ -294,6 +294,17 @@ TEST(VaultAnswers, FillPressesOnTheVaultAndNotOnItsFreeWalls) {
   EXPECT_NEAR(sum, exact, 1e-9 * exact);
 }
 
+// Up to 0.53 m the fill covers 1 cm above the shoulder of the wall.
+TEST(VaultAnswers, FillThatLiesOnNextToNothingIsAWarning) {
+  const ProgramFolder folder;
+  Case scene = read(folder, barrel_on_walls(0.0));
+  EXPECT_EQ(generate(scene).case_warnings, std::vector<std::string>());
+  scene.loads.faces[0].fill->level = 0.53;
+  const std::vector<std::string> warnings = generate(scene).case_warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].find("loads.faces[0].fill: up to z = 0.53 m it weighs "), 0u) << warnings[0];
+}
+
 bool warns_of_fill(const Evaluation& e) {
   return std::ranges::any_of(e.warnings, [](const std::string& warning) {
     return warning.find("the horizontal pressure of the fill holds it") != std::string::npos;
