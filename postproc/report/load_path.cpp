@@ -30,7 +30,7 @@ Table path_table(const CsvFile& csv) {
   if (std::ranges::find(csv.columns, "widest_gap_m") == csv.columns.end()) return t;  // version 0.2
   t.columns.push_back({"widest_gap_m", "m", "widest gap of an open joint"});
   for (size_t row = 0; row < csv.rows.size(); ++row)
-    t.rows[row].push_back(csv.number(row, csv.column("widest_gap_m")));
+    t.rows[row].emplace_back(csv.number(row, csv.column("widest_gap_m")));
   return t;
 }
 

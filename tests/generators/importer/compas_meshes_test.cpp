@@ -63,8 +63,8 @@ TEST(CompasMeshes, ElementsOfAModelSayWhetherTheyAreSupports) {
   const std::string graph =
       R"("graph": {"data": {"node": {}, "edge": {"0": {"1": {"contacts": [)" + cube(1) + "]}}}}}";
   for (const std::string& elements :
-       {"[" + element(0, true) + ", " + element(1, false) + "]",
-        R"({"a": )" + element(0, true) + R"(, "b": )" + element(1, false) + "}"}) {
+       {fmt::format("[{}, {}]", element(0, true), element(1, false)),
+        fmt::format(R"({{"a": {}, "b": {}}})", element(0, true), element(1, false))}) {
     const auto blocks = read(R"({"dtype": "compas_dem.models/BlockModel", "data": {)" + graph +
                              R"(, "elements": )" + elements + "}}");
     ASSERT_EQ(blocks.size(), 2u);
@@ -108,8 +108,8 @@ TEST(CompasMeshes, FormerVersionsAreRead) {
 }
 
 TEST(CompasMeshes, AttributesOfAMeshSayWhetherItIsASupport) {
-  const auto blocks =
-      read("[" + former_cube(0, R"(, "attributes": {"is_support": true})") + ", " + former_cube(1) + "]");
+  const auto blocks = read(
+      fmt::format("[{}, {}]", former_cube(0, R"(, "attributes": {"is_support": true})"), former_cube(1)));
   ASSERT_EQ(blocks.size(), 2u);
   EXPECT_TRUE(blocks[0].fixed);
   EXPECT_FALSE(blocks[1].fixed);
