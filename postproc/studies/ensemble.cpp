@@ -54,6 +54,9 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
     for (const EnsembleResults& one : all) tables.push_back(&one.members);
     for (EnsembleResults& one : all) one.results = varying_columns(tables);
   }
+  // The state in which a limit analysis ends says nothing about the structure under its own loads.
+  for (EnsembleResults& one : all)
+    if (const auto critical = one.critical_column()) one.results = {*critical};
   std::vector<std::string> sentences;
   const Table differences = alike ? differences_table(all, &sentences) : Table{};
   bool good = true;

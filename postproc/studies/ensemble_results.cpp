@@ -77,18 +77,21 @@ std::string difference_sentence(const std::string& pair, const std::string& what
 void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
               std::vector<std::string>* sentences) {
   const std::string pair = a.name + " less " + b.name;
-  int only_a = 0, only_b = 0, both = 0;
+  const auto share = [](int count, int of) { return static_cast<double>(count) / of; };
+  int in_a = 0, in_b = 0, only_a = 0, only_b = 0, both = 0;
   for (size_t i = 0; i < a.falls.size(); ++i) {
     if (a.falls[i] < 0 || b.falls[i] < 0) continue;
     ++both;
+    in_a += a.falls[i];
+    in_b += b.falls[i];
     only_a += a.falls[i] > b.falls[i];
     only_b += a.falls[i] < b.falls[i];
   }
   const bool some_fall = std::ranges::count(a.falls, 1) + std::ranges::count(b.falls, 1) > 0;
   if (some_fall && both > 0) {
     const double p = mcnemar(only_a, only_b);
-    table->rows.push_back(
-        {pair, std::string("falls"), both, static_cast<double>(only_a - only_b) / both, kNone, kNone, p});
+    table->rows.push_back({pair, std::string("falls"), both, share(in_a, both), share(in_b, both),
+                           share(only_a - only_b, both), kNone, kNone, p});
     sentences->push_back(fmt::format(
         "{}{} and {}: of {} with a verdict in both, {} fall in the first only and {} in the second only "
         "(exact McNemar test: p = {:.2g}).",
@@ -98,13 +101,19 @@ void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
     DrawnValues difference = a.values(column);
     const DrawnValues other = b.values(column);
     int pairs = 0;
+    double first = 0.0, second = 0.0;
     for (size_t i = 0; i < difference.values.size(); ++i) {
+      const double value = difference.values[i];
       difference.values[i] -= other.values[i];
-      pairs += std::isfinite(difference.values[i]);
+      if (!std::isfinite(difference.values[i])) continue;
+      ++pairs;
+      first += value;
+      second += other.values[i];
     }
     if (pairs == 0) continue;
     const IntervalEstimate mean = mean_of(difference);
-    std::vector<Table::Cell> row = {pair, a.members.columns[column].key, pairs};
+    std::vector<Table::Cell> row = {pair, a.members.columns[column].key, pairs, first / pairs,
+                                    second / pairs};
     add_estimate(mean, &row);
     row.emplace_back(kNone);
     table->rows.push_back(std::move(row));
@@ -287,7 +296,11 @@ Table ends_table(const EnsembleResults& ensemble) {
 
 Table differences_table(const std::vector<EnsembleResults>& ensembles, std::vector<std::string>* sentences) {
   Table t{"differences", "Differences between ensembles, member by member", {}, {}};
-  t.columns = {{"pair", "", "Pair"}, {"result", "", "Result"}, {"pairs", "", "Pairs of members"}};
+  t.columns = {{"pair", "", "Pair"},
+               {"result", "", "Result"},
+               {"pairs", "", "Pairs of members"},
+               {"first", "", "Mean of the first"},
+               {"second", "", "Mean of the second"}};
   add_estimate_columns("difference", "Mean difference", &t);
   t.columns.push_back({"mcnemar_p", "", "p of the exact McNemar test"});
   for (size_t a = 0; a < ensembles.size(); ++a)

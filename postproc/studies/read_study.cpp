@@ -194,9 +194,12 @@ Study read_study(const std::string& path, const CaseOfStudy& of) {
     if (table.runs.empty() && study.answers.verdict.empty())
       for (const StudyRun& run : study.runs) table.runs.push_back(run.name);
   for (const StudyTable& table : study.tables)
-    if (table.columns.empty() && study.script.empty())
-      throw InputError(FileLocation{path},
-                       fmt::format("tables: {} has no columns; give them, or a `script`", table.name));
+    if (table.columns.empty() && study.script.empty() && study.ensembles.size() < 2)
+      throw InputError(
+          FileLocation{path},
+          fmt::format("tables: {} has no columns; give them, a `script`, or two ensembles, whose "
+                      "differences are the rows",
+                      table.name));
   if (study.runs.empty() && study.tables.empty() && study.comparisons.empty() && study.claims.empty() &&
       study.figures.empty())
     throw InputError(FileLocation{path},

@@ -40,6 +40,10 @@ std::vector<MeasuredTable> add_tables(const Study& study, RunCache& runs, StudyP
                                       std::string* text) {
   std::vector<MeasuredTable> tables;
   for (const StudyTable& table : study.tables) {
+    if (table.columns.empty() && study.script.empty()) {  // the page has it
+      tables.push_back({table, printed_table(table, page->folder() + "/differences.csv")});
+      continue;
+    }
     tables.push_back({table, table.columns.empty() ? printed_table(table, page->folder() + "/script.csv")
                                                    : measured_table(table, runs)});
     page->add("<h2>" + markup_text(table.name) + "</h2>\n");

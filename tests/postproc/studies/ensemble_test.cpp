@@ -202,6 +202,25 @@ TEST(EnsemblePage, ComparesEnsemblesMemberByMember) {
   for (const char* file :
        {"a.csv", "b.csv", "a_statistics.csv", "a_inputs.csv", "a_ends.csv", "differences.csv"})
     EXPECT_TRUE(std::filesystem::exists(scratch.file(std::string("page/") + file))) << file;
+  EXPECT_NE(read_text(scratch.file("page/differences.csv")).find("a less b,falls,8,0,0.875,-0.875,"),
+            std::string::npos);
+}
+
+// The widest crack in the state in which a limit analysis ends is no result.
+TEST(EnsemblePage, ComparesLimitAnalysesByTheirCriticalValues) {
+  const ScratchFolder scratch;
+  const std::vector<SampledRuns> ensembles = two_ensembles(scratch, 0.0, 0);
+  for (const SampledRuns& ensemble : ensembles)
+    for (size_t i = 0; i < 8; ++i)
+      scratch.write(ensemble.runs[i].name + "/results/summary.json",
+                    "{\"status\": \"stable\", \"critical_value\": " +
+                        std::to_string((ensemble.name == "a" ? 2.0 : 1.0) + static_cast<double>(i)) + "}");
+  StudyPage page("Two", scratch.file("page"));
+  const std::string text = add_ensembles(ensembles, scratch.folder(), &page);
+  EXPECT_NE(text.find("a less b: critical_value differs by 1 (1 to 1)."), std::string::npos) << text;
+  EXPECT_EQ(text.find("widest_crack_m"), std::string::npos) << text;
+  EXPECT_NE(read_text(scratch.file("page/differences.csv")).find("a less b,critical_value,8,5.5,4.5,1,1,1,"),
+            std::string::npos);
 }
 
 TEST(EnsemblePage, ADifferenceWithinItsIntervalIsTheHeadline) {
