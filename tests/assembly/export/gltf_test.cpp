@@ -64,8 +64,9 @@ TEST(Export, RefusesOtherEndings) {
     check_export_path("dome.stl");
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("must end in .gltf, .obj, .json (COMPAS) or .csv"),
-              std::string::npos);
+    EXPECT_NE(
+        std::string(error.what()).find("must end in .gltf, .obj, .json (COMPAS), .csv or .vtu (Cupola)"),
+        std::string::npos);
   }
 }
 
