@@ -37,9 +37,9 @@ class Objectives {
   /// Force of the blocks on their supports along a direction that depends on the joint.
   template <class Direction>
   ForceFunctional on_supports(const std::set<int>& blocks, const Direction& direction) const;
-  /// Force of the blocks of course `first` on blocks of other stacks, on which they stand.
+  /// Adds the force of the blocks of course `first` on blocks of other stacks, on which they stand.
   template <class Direction>
-  ForceFunctional on_other_stacks(int first, const Direction& direction) const;
+  void add_on_other_stacks(int first, const Direction& direction, ForceFunctional* f) const;
   ForceFunctional weight_of(const std::set<int>& blocks, double factor) const;
 
   const ForceScene& scene_;
@@ -76,22 +76,20 @@ ForceFunctional Objectives::on_supports(const std::set<int>& blocks, const Direc
 }
 
 template <class Direction>
-ForceFunctional Objectives::on_other_stacks(int first, const Direction& direction) const {
-  ForceFunctional f = scene_.zero();
+void Objectives::add_on_other_stacks(int first, const Direction& direction, ForceFunctional* f) const {
   const auto ring = [this](int block) { return scene_.assembly.blocks[block].ring; };
   for (const auto& [key, pair] : scene_.joints.pairs()) {
     const auto [lower, block] = ring(key.first) < ring(key.second) ? key : std::pair(key.second, key.first);
     if (!scene_.fixed(lower) && !scene_.fixed(block) && ring(lower) < first && ring(block) == first)
-      scene_.add(pair, lower, direction(pair.centroid, block), &f);
+      scene_.add(pair, lower, direction(pair.centroid, block), f);
   }
-  return f;
 }
 
 ForceFunctional Objectives::weight_of(const std::set<int>& blocks, double factor) const {
   return on_supports(blocks, [factor](const Vec3&, int) { return Vec3(factor * kDown); });
 }
 
-/// Of the last stack, in a model of several: on its supports, or on the members that carry it.
+/// Of the last stack, in a model of several: on its supports and on the members that carry it.
 std::vector<RangeObjective> Objectives::operator()(const BaseThrust&) const {
   const Assembly& assembly = scene_.assembly;
   const Sheet last = assembly.sheets.empty() ? Sheet{} : assembly.sheets.back();
@@ -103,11 +101,9 @@ std::vector<RangeObjective> Objectives::operator()(const BaseThrust&) const {
   std::set<int> blocks = base_blocks();
   const int first = assembly.stack_of(last.first_ring).first;
   std::erase_if(blocks, [&](int block) { return std::max(assembly.blocks[block].ring, 0) < first; });
-  return {{"thrust",
-           "N",
-           blocks.empty() ? on_other_stacks(first, direction) : on_supports(blocks, direction),
-           {},
-           {}}};
+  ForceFunctional f = on_supports(blocks, direction);
+  add_on_other_stacks(first, direction, &f);
+  return {{"thrust", "N", std::move(f), {}, {}}};
 }
 
 std::vector<RangeObjective> Objectives::operator()(const BlockReaction& reaction) const {
