@@ -262,7 +262,8 @@ TEST(VaultAnswers, TheRangeOfAThrustCountsSupportsAndOtherMembers) {
   const double thrust = e.rings.at(e.assembly.sheets.back().first_ring).radial_thrust;
   scene.analysis.type = AnalysisType::range;
   const ForceRange range = run_range(scene, e.assembly, {}).value().ranges.at(0);
-  // The sides differ by the bonds of the lunettes: their reactions by 1e-4. Without the lunettes 8 % are missing.
+  // The sides differ by the bonds of the lunettes: their reactions by 1e-4. Without the lunettes 8 % are
+  // missing.
   EXPECT_NEAR(range.chosen.value(), thrust, 1e-3 * thrust);
 }
 
