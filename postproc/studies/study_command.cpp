@@ -40,8 +40,10 @@ std::vector<MeasuredTable> add_tables(const Study& study, RunCache& runs, StudyP
                                       std::string* text) {
   std::vector<MeasuredTable> tables;
   for (const StudyTable& table : study.tables) {
-    if (table.columns.empty() && study.script.empty()) {  // the page has it
-      tables.push_back({table, printed_table(table, page->folder() + "/differences.csv")});
+    if (table.columns.empty() && study.script.empty()) {
+      // The page has it already; there is none before two ensembles have a result of the same sample.
+      const std::string differences = page->folder() + "/differences.csv";
+      if (fs::exists(differences)) tables.push_back({table, printed_table(table, differences)});
       continue;
     }
     tables.push_back({table, table.columns.empty() ? printed_table(table, page->folder() + "/script.csv")
@@ -146,6 +148,9 @@ ExitCode measure(const Study& study, const StudyRequest& request) {
     // A page of answers says what was not computed and why.
     return runs.finished(study.answers.verdict) ? ExitCode::done : ExitCode::failed;
   }
+  if (tables.size() < study.tables.size())
+    throw InputError(FileLocation{request.study_path},
+                     "tables: a table without columns needs two ensembles with the same samples");
   if (!request.pages_folder.empty()) write_pages(study, tables, request, runs);
   return ExitCode::done;
 }
