@@ -58,6 +58,9 @@ echo "extends: cupola:../../../../etc/passwd" > outside.yaml
 "$cupola" cases | grep -q claims && fail "claims are no cases"
 cp my_wall.yaml second_wall.yaml
 "$cupola" run my_wall.yaml second_wall.yaml > two.log 2>&1 || { cat two.log; fail "two cases"; }
+cp my_wall.yaml third_wall.yaml; echo "joints: {frction: 0.5}" > bad.yaml
+"$cupola" run bad.yaml third_wall.yaml > bad.log 2>&1 && { cat bad.log; fail "a bad case is no failure"; }
+[ -s out/third_wall/post/report.html ] || { cat bad.log; fail "a bad case stops the next one"; }
 
 dpkg --root="$root" --force-not-root --log=/dev/null -r cupola > "$work/dpkg.log" 2>&1 || { cat "$work/dpkg.log"; fail "removal"; }
 [ ! -e "$cupola" ] || fail "files remain after removal"
