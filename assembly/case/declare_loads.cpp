@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "assembly/case/declare.hpp"
@@ -79,6 +80,19 @@ void declare_face_load(Section& s, FaceLoad& load) {
   declare_time(s, "time", load.time, "factor on the load");
 }
 
+/// True if a fill on the extrados, which lies on the tops of walls, too, is given again on these tops.
+bool gives_fill_of_tops_twice(const std::vector<FaceLoad>& loads) {
+  const auto overlap = [](const Fill& a, const Fill& b) {
+    return (!a.from || *a.from < b.level) && (!b.from || *b.from < a.level);
+  };
+  return std::ranges::any_of(loads, [&](const FaceLoad& a) {
+    return a.fill && a.faces == FaceKind::extrados && a.member.empty() &&
+           std::ranges::any_of(loads, [&](const FaceLoad& b) {
+             return b.fill && b.faces == FaceKind::top && overlap(*a.fill, *b.fill);
+           });
+  });
+}
+
 void declare_heat(Section& s, BlockHeat& heat) {
   declare_region(s, heat.region, "the heated blocks; empty: all free blocks");
   s.number("change", heat.change, {.unit = "K"}, "change of temperature at the centroid of each block");
@@ -117,6 +131,8 @@ void declare_loads(Section& s, Loads& loads) {
   declare_time(s, "dead_load_time", loads.dead_load_time, "factor on gravity, lantern and top load");
   s.list("forces", loads.forces, "forces and moments on blocks", declare_block_force);
   s.list("faces", loads.faces, "loads on all faces of one kind", declare_face_load);
+  s.rule(!gives_fill_of_tops_twice(loads.faces), "faces",
+         "a fill on the extrados lies on the tops of walls, too: leave out that of kind top");
   s.list("heat", loads.heat, "changes of temperature, by which blocks expand", declare_heat);
 }
 

@@ -132,6 +132,22 @@ std::vector<std::string> idle_fill(const Loads& loads, const Assembly& assembly,
   return out;
 }
 
+/// Spread forces of which a part falls beside the masonry.
+std::vector<std::string> spread_beside(const Loads& loads, const Assembly& assembly) {
+  constexpr double kRounding = 1e-6;
+  std::vector<std::string> out;
+  for (size_t i = 0; i < loads.forces.size(); ++i) {
+    const BlockForce& load = loads.forces[i];
+    const double beside = load.spread ? share_beside(load, assembly) : 0.0;
+    if (beside > kRounding)
+      out.push_back(fmt::format(
+          "loads.forces[{}].spread: {:.3g} % of the force, {:.3g} N, reaches no free block and is left out; "
+          "the rest keeps its intensity. If the ground carries it, nothing is to be done",
+          i, 100.0 * beside, beside * load.force.norm()));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembly& assembly) {
@@ -162,6 +178,7 @@ std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembl
   std::vector<std::string> out = sentences(checks);
   for (std::string& text : cuts_beside(scene.postproc, points, extent)) out.push_back(std::move(text));
   for (std::string& text : idle_fill(scene.loads, assembly, weight)) out.push_back(std::move(text));
+  for (std::string& text : spread_beside(scene.loads, assembly)) out.push_back(std::move(text));
   if (!varies(LimitSearch::Parameter::spread))
     for (std::string& text : lost_supports(scene, assembly)) out.push_back(std::move(text));
   return out;

@@ -1,7 +1,9 @@
 #include "assembly/model/applied_loads.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -10,6 +12,7 @@
 #include "assembly/base/error.hpp"
 #include "assembly/model/block_names.hpp"
 #include "assembly/model/loaded_faces.hpp"
+#include "assembly/model/open_tops.hpp"
 
 namespace cupola {
 namespace {
@@ -68,6 +71,17 @@ int block_at(const Assembly& assembly, const Vec3& point) {
   return nearest;
 }
 
+/// "; its courses are 6 to 11", counted through all members; "" without a free block.
+std::string courses_of(const Assembly& assembly, const std::string& member) {
+  int low = kLastRing, high = -1;
+  for (const Block& block : assembly.blocks) {
+    if (block.fixed || !is_of_member(assembly, block, member)) continue;
+    low = std::min(low, block.ring);
+    high = std::max(high, block.ring);
+  }
+  return high < 0 ? "" : fmt::format("; {} courses are {} to {}", member.empty() ? "the" : "its", low, high);
+}
+
 void add_shared_force(const BlockForce& load, const Assembly& assembly, int time,
                       std::vector<PointForce>* forces) {
   const SharingBlocks& over = *load.over;
@@ -80,26 +94,26 @@ void add_shared_force(const BlockForce& load, const Assembly& assembly, int time
   for (const Block& block : assembly.blocks)
     if (carries(block)) volume += block.volume;
   if (volume == 0.0)
-    throw InputError(fmt::format("loads.forces: no free block{}{} to carry the force",
+    throw InputError(fmt::format("loads.forces: no free block{}{} to carry the force{}",
                                  over.course >= 0 ? fmt::format(" in course {}", over.course) : "",
-                                 over.member.empty() ? "" : " of member " + over.member));
+                                 over.member.empty() ? "" : " of member " + over.member,
+                                 courses_of(assembly, over.member)));
   for (size_t b = 0; b < assembly.blocks.size(); ++b)
     if (const Block& block = assembly.blocks[b]; carries(block))
       forces->push_back({static_cast<int>(b), block.centroid, block.volume / volume * load.force, time});
 }
 
-/// On the upper faces of the masonry, wherever its extrados or a wall ends below the rectangle.
-void add_spread_force(const BlockForce& load, const Assembly& assembly, int time,
-                      std::vector<PointForce>* forces) {
-  const std::vector<LoadedFace> faces =
-      faces_of_kind(assembly, std::array{FaceKind::extrados, FaceKind::top}, 0, kLastRing, "");
+/// On the upper faces of the masonry, wherever its extrados or the top of a wall lies below the rectangle.
+std::vector<SpreadShare> shares_of(const BlockForce& load, const Assembly& assembly) {
+  std::vector<LoadedFace> faces = faces_of_kind(assembly, std::array{FaceKind::extrados}, 0, kLastRing, "");
+  std::ranges::move(open_tops(assembly, 0, kLastRing, "", false), std::back_inserter(faces));
   const Vec3& point = load.point.value();
-  const std::vector<SpreadShare> shares = spread_shares(*load.spread, point, faces);
+  std::vector<SpreadShare> shares = spread_shares(*load.spread, point, faces);
   if (shares.empty())
     throw InputError(fmt::format(
         "loads.forces: no extrados lies below the rectangle of {:g} by {:g} m about ({:g}, {:g}, {:g}) m",
         load.spread->x, load.spread->y, point.x(), point.y(), point.z()));
-  for (const SpreadShare& s : shares) forces->push_back({s.block, s.point, s.share * load.force, time});
+  return shares;
 }
 
 /// Two couples at right angles, of equal share. Together they have no symmetric moment, which would pass for
@@ -118,7 +132,11 @@ void add_moment(const Vec3& moment, int number, const Block& block, int time,
 void add_block_force(const BlockForce& load, const Assembly& assembly, int time,
                      std::vector<PointForce>* forces) {
   if (load.over) return add_shared_force(load, assembly, time, forces);
-  if (load.spread) return add_spread_force(load, assembly, time, forces);
+  if (load.spread) {
+    for (const SpreadShare& s : shares_of(load, assembly))
+      forces->push_back({s.block, s.point, s.share * load.force, time});
+    return;
+  }
   const int number =
       load.block == BlockForce::kAtPoint ? block_at(assembly, load.point.value()) : load.block.number;
   check_block_exists(assembly, number, "loads.forces");
@@ -129,15 +147,44 @@ void add_block_force(const BlockForce& load, const Assembly& assembly, int time,
   if (load.moment) add_moment(*load.moment, number, block, time, forces);
 }
 
+/// The kinds of face that free blocks of a member have, as the end of a sentence.
+std::string kinds_of(const Assembly& assembly, const std::string& member) {
+  std::string kinds;
+  for (const FaceKind kind : {FaceKind::extrados, FaceKind::intrados, FaceKind::top, FaceKind::free}) {
+    const std::vector<LoadedFace> faces = faces_of_kind(assembly, std::array{kind}, 0, kLastRing, member);
+    if (faces.empty()) continue;
+    const auto [low, high] = std::ranges::minmax(
+        faces, {}, [&](const LoadedFace& face) { return assembly.blocks[face.block].ring; });
+    kinds += fmt::format("{}{} (rings {} to {})", kinds.empty() ? "" : ", ", to_string(kind),
+                         assembly.blocks[low.block].ring, assembly.blocks[high.block].ring);
+  }
+  return kinds.empty() ? "none that a load can act on" : kinds;
+}
+
+/// A fill on the extrados lies on the tops beside it, too.
+std::vector<LoadedFace> faces_under(const FaceLoad& load, const Assembly& assembly) {
+  const bool on_tops = load.faces == FaceKind::top;
+  std::vector<LoadedFace> faces;
+  if (!on_tops)
+    faces = faces_of_kind(assembly, std::array{load.faces}, load.from_ring, load.to_ring, load.member);
+  if (on_tops || (load.fill && load.faces == FaceKind::extrados))
+    std::ranges::move(open_tops(assembly, load.from_ring, load.to_ring, load.member, !on_tops),
+                      std::back_inserter(faces));
+  if (faces.empty())
+    throw InputError(fmt::format("loads.faces: no free block{}{} has faces of kind {}; {} has: {}",
+                                 load.member.empty() ? "" : " of " + load.member,
+                                 load.from_ring == 0 && load.to_ring == kLastRing
+                                     ? ""
+                                     : fmt::format(" in rings {} to {}", load.from_ring, load.to_ring),
+                                 to_string(load.faces), load.member.empty() ? "the model" : "it",
+                                 kinds_of(assembly, load.member)));
+  return faces;
+}
+
 void add_face_load(const FaceLoad& load, const Assembly& assembly, const Vec3& gravity, int time,
                    std::vector<PointForce>* forces) {
   check_member_exists(assembly, load.member, "loads.faces");
-  const std::vector<LoadedFace> faces =
-      faces_of_kind(assembly, std::array{load.faces}, load.from_ring, load.to_ring, load.member);
-  if (faces.empty())
-    throw InputError(fmt::format("loads.faces: no free block{} in rings {} to {} has faces of kind {}",
-                                 load.member.empty() ? "" : " of " + load.member, load.from_ring,
-                                 load.to_ring, to_string(load.faces)));
+  const std::vector<LoadedFace> faces = faces_under(load, assembly);
   const bool has_traction = load.traction.norm() > 0.0 || load.pressure != 0.0 || !load.fill;
   const std::vector<bool> touched = load.fill ? touched_by_fill(faces) : std::vector<bool>();
   bool is_covered = !load.fill;
@@ -175,6 +222,12 @@ std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assemb
   for (const BlockForce& load : loads.forces) add_block_force(load, assembly, time++, &forces);
   for (const FaceLoad& load : loads.faces) add_face_load(load, assembly, loads.gravity, time++, &forces);
   return forces;
+}
+
+double share_beside(const BlockForce& load, const Assembly& assembly) {
+  double met = 0.0;
+  for (const SpreadShare& s : shares_of(load, assembly)) met += s.share;
+  return 1.0 - met;
 }
 
 std::vector<TimeFunction> load_times(const Loads& loads) {

@@ -21,6 +21,9 @@ struct PointForce {
 /// the face centroids. Throws InputError if a load has no face or block to act on.
 std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assembly);
 
+/// The part of a spread force that meets no free masonry, 0 to 1, and acts on nothing.
+double share_beside(const BlockForce& load, const Assembly& assembly);
+
 /// The time functions that PointForce::time refers to: those of `loads.forces`, then of `loads.faces`.
 std::vector<TimeFunction> load_times(const Loads& loads);
 

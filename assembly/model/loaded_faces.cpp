@@ -9,24 +9,6 @@ namespace cupola {
 namespace {
 
 constexpr double kStandardGravity = 9.81;  // m/s2, as of Material::density
-constexpr double kUpright = 1e-9;          // cosine of a wall within rounding
-
-bool looks_up(const LoadedFace& face) {
-  return face.normal.z() > kUpright;
-}
-
-/// The part of a plane polygon with n.x <= offset; fewer than three points if there is none.
-std::vector<Vec3> below_plane(const std::vector<Vec3>& polygon, const Vec3& n, double offset) {
-  std::vector<Vec3> kept;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double of_a = n.dot(a) - offset, of_b = n.dot(b) - offset;
-    if (of_a <= 0.0) kept.push_back(a);
-    if ((of_a < 0.0 && of_b > 0.0) || (of_a > 0.0 && of_b < 0.0))
-      kept.push_back(a + of_a / (of_a - of_b) * (b - a));
-  }
-  return kept;
-}
 
 /// Adds the integrals of the stress s and of s x over a convex polygon on which s is linear.
 void integrate(const Fill& fill, const std::vector<Vec3>& polygon, double* sum, Vec3* moment) {
@@ -82,6 +64,29 @@ class Columns {
 
 }  // namespace
 
+bool looks_up(const LoadedFace& face) {
+  return face.normal.z() > kUpright;
+}
+
+LoadedFace loaded_face(const Assembly& assembly, int block, int f) {
+  std::vector<Vec3> polygon = face_points(assembly, f);
+  const Vec3 centroid = polygon_centroid(polygon), normal = polygon_plane(polygon).normal;
+  const double area = polygon_area(polygon);
+  return {block, std::move(polygon), centroid, normal, area};
+}
+
+std::vector<Vec3> below_plane(const std::vector<Vec3>& polygon, const Vec3& n, double offset) {
+  std::vector<Vec3> kept;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double of_a = n.dot(a) - offset, of_b = n.dot(b) - offset;
+    if (of_a <= 0.0) kept.push_back(a);
+    if ((of_a < 0.0 && of_b > 0.0) || (of_a > 0.0 && of_b < 0.0))
+      kept.push_back(a + of_a / (of_a - of_b) * (b - a));
+  }
+  return kept;
+}
+
 double Fill::stress(double z) const {
   const double bottom = from ? std::max(z, *from) : z;
   return unit_weight * std::max(level - bottom, 0.0);
@@ -100,10 +105,7 @@ std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, std::span<const 
       continue;
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
       if (std::ranges::find(kinds, assembly.face_kinds[f]) == kinds.end()) continue;
-      std::vector<Vec3> polygon = face_points(assembly, f);
-      const Vec3 centroid = polygon_centroid(polygon), normal = polygon_plane(polygon).normal;
-      const double area = polygon_area(polygon);
-      faces.push_back({part.block, std::move(polygon), centroid, normal, area});
+      faces.push_back(loaded_face(assembly, part.block, f));
     }
   }
   return faces;
@@ -140,25 +142,36 @@ std::vector<bool> touched_by_fill(std::span<const LoadedFace> faces) {
 
 std::vector<SpreadShare> spread_shares(const Spread& spread, const Vec3& point,
                                        std::span<const LoadedFace> faces) {
+  const auto width = [&](double z) {
+    const double growth = 2.0 * spread.slope * (point.z() - z);
+    return Eigen::Array2d(spread.x + growth, spread.y + growth);
+  };
   std::vector<SpreadShare> shares;
   double sum = 0.0;
   for (const LoadedFace& face : faces) {
-    const double depth = point.z() - face.centroid.z();
-    if (!looks_up(face) || depth < 0.0) continue;
-    const double along_x = spread.x + 2.0 * spread.slope * depth,
-                 along_y = spread.y + 2.0 * spread.slope * depth;
-    std::vector<Vec3> loaded = face.polygon;
+    if (!looks_up(face)) continue;
+    std::vector<Vec3> rays = below_plane(face.polygon, Vec3::UnitZ(), point.z());  // (u, v, z)
+    for (Vec3& p : rays) p.head<2>() = (p - point).head<2>().array() / width(p.z());
     for (const double side : {-1.0, 1.0}) {
-      loaded = below_plane(loaded, side * Vec3::UnitX(), side * point.x() + 0.5 * along_x);
-      loaded = below_plane(loaded, side * Vec3::UnitY(), side * point.y() + 0.5 * along_y);
+      rays = below_plane(rays, side * Vec3::UnitX(), 0.5);
+      rays = below_plane(rays, side * Vec3::UnitY(), 0.5);
     }
-    if (loaded.size() < 3) continue;
-    const double share = face.normal.z() * polygon_area(loaded) / (along_x * along_y);
+    double share = 0.0;
+    Vec3 moment = Vec3::Zero();
+    for (size_t i = 1; i + 1 < rays.size(); ++i) {
+      const Vec3 a = rays[i] - rays[0], b = rays[i + 1] - rays[0];
+      const double area = 0.5 * (a.x() * b.y() - a.y() * b.x());
+      share += area;
+      moment += area / 3.0 * (rays[0] + rays[i] + rays[i + 1]);
+    }
     if (share <= 0.0) continue;
-    shares.push_back({face.block, polygon_centroid(loaded), share});
+    Vec3 middle = moment / share;
+    middle.head<2>() = point.head<2>().array() + middle.head<2>().array() * width(middle.z());
+    shares.push_back({face.block, middle, share});
     sum += share;
   }
-  for (SpreadShare& share : shares) share.share /= sum;
+  if (sum > 1.0)
+    for (SpreadShare& share : shares) share.share /= sum;
   return shares;
 }
 

@@ -18,6 +18,15 @@ struct LoadedFace {
   double area = 0.0;             ///< m2
 };
 
+constexpr double kUpright = 1e-9;  ///< cosine between a face and the vertical within rounding
+
+LoadedFace loaded_face(const Assembly& assembly, int block, int f);
+
+bool looks_up(const LoadedFace& face);
+
+/// The part of a plane polygon with n.x <= offset; fewer than three points if there is none.
+std::vector<Vec3> below_plane(const std::vector<Vec3>& polygon, const Vec3& n, double offset);
+
 bool is_of_member(const Assembly& assembly, const Block& block, const std::string& member);
 
 /// Faces of some kinds on the free blocks of a member ("": all), for parts in a range of rings.
@@ -41,9 +50,11 @@ Resultant fill_force(const Fill& fill, const LoadedFace& face, const Vec3& gravi
 /// A free wall or an overhang has none.
 std::vector<bool> touched_by_fill(std::span<const LoadedFace> faces);
 
-/// Shares of a force that spreads from a rectangle down to the faces below it: at the depth d of a face, the
-/// pressure on its plan is 1 / ((x + 2 m d) (y + 2 m d)) inside the widened rectangle, with the slope m. The
-/// shares are scaled to a sum of one. All zero if no face looks up to the rectangle.
+/// Shares of a force that spreads from a rectangle down to the faces below it, along rays: the point (u, v) of
+/// the rectangle, from -1/2 to 1/2 along each side, reaches u (x + 2 m d), v (y + 2 m d) at the depth d, with
+/// the slope m. The share of a face is the part of the rectangle whose rays meet it, and the sum of all is one
+/// where faces lie below the whole rectangle, less where some rays fall beside. Faces above each other do not
+/// shade: a sum above one is scaled down to it.
 struct SpreadShare {
   int block = 0;
   Vec3 point = Vec3::Zero();  ///< m

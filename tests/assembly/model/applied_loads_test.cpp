@@ -88,7 +88,8 @@ TEST(AppliedLoads, LoadsWithoutABlockOrFaceAreRefused) {
   loads.faces.emplace_back().faces = FaceKind::extrados;
   loads.faces[0].to_ring = 2;
   EXPECT_EQ(refusal_of(loads, assembly),
-            "error: loads.faces: no free block in rings 0 to 2 has faces of kind extrados");
+            "error: loads.faces: no free block in rings 0 to 2 has faces of kind extrados; the model has: "
+            "intrados (rings 0 to 0), top (rings 0 to 0)");
   loads.faces.clear();
   for (FaceKind& kind : assembly.face_kinds)
     if (kind == FaceKind::top) kind = FaceKind::free;

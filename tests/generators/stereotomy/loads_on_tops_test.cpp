@@ -1,0 +1,136 @@
+// Fill and spread forces above a barrel that stands on walls wider than itself.
+
+#include <algorithm>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/case/case_reader.hpp"
+#include "assembly/model/applied_loads.hpp"
+#include "generators/generate.hpp"
+#include "tests/fresh_folder.hpp"
+
+namespace cupola::loads_on_tops_test {
+namespace {
+
+constexpr double kLength = 3.0, kOuter = 3.2;  // m: of the barrel, and from its axis to the back of the walls
+
+/// A barrel of 4 m on two walls, whose inner faces are `span` apart.
+Case barrel_on_walls(double span, const std::string& loads) {
+  const std::string file = test::fresh_folder("loads_on_tops") + "/case.yaml";
+  std::ofstream(file) << fmt::format(R"(
+geometry:
+  members:
+    - name: wall
+      at: {{origin: [0, 0, -2.5]}}
+      mirror: {{point: [0, 0, 0], normal: [1, 0, 0]}}
+      surface: {{type: vault, plan: {{type: line, length: {2}}}, profile: {{type: straight, span: {0}, height: 2.5}}, thickness: {1}}}
+      bond: {{type: running, rings: 4, blocks_per_ring: 2, slices_per_block: 2}}
+    - name: barrel
+      on: wall
+      surface:
+        type: vault
+        plan: {{type: line, length: {2}}}
+        profile: {{type: segmental, span: 4, rise: 1}}
+        thickness: 0.25
+        beds: given
+        bed_angles_deg: [0, 90]
+      bond: {{type: running, rings: 9, blocks_per_ring: 3, slices_per_block: 2}}
+material: {{unit_weight: 18000}}
+loads: {3}
+)",
+                                     span, kOuter - 0.5 * span, kLength, loads);
+  return read_case(file);
+}
+
+struct Sums {
+  double walls = 0.0, barrel = 0.0;  // N, downwards
+};
+
+Sums sums_of(const Case& scene, const Assembly& assembly) {
+  Sums sums;
+  for (const PointForce& force : applied_loads(scene.loads, assembly)) {
+    const bool of_barrel = assembly.members[assembly.blocks[force.block].member] == "barrel";
+    (of_barrel ? sums.barrel : sums.walls) -= force.force.z();
+  }
+  return sums;
+}
+
+/// m, x up to which the barrel covers the tops of the walls, at z = 0.
+double outer_edge_of_springing(const Assembly& assembly) {
+  double edge = 0.0;
+  for (const Part& part : assembly.parts)
+    if (assembly.members[assembly.blocks[part.block].member] == "barrel")
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+        for (const Vec3& p : face_points(assembly, f))
+          if (std::abs(p.z()) < 1e-9) edge = std::max(edge, p.x());
+  return edge;
+}
+
+// The tops of the walls lie 1.25 m below the level of the fill. Inside the vault nothing lies on them.
+TEST(LoadsOnTops, FillLiesOnTheWallsBesideABarrel) {
+  for (const double span : {4.0, 3.6})
+    for (const char* member : {"", "member: barrel, "}) {
+      const Case scene = barrel_on_walls(
+          span, fmt::format("{{faces: [{{{}fill: {{level: 1.25, unit_weight: 16000}}}}]}}", member));
+      const Assembly assembly = generate(scene);
+      const double edge = outer_edge_of_springing(assembly);
+      ASSERT_GT(edge, 2.25);
+      const Sums sums = sums_of(scene, assembly);
+      const double on_walls = 16000 * 1.25 * 2.0 * (kOuter - edge) * kLength;
+      EXPECT_NEAR(sums.walls, on_walls, 1e-9 * on_walls) << span << member;
+      EXPECT_GT(sums.barrel, 0.0);
+    }
+}
+
+// A fill lies on the walls once if each member has its own.
+TEST(LoadsOnTops, FillOfTheWallsAloneLiesOnNone) {
+  const Case scene =
+      barrel_on_walls(4.0, "{faces: [{member: wall, fill: {level: 1.25, unit_weight: 16000}}]}");
+  EXPECT_THROW(generate(scene), InputError);
+}
+
+// A traction on faces of kind top acts on what is free of the tops of a member.
+TEST(LoadsOnTops, TractionActsOnTheFreeTopsOfAWall) {
+  const Case scene = barrel_on_walls(4.0, "{faces: [{kind: top, member: wall 2, traction: [0, 0, -1000]}]}");
+  const Assembly assembly = generate(scene);
+  const double area = (kOuter - outer_edge_of_springing(assembly)) * kLength;
+  EXPECT_NEAR(sums_of(scene, assembly).walls, 1000.0 * area, 1e-9 * area);
+}
+
+// A floor of 1.25 m over the crown: its load reaches barrel and walls in full; what is wider than the masonry
+// keeps its intensity, and the rest is left out with a warning. 6.4 m of 8 m carry.
+TEST(LoadsOnTops, AWideForceKeepsItsIntensity) {
+  const auto floor = [](double width, double force) {
+    return barrel_on_walls(4.0,
+                           fmt::format("{{forces: [{{point: [0, 1.5, 1.25], force: [0, 0, -{}], spread: {{x: "
+                                       "{}, y: 3, slope: 0}}}}]}}",
+                                       force, width));
+  };
+  const Case whole = floor(6.4, 19.2e3), wide = floor(8.0, 24e3);
+  const Assembly of_whole = generate(whole), of_wide = generate(wide);
+  EXPECT_EQ(of_whole.case_warnings, std::vector<std::string>());
+  ASSERT_EQ(of_wide.case_warnings.size(), 1u);
+  EXPECT_EQ(of_wide.case_warnings[0].find("loads.forces[0].spread: 20 % of the force, 4.8e+03 N, "), 0u)
+      << of_wide.case_warnings[0];
+  const Sums a = sums_of(whole, of_whole), b = sums_of(wide, of_wide);
+  const double edge = outer_edge_of_springing(of_whole);
+  EXPECT_NEAR(a.barrel, 1000.0 * 2.0 * edge * kLength, 1e-8);
+  EXPECT_NEAR(a.walls + a.barrel, 19.2e3, 1e-8);
+  EXPECT_NEAR(b.walls, a.walls, 1e-8);
+  EXPECT_NEAR(b.barrel, a.barrel, 1e-8);
+}
+
+// A rectangle that widens on its way down loads faces at many depths; the shares need no scaling to add up.
+TEST(LoadsOnTops, AnAxleReachesTheExtradosInFull) {
+  const Case scene = barrel_on_walls(
+      4.0, "{forces: [{point: [-0.8, 1.5, 1.4], force: [0, 0, -1e5], spread: {x: 0.3, y: 1, slope: 0.5}}]}");
+  const Assembly assembly = generate(scene);
+  EXPECT_EQ(assembly.case_warnings, std::vector<std::string>());
+  EXPECT_NEAR(sums_of(scene, assembly).barrel, 1e5, 1e-7);
+}
+
+}  // namespace
+}  // namespace cupola::loads_on_tops_test
