@@ -21,6 +21,12 @@ double drawn_error(const TradeoffRow& row) {
   return std::max(row.error(), kSmallestDrawnError);
 }
 
+/// The name of a knob or a run in words.
+std::string words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
 struct Series {
   std::string title;
   std::vector<TradeoffRow> rows;
@@ -67,7 +73,7 @@ void add_series(const Series& series, size_t number, bool line, std::string* dat
   const std::string name = fmt::format("series{}", number);
   *data += data_block(name, points);
   *plot += fmt::format("{} ${} w {} lc rgb '{}' pt {} ps 1.2 lw 1.4 title '{}'", plot->empty() ? "plot" : ",",
-                       name, line ? "lp" : "p", colour, shape, gnuplot_text(series.title));
+                       name, line ? "lp" : "p", colour, shape, gnuplot_text(words(series.title)));
   if (reached.empty()) return;
   *data += data_block(name + "_reached", reached);
   *plot += fmt::format(", ${}_reached w p lc rgb '{}' pt {} ps 1.2 notitle", name, colour, shape + 1);
@@ -78,7 +84,7 @@ std::string labels(const std::vector<TradeoffRow>& rows, bool whole_name) {
   for (const TradeoffRow& row : rows)
     commands += fmt::format(
         "set label '{}' at {:.9g},{:.9g} offset 0.7,0.6 noenhanced font ',9' textcolor rgb '#444444'\n",
-        gnuplot_text(whole_name ? row.point.name : end_of_name(row.point.name)), row.seconds(),
+        gnuplot_text(whole_name ? words(row.point.name) : end_of_name(row.point.name)), row.seconds(),
         drawn_error(row));
   return commands;
 }
@@ -86,7 +92,7 @@ std::string labels(const std::vector<TradeoffRow>& rows, bool whole_name) {
 Figure knob_figure(const std::vector<TradeoffRow>& rows, const std::string& knob) {
   Figure figure;
   figure.name = "tradeoff_" + knob;
-  figure.title = fmt::format("Error over time: {}", knob);
+  figure.title = fmt::format("Error over time: {}", words(knob));
   figure.caption =
       "Each point is one run; hollow points did not reach the requested accuracy. Lower left is better.";
   if (knob.starts_with("method")) figure.caption += " All methods are implementations of this program.";

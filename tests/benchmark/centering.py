@@ -363,42 +363,8 @@ set multiplot layout 1,3
 """ + panels + "unset multiplot\n", data)
 
 
-def draw_arch(study, picture):
-    """The centres of pressure of the heads over the depth of the course, m; a brick is straight between two heads."""
-    arch = FlatArch(study, "h22", 0.2)
-    half, radius = math.pi / 8, arch.course.options("radius_ratio") * arch.course.options("span")
-    offset = radius - arch.course.options("span") / 2
-    points = []
-    for row in arch.heads:
-        x, y, z = (float(row[key]) for key in ("x_m", "y_m", "z_m"))
-        corner = (x * math.cos(half) + y * math.sin(half)) / math.cos(half)  # distance from the axis at the corner
-        tau = math.atan2(z, corner + offset)
-        gradient = math.hypot(math.cos(tau) / math.cos(half), math.sin(tau))
-        points.append(((arch.azimuth(row) - arch.azimuth(arch.heads[0])) * arch.axis_distance(row),
-                       (math.hypot(corner + offset, z) - radius) / gradient, float(row["normal_force_N"])))
-    depth = arch.course.options("thickness")
-    plot(picture, "900,420", f"""
-set xlabel 'along the course, m'
-set ylabel 'from the intrados, m'
-set xrange [-0.1:{arch.length() + 0.1}]
-set yrange [-0.06:{depth + 0.06}]
-set size ratio -1
-unset key
-set object 1 rectangle from -0.06,0 to 0,{depth} fc rgb '#d9784b'
-set object 2 rectangle from {arch.length()},0 to {arch.length() + 0.06},{depth} fc rgb '#d9784b'
-set label 1 'upright' at -0.03,{depth / 2} center rotate
-set label 2 'upright' at {arch.length() + 0.03},{depth / 2} center rotate
-plot $heads using 1:(0):(0):({depth}) with vectors nohead lc rgb '#3a3a3a', \\
-     [0:{arch.length()}] 0 lc rgb '#3a3a3a', {depth} lc rgb '#3a3a3a', \\
-     $heads using 1:2 with linespoints lc rgb '#1f3f66' lw 2 pt 7, \\
-     $heads using ($1+($0==0 ? 0.05 : $0=={len(points) - 1} ? -0.05 : 0)):($2+0.03):(sprintf('%.0f N', $3)) with labels
-""", {"heads": points})
-
-
 def write_figures(study):
-    pictures = CASES.parent / "docs" / "pictures"
-    draw_map(study, pictures / "centering_map.png")
-    draw_arch(study, pictures / "centering_arch.png")
+    draw_map(study, CASES.parent / "docs" / "pictures" / "centering_map.png")
 
 
 TABLES = {"runs": make_runs, "map": write_map, "fresh": write_fresh, "spirals": write_spirals, "hands": write_hands,

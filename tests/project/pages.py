@@ -13,8 +13,9 @@
   the study says.
 - `0.408<!--= docs/data/ranges.md ranges brunelleschi_friction0.4 "max"-->`: page, table, row and heading of the cell
   that the number before the comment quotes, rounded to its digits. Parts with spaces stand in quotes, the first
-  cells of a row are joined by "|", and a fifth part multiplies the cell, a sixth is added to it. `114<!--= PAGE count right verdict-->` counts
-  the rows of all tables of the page with that text under that heading; `refused*` is any text that begins so.
+  cells of a row are joined by "|" (`\\|` in a table). A fifth part multiplies the cell, a sixth is added to it; `/ROW`
+  before them divides the cell by that of another row. `114<!--= PAGE count right verdict-->` counts the rows of all
+  tables of the page with that text under that heading; `refused*` is any text that begins so.
 - "Ten mistakes", "eight steps", "six pictures" before the first section of a page are as many as the page has.
 - No sentence says that something is not modelled which has a key of its own.
 - docs/site.yml lists every page of docs/; a test that a page names, `Suite.Name` or `Suite.`, exists.
@@ -141,7 +142,7 @@ def cell_of(text, table, row, heading):
     lines = [cells(line) for line in block.split("\n") if line.startswith("|")]
     if heading not in lines[0]:
         raise LookupError(f"table {table} has no column {heading}")
-    key = cells(row)
+    key = cells(row.replace("\\|", "|"))
     rows = [line for line in lines[2:] if line[:len(key)] == key]
     if len(rows) != 1:
         raise LookupError(f"{len(rows)} rows of table {table} begin with {row}")
@@ -171,9 +172,11 @@ def quoted_numbers(root, name, text):
         number, source = quote[1].replace(",", ""), " ".join(quote[2].split())
         try:
             page, table, row, heading, *scale = shlex.split(source)
+            other = scale.pop(0)[1:] if scale and scale[0].startswith("/") else None
             factor, summand = map(float, scale + ["1", "0"][len(scale):])
             source_text = (root / page).read_text()
             value = count_of(source_text, row, heading) if table == "count" else cell_of(source_text, table, row, heading)
+            value /= cell_of(source_text, table, other, heading) if other else 1
             value = value * factor + summand
         except (LookupError, OSError, ValueError) as fault:
             faults.append(f"{name}: {number} ({source}): {fault}")
@@ -184,6 +187,8 @@ def quoted_numbers(root, name, text):
             faults.append(f"{name}: {number}, but the table has {value:g} ({source})")
     if text.count("<!--=") != len(QUOTE.findall(text)):
         faults.append(f"{name}: a comment <!--= does not follow a number")
+    faults += [f"{name}: | in a comment ends the cell of its table; write \\|" for line in text.split("\n")
+               if line.startswith("|") and re.search(r"<!--=(?:(?!-->).)*(?<!\\)\|.*?-->", line)]
     return faults
 
 
@@ -246,6 +251,11 @@ def check_the_checks(root):
     page = 'docs/data/ranges.md ranges brunelleschi_friction0.4 max'
     assert not quoted_numbers(root, "p", f"0.41<!--= {page}-->") and quoted_numbers(root, "p", f"0.42<!--= {page}-->")
     assert not quoted_numbers(root, "p", f"-59<!--= {page} 100 -100-->") and quoted_numbers(root, "p", f"-59<!--= {page} 100-->")
+    ratio = f"{page} /octagon_circular_friction0.4"
+    assert not quoted_numbers(root, "p", f"1.0<!--= {ratio}-->") and quoted_numbers(root, "p", f"1.1<!--= {ratio}-->")
+    assert not quoted_numbers(root, "p", f"0<!--= {ratio} 100 -100-->") and quoted_numbers(root, "p", f"1.0<!--= {page} /x-->")
+    cell = '| 2560<!--= docs/data/ranges.md proportions "40{}|0" blocks--> |'
+    assert not quoted_numbers(root, "p", cell.format("\\")) and quoted_numbers(root, "p", cell.format(""))
     assert quoted_numbers(root, "p", f"0.41<!--= {page} x-->") and quoted_numbers(root, "p", "word<!--= x-->")
 
 
