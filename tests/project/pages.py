@@ -18,6 +18,7 @@
   tables of the page with that text under that heading; `refused*` is any text that begins so.
 - "Ten mistakes", "eight steps", "six pictures" before the first section of a page are as many as the page has.
 - No sentence says that something is not modelled which has a key of its own.
+- A symbol that two pages define by a formula in brackets, `kappa = (...) / rho`, is the same on both.
 - docs/site.yml lists every page of docs/; a test that a page names, `Suite.Name` or `Suite.`, exists.
 """
 import fnmatch
@@ -42,6 +43,7 @@ TIME = re.compile(r"(?:(half an?|an?|\d+|two|three|four|five|ten) )?(second|minu
 QUOTE = re.compile(r"([-+]?\d[\d,]*\.?\d*(?:[eE][-+]?\d+)?)<!--=\s*(.*?)-->", re.S)
 NUMBERS = "zero one two three four five six seven eight nine ten eleven twelve".split()
 COUNTED = {"mistakes": r"^## \d+\.", "steps": r"^(?:## |\*\*)?\d+\.", "pictures": r"^!\["}
+DEFINITION = re.compile(r"\b([a-z]{4,}) = (\([^()]+\) / \w+)")
 MODELLED = re.compile(r"\b(cohesion|tension|tensile|compressive|dilatancy|chains|ties|wythes|cracks(?! through))\b")
 
 
@@ -214,6 +216,16 @@ def modelled_after_all(name, text):
     return [f"{name}: not modelled, but has keys: {found[0]}" for sentence in said for found in MODELLED.finditer(sentence)]
 
 
+def unlike_definitions(texts):
+    """Symbols with several formulas; `texts` is the text of each page by its name."""
+    said = {}
+    for name, text in texts.items():
+        for symbol, formula in DEFINITION.findall(text):
+            said.setdefault(symbol, {}).setdefault(formula, name)
+    return [f"{symbol} is {' but '.join(f'{formula} in {name}' for formula, name in formulas.items())}"
+            for symbol, formulas in said.items() if len(formulas) > 1]
+
+
 def faults_of(root, remeasure):
     faults, known, times, commits = [], names_of_make(root), durations(root), commits_of(root)
     site, tests = (root / "docs/site.yml").read_text(), names_of_tests(root)
@@ -225,6 +237,7 @@ def faults_of(root, remeasure):
         faults += dead_commands(name, text, known) + wrong_durations(name, text, times)
         faults += counted_lists(name, text) + modelled_after_all(name, text) + dead_tests(name, text, tests)
         faults += [f"{name}: not in docs/site.yml"] if name.startswith("docs/") and name not in site else []
+    faults += unlike_definitions({str(page.relative_to(root)): page.read_text() for page in pages})
     name = "CONTRIBUTING.md"
     return faults + wrong_durations(name, (root / name).read_text(), times)
 
@@ -248,6 +261,8 @@ def check_the_checks(root):
     assert dead_tests("p", "`Arch.Stands`", {"Arch.Falls"}) and not dead_tests("p", "`Arch.`, `Arch.Stands`", {"Arch.Stands"})
     assert counted_lists("p", "# Two likely mistakes\n## 1. a") and not counted_lists("p", "# A page\nTwo pictures\n![\n![\n")
     assert modelled_after_all("p", "Not modelled: creep, cohesion. a") and not modelled_after_all("p", "Not modelled: soil. Ties")
+    assert unlike_definitions({"p": "kappa = (a + b) / c", "q": "kappa = (a - b) / c"})
+    assert not unlike_definitions({"p": "kappa = (a + b) / c", "q": "so kappa = (a + b) / c, here"})
     page = 'docs/data/ranges.md ranges brunelleschi_friction0.4 max'
     assert not quoted_numbers(root, "p", f"0.41<!--= {page}-->") and quoted_numbers(root, "p", f"0.42<!--= {page}-->")
     assert not quoted_numbers(root, "p", f"-59<!--= {page} 100 -100-->") and quoted_numbers(root, "p", f"-59<!--= {page} 100-->")
