@@ -4,7 +4,7 @@
     pages.py REPOSITORY            the checks
     pages.py REPOSITORY --words    words of prose, page by page: outside tables, with their footers, and code
 
-- Lines of the documentation have at most 120 columns, except tables.
+- Lines of the documentation have at most 120 columns, except tables; its prose has at most 19,000 words.
 - Every table between `<!-- table NAME -->` and `<!-- end -->` names the revision that measured it, neither unknown
   nor dirty, and a commit of this repository. Tables of REMEASURE are still to be measured again; none may be added.
 - What `make -f Makefile.cases` runs on a page is a target, a case, a variant or a study; names that begin with my_ are
@@ -29,6 +29,7 @@ import subprocess
 import sys
 
 WIDTH = 120
+MOST_WORDS = 19000
 
 REMEASURE = {
     "docs/walls.md walls", "docs/strength.md mortar", "docs/strength.md ranges", "docs/data/accuracy.md features",
@@ -60,6 +61,14 @@ def prose(text):
 def words(text):
     text = re.sub(r"<!--.*?-->", "", BLOCK.sub("", text), flags=re.S)
     return sum(len(line.split()) for _, line in prose(text))
+
+
+def prose_pages(root):
+    return sorted([*root.glob("docs/*.md"), *root.glob("docs/data/*.md")])
+
+
+def words_of(root):
+    return sum(words(page.read_text()) for page in prose_pages(root))
 
 
 def wide_lines(name, text):
@@ -229,7 +238,7 @@ def unlike_definitions(texts):
 def faults_of(root, remeasure):
     faults, known, times, commits = [], names_of_make(root), durations(root), commits_of(root)
     site, tests = (root / "docs/site.yml").read_text(), names_of_tests(root)
-    pages = sorted([*root.glob("docs/*.md"), *root.glob("docs/data/*.md"), root / "tests/benchmark/README.md", root / "assembly/FORMAT.md",
+    pages = sorted([*prose_pages(root), root / "tests/benchmark/README.md", root / "assembly/FORMAT.md",
                     *(root / folder / "README.md" for folder in (".", "cases", "generators", "solver", "postproc"))])
     for page in pages:
         name, text = str(page.relative_to(root)), page.read_text()
@@ -237,6 +246,8 @@ def faults_of(root, remeasure):
         faults += dead_commands(name, text, known) + wrong_durations(name, text, times)
         faults += counted_lists(name, text) + modelled_after_all(name, text) + dead_tests(name, text, tests)
         faults += [f"{name}: not in docs/site.yml"] if name.startswith("docs/") and name not in site else []
+    count = words_of(root)
+    faults += [f"docs: {count} words of prose, more than {MOST_WORDS}"] if count > MOST_WORDS else []
     faults += unlike_definitions({str(page.relative_to(root)): page.read_text() for page in pages})
     name = "CONTRIBUTING.md"
     return faults + wrong_durations(name, (root / name).read_text(), times)
@@ -277,10 +288,9 @@ def check_the_checks(root):
 if __name__ == "__main__":
     repository = pathlib.Path(sys.argv[1])
     if "--words" in sys.argv:
-        pages = sorted([*repository.glob("docs/*.md"), *repository.glob("docs/data/*.md")])
-        for page in pages:
+        for page in prose_pages(repository):
             print(f"{words(page.read_text()):6} {page.relative_to(repository)}")
-        print(f"{sum(words(page.read_text()) for page in pages):6} in all")
+        print(f"{words_of(repository):6} in all")
         sys.exit()
     check_the_checks(repository)
     found = faults_of(repository, REMEASURE)

@@ -211,6 +211,7 @@ TEST(Study, TheTableHasARowPerRunAndEveryKnobAFigure) {
   ASSERT_EQ(figures.size(), 2u);
   EXPECT_EQ(figures[0].name, "tradeoff");
   EXPECT_EQ(figures[1].name, "tradeoff_method");
+  EXPECT_NE(figures[0].commands.find("set label 'a 1' at"), std::string::npos) << "names are words";
 }
 
 }  // namespace
