@@ -1,12 +1,14 @@
 // Fill and spread forces above a barrel that stands on walls wider than itself.
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/case/bundled.hpp"
 #include "assembly/case/case_reader.hpp"
 #include "assembly/model/applied_loads.hpp"
 #include "generators/generate.hpp"
@@ -130,6 +132,27 @@ TEST(LoadsOnTops, AnAxleReachesTheExtradosInFull) {
   const Assembly assembly = generate(scene);
   EXPECT_EQ(assembly.case_warnings, std::vector<std::string>());
   EXPECT_NEAR(sums_of(scene, assembly).barrel, 1e5, 1e-7);
+}
+
+// The first beds of an arch on abutments with skewbacks lie on the cut corners of these, 0.5 m by 4 m on either
+// side; the fill presses on all of the tops behind them, from 4.4 m to 6 m, with (3 - 0.3) m of soil.
+TEST(LoadsOnTops, AnArchStandsOnSkewbacks) {
+  const Case scene = read_case(bundled_folder() + "/bridge_abutments.yaml");
+  const Assembly assembly = generate(scene);
+  double of_arch = 0.0, of_abutments = 0.0, on_tops = 0.0;
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const std::vector<Vec3> points = face_points(assembly, f);
+      const Vec3 normal = polygon_plane(points).normal, middle = polygon_centroid(points);
+      const double distance = 0.8 * middle.z() - 0.6 * (std::abs(middle.x()) - 4.0);
+      if (std::abs(std::abs(normal.z()) - 0.8) > 1e-9 || std::abs(distance) > 1e-9) continue;
+      (normal.z() < 0.0 ? of_arch : of_abutments) += polygon_area(points);
+    }
+  EXPECT_NEAR(of_arch, 2 * 0.5 * 4.0, 1e-9);
+  EXPECT_NEAR(of_abutments, of_arch, 1e-9);
+  for (const PointForce& force : applied_loads(scene.loads, assembly))
+    if (std::abs(force.point.x()) > 4.4) on_tops -= force.force.z();
+  EXPECT_NEAR(on_tops, 2 * 1.6 * 4.0 * 2.7 * 18e3, 1e-6);
 }
 
 }  // namespace
