@@ -108,10 +108,10 @@ Figure knob_figure(const std::vector<TradeoffRow>& rows, const std::string& knob
 Figure overall_figure(const std::vector<TradeoffRow>& all) {
   Figure figure;
   figure.name = "tradeoff";
-  figure.title = "Error over time: all knobs";
+  figure.title = "Error over time: all settings";
   figure.caption =
-      "Each run is compared with the reference of its knob: methods and tolerances with the same model "
-      "solved to a tight tolerance, time steps with an extrapolation to zero, the other knobs with a finer "
+      "Each run is compared with the reference of its setting: methods and tolerances with the same model "
+      "solved to a tight tolerance, time steps with an extrapolation to zero, other settings with a finer "
       "model. The dashed line is the Pareto front of the methods. All methods are implementations of this "
       "program.";
   figure.width = 1100;
