@@ -134,8 +134,8 @@ TEST(LoadsOnTops, AnAxleReachesTheExtradosInFull) {
   EXPECT_NEAR(sums_of(scene, assembly).barrel, 1e5, 1e-7);
 }
 
-// The first beds of an arch on abutments with skewbacks lie on the cut corners of these, 0.5 m by 4 m on either
-// side; the fill presses on all of the tops behind them, from 4.4 m to 6 m, with (3 - 0.3) m of soil.
+// The first beds of an arch on abutments with skewbacks lie on the cut corners of these, 0.5 m by 4 m on
+// either side; the fill presses on all of the tops behind them, from 4.4 m to 6 m, with (3 - 0.3) m of soil.
 TEST(LoadsOnTops, AnArchStandsOnSkewbacks) {
   const Case scene = read_case(bundled_folder() + "/bridge_abutments.yaml");
   const Assembly assembly = generate(scene);
