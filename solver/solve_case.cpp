@@ -289,7 +289,7 @@ ExitCode solve_case(SolveRequest request) {
   summary->wall_time_seconds = wall_seconds() - started;
   summary->cpu_time_seconds = cpu_seconds();
   summary->peak_memory_bytes = peak_memory_bytes();
-  summary->warnings = warnings.all();
+  summary->warnings = united({summary->warnings, warnings.all()});
   lock.check();
   writer.write_text("run.yaml", provenance(*summary) + request.scene.effective_yaml);
   // Written again even if an interrupted run wrote it: the summary lists the files that this run wrote.

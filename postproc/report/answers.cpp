@@ -169,8 +169,11 @@ std::vector<std::string> terminal_lines(const Evaluation& e, const std::string& 
                               : is_stage(e.last.frame.role) ? "the supports of the course laid last feel none"
                                                             : "the model has no axis from which to take it"));
   const std::vector<std::string> warnings = notices(e);
-  out.push_back(warnings.empty() ? fmt::format("  {:<9} none", "warnings")
-                                 : fmt::format("  {:<9} {}, in the report", "warnings", warnings.size()));
+  out.push_back(fmt::format("  {:<9} {}", "warnings",
+                            warnings.empty()       ? "none"
+                            : warnings.size() == 1 ? warnings.front()
+                                                   : fmt::format("{}, in the report; the first: {}",
+                                                                 warnings.size(), warnings.front())));
   out.push_back(fmt::format("  {:<9} {}", "report", report));
   return out;
 }

@@ -98,6 +98,10 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
                         "largest certified error of a joint, relative to its wrench", *wrench_error, reached,
                         reached};
   }
+  if (solution.certificate.balance == Balance::unstable)
+    summary.warnings.emplace_back(
+        "unstable balance: it stands as on an edge, and a small disturbance would end the equilibrium; how far "
+        "it is from falling: cupola assess");
   summary.unknowns /= scene.analysis.cyclic_sectors;
   summary.message += gaps_note(contacts, assembly);
   if (summary.max_displacement_m) summary.message += linearity_note(assembly, *summary.max_displacement_m);

@@ -115,6 +115,11 @@ TEST(FirstScreen, WithoutAMarginItNamesTheCommandThatComputesOne) {
   EXPECT_TRUE(lines.front().starts_with("It stands: The joint forces carry the weight of 3 blocks, "))
       << lines[0];
   EXPECT_EQ(lines.back(), "  report    post/report.html");
+  EXPECT_EQ(lines[4], "  warnings  none");
+  e.warnings = {"unstable balance"};
+  EXPECT_EQ(terminal_lines(e, "")[4], "  warnings  unstable balance");
+  e.warnings.emplace_back("another");
+  EXPECT_EQ(terminal_lines(e, "")[4], "  warnings  2, in the report; the first: unstable balance");
 }
 
 TEST(FirstScreen, SaysWhetherTheVerdictIsProven) {

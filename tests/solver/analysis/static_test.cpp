@@ -338,6 +338,11 @@ TEST(StaticCertificate, ReportsUnstableBalanceOnAnEdgeAndOnACorner) {
     ASSERT_EQ(solution.outcome, StaticOutcome::equilibrium) << solution.message;
     EXPECT_EQ(solution.certificate.balance, Balance::unstable) << on_corner;
     EXPECT_NE(solution.message.find("unstable balance"), std::string::npos);
+    const Summary summary =
+        run_static(make_case(0.4, 1e-8, 0.01), balanced_cube(on_corner),
+                   {[](const Frame&) {}, [](const std::string&) {}, [](const std::string&) {}});
+    ASSERT_EQ(summary.warnings.size(), 1u) << on_corner;
+    EXPECT_TRUE(summary.warnings[0].starts_with("unstable balance: ")) << summary.warnings[0];
   }
 }
 
