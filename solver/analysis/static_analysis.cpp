@@ -100,8 +100,8 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   }
   if (solution.certificate.balance == Balance::unstable)
     summary.warnings.emplace_back(
-        "unstable balance: it stands as on an edge, and a small disturbance would end the equilibrium; how far "
-        "it is from falling: cupola assess");
+        "unstable balance: it stands as on an edge, and a small disturbance would end the equilibrium; how "
+        "far it is from falling: cupola assess");
   summary.unknowns /= scene.analysis.cyclic_sectors;
   summary.message += gaps_note(contacts, assembly);
   if (summary.max_displacement_m) summary.message += linearity_note(assembly, *summary.max_displacement_m);
