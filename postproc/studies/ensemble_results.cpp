@@ -73,6 +73,15 @@ std::string difference_sentence(const std::string& pair, const std::string& what
              : fmt::format("{}: {} differs by {}.", pair, what, numbers);
 }
 
+/// Whether one of them is more sensitive; "" where the members do not tell.
+std::string scatter_sentence(const IntervalEstimate& ratio) {
+  if (!ratio.interval) return {};
+  return fmt::format(" {}elative to their size, values of the first scatter {} times as much ({} to {}).",
+                     ratio.interval->contains(1.0) ? "No difference of scatter shown: r" : "R",
+                     short_number(ratio.value), short_number(ratio.interval->low),
+                     short_number(ratio.interval->high));
+}
+
 /// Rows for one pair of ensembles of the same samples.
 void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
               std::vector<std::string>* sentences) {
@@ -91,7 +100,7 @@ void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
   if (some_fall && both > 0) {
     const double p = mcnemar(only_a, only_b);
     table->rows.push_back({pair, std::string("falls"), both, share(in_a, both), share(in_b, both),
-                           share(only_a - only_b, both), kNone, kNone, p});
+                           share(only_a - only_b, both), kNone, kNone, kNone, kNone, kNone, p});
     sentences->push_back(fmt::format(
         "{}{} and {}: of {} with a verdict in both, {} fall in the first only and {} in the second only "
         "(exact McNemar test: p = {:.2g}).",
@@ -114,10 +123,13 @@ void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
     const IntervalEstimate mean = mean_of(difference);
     std::vector<Table::Cell> row = {pair, a.members.columns[column].key, pairs, first / pairs,
                                     second / pairs};
+    const IntervalEstimate scatter = scatter_ratio(a.values(column), b.values(column));
     add_estimate(mean, &row);
+    add_estimate(scatter, &row);
     row.emplace_back(kNone);
     table->rows.push_back(std::move(row));
-    sentences->push_back(difference_sentence(pair, a.members.columns[column].key, mean));
+    sentences->push_back(difference_sentence(pair, a.members.columns[column].key, mean) +
+                         scatter_sentence(scatter));
   }
 }
 
@@ -302,6 +314,7 @@ Table differences_table(const std::vector<EnsembleResults>& ensembles, std::vect
                {"first", "", "Mean of the first"},
                {"second", "", "Mean of the second"}};
   add_estimate_columns("difference", "Mean difference", &t);
+  add_estimate_columns("scatter_ratio", "Relative scatter of the first over that of the second", &t);
   t.columns.push_back({"mcnemar_p", "", "p of the exact McNemar test"});
   for (size_t a = 0; a < ensembles.size(); ++a)
     for (size_t b = a + 1; b < ensembles.size(); ++b)

@@ -142,6 +142,29 @@ double deviation_of(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(all.size() - 1));
 }
 
+IntervalEstimate scatter_ratio(const DrawnValues& first, const DrawnValues& second) {
+  CUPOLA_ASSERT(first.values.size() == second.values.size());
+  std::vector<double> x, y;
+  for (size_t i = 0; i < first.values.size(); ++i) {
+    const double a = first.values[i], b = second.values[i];
+    if (a <= 0.0 || b <= 0.0) return {kNan, {}};
+    if (!std::isfinite(a) || !std::isfinite(b)) continue;
+    x.push_back(std::log(a));
+    y.push_back(std::log(b));
+  }
+  const double of_x = deviation_of(x), of_y = deviation_of(y), n = static_cast<double>(x.size());
+  if (n < 3.0 || of_x == 0.0 || of_y == 0.0) return {kNan, {}};
+  IntervalEstimate ratio{of_x / of_y, {}};
+  if (static_cast<size_t>(first.replicates) != first.values.size()) return ratio;
+  double covariance = 0.0;
+  for (size_t i = 0; i < x.size(); ++i) covariance += (x[i] - average(x)) * (y[i] - average(y)) / (n - 1.0);
+  const double r = covariance / (of_x * of_y);
+  const double t = quantile(complement(boost::math::students_t(n - 2.0), kTail));
+  const double k = 1.0 + 2.0 * std::max(1.0 - r * r, 0.0) * t * t / (n - 2.0), root = std::sqrt(k * k - 1.0);
+  ratio.interval = {ratio.value * std::sqrt(k - root), ratio.value * std::sqrt(k + root)};
+  return ratio;
+}
+
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {
   CUPOLA_ASSERT(x.size() == y.size());
   const std::vector<double> a = ranks_of(x), b = ranks_of(y);

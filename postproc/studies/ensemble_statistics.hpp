@@ -43,6 +43,11 @@ IntervalEstimate quantile_of(const DrawnValues& drawn, double p);
 /// Standard deviation (n - 1); NaN of fewer than two values.
 double deviation_of(const std::vector<double>& values);
 
+/// How much more the first of two positive results of the same members scatters: the ratio of the standard
+/// deviations of their logarithms. The interval of independent pairs allows for their correlation (E. J. G.
+/// Pitman, 1939, Biometrika 31, 9-12). NaN of fewer than three pairs, without scatter or with a value <= 0.
+IntervalEstimate scatter_ratio(const DrawnValues& first, const DrawnValues& second);
+
 /// Spearman's rank correlation of two inputs of equal size, ties by mean ranks; NaN if one of them is
 /// constant.
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);

@@ -72,6 +72,40 @@ TEST(EnsembleStatistics, MeansAndQuantiles) {
   EXPECT_FALSE(quantile_of({{1, 2, 3}, 3}, 0.05).interval) << "too few values lie beyond it";
 }
 
+// b = a^2 scatters twice as much with certainty. Four pairs by hand: logarithms 0, 1, 2, 3 and 0, 2, 1, 3 have
+// equal deviations and a correlation of 0.8, and t(0.975, 2) = 4.302653: k = 1 + 0.36 * 18.5128 = 7.664616.
+TEST(EnsembleStatistics, RatioOfScatter) {
+  const IntervalEstimate twice = scatter_ratio({{1, 16, 4, 9}, 4}, {{1, 4, 2, 3}, 4});
+  EXPECT_NEAR(twice.value, 2.0, 1e-14);
+  EXPECT_NEAR(twice.interval->low, 2.0, 1e-6) << "1 - r^2 is rounding, of which the interval has the root";
+  const double e = std::numbers::e;
+  const std::vector<double> a = {1, e, e * e, e * e * e}, b = {1, e * e, e, e * e * e};
+  const IntervalEstimate even = scatter_ratio({a, 4}, {b, 4});
+  EXPECT_NEAR(even.value, 1.0, 1e-14);
+  EXPECT_NEAR(even.interval->high, std::sqrt(7.664616 + std::sqrt(7.664616 * 7.664616 - 1.0)), 1e-6);
+  EXPECT_NEAR(even.interval->low * even.interval->high, 1.0, 1e-12);
+  EXPECT_FALSE(scatter_ratio({a, 2}, {b, 2}).interval) << "members of a group depend on each other";
+  EXPECT_TRUE(std::isnan(scatter_ratio({{1, -2, 3}, 3}, {{1, 2, 3}, 3}).value));
+}
+
+// 200 experiments with 30 pairs of equal scatter and a correlation of 0.6: the ratio 1 lies in at least 181
+// intervals, as above.
+TEST(EnsembleStatistics, IntervalsCoverTheRatioOfScatter) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  int covered = 0;
+  for (int experiment = 0; experiment < 200; ++experiment) {
+    DrawnValues a{{}, 30}, b{{}, 30};
+    for (int i = 0; i < 30; ++i) {
+      const double x = normal(random);
+      a.values.push_back(std::exp(0.1 * x));
+      b.values.push_back(std::exp(0.1 * (0.6 * x + 0.8 * normal(random))));
+    }
+    covered += scatter_ratio(a, b).interval->contains(1.0);
+  }
+  EXPECT_GE(covered, 181);
+}
+
 TEST(EnsembleStatistics, RankCorrelation) {
   EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 3, 4}, {1, 8, 27, 64}), 1.0);
   EXPECT_DOUBLE_EQ(rank_correlation({1, 2, 3, 4}, {4, 3, 2, 1}), -1.0);
