@@ -50,7 +50,7 @@ std::string bundled_case(const std::string& name, const FileLocation& where) {
                            shown(name)));
   const std::filesystem::path path = std::filesystem::path(folder) / (word + ".yaml");
   if (is_plain_word(word) && std::filesystem::is_regular_file(path)) return path.string();
-  const std::string near = nearest_name(word, names_in(folder));
+  const std::string near = nearest_name(std::filesystem::path(word).stem().string(), names_in(folder));
   throw InputError(where,
                    fmt::format("{}: no bundled case has this name{}", shown(name),
                                near.empty() ? fmt::format("; they are in {}", folder)

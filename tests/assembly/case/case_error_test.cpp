@@ -110,6 +110,8 @@ const BadCase kBadCases[] = {
     {"BundledCaseMisspelt", "extends: cupola:dome_circlar\n",
      "bad.yaml:1:10: error: cupola:dome_circlar: no bundled case has this name; did you mean "
      "cupola:dome_circular?"},
+    {"BundledCaseWithEnding", "extends: cupola:arch.yaml\n",
+     "bad.yaml:1:10: error: cupola:arch.yaml: no bundled case has this name; did you mean cupola:arch?"},
     {"BundledCaseOutside", "extends: cupola:../cases/dome_circular\n",
      "bad.yaml:1:10: error: cupola:../cases/dome_circular: no bundled case has this name"},
     {"UnknownSection", kGood + "walls: 3\n",
