@@ -1,6 +1,7 @@
 #include "postproc/studies/tradeoff_figures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -27,6 +28,15 @@ std::string words(std::string name) {
   return name;
 }
 
+/// Names of the contact methods, in the order of ContactMethod; in brackets programs with one of the kind.
+constexpr std::array kMethods{"Newton (SAP in Drake)",
+                              "interior point",
+                              "spectral gradient (SPG)",
+                              "accelerated gradient (APGD, Chrono)",
+                              "Gauss-Seidel (NSGS, Siconos, LMGC90)",
+                              "splitting (ADMM, Siconos)"};
+static_assert(kMethods.size() == enum_names(ContactMethod{}).size());
+
 struct Series {
   std::string title;
   std::vector<TradeoffRow> rows;
@@ -38,7 +48,8 @@ std::vector<Series> series_of(const std::vector<TradeoffRow>& rows, bool by_meth
   std::vector<Series> series;
   for (const TradeoffRow& row : rows) {
     const std::string& name = row.point.name;
-    const std::string title = by_method ? to_string(row.summary->method) : name.substr(0, name.rfind('_'));
+    const std::string title =
+        by_method ? kMethods[static_cast<size_t>(row.summary->method)] : name.substr(0, name.rfind('_'));
     auto at = std::find_if(series.begin(), series.end(), [&](const Series& s) { return s.title == title; });
     if (at == series.end()) at = series.insert(series.end(), {title, {}});
     at->rows.push_back(row);

@@ -212,6 +212,7 @@ TEST(Study, TheTableHasARowPerRunAndEveryKnobAFigure) {
   EXPECT_EQ(figures[0].name, "tradeoff");
   EXPECT_EQ(figures[1].name, "tradeoff_method");
   EXPECT_NE(figures[0].commands.find("set label 'a 1' at"), std::string::npos) << "names are words";
+  EXPECT_NE(figures[0].commands.find("title 'Newton (SAP in Drake)'"), std::string::npos);
 }
 
 }  // namespace
