@@ -143,14 +143,19 @@ double unbalanced_force(const Evaluation& e) {
   return s.equilibrium_residual.value_or(0.0) * s.weight_N / s.free_blocks;
 }
 
-/// Reads the mechanism that follows the last equilibrium of a limit analysis.
+/// The motion of a mechanism: of the frame evaluated, or of that which follows the equilibrium of a limit.
 void find_what_gives_way(const ResultsReader& results, Evaluation* e) {
+  const double dilatancy =
+      e->summary.friction_law == FrictionLaw::coulomb ? 0.0 : e->summary.dilatancy.value_or(1.0);
+  const auto motion_of = [&](const Frame& frame, const JointWrenches& joints) {
+    return mechanism_motion(e->assembly, frame, joints, dilatancy * e->scene.joints.friction);
+  };
+  if (e->last.frame.role == FrameRole::mechanism) e->gives_way = motion_of(e->last.frame, e->last.joints);
   if (!e->summary.critical || e->times.size() < 2) return;
   try {
     const Frame frame = results.read_frame(1);
-    if (!is_mechanism(frame.role)) return;
-    e->gives_way = what_gives_way(e->assembly, frame, joint_wrenches(e->assembly, frame.contacts, e->shell),
-                                  e->scene.joints.friction);
+    if (is_mechanism(frame.role))
+      e->gives_way = motion_of(frame, joint_wrenches(e->assembly, frame.contacts, e->shell));
   } catch (const InputError& error) {
     leave_out(frame_name(1), error.what(), e);
   }

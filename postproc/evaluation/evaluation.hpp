@@ -10,7 +10,7 @@
 #include "postproc/mechanics/block_fields.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
 #include "postproc/mechanics/cuts.hpp"
-#include "postproc/mechanics/joint_speeds.hpp"
+#include "postproc/mechanics/mechanism_motion.hpp"
 #include "postproc/mechanics/member_sums.hpp"
 #include "postproc/mechanics/plane_cut.hpp"
 #include "postproc/mechanics/reactions.hpp"
@@ -78,10 +78,10 @@ struct Evaluation {
   std::vector<MemberSum> members;  ///< empty without wythes
   std::vector<WytheSum> wythes;    ///< empty without wythes
   std::vector<ChainForces> chains;
-  std::vector<Reaction> reactions;    ///< of the last frame, on the supports
-  std::vector<ShellCrack> cracks;     ///< of an equilibrium, the widest first
-  std::vector<int> parts;             ///< connected_parts()
-  std::optional<GivesWay> gives_way;  ///< of a limit analysis with a mechanism
+  std::vector<Reaction> reactions;           ///< of the last frame, on the supports
+  std::vector<ShellCrack> cracks;            ///< of an equilibrium, the widest first
+  std::vector<int> parts;                    ///< connected_parts()
+  std::optional<MechanismMotion> gives_way;  ///< of a run with a mechanism
   std::vector<MeridianEvaluation> meridians;
   std::vector<SectionEvaluation> sections;
   std::vector<PlaneCut> planes;

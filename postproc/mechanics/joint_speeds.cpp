@@ -58,17 +58,22 @@ MechanismMotion mechanism_motion(const Assembly& assembly, const Frame& frame, c
     if (!slides && !parts && widest <= least) continue;
     ++(slides ? motion.joints.sliding : parts ? motion.joints.opening : motion.joints.hinging);
     const double opens = std::max(widest - friction * closest.sliding, 0.0);
-    (parts ? motion.parting : motion.hinging) += opens;
-    motion.sliding += closest.sliding;
-    const int course = std::max(assembly.blocks[j.block_a].ring, assembly.blocks[j.block_b].ring);
-    motion.by_course[course] += opens + closest.sliding;
+    const auto [below, course] =
+        std::minmax(assembly.blocks[j.block_a].ring, assembly.blocks[j.block_b].ring);
+    CourseMotion& at = motion.by_course[course];
+    (parts ? at.parting : at.hinging) += opens;
+    at.sliding += closest.sliding;
+    if (opens + closest.sliding > at.fastest) {
+      at.fastest = opens + closest.sliding;
+      at.on = below;
+    }
+  }
+  for (const auto& [course, at] : motion.by_course) {
+    motion.hinging += at.hinging;
+    motion.sliding += at.sliding;
+    motion.parting += at.parting;
   }
   return motion;
-}
-
-GivesWay what_gives_way(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
-                        double friction) {
-  return mechanism_motion(assembly, frame, joints, friction).joints;
 }
 
 }  // namespace cupola

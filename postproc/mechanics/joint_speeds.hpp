@@ -21,8 +21,4 @@ struct GivesWay {
   int hinging = 0, sliding = 0, opening = 0;
 };
 
-/// `friction`: sliding joints may open by it times their sliding, as the associated law has it.
-GivesWay what_gives_way(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
-                        double friction);
-
 }  // namespace cupola

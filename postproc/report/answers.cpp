@@ -48,16 +48,21 @@ namespace {
 KeyNumber critical_answer(const Evaluation& e) {
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> margin = factor_of_safety(e.scene, e.summary);
-  if (critical.parameter == "joint_extent" && margin)
+  std::vector<std::string> details;
+  const std::string decides = how_it_gives_way(e);
+  if (critical.parameter == "joint_extent" && margin) {
+    details.push_back(
+        fmt::format("Heyman's, of the safest state: forces exist that stay inside joints of {:.4g} times "
+                    "their extent, and none inside smaller ones",
+                    critical.stable));
+    if (!decides.empty()) details.push_back("with these it " + decides);
     return {"Geometric safety factor", fmt::format("{:.4g}", *margin),
-            fmt::format("Heyman's, of the safest state: forces exist that stay inside joints of {:.4g} times "
-                        "their extent, and none inside smaller ones",
-                        critical.stable)};
+            fmt::format("{}", fmt::join(details, "; "))};
+  }
   std::string unit = limit_unit(critical.parameter);
   if (unit == "factor") unit = critical.parameter == "load" ? "times the load" : "times";
-  std::vector<std::string> details;
   if (const std::string distance = distance_text(e, unit); !distance.empty()) details.push_back(distance);
-  if (const std::string decides = joints_that_give_way(e); !decides.empty())
+  if (!decides.empty())
     details.push_back(
         fmt::format("{} it {}", critical.stable < critical.moving ? "beyond" : "below", decides));
   if (shows_bracket(critical) || critical.value == 0.0)

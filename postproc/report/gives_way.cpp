@@ -1,39 +1,52 @@
 #include "postproc/report/gives_way.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "postproc/mechanics/mechanism_motion.hpp"
 
 namespace cupola {
 namespace {
 
-/// "course 7 of barrel (z = 4.5 m)". `course`: of the assembly.
-std::string course_text(const Evaluation& e, int course) {
-  const Sheet* sheet = e.assembly.sheet_of(course);
-  const std::string of = sheet && e.assembly.sheets.size() > 1 ? " of " + sheet->name : "";
-  return fmt::format("course {}{} (z = {:.3g} m)", course, of, e.rings[course].height);
+/// "course 7 of barrel on wall (z = 4.5 m, slides)". `course`: of the assembly.
+std::string course_text(const Evaluation& e, int course, const CourseMotion& motion) {
+  const Sheet *sheet = e.assembly.sheet_of(course), *below = e.assembly.sheet_of(motion.on);
+  std::string name = fmt::format("course {}", course);
+  if (sheet && e.assembly.sheets.size() > 1) name += " of " + sheet->name;
+  if (motion.on < 0)
+    name += " on its support";
+  else if (below && below != sheet)
+    name += " on " + below->name;
+  constexpr double kShown = 1e-4;  // m
+  const double height = std::round(e.rings[course].height / kShown) * kShown + 0.0;
+  const double most = std::max({motion.hinging, motion.sliding, motion.parting});
+  return fmt::format("{} (z = {:.3g} m, {})", name, height,
+                     most == motion.hinging   ? "hinges"
+                     : most == motion.sliding ? "slides"
+                                              : "parts");
 }
 
-/// "; 60 % of the motion is at course 7 (z = 4.5 m)": the courses that move most, until they make up half of
-/// the motion, at most three; "" without courses.
+/// "; 60 % of the motion is at course 7 (z = 4.5 m, slides)": the courses that move most, until they make up
+/// nearly all of the motion, at most five; "" without courses.
 std::string moving_courses(const Evaluation& e, const MechanismMotion& motion) {
-  constexpr double kEnough = 0.5;
-  constexpr size_t kMost = 3;
+  constexpr double kEnough = 0.9;
+  constexpr size_t kMost = 5;
   std::vector<std::pair<double, int>> courses;
-  for (const auto& [course, speed] : motion.by_course)
-    if (course >= 0 && course < static_cast<int>(e.rings.size())) courses.emplace_back(speed, course);
+  for (const auto& [course, at] : motion.by_course)
+    if (course >= 0 && course < static_cast<int>(e.rings.size())) courses.emplace_back(at.sum(), course);
   std::ranges::stable_sort(courses, std::ranges::greater(), &std::pair<double, int>::first);
   std::vector<std::string> names;
   double sum = 0.0;
   for (const auto& [speed, course] : courses) {
     if (names.size() == kMost || sum >= kEnough * motion.sum()) break;
     sum += speed;
-    names.push_back(course_text(e, course));
+    names.push_back(course_text(e, course, motion.by_course.at(course)));
   }
   return names.empty() ? ""
                        : fmt::format("; {:.0f} % of the motion is at {}", 100.0 * sum / motion.sum(),
@@ -52,20 +65,47 @@ std::string counts_text(const GivesWay& joints) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-}  // namespace
-
-std::string joints_that_give_way(const Evaluation& e) {
-  return e.gives_way ? counts_text(*e.gives_way) : "";
+/// Degrees from the vertical at which the intrados of a course rises; none if the beds on which it stands are
+/// not level.
+std::optional<double> leaves_level_beds_at(const Assembly& assembly, int course) {
+  constexpr double kLevel = 1e-9;
+  double steepest = 0.0;
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces && part.ring == course; ++f) {
+      const FaceKind kind = assembly.face_kinds[f];
+      const double up = polygon_plane(face_points(assembly, f)).normal.z();
+      const bool is_bed = kind == FaceKind::bed || kind == FaceKind::top;
+      if (is_bed && up < 0.0 && up > -1.0 + kLevel) return std::nullopt;
+      if (kind == FaceKind::intrados) steepest = std::max(steepest, std::asin(std::abs(up)));
+    }
+  return steepest * 180.0 / std::numbers::pi;
 }
 
+/// A vault that slides on the level beds of its springing, which its profile leaves at more than the angle of
+/// friction: what builders do about it.
+std::string missing_skewback(const Evaluation& e, const MechanismMotion& motion) {
+  constexpr double kMuch = 0.1;  // of the motion
+  for (const auto& [course, at] : motion.by_course) {
+    const Sheet *sheet = e.assembly.sheet_of(course), *below = e.assembly.sheet_of(at.on);
+    if (!sheet || !below || below == sheet) continue;
+    if (course != sheet->first_ring && course != sheet->first_ring + sheet->num_rings - 1) continue;
+    if (at.sliding < at.hinging || at.sliding < kMuch * motion.sum()) continue;
+    const std::optional<double> angle = leaves_level_beds_at(e.assembly, course);
+    if (angle && std::tan(*angle * std::numbers::pi / 180.0) > e.scene.joints.friction)
+      return fmt::format(
+          "; {} slides on level beds, which its profile leaves at {:.0f} degrees from the vertical, more "
+          "than friction holds: see Skewbacks in docs/cases.md",
+          sheet->name, *angle);
+  }
+  return "";
+}
+
+}  // namespace
+
 std::string how_it_gives_way(const Evaluation& e) {
-  if (e.last.frame.role != FrameRole::mechanism) return "";
+  if (!e.gives_way || e.gives_way->sum() == 0.0) return "";
+  const MechanismMotion& motion = *e.gives_way;
   constexpr double kNamed = 0.1;  // of the motion: less is not named
-  const double dilatancy =
-      e.summary.friction_law == FrictionLaw::coulomb ? 0.0 : e.summary.dilatancy.value_or(1.0);
-  const MechanismMotion motion =
-      mechanism_motion(e.assembly, e.last.frame, e.last.joints, dilatancy * e.scene.joints.friction);
-  if (motion.sum() == 0.0) return "";
   std::vector<std::pair<double, const char*>> shares{
       {motion.hinging, "hinging"}, {motion.sliding, "sliding"}, {motion.parting, "parting"}};
   std::ranges::stable_sort(shares, std::ranges::greater(), &std::pair<double, const char*>::first);
@@ -74,8 +114,8 @@ std::string how_it_gives_way(const Evaluation& e) {
     if (const double share = speed / motion.sum(); share >= kNamed)
       ways.push_back(fmt::format("{} ({:.0f} %{})", name, 100.0 * share,
                                  ways.empty() ? " of the motion of its joints" : ""));
-  return fmt::format("It gives way by {}: {}{}.", fmt::join(ways, " and "), counts_text(motion.joints),
-                     moving_courses(e, motion));
+  return fmt::format("gives way by {}: {}{}", fmt::join(ways, " and "), counts_text(motion.joints),
+                     moving_courses(e, motion) + missing_skewback(e, motion));
 }
 
 }  // namespace cupola

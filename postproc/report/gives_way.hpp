@@ -6,11 +6,8 @@
 
 namespace cupola {
 
-/// "hinges form at 4 joints, 12 joints slide": of the mechanism of a limit, else "".
-std::string joints_that_give_way(const Evaluation& evaluation);
-
-/// Of a run that shows a mechanism: by sliding, hinging or parting, with the share of each in the motion of
-/// the joints (MechanismMotion), and at which courses most; "" without one.
+/// "gives way by sliding (60 % ...) and hinging (40 %): hinges form at 4 joints, 12 joints slide; 90 % of the
+/// motion is at ...": of a run with a mechanism, in which members and courses, the largest first; else "".
 std::string how_it_gives_way(const Evaluation& evaluation);
 
 }  // namespace cupola

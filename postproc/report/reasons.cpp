@@ -181,7 +181,7 @@ std::string reason_for_verdict(const Evaluation& e) {
     text = limit_text(e);
   else
     text = verdict_text(s, e.last.frame.role);
-  if (const std::string how = how_it_gives_way(e); !how.empty()) text += " " + how;
+  if (const std::string how = how_it_gives_way(e); !how.empty() && !s.critical) text += " It " + how + ".";
   if (const std::string parts = parts_sentence(e); !parts.empty()) text += " " + parts;
   return text;
 }
