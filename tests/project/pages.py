@@ -35,7 +35,7 @@ REMEASURE = {
     "docs/walls.md walls", "docs/strength.md mortar", "docs/strength.md ranges", "docs/data/accuracy.md features",
     "docs/data/imports.md models",
     "docs/data/ranges.md ranges", "docs/data/ranges.md limits",
-    "docs/data/ranges.md spirals_160", "docs/data/ranges.md differences",
+    "docs/data/ranges.md spirals_160",
     *(f"tests/benchmark/README.md {table}" for table in (
         "detection", "methods", "gaps", "stepping", "coulomb", "blocks", "threads", "siconos", "scale", "refinement"))}
 BLOCK = re.compile(r"^<!-- table (\S+) -->$(.*?)^<!-- end -->$", re.S | re.M)
