@@ -152,9 +152,11 @@ using Overlaps = std::map<std::pair<int, int>, double>;
   std::ranges::sort(deepest);
   const auto [a, b] = deepest.front().second;
   const double largest = -deepest.front().first;
-  std::string text = fmt::format("blocks {} and {} overlap by {:.3g} m{}", names.name(a),
-                                 names.with_source(b), largest, places_of_members(assembly, a, b));
-  if (tolerances.part_by_part && !names.origins.empty())
+  const bool is_imported = !names.origins.empty();
+  std::string text =
+      fmt::format("blocks {} and {} overlap by {:.3g} m{}", names.name(a), names.with_source(b), largest,
+                  is_imported ? "" : places_of_members(assembly, a, b));
+  if (tolerances.part_by_part && is_imported)
     text += fmt::format(
         ", more than contact.margin = {:.3g} m: correct the geometry or increase contact.margin to {:.2g} m",
         tolerances.overlap, 1.05 * largest);

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 
 namespace cupola {
 namespace {
@@ -58,10 +61,33 @@ std::vector<ThrustLine> wythe_lines(const Evaluation& e, const ThrustInput& inpu
   return lines;
 }
 
-/// Adds the thrust lines at one end of a range to `member` of each meridian.
-void add_end(const ResultsReader& results, const RangeEnd& end,
-             std::optional<ThrustLine> MeridianEvaluation::*member, Evaluation* e) {
-  if (end.outcome != RangeOutcome::bounded || !end.frame) return;
+/// Tension of courses across a meridian, through their bond alone.
+struct HoopTension {
+  double sum = 0.0;     ///< N, of all courses of the stack
+  std::string largest;  ///< the sheet that has most of it
+};
+
+HoopTension hoop_tension(const Evaluation& e, const FrameEvaluation& frame, const Drawn& meridian) {
+  HoopTension tension;
+  std::map<std::string, double> by_sheet;
+  for (const HoopRow& row :
+       hoop_forces(e.assembly, frame.joints, *meridian.azimuth_deg, frame.frame.ties, meridian.ring)) {
+    const double pull = std::max(-(row.head_force + row.bed_force), 0.0);
+    tension.sum += pull;
+    if (const Sheet* sheet = e.assembly.sheet_of(row.ring)) by_sheet[sheet->name] += pull;
+  }
+  double most = 0.0;
+  for (const auto& [name, pull] : by_sheet)
+    if (pull > most) most = pull, tension.largest = name;
+  return tension;
+}
+
+/// Adds the thrust lines at one end of a range to `member` of each meridian. Returns the hoop tension across
+/// the first one.
+HoopTension add_end(const ResultsReader& results, const RangeEnd& end,
+                    std::optional<ThrustLine> MeridianEvaluation::*member, Evaluation* e) {
+  HoopTension tension;
+  if (end.outcome != RangeOutcome::bounded || !end.frame) return tension;
   try {
     const FrameEvaluation frame = evaluate_frame(*e, results.read_frame(*end.frame));
     const ThrustInput input = thrust_input(*e, frame);
@@ -69,9 +95,33 @@ void add_end(const ResultsReader& results, const RangeEnd& end,
     for (size_t i = 0; i < meridians.size(); ++i)
       e->meridians[i].*member =
           thrust_line(input, meridians[i].name, meridians[i].azimuth_deg, std::nullopt, meridians[i].ring);
+    if (meridians.front().azimuth_deg) tension = hoop_tension(*e, frame, meridians.front());
   } catch (const InputError& error) {
     leave_out(fmt::format("frame {}", *end.frame), error.what(), e);
   }
+  return tension;
+}
+
+/// Radial forces in equilibrium with a hoop tension T add up to 2 pi T: the share of the width of the range of
+/// the thrust that tension in the courses can make.
+void warn_of_hoop_tension(const HoopTension& least, const HoopTension& greatest, const ForceRange& range,
+                          Evaluation* e) {
+  constexpr double kMuch = 0.25;
+  const bool at_least = least.sum >= greatest.sum;
+  const HoopTension& tension = at_least ? least : greatest;
+  if (!range.min.value || !range.max.value || e->assembly.sheets.empty()) return;
+  const double width = *range.max.value - *range.min.value;
+  const double share = 2.0 * std::numbers::pi * tension.sum / width;
+  if (!(width > 0.0) || share < kMuch) return;
+  e->warnings.push_back(
+      fmt::format("the range of the thrust counts on hoop tension: at its {} end the courses{} carry {} "
+                  "across a meridian by the "
+                  "friction of their bond, which as radial forces is {:.0f} % of its width. Masonry cracked "
+                  "along meridians carries "
+                  "none: `bond: {{type: stack}}` gives its range",
+                  at_least ? "least" : "greatest",
+                  e->assembly.sheets.size() > 1 ? ", most of all of " + tension.largest + "," : "",
+                  force_text(tension.sum), 100.0 * share));
 }
 
 }  // namespace
@@ -109,8 +159,9 @@ void add_ends_of_thrust(const ResultsReader& results, Evaluation* e) {
     return range.quantity.starts_with("thrust") && (range.min.frame || range.max.frame);
   });
   if (thrust == ranges.end() || e->meridians.empty()) return;
-  add_end(results, thrust->min, &MeridianEvaluation::least_thrust, e);
-  add_end(results, thrust->max, &MeridianEvaluation::greatest_thrust, e);
+  const HoopTension least = add_end(results, thrust->min, &MeridianEvaluation::least_thrust, e),
+                    greatest = add_end(results, thrust->max, &MeridianEvaluation::greatest_thrust, e);
+  warn_of_hoop_tension(least, greatest, *thrust, e);
 }
 
 }  // namespace cupola

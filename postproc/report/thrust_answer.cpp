@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -111,6 +112,28 @@ std::string level_text(const Evaluation& e, const Sheet& sheet) {
                      force_text(springing->radial_thrust));
 }
 
+/// True if all loads are vertical and joints are all that holds.
+bool only_weighs(const Evaluation& e) {
+  const Loads& loads = e.scene.loads;
+  return !e.scene.joints.have_strength() && e.assembly.ties.empty() && e.scene.ties.pairs.empty() &&
+         e.scene.supports.restraints.empty() && loads.gravity.head<2>().norm() == 0.0 &&
+         std::ranges::all_of(
+             loads.forces,
+             [](const BlockForce& load) { return load.force.head<2>().norm() == 0.0 && !load.moment; }) &&
+         std::ranges::all_of(loads.faces, [](const FaceLoad& load) {
+           return load.pressure == 0.0 && load.traction.head<2>().norm() == 0.0 &&
+                  (!load.fill || load.fill->horizontal == 0.0);
+         });
+}
+
+/// An inward thrust on rings that only weigh: they pull with it over 2 pi, by the friction of their bond.
+std::string pull_of_rings(double inwards) {
+  return fmt::format(
+      ", where the courses hold together by a hoop tension of {} in all, through the friction of their bond; "
+      "masonry cracked along meridians has none: try `bond: {{type: stack}}`",
+      force_text(inwards / (2.0 * std::numbers::pi)));
+}
+
 KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
   const std::string unit = range_unit(range).after_blank();
   std::string detail = "certain for every history";
@@ -127,7 +150,11 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
     const RingSum& base = base_of(e, *pushing.front());
     detail += "; " + at_level(springing_of(e, *pushing.front()) == &base ? "springing" : "base", base);
   }
-  if (least(range) < 0.0) detail += "; inwards where negative";
+  if (least(range) < 0.0) {
+    detail += "; inwards where negative";
+    if (std::isfinite(least(range)) && pushing.size() == 1 && pushing.front()->closed && only_weighs(e))
+      detail += pull_of_rings(-least(range));
+  }
   return {"Outward thrust",
           fmt::format("{} to {}{}", end_text(range.min, least(range), range),
                       end_text(range.max, greatest(range), range), unit),
