@@ -20,7 +20,7 @@ inline std::string fresh_folder(const std::string& name) {
     }
   };
   static const Root root;
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
   const auto folder = root.path / (std::string(test->test_suite_name()) + "." + test->name() + "." + name);
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);

@@ -85,7 +85,7 @@ void add_towers(Rows* rows) {
 }
 
 /// Ferris and Tin-Loi (2001), wall 1: published limit 0.643, 0.64286 by linear programming.
-void add_walls(Rows* rows) {
+void add_published_walls(Rows* rows) {
   for (const double distance : kDistances)
     for (const auto law : {FrictionLaw::associated, FrictionLaw::coulomb}) {
       const bool stands = distance < 0;
@@ -166,7 +166,7 @@ void add_frictions(Rows* rows) {
 void add_critical_rows(Rows* rows) {
   add_arches(rows);
   add_towers(rows);
-  add_walls(rows);
+  add_published_walls(rows);
   add_overhang(rows);
   add_frictions(rows);
 }

@@ -68,7 +68,7 @@ std::string notes_nothing(const Summary& summary, const Frame& frame) {
 
 /// Greenhill (1881): a column buckles under its own weight w per metre where h^3 > 7.8373 E I / w. Joints of
 /// four corners at +-0.5 m, each of 1 / c, turn under a moment as E I = 1 / c N m2 per metre of height does.
-void add_columns(Rows* rows) {
+void add_buckling_columns(Rows* rows) {
   constexpr double kCompliance = 1e-9;
   const double height = std::cbrt(7.8373 / kCompliance / (1000.0 * testing::kG));  // 92.8 m
   // Four cubes are more than the finite number of joints and their shear change.
@@ -127,7 +127,7 @@ void add_supports(Rows* rows) {
 
 void add_edge_rows(Rows* rows) {
   add_balances(rows);
-  add_columns(rows);
+  add_buckling_columns(rows);
   add_supports(rows);
 }
 

@@ -57,7 +57,7 @@ void add_inclines(Rows* rows) {
 /// below it.
 constexpr double kLeastFriction = 0.351136919;
 
-void add_arches(Rows* rows) {
+void add_sliding_arches(Rows* rows) {
   const auto arch = [rows](double mu, FrictionLaw law, const char* name, const char* expected,
                            Ending ending) {
     rows->push_back({"friction",
@@ -126,7 +126,7 @@ void add_wedges(Rows* rows) {
 
 void add_friction_rows(Rows* rows) {
   add_inclines(rows);
-  add_arches(rows);
+  add_sliding_arches(rows);
   add_smooth_wall(rows);
   add_wedges(rows);
 }

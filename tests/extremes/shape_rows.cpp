@@ -64,7 +64,7 @@ void add_tower(const std::string& name, Case input, Rows* rows) {
                    carries_weight_above});
 }
 
-void add_towers(Rows* rows) {
+void add_slender_towers(Rows* rows) {
   add_tower("1e-9 m/N, draft", statics(0.4, 1e-9, kDraft), rows);
   add_tower("1e-9 m/N, standard", statics(0.4, 1e-9, kStandard), rows);
   add_tower("1e-9 m/N", statics(0.4, 1e-9), rows);
@@ -92,7 +92,7 @@ void add_heavy_on_light(Rows* rows) {
 
 void add_shape_rows(Rows* rows) {
   add_slender_bricks(rows);
-  add_towers(rows);
+  add_slender_towers(rows);
   add_heavy_on_light(rows);
 }
 

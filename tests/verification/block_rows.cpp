@@ -1,7 +1,6 @@
 // Single blocks at rest, and limits of a few blocks.
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "solver/analysis/analysis.hpp"
@@ -15,7 +14,6 @@ namespace cupola::verification {
 namespace {
 
 using Parameter = LimitSearch::Parameter;
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 Vec3 winkler_displacement(double acceleration) {
   const Assembly block = testing::box_on_floor({1.2, 0.7, 0.9});

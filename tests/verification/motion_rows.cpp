@@ -14,7 +14,6 @@ namespace {
 
 using testing::kG;
 using testing::make_case;
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 /// The block on an incline after some steps of 0.01 s.
 State slide(double tan_slope, int steps) {

@@ -2,11 +2,14 @@
 
 #include <functional>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include "tests/verification/references.hpp"
 
 namespace cupola::verification {
+
+constexpr double kRadians = std::numbers::pi / 180.0;  ///< radians in a degree
 
 /// Computes the quantity of one row; throws std::exception if the run gives none.
 using Computation = std::function<double(const ReferenceRow&)>;
