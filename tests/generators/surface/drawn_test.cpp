@@ -370,6 +370,11 @@ void expect_laid_or_refused(int count, unsigned seed) {
     v.courses = static_cast<VaultSurface::Courses>(random() % 3);
     v.key_stone = v.plan.kind == Plan::Kind::circle && random() % 2 == 0;
     Case scene = case_of(v, 6, 8 + static_cast<int>(random() % 8));
+    if (v.plan.kind == Plan::Kind::circle && random() % 2 == 0)
+      scene.geometry.bond = DrawnBond{.rings = 6,
+                                      .rows = {"cddc", "aabb"},
+                                      .letter_length = between(0.2, 0.6),
+                                      .length = DrawnBond::Length::constant};
     if (random() % 3 == 0) scene.geometry.affine = Affine{{between(0.7, 1.5), between(0.7, 1.5), 1.0}, 0.0};
     if (random() % 3 == 0) {
       Cut cut;
